@@ -115,7 +115,7 @@ class _States:
 
 
 def verdict(
-    found: Levelled,
+    levelled: Levelled,
     before: Components,
     *,
     spacing: tuple[float, ...],
@@ -127,7 +127,7 @@ def verdict(
 
     Parameters
     ----------
-    found : Levelled
+    levelled : Levelled
         The surface, and its field.
     before : Components
         Components of the data.
@@ -139,8 +139,8 @@ def verdict(
     threads : int, optional
         See `infill.kernels.threads.thread_count`.
     """
-    states = _find_states(found, before, ROUNDED + int(np.ceil(blur)), threads)
-    result = _count_surface(found)
+    states = _find_states(levelled, before, ROUNDED + int(np.ceil(blur)), threads)
+    result = _count_surface(levelled)
     of_solid, of_walls, of_voids = (
         compared(earlier, later)
         for earlier, later in (
@@ -165,7 +165,7 @@ def verdict(
     )
     largest = np.argsort(-states.gone.cells)[:NAMED]
     lost = tuple(
-        _describe_loss(found.against, states.gone, int(number), spacing)
+        _describe_loss(levelled.against, states.gone, int(number), spacing)
         for number in largest
         if states.gone.cells[number] >= WALL
     )
@@ -173,41 +173,41 @@ def verdict(
 
 
 def verdict_by_flips(
-    found: Levelled, before: Components, flips: Flips, *, levels: NDArray[np.float64], threads: int | None = None
+    levelled: Levelled, before: Components, flips: Flips, *, levels: NDArray[np.float64], threads: int | None = None
 ) -> Verdict | None:
     """Judge as `verdict` does by the cells that changed sign alone; return None if they do not settle it.
 
     Parameters
     ----------
-    found, before, levels, threads
+    levelled, before, levels, threads
         See `verdict`.
     flips : Flips
         The cells that changed sign between the data and the surface.
     """
     if not connected_alike(flips, before, threads=threads):
         return None
-    result, euler = _count_surface(found), flips.euler_number
+    result, euler = _count_surface(levelled), flips.euler_number
     cavities = result.cavities
     if len(flips.doubt) or cavities or (before.count, euler) != (result.components, result.euler_number):
-        voids = components(found.against, flips.data, void=True)
+        voids = components(levelled.against, flips.data, void=True)
         if not all_stay(voids, ~(flips.data ^ flips.result)):
             return None
         cavities = voids.count - 1
     data = Counts.of(components=before.count, cavities=cavities, tunnels=before.count + cavities - euler // 2)
     faint = 0
     if (levels < FAINT).any():
-        thick = with_thickness(found.against, before).thick
+        thick = with_thickness(levelled.against, before).thick
         faint = int((thick & (before.cells >= WALL) & (levels < FAINT)).sum())
     changes = Changes(vanished_thin=0, walls_lost=0, faint=faint, walls_pierced=max(0, result.tunnels - data.tunnels))
     return Verdict(data=data, result=result, changes=changes, lost=())
 
 
-def _find_states(found: Levelled, before: Components, reach: int, threads: int | None) -> _States:
+def _find_states(levelled: Levelled, before: Components, reach: int, threads: int | None) -> _States:
     """Find all components to be compared, in parallel."""
-    field = found.against
+    field = levelled.against
     before_bits, after_bits = (
         data_bits(field, threads=threads),
-        solid_bits(field, level=found.height, threads=threads),
+        solid_bits(field, level=levelled.height, threads=threads),
     )
     core = cores(field, before_bits, threads=threads)
     thick = opened(field, core, threads=threads)
@@ -248,9 +248,9 @@ def _count_connections(solid: Components, void: Components, euler_number: int) -
     return Counts.of(components=solid.count, cavities=cavities, tunnels=solid.count + cavities - euler_number // 2)
 
 
-def _count_surface(found: Levelled) -> Counts:
+def _count_surface(levelled: Levelled) -> Counts:
     """Count the components, cavities and tunnels of the final surface."""
-    shells = found.shells
+    shells = levelled.shells
     return Counts(
         components=shells.components,
         cavities=shells.cavities,

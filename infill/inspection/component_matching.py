@@ -106,12 +106,12 @@ def summed(stretches: NDArray[np.integer], *, before: int, after: int) -> Overla
     return Overlaps(before=before, after=after, one=before_number, other=after_number, cells=cells)
 
 
-def fate(shared: Overlaps, *, part: int = 1, piece: int = 1, counted: NDArray[np.bool_] | None = None) -> Fate:
+def fate(matched: Overlaps, *, part: int = 1, piece: int = 1, counted: NDArray[np.bool_] | None = None) -> Fate:
     """Compare the components before and after.
 
     Parameters
     ----------
-    shared : Overlaps
+    matched : Overlaps
     part : int
         Cells: anything smaller that comes off a component is a crumb, not a part of it.
     piece : int
@@ -119,12 +119,12 @@ def fate(shared: Overlaps, *, part: int = 1, piece: int = 1, counted: NDArray[np
     counted : (before,) bool, optional
         Which components count where several run together; by default, all of them.
     """
-    contributes = shared.cells >= piece
+    contributes = matched.cells >= piece
     if counted is not None:
-        contributes &= counted[shared.one]
+        contributes &= counted[matched.one]
     return Fate(
-        kept=np.bincount(shared.one, minlength=shared.before) > 0,
-        known=np.bincount(shared.other, minlength=shared.after) > 0,
-        parts=np.bincount(shared.one[shared.cells >= part], minlength=shared.before),
-        pieces=np.bincount(shared.other[contributes], minlength=shared.after),
+        kept=np.bincount(matched.one, minlength=matched.before) > 0,
+        known=np.bincount(matched.other, minlength=matched.after) > 0,
+        parts=np.bincount(matched.one[matched.cells >= part], minlength=matched.before),
+        pieces=np.bincount(matched.other[contributes], minlength=matched.after),
     )

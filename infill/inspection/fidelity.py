@@ -169,23 +169,23 @@ def fidelity(
     """
     enough = 0.0 if exact else KEPT * cell
     points, _, area = sampled(result, PITCH * cell)
-    away = _distances(points, given if closed is None else closed, enough, threads)
-    there, added = _gap(points, away, area), _patches(points, away, area, cell)
+    distance = _distances(points, given if closed is None else closed, enough, threads)
+    there, added = _gap(points, distance, area), _patches(points, distance, area, cell)
     points, faces, area = sampled(given, PITCH * cell)
-    away = _distances(points, result, enough, threads)
-    distant = np.flatnonzero(away > KEPT * cell)
+    distance = _distances(points, result, enough, threads)
+    distant = np.flatnonzero(distance > KEPT * cell)
     kind = kinds(points[distant], faces[distant]) if len(distant) else np.empty(0, dtype=np.int64)
     thin, sheet, hidden = (float(area[distant[kind == code]].sum()) for code in (THIN, SHEET, HIDDEN))
     counting = np.ones(len(points), dtype=bool)
     counting[distant[kind != COUNTS]] = False
     if not counting.any():
         counting[:] = True
-    points, away, area = points[counting], away[counting], area[counting]
+    points, distance, area = points[counting], distance[counting], area[counting]
     return Fidelity(
         there=there,
-        back=_gap(points, away, area),
+        back=_gap(points, distance, area),
         added=added,
-        lost=_patches(points, away, area, cell),
+        lost=_patches(points, distance, area, cell),
         thin=thin,
         sheet=sheet,
         hidden=hidden,
@@ -239,28 +239,28 @@ def sampled(surface: Surface, pitch: float) -> tuple[Floats, NDArray[np.int64], 
     )
 
 
-def _gap(points: Floats, away: Floats, area: Floats) -> Gap:
+def _gap(points: Floats, distance: Floats, area: Floats) -> Gap:
     """Summarise the distances."""
     weights = area if area.any() else np.ones_like(area)
-    order = np.argsort(away)
+    order = np.argsort(distance)
     cumulative = np.cumsum(weights[order])
-    p95 = away[order[np.searchsorted(cumulative, 0.95 * cumulative[-1]).clip(0, len(order) - 1)]]
-    worst = int(away.argmax())
+    p95 = distance[order[np.searchsorted(cumulative, 0.95 * cumulative[-1]).clip(0, len(order) - 1)]]
+    worst = int(distance.argmax())
     x, y, z = points[worst].tolist()
     return Gap(
-        mean=float(np.average(away, weights=weights)),
-        rms=float(np.sqrt(np.average(away**2, weights=weights))),
+        mean=float(np.average(distance, weights=weights)),
+        rms=float(np.sqrt(np.average(distance**2, weights=weights))),
         p95=float(p95),
-        max=float(away[worst]),
+        max=float(distance[worst]),
         at=(x, y, z),
     )
 
 
-def _patches(points: Floats, away: Floats, area: Floats, cell: float) -> tuple[Patch, ...]:
+def _patches(points: Floats, distance: Floats, area: Floats, cell: float) -> tuple[Patch, ...]:
     """Group the points that lie far away into places; return them, the largest first."""
     from scipy.ndimage import label
 
-    distant = np.flatnonzero(away > LOST * cell)
+    distant = np.flatnonzero(distance > LOST * cell)
     if len(distant) == 0:
         return ()
     side = max(
@@ -272,10 +272,10 @@ def _patches(points: Floats, away: Floats, area: Floats, cell: float) -> tuple[P
     numbers, count = label(occupied, np.ones((3, 3, 3)))
     name = numbers[tuple(place.T)] - 1
     size = np.bincount(name, weights=area[distant], minlength=count)
-    order = np.lexsort((-away[distant], name))
+    order = np.lexsort((-distance[distant], name))
     worst = distant[order[np.flatnonzero(np.diff(name[order], prepend=-1))]]  # in each place, the point furthest away
     patches = []
     for group in np.argsort(-size, kind="stable"):
         x, y, z = points[worst[group]].tolist()
-        patches.append(Patch(at=(x, y, z), area=float(size[group]), distance=float(away[worst[group]])))
+        patches.append(Patch(at=(x, y, z), area=float(size[group]), distance=float(distance[worst[group]])))
     return tuple(patches)

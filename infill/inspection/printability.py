@@ -33,7 +33,7 @@ class Inspection:
     Parameters
     ----------
     printable : bool
-        True if there are no problems.
+        True if `problems` is empty.
     problems, warnings : tuple of str
         Reasons why it is not printable, and flaws that slicers handle but other programs may not; one phrase each. The
         first warnings list the objects of a 3MF that are not parts and were left out.

@@ -146,11 +146,11 @@ def connected_alike(flips: Flips, before: Components, *, threads: int | None = N
     return all_stay(before, ~(flips.data ^ result))
 
 
-def all_stay(every: Components, same: Bits) -> bool:
+def all_stay(labelled: Components, same: Bits) -> bool:
     """Tell whether every component of solid, or of void, has a cell in `same`, the cells that did not change."""
-    marked = np.zeros(every.count, dtype=bool)
-    mark_runs(every.bits, every.bricks, every.starts, every.names, same, marked)
-    marked[every.names[every.alone[every.alone >= 0]]] = True
+    marked = np.zeros(labelled.count, dtype=bool)
+    mark_runs(labelled.bits, labelled.bricks, labelled.starts, labelled.names, same, marked)
+    marked[labelled.names[labelled.alone[labelled.alone >= 0]]] = True
     return bool(marked.all())
 
 

@@ -98,7 +98,7 @@ def data_bits(field: SparseField, *, threads: int | None = None) -> NDArray[np.u
 
 
 def cores(field: SparseField, bits: NDArray[np.uint16], *, threads: int | None = None) -> NDArray[np.uint16]:
-    """Erode: mark the lower corners of all solid blocks of 2 x 2 x 2 cells, where solid is more than one cell thick."""
+    """Erode: mark the lower corners of all solid blocks of 2 x 2 x 2 cells, where solid is thicker than one cell."""
     return _meet_or_spread(field, bits, True, 1, threads)
 
 
@@ -137,7 +137,7 @@ def grown(
 def set_at(
     field: SparseField, bits: NDArray[np.uint16], cells: NDArray[np.integer], *, void: bool = False
 ) -> NDArray[np.bool_]:
-    """Look up cells (N, 3) of the grid: True where set. Beyond the grid there is no solid, and everything is void."""
+    """Look up cells (N, 3) of the grid: True where set. Beyond the grid lies void, not solid."""
     inside: NDArray[np.bool_] = np.all((cells >= 0) & (cells < field.shape), axis=1)
     brick, cell = np.divmod(np.where(inside[:, None], cells, 0) + 1, BRICK)
     slot = field.slots[tuple(brick.T)]
@@ -213,17 +213,17 @@ def components(
     return with_thickness(field, labelled, void=void) if thickness else labelled
 
 
-def with_thickness(field: SparseField, every: Components, *, void: bool = False) -> Components:
+def with_thickness(field: SparseField, labelled: Components, *, void: bool = False) -> Components:
     """Add to components whether each is more than one cell thick."""
-    thick = np.zeros(every.count, dtype=bool)
+    thick = np.zeros(labelled.count, dtype=bool)
     kind = VOID_BRICK if void else SOLID_BRICK
-    core = _meet_or_spread(field, every.bits, True, 1, threads=1, kind=kind)
-    kernels.mark_runs(every.bits, every.bricks, every.starts, every.names, core, thick)
-    places = np.argwhere(every.alone >= 0)
+    core = _meet_or_spread(field, labelled.bits, True, 1, threads=1, kind=kind)
+    kernels.mark_runs(labelled.bits, labelled.bricks, labelled.starts, labelled.names, core, thick)
+    places = np.argwhere(labelled.alone >= 0)
     if not void:  # a solid brick that the grid cuts off may be a sheet there; void continues beyond the grid
         places = places[(sides_within(places, field.shape) > 1).all(axis=1)]
-    thick[every.names[every.alone[tuple(places.T)]]] = True
-    return replace(every, thick=thick)
+    thick[labelled.names[labelled.alone[tuple(places.T)]]] = True
+    return replace(labelled, thick=thick)
 
 
 def sides_within(places: NDArray[np.integer], shape: tuple[int, int, int]) -> NDArray[np.int64]:
@@ -234,13 +234,13 @@ def sides_within(places: NDArray[np.integer], shape: tuple[int, int, int]) -> ND
     return sides
 
 
-def shared_cells(one: Components, other: Components) -> NDArray[np.int64]:
+def shared_cells(first: Components, second: Components) -> NDArray[np.int64]:
     """Count the cells that components share on the same bricks; return rows (n, 3), pair and count; pairs may recur."""
     shared = kernels.overlaps(
-        one.bits, one.bricks, one.starts, one.names, other.bits, other.bricks, other.starts, other.names
+        first.bits, first.bricks, first.starts, first.names, second.bits, second.bricks, second.starts, second.names
     )
-    single = one.alone >= 0
-    own_names, other_names = one.names[one.alone[single]], other.names[other.alone[single]]
+    single = first.alone >= 0
+    own_names, other_names = first.names[first.alone[single]], second.names[second.alone[single]]
     alone = np.stack([own_names, other_names, np.full(len(own_names), CELLS)], axis=1).astype(np.int64)
     return np.concatenate([shared, alone])
 
@@ -288,28 +288,36 @@ def face_sums(
     return face_volumes, change
 
 
-def without(values: NDArray[Any], field: SparseField, every: Components, small: NDArray[np.bool_]) -> NDArray[Any]:
+def without(values: NDArray[Any], field: SparseField, labelled: Components, small: NDArray[np.bool_]) -> NDArray[Any]:
     """Turn the components marked in `small` (b,) void in data (nx, ny, nz); floating-point data become float32."""
     out = values.astype(np.float32) if values.dtype.kind == "f" else values.copy()
     void = False if values.dtype == bool else -1
-    kernels.erase(out, field.where, every.bits, every.bricks, every.starts, every.names, small, void)
-    single = np.argwhere(every.alone >= 0)
-    for place in single[small[every.names[every.alone[tuple(single.T)]]]]:  # bricks that are solid throughout
+    kernels.erase(out, field.where, labelled.bits, labelled.bricks, labelled.starts, labelled.names, small, void)
+    single = np.argwhere(labelled.alone >= 0)
+    for place in single[small[labelled.names[labelled.alone[tuple(single.T)]]]]:  # bricks that are solid throughout
         low = np.maximum(place * BRICK - 1, 0)
         out[tuple(slice(a, b) for a, b in zip(low, (place + 1) * BRICK - 1, strict=True))] = void
     return out
 
 
-def cells_of(field: SparseField, every: Components, number: int) -> NDArray[np.int64]:
+def cells_of(field: SparseField, labelled: Components, number: int) -> NDArray[np.int64]:
     """List the cells (n, 3) of a component that lie in kept bricks, counted from the first cell of the grid."""
-    bricks, rows = np.nonzero(every.bits)
-    solid = every.bits[bricks, rows, None] >> np.arange(BRICK[2], dtype=np.uint16) & 1
+    bricks, rows = np.nonzero(labelled.bits)
+    solid = labelled.bits[bricks, rows, None] >> np.arange(BRICK[2], dtype=np.uint16) & 1
     row_index, k = np.nonzero(solid)
     brick, row = bricks[row_index], rows[row_index]
     place = field.where[brick].astype(np.int64) * BRICK + np.stack([row // BRICK[1], row % BRICK[1], k], axis=1)
     label = np.empty(len(place), dtype=np.int32)
     kernels.label_cells(
-        place.astype(np.int32), field.slots, every.bits, every.bricks, every.starts, every.alone, every.names, 0, label
+        place.astype(np.int32),
+        field.slots,
+        labelled.bits,
+        labelled.bricks,
+        labelled.starts,
+        labelled.alone,
+        labelled.names,
+        0,
+        label,
     )
     cells: NDArray[np.int64] = place[label == number] - 1
     return cells

@@ -1,6 +1,6 @@
-"""The level of a field at which the solid has the volume of the data.
+"""Find the level of a field at which the solid has the volume of the data.
 
-Smoothing by the paper's equation shrinks what is convex: a sphere of 40 cells by 2 % after 40 steps. The fault is
+Smoothing by the paper's equation shrinks convex solid: a sphere of 40 cells by 2 % after 40 steps. The fault is
 not in the field but in the level: {phi > c} with c a little below 0 has the volume of the data, and lies closer to
 the true surface. Components differ, so each gets a separate level.
 """
@@ -375,9 +375,9 @@ def _join_groups(group: NDArray[np.integer], new_pairs: NDArray[np.integer]) -> 
     return merged
 
 
-def component_of_shells(found: Levelled, data: Components, *, spacing: tuple[float, ...]) -> NDArray[np.int64]:
+def component_of_shells(levelled: Levelled, data: Components, *, spacing: tuple[float, ...]) -> NDArray[np.int64]:
     """Return for every shell of a surface the nearest component of the data; -1 for none."""
-    return _assign_components(found.shells, found.surface, found.against, data, spacing)[0]
+    return _assign_components(levelled.shells, levelled.surface, levelled.against, data, spacing)[0]
 
 
 def nearest_components(points: NDArray[np.floating], field: SparseField, data: Components) -> NDArray[np.int32]:

@@ -3,7 +3,7 @@
 The result is the surface that `infill.isosurfaces.marching.extract` finds on the full field: the same vertices, to
 rounding, and the same Euler number. Signs are examined sixteen cells at a time, as bits of one number; only cubes that
 the surface crosses are examined individually. A cube whose signs alone decide its triangles takes them from a table
-that is derived here; scikit-image handles the rest, so that saddles are decided in only one way (Lewiner 2003).
+that is derived here; scikit-image handles the rest, so that saddles are decided in a single way (Lewiner 2003).
 """
 
 from __future__ import annotations

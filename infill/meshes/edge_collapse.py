@@ -130,7 +130,7 @@ class Table:
         return table.left(vertices, start, twin, collapsed_into)[0]
 
     def left(
-        self, vertices: Floats, start: Corners, twin: Corners, collapsed_into: Corners
+        self, vertices: Floats, start: Corners, twin: Corners, targets: Corners
     ) -> tuple[Table, NDArray[np.bool_]]:
         """Drop the faces and vertices that are gone; return the table, and a mask of the vertices that stay.
 
@@ -139,11 +139,11 @@ class Table:
         vertices : (V, 3) float64, mm
         start, twin : (3 F,) int32
             The starts of a removed face are -1.
-        collapsed_into : (V,) int32
+        targets : (V,) int32
             The vertex that each was collapsed into, which may itself be gone.
         """
-        while (collapsed_into[collapsed_into] != collapsed_into).any():
-            collapsed_into = collapsed_into[collapsed_into]
+        while (targets[targets] != targets).any():
+            targets = targets[targets]
         kept_corners = start >= 0
         used_vertices = np.zeros(len(vertices), dtype=bool)
         used_vertices[start[kept_corners]] = True
@@ -159,7 +159,7 @@ class Table:
             leaving=leaving,
             name=self.name[used_vertices],
             fixed=self.fixed[used_vertices],
-            into=rank[collapsed_into[self.into]],
+            into=rank[targets[self.into]],
         )
         return fewer, used_vertices
 

@@ -47,40 +47,40 @@ class Watched:
     away: Floats
     unsure: Whole
 
-    def again(self, found: Surface, tolerance: float, threads: int | None) -> Watched:
-        """Measure the samples near changed faces of `found` once more; return all samples."""
-        changed = np.zeros(len(found.faces), dtype=bool)
+    def again(self, result: Surface, tolerance: float, threads: int | None) -> Watched:
+        """Measure the samples near changed faces of `result` once more; return all samples."""
+        changed = np.zeros(len(result.faces), dtype=bool)
         changed[self.unsure] = True
         stale = np.flatnonzero(changed[self.owner])
         owner, away = self.owner.copy(), self.away.copy()
         # Most samples are near the changed faces: those alone make a small tree.
-        changed_tree = Tree.of(replace(found, faces=found.faces[self.unsure]))
+        changed_tree = Tree.of(replace(result, faces=result.faces[self.unsure]))
         away[stale], part_face = changed_tree.nearest(self.points[stale], enough=tolerance, threads=threads)
         owner[stale] = self.unsure[part_face]
         stale = stale[away[stale] > tolerance]
         if len(stale):
-            away[stale], owner[stale] = Tree.of(found).nearest(self.points[stale], threads=threads)
-        return replace(self, found=found, owner=owner, away=away)
+            away[stale], owner[stale] = Tree.of(result).nearest(self.points[stale], threads=threads)
+        return replace(self, found=result, owner=owner, away=away)
 
     def handed_to(
-        self, found: Surface, given: Surface, side: float, tolerance: float, threads: int | None = None
+        self, result: Surface, original: Surface, side: float, tolerance: float, threads: int | None = None
     ) -> Watched:
         """Move the samples to another surface that shares many faces; measure those near the other faces once more."""
-        same_face = same_faces(found, self.found)
+        same_face = same_faces(result, self.found)
         same_face[np.isin(same_face, self.unsure)] = -1
         new_face = np.full(len(self.found.faces), -1)
         new_face[same_face[same_face >= 0]] = np.flatnonzero(same_face >= 0)
-        owner, away, tree = new_face[self.owner], self.away.copy(), Tree.of(found)
+        owner, distance, tree = new_face[self.owner], self.away.copy(), Tree.of(result)
         lost = owner < 0
-        away[lost], owner[lost] = tree.nearest(self.points[lost], enough=tolerance, threads=threads)
-        count = len(given.vertices)
-        open_part = replace(given, faces=given.faces[lost[:count][given.faces].any(axis=1)])
-        added = between(tree, open_part, owner[:count], away[:count], GIVEN * side, tolerance, threads=threads)
+        distance[lost], owner[lost] = tree.nearest(self.points[lost], enough=tolerance, threads=threads)
+        count = len(original.vertices)
+        open_part = replace(original, faces=original.faces[lost[:count][original.faces].any(axis=1)])
+        added = between(tree, open_part, owner[:count], distance[:count], GIVEN * side, tolerance, threads=threads)
         return Watched(
-            found=found,
+            found=result,
             points=np.concatenate([self.points, added.points]),
             owner=np.concatenate([owner, added.owner]),
-            away=np.concatenate([away, added.away]),
+            away=np.concatenate([distance, added.away]),
             unsure=np.flatnonzero(same_face < 0),
         )
 
@@ -105,30 +105,30 @@ def same_faces(surface: Surface, reference: Surface) -> Whole:
 
 
 def watched(
-    tree: Tree, found: Surface, given: Surface, side: float, tolerance: float, *, threads: int | None = None
+    tree: Tree, result: Surface, original: Surface, side: float, tolerance: float, *, threads: int | None = None
 ) -> Watched:
     """Sample the original surface: its vertices first, then points between those near different faces.
 
     Parameters
     ----------
-    tree, found : Tree, Surface
+    tree, result : Tree, Surface
         The result, from which samples are measured.
-    given : Surface, mm
+    original : Surface, mm
     side : float, mm
         Of the triangles of the original.
     tolerance : float, mm
     threads : int, optional
         See `infill.kernels.threads.thread_count`.
     """
-    vertices = np.asarray(given.vertices, dtype=np.float64)
-    away, owner = tree.nearest(vertices, enough=tolerance, threads=threads)
-    between_samples = between(tree, given, owner, away, GIVEN * side, tolerance, threads=threads)
+    vertices = np.asarray(original.vertices, dtype=np.float64)
+    distance, owner = tree.nearest(vertices, enough=tolerance, threads=threads)
+    between_samples = between(tree, original, owner, distance, GIVEN * side, tolerance, threads=threads)
     return Watched(
-        found=found,
+        found=result,
         points=np.concatenate([vertices, between_samples.points]),
         owner=np.concatenate([owner, between_samples.owner]),
-        away=np.concatenate([away, between_samples.away]),
-        unsure=np.arange(len(found.faces)),
+        away=np.concatenate([distance, between_samples.away]),
+        unsure=np.arange(len(result.faces)),
     )
 
 
@@ -157,7 +157,7 @@ def between(
     tree: Tree,
     surface: Surface,
     owner: Whole,
-    away: Floats,
+    distance: Floats,
     apart: float,
     tolerance: float,
     *,
@@ -171,7 +171,7 @@ def between(
     tree : Tree
         Of the other surface.
     surface : Surface, mm
-    owner, away : (V,) int64, (V,) float64
+    owner, distance : (V,) int64, (V,) float64
         For each vertex, the face of the other surface near it, and the distance from that face, mm.
     apart : float, mm
         Largest spacing of samples; they are closer where the other surface is nearly too far away.
@@ -186,7 +186,7 @@ def between(
     threads = thread_count(threads)
     place = np.empty(len(tree.order), dtype=np.int64)
     place[tree.order] = np.arange(len(tree.order))
-    source = np.ascontiguousarray(surface.vertices, dtype=np.float64), surface.faces, place[owner], away**2
+    source = np.ascontiguousarray(surface.vertices, dtype=np.float64), surface.faces, place[owner], distance**2
     target = tree.corners, tree.low, tree.high, LEAF
     threshold = -1.0 if all_places else tolerance**2
     sizes = tolerance**2, (SURE * tolerance) ** 2, apart, min(apart, SMALL * tolerance)
@@ -247,7 +247,7 @@ def level_faces(surface: Surface, tolerance: float, *, threads: int | None = Non
 
 def looked_at(
     tree: Tree,
-    found: Surface,
+    result: Surface,
     faces: Whole,
     side: float,
     tolerance: float,
@@ -260,22 +260,22 @@ def looked_at(
     A face is flat between its edges, so that few samples are enough there; along the edges they are close together.
     If all faces are given, each edge is sampled once.
     """
-    part = replace(found, faces=found.faces[faces])
-    vertices = np.asarray(found.vertices, dtype=np.float64)
+    part = replace(result, faces=result.faces[faces])
+    vertices = np.asarray(result.vertices, dtype=np.float64)
     used, corner_index = np.unique(part.faces, return_index=True)
-    owner, away = np.zeros(len(vertices), dtype=np.int64), np.zeros(len(vertices))
-    away[used], owner[used] = tree.nearest(vertices[used], enough=tolerance, threads=threads)
+    owner, distance = np.zeros(len(vertices), dtype=np.int64), np.zeros(len(vertices))
+    distance[used], owner[used] = tree.nearest(vertices[used], enough=tolerance, threads=threads)
     unsure = np.arange(len(faces)) if sure is None else np.flatnonzero(~sure)
     apart, unsure_part = FOUND[tolerance > LARGE * side] * side, replace(part, faces=part.faces[unsure])
-    interior = between(tree, unsure_part, owner, away, apart, tolerance, all_places=False, threads=threads)
-    points, face = _sample_edges(part, min(FINER * side, WIDE * tolerance), all_faces=len(faces) == len(found.faces))
+    interior = between(tree, unsure_part, owner, distance, apart, tolerance, all_places=False, threads=threads)
+    points, face = _sample_edges(part, min(FINER * side, WIDE * tolerance), all_faces=len(faces) == len(result.faces))
     edge_away, nearest = tree.nearest(points, enough=tolerance, threads=threads)
-    far_edge_points, far_vertices = np.flatnonzero(edge_away > tolerance), np.flatnonzero(away[used] > tolerance)
+    far_edge_points, far_vertices = np.flatnonzero(edge_away > tolerance), np.flatnonzero(distance[used] > tolerance)
     return Places(
         points=np.concatenate([vertices[used[far_vertices]], interior.points, points[far_edge_points]]),
         face=faces[np.concatenate([corner_index[far_vertices] // 3, unsure[interior.face], face[far_edge_points]])],
         owner=np.concatenate([owner[used[far_vertices]], interior.owner, nearest[far_edge_points]]),
-        away=np.concatenate([away[used[far_vertices]], interior.away, edge_away[far_edge_points]]),
+        away=np.concatenate([distance[used[far_vertices]], interior.away, edge_away[far_edge_points]]),
     )
 
 

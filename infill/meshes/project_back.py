@@ -26,8 +26,8 @@ LEFT = 0.9  # of the tolerance: distance at which a mended place is left, so tha
 
 
 def mended(
-    found: Surface,
-    given: Surface,
+    candidate: Surface,
+    original: Surface,
     tree: Tree,
     tolerance: float,
     *,
@@ -40,7 +40,7 @@ def mended(
 
     Parameters
     ----------
-    found, given : Surface, closed, mm
+    candidate, original : Surface, closed, mm
     tree : Tree
         Of the given surface.
     tolerance : float, mm
@@ -56,46 +56,46 @@ def mended(
     The place on each triangle that is furthest from the other surface becomes a vertex on it. Near a corner of the
     triangle, that corner is moved; near an edge, both its triangles are cut in two.
     """
-    side = float(np.sqrt(2 * given.area / max(len(given.faces), 1)))
+    side = float(np.sqrt(2 * original.area / max(len(original.faces), 1)))
     if known is None:
-        samples = watched(Tree.of(found), found, given, side, tolerance, threads=threads)
+        samples = watched(Tree.of(candidate), candidate, original, side, tolerance, threads=threads)
     else:
-        samples = known.handed_to(found, given, side, tolerance, threads)
-    assumed_near = np.zeros(len(found.faces), dtype=bool)  # faces with everything around them level
+        samples = known.handed_to(candidate, original, side, tolerance, threads)
+    assumed_near = np.zeros(len(candidate.faces), dtype=bool)  # faces with everything around them level
     for n in range(ROUNDS):
         if n > 0:
-            samples = samples.again(found, tolerance, threads)
+            samples = samples.again(candidate, tolerance, threads)
         changed, owner, points = samples.unsure, samples.owner, samples.points
         missed = np.flatnonzero(samples.away > tolerance)
-        assumed_near = np.concatenate([assumed_near, np.zeros(len(found.faces) - len(assumed_near), dtype=bool)])
-        assumed_near[changed] = len(changed) > MANY and level_faces(found, tolerance, threads=threads)[changed]
-        strays = looked_at(tree, found, changed, side, tolerance, sure=assumed_near[changed], threads=threads)
+        assumed_near = np.concatenate([assumed_near, np.zeros(len(candidate.faces) - len(assumed_near), dtype=bool)])
+        assumed_near[changed] = len(changed) > MANY and level_faces(candidate, tolerance, threads=threads)[changed]
+        strays = looked_at(tree, candidate, changed, side, tolerance, sure=assumed_near[changed], threads=threads)
         if n > 0 and not len(missed) and not len(strays.points) and assumed_near.any():
-            bent = np.flatnonzero(assumed_near & ~level_faces(found, tolerance, threads=threads))
+            bent = np.flatnonzero(assumed_near & ~level_faces(candidate, tolerance, threads=threads))
             assumed_near[bent] = False
-            strays = looked_at(tree, found, bent, side, tolerance, threads=threads)
+            strays = looked_at(tree, candidate, bent, side, tolerance, threads=threads)
         if not len(missed) and not len(strays.points):
             samples = replace(samples, unsure=np.empty(0, dtype=np.int64))
-            crossing = intersecting(np.asarray(found.vertices), found.faces)
+            crossing = intersecting(np.asarray(candidate.vertices), candidate.faces)
             if not len(crossing):
-                return found, np.empty((0, 3)), samples
-            failed = _corners(found, crossing)
-            found, changed = _push_apart(found, crossing, tolerance)
+                return candidate, np.empty((0, 3)), samples
+            failed = _corners(candidate, crossing)
+            candidate, changed = _push_apart(candidate, crossing, tolerance)
             if not len(changed):
                 break
             samples = replace(samples, unsure=changed)
             continue
         faces = np.concatenate([owner[missed], strays.face])
-        targets = np.concatenate([points[missed], _project_to_faces(given, strays.owner, strays.points)])
-        sources = np.concatenate([_project_to_faces(found, owner[missed], points[missed]), strays.points])
+        targets = np.concatenate([points[missed], _project_to_faces(original, strays.owner, strays.points)])
+        sources = np.concatenate([_project_to_faces(candidate, owner[missed], points[missed]), strays.points])
         distance = np.concatenate([samples.away[missed], strays.away])
         targets = sources + (1 - LEFT ** (n + 1) * tolerance / distance)[:, None] * (targets - sources)
         worst = np.argsort(-distance, kind="stable")
         worst = worst[np.unique(faces[worst], return_index=True)[1]]
         failed = sources[worst]
-        found, changed = _bend_to_targets(found, faces[worst], failed, targets[worst], CLOSE[n >= FIRST])
+        candidate, changed = _bend_to_targets(candidate, faces[worst], failed, targets[worst], CLOSE[n >= FIRST])
         samples = replace(samples, unsure=changed)
-    return found, failed, replace(samples, found=found)
+    return candidate, failed, replace(samples, found=candidate)
 
 
 def _project_to_faces(surface: Surface, faces: Whole, places: Floats) -> Floats:

@@ -68,23 +68,23 @@ def shell_volumes(surface: Surface, names: Names, count: int) -> NDArray[np.floa
     return sums / 6
 
 
-def with_faces(surface: Surface, kept: NDArray[np.bool_]) -> Surface:
+def with_faces(surface: Surface, chosen: NDArray[np.bool_]) -> Surface:
     """Keep some of the faces, and the vertices that they use, both in their order."""
-    faces = surface.faces[kept]
+    faces = surface.faces[chosen]
     used = np.zeros(len(surface.vertices), dtype=bool)
     used[faces.ravel()] = True
     number = np.cumsum(used, dtype=faces.dtype) - 1
     return replace(surface, vertices=surface.vertices[used], faces=number.astype(faces.dtype, copy=False)[faces])
 
 
-def in_batches(surface: Surface, most: int) -> Iterator[Surface]:
-    """Yield a surface as several of at most `most` faces, or of a single larger component; all in order."""
-    if len(surface.faces) <= most:
+def in_batches(surface: Surface, limit: int) -> Iterator[Surface]:
+    """Yield a surface as several of at most `limit` faces, or of a single larger component; all in order."""
+    if len(surface.faces) <= limit:
         yield surface
         return
     names, count = vertex_components(surface.faces, len(surface.vertices), compiled=True)
     shell = names[surface.faces[:, 0]]
-    batch = np.cumsum(np.bincount(shell, minlength=count)) // most
+    batch = np.cumsum(np.bincount(shell, minlength=count)) // limit
     for number in np.unique(batch):
         yield with_faces(surface, batch[shell] == number)
 

@@ -262,7 +262,7 @@ def without(surface: Surface, others: Iterable[Surface]) -> Surface | None:
     return surface_from(reduce(lambda difference, subtrahend: difference - subtrahend, solids))
 
 
-def volume_within(surface: Surface, other: Surface) -> float:
+def volume_within(surface: Surface, second: Surface) -> float:
     """Return the volume that two closed surfaces both enclose; nan if manifold3d rejects one of them.
 
     >>> import trimesh
@@ -270,7 +270,7 @@ def volume_within(surface: Surface, other: Surface) -> float:
     >>> round(volume_within(*(Surface(vertices=mesh.vertices, faces=mesh.faces) for mesh in boxes)), 6)
     1.0
     """
-    first_solid, second_solid = solid_of(surface), solid_of(other)
+    first_solid, second_solid = solid_of(surface), solid_of(second)
     if status_of(first_solid) != FINE or status_of(second_solid) != FINE:
         return float("nan")
     return float((first_solid ^ second_solid).volume())

@@ -53,10 +53,10 @@ def interpolated(volume: Volume, axis: int, count: int) -> Volume:
     up, down = current, current
     for n in range(len(values)):
         following = signed_distance(values[n + 1], size) if n + 1 < len(values) else current
-        up = _ended(current, following)
+        up = _end_half_way(current, following)
         for sublayer, place in enumerate(places):
             fine[n * count + sublayer] = (1 - abs(place)) * current + abs(place) * (up if place > 0 else down)
-        current, down = following, _ended(following, current)
+        current, down = following, _end_half_way(following, current)
     fine /= np.float32(REACH * pixel)
     np.clip(fine, -1, 1, out=fine)
     spacing = volume.cell_size.copy()
@@ -64,7 +64,7 @@ def interpolated(volume: Volume, axis: int, count: int) -> Volume:
     return replace(volume, values=np.moveaxis(fine, 0, axis), spacing=tuple(spacing.tolist()))
 
 
-def _ended(current: NDArray[np.float32], neighbour: NDArray[np.float32]) -> NDArray[np.float32]:
+def _end_half_way(current: NDArray[np.float32], neighbour: NDArray[np.float32]) -> NDArray[np.float32]:
     """Return the distances of the next slice; regions of this slice that do not continue get minus their distances."""
     from scipy.ndimage import binary_dilation, label
 
