@@ -1,4 +1,4 @@
-"""Contours made solid: vertical walls between two flat caps."""
+"""Extrude contours into a solid: vertical walls between two flat caps."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from infill.surface import Surface
 
 
 def prism(contours: Contours, height: float, *, base: float = 0.0) -> Surface:
-    """Return the solid inside contours, extruded from z = `base` to `base` + `height`, mm.
+    """Extrude contours from z = `base` to `base` + `height`, mm; return the solid inside them.
 
-    Every edge of a contour is a rectangle of two triangles; both caps have the same triangles. Long contours get some
-    corners more, where the caps are cut into strips: see `infill.contours.strips`.
+    Every edge of a contour becomes a rectangle of two triangles; both caps have the same triangles. Long contours get
+    additional corners, where the caps are cut into strips: see `infill.contours.strips`.
 
     Raises
     ------
@@ -30,8 +30,8 @@ def prism(contours: Contours, height: float, *, base: float = 0.0) -> Surface:
     rings = pieces.contours
     cap = pieces.order[filled(Contours(points=rings.points[pieces.order], first=pieces.first))]
     count, ahead = len(rings.points), rings.ahead
-    here = np.arange(count)
-    walls = [[here, ahead, ahead + count], [here, ahead + count, here + count]]
+    corner = np.arange(count)
+    walls = [[corner, ahead, ahead + count], [corner, ahead + count, corner + count]]
     faces = [cap[:, ::-1], cap + count, *(np.stack(wall, axis=1) for wall in walls)]
     vertices = np.empty((2 * count, 3))
     vertices[:count, :2] = vertices[count:, :2] = rings.points

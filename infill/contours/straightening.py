@@ -1,4 +1,4 @@
-"""Contours with fewer corners: the same area, the same topology, and nowhere further away than a tolerance."""
+"""Simplify contours to fewer corners: the area and the topology stay, and nothing moves further than a tolerance."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ FRAIL = 2.0  # a ring with less area than this times tolerance and length keeps 
 
 
 def straightened(contours: Contours, tolerance: float) -> Contours:
-    """Return the contours with fewer corners.
+    """Simplify contours to fewer corners.
 
     Parameters
     ----------
@@ -34,13 +34,13 @@ def straightened(contours: Contours, tolerance: float) -> Contours:
     Returns
     -------
     Contours
-        As many rings, in the same order, simple and without touching. Every ring has the area it had, but for rounding.
+        As many rings, in the same order, simple and without touching. Every ring keeps its area, to rounding.
 
     Notes
     -----
     Corners are chosen by halving chords at the corner furthest from them (Ramer 1972, Douglas and Peucker 1973), all
-    chords at once. Chords of a convex curve lie inside it, so the corners that are left are moved outwards by as much
-    as keeps the area: a corner by (a + b) / l, where a and b are the areas between the chords beside it and what they
+    chords at once. Chords of a convex curve lie inside it, so the remaining corners move outwards until the area is the
+    same: a corner by (a + b) / l, where a and b are the areas between the chords beside it and the curves that they
     replace, and l is the distance between its neighbours. Chords that then lie too far away are halved again.
 
     Where chords cross, or pass a ring so thin that they might pass on its wrong side, the original corners come
@@ -48,56 +48,56 @@ def straightened(contours: Contours, tolerance: float) -> Contours:
     """
     if tolerance <= 0:
         return contours
-    rings = _begun_at_an_end(contours)
+    rings = _start_at_lowest_x(contours)
     frail = np.abs(rings.areas) <= FRAIL * tolerance * rings.lengths
-    kept = frail[rings.ring]
-    kept[rings.first[:-1]] = True
-    kept[_furthest_from_first(rings)] = True
-    _halve(rings, kept, BEFORE * tolerance)
+    is_corner = frail[rings.ring]
+    is_corner[rings.first[:-1]] = True
+    is_corner[_furthest_corners(rings)] = True
+    _halve(rings, is_corner, BEFORE * tolerance)
     while True:
-        chords = _fitted(rings, kept, tolerance)
-        tangled = _tangled(chords, frail, tolerance)
-        short = tangled[np.diff(np.flatnonzero(np.append(kept, True)))[tangled] > 1]
+        chords = _fit_chords(rings, is_corner, tolerance)
+        tangled = _tangled_chords(chords, frail, tolerance)
+        short = tangled[np.diff(np.flatnonzero(np.append(is_corner, True)))[tangled] > 1]
         if len(short) == 0:
             return chords
-        kept |= np.isin(np.cumsum(kept) - 1, short)
+        is_corner |= np.isin(np.cumsum(is_corner) - 1, short)
 
 
-def _begun_at_an_end(contours: Contours) -> Contours:
-    """Return the same rings, each begun at its lowest x, where the contour is convex."""
-    first = contours.first[:-1]
+def _start_at_lowest_x(contours: Contours) -> Contours:
+    """Start each ring at its corner of lowest x, where the contour is convex."""
+    ring_start = contours.first[:-1]
     ring, x = contours.ring, contours.points[:, 0]
-    lowest = np.flatnonzero(x == np.minimum.reduceat(x, first)[ring])
-    begin = lowest[np.searchsorted(lowest, first)]
+    lowest = np.flatnonzero(x == np.minimum.reduceat(x, ring_start)[ring])
+    begin = lowest[np.searchsorted(lowest, ring_start)]
     counts = np.diff(contours.first)
-    place = np.arange(len(x)) - first[ring]
-    order = first[ring] + (place + (begin - first)[ring]) % counts[ring]
+    place = np.arange(len(x)) - ring_start[ring]
+    order = ring_start[ring] + (place + (begin - ring_start)[ring]) % counts[ring]
     return replace(contours, points=contours.points[order])
 
 
-def _furthest_from_first(rings: Contours) -> Indices:
-    """Return the corner of each ring that is furthest from its first."""
-    first, ring = rings.first[:-1], rings.ring
-    x, y = (rings.points - rings.points[first][ring]).T
+def _furthest_corners(rings: Contours) -> Indices:
+    """Return the corner of each ring that is furthest from its first corner."""
+    ring_start, ring = rings.first[:-1], rings.ring
+    x, y = (rings.points - rings.points[ring_start][ring]).T
     distance = np.hypot(x, y)
-    furthest = np.flatnonzero(distance == np.maximum.reduceat(distance, first)[ring])
-    return furthest[np.searchsorted(furthest, first)]
+    furthest = np.flatnonzero(distance == np.maximum.reduceat(distance, ring_start)[ring])
+    return furthest[np.searchsorted(furthest, ring_start)]
 
 
-def _halve(rings: Contours, kept: Flags, most: float) -> None:
-    """Keep more corners, in place, until all others lie no further than `most` from their chord."""
+def _halve(rings: Contours, is_corner: Flags, limit: float) -> None:
+    """Keep more corners, in place, until all others lie no further than `limit` from their chord."""
     points = _complex(rings.points)
-    where = np.arange(len(points))  # corners on chords that are not yet near enough
-    while len(where):
-        begins = np.flatnonzero(kept[where])
-        counts = np.diff(begins, append=len(where))
-        corner = where[begins]
-        start, end = (np.repeat(points[each], counts) for each in (corner, _next_kept(rings, kept)[corner]))
-        distance = _distances(points[where], start, end)
-        far = np.maximum.reduceat(distance, begins)
-        split = far > most
-        kept[where[_first_of(distance == np.repeat(far, counts), begins)[split]]] = True
-        where = where[np.repeat(split, counts)]
+    open_corners = np.arange(len(points))  # corners on chords that are not yet near enough
+    while len(open_corners):
+        begins = np.flatnonzero(is_corner[open_corners])
+        counts = np.diff(begins, append=len(open_corners))
+        corner = open_corners[begins]
+        start, end = (np.repeat(points[corners], counts) for corners in (corner, _next_kept(rings, is_corner)[corner]))
+        distance = _segment_distances(points[open_corners], start, end)
+        largest = np.maximum.reduceat(distance, begins)
+        split = largest > limit
+        is_corner[open_corners[_first_marked(distance == np.repeat(largest, counts), begins)[split]]] = True
+        open_corners = open_corners[np.repeat(split, counts)]
 
 
 def _complex(points: Floats) -> Complexes:
@@ -105,89 +105,91 @@ def _complex(points: Floats) -> Complexes:
     return np.ascontiguousarray(points).view(np.complex128)[:, 0]
 
 
-def _next_kept(rings: Contours, kept: Flags) -> Indices:
-    """Return the kept corner that follows each kept corner in its ring; anything for corners that are not kept."""
-    at = np.flatnonzero(kept)
-    following = np.zeros(len(kept), dtype=np.intp)
-    following[at] = np.append(at[1:], 0)
+def _next_kept(rings: Contours, is_corner: Flags) -> Indices:
+    """Return the kept corner that follows each kept corner in its ring; entries of other corners mean nothing."""
+    corners = np.flatnonzero(is_corner)
+    following = np.zeros(len(is_corner), dtype=np.intp)
+    following[corners] = np.append(corners[1:], 0)
     begins = rings.first[:-1]
-    following[at[np.append(np.searchsorted(at, begins[1:]), len(at)) - 1]] = begins
+    following[corners[np.append(np.searchsorted(corners, begins[1:]), len(corners)) - 1]] = begins
     return following
 
 
-def _first_of(flags: Flags, begins: Indices) -> Indices:
-    """Return the first place that is marked at or after each beginning."""
+def _first_marked(flags: Flags, begins: Indices) -> Indices:
+    """Return the first marked position at or after each beginning."""
     marked = np.flatnonzero(flags)
     return marked[np.searchsorted(marked, begins)]
 
 
-def _distances(points: Complexes, start: Complexes, end: Complexes) -> Floats:
-    """Return how far each point (N,) is from its segment."""
-    along, away = end - start, points - start
+def _segment_distances(points: Complexes, start: Complexes, end: Complexes) -> Floats:
+    """Return the distance of each point (N,) from its segment."""
+    along, offset = end - start, points - start
     squared = along.real**2 + along.imag**2
-    share = (along.real * away.real + along.imag * away.imag) / np.where(squared > 0, squared, 1)
-    return np.asarray(np.abs(away - along * share.clip(0, 1)))
+    share = (along.real * offset.real + along.imag * offset.imag) / np.where(squared > 0, squared, 1)
+    return np.asarray(np.abs(offset - along * share.clip(0, 1)))
 
 
-def _fitted(rings: Contours, kept: Flags, tolerance: float) -> Contours:
-    """Return the chords with their ends moved so that every area is kept; keep more corners, in place, where needed."""
+def _fit_chords(rings: Contours, is_corner: Flags, tolerance: float) -> Contours:
+    """Move the ends of chords so that every area stays; keep more corners, in place, where chords lie too far away."""
     points, areas = _complex(rings.points), rings.areas
     while True:
-        at = np.flatnonzero(kept)
-        counts = np.diff(at, append=len(kept))
-        chords = Contours(points=rings.points[at], first=np.searchsorted(at, rings.first).astype(np.intp))
+        corner = np.flatnonzero(is_corner)
+        counts = np.diff(corner, append=len(is_corner))
+        chords = Contours(points=rings.points[corner], first=np.searchsorted(corner, rings.first).astype(np.intp))
         ahead = chords.ahead
-        moved = _with_areas(chords, areas, _left_out(rings, chords, at, counts))
+        moved = _restore_areas(chords, areas, _replaced_areas(rings, chords, corner, counts))
         start = _complex(moved.points)
-        distance = _distances(points, np.repeat(start, counts), np.repeat(start[ahead], counts))
-        strayed = np.abs(start - points[at]) > tolerance
-        split = (np.maximum.reduceat(distance, at) > tolerance) | strayed | strayed[ahead]
+        distance = _segment_distances(points, np.repeat(start, counts), np.repeat(start[ahead], counts))
+        strayed = np.abs(start - points[corner]) > tolerance
+        split = (np.maximum.reduceat(distance, corner) > tolerance) | strayed | strayed[ahead]
         split &= counts > 1
         if not split.any():
             return moved
-        # At the corner furthest from the chord as it was, since an end that has strayed is further from anything.
-        distance = _distances(points, np.repeat(points[at], counts), np.repeat(points[at][ahead], counts))
-        distance[at] = -1
-        far = np.maximum.reduceat(distance, at)
-        kept[_first_of(distance == np.repeat(far, counts), at)[split]] = True
+        # At the corner furthest from the unmoved chord, since an end that has strayed is far from everything.
+        distance = _segment_distances(
+            points, np.repeat(points[corner], counts), np.repeat(points[corner][ahead], counts)
+        )
+        distance[corner] = -1
+        largest = np.maximum.reduceat(distance, corner)
+        is_corner[_first_marked(distance == np.repeat(largest, counts), corner)[split]] = True
 
 
-def _left_out(rings: Contours, chords: Contours, at: Indices, counts: Indices) -> Floats:
-    """Return the area between each chord and what it replaces, positive on its right."""
+def _replaced_areas(rings: Contours, chords: Contours, corner: Indices, counts: Indices) -> Floats:
+    """Return the area between each chord and the corners that it replaces, positive on its right."""
     points, start = _complex(rings.points), np.repeat(_complex(chords.points), counts)
-    here, there = points - start, points[rings.ahead] - start
-    return np.asarray(np.add.reduceat(here.real * there.imag - here.imag * there.real, at) / 2)
+    offset, next_offset = points - start, points[rings.ahead] - start
+    return np.asarray(np.add.reduceat(offset.real * next_offset.imag - offset.imag * next_offset.real, corner) / 2)
 
 
-def _with_areas(chords: Contours, areas: Floats, left_out: Floats) -> Contours:
-    """Return the chords with their ends moved so that each ring has its area."""
+def _restore_areas(chords: Contours, areas: Floats, left_out: Floats) -> Contours:
+    """Move the ends of chords so that each ring has its area."""
     ahead = chords.ahead
     back = np.empty_like(ahead)
     back[ahead] = np.arange(len(ahead))
-    points, owing = chords.points, left_out + left_out[back]
+    points, missing = chords.points, left_out + left_out[back]
     for _ in range(2):
-        across = points[ahead] - points[back]
-        squared = np.maximum(np.einsum("ij,ij->i", across, across), np.finfo(float).tiny)
-        right = np.stack([across[:, 1], -across[:, 0]], axis=1) / squared[:, None]
-        moved = replace(chords, points=points + owing[:, None] * right)
-        # Neighbours that move together miss the area by a product of both ways: what is missing is shared by all.
+        span = points[ahead] - points[back]
+        squared = np.maximum(np.einsum("ij,ij->i", span, span), np.finfo(float).tiny)
+        right = np.stack([span[:, 1], -span[:, 0]], axis=1) / squared[:, None]
+        moved = replace(chords, points=points + missing[:, None] * right)
+        # Neighbours that move together miss the area by the product of both moves: all corners share the rest.
         points = moved.points
-        owing = np.repeat((areas - moved.areas) / np.diff(chords.first), np.diff(chords.first)) * 2
+        missing = np.repeat((areas - moved.areas) / np.diff(chords.first), np.diff(chords.first)) * 2
     return moved
 
 
-def _tangled(chords: Contours, frail: Flags, tolerance: float) -> Indices:
-    """Return the chords that cross others, or pass a frail ring so near that it might have changed sides."""
+def _tangled_chords(chords: Contours, frail: Flags, tolerance: float) -> Indices:
+    """Return the chords that cross others, or pass a frail ring so closely that it might have changed sides."""
     ahead = chords.ahead
     lines = shapely.linestrings(np.stack([chords.points, chords.points[ahead]], axis=1))
     tree = shapely.STRtree(lines)
-    one, other = tree.query(lines)  # by their boxes: most of the pairs are neighbours, which need no closer look
-    apart = (one < other) & (ahead[one] != other) & (ahead[other] != one)
-    one, other = one[apart], other[apart]
-    crossed = shapely.intersects(lines[one], lines[other])
-    found = [one[crossed], other[crossed]]
+    chord_a, chord_b = tree.query(lines)  # by their boxes: most of these pairs are neighbours, and are skipped
+    apart = (chord_a < chord_b) & (ahead[chord_a] != chord_b) & (ahead[chord_b] != chord_a)
+    chord_a, chord_b = chord_a[apart], chord_b[apart]
+    crossed = shapely.intersects(lines[chord_a], lines[chord_b])
+    tangled = [chord_a[crossed], chord_b[crossed]]
     thin = frail[chords.ring]
     if thin.any():
-        near, chord = tree.query(shapely.points(chords.points[thin]), predicate="dwithin", distance=4 * tolerance)
-        found.append(chord[chords.ring[chord] != chords.ring[thin][near]])
-    return np.unique(np.concatenate(found))
+        point, chord = tree.query(shapely.points(chords.points[thin]), predicate="dwithin", distance=4 * tolerance)
+        tangled.append(chord[chords.ring[chord] != chords.ring[thin][point]])
+    return np.unique(np.concatenate(tangled))

@@ -1,4 +1,4 @@
-"""Solid cut into strips along y: pieces of bounded size, which share their corners with the contours."""
+"""Cut a solid into strips along y: pieces of bounded size, which share their corners with the contours."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 CORNERS = 1000  # of a strip, about; see `infill.contours.triangulation`
-CLEAR = 1e-5  # of all x: how far a cut keeps from corners, so that a 32-bit file does not merge them
+CLEAR = 1e-5  # of all x: smallest distance of a cut from corners, so that a 32-bit file does not merge them
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -25,8 +25,8 @@ class Strips:
     contours : Contours
         The contours, with a corner where a cut crosses them.
     order : (N,) int
-        Corners of the contours, as they follow each other on the rings around all pieces and around the holes in them:
-        one ring after another, solid on the left.
+        Corners of the contours in the order of the rings around all pieces and around their holes: one ring after
+        another, solid on the left.
     first : (R + 1,) int
         Where each ring begins in `order`, and N.
     """
@@ -44,32 +44,32 @@ def strips(contours: Contours, corners: int = CORNERS) -> Strips:
     >>> len(halves.contours.points), halves.first.tolist()
     (6, [0, 4, 8])
     """
-    cuts = _cuts(contours.points[:, 0], corners)
-    cut, number = _crossed(contours, cuts)
+    cuts = _choose_cuts(contours.points[:, 0], corners)
+    cut, number = _add_crossings(contours, cuts)
     steps, right = _steps(cut, number)
     order, first = cycles(steps)
     return Strips(contours=cut, order=np.concatenate([np.arange(len(number)), right])[order], first=first)
 
 
-def _cuts(x: Floats, corners: int) -> Floats:
-    """Return where to cut: in the widest gap between the corners' x near each quantile."""
+def _choose_cuts(x: Floats, corners: int) -> Floats:
+    """Choose the cuts: each in the widest gap between the corners' x near a quantile."""
     count = -(-len(x) // corners)
     if count < 2:
         return np.empty(0)
     ordered = np.sort(x)
     gaps = np.diff(ordered)
-    least = 2 * CLEAR * max(float(np.abs(ordered[[0, -1]]).max()), float(ordered[-1] - ordered[0]))
-    found = []
+    clearance = 2 * CLEAR * max(float(np.abs(ordered[[0, -1]]).max()), float(ordered[-1] - ordered[0]))
+    cuts = []
     for number in range(1, count):
         low, high = (round(len(gaps) * (number + side) / count) for side in (-0.25, 0.25))
         widest = low + int(gaps[low : max(high, low + 1)].argmax())
-        if gaps[widest] > least:
-            found.append((ordered[widest] + ordered[widest + 1]) / 2)
-    return np.unique(np.array(found))
+        if gaps[widest] > clearance:
+            cuts.append((ordered[widest] + ordered[widest + 1]) / 2)
+    return np.unique(np.array(cuts))
 
 
-def _crossed(contours: Contours, cuts: Floats) -> tuple[Contours, Indices]:
-    """Return the contours with corners on the cuts, and their places: 2 n + 1 on cut n, 2 n in the strip before it."""
+def _add_crossings(contours: Contours, cuts: Floats) -> tuple[Contours, Indices]:
+    """Add corners where cuts cross the contours; return them, numbered 2 n + 1 on cut n, 2 n in the strip before it."""
     points, ahead = contours.points, contours.ahead
     strip = np.searchsorted(cuts, points[:, 0])
     across = strip[ahead] - strip
@@ -78,13 +78,13 @@ def _crossed(contours: Contours, cuts: Floats) -> tuple[Contours, Indices]:
     edge = np.repeat(np.arange(len(points)), counts)
     place = np.arange(len(edge)) - (ends - counts)[edge]
     new = place > 0
-    on, k = edge[new], place[new]
-    cut = np.where(across[on] > 0, strip[on] + k - 1, strip[on] - k)
-    start, end = points[on], points[ahead[on]]
-    share = (cuts[cut] - start[:, 0]) / (end[:, 0] - start[:, 0])
+    crossed_edge, rank = edge[new], place[new]
+    cut_index = np.where(across[crossed_edge] > 0, strip[crossed_edge] + rank - 1, strip[crossed_edge] - rank)
+    start, end = points[crossed_edge], points[ahead[crossed_edge]]
+    share = (cuts[cut_index] - start[:, 0]) / (end[:, 0] - start[:, 0])
     corners, number = points[edge], 2 * strip[edge]
-    corners[new] = np.stack([cuts[cut], start[:, 1] + share * (end[:, 1] - start[:, 1])], axis=1)
-    number[new] = 2 * cut + 1
+    corners[new] = np.stack([cuts[cut_index], start[:, 1] + share * (end[:, 1] - start[:, 1])], axis=1)
+    number[new] = 2 * cut_index + 1
     first = np.append(0, ends)[contours.first]
     return Contours(points=corners, first=first.astype(np.intp)), number
 
@@ -92,19 +92,21 @@ def _crossed(contours: Contours, cuts: Floats) -> tuple[Contours, Indices]:
 def _steps(contours: Contours, number: Indices) -> tuple[Indices, Indices]:
     """Return the corner that follows each corner around the pieces, and the corners on cuts, sorted.
 
-    A corner on a cut stands once for the strip on its left, and once more, after all corners, for that on its right.
+    A corner on a cut appears once for the strip on its left, and again, after all corners, for the strip on its right.
     """
     count, ahead = len(number), contours.ahead
     on_cut = np.flatnonzero(number % 2)
     on_cut = on_cut[np.lexsort((contours.points[on_cut, 1], number[on_cut]))]
     twin = np.arange(count)
     twin[on_cut] = count + np.arange(len(on_cut))
-    there = number[ahead]
-    # Of the edge from each corner to the next, which lies in one strip.
-    strip = np.where(number % 2 == 0, number, np.where(there % 2 == 0, there, np.maximum(number, there) - 1))
+    next_number = number[ahead]
+    # The strip of the edge from each corner to the next, which lies in a single strip.
+    strip = np.where(
+        number % 2 == 0, number, np.where(next_number % 2 == 0, next_number, np.maximum(number, next_number) - 1)
+    )
     corner = np.arange(count)
     steps = np.empty(count + len(on_cut), dtype=np.intp)
-    steps[np.where(strip > number, twin, corner)] = np.where(strip > there, twin[ahead], ahead)
+    steps[np.where(strip > number, twin, corner)] = np.where(strip > next_number, twin[ahead], ahead)
     # Along a cut, solid lies between the first crossing and the second, the third and the fourth, ...
     low, high = on_cut[::2], on_cut[1::2]
     steps[low] = high

@@ -1,4 +1,4 @@
-"""Rings filled with well-shaped triangles, without a corner of their own."""
+"""Fill rings with well-shaped triangles, without adding corners."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ UNFILLED = "the outline cannot be filled with triangles; smooth less, or use wal
 
 
 def filled(rings: Contours) -> Indices:
-    """Return triangles (T, 3) that fill the solid inside rings, counter-clockwise, as numbers of corners.
+    """Fill the solid inside rings with triangles (T, 3), counter-clockwise, as numbers of corners.
 
     Parameters
     ----------
@@ -30,8 +30,8 @@ def filled(rings: Contours) -> Indices:
 
     Notes
     -----
-    The constrained Delaunay triangulation of every piece, by GEOS: of all triangulations without further corners it has
-    the largest smallest angle. It takes time that grows with the square of a piece's corners.
+    GEOS finds the constrained Delaunay triangulation of every piece: of all triangulations without further corners it
+    has the largest smallest angle. The time grows with the square of a piece's corners.
 
     >>> square = Contours(points=np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), first=np.array([0, 4]))
     >>> len(filled(square))
@@ -39,22 +39,22 @@ def filled(rings: Contours) -> Indices:
     """
     areas = rings.areas
     try:
-        found = shapely.get_coordinates(shapely.constrained_delaunay_triangles(_pieces(rings, areas)))
+        coordinates = shapely.get_coordinates(shapely.constrained_delaunay_triangles(_polygons(rings, areas)))
     except shapely.GEOSException as error:
         raise GeometryError(UNFILLED) from error
-    triangles = _numbers(rings.points, found.reshape(-1, 4, 2)[:, :3])
+    triangles = _point_indices(rings.points, coordinates.reshape(-1, 4, 2)[:, :3])
     a, b, c = (rings.points[triangles[:, i]] for i in range(3))
     doubled = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
     triangles = np.where(doubled[:, None] > 0, triangles, triangles[:, ::-1])
     # A piece of n corners and h holes has n + 2 h - 2 triangles.
-    wanted = len(rings.points) + 2 * int((areas < 0).sum()) - 2 * int((areas > 0).sum())
-    if len(triangles) != wanted or not np.isclose(np.abs(doubled).sum() / 2, areas.sum(), rtol=1e-9):
+    expected = len(rings.points) + 2 * int((areas < 0).sum()) - 2 * int((areas > 0).sum())
+    if len(triangles) != expected or not np.isclose(np.abs(doubled).sum() / 2, areas.sum(), rtol=1e-9):
         raise GeometryError(UNFILLED)
     return triangles
 
 
-def _pieces(rings: Contours, areas: Floats) -> NDArray[np.object_]:
-    """Return the polygons that the rings are: every hole in the smallest shell around it."""
+def _polygons(rings: Contours, areas: Floats) -> NDArray[np.object_]:
+    """Build the polygons of the rings: every hole lies in the smallest shell around it."""
     counts = np.diff(rings.first)
     closed = np.insert(np.arange(len(rings.points)), rings.first[1:], rings.first[:-1])
     lines = shapely.linearrings(rings.points[closed], indices=np.repeat(np.arange(len(counts)), counts + 1))
@@ -73,8 +73,8 @@ def _pieces(rings: Contours, areas: Floats) -> NDArray[np.object_]:
     return np.asarray(shapely.polygons(lines[np.concatenate([shells, holes])[order]], indices=piece[order]))
 
 
-def _numbers(points: Floats, corners: Floats) -> Indices:
-    """Return which of the points (N, 2) corners (..., 2) are; one of them, where several are the same."""
+def _point_indices(points: Floats, corners: Floats) -> Indices:
+    """Look up corners (..., 2) among points (N, 2); return one index for each, any where several points coincide."""
     key, sought = points @ (1, 1j), corners @ (1, 1j)
     order = np.argsort(key)
     return np.asarray(order[np.searchsorted(key, sought, sorter=order)])

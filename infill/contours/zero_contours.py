@@ -1,4 +1,4 @@
-"""From a layer to its contours: closed rings where the field crosses zero, as marching squares draws them."""
+"""Trace the contours of a layer: closed rings where the field crosses zero, as marching squares draws them."""
 
 from __future__ import annotations
 
@@ -56,9 +56,9 @@ class Contours:
     def areas(self) -> Floats:
         """Signed area of every ring, (R,), mm²: negative for holes; their sum is the area of the solid."""
         # Relative to a corner of the ring, so that small rings far out lose no digits.
-        here = self.points - self.points[self.first[:-1]][self.ring]
-        there = here[self.ahead]
-        doubled = here[:, 0] * there[:, 1] - here[:, 1] * there[:, 0]
+        offsets = self.points - self.points[self.first[:-1]][self.ring]
+        next_offsets = offsets[self.ahead]
+        doubled = offsets[:, 0] * next_offsets[:, 1] - offsets[:, 1] * next_offsets[:, 0]
         return np.asarray(np.add.reduceat(doubled, self.first[:-1]) / 2)
 
     @property
@@ -74,7 +74,7 @@ def contours(
     *,
     origin: tuple[float, ...] = (0.0, 0.0),
 ) -> Contours:
-    """Return the contours of {layer > 0}, which beyond its edges is void.
+    """Trace the contours of {layer > 0}; beyond the edges of the layer is void.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def contours(
 
     Notes
     -----
-    These are the horizontal cuts of the surface that `infill.extrude` returns, between its rims: the same values,
+    These are the horizontal sections of the surface that `infill.extrude` returns, between its rims: the same values,
     interpolated linearly along the edges of the grid. In a square whose corners alternate, solid is joined across the
     middle if the bilinear saddle there is solid (the asymptotic decider of Nielson and Hamann 1991), as the marching
     cubes of Lewiner et al. 2003 decide for two equal layers.
@@ -108,29 +108,29 @@ def contours(
 
 
 def _crossings(field: NDArray[np.float32], solid: Flags) -> tuple[Floats, Indices, Indices]:
-    """Return where edges between neighbouring centres cross zero, (N, 2) in cells, and their numbers by edge.
+    """Find the zeros on edges between neighbouring centres; return points (N, 2) in cells, and their numbers by edge.
 
     The edges along x come first. The numbers, (nx - 1, ny) and (nx, ny - 1), are -1 where nothing crosses.
     """
     points, numbers, count = [], [], 0
     for axis in (0, 1):
-        low = tuple(slice(0, -1) if each == axis else slice(None) for each in (0, 1))
-        high = tuple(slice(1, None) if each == axis else slice(None) for each in (0, 1))
+        low = tuple(slice(0, -1) if dimension == axis else slice(None) for dimension in (0, 1))
+        high = tuple(slice(1, None) if dimension == axis else slice(None) for dimension in (0, 1))
         crossed = solid[low] != solid[high]
-        at = np.argwhere(crossed)
-        one, other = (field[part][crossed].astype(np.float64) for part in (low, high))
-        place = at.astype(np.float64)
-        place[:, axis] += one / (one - other)
+        cells = np.argwhere(crossed)
+        low_value, high_value = (field[part][crossed].astype(np.float64) for part in (low, high))
+        place = cells.astype(np.float64)
+        place[:, axis] += low_value / (low_value - high_value)
         number = np.full(crossed.shape, -1, dtype=np.intp)
-        number[crossed] = np.arange(count, count + len(at))
-        count += len(at)
+        number[crossed] = np.arange(count, count + len(cells))
+        count += len(cells)
         points.append(place)
         numbers.append(number)
     return np.concatenate(points), numbers[0], numbers[1]
 
 
 def _steps(field: NDArray[np.float32], solid: Flags, along_x: Indices, along_y: Indices, count: int) -> Indices:
-    """Return the crossing that follows each crossing, (N,), solid on the left: a step through every square."""
+    """Return the crossing that follows each crossing, (N,), with solid on the left: one step through every square."""
     parts = [(slice(i, i - 1 or None), slice(j, j - 1 or None)) for i, j in ((0, 0), (1, 0), (1, 1), (0, 1))]
     corner = np.stack([solid[part] for part in parts])  # counter-clockwise
     mixed = np.nonzero((corner != corner[0]).any(axis=0))
@@ -145,11 +145,11 @@ def _steps(field: NDArray[np.float32], solid: Flags, along_x: Indices, along_y: 
     saddle = leaving.sum(axis=0) == 2
     ahead = np.empty(count, dtype=np.intp)
     plain = ~saddle
-    # The one side by which solid is left, and the one by which it is entered again.
+    # From the side where the ring leaves solid to the side where it enters again.
     ahead[side.T[plain][leaving.T[plain]]] = side.T[plain][entering.T[plain]]
     joined = saddle & (_diagonal(value, corner) > 0)
     for k in range(4):
-        # Around the void corner that follows, where solid is joined across the middle; else around this solid corner.
+        # Around the next, void corner where solid is joined across the middle; else around this solid corner.
         for where, to in ((joined, (k + 1) % 4), (saddle & ~joined, (k - 1) % 4)):
             chosen = where & leaving[k]
             ahead[side[k, chosen]] = side[to, chosen]
@@ -157,15 +157,15 @@ def _steps(field: NDArray[np.float32], solid: Flags, along_x: Indices, along_y: 
 
 
 def _diagonal(value: Floats, corner: Flags) -> Floats:
-    """Return the product of the solid corners less that of the void ones: positive if the saddle is solid."""
+    """Return the product of the solid corners minus that of the void corners: positive if the saddle is solid."""
     even, odd = value[0] * value[2], value[1] * value[3]
     return np.asarray(np.where(corner[0], even - odd, odd - even))
 
 
 def cycles(ahead: Indices) -> tuple[Indices, Indices]:
-    """Return the cycles of a permutation (N,), each from its lowest number on, and where each begins.
+    """Split a permutation (N,) into cycles, each from its lowest number on; return the order, and where each begins.
 
-    >>> [each.tolist() for each in cycles(np.array([2, 1, 3, 0]))]
+    >>> [array.tolist() for array in cycles(np.array([2, 1, 3, 0]))]
     [[0, 2, 3, 1], [0, 3, 4]]
     """
     following = ahead.tolist()
@@ -182,7 +182,7 @@ def cycles(ahead: Indices) -> tuple[Indices, Indices]:
 
 
 def nudged(field: NDArray[np.float32], level: float = 0.0) -> NDArray[np.bool_]:
-    """Change a field in place so that its surface is that of {field > level} at level 0, and return what is solid.
+    """Shift a field in place so that the surface of {field > level} lies at level 0; return the solid cells.
 
     No value stays within `CLEARANCE` of the level, and solid is weakened by `TIE`.
 
@@ -197,7 +197,7 @@ def nudged(field: NDArray[np.float32], level: float = 0.0) -> NDArray[np.bool_]:
         raise GeometryError(
             f"nothing is left above the level {level:g}: no surface; smooth less, or use walls of more cells"
         )
-    near = np.abs(field) < CLEARANCE
-    field[near] = np.where(solid[near], np.float32(CLEARANCE), np.float32(-CLEARANCE))
+    too_close = np.abs(field) < CLEARANCE
+    field[too_close] = np.where(solid[too_close], np.float32(CLEARANCE), np.float32(-CLEARANCE))
     np.multiply(field, np.float32(TIE), out=field, where=solid)
     return solid

@@ -1,1 +1,1 @@
-"""How a result is connected, how wide and thick it is, what smoothing changed, and whether it is printable."""
+"""Inspect results: connections, widths and thickness, the changes by smoothing, and whether they are printable."""

@@ -1,12 +1,12 @@
-"""What smoothing did to a solid in bricks: how it is connected before and after, and what was lost.
+"""Compare a solid in bricks before and after smoothing: its connections, and the walls that were lost.
 
     data  ──▶  solid, void                        every cell above 0, and the rest
-          ──▶  cores  ──▶  walls, sturdy solid    2 x 2 x 2 cells, all solid: what is more than one cell thick
+          ──▶  cores  ──▶  walls, sturdy solid    2 x 2 x 2 cells, all solid: solid more than one cell thick
     field ──▶  solid, void                        every cell above the level
     surface ─▶ shells                             the final surface
 
-What is one cell thick may go, because the equation removes it; what is thicker may not. So components are compared
-as they are, but walls by their cores, which a bridge of single cells does not join, and voids around the sturdy solid.
+The equation removes solid that is one cell thick; thicker solid must stay. So components are compared directly, but
+walls by their cores, which a bridge of single cells does not join, and voids around the sturdy solid.
 """
 
 from __future__ import annotations
@@ -36,9 +36,9 @@ from infill.isosurfaces.sparse_marching import euler_number_of_bits
 from infill.kernels.threads import thread_count, together
 from infill.phasefield.sparse import SparseField
 
-LARGE = 100  # cells: if two components of this size or more run together, it is reported
+LARGE = 100  # cells: a fusion of two components of this size or more is reported
 SMALLEST_PART = 8  # cells: anything smaller that comes off a component is a crumb, not a part of it
-WALL = 16  # cells: a piece of wall more than one cell thick but smaller than this may go
+WALL = 16  # cells: a piece of wall more than one cell thick but smaller than this may vanish
 NAMED = 5  # of the lost walls are listed
 FAINT = -0.9  # a component that needs a level as low as this would be gone at level 0
 ROUNDED = 2  # cells by which edges and corners recede, in addition to the blur of the smoothing
@@ -55,7 +55,7 @@ class Lost:
     voxels : int
         Its size.
     at : (3,) float
-        Its middle, mm along the axes of the grid from its lower corner.
+        Its centre, mm along the axes of the grid from the lower corner of the grid.
     """
 
     voxels: int
@@ -64,12 +64,12 @@ class Lost:
 
 @dataclass(frozen=True, kw_only=True)
 class Verdict:
-    """What smoothing did to a solid.
+    """The changes of a solid by smoothing.
 
     Parameters
     ----------
     data, result : Counts
-        How the solid is connected before and after.
+        Connections of the solid before and after.
     changes : Changes
     lost : tuple of Lost
         The largest pieces of wall that were lost.
@@ -84,8 +84,8 @@ class Verdict:
     def problems(self) -> tuple[str, ...]:
         """Losses of anything more than one cell thick, one phrase each."""
         return tuple(
-            what.format(f"{count} {words[count > 1]}") + " in smoothing"
-            for name, what, words in PROBLEMS
+            phrase.format(f"{count} {words[count > 1]}") + " in smoothing"
+            for name, phrase, words in PROBLEMS
             if (count := getattr(self.changes, name))
         )
 
@@ -115,7 +115,7 @@ class _States:
 
 
 def verdict(
-    found: Levelled,
+    levelled: Levelled,
     before: Components,
     *,
     spacing: tuple[float, ...],
@@ -123,14 +123,14 @@ def verdict(
     levels: NDArray[np.float64],
     threads: int | None = None,
 ) -> Verdict:
-    """Return what smoothing did to a solid.
+    """Compare a solid before and after smoothing.
 
     Parameters
     ----------
-    found : Levelled
-        The surface, and the field it was taken from.
+    levelled : Levelled
+        The surface, and its field.
     before : Components
-        Of the data.
+        Components of the data.
     spacing : (hx, hy, hz), mm
     blur : float
         Standard deviation of the diffusion, cells: edges may recede this far, plus `ROUNDED` cells.
@@ -139,11 +139,11 @@ def verdict(
     threads : int, optional
         See `infill.kernels.threads.thread_count`.
     """
-    states = _states(found, before, ROUNDED + int(np.ceil(blur)), threads)
-    result = _of_surface(found)
+    states = _find_states(levelled, before, ROUNDED + int(np.ceil(blur)), threads)
+    result = _count_surface(levelled)
     of_solid, of_walls, of_voids = (
-        compared(one, other)
-        for one, other in (
+        compared(earlier, later)
+        for earlier, later in (
             (states.solid, states.solid_after),
             (states.walls, states.solid_after),
             (states.voids, states.voids_after),
@@ -165,7 +165,7 @@ def verdict(
     )
     largest = np.argsort(-states.gone.cells)[:NAMED]
     lost = tuple(
-        _lost(found.against, states.gone, int(number), spacing)
+        _describe_loss(levelled.against, states.gone, int(number), spacing)
         for number in largest
         if states.gone.cells[number] >= WALL
     )
@@ -173,50 +173,53 @@ def verdict(
 
 
 def verdict_by_flips(
-    found: Levelled, before: Components, flips: Flips, *, levels: NDArray[np.float64], threads: int | None = None
+    levelled: Levelled, before: Components, flips: Flips, *, levels: NDArray[np.float64], threads: int | None = None
 ) -> Verdict | None:
-    """Return what `verdict` returns, if the cells that changed sign alone tell that nothing is connected differently.
+    """Judge as `verdict` does by the cells that changed sign alone; return None if they do not settle it.
 
     Parameters
     ----------
-    found, before, levels, threads
+    levelled, before, levels, threads
         See `verdict`.
     flips : Flips
         The cells that changed sign between the data and the surface.
     """
     if not connected_alike(flips, before, threads=threads):
         return None
-    result, euler = _of_surface(found), flips.euler_number
+    result, euler = _count_surface(levelled), flips.euler_number
     cavities = result.cavities
     if len(flips.doubt) or cavities or (before.count, euler) != (result.components, result.euler_number):
-        voids = components(found.against, flips.data, void=True)
+        voids = components(levelled.against, flips.data, void=True)
         if not all_stay(voids, ~(flips.data ^ flips.result)):
             return None
         cavities = voids.count - 1
     data = Counts.of(components=before.count, cavities=cavities, tunnels=before.count + cavities - euler // 2)
     faint = 0
     if (levels < FAINT).any():
-        thick = with_thickness(found.against, before).thick
+        thick = with_thickness(levelled.against, before).thick
         faint = int((thick & (before.cells >= WALL) & (levels < FAINT)).sum())
     changes = Changes(vanished_thin=0, walls_lost=0, faint=faint, walls_pierced=max(0, result.tunnels - data.tunnels))
     return Verdict(data=data, result=result, changes=changes, lost=())
 
 
-def _states(found: Levelled, before: Components, reach: int, threads: int | None) -> _States:
+def _find_states(levelled: Levelled, before: Components, reach: int, threads: int | None) -> _States:
     """Find all components to be compared, in parallel."""
-    field = found.against
-    raw, now = data_bits(field, threads=threads), solid_bits(field, level=found.height, threads=threads)
-    core = cores(field, raw, threads=threads)
+    field = levelled.against
+    before_bits, after_bits = (
+        data_bits(field, threads=threads),
+        solid_bits(field, level=levelled.height, threads=threads),
+    )
+    core = cores(field, before_bits, threads=threads)
     thick = opened(field, core, threads=threads)
-    lost = thick & ~grown(field, now, reach, threads=threads)
+    lost = thick & ~grown(field, after_bits, reach, threads=threads)
     solid, after, walls, sturdy, voids, sturdy_voids, voids_after, gone = together(
         lambda: with_thickness(field, before),
-        lambda: components(field, now),
+        lambda: components(field, after_bits),
         lambda: components(field, core),
         lambda: components(field, thick),
-        lambda: components(field, raw, void=True),
+        lambda: components(field, before_bits, void=True),
         lambda: components(field, thick, void=True, thickness=True),
-        lambda: components(field, now, void=True),
+        lambda: components(field, after_bits, void=True),
         lambda: components(field, lost, whole=False),
         threads=thread_count(threads),
     )
@@ -227,27 +230,27 @@ def _states(found: Levelled, before: Components, reach: int, threads: int | None
         voids=sturdy_voids,
         voids_after=voids_after,
         gone=gone,
-        data=_counts(solid, voids, euler_number_of_bits(field, raw, threads=threads)),
-        sturdy=_counts(sturdy, sturdy_voids, euler_number_of_bits(field, thick, threads=threads)),
+        data=_count_connections(solid, voids, euler_number_of_bits(field, before_bits, threads=threads)),
+        sturdy=_count_connections(sturdy, sturdy_voids, euler_number_of_bits(field, thick, threads=threads)),
     )
 
 
 def compared(before: Components, after: Components) -> Fate:
-    """Return what became of components on the same bricks; anything only one cell thick does not fuse them."""
-    found: Overlaps = summed(shared_cells(before, after), before=before.count, after=after.count)
+    """Match components on the same bricks; solid only one cell thick does not fuse them."""
+    shared: Overlaps = summed(shared_cells(before, after), before=before.count, after=after.count)
     counted = before.thick if len(before.thick) else None
-    return fate(found, part=SMALLEST_PART, piece=LARGE, counted=counted)
+    return fate(shared, part=SMALLEST_PART, piece=LARGE, counted=counted)
 
 
-def _counts(solid: Components, void: Components, euler_number: int) -> Counts:
-    """Return the counts of a solid whose void has the outside as its first component."""
+def _count_connections(solid: Components, void: Components, euler_number: int) -> Counts:
+    """Count the components, cavities and tunnels of a solid whose void has the outside as its first component."""
     cavities = void.count - 1
     return Counts.of(components=solid.count, cavities=cavities, tunnels=solid.count + cavities - euler_number // 2)
 
 
-def _of_surface(found: Levelled) -> Counts:
-    """Return the counts of the final surface."""
-    shells = found.shells
+def _count_surface(levelled: Levelled) -> Counts:
+    """Count the components, cavities and tunnels of the final surface."""
+    shells = levelled.shells
     return Counts(
         components=shells.components,
         cavities=shells.cavities,
@@ -256,6 +259,7 @@ def _of_surface(found: Levelled) -> Counts:
     )
 
 
-def _lost(field: SparseField, pieces: Components, number: int, spacing: tuple[float, ...]) -> Lost:
+def _describe_loss(field: SparseField, pieces: Components, number: int, spacing: tuple[float, ...]) -> Lost:
+    """Describe one of the lost pieces of wall."""
     cells = cells_of(field, pieces, number)
     return Lost(voxels=len(cells), at=(cells.mean(axis=0) + 0.5) * spacing)

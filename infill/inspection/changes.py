@@ -1,4 +1,4 @@
-"""The terms for what smoothing changed, the same for a block of infill and for a solid."""
+"""The terms for changes by smoothing, the same for a block of infill and for a solid."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 
 @dataclass(frozen=True, kw_only=True)
 class Counts:
-    """How a solid is connected.
+    """The connections of a solid.
 
     Parameters
     ----------
@@ -24,7 +24,7 @@ class Counts:
 
     @classmethod
     def of(cls, *, components: int, cavities: int, tunnels: int) -> Counts:
-        """Return the counts together with the matching Euler number.
+        """Build the counts, with the matching Euler number.
 
         >>> Counts.of(components=1, cavities=0, tunnels=1).euler_number
         0
@@ -35,7 +35,7 @@ class Counts:
 
 @dataclass(frozen=True, kw_only=True)
 class Changes:
-    """What smoothing did to the components of solid and void.
+    """Changes of the components of solid and void by smoothing.
 
     Parameters
     ----------

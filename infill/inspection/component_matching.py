@@ -1,4 +1,4 @@
-"""What became of components: one comparison of two labellings of the same cells, whatever made the labels."""
+"""Match components before and after: one comparison of two labellings of the same cells, whatever made the labels."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ TABLE = 4  # times the number of cells: beyond this size, a table of pairs costs
 
 @dataclass(frozen=True, kw_only=True)
 class Overlaps:
-    """Which components before and after share cells.
+    """Pairs of components, before and after, that share cells.
 
     Parameters
     ----------
     before, after : int
-        How many components there are.
+        Numbers of components.
     one, other : (n,) int
         Pairs of a component before and one after that share cells, each pair once; components are numbered from 0.
     cells : (n,) int
-        How many cells they share.
+        Number of cells they share.
     """
 
     before: int
@@ -33,16 +33,16 @@ class Overlaps:
 
 @dataclass(frozen=True, kw_only=True)
 class Fate:
-    """What became of each component before, and where each one after came from.
+    """The fate of each component before, and the origin of each one after.
 
     Parameters
     ----------
     kept, known : (before,) and (after,) bool
         Whether the component shares a cell with any on the other side of the comparison.
     parts : (before,) int
-        How many parts it broke into.
+        Number of parts it broke into.
     pieces : (after,) int
-        How many components it was formed from.
+        Number of components it was formed from.
     """
 
     kept: NDArray[np.bool_]
@@ -57,7 +57,7 @@ class Fate:
 
     @property
     def appeared(self) -> NDArray[np.integer]:
-        """Numbers of the components after that appeared where there was none."""
+        """Numbers of the components after that appeared where there was no component."""
         return np.flatnonzero(~self.known)
 
     @property
@@ -72,17 +72,17 @@ class Fate:
 
     @property
     def breaks(self) -> int:
-        """How many parts more there are because components broke."""
+        """Number of parts that breaking components added."""
         return int((self.parts - 1).clip(0).sum())
 
     @property
     def fusions(self) -> int:
-        """How many components fewer there are because components fused."""
+        """Number of components that fusions removed."""
         return int((self.pieces - 1).clip(0).sum())
 
 
 def overlaps(before: NDArray[np.integer], after: NDArray[np.integer]) -> Overlaps:
-    """Return the overlaps of two arrays of the same shape, whose components are numbered from 1; 0 means none."""
+    """Count the shared cells of two labellings of the same shape, numbered from 1; 0 means no component."""
     rows, columns = int(before.max()) + 1, int(after.max()) + 1
     key = (before.astype(np.intp) * columns + after).ravel()
     if rows * columns <= TABLE * key.size:
@@ -91,25 +91,27 @@ def overlaps(before: NDArray[np.integer], after: NDArray[np.integer]) -> Overlap
         cells = table[pair]
     else:
         pair, cells = np.unique(key, return_counts=True)
-    one, other = np.divmod(pair, columns)
-    real = (one > 0) & (other > 0)
-    return Overlaps(before=rows - 1, after=columns - 1, one=one[real] - 1, other=other[real] - 1, cells=cells[real])
+    before_number, after_number = np.divmod(pair, columns)
+    real = (before_number > 0) & (after_number > 0)
+    return Overlaps(
+        before=rows - 1, after=columns - 1, one=before_number[real] - 1, other=after_number[real] - 1, cells=cells[real]
+    )
 
 
 def summed(stretches: NDArray[np.integer], *, before: int, after: int) -> Overlaps:
-    """Return the overlaps of rows (n, 3): component before, component after, cells shared; pairs may recur."""
+    """Sum the shared cells of rows (n, 3): component before, component after, cells shared; pairs may recur."""
     key, index = np.unique(stretches[:, 0] * max(after, 1) + stretches[:, 1], return_inverse=True)
     cells = np.bincount(index, weights=stretches[:, 2], minlength=len(key)).astype(np.int64)
-    one, other = np.divmod(key, max(after, 1))
-    return Overlaps(before=before, after=after, one=one, other=other, cells=cells)
+    before_number, after_number = np.divmod(key, max(after, 1))
+    return Overlaps(before=before, after=after, one=before_number, other=after_number, cells=cells)
 
 
-def fate(found: Overlaps, *, part: int = 1, piece: int = 1, counted: NDArray[np.bool_] | None = None) -> Fate:
+def fate(matched: Overlaps, *, part: int = 1, piece: int = 1, counted: NDArray[np.bool_] | None = None) -> Fate:
     """Compare the components before and after.
 
     Parameters
     ----------
-    found : Overlaps
+    matched : Overlaps
     part : int
         Cells: anything smaller that comes off a component is a crumb, not a part of it.
     piece : int
@@ -117,12 +119,12 @@ def fate(found: Overlaps, *, part: int = 1, piece: int = 1, counted: NDArray[np.
     counted : (before,) bool, optional
         Which components count where several run together; by default, all of them.
     """
-    brought = found.cells >= piece
+    contributes = matched.cells >= piece
     if counted is not None:
-        brought &= counted[found.one]
+        contributes &= counted[matched.one]
     return Fate(
-        kept=np.bincount(found.one, minlength=found.before) > 0,
-        known=np.bincount(found.other, minlength=found.after) > 0,
-        parts=np.bincount(found.one[found.cells >= part], minlength=found.before),
-        pieces=np.bincount(found.other[brought], minlength=found.after),
+        kept=np.bincount(matched.one, minlength=matched.before) > 0,
+        known=np.bincount(matched.other, minlength=matched.after) > 0,
+        parts=np.bincount(matched.one[matched.cells >= part], minlength=matched.before),
+        pieces=np.bincount(matched.other[contributes], minlength=matched.after),
     )

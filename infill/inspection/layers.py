@@ -1,8 +1,8 @@
-"""How a layer is connected: components, holes, Euler number, and what smoothing did to them.
+"""The connections of a layer: components, holes and Euler number, and their changes by smoothing.
 
-Everything is decided the way marching cubes decides it: the field is bilinear between cell centres, and
-two solid cells that touch at a corner are joined if the saddle between them is solid. The Euler number
-of an extruded layer is therefore twice the one found here.
+All decisions are those of marching cubes: the field is bilinear between cell centres, and two solid
+cells that touch at a corner are joined if the saddle between them is solid. The Euler number of an
+extruded layer is therefore twice the number found here.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class Topology:
 
     @property
     def extruded(self) -> Counts:
-        """How the extruded layer is connected: holes become tunnels."""
+        """Connections of the extruded layer: holes become tunnels."""
         return Counts.of(components=self.components, cavities=0, tunnels=self.holes)
 
 
@@ -68,15 +68,15 @@ class Regions:
 
 
 def regions(layer: NDArray[np.floating]) -> Regions:
-    """Return the components of solid and of void of a layer (nx, ny), numbered."""
+    """Label the components of solid and of void of a layer (nx, ny)."""
     field = np.pad(layer, 1, constant_values=VOID)
     solid = field > 0
-    joined, parted = _saddles(field, solid)
-    return Regions(solid=_components(solid, joined), void=_components(~solid, parted))
+    joined, separated = _saddles(field, solid)
+    return Regions(solid=_label_cells(solid, joined), void=_label_cells(~solid, separated))
 
 
 def topology(layer: NDArray[np.floating]) -> Topology:
-    """Count components and holes of a layer (nx, ny).
+    """Count the components and holes of a layer (nx, ny).
 
     >>> topology(np.pad(-np.ones((2, 2)), 2, constant_values=1.0))
     Topology(components=1, holes=1)
@@ -87,9 +87,9 @@ def topology(layer: NDArray[np.floating]) -> Topology:
 def changes(before: Regions, after: Regions, *, line_cells: int = PINHOLE) -> Changes:
     """Compare two states of the same layer, component by component.
 
-    A pinhole is a void that is gone, or a neck of one that is cut, with no room for a square of `PINHOLE` cells a side,
-    or of a line's width if that is fewer cells. Pinholes are what remains where lines meet at an acute angle or run
-    side by side, and nothing could be printed in them.
+    A pinhole is a void that vanished, or a neck of a void that was cut, with no room for a square of `PINHOLE` cells a
+    side, or of a line's width if that is fewer cells. Pinholes remain where lines meet at an acute angle or run side by
+    side, and are too small to print in.
 
     Parameters
     ----------
@@ -99,22 +99,22 @@ def changes(before: Regions, after: Regions, *, line_cells: int = PINHOLE) -> Ch
     """
     from scipy import ndimage
 
-    found = overlaps(before.void, after.void)
-    solid, voids = fate(overlaps(before.solid, after.solid)), fate(found)
-    room = ndimage.binary_opening(before.void > 0, np.ones((min(PINHOLE, line_cells),) * 2))
-    cores = _components(room, np.empty((0, 2), dtype=np.intp))
-    wide = np.zeros(found.before, dtype=bool)
-    wide[np.unique(before.void[room]) - 1] = True
-    cells = np.bincount(before.void.ravel(), minlength=found.before + 1)[1:]
+    void_overlaps = overlaps(before.void, after.void)
+    solid, voids = fate(overlaps(before.solid, after.solid)), fate(void_overlaps)
+    open_void = ndimage.binary_opening(before.void > 0, np.ones((min(PINHOLE, line_cells),) * 2))
+    cores = _label_cells(open_void, np.empty((0, 2), dtype=np.intp))
+    has_room = np.zeros(void_overlaps.before, dtype=bool)
+    has_room[np.unique(before.void[open_void]) - 1] = True
+    cells = np.bincount(before.void.ravel(), minlength=void_overlaps.before + 1)[1:]
     outside = cells[before.void[0, 0] - 1]
-    narrow = ~voids.kept & ~wide
+    narrow = ~voids.kept & ~has_room
     cut = fate(overlaps(cores, after.void)).breaks
     return Changes(
         vanished=len(solid.vanished),
         broken=solid.breaks,
         fused=solid.fusions,
         appeared=len(solid.appeared),
-        voids_closed=int((~voids.kept & wide).sum()),
+        voids_closed=int((~voids.kept & has_room).sum()),
         voids_cut=cut,
         voids_joined=voids.fusions,
         walls_pierced=len(voids.appeared),
@@ -124,7 +124,7 @@ def changes(before: Regions, after: Regions, *, line_cells: int = PINHOLE) -> Ch
 
 
 def solid_area(layer: NDArray[np.floating]) -> float:
-    """Return the area, in cells, inside the zero contour that marching squares draws, saddles joined.
+    """Measure the area, in cells, inside the zero contour that marching squares draws, saddles joined.
 
     >>> round(solid_area(np.ones((4, 4))), 9)  # the four corners are cut off
     15.5
@@ -139,37 +139,37 @@ def solid_area(layer: NDArray[np.floating]) -> float:
     value = np.stack([field[square][mixed] for square in squares]).astype(np.float64)
     solid, following = value > 0, np.roll(value, -1, axis=0)
     crossed = solid != (following > 0)
-    # How far the contour is from a corner, along its sides to the next corner and to the previous one.
+    # Distance of the contour from a corner, along its sides to the next corner and to the previous one.
     ahead = np.where(crossed, value / np.where(crossed, value - following, 1), 0)
     behind = np.where(np.roll(crossed, 1, axis=0), 1 - np.roll(ahead, 1, axis=0), 0)
     corner = ahead * behind / 2
-    few = count[mixed]
-    beside = (few == 2) & (solid[0] != solid[2])  # two corners on one side: a trapezium
+    solid_corners = count[mixed]
+    adjacent = (solid_corners == 2) & (solid[0] != solid[2])  # two corners on one side: a trapezium
     area = np.where(
-        beside,
+        adjacent,
         ((ahead + behind) * solid).sum(axis=0) / 2,
-        np.where(few == 1, (corner * solid).sum(axis=0), 1 - (corner * ~solid).sum(axis=0)),
+        np.where(solid_corners == 1, (corner * solid).sum(axis=0), 1 - (corner * ~solid).sum(axis=0)),
     )
     return float((count == 4).sum() + area.sum())
 
 
 def _saddles(field: NDArray[np.floating], solid: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return the diagonal pairs of cells joined by a saddle, of solid and of void: (N, 2) flat indices each."""
+    """Find the diagonal pairs of cells joined by a saddle, of solid and of void; return (N, 2) flat indices each."""
     a, b, c, d = (solid[i : i - 1 or None, j : j - 1 or None] for i, j in ((0, 0), (1, 0), (1, 1), (0, 1)))
     i, j = np.nonzero((a == c) & (b == d) & (a != b))
     values = np.stack([field[i, j], field[i + 1, j], field[i + 1, j + 1], field[i, j + 1]]).astype(np.float64)
-    flat = np.stack([part * field.shape[1] + other for part, other in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))])
+    flat = np.stack([row * field.shape[1] + column for row, column in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))])
     falling = solid[i, j]  # the solid pair is (i, j) and (i + 1, j + 1)
-    one, other = flat[[0, 2]].T, flat[[1, 3]].T
-    solid_pair = np.where(falling[:, None], one, other)
-    void_pair = np.where(falling[:, None], other, one)
+    falling_pair, rising_pair = flat[[0, 2]].T, flat[[1, 3]].T
+    solid_pair = np.where(falling[:, None], falling_pair, rising_pair)
+    void_pair = np.where(falling[:, None], rising_pair, falling_pair)
     product, cross = values[0] * values[2], values[1] * values[3]
     joins = np.where(falling, product * TIE**2 > cross, cross * TIE**2 > product)
     return solid_pair[joins], void_pair[~joins]
 
 
-def _components(inside: NDArray[np.bool_], pairs: NDArray[np.intp]) -> NDArray[np.integer]:
-    """Return the component numbers of cells that touch at a side, or at a corner listed in `pairs`."""
+def _label_cells(inside: NDArray[np.bool_], pairs: NDArray[np.intp]) -> NDArray[np.integer]:
+    """Label cells that touch at a side, or at a corner listed in `pairs`."""
     from scipy import ndimage
 
     numbers: NDArray[np.integer]
@@ -182,6 +182,6 @@ def _components(inside: NDArray[np.bool_], pairs: NDArray[np.intp]) -> NDArray[n
     ends = numbers.ravel()[pairs]
     graph = coo_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=(count + 1, count + 1))
     _, merged = connected_components(graph, directed=False)
-    # Number 0, the cells outside, is in no pair: it stays alone, and the others are numbered from 1.
+    # Number 0, for unlabelled cells, is in no pair: it stays alone, and components are numbered from 1.
     _, renumbered = np.unique(merged[1:], return_inverse=True)
     return np.asarray(np.concatenate([[0], renumbered + 1])[numbers])

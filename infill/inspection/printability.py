@@ -1,4 +1,4 @@
-"""`check`: whether a mesh is printable and, if not, why not."""
+"""Check whether a mesh is printable and, if not, why."""
 
 from __future__ import annotations
 
@@ -28,15 +28,15 @@ FLAT = 1e-12  # a triangle of less than this share of its longest side squared h
 
 @dataclass(frozen=True, kw_only=True)
 class Inspection:
-    """What `check` found; lengths in the unit of the file, or in mm if the file states its unit.
+    """The result of `check`; lengths in the unit of the file, or in mm if the file states its unit.
 
     Parameters
     ----------
     printable : bool
-        True if there are no problems.
+        True if `problems` is empty.
     problems, warnings : tuple of str
-        Why it is not printable, and what slicers cope with but other programs may not; one phrase each. Warnings begin
-        with what of a 3MF is no part and was left out.
+        Reasons why it is not printable, and flaws that slicers handle but other programs may not; one phrase each. The
+        first warnings list the objects of a 3MF that are not parts and were left out.
     triangles, components, degenerate, duplicate : int
         Components are connected surfaces: a solid with a sealed void has two. Degenerate triangles have no area;
         duplicates have the same three corners as another triangle.
@@ -44,8 +44,8 @@ class Inspection:
         Closed: every edge has two faces, with consistent orientation. Outward: every component faces outwards, except
         those inside another, which are its cavities and face inwards.
     sealed_voids : int or None
-        Voids that solid encloses, without a way out: resin and powder stay in them. A solid within such a void is no
-        void, and neither is a component within solid that faces outwards. None if the mesh is not closed.
+        Voids that solid encloses, without a way out: resin and powder stay in them. A solid within such a void does not
+        count, and neither does a component within solid that faces outwards. None if the mesh is not closed.
     open_edges : int
         Edges that do not have exactly two faces.
     manifold : str
@@ -78,7 +78,7 @@ class Inspection:
     unit_guess: str
 
     def to_dict(self) -> dict[str, Any]:
-        """Return plain numbers and strings: what ``--json`` prints."""
+        """Return plain numbers and strings, as ``--json`` prints them."""
         return asdict(self)
 
 
@@ -102,22 +102,22 @@ def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspectio
         notes = read.notes
         stated = Path(mesh).suffix.lower() in STATED
     else:
-        given = surface_of(mesh)
-        read = closed_or_merged(given.vertices, given.faces)
-        notes = given.notes
+        surface_given = surface_of(mesh)
+        read = closed_or_merged(surface_given.vertices, surface_given.faces)
+        notes = surface_given.notes
     collapsed = (read.faces == np.roll(read.faces, 1, axis=1)).any(axis=1)
     if collapsed.all():
         raise FormatError("the mesh has no triangle of three different corners; export it again")
     surface = Surface(vertices=read.vertices, faces=read.faces[~collapsed])
-    flat = _flat(surface)
+    flat = _zero_area_faces(surface)
     if flat.all():
         raise FormatError("the mesh has no triangle with an area; export it again")
-    where = merged(surface.vertices, surface.faces[~flat])
-    duplicate = len(where.faces) - len(np.unique(np.sort(where.faces, axis=1), axis=0))
-    crossings = self_intersections(where.vertices, where.faces)
+    merged_surface = merged(surface.vertices, surface.faces[~flat])
+    duplicate = len(merged_surface.faces) - len(np.unique(np.sort(merged_surface.faces, axis=1), axis=0))
+    crossings = self_intersections(merged_surface.vertices, merged_surface.faces)
     open_edges = int((Edges.of(surface.faces).faces != 2).sum())
     names, components = vertex_components(surface.faces, len(surface.vertices))
-    outward = _outward(surface, names[surface.faces[:, 0]])
+    outward = _faces_outwards(surface, names[surface.faces[:, 0]])
     sealed = count_sealed_voids(surface) if surface.closed else None
     status = solids.status(surface, single=True)
     degenerate = int(collapsed.sum() + flat.sum())
@@ -160,15 +160,16 @@ def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspectio
     )
 
 
-def _flat(surface: Surface) -> NDArray[np.bool_]:
+def _zero_area_faces(surface: Surface) -> NDArray[np.bool_]:
+    """Mark the triangles without an area."""
     a, b, c = (surface.vertices[surface.faces[:, i]] for i in range(3))
     doubled = np.linalg.norm(np.cross(b - a, c - a), axis=1)
     longest = np.max([((p - q) ** 2).sum(axis=1) for p, q in ((a, b), (b, c), (c, a))], axis=0)
     return np.asarray(doubled <= FLAT * longest)
 
 
-def _outward(surface: Surface, component: NDArray[np.integer]) -> bool:
-    """Return whether the mesh as a whole faces outwards, and every component facing inwards is a cavity of another."""
+def _faces_outwards(surface: Surface, component: NDArray[np.integer]) -> bool:
+    """Tell whether the mesh as a whole faces outwards, and all components facing inwards are cavities of others."""
     corners = surface.vertices[surface.faces] - surface.vertices.mean(axis=0)
     sixfold = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))
     volume = np.bincount(component, weights=sixfold)
@@ -176,14 +177,14 @@ def _outward(surface: Surface, component: NDArray[np.integer]) -> bool:
         return False
     solid = corners[volume[component] > 0]
     inward = np.flatnonzero(volume <= 0)
-    first = np.unique(component, return_index=True)[1]
-    return all(_winding_number(corners[first[i]].mean(axis=0), solid) > 0.5 for i in inward)
+    first_face = np.unique(component, return_index=True)[1]
+    return all(_winding_number(corners[first_face[i]].mean(axis=0), solid) > 0.5 for i in inward)
 
 
 def _winding_number(point: NDArray[np.floating], corners: NDArray[np.floating]) -> float:
-    """Return how many times closed surfaces (F, 3, 3) wind around a point: their solid angles, summed, over 4 pi."""
+    """Count the windings of closed surfaces (F, 3, 3) around a point: their solid angles, summed, over 4 pi."""
     a, b, c = (corners[:, i] - point for i in range(3))
-    la, lb, lc = (np.linalg.norm(each, axis=1) for each in (a, b, c))
+    length_a, length_b, length_c = (np.linalg.norm(vector, axis=1) for vector in (a, b, c))
     above = np.einsum("ij,ij->i", a, np.cross(b, c))
-    dots = (np.einsum("ij,ij->i", p, q) * r for p, q, r in ((a, b, lc), (b, c, la), (c, a, lb)))
-    return float(np.arctan2(above, la * lb * lc + sum(dots)).sum() / (2 * np.pi))
+    dots = (np.einsum("ij,ij->i", p, q) * r for p, q, r in ((a, b, length_c), (b, c, length_a), (c, a, length_b)))
+    return float(np.arctan2(above, length_a * length_b * length_c + sum(dots)).sum() / (2 * np.pi))

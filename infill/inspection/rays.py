@@ -1,4 +1,4 @@
-"""Rays followed until they leave the solid, in any number of dimensions."""
+"""Follow rays until they leave the solid, in any number of dimensions."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ def way_inside(
     *,
     leeway: int = 0,
 ) -> Floats:
-    """Return the length of solid along rays, (N,) mm.
+    """Measure the length of solid along rays, (N,) mm.
 
     Parameters
     ----------
     value : callable
         Maps points (M, d), mm, to values above 0 where they are solid.
     start, direction : (N, d) float64
-        Where the rays begin, mm, and unit vectors.
+        Starts of the rays, mm, and unit vectors.
     distance : (n,) float64
         Positions to sample along a ray, mm, rising evenly from less than a step.
     leeway : int
-        How many of those positions after the first a ray may still enter the solid.
+        Number of positions after the first at which a ray may still enter the solid.
 
     Returns
     -------
@@ -51,25 +51,25 @@ def way_inside(
 
 
 def first_stretch(values: NDArray[np.floating], distance: Floats, *, leeway: int = 0) -> Floats:
-    """Return what `way_inside` does, given the values at all positions along the rays, (N, n).
+    """Measure as `way_inside` does, given the values at all positions along the rays, (N, n).
 
     >>> first_stretch(np.array([[1.0, 1.0, -1.0], [-1.0, -1.0, -1.0]]), np.arange(3.0)).tolist()
     [1.5, 0.0]
     """
     inside = values > 0
-    row, place = np.arange(len(values)), np.arange(len(distance))
-    first = inside.argmax(axis=1)
-    out = ~inside & (place > first[:, None])
-    last = out.argmax(axis=1)
+    row, position = np.arange(len(values)), np.arange(len(distance))
+    entry = inside.argmax(axis=1)
+    left_solid = ~inside & (position > entry[:, None])
+    leaving = left_solid.argmax(axis=1)
 
     def crossing(after: NDArray[np.intp]) -> Floats:
-        """Return where the value is 0 just before a sampled position."""
+        """Return the distance at which the value is 0 just before a sampled position."""
         before = np.maximum(after - 1, 0)
-        here, there = values[row, before], values[row, after]
-        step = np.where(here == there, 1, here - there)
-        found: Floats = distance[before] + here / step * (distance[after] - distance[before])
-        return found
+        value_before, value_after = values[row, before], values[row, after]
+        step = np.where(value_before == value_after, 1, value_before - value_after)
+        root: Floats = distance[before] + value_before / step * (distance[after] - distance[before])
+        return root
 
-    length = crossing(last) - np.where(first > 0, crossing(first), 0.0)
-    length = np.where(out.any(axis=1), length, np.inf)
+    length = crossing(leaving) - np.where(entry > 0, crossing(entry), 0.0)
+    length = np.where(left_solid.any(axis=1), length, np.inf)
     return np.where(inside[:, : leeway + 1].any(axis=1), length, 0.0)

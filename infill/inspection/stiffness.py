@@ -1,7 +1,7 @@
-"""How stiff a pattern that repeats in space is: homogenised by finite elements, one to a voxel.
+"""Stiffness of a pattern that repeats in space: homogenised by finite elements, one to a voxel.
 
-The strain of the whole is given, the displacement that repeats from cell to cell is solved for, and the energy is that
-of the material that stands for all of it. Elements are cubes with a node at each corner; void has none.
+The mean strain is given, the displacement that repeats from cell to cell is solved for, and its energy is that of the
+equivalent uniform material. Elements are cubes with a node at each corner; void has none.
 
 Source: Andreassen & Andreasen, "How to determine composite material properties using numerical homogenization",
 Computational Materials Science 83 (2014) 488-495.
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 CORNERS = np.array(list(product((0, 1), repeat=3)))  # of an element, and its nodes in this order
 SHEARS = ((1, 2), (0, 2), (0, 1))  # in Voigt's order after xx, yy and zz
 ACCURACY = 1e-6  # of the solution, as a share of the load
-LEAST = 1e-9  # of the solid's modulus: what nothing holds together has at least this
+LEAST = 1e-9  # of the solid's modulus: loose pieces have at least this stiffness
 
 
 @dataclass(frozen=True)
@@ -38,26 +38,26 @@ class Stiffness:
         along = along / np.linalg.norm(along, axis=1, keepdims=True)
         stress = np.hstack([along**2, *(along[:, [i]] * along[:, [j]] for i, j in SHEARS)])
         compliance = np.linalg.inv(self.matrix + LEAST * np.eye(6))
-        found: NDArray[np.float64] = 1 / np.einsum("ni,ij,nj->n", stress, compliance, stress)
-        return found
+        moduli: NDArray[np.float64] = 1 / np.einsum("ni,ij,nj->n", stress, compliance, stress)
+        return moduli
 
     def extremes(self, count: int = 2000) -> tuple[float, float]:
         """Return the lowest and the highest modulus over directions, evenly spread over half a sphere."""
         z = (np.arange(count) + 0.5) / count
         turn = np.arange(count) * np.pi * (3 - np.sqrt(5))
         flat = np.sqrt(1 - z**2)
-        spread = np.stack([flat * np.cos(turn), flat * np.sin(turn), z], axis=-1)
-        found = self.modulus(np.concatenate([spread, np.eye(3)]))
-        return float(found.min()), float(found.max())
+        directions = np.stack([flat * np.cos(turn), flat * np.sin(turn), z], axis=-1)
+        moduli = self.modulus(np.concatenate([directions, np.eye(3)]))
+        return float(moduli.min()), float(moduli.max())
 
 
 def stiffness(solid: ArrayLike, poisson: float = 0.3) -> Stiffness:
-    """Return how stiff a cell is that repeats along x, y and z.
+    """Compute the stiffness of a cell that repeats along x, y and z.
 
     Parameters
     ----------
     solid : (nx, ny, nz) bool
-        Voxels, cubes, of which some are solid.
+        Cubic voxels, some of them solid.
     poisson : float
         Poisson's ratio of the solid, from 0 to 0.49.
 
@@ -80,37 +80,41 @@ def stiffness(solid: ArrayLike, poisson: float = 0.3) -> Stiffness:
         raise ParameterError(f"solid has shape {voxels.shape}; give an array of three axes, of which some is solid")
     if not 0 <= poisson <= 0.49:
         raise ParameterError(f"poisson is {poisson}; it must be from 0 to 0.49")
-    held, strained = _element(poisson)
-    # Only nodes at the corners of solid voxels are free; those at opposite faces of the cell are one.
+    element, unit_displacements = _element_matrices(poisson)
+    # Only nodes at the corners of solid voxels are free; nodes at opposite faces of the cell are the same.
     places = np.argwhere(voxels)[:, None] + CORNERS
     names = np.ravel_multi_index(tuple(np.moveaxis(places % voxels.shape, -1, 0)), voxels.shape)
-    known, names = np.unique(names, return_inverse=True)
+    nodes, names = np.unique(names, return_inverse=True)
     free = (3 * names.reshape(-1, 8, 1) + np.arange(3)).reshape(-1, 24)
-    size = 3 * len(known)
+    size = 3 * len(nodes)
     rows, columns = np.repeat(free, 24, axis=1).ravel(), np.tile(free, (1, 24)).ravel()
-    matrix = coo_array((np.tile(held.ravel(), len(free)), (rows, columns)), shape=(size, size)).tocsr()
+    matrix = coo_array((np.tile(element.ravel(), len(free)), (rows, columns)), shape=(size, size)).tocsr()
     weights = 1 / matrix.diagonal()
-    scaled = LinearOperator((size, size), matvec=lambda each: weights * each)
+    scaled = LinearOperator((size, size), matvec=lambda vector: weights * vector)
     # Loads are in balance on every piece, so conjugate gradients solve the system though pieces may float.
-    moved = np.empty((len(free), 24, 6))
+    displacements = np.empty((len(free), 24, 6))
     for case in range(6):
-        load = np.bincount(free.ravel(), weights=np.tile(held @ strained[:, case], len(free)), minlength=size)
-        found, _ = cg(matrix, load, rtol=ACCURACY, maxiter=20 * int(size ** (1 / 2)) + 1000, M=scaled)
-        moved[:, :, case] = strained[:, case] - found[free]
-    return Stiffness(matrix=np.einsum("eai,ab,ebj->ij", moved, held, moved, optimize=True) / voxels.size)
+        load = np.bincount(
+            free.ravel(), weights=np.tile(element @ unit_displacements[:, case], len(free)), minlength=size
+        )
+        solution, _ = cg(matrix, load, rtol=ACCURACY, maxiter=20 * int(size ** (1 / 2)) + 1000, M=scaled)
+        displacements[:, :, case] = unit_displacements[:, case] - solution[free]
+    return Stiffness(
+        matrix=np.einsum("eai,ab,ebj->ij", displacements, element, displacements, optimize=True) / voxels.size
+    )
 
 
-def _element(poisson: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _element_matrices(poisson: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the stiffness (24, 24) of a unit cube of modulus 1, and the displacements (24, 6) of unit strains."""
-    first, second = poisson / ((1 + poisson) * (1 - 2 * poisson)), 1 / (2 * (1 + poisson))
+    lame_lambda, shear_modulus = poisson / ((1 + poisson) * (1 - 2 * poisson)), 1 / (2 * (1 + poisson))
     law = np.zeros((6, 6))
-    law[:3, :3] = first
-    law += second * np.diag([2, 2, 2, 1, 1, 1])
-    held = np.zeros((24, 24))
+    law[:3, :3] = lame_lambda
+    law += shear_modulus * np.diag([2, 2, 2, 1, 1, 1])
+    element = np.zeros((24, 24))
     signs = 2 * CORNERS - 1
     for point in product((-1, 1), repeat=3):
-        at = np.array(point) / np.sqrt(3)
-        terms = 1 + signs * at
+        gauss_point = np.array(point) / np.sqrt(3)
+        terms = 1 + signs * gauss_point
         slopes = np.stack([signs[:, k] * np.delete(terms, k, axis=1).prod(axis=1) / 4 for k in range(3)])  # d/dx, N
         strains = np.zeros((6, 8, 3))
         for axis in range(3):
@@ -118,10 +122,10 @@ def _element(poisson: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         for row, (i, j) in enumerate(SHEARS, start=3):
             strains[row, :, i], strains[row, :, j] = slopes[j], slopes[i]
         flat = strains.reshape(6, 24)
-        held += flat.T @ law @ flat / 8
-    moved = np.zeros((8, 3, 6))
+        element += flat.T @ law @ flat / 8
+    displacements = np.zeros((8, 3, 6))
     for axis in range(3):
-        moved[:, axis, axis] = CORNERS[:, axis]
+        displacements[:, axis, axis] = CORNERS[:, axis]
     for case, (i, j) in enumerate(SHEARS, start=3):
-        moved[:, i, case], moved[:, j, case] = CORNERS[:, j] / 2, CORNERS[:, i] / 2
-    return held, moved.reshape(24, 6)
+        displacements[:, i, case], displacements[:, j, case] = CORNERS[:, j] / 2, CORNERS[:, i] / 2
+    return element, displacements.reshape(24, 6)

@@ -1,4 +1,4 @@
-"""The thinnest walls of a solid, before and after smoothing."""
+"""Measure the thinnest walls of a solid, before and after smoothing."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from infill.surface import Surface
 THIN = 0.01
 SAMPLES = 4000
 STEP = 0.25  # cells: a solid sampled cell by cell has no finer detail
-# Cells: anything thicker is no wall. Smoothing removes walls of 3 cells and keeps those of 5; 16 is three times that.
+# Cells: a wall is no thicker. Smoothing removes walls of 3 cells and keeps those of 5; 16 is three times that.
 FARTHEST = 16.0
 LEEWAY_OF_DATA, LEEWAY = 4, 1  # steps behind the surface within which a ray enters: it lies up to a cell off the data
 
@@ -23,7 +23,7 @@ LEEWAY_OF_DATA, LEEWAY = 4, 1  # steps behind the surface within which a ray ent
 def thinnest_walls(
     field: SparseField, surface: Surface, spacing: tuple[float, ...], level: float = 0.0
 ) -> tuple[float | None, float | None]:
-    """Return how thick the solid is behind the thinnest hundredth of the surface, mm: in the data, and smoothed.
+    """Measure how thick the solid is behind the thinnest hundredth of the surface, mm: in the data, and smoothed.
 
     Parameters
     ----------
@@ -43,28 +43,28 @@ def thinnest_walls(
     Notes
     -----
     From points all over the surface, rays go inwards along the normal until they leave the solid. A ray that does not
-    leave within reach is longer than all those that do: it shows only that there is no wall.
+    leave within reach is longer than all those that do: it shows only that there is not a wall.
     """
     size = np.array(spacing)
     count = len(surface.faces)
-    some = np.random.default_rng(0).choice(count, min(count, SAMPLES), replace=False)
-    corners = surface.vertices[surface.faces[some]].astype(np.float64)
+    sampled = np.random.default_rng(0).choice(count, min(count, SAMPLES), replace=False)
+    corners = surface.vertices[surface.faces[sampled]].astype(np.float64)
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.linalg.norm(normals, axis=1, keepdims=True)
-    keep = length[:, 0] > 0
-    inwards, start = -normals[keep] / length[keep], corners[keep].mean(axis=1)
+    has_area = length[:, 0] > 0
+    inwards, start = -normals[has_area] / length[has_area], corners[has_area].mean(axis=1)
     # In the middle of each step, so that a wall of whole cells along an axis is measured at its true thickness.
     places = round(FARTHEST / STEP) + LEEWAY_OF_DATA + 1  # up to the first one beyond a wall that begins late
-    at = (np.arange(places, dtype=np.float64) + 0.5) * (STEP * float(size.min()))
+    distances = (np.arange(places, dtype=np.float64) + 0.5) * (STEP * float(size.min()))
 
-    def thin(values: NDArray[np.generic], height: float, leeway: int) -> float | None:
-        solid = np.empty((len(start), len(at)))
-        follow(field.slots, values, field.shape, start, inwards, at, size, height, solid)
-        found = first_stretch(solid, at, leeway=leeway)
-        found = found[found > 0]
-        if len(found) == 0:
+    def thinnest_wall(values: NDArray[np.generic], height: float, leeway: int) -> float | None:
+        solid = np.empty((len(start), len(distances)))
+        follow(field.slots, values, field.shape, start, inwards, distances, size, height, solid)
+        lengths = first_stretch(solid, distances, leeway=leeway)
+        lengths = lengths[lengths > 0]
+        if len(lengths) == 0:
             return None
-        thinnest = float(np.quantile(found, THIN, method="inverted_cdf"))
+        thinnest = float(np.quantile(lengths, THIN, method="inverted_cdf"))
         return thinnest if thinnest <= FARTHEST * float(size.min()) else None
 
-    return thin(field.data, 0.0, LEEWAY_OF_DATA), thin(field.values, level, LEEWAY)
+    return thinnest_wall(field.data, 0.0, LEEWAY_OF_DATA), thinnest_wall(field.values, level, LEEWAY)

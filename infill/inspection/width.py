@@ -1,4 +1,4 @@
-"""How wide the walls came out, measured across the lines of the pattern."""
+"""Measure the width of the walls, across the lines of the pattern."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from infill.inspection.rays import way_inside
 Floats = NDArray[np.float64]
 
 MOST_SAMPLES = 4000
-# How many line widths a ray across a wall, and its foot, keep from nodes, ends and other lines: nearer to them,
+# Clearance in line widths of a ray across a wall, and of its foot, from nodes, ends and other lines: nearer to them,
 # walls run together. The first clearance that leaves enough places is used; cells of only a few widths need the last.
 CLEARANCES = (2.0, 1.5, 1.0, 0.75)
 ENOUGH = 0.05  # of all places
@@ -62,39 +62,39 @@ def wall_width(lines: MultiLineString, layer: NDArray[np.floating], grid: Grid, 
     Notes
     -----
     Places are left out if another line comes within two line widths of the ray across the wall (fewer
-    in small cells), because walls run together there and have no width of their own.
+    in small cells), because walls run together there and their widths are undefined.
     """
     if tuple(grid.shape) != layer.shape or layer.ndim != 2:
         raise ParameterError(f"the layer has the shape {layer.shape} and the grid {grid.shape}; give the layer's own")
-    places, normals = _places(lines, requested)
+    places, normals = _sample_places(lines, requested)
     for clearance in CLEARANCES:
         reach = clearance * requested
-        clear = _clear(lines, places, normals, reach)
+        clear = _clear_places(lines, places, normals, reach)
         if clear.mean() > ENOUGH:
             break
     places, normals = places[clear], normals[clear]
     if len(places) == 0:
         return WallWidth(requested=requested, mean=math.nan, p5=math.nan, p95=math.nan, samples=0)
-    pick = np.unique(np.linspace(0, len(places) - 1, min(MOST_SAMPLES, len(places))).astype(int))
-    places, normals = places[pick], normals[pick]
+    chosen = np.unique(np.linspace(0, len(places) - 1, min(MOST_SAMPLES, len(places))).astype(int))
+    places, normals = places[chosen], normals[chosen]
     size = float(grid.cell_size.min())
     distance = np.arange(0, reach, size / STEPS_PER_CELL)
     value = _sampler(layer, grid)
     # A wall that continues beyond the reach counts as that wide.
-    both = [way_inside(value, places, side * normals, distance).clip(0, distance[-1]) for side in (1, -1)]
-    widths = both[0] + both[1]
+    half_widths = [way_inside(value, places, side * normals, distance).clip(0, distance[-1]) for side in (1, -1)]
+    widths = half_widths[0] + half_widths[1]
     p5, p95 = np.percentile(widths, [5, 95])
     return WallWidth(
         requested=requested, mean=float(np.mean(widths)), p5=float(p5), p95=float(p95), samples=len(places)
     )
 
 
-def _places(lines: MultiLineString, requested: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the midpoints of short pieces of the lines and the unit normals there, (N, 2) each."""
+def _sample_places(lines: MultiLineString, requested: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Sample the lines; return the midpoints of short pieces and the unit normals there, (N, 2) each."""
     spacing = max(requested / 2, shapely.length(lines) / (4 * MOST_SAMPLES))
     ends, owner = shapely.get_coordinates(shapely.segmentize(lines.geoms, spacing), return_index=True)
-    follows = owner[1:] == owner[:-1]
-    start, end = ends[:-1][follows], ends[1:][follows]
+    same_line = owner[1:] == owner[:-1]
+    start, end = ends[:-1][same_line], ends[1:][same_line]
     length = np.linalg.norm(end - start, axis=1)
     start, end, length = start[length > 0], end[length > 0], length[length > 0]
     # Curves consist of pieces much shorter than others: sample them in proportion to their length.
@@ -104,11 +104,11 @@ def _places(lines: MultiLineString, requested: float) -> tuple[NDArray[np.float6
     return ((start + end) / 2)[chosen], np.stack([-along[:, 1], along[:, 0]], axis=-1)
 
 
-def _clear(
+def _clear_places(
     lines: MultiLineString, places: NDArray[np.float64], normals: NDArray[np.float64], reach: float
 ) -> NDArray[np.bool_]:
-    """Return which places have no line nearer than their own, on both sides and as far as `reach`."""
-    tree = shapely.STRtree(_segments(lines))
+    """Mark the places where the line below is the nearest, on both sides and as far as `reach`."""
+    tree = shapely.STRtree(_split_segments(lines))
     clear = np.ones(len(places), dtype=bool)
     for side in (1, -1):
         tips = places + side * reach * normals
@@ -123,10 +123,11 @@ def _clear(
     return clear
 
 
-def _segments(lines: MultiLineString) -> NDArray[np.object_]:
+def _split_segments(lines: MultiLineString) -> NDArray[np.object_]:
+    """Split lines into their straight segments."""
     ends, owner = shapely.get_coordinates(lines.geoms, return_index=True)
-    follows = owner[1:] == owner[:-1]
-    return np.asarray(shapely.linestrings(np.stack([ends[:-1][follows], ends[1:][follows]], axis=1)))
+    same_line = owner[1:] == owner[:-1]
+    return np.asarray(shapely.linestrings(np.stack([ends[:-1][same_line], ends[1:][same_line]], axis=1)))
 
 
 def _sampler(layer: NDArray[np.floating], grid: Grid) -> Callable[[Floats], Floats]:
@@ -137,7 +138,7 @@ def _sampler(layer: NDArray[np.floating], grid: Grid) -> Callable[[Floats], Floa
 
     def value(points: Floats) -> Floats:
         cell = (points - grid.origin) / grid.cell_size + 0.5  # the first cell of the padded field is centred on 0
-        found: Floats = map_coordinates(field, cell.T, output=np.float64, order=1, mode="nearest")
-        return found
+        values: Floats = map_coordinates(field, cell.T, output=np.float64, order=1, mode="nearest")
+        return values
 
     return value

@@ -1,7 +1,7 @@
-"""Components of solid and of void in a field of bricks: how many, how large, and what smoothing did to them.
+"""Components of solid and of void in a field of bricks: their number, sizes and thickness, and the shells between.
 
-Everything is found from rows of sixteen bits and from the bricks that are kept, so that the cost grows with the
-surface. Solid cells are joined by faces, void cells by faces and edges, as marching cubes joins them on raw data.
+The search works on rows of sixteen bits and on the bricks that are kept, so that the cost grows with the surface. Solid
+cells are joined by faces, void cells by faces and edges, as marching cubes joins them on raw data.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ class Components:
     cells : (b,) int64
         Cells of each component.
     thick : (b,) bool
-        Whether a component contains 2 x 2 x 2 cells somewhere, so is more than one cell thick; empty if not requested.
+        Whether a component contains 2 x 2 x 2 cells, and so is more than one cell thick; empty if not requested.
     bits, bricks, starts, alone, names
-        How a cell finds its component: bits of every row, numbers of runs, bricks of one value, and names for both.
+        Tables from cells to components: bits of every row, numbers of runs, bricks of one value, and names for both.
     """
 
     cells: NDArray[np.int64]
@@ -88,22 +88,22 @@ class Shells:
 
 
 def solid_bits(field: SparseField, *, level: float = 0.0, threads: int | None = None) -> NDArray[np.uint16]:
-    """Return which cells of the kept bricks are above the level, (n, rows) uint16."""
+    """Mark the cells of the kept bricks that are above the level, as bits: (n, rows) uint16."""
     return rows_above(field, field.values, level, threads=threads)
 
 
 def data_bits(field: SparseField, *, threads: int | None = None) -> NDArray[np.uint16]:
-    """Return which cells of the kept bricks are solid in the data, (n, rows) uint16."""
+    """Mark the cells of the kept bricks that are solid in the data, as bits: (n, rows) uint16."""
     return rows_above(field, field.data, 0.0, threads=threads)
 
 
 def cores(field: SparseField, bits: NDArray[np.uint16], *, threads: int | None = None) -> NDArray[np.uint16]:
-    """Return the cells at the lower corner of 2 x 2 x 2 solid ones: what is more than one cell thick."""
+    """Erode: mark the lower corners of all solid blocks of 2 x 2 x 2 cells, where solid is thicker than one cell."""
     return _meet_or_spread(field, bits, True, 1, threads)
 
 
 def opened(field: SparseField, core: NDArray[np.uint16], *, threads: int | None = None) -> NDArray[np.uint16]:
-    """Return the cells of those 2 x 2 x 2 blocks."""
+    """Dilate: mark all cells of the 2 x 2 x 2 blocks whose lower corners are given."""
     return _meet_or_spread(field, core, False, -1, threads)
 
 
@@ -115,20 +115,20 @@ def sturdy(
     cells: int = 2,
     threads: int | None = None,
 ) -> NDArray[np.uint16]:
-    """Return the cells of all blocks of `cells` along each side that are solid, or void: what is that thick."""
+    """Open by blocks of `cells` along each side: mark the cells of solid, or void, that is at least that thick."""
     kind = VOID_BRICK if void else SOLID_BRICK
-    found = ~bits if void else bits
+    marked = ~bits if void else bits
     for _ in range(cells - 1):
-        found = _meet_or_spread(field, found, True, 1, threads, kind)
+        marked = _meet_or_spread(field, marked, True, 1, threads, kind)
     for _ in range(cells - 1):
-        found = _meet_or_spread(field, found, False, -1, threads, kind)
-    return found
+        marked = _meet_or_spread(field, marked, False, -1, threads, kind)
+    return marked
 
 
 def grown(
     field: SparseField, bits: NDArray[np.uint16], cells: int, *, threads: int | None = None
 ) -> NDArray[np.uint16]:
-    """Return the cells within a given number of cells of those that are set, along each axis."""
+    """Dilate by a number of cells along each axis."""
     for _ in range(cells):
         bits = _meet_or_spread(field, _meet_or_spread(field, bits, False, -1, threads), False, 1, threads)
     return bits
@@ -137,21 +137,27 @@ def grown(
 def set_at(
     field: SparseField, bits: NDArray[np.uint16], cells: NDArray[np.integer], *, void: bool = False
 ) -> NDArray[np.bool_]:
-    """Return which cells (N, 3) of the grid are set: of solid, of which there is none beyond it, or of void."""
+    """Look up cells (N, 3) of the grid: True where set. Beyond the grid lies void, not solid."""
     inside: NDArray[np.bool_] = np.all((cells >= 0) & (cells < field.shape), axis=1)
     brick, cell = np.divmod(np.where(inside[:, None], cells, 0) + 1, BRICK)
     slot = field.slots[tuple(brick.T)]
     row = bits[slot, cell[:, 0] * BRICK[1] + cell[:, 1]] if len(bits) else np.zeros(len(cells), dtype=np.uint16)
-    there = np.where(
+    state = np.where(
         slot >= 0, (row >> cell[:, 2].astype(np.uint16)) & 1, slot == (VOID_BRICK if void else SOLID_BRICK)
     )
-    found: NDArray[np.bool_] = (there != 0) & inside | (void & ~inside)
-    return found
+    is_set: NDArray[np.bool_] = (state != 0) & inside | (void & ~inside)
+    return is_set
 
 
 def _meet_or_spread(
-    field: SparseField, bits: NDArray[np.uint16], meet: bool, way: int, threads: int | None, kind: int = SOLID_BRICK
+    field: SparseField,
+    bits: NDArray[np.uint16],
+    meet: bool,
+    direction: int,
+    threads: int | None,
+    kind: int = SOLID_BRICK,
 ) -> NDArray[np.uint16]:
+    """Erode (`meet`) or dilate a field of bits by one cell, from the side that `direction` tells."""
     out = np.empty_like(bits)
     in_threads(
         kernels.meet_or_spread,
@@ -160,7 +166,7 @@ def _meet_or_spread(
         bits,
         kind,
         meet,
-        way,
+        direction,
         out,
         threads=thread_count(threads),
     )
@@ -170,7 +176,7 @@ def _meet_or_spread(
 def components(
     field: SparseField, bits: NDArray[np.uint16], *, void: bool = False, whole: bool = True, thickness: bool = False
 ) -> Components:
-    """Return the components of solid of a field whose solid cells are `bits`, or those of void, the outside first.
+    """Label the components of solid, whose cells are `bits`, or those of void, the outside first.
 
     Without `whole`, only the cells in `bits` count, not the bricks that are solid throughout. With `thickness`, the
     result says which components are more than one cell thick.
@@ -190,7 +196,7 @@ def components(
         kernels.join_beyond(field.where, bits, bricks, starts, field.shape, parent)
         rim = np.zeros(alone.shape, dtype=bool)
         for axis in range(3):
-            rim[tuple([0, -1] if a == axis else slice(None) for a in range(3))] = True
+            rim[tuple([0, -1] if dimension == axis else slice(None) for dimension in range(3))] = True
         parent[alone[single & rim]] = 0
     kernels.join_alone(alone, parent)
     kernels.join_runs(field.slots, field.where, bits, bricks, starts, alone, parent, void)
@@ -199,44 +205,44 @@ def components(
     cells = np.zeros(count, dtype=np.int64)
     kernels.count_cells(field.where, bits, bricks, starts, field.shape, names, cells)
     np.add.at(cells, names[alone[single]], sides_within(np.argwhere(single), field.shape).prod(axis=1))
-    if not void:  # run 0 is whatever lies beyond the grid, which is not solid
+    if not void:  # run 0 lies beyond the grid, which is not solid
         cells, names = cells[1:], names - 1
-    every = Components(
+    labelled = Components(
         cells=cells, thick=np.empty(0, dtype=bool), bits=bits, bricks=bricks, starts=starts, alone=alone, names=names
     )
-    return with_thickness(field, every, void=void) if thickness else every
+    return with_thickness(field, labelled, void=void) if thickness else labelled
 
 
-def with_thickness(field: SparseField, every: Components, *, void: bool = False) -> Components:
-    """Return the components together with which of them are more than one cell thick."""
-    thick = np.zeros(every.count, dtype=bool)
+def with_thickness(field: SparseField, labelled: Components, *, void: bool = False) -> Components:
+    """Add to components whether each is more than one cell thick."""
+    thick = np.zeros(labelled.count, dtype=bool)
     kind = VOID_BRICK if void else SOLID_BRICK
-    core = _meet_or_spread(field, every.bits, True, 1, threads=1, kind=kind)
-    kernels.mark_runs(every.bits, every.bricks, every.starts, every.names, core, thick)
-    places = np.argwhere(every.alone >= 0)
+    core = _meet_or_spread(field, labelled.bits, True, 1, threads=1, kind=kind)
+    kernels.mark_runs(labelled.bits, labelled.bricks, labelled.starts, labelled.names, core, thick)
+    places = np.argwhere(labelled.alone >= 0)
     if not void:  # a solid brick that the grid cuts off may be a sheet there; void continues beyond the grid
         places = places[(sides_within(places, field.shape) > 1).all(axis=1)]
-    thick[every.names[every.alone[tuple(places.T)]]] = True
-    return replace(every, thick=thick)
+    thick[labelled.names[labelled.alone[tuple(places.T)]]] = True
+    return replace(labelled, thick=thick)
 
 
 def sides_within(places: NDArray[np.integer], shape: tuple[int, int, int]) -> NDArray[np.int64]:
-    """Return how many cells of whole bricks lie on the grid along each axis, (n, 3)."""
+    """Return the sides, in cells, of the part of whole bricks that lies on the grid: (n, 3)."""
     low = np.maximum(places * BRICK, 1)
     high = np.minimum((places + 1) * BRICK, np.array(shape) + 1)
     sides: NDArray[np.int64] = np.maximum(high - low, 0)
     return sides
 
 
-def shared_cells(one: Components, other: Components) -> NDArray[np.int64]:
-    """Return rows (n, 3), one component of each and the cells they share, on the same bricks; pairs may recur."""
-    found = kernels.overlaps(
-        one.bits, one.bricks, one.starts, one.names, other.bits, other.bricks, other.starts, other.names
+def shared_cells(first: Components, second: Components) -> NDArray[np.int64]:
+    """Count the cells that components share on the same bricks; return rows (n, 3), pair and count; pairs may recur."""
+    shared = kernels.overlaps(
+        first.bits, first.bricks, first.starts, first.names, second.bits, second.bricks, second.starts, second.names
     )
-    single = one.alone >= 0
-    own, theirs = one.names[one.alone[single]], other.names[other.alone[single]]
-    alone = np.stack([own, theirs, np.full(len(own), CELLS)], axis=1).astype(np.int64)
-    return np.concatenate([found, alone])
+    single = first.alone >= 0
+    own_names, other_names = first.names[first.alone[single]], second.names[second.alone[single]]
+    alone = np.stack([own_names, other_names, np.full(len(own_names), CELLS)], axis=1).astype(np.int64)
+    return np.concatenate([shared, alone])
 
 
 def shells(
@@ -246,7 +252,7 @@ def shells(
     total: tuple[float, float] | None = None,
     threads: int | None = None,
 ) -> Shells:
-    """Return the connected parts of a closed surface; `total` is the volume and the slope of all, if they are known."""
+    """Label and measure the connected parts of a closed surface; `total` is the volume and slope of all, if known."""
     names, count = shell_names(surface)
     if total is not None and count == 1 and names.min() == 0:
         return Shells(
@@ -256,15 +262,17 @@ def shells(
             euler=np.array([len(names) - len(surface.faces) // 2]),
         )
     shell = names[surface.faces[:, 0]]
-    own, change = face_sums(surface, rate, threads=threads)
-    volume, slope = (np.bincount(shell, weights=each, minlength=count).astype(np.float64) for each in (own, change))
+    volumes, change = face_sums(surface, rate, threads=threads)
+    volume, slope = (
+        np.bincount(shell, weights=weights, minlength=count).astype(np.float64) for weights in (volumes, change)
+    )
     used = names if names.min(initial=0) >= 0 else names[names >= 0]
     corners, sides = np.bincount(used, minlength=count), np.bincount(shell, minlength=count)
     return Shells(names=names, volume=volume, slope=slope, euler=corners - sides // 2)
 
 
 def shell_names(surface: Surface) -> tuple[NDArray[np.int32], int]:
-    """Return for every vertex (V,) the number of the connected part it belongs to, and how many parts there are."""
+    """Label the connected parts of a surface; return the label of every vertex (V,), and the number of parts."""
     return vertex_components(surface.faces, len(surface.vertices), compiled=True)
 
 
@@ -272,34 +280,44 @@ def face_sums(
     surface: Surface, rate: NDArray[np.float32], *, threads: int | None = None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return for every face the volume between it and a central point, mm³, and its slope over the level."""
-    own, change = np.empty(len(surface.faces)), np.empty(len(surface.faces))
+    face_volumes, change = np.empty(len(surface.faces)), np.empty(len(surface.faces))
     middle = surface.vertices[len(surface.vertices) // 2]
-    in_threads(volumes, surface.vertices, rate, surface.faces, middle, own, change, threads=thread_count(threads))
-    return own, change
+    in_threads(
+        volumes, surface.vertices, rate, surface.faces, middle, face_volumes, change, threads=thread_count(threads)
+    )
+    return face_volumes, change
 
 
-def without(values: NDArray[Any], field: SparseField, every: Components, small: NDArray[np.bool_]) -> NDArray[Any]:
-    """Return data (nx, ny, nz) with the components marked in `small` (b,) made void; floating-point data as float32."""
+def without(values: NDArray[Any], field: SparseField, labelled: Components, small: NDArray[np.bool_]) -> NDArray[Any]:
+    """Turn the components marked in `small` (b,) void in data (nx, ny, nz); floating-point data become float32."""
     out = values.astype(np.float32) if values.dtype.kind == "f" else values.copy()
     void = False if values.dtype == bool else -1
-    kernels.erase(out, field.where, every.bits, every.bricks, every.starts, every.names, small, void)
-    single = np.argwhere(every.alone >= 0)
-    for place in single[small[every.names[every.alone[tuple(single.T)]]]]:  # bricks that are solid throughout
+    kernels.erase(out, field.where, labelled.bits, labelled.bricks, labelled.starts, labelled.names, small, void)
+    single = np.argwhere(labelled.alone >= 0)
+    for place in single[small[labelled.names[labelled.alone[tuple(single.T)]]]]:  # bricks that are solid throughout
         low = np.maximum(place * BRICK - 1, 0)
         out[tuple(slice(a, b) for a, b in zip(low, (place + 1) * BRICK - 1, strict=True))] = void
     return out
 
 
-def cells_of(field: SparseField, every: Components, number: int) -> NDArray[np.int64]:
-    """Return the cells (n, 3) of a component that lie in kept bricks, counted from the first cell of the grid."""
-    bricks, rows = np.nonzero(every.bits)
-    solid = every.bits[bricks, rows, None] >> np.arange(BRICK[2], dtype=np.uint16) & 1
-    which, k = np.nonzero(solid)
-    brick, row = bricks[which], rows[which]
+def cells_of(field: SparseField, labelled: Components, number: int) -> NDArray[np.int64]:
+    """List the cells (n, 3) of a component that lie in kept bricks, counted from the first cell of the grid."""
+    bricks, rows = np.nonzero(labelled.bits)
+    solid = labelled.bits[bricks, rows, None] >> np.arange(BRICK[2], dtype=np.uint16) & 1
+    row_index, k = np.nonzero(solid)
+    brick, row = bricks[row_index], rows[row_index]
     place = field.where[brick].astype(np.int64) * BRICK + np.stack([row // BRICK[1], row % BRICK[1], k], axis=1)
     label = np.empty(len(place), dtype=np.int32)
     kernels.label_cells(
-        place.astype(np.int32), field.slots, every.bits, every.bricks, every.starts, every.alone, every.names, 0, label
+        place.astype(np.int32),
+        field.slots,
+        labelled.bits,
+        labelled.bricks,
+        labelled.starts,
+        labelled.alone,
+        labelled.names,
+        0,
+        label,
     )
     cells: NDArray[np.int64] = place[label == number] - 1
     return cells

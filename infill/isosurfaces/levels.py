@@ -1,8 +1,8 @@
-"""The level of a field at which the solid has the volume of the data.
+"""Find the level of a field at which the solid has the volume of the data.
 
-Smoothing by the paper's equation shrinks what is convex: a sphere of 40 cells by 2 % after 40 steps. The fault is
+Smoothing by the paper's equation shrinks convex solid: a sphere of 40 cells by 2 % after 40 steps. The fault is
 not in the field but in the level: {phi > c} with c a little below 0 has the volume of the data, and lies closer to
-the true surface. Components differ, so each one gets a level of its own.
+the true surface. Components differ, so each gets a separate level.
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ from infill.phasefield.profile import STRAIGHT
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
 
-# Levels lie between minus and plus this: at +-1 the distance is cut off and there is no surface to find, while a
-# surface this close to it still has cells on both sides that are not cut off.
+# Levels lie between minus and plus this: at +-1 the distance is cut off and there is no surface, while a surface this
+# close to the limit still has cells on both sides that are not cut off.
 LIMIT = 0.98
 # Of the volume. A ball of 80 cells whose volume is this much too large has a radius 0.0013 cells too large, where
 # smoothing itself is off by 0.02.
 TOLERANCE = 5e-5
-# Of the volume of one component among several, which share the rounds: 0.005 cells on such a ball.
+# The same for one component among several, which share the rounds: 0.005 cells on such a ball.
 COMPONENT_TOLERANCE = 2e-4
 # A step moves a surface by at most 0.3 artanh 0.9999 / artanh 0.9 = 1.01 interfaces, two cells: the slope of the volume
 # belongs to the surface where it is now, and is valid no further. Four steps lead from 0 to the limit, and Newton's
@@ -41,12 +41,12 @@ ROUNDS = 8
 # Cells from a component within which its level applies: as far as a refined distance reaches, which is cut off
 # artanh 0.995 / artanh 0.9 = 2.03 interfaces of two cells away.
 REACH = 4
-SMALLEST = 8  # cells, 2 x 2 x 2: a smaller component has no level of its own
+SMALLEST = 8  # cells, 2 x 2 x 2: a smaller component has no separate level
 
 
 @dataclass(frozen=True, kw_only=True)
 class Levelled:
-    """A surface of the right volume and the levels it took.
+    """A surface of the right volume, and the levels that give it.
 
     Parameters
     ----------
@@ -54,19 +54,19 @@ class Levelled:
         The field, or the field minus the level of each component.
     surface : Surface
     rate : (V, 3) float32
-        How far its vertices move when the level rises by one, mm.
+        Movement of its vertices when the level rises by one, mm.
     signs : Signs
         Of the cells that the surface lies between.
     height : float
         The level of the surface in that field.
     common : float
-        The level of everything that has no level of its own.
+        The level of everything without a separate level.
     levels : (b,) float64
         The level of each component of the data.
     total : (float, float), optional
         Volume of the surface, mm³, and its slope over the level, if they are known.
     threads : int, optional
-        To look at its shells with; see `infill.kernels.threads.thread_count`.
+        Used to label the shells; see `infill.kernels.threads.thread_count`.
     """
 
     against: SparseField
@@ -88,7 +88,7 @@ class Levelled:
 def straightened(
     field: SparseField, *, out: NDArray[np.float32] | None = None, threads: int | None = None
 ) -> SparseField:
-    """Return the field as a distance from the surface, scaled to [-1, 1]; in `out`, which may be the field's values."""
+    """Convert a field to a distance from the surface, scaled to [-1, 1]; in `out`, which may be the field's values."""
     return replace(field, values=STRAIGHT.distance(field.values, out=out, threads=threads))
 
 
@@ -101,7 +101,7 @@ class Tried:
     level : float
     found : Level
     volume, slope : float
-        What it encloses, mm³, and how much that changes when the level rises by one.
+        The enclosed volume, mm³, and its change when the level rises by one.
     """
 
     level: float
@@ -112,7 +112,7 @@ class Tried:
 
 @dataclass(frozen=True, kw_only=True)
 class Start:
-    """What is known before the search for a level begins.
+    """Known volumes with which the search for a level begins.
 
     Parameters
     ----------
@@ -127,72 +127,74 @@ class Start:
 
 
 def tried(field: SparseField, level: float, *, spacing: tuple[float, ...], threads: int) -> Tried:
-    """Return the surface at a level, and what it encloses."""
-    found = extract_level(field, spacing=spacing, level=level, threads=threads)
-    surface = found.surface
+    """Extract the surface at a level, and measure its volume."""
+    extracted = extract_level(field, spacing=spacing, level=level, threads=threads)
+    surface = extracted.surface
     sums = np.empty((-(-len(surface.faces) // marching_kernels.BLOCK), 2))
     middle = surface.vertices[len(surface.vertices) // 2]
-    in_threads(marching_kernels.sum_volumes, surface.vertices, found.rate, surface.faces, middle, sums, threads=threads)
+    in_threads(
+        marching_kernels.sum_volumes, surface.vertices, extracted.rate, surface.faces, middle, sums, threads=threads
+    )
     sixfold, slope = sums.sum(axis=0).tolist()
-    return Tried(level=level, found=found, volume=sixfold / 6, slope=slope / 6)
+    return Tried(level=level, found=extracted, volume=sixfold / 6, slope=slope / 6)
 
 
 def counted(
     field: SparseField, *, spacing: tuple[float, ...], straighten: bool = True, threads: int | None = None
 ) -> tuple[Components, SparseField, Start]:
-    """Return the components of the data, the field on a straight profile, and where to begin to look for its level.
+    """Label the components of the data, straighten the field, and guess a level; return all three.
 
     The components are found in parallel. A field that is straightened has its values overwritten.
     """
     threads = thread_count(threads)
     bits = data_bits(field, threads=threads)
 
-    def looked_for() -> Components:
+    def label_components() -> Components:
         return components(field, bits)
 
-    def begun() -> tuple[SparseField, Start]:
+    def find_start() -> tuple[SparseField, Start]:
         straight = straightened(field, out=field.values, threads=threads) if straighten else field
-        known = measured(straight, spacing=spacing, level=0.0, threads=threads)
-        if known is None or known[1] >= 0 or field.data.dtype != np.int8:
-            return straight, Start(at_zero=known)
-        total = math.prod(spacing) * _cells(field, bits)
+        volume_and_slope = measured(straight, spacing=spacing, level=0.0, threads=threads)
+        if volume_and_slope is None or volume_and_slope[1] >= 0 or field.data.dtype != np.int8:
+            return straight, Start(at_zero=volume_and_slope)
+        total = math.prod(spacing) * _count_solid_cells(field, bits)
         try:
-            first = tried(straight, _next_level(0.0, *known, total), spacing=spacing, threads=threads)
-        except GeometryError:  # nothing is left above this level
-            return straight, Start(at_zero=known)
-        return straight, Start(at_zero=known, first=first)
+            first_trial = tried(straight, _next_level(0.0, *volume_and_slope, total), spacing=spacing, threads=threads)
+        except GeometryError:  # no solid remains above this level
+            return straight, Start(at_zero=volume_and_slope)
+        return straight, Start(at_zero=volume_and_slope, first=first_trial)
 
-    (straight, start), found = together(begun, looked_for, threads=threads)
-    return found, straight, start
+    (straight, start), labelled = together(find_start, label_components, threads=threads)
+    return labelled, straight, start
 
 
-def _cells(field: SparseField, bits: NDArray[np.uint16]) -> int:
-    """Return how many cells of the grid are solid: in the kept bricks, those in `bits`."""
-    whole = np.argwhere(field.slots == SOLID_BRICK)
-    return int(np.bitwise_count(bits).sum()) + int(sides_within(whole, field.shape).prod(axis=1).sum())
+def _count_solid_cells(field: SparseField, bits: NDArray[np.uint16]) -> int:
+    """Count the solid cells of the grid; in the kept bricks, they are given by `bits`."""
+    solid_bricks = np.argwhere(field.slots == SOLID_BRICK)
+    return int(np.bitwise_count(bits).sum()) + int(sides_within(solid_bricks, field.shape).prod(axis=1).sum())
 
 
 def volumes_of(
     field: SparseField, data: Components, *, spacing: tuple[float, ...], threads: int | None = None
 ) -> NDArray[np.float64]:
-    """Return the volume of each component of the data at level 0, (b,) mm³."""
-    found = extract_level(field, spacing=spacing, threads=threads)
-    parts = shells(found.surface, found.rate, threads=threads)
-    component, _ = _component_of(parts, found.surface, field, data, spacing)
-    return _sums(component, parts.volume, data.count)
+    """Measure the volume of each component of the data at level 0, (b,) mm³."""
+    extracted = extract_level(field, spacing=spacing, threads=threads)
+    surface_shells = shells(extracted.surface, extracted.rate, threads=threads)
+    component, _ = _assign_components(surface_shells, extracted.surface, field, data, spacing)
+    return _sums(component, surface_shells.volume, data.count)
 
 
 def at_level(
     field: SparseField, data: Components, *, spacing: tuple[float, ...], level: float, threads: int | None = None
 ) -> Levelled:
-    """Return the surface at one level; the paper's is at 0."""
-    found = extract_level(field, spacing=spacing, level=level, threads=threads)
+    """Extract the surface at one level; the paper's is at 0."""
+    extracted = extract_level(field, spacing=spacing, level=level, threads=threads)
     return Levelled(
         against=field,
         height=level,
-        surface=found.surface,
-        rate=found.rate,
-        signs=found.signs,
+        surface=extracted.surface,
+        rate=extracted.rate,
+        signs=extracted.signs,
         common=level,
         levels=np.full(data.count, level),
         threads=threads,
@@ -208,7 +210,7 @@ def at_volume(
     start: Start | None = None,
     threads: int | None = None,
 ) -> Levelled:
-    """Return the surface at which every component has the volume it has in the data.
+    """Extract the surface on which every component has the volume that it has in the data.
 
     Parameters
     ----------
@@ -219,7 +221,7 @@ def at_volume(
     targets : (b,) float64
         Volume of each component, mm³.
     start : Start, optional
-        What is known already, by `counted`.
+        Known volumes, from `counted`.
 
     Raises
     ------
@@ -232,20 +234,20 @@ def at_volume(
     at_zero = start.at_zero or measured(field, spacing=spacing, level=0.0, threads=threads)
     level = _next_level(0.0, *at_zero, total) if at_zero is not None and at_zero[1] < 0 else 0.0
     best: Tried | None = None
-    for turn in range(ROUNDS):
+    for round_number in range(ROUNDS):
         try:
-            now = start.first if turn == 0 else None
-            now = now or tried(field, level, spacing=spacing, threads=threads)
+            trial = start.first if round_number == 0 else None
+            trial = trial or tried(field, level, spacing=spacing, threads=threads)
         except GeometryError:
             level = (level - LIMIT) / 2  # nothing is left above this level
             if level < -LIMIT + 1e-3:
                 break
             continue
-        if best is None or abs(now.volume - total) < abs(best.volume - total):
-            best = now
-        if abs(now.volume - total) <= TOLERANCE * total or now.slope >= 0:
+        if best is None or abs(trial.volume - total) < abs(best.volume - total):
+            best = trial
+        if abs(trial.volume - total) <= TOLERANCE * total or trial.slope >= 0:
             break
-        level = _next_level(now.level, now.volume, now.slope, total)
+        level = _next_level(trial.level, trial.volume, trial.slope, total)
     if best is None:
         raise GeometryError(
             "nothing is left of the solid after smoothing; use finer voxels, fewer steps or more fidelity"
@@ -262,7 +264,7 @@ def at_volume(
             total=(best.volume, best.slope),
             threads=threads,
         )
-    return _each_component(field, data, spacing=spacing, targets=targets, common=best.level, threads=threads)
+    return _level_components(field, data, spacing=spacing, targets=targets, common=best.level, threads=threads)
 
 
 def _next_level(level: float, volume: float, slope: float, total: float) -> float:
@@ -271,7 +273,7 @@ def _next_level(level: float, volume: float, slope: float, total: float) -> floa
     return min(max(level + change, -LIMIT), LIMIT)
 
 
-def _each_component(
+def _level_components(
     field: SparseField,
     data: Components,
     *,
@@ -280,56 +282,59 @@ def _each_component(
     common: float,
     threads: int,
 ) -> Levelled:
-    """Return the surface at which every sufficiently large component has its own volume."""
-    own = data.cells >= SMALLEST
-    group: NDArray[np.integer] = np.arange(data.count)  # components that run together share a level from then on
+    """Extract the surface on which every sufficiently large component has the right volume."""
+    has_level = data.cells >= SMALLEST
+    group: NDArray[np.integer] = np.arange(data.count)  # components that fuse share a level from then on
     levels = np.full(data.count, common)
     low, high = np.full(data.count, -1.0), np.full(data.count, 1.0)  # levels known to be below and above the right one
     best: Levelled | None = None
-    least = math.inf
+    smallest_error = math.inf
     for _ in range(ROUNDS):
-        shifted = _lowered(field, data, levels, common, threads)
-        found = extract_level(shifted, spacing=spacing, threads=threads)
-        parts = shells(found.surface, found.rate, threads=threads)
-        component, together = _component_of(parts, found.surface, shifted, data, spacing)
-        joined = _joined(group, together)
-        changed = joined != group
-        group = joined
+        shifted = _lower_to_levels(field, data, levels, common, threads)
+        extracted = extract_level(shifted, spacing=spacing, threads=threads)
+        surface_shells = shells(extracted.surface, extracted.rate, threads=threads)
+        shell_component, fused = _assign_components(surface_shells, extracted.surface, shifted, data, spacing)
+        merged_group = _join_groups(group, fused)
+        changed = merged_group != group
+        group = merged_group
         low, high = np.where(changed, -1.0, low), np.where(changed, 1.0, high)
-        volume, slope = (_sums(group, _sums(component, each, data.count)) for each in (parts.volume, parts.slope))
-        wanted = _sums(group, targets)
-        missed = np.abs(volume - wanted)
-        heads = own & (group == np.arange(data.count))
-        if missed[heads].sum() < least:
-            least = float(missed[heads].sum())
+        volume, slope = (
+            _sums(group, _sums(shell_component, measure, data.count))
+            for measure in (surface_shells.volume, surface_shells.slope)
+        )
+        target = _sums(group, targets)
+        error = np.abs(volume - target)
+        heads = has_level & (group == np.arange(data.count))
+        if error[heads].sum() < smallest_error:
+            smallest_error = float(error[heads].sum())
             best = Levelled(
                 against=shifted,
                 height=0.0,
-                surface=found.surface,
-                rate=found.rate,
-                signs=found.signs,
+                surface=extracted.surface,
+                rate=extracted.rate,
+                signs=extracted.signs,
                 common=common,
                 levels=levels,
                 threads=threads,
             )
-        off = own & (missed > COMPONENT_TOLERANCE * wanted)
-        if not off.any():
+        wrong = has_level & (error > COMPONENT_TOLERANCE * target)
+        if not wrong.any():
             break
-        low = np.where(off & (volume > wanted), levels, low)
-        high = np.where(off & (volume < wanted), levels, high)
+        low = np.where(wrong & (volume > target), levels, low)
+        high = np.where(wrong & (volume < target), levels, high)
         with np.errstate(divide="ignore", invalid="ignore"):
-            change = np.clip((wanted - volume) / slope, -BIGGEST_STEP, BIGGEST_STEP)
+            change = np.clip((target - volume) / slope, -BIGGEST_STEP, BIGGEST_STEP)
         stepped = levels + np.where(slope < 0, change, 0)
         stepped = np.where((slope < 0) & (stepped > low) & (stepped < high), stepped, (low + high) / 2)
-        levels = np.where(off, np.clip(stepped, -1 + 1e-6, LIMIT), levels)[group]
+        levels = np.where(wrong, np.clip(stepped, -1 + 1e-6, LIMIT), levels)[group]
     assert best is not None  # there is always a first round
     return best
 
 
-def _lowered(
+def _lower_to_levels(
     field: SparseField, data: Components, levels: NDArray[np.float64], common: float, threads: int
 ) -> SparseField:
-    """Return the field minus the level of the nearest component."""
+    """Subtract from the field the level of the nearest component."""
     out = np.empty_like(field.values)
     in_threads(
         components_kernels.lower_to_levels,
@@ -351,28 +356,28 @@ def _lowered(
 
 
 def _sums(group: NDArray[np.integer], values: NDArray[np.float64], count: int | None = None) -> NDArray[np.float64]:
-    """Return for every group the sum of the values bearing its number; -1 is no group. Without a count, per member."""
-    known = group >= 0
-    sums = np.bincount(group[known], weights=values[known], minlength=count or len(values)).astype(np.float64)
+    """Sum the values in every group, ignoring group -1; with `count`, one sum per group, else one per member."""
+    is_member = group >= 0
+    sums = np.bincount(group[is_member], weights=values[is_member], minlength=count or len(values)).astype(np.float64)
     return sums if count is not None else sums[group]
 
 
-def _joined(group: NDArray[np.integer], together: NDArray[np.integer]) -> NDArray[np.integer]:
-    """Return the groups with the given pairs (n, 2) of members joined, each group named by its first member."""
+def _join_groups(group: NDArray[np.integer], new_pairs: NDArray[np.integer]) -> NDArray[np.integer]:
+    """Join groups by pairs (n, 2) of members; each group is named by its first member."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
-    pairs = np.concatenate([together, np.stack([np.arange(len(group)), group], axis=1)])
+    pairs = np.concatenate([new_pairs, np.stack([np.arange(len(group)), group], axis=1)])
     graph = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(group), len(group)))
     _, number = connected_components(graph, directed=False)
-    _, first = np.unique(number, return_index=True)
-    joined: NDArray[np.integer] = first[number]
-    return joined
+    _, first_member = np.unique(number, return_index=True)
+    merged: NDArray[np.integer] = first_member[number]
+    return merged
 
 
-def component_of_shells(found: Levelled, data: Components, *, spacing: tuple[float, ...]) -> NDArray[np.int64]:
-    """Return for every shell of a surface the component of the data that it lies nearest to; -1 for none."""
-    return _component_of(found.shells, found.surface, found.against, data, spacing)[0]
+def component_of_shells(levelled: Levelled, data: Components, *, spacing: tuple[float, ...]) -> NDArray[np.int64]:
+    """Return for every shell of a surface the nearest component of the data; -1 for none."""
+    return _assign_components(levelled.shells, levelled.surface, levelled.against, data, spacing)[0]
 
 
 def nearest_components(points: NDArray[np.floating], field: SparseField, data: Components) -> NDArray[np.int32]:
@@ -385,20 +390,22 @@ def nearest_components(points: NDArray[np.floating], field: SparseField, data: C
     return label
 
 
-def _component_of(
-    parts: Shells, surface: Surface, field: SparseField, data: Components, spacing: tuple[float, ...]
+def _assign_components(
+    surface_shells: Shells, surface: Surface, field: SparseField, data: Components, spacing: tuple[float, ...]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return for every shell the component of the data nearest to most of its vertices, -1 for none.
 
-    Also return pairs (n, 2) of components large enough for a level of their own that have a shell in common.
+    Also return pairs (n, 2) of components that are large enough for separate levels and share a shell.
     """
     label = nearest_components(surface.vertices / np.array(spacing), field, data)
     count = max(data.count, 1)
-    known = label >= 0
-    key, votes = np.unique(parts.names[known].astype(np.int64) * count + label[known], return_counts=True)
+    has_label = label >= 0
+    key, votes = np.unique(
+        surface_shells.names[has_label].astype(np.int64) * count + label[has_label], return_counts=True
+    )
     shell, component = np.divmod(key, count)
-    order = np.argsort(votes, kind="stable")  # the last one written has the most votes
-    found = np.full(len(parts.volume), -1, dtype=np.int64)
-    found[shell[order]] = component[order]
-    other = (found[shell] != component) & (data.cells[component] >= SMALLEST) & (votes >= SMALLEST)
-    return found, np.stack([component[other], found[shell[other]]], axis=1)
+    order = np.argsort(votes, kind="stable")  # the last write has the most votes
+    nearest = np.full(len(surface_shells.volume), -1, dtype=np.int64)
+    nearest[shell[order]] = component[order]
+    contested = (nearest[shell] != component) & (data.cells[component] >= SMALLEST) & (votes >= SMALLEST)
+    return nearest, np.stack([component[contested], nearest[shell[contested]]], axis=1)

@@ -1,4 +1,4 @@
-"""From a field to a closed surface: marching cubes on a field with a shell of void."""
+"""Extract a closed surface from a field: marching cubes on a field with a shell of void."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 def extract(
     volume: NDArray[np.floating], *, spacing: tuple[float, ...], origin: tuple[float, ...], level: float = 0.0
 ) -> Surface:
-    """Return the surface of {volume > level}, closed and facing outwards: see `isosurface`."""
+    """Extract the surface of {volume > level}, closed and facing outwards: see `isosurface`."""
     from skimage.measure import marching_cubes
 
     nx, ny, nz = volume.shape
@@ -42,7 +42,7 @@ def isosurface(
     origin: tuple[float, ...] = (0.0, 0.0, 0.0),
     level: float = 0.0,
 ) -> trimesh.Trimesh:
-    """Return the closed surface of the solid {volume > level}, normals outwards.
+    """Extract the closed surface of the solid {volume > level}, normals outwards.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""A closed surface in slabs: pieces between planes of a grid, which meet in the same vertices, and what they enclose.
+"""A closed surface in slabs: pieces between planes of a grid that meet in the same vertices, and their volumes.
 
 3  +--------+      planes lie at centres of cells: a surface of marching cubes meets them in vertices on edges of
    | piece  |      the grid, which the pieces on both sides have, bit for bit, if they come from the same numbers
@@ -26,17 +26,17 @@ from infill.surface import Surface
 Floats = NDArray[np.float64]
 Integers = NDArray[np.integer]
 
-AT_ONCE = 30_000  # triangles that are simplified at a time, if they are of several components: so much less memory
+AT_ONCE = 30_000  # triangles simplified at a time, if they belong to several components: this saves memory
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Piece:
-    """What lies of a closed surface between two planes.
+    """The part of a closed surface between two planes.
 
     Parameters
     ----------
     surface : Surface, in cells
-        It is open at the planes; heights are those above the lower one.
+        It is open at the planes; heights are measured from the lower plane.
     high : int
         Height of the upper plane.
     """
@@ -47,20 +47,20 @@ class Piece:
     def rim(self, height: int) -> NDArray[np.intp]:
         """Return the vertices on a plane, in order of x, then of y."""
         points = self.surface.vertices
-        found = np.flatnonzero(points[:, 2] == height)
-        return found[np.lexsort((points[found, 1], points[found, 0]))]
+        vertices = np.flatnonzero(points[:, 2] == height)
+        return vertices[np.lexsort((points[vertices, 1], points[vertices, 0]))]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Shells:
-    """What the components of a piece enclose.
+    """The volumes of the components of a piece.
 
     Parameters
     ----------
     volumes : (N,) float64, cells³
-        As if lids lay on the planes.
+        Volumes of the components closed by lids on the planes.
     low, high : (L,), (H,) int
-        To which component the vertices on the planes belong, in the order of `Piece.rim`.
+        Component of each vertex on the planes, in the order of `Piece.rim`.
     """
 
     volumes: Floats
@@ -69,7 +69,7 @@ class Shells:
 
 
 def piece_between(surface: Surface, low: int, high: int) -> Piece | None:
-    """Return what lies of the surface of a field between two layers of cells, or None if nothing does.
+    """Cut out the part of a surface between two layers of cells; return None if it is empty.
 
     Parameters
     ----------
@@ -79,20 +79,20 @@ def piece_between(surface: Surface, low: int, high: int) -> Piece | None:
     """
     from infill.kernels.measures import within_heights
 
-    kept = np.empty(len(surface.faces), dtype=bool)
-    within_heights(surface.vertices, surface.faces, float(low), float(high), kept)  # a face lies in one cube
-    if not kept.any():
+    inside = np.empty(len(surface.faces), dtype=bool)
+    within_heights(surface.vertices, surface.faces, float(low), float(high), inside)  # a face lies in one cube
+    if not inside.any():
         return None
-    some = with_faces(surface, kept)
-    return Piece(surface=replace(some, vertices=some.vertices - np.array([0, 0, low])), high=high - low)
+    part = with_faces(surface, inside)
+    return Piece(surface=replace(part, vertices=part.vertices - np.array([0, 0, low])), high=high - low)
 
 
 def shells_of(piece: Piece) -> Shells:
-    """Return the components of a piece.
+    """Label and measure the components of a piece.
 
     Notes
     -----
-    Volumes are the flow of (x, 0, 0) through the faces: none of that goes through lids that lie level.
+    Volumes are the flow of (x, 0, 0) through the faces: horizontal lids let none of it through.
     """
     from infill.kernels.measures import sum_flows
 
@@ -103,7 +103,7 @@ def shells_of(piece: Piece) -> Shells:
 
 
 def volumes_of(slabs: Sequence[Shells | None]) -> Floats:
-    """Return what the components of a surface enclose, (N,) cells³, from those of all of its pieces, from the bottom.
+    """Sum the volumes of the components of a surface, (N,) cells³, over all its pieces, from the bottom up.
 
     Raises
     ------
@@ -114,25 +114,25 @@ def volumes_of(slabs: Sequence[Shells | None]) -> Floats:
     from scipy.sparse.csgraph import connected_components
 
     nothing = np.empty(0, dtype=np.int64)
-    every = [Shells(volumes=np.empty(0), low=nothing, high=nothing) if each is None else each for each in slabs]
-    begins = np.cumsum([0, *(len(each.volumes) for each in every)])
+    filled_slabs = [Shells(volumes=np.empty(0), low=nothing, high=nothing) if slab is None else slab for slab in slabs]
+    begins = np.cumsum([0, *(len(slab.volumes) for slab in filled_slabs)])
     below, above = [nothing], [nothing]
-    for (one, other), (begin, then) in zip(pairwise(every), pairwise(begins[:-1]), strict=True):
-        _require_meeting(len(one.high) == len(other.low))
-        below.append(one.high + begin)
-        above.append(other.low + then)
+    for (lower, upper), (begin, next_begin) in zip(pairwise(filled_slabs), pairwise(begins[:-1]), strict=True):
+        _require_meeting(len(lower.high) == len(upper.low))
+        below.append(lower.high + begin)
+        above.append(upper.low + next_begin)
     rows, columns = np.concatenate(below), np.concatenate(above)
     graph = coo_array((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(int(begins[-1]),) * 2)
     count, names = connected_components(graph, directed=False)
     volumes = np.zeros(count)
-    np.add.at(volumes, names, np.concatenate([each.volumes for each in every]))
+    np.add.at(volumes, names, np.concatenate([slab.volumes for slab in filled_slabs]))
     return volumes
 
 
 def stitched(pieces: Iterable[tuple[int, Piece | None]]) -> Surface:
-    """Return the surface of which pieces are given from the bottom, each with the height of its lower plane, in cells.
+    """Join pieces of a surface, given from the bottom, each with the height of its lower plane, in cells.
 
-    Each piece is looked at once.
+    The pieces are read once, one after another.
 
     Raises
     ------
@@ -147,27 +147,28 @@ def stitched(pieces: Iterable[tuple[int, Piece | None]]) -> Surface:
             continue
         points, lower = np.asarray(piece.surface.vertices, dtype=np.float64), piece.rim(0)
         _require_meeting(np.array_equal(points[lower, :2], below))
-        own = np.ones(len(points), dtype=bool)
-        own[lower] = False
-        number = count + np.cumsum(own) - 1
+        is_new = np.ones(len(points), dtype=bool)
+        is_new[lower] = False
+        number = count + np.cumsum(is_new) - 1
         number[lower] = upper
         faces.append(number[piece.surface.faces].astype(np.int32))
-        vertices.append(points[own] + np.array([0, 0, height]))
-        count += int(own.sum())
+        vertices.append(points[is_new] + np.array([0, 0, height]))
+        count += int(is_new.sum())
         rim = piece.rim(piece.high)
         upper, below = number[rim], points[rim, :2]
     _require_meeting(not len(upper))
-    whole = np.concatenate(faces)
-    faces.clear()  # so that no more than twice as much is held at a time
-    return Surface(vertices=np.concatenate(vertices), faces=whole)
+    all_faces = np.concatenate(faces)
+    faces.clear()  # freed, so that the peak is twice the size at most
+    return Surface(vertices=np.concatenate(vertices), faces=all_faces)
 
 
 def _require_meeting(met: bool) -> None:
+    """Raise GeometryError unless two pieces meet."""
     if not met:
         raise GeometryError("two pieces of a surface do not meet in the plane between them; give another voxel")
 
 
 def few_of(piece: Piece, tolerance: float) -> Piece:
-    """Return a piece with fewer triangles, within a tolerance, in cells, of which all vertices on planes are left."""
-    few = [shortened_between(batch, tolerance) for batch in in_batches(piece.surface, AT_ONCE)]
-    return replace(piece, surface=joined(few))
+    """Simplify a piece within a tolerance, in cells; all vertices on planes stay."""
+    simplified = [shortened_between(batch, tolerance) for batch in in_batches(piece.surface, AT_ONCE)]
+    return replace(piece, surface=joined(simplified))

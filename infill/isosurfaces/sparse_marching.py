@@ -1,9 +1,9 @@
-"""The closed surface of a field in bricks: marching cubes where the surface runs, and nowhere else.
+"""Extract the closed surface of a field in bricks: marching cubes only where the surface runs.
 
-It is the same surface as `infill.surface.extract` finds on the whole field: the same vertices, to rounding, and the
-same Euler number. Signs are examined sixteen cells at a time, as bits of one number; only cubes that the surface
-crosses are examined individually. A cube whose signs alone decide its triangles takes them from a table that is
-derived here; the few others are left to scikit-image, so that saddles are decided in only one way (Lewiner 2003).
+The result is the surface that `infill.isosurfaces.marching.extract` finds on the full field: the same vertices, to
+rounding, and the same Euler number. Signs are examined sixteen cells at a time, as bits of one number; only cubes that
+the surface crosses are examined individually. A cube whose signs alone decide its triangles takes them from a table
+that is derived here; scikit-image handles the rest, so that saddles are decided in a single way (Lewiner 2003).
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ LARGE = 2000  # bricks: fewer than this make a surface in a few milliseconds
 
 @dataclass(frozen=True, kw_only=True)
 class Cubes:
-    """What the signs say about a cube, by the number whose bits are its solid corners.
+    """Triangles of a cube by the number whose bits are its solid corners.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ class Cubes:
 
 @dataclass(frozen=True, kw_only=True)
 class Signs:
-    """Which cells are above a level, and where that does not say how the surface runs.
+    """The cells above a level, and the bricks where their signs do not determine the surface.
 
     Parameters
     ----------
@@ -77,9 +77,9 @@ class Level:
     ----------
     surface : Surface, mm
     rate : (V, 3) float32
-        How far each vertex moves when the level rises by one, mm.
+        Movement of each vertex when the level rises by one, mm.
     signs : Signs
-        Of the cells it lies between.
+        Signs of the cells around the surface.
     """
 
     surface: Surface
@@ -95,7 +95,7 @@ def extract_bricks(
     level: float = 0.0,
     threads: int | None = None,
 ) -> Surface:
-    """Return the surface of {phi > level}, closed and facing outwards, mm: see `infill.isosurface`.
+    """Extract the surface of {phi > level}, closed and facing outwards, mm: see `infill.isosurface`.
 
     Raises
     ------
@@ -113,12 +113,12 @@ def extract_level(
     level: float = 0.0,
     threads: int | None = None,
 ) -> Level:
-    """Return what `extract_bricks` returns, and how its vertices move with the level."""
+    """Extract the surface as `extract_bricks` does, with the movement of its vertices as the level rises."""
     threads = thread_count(threads)
     cubes = cube_table()
     values = field.values.reshape(-1, CELLS)
-    numbers, bits = _numbers(level), rows_above(field, field.values, level, threads=threads)
-    places = _crossed(field, bits, threads)
+    limits, bits = _limits(level), rows_above(field, field.values, level, threads=threads)
+    places = _crossed_bricks(field, bits, threads)
     index = np.full(field.slots.shape, -1, dtype=np.int32)
     index[tuple(places.T)] = np.arange(len(places))
     masks = np.empty((len(places), kernels.ROWS, 3), dtype=np.uint16)
@@ -144,7 +144,7 @@ def extract_level(
         values,
         bits,
         field.shape,
-        numbers,
+        limits,
         cubes.counts,
         cubes.triangles,
         cubes.crossings,
@@ -161,8 +161,8 @@ def extract_level(
         threads=threads,
     )
     if len(corners):
-        extra, more = _undecided(corners, edges, lowest, len(vertices))
-        vertices, faces = np.concatenate([vertices, extra]), np.concatenate([faces, more])
+        extra, extra_faces = _triangulate_undecided(corners, edges, lowest, len(vertices))
+        vertices, faces = np.concatenate([vertices, extra]), np.concatenate([faces, extra_faces])
         rate = np.concatenate([rate, np.zeros((len(extra), 3), dtype=np.float32)])
     in_threads(kernels.place, vertices, rate, np.array(spacing), np.array(origin), threads=threads)
     signs = Signs(bits=bits, doubt=places[counts[1:, 2] > 0])
@@ -172,24 +172,24 @@ def extract_level(
 def measured(
     field: SparseField, *, spacing: tuple[float, ...], level: float, threads: int | None = None
 ) -> tuple[float, float] | None:
-    """Return the volume of the surface at a level, mm³, and its slope over the level, without making the surface.
+    """Measure the volume inside the surface at a level, mm³, and its slope over the level, without making the surface.
 
-    None if there is a cube that signs do not decide: then only the surface itself can tell. Also None for a small
-    surface, which is made in no time.
+    Return None if signs do not decide a cube: then the surface itself is needed. Also return None for a small surface,
+    which takes no time to make.
     """
     if len(field.where) < LARGE:
         return None
     count = thread_count(threads)
-    values, numbers, cubes = field.values.reshape(-1, CELLS), _numbers(level), cube_table()
+    values, limits, cubes = field.values.reshape(-1, CELLS), _limits(level), cube_table()
     bits = rows_above(field, field.values, level, threads=count)
     parts = in_threads(
         kernels.measure,
         field.slots,
-        _crossed(field, bits, count),
+        _crossed_bricks(field, bits, count),
         bits,
         values,
         field.shape,
-        numbers,
+        limits,
         cubes.counts,
         cubes.triangles,
         cubes.crossings,
@@ -202,30 +202,31 @@ def measured(
     return None if undecided else (volume * sixth, slope * sixth)
 
 
-def _numbers(level: float) -> tuple[np.float32, np.float32, np.float32]:
+def _limits(level: float) -> tuple[np.float32, np.float32, np.float32]:
+    """Return the level and its tolerances in single precision, as the kernels take them."""
     return np.float32(level), np.float32(CLEARANCE), np.float32(TIE)
 
 
 def rows_above(
     field: SparseField, values: NDArray[Any], level: float, *, threads: int | None = None
 ) -> NDArray[np.uint16]:
-    """Return which cells of the kept bricks have `values` (n, 8, 8, 16) above the level, a number per row: (n, 64)."""
+    """Mark the cells of the kept bricks with `values` (n, 8, 8, 16) above the level, as bits of one number per row."""
     bits = np.empty((len(field.where), kernels.ROWS), dtype=np.uint16)
     flat, limit = values.reshape(-1, CELLS), values.dtype.type(level)
     in_threads(kernels.bits_above, flat, field.where, limit, field.shape, bits, threads=thread_count(threads))
     return bits
 
 
-def _crossed(field: SparseField, bits: NDArray[np.uint16], threads: int | None) -> NDArray[np.int32]:
-    """Return the bricks in which, or between which and the next ones, the surface around the cells in `bits` runs."""
+def _crossed_bricks(field: SparseField, bits: NDArray[np.uint16], threads: int | None) -> NDArray[np.int32]:
+    """Return the bricks in which, or on whose upper sides, the surface around the cells in `bits` runs."""
     places = _near_surface(field.slots, field.shape)
-    found = np.empty(len(places), dtype=bool)
-    in_threads(kernels.differing, field.slots, places, bits, field.shape, found, threads=thread_count(threads))
-    return places[found]
+    differs = np.empty(len(places), dtype=bool)
+    in_threads(kernels.differing, field.slots, places, bits, field.shape, differs, threads=thread_count(threads))
+    return places[differs]
 
 
 def _near_surface(slots: NDArray[np.int32], shape: tuple[int, int, int]) -> NDArray[np.int32]:
-    """Return the bricks in which, or between which and the next ones, the surface may run: (n, 3)."""
+    """Return the bricks in which, or on whose upper sides, the surface may run: (n, 3)."""
     kind = (slots == SOLID_BRICK).astype(np.int8)
     kind[slots >= 0] = 2
     for axis, (count, size) in enumerate(zip(shape, BRICK, strict=True)):
@@ -244,14 +245,18 @@ def _near_surface(slots: NDArray[np.int32], shape: tuple[int, int, int]) -> NDAr
 
 @cache
 def cube_table() -> Cubes:
-    """Return the triangles of every cube whose signs decide them, derived by tracing around its faces."""
+    """Build the triangles of every cube whose signs decide them, by tracing around its faces."""
     triangles, counts = np.zeros((256, 5, 3), dtype=np.int8), np.zeros(256, dtype=np.int8)
     crossings = np.zeros((256, len(EDGES) + 1), dtype=np.int8)
     number = {edge: n for n, edge in enumerate(EDGES)}
     for signs in range(256):
-        crossed = [n for n, (axis, at) in enumerate(EDGES) if (signs >> at ^ signs >> (at | 1 << axis)) & 1]
-        crossings[signs, : len(crossed)], crossings[signs, -1] = crossed, len(crossed)
-        follows: dict[int, int] = {}
+        crossed_edges = [
+            n
+            for n, (axis, start_corner) in enumerate(EDGES)
+            if (signs >> start_corner ^ signs >> (start_corner | 1 << axis)) & 1
+        ]
+        crossings[signs, : len(crossed_edges)], crossings[signs, -1] = crossed_edges, len(crossed_edges)
+        next_edge: dict[int, int] = {}
         decided = signs not in _OPPOSITE
         for axis in range(3):
             for up in range(2):
@@ -260,28 +265,28 @@ def cube_table() -> Cubes:
                 if up:  # always in the same rotational sense, seen from outside
                     ring.reverse()
                 leaving, entering = [], []
-                for here, there in zip(ring, ring[1:] + ring[:1], strict=True):
-                    along = (here ^ there).bit_length() - 1
-                    if signs >> here & 1 and not signs >> there & 1:
-                        leaving.append(number[along, min(here, there)])
-                    elif signs >> there & 1 and not signs >> here & 1:
-                        entering.append(number[along, min(here, there)])
+                for start, end in zip(ring, ring[1:] + ring[:1], strict=True):
+                    direction = (start ^ end).bit_length() - 1
+                    if signs >> start & 1 and not signs >> end & 1:
+                        leaving.append(number[direction, min(start, end)])
+                    elif signs >> end & 1 and not signs >> start & 1:
+                        entering.append(number[direction, min(start, end)])
                 if len(leaving) > 1:
                     decided = False
                 elif leaving:
-                    follows[leaving[0]] = entering[0]
+                    next_edge[leaving[0]] = entering[0]
         if not decided:
             counts[signs] = kernels.UNDECIDED
             continue
-        found: list[tuple[int, int, int]] = []
-        while follows:
-            first = next(iter(follows))
-            loop = [first]
-            while (after := follows.pop(loop[-1])) != first:
-                loop.append(after)
-            found += [(loop[0], loop[n], loop[n + 1]) for n in range(1, len(loop) - 1)]
-        counts[signs] = len(found)
-        triangles[signs, : len(found)] = found or 0
+        traced: list[tuple[int, int, int]] = []
+        while next_edge:
+            first_edge = next(iter(next_edge))
+            loop = [first_edge]
+            while (following := next_edge.pop(loop[-1])) != first_edge:
+                loop.append(following)
+            traced += [(loop[0], loop[n], loop[n + 1]) for n in range(1, len(loop) - 1)]
+        counts[signs] = len(traced)
+        triangles[signs, : len(traced)] = traced or 0
     edges = np.array(EDGES, dtype=np.int8)
     return Cubes(triangles=triangles, counts=counts, crossings=crossings, edges=edges)
 
@@ -294,37 +299,37 @@ def raw_counts() -> NDArray[np.int8]:
     corners = np.where(unsure[:, None] >> np.arange(CORNERS) & 1, np.float32(TIE), np.float32(-1)).astype(np.float32)
     edges = np.tile(np.arange(len(EDGES), dtype=np.int32), (len(unsure), 1))
     for n in range(len(unsure)):
-        inner, faces = _undecided(corners[n : n + 1], edges[n : n + 1], np.zeros((1, 3), dtype=np.int32), 0)
+        inner, faces = _triangulate_undecided(corners[n : n + 1], edges[n : n + 1], np.zeros((1, 3), dtype=np.int32), 0)
         counts[unsure[n]] = len(faces) - 2 * len(inner)
     return counts
 
 
 def euler_number_of_bits(field: SparseField, bits: NDArray[np.uint16], *, threads: int | None = None) -> int:
     """Return the Euler number of the surface of the bricks if the cells in `bits` were +1 and all others -1."""
-    return _euler_number(_counts(field, bits, _crossed(field, bits, threads), raw_counts(), threads))
+    return _euler_number(_count_per_brick(field, bits, _crossed_bricks(field, bits, threads), raw_counts(), threads))
 
 
 def doubt_and_euler_number(
     field: SparseField, bits: NDArray[np.uint16], *, threads: int | None = None
 ) -> tuple[NDArray[np.int32], int | None]:
-    """Return the bricks (n, 3) with cubes whose triangles the signs in `bits` do not decide, and the Euler number.
+    """Return the bricks (n, 3) with cubes that the signs in `bits` do not decide, and the Euler number.
 
-    That is known if there are no such bricks.
+    The Euler number is None if there is such a brick.
     """
-    places = _crossed(field, bits, threads)
-    counts = _counts(field, bits, places, cube_table().counts, threads)
+    places = _crossed_bricks(field, bits, threads)
+    counts = _count_per_brick(field, bits, places, cube_table().counts, threads)
     doubt = places[counts[:, 2] > 0]
     return doubt, None if len(doubt) else _euler_number(counts)
 
 
-def _counts(
+def _count_per_brick(
     field: SparseField,
     bits: NDArray[np.uint16],
     places: NDArray[np.int32],
     table: NDArray[np.int8],
     threads: int | None,
 ) -> NDArray[np.int64]:
-    """Return how many vertices, triangles and undecided cubes each brick has, (n, 3)."""
+    """Count the vertices, triangles and undecided cubes of each brick, (n, 3)."""
     masks = np.empty((len(places), kernels.ROWS, 3), dtype=np.uint16)
     starts = np.empty(masks.shape, dtype=np.int16)
     counts = np.zeros((len(places), 3), dtype=np.int64)
@@ -334,43 +339,44 @@ def _counts(
 
 
 def _euler_number(counts: NDArray[np.int64]) -> int:
+    """Return the Euler number from the counts of all bricks."""
     vertices, faces, _ = counts.sum(axis=0)
     return int(vertices - faces // 2)
 
 
-# Two opposite corners of the whole cube, solid in void or void in solid: either joined by a tube or not.
+# Two opposite corners of a cube, solid in void or void in solid: either joined by a tube or not.
 _OPPOSITE = {1 << c | 1 << 7 - c for c in range(4)} | {255 ^ (1 << c | 1 << 7 - c) for c in range(4)}
 
 
-def _undecided(
+def _triangulate_undecided(
     corners: NDArray[np.float32], edges: NDArray[np.int32], lowest: NDArray[np.int32], count: int
 ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-    """Return vertices inside cubes, and the triangles of cubes that signs do not decide, by scikit-image.
+    """Triangulate the cubes that signs do not decide, by scikit-image; return vertices inside cubes, and triangles.
 
-    Some at a time: it has places in single precision, in which a vertex far along a row is on no edge any more.
+    This is done in batches: scikit-image uses single precision, in which a vertex far along a row leaves its edge.
     """
     points, faces = [np.empty((0, 3))], [np.empty((0, 3), dtype=np.int32)]
     for low in range(0, len(corners), IN_A_ROW):
-        some = slice(low, low + IN_A_ROW)
-        inner, found = _undecided_row(corners[some], edges[some], lowest[some], count)
+        batch = slice(low, low + IN_A_ROW)
+        inner, batch_faces = _triangulate_row(corners[batch], edges[batch], lowest[batch], count)
         points.append(inner)
-        faces.append(found)
+        faces.append(batch_faces)
         count += len(inner)
     return np.concatenate(points), np.concatenate(faces)
 
 
-def _undecided_row(
+def _triangulate_row(
     corners: NDArray[np.float32], edges: NDArray[np.int32], lowest: NDArray[np.int32], count: int
 ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-    """Return the same for a few cubes.
+    """Triangulate a few undecided cubes.
 
-    They are lined up in a row, apart from each other, their axes permuted as in `infill.surface.extract`.
+    They are lined up in a row, apart from each other, their axes permuted as in `infill.isosurfaces.marching.extract`.
     """
     from skimage.measure import marching_cubes
 
-    many = len(corners)
-    row = corners.reshape(many, 2, 2, 2)  # cube, k, j, i
-    field = np.ascontiguousarray(row.transpose(1, 3, 0, 2).reshape(2, 2, 2 * many))  # k, i, cube and j
+    cube_count = len(corners)
+    row = corners.reshape(cube_count, 2, 2, 2)  # cube, k, j, i
+    field = np.ascontiguousarray(row.transpose(1, 3, 0, 2).reshape(2, 2, 2 * cube_count))  # k, i, cube and j
     mask = np.zeros(field.shape, dtype=bool)
     mask[:, :, 1::2] = True
     points, faces, _, _ = marching_cubes(field, 0.0, gradient_direction="ascent", mask=mask)  # type: ignore[no-untyped-call]

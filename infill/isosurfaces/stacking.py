@@ -1,4 +1,4 @@
-"""From a layer to a solid: stack it with caps, or take the shortcut for equal layers."""
+"""Turn a layer into a solid: stack it with caps, or take the shortcut for equal layers."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def stack(layer: ArrayLike, layers: int) -> NDArray[np.floating]:
-    """Return `layers` copies of a layer with a cap of void below and above: (nx, ny, layers + 2).
+    """Stack `layers` copies of a layer, with a cap of void below and above: (nx, ny, layers + 2).
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def stack(layer: ArrayLike, layers: int) -> NDArray[np.floating]:
     >>> stack(np.ones((2, 2)), 3)[0, 0].tolist()
     [-1.0, 1.0, 1.0, 1.0, -1.0]
     """
-    plane = _plane(layer)
+    plane = _check_layer(layer)
     volume = np.full((*plane.shape, whole("the number of layers", layers, 1) + 2), VOID, dtype=plane.dtype)
     volume[:, :, 1:-1] = plane[:, :, None]
     return volume
@@ -49,7 +49,7 @@ def extrude(
     layer_height: float | None = None,
     origin: tuple[float, float, float] = (0.0, 0.0, 0.0),
 ) -> trimesh.Trimesh:
-    """Return the surface of the stacked layer, at the same cost for any height.
+    """Extract the surface of a stacked layer, at the same cost for any height.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ def extrude(
     600.0
     """
     sizes = spacing_of(spacing, 2)
-    surface = extruded(_plane(layer), height, sizes, layer_height=layer_height, origin=origin)
+    surface = extruded(_check_layer(layer), height, sizes, layer_height=layer_height, origin=origin)
     if not surface.closed:
         raise GeometryError("the surface is not closed; smooth the layer a little, or use finer cells")
     return surface.to_trimesh()
@@ -97,7 +97,7 @@ def extruded(
     layer_height: float | None = None,
     origin: tuple[float, ...] = (0.0, 0.0, 0.0),
 ) -> Surface:
-    """Return what `extrude` returns, as plain arrays, without the check that it is closed."""
+    """Extract the surface of a stacked layer as `extrude` does, without the check that it is closed."""
     height = length("height", height)
     layers = layer_count(height, min(spacing) if layer_height is None else length("layer height", layer_height))
     thickness = height / layers
@@ -112,7 +112,7 @@ def extruded(
 
 
 def layer_count(height: float, layer_height: float) -> int:
-    """Return how many whole layers of about `layer_height` make up `height`.
+    """Return the number of whole layers of about `layer_height` that make up `height`.
 
     >>> layer_count(6.0, 0.15)
     40
@@ -120,7 +120,8 @@ def layer_count(height: float, layer_height: float) -> int:
     return max(1, round(height / layer_height))
 
 
-def _plane(layer: ArrayLike) -> NDArray[np.floating]:
+def _check_layer(layer: ArrayLike) -> NDArray[np.floating]:
+    """Check a layer; return it as floating-point numbers."""
     plane = np.asarray(layer)
     if plane.ndim != 2 or plane.size == 0:
         raise ParameterError(f"the layer has the shape {plane.shape}; give two axes [x, y] with cells")

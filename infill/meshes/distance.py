@@ -1,4 +1,4 @@
-"""How far points lie from a surface, exactly: triangles are found by a tree of boxes."""
+"""Exact distances of points from a surface; a tree of boxes finds the triangles."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ class Tree:
     corners : (F, 3, 3) float64, mm
         Triangles, `LEAF` to a leaf.
     low, high : (2 L - 1, 3) float64, mm
-        Boxes around what a branch holds, the root first; the children of box n are 2 n + 1 and 2 n + 2.
+        Box around each branch, the root first; the children of box n are 2 n + 1 and 2 n + 2.
     order : (F,) int64
-        Which face of the surface each triangle is.
+        The face of the surface that each triangle is.
     """
 
     corners: Floats
@@ -37,31 +37,37 @@ class Tree:
 
     @classmethod
     def of(cls, surface: Surface) -> Tree:
-        """Return the tree of a surface with at least one triangle.
+        """Build the tree of a surface with at least one triangle.
 
         Notes
         -----
         Neighbours on the curve of Morton (1966), which interleaves the bits of the coordinates, are near in space.
         """
         vertices, faces = np.asarray(surface.vertices, dtype=np.float64), surface.faces
-        middles = vertices[faces[:, 0]]
-        middles += vertices[faces[:, 1]]
-        middles += vertices[faces[:, 2]]
-        middles /= 3
-        order = along_curve(middles)
-        del middles  # whatever is as long as the faces adds to what is held at a time
+        centroids = vertices[faces[:, 0]]
+        centroids += vertices[faces[:, 1]]
+        centroids += vertices[faces[:, 2]]
+        centroids /= 3
+        order = along_curve(centroids)
+        del centroids  # freed at once: an array as long as the faces adds to the peak of memory
         corners = vertices[faces[order]]
         leaves = 1 << max(0, int(np.ceil(np.log2(-(-len(corners) // LEAF)))))
         low, high = np.full((2 * leaves - 1, 3), np.inf), np.full((2 * leaves - 1, 3), -np.inf)
-        for box, least in ((low, np.minimum), (high, np.maximum)):
-            full, first = len(corners) // LEAF, leaves - 1
-            box[first : first + full] = least.reduce(corners[: full * LEAF].reshape(full, 3 * LEAF, 3), axis=1)
-            if full * LEAF < len(corners):
-                box[first + full] = least.reduce(corners[full * LEAF :].reshape(-1, 3), axis=0)
-            while first:
-                above = first // 2
-                box[above:first] = least(box[first : 2 * first + 1 : 2], box[first + 1 : 2 * first + 1 : 2])
-                first = above
+        for box, reduce_boxes in ((low, np.minimum), (high, np.maximum)):
+            full_leaves, level_start = len(corners) // LEAF, leaves - 1
+            box[level_start : level_start + full_leaves] = reduce_boxes.reduce(
+                corners[: full_leaves * LEAF].reshape(full_leaves, 3 * LEAF, 3), axis=1
+            )
+            if full_leaves * LEAF < len(corners):
+                box[level_start + full_leaves] = reduce_boxes.reduce(
+                    corners[full_leaves * LEAF :].reshape(-1, 3), axis=0
+                )
+            while level_start:
+                parent_start = level_start // 2
+                box[parent_start:level_start] = reduce_boxes(
+                    box[level_start : 2 * level_start + 1 : 2], box[level_start + 1 : 2 * level_start + 1 : 2]
+                )
+                level_start = parent_start
         return cls(corners=corners, low=low, high=high, order=order)
 
     def nearest(
@@ -69,25 +75,25 @@ class Tree:
     ) -> tuple[Floats, NDArray[np.int64]]:
         """Return the distance of each point (N, 3) from the nearest triangle, (N,) mm, and the face it belongs to.
 
-        Of triangles that are no further away than `enough`, mm, any may be taken, which is several times faster.
+        Any triangle within `enough`, mm, may be taken for the nearest, which is several times faster.
         """
         from infill.kernels.distances import nearest_triangles
 
-        squared, face = np.empty(len(points)), np.empty(len(points), dtype=np.int64)
-        given = np.ascontiguousarray(points, dtype=np.float64)
+        squared, triangle = np.empty(len(points)), np.empty(len(points), dtype=np.int64)
+        queries = np.ascontiguousarray(points, dtype=np.float64)
         in_threads(
             nearest_triangles,
-            given,
+            queries,
             self.corners,
             self.low,
             self.high,
             LEAF,
             enough**2,
             squared,
-            face,
+            triangle,
             threads=thread_count(threads),
         )
-        return np.sqrt(squared), self.order[face]
+        return np.sqrt(squared), self.order[triangle]
 
 
 def distances(points: NDArray[np.floating], surface: Surface, *, threads: int | None = None) -> Floats:
@@ -109,26 +115,26 @@ def distances(points: NDArray[np.floating], surface: Surface, *, threads: int | 
 
 
 def along_curve(points: Floats) -> NDArray[np.int64]:
-    """Return the order of points (N, 3) on the curve of Morton (1966): those that follow one another are mostly near.
+    """Return the order of points (N, 3) along the curve of Morton (1966), where neighbours are mostly close in space.
 
     >>> along_curve(np.array([[0.0, 0, 0], [9, 9, 9], [0, 0, 1]])).tolist()
     [0, 2, 1]
     """
-    places = np.arange(len(points), dtype=np.uint64)
-    # Sorting numbers is several times as fast as sorting places by them; places of equal numbers stay in order.
-    found = np.sort(_interleaved(points) << np.uint64(PLACES) | places)
-    return (found & np.uint64((1 << PLACES) - 1)).astype(np.int64)
+    indices = np.arange(len(points), dtype=np.uint64)
+    # Sorting numbers is several times as fast as sorting indices by them; indices of equal numbers stay in order.
+    codes = np.sort(_morton_codes(points) << np.uint64(PLACES) | indices)
+    return (codes & np.uint64((1 << PLACES) - 1)).astype(np.int64)
 
 
-def _interleaved(points: Floats) -> NDArray[np.uint64]:
-    """Return the bits of the coordinates, x, y and z in turn: the place of points on the curve of Morton."""
+def _morton_codes(points: Floats) -> NDArray[np.uint64]:
+    """Interleave the bits of x, y and z; return the position of each point on the curve of Morton."""
     low = points.min(axis=0)
     side = max(float(np.ptp(points, axis=0).max()), 1e-300)
-    spread = np.zeros(2**BITS, dtype=np.uint64)
+    spaced_bits = np.zeros(2**BITS, dtype=np.uint64)
     for bit in range(BITS):
-        spread |= ((np.arange(2**BITS, dtype=np.uint64) >> np.uint64(bit)) & np.uint64(1)) << np.uint64(3 * bit)
+        spaced_bits |= ((np.arange(2**BITS, dtype=np.uint64) >> np.uint64(bit)) & np.uint64(1)) << np.uint64(3 * bit)
     code = np.zeros(len(points), dtype=np.uint64)
     for axis in range(3):
         cells = ((points[:, axis] - low[axis]) * ((2**BITS - 1) / side)).astype(np.int16)
-        code |= spread[cells] << np.uint64(axis)
+        code |= spaced_bits[cells] << np.uint64(axis)
     return code

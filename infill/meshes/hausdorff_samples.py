@@ -1,4 +1,4 @@
-"""Places at which two surfaces are measured against each other: dense enough to be sure, and no denser."""
+"""Sample points at which two surfaces are measured against each other: dense enough to be sure, and no denser."""
 
 from __future__ import annotations
 
@@ -14,31 +14,31 @@ from infill.surface import Surface
 Floats = NDArray[np.float64]
 Whole = NDArray[np.int64]
 
-FINER, WIDE = 0.2, 2.0  # sides of what is given, and tolerances: how far places on edges are from one another
-# Sides of what is given: how far places on it are apart at most, and places on what was found, whose triangles
-# are larger: closer if the tolerance is a large part of that.
+FINER, WIDE = 0.2, 2.0  # sides of the original's triangles, and tolerances: spacing of samples on edges
+# In sides of the original's triangles: largest spacing of samples on the original, and on the result, whose triangles
+# are larger; closer if the tolerance is a large part of a side.
 GIVEN, FOUND, LARGE = 0.3, (0.7, 0.35), 0.3
-# Of the tolerance: distances that do not matter, and how close places come to one another.
+# Of the tolerance: distances that do not matter, and the smallest spacing of samples.
 SURE, SMALL = 0.6, 0.5
-CLEAR = 2.5  # tolerances around a face in which nothing but what is level with it may lie
-ROOM = 1 << 18  # places for which there is room at a time
+CLEAR = 2.5  # tolerances around a face, within which only faces level with it may lie
+ROOM = 1 << 18  # samples that the arrays hold at a time
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Watched:
-    """Places on a surface, and how far each lies from another surface.
+    """Samples of the original surface, and their distances from the result.
 
     Parameters
     ----------
     found : Surface, mm
-        The other one.
+        The result.
     points : (N, 3) float64, mm
     owner : (N,) int64
-        The face of the other surface that each is near.
+        The face of the result near each sample.
     away : (N,) float64, mm
-        Its distance from that face, which may stand for the nearest if it is within the tolerance.
+        The distance from that face, which may stand for the nearest one if it is within the tolerance.
     unsure : (M,) int64
-        Faces of the other surface that were changed since.
+        Faces of the result that have changed since.
     """
 
     found: Surface
@@ -47,104 +47,104 @@ class Watched:
     away: Floats
     unsure: Whole
 
-    def again(self, found: Surface, tolerance: float, threads: int | None) -> Watched:
-        """Return the same places, those near faces that were changed measured again; `found` has those and new ones."""
-        other = np.zeros(len(found.faces), dtype=bool)
-        other[self.unsure] = True
-        these = np.flatnonzero(other[self.owner])
+    def again(self, result: Surface, tolerance: float, threads: int | None) -> Watched:
+        """Measure the samples near changed faces of `result` once more; return all samples."""
+        changed = np.zeros(len(result.faces), dtype=bool)
+        changed[self.unsure] = True
+        stale = np.flatnonzero(changed[self.owner])
         owner, away = self.owner.copy(), self.away.copy()
-        # Most of them are near the changed faces: those alone make a small tree.
-        part = Tree.of(replace(found, faces=found.faces[self.unsure]))
-        away[these], near = part.nearest(self.points[these], enough=tolerance, threads=threads)
-        owner[these] = self.unsure[near]
-        these = these[away[these] > tolerance]
-        if len(these):
-            away[these], owner[these] = Tree.of(found).nearest(self.points[these], threads=threads)
-        return replace(self, found=found, owner=owner, away=away)
+        # Most samples are near the changed faces: those alone make a small tree.
+        changed_tree = Tree.of(replace(result, faces=result.faces[self.unsure]))
+        away[stale], part_face = changed_tree.nearest(self.points[stale], enough=tolerance, threads=threads)
+        owner[stale] = self.unsure[part_face]
+        stale = stale[away[stale] > tolerance]
+        if len(stale):
+            away[stale], owner[stale] = Tree.of(result).nearest(self.points[stale], threads=threads)
+        return replace(self, found=result, owner=owner, away=away)
 
     def handed_to(
-        self, found: Surface, given: Surface, side: float, tolerance: float, threads: int | None = None
+        self, result: Surface, original: Surface, side: float, tolerance: float, threads: int | None = None
     ) -> Watched:
-        """Return places for another surface that has many of the same faces: those near others are looked for anew."""
-        known = same_faces(found, self.found)
-        known[np.isin(known, self.unsure)] = -1
-        now = np.full(len(self.found.faces), -1)
-        now[known[known >= 0]] = np.flatnonzero(known >= 0)
-        owner, away, tree = now[self.owner], self.away.copy(), Tree.of(found)
+        """Move the samples to another surface that shares many faces; measure those near the other faces once more."""
+        same_face = same_faces(result, self.found)
+        same_face[np.isin(same_face, self.unsure)] = -1
+        new_face = np.full(len(self.found.faces), -1)
+        new_face[same_face[same_face >= 0]] = np.flatnonzero(same_face >= 0)
+        owner, distance, tree = new_face[self.owner], self.away.copy(), Tree.of(result)
         lost = owner < 0
-        away[lost], owner[lost] = tree.nearest(self.points[lost], enough=tolerance, threads=threads)
-        count = len(given.vertices)
-        near = replace(given, faces=given.faces[lost[:count][given.faces].any(axis=1)])
-        more = between(tree, near, owner[:count], away[:count], GIVEN * side, tolerance, threads=threads)
+        distance[lost], owner[lost] = tree.nearest(self.points[lost], enough=tolerance, threads=threads)
+        count = len(original.vertices)
+        open_part = replace(original, faces=original.faces[lost[:count][original.faces].any(axis=1)])
+        added = between(tree, open_part, owner[:count], distance[:count], GIVEN * side, tolerance, threads=threads)
         return Watched(
-            found=found,
-            points=np.concatenate([self.points, more.points]),
-            owner=np.concatenate([owner, more.owner]),
-            away=np.concatenate([away, more.away]),
-            unsure=np.flatnonzero(known < 0),
+            found=result,
+            points=np.concatenate([self.points, added.points]),
+            owner=np.concatenate([owner, added.owner]),
+            away=np.concatenate([distance, added.away]),
+            unsure=np.flatnonzero(same_face < 0),
         )
 
 
-def same_faces(one: Surface, other: Surface) -> Whole:
-    """Return for each face of a surface which face of another has the same corners, (F,), or -1.
+def same_faces(surface: Surface, reference: Surface) -> Whole:
+    """Find for each face of a surface the face of another with the same corners: (F,), -1 for none.
 
     >>> square = Surface(vertices=np.eye(3), faces=np.array([[0, 1, 2]]))
     >>> turned = Surface(vertices=np.eye(3)[[2, 0, 1]], faces=np.array([[1, 2, 0], [0, 2, 1]]))
     >>> same_faces(turned, square).tolist()
     [0, 0]
     """
-    _, name = np.unique(np.concatenate([one.vertices, other.vertices]), axis=0, return_inverse=True)
+    _, name = np.unique(np.concatenate([surface.vertices, reference.vertices]), axis=0, return_inverse=True)
     name = name.reshape(-1).astype(np.int64)
-    corners = np.sort(np.concatenate([name[one.faces], name[len(one.vertices) + other.faces]]), axis=1)
+    corners = np.sort(np.concatenate([name[surface.faces], name[len(surface.vertices) + reference.faces]]), axis=1)
     _, pair = np.unique(corners[:, 0] * len(name) + corners[:, 1], return_inverse=True)
     _, key = np.unique(pair.reshape(-1).astype(np.int64) * len(name) + corners[:, 2], return_inverse=True)
     key = key.reshape(-1)
-    found = np.full(int(key.max(initial=0)) + 1, -1)
-    found[key[len(one.faces) :]] = np.arange(len(other.faces))
-    return found[key[: len(one.faces)]]
+    face_of_key = np.full(int(key.max(initial=0)) + 1, -1)
+    face_of_key[key[len(surface.faces) :]] = np.arange(len(reference.faces))
+    return face_of_key[key[: len(surface.faces)]]
 
 
 def watched(
-    tree: Tree, found: Surface, given: Surface, side: float, tolerance: float, *, threads: int | None = None
+    tree: Tree, result: Surface, original: Surface, side: float, tolerance: float, *, threads: int | None = None
 ) -> Watched:
-    """Return places on what was given: its vertices first, and more where those are near different faces.
+    """Sample the original surface: its vertices first, then points between those near different faces.
 
     Parameters
     ----------
-    tree, found : Tree, Surface
-        What they are measured from.
-    given : Surface, mm
+    tree, result : Tree, Surface
+        The result, from which samples are measured.
+    original : Surface, mm
     side : float, mm
-        Of the triangles of what was given.
+        Of the triangles of the original.
     tolerance : float, mm
     threads : int, optional
         See `infill.kernels.threads.thread_count`.
     """
-    vertices = np.asarray(given.vertices, dtype=np.float64)
-    away, owner = tree.nearest(vertices, enough=tolerance, threads=threads)
-    more = between(tree, given, owner, away, GIVEN * side, tolerance, threads=threads)
+    vertices = np.asarray(original.vertices, dtype=np.float64)
+    distance, owner = tree.nearest(vertices, enough=tolerance, threads=threads)
+    between_samples = between(tree, original, owner, distance, GIVEN * side, tolerance, threads=threads)
     return Watched(
-        found=found,
-        points=np.concatenate([vertices, more.points]),
-        owner=np.concatenate([owner, more.owner]),
-        away=np.concatenate([away, more.away]),
-        unsure=np.arange(len(found.faces)),
+        found=result,
+        points=np.concatenate([vertices, between_samples.points]),
+        owner=np.concatenate([owner, between_samples.owner]),
+        away=np.concatenate([distance, between_samples.away]),
+        unsure=np.arange(len(result.faces)),
     )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Places:
-    """Places on the faces of one surface, and how far each lies from another.
+    """Samples on the faces of one surface, and their distances from another.
 
     Parameters
     ----------
     points : (N, 3) float64, mm
     face : (N,) int64
-        On which face each lies.
+        The face on which each sample lies.
     owner : (N,) int64
-        The face of the other surface that it is near.
+        The face of the other surface near it.
     away : (N,) float64, mm
-        Its distance from that.
+        The distance from that face.
     """
 
     points: Floats
@@ -157,27 +157,27 @@ def between(
     tree: Tree,
     surface: Surface,
     owner: Whole,
-    away: Floats,
+    distance: Floats,
     apart: float,
     tolerance: float,
     *,
     all_places: bool = True,
     threads: int | None = None,
 ) -> Places:
-    """Return places between the vertices of a surface: see `infill.kernels.covering`.
+    """Sample a surface between its vertices: see `infill.kernels.covering`.
 
     Parameters
     ----------
     tree : Tree
         Of the other surface.
     surface : Surface, mm
-    owner, away : (V,) int64, (V,) float64
-        For each vertex, the face of the other surface that it is near, and its distance from that, mm.
+    owner, distance : (V,) int64, (V,) float64
+        For each vertex, the face of the other surface near it, and the distance from that face, mm.
     apart : float, mm
-        How far places are from one another at most; they are closer where what they are near is nearly too far away.
+        Largest spacing of samples; they are closer where the other surface is nearly too far away.
     tolerance : float, mm
     all_places : bool
-        Whether to return places that are within the tolerance as well.
+        Whether to return samples within the tolerance as well.
     threads : int, optional
         See `infill.kernels.threads.thread_count`.
     """
@@ -186,40 +186,40 @@ def between(
     threads = thread_count(threads)
     place = np.empty(len(tree.order), dtype=np.int64)
     place[tree.order] = np.arange(len(tree.order))
-    mesh = np.ascontiguousarray(surface.vertices, dtype=np.float64), surface.faces, place[owner], away**2
-    other = tree.corners, tree.low, tree.high, LEAF
-    kept = -1.0 if all_places else tolerance**2
+    source = np.ascontiguousarray(surface.vertices, dtype=np.float64), surface.faces, place[owner], distance**2
+    target = tree.corners, tree.low, tree.high, LEAF
+    threshold = -1.0 if all_places else tolerance**2
     sizes = tolerance**2, (SURE * tolerance) ** 2, apart, min(apart, SMALL * tolerance)
-    begin, room = np.arange(threads), ROOM
-    parts = [tuple(each[0] for each in _room(1, 0))]
+    begin, capacity = np.arange(threads), ROOM
+    parts = [tuple(array[0] for array in _sample_arrays(1, 0))]
     while (begin < len(surface.faces)).any():
-        filled = _room(threads, room)
-        before = begin.copy()
-        counts = in_threads(cover, *mesh, *other, *sizes, kept, begin, *filled, threads=threads)
-        parts += [tuple(each[n, : counts[n]].copy() for each in filled) for n in range(threads)]
-        if ((begin == before) & (before < len(surface.faces))).any():  # the places of one face do not fit
-            room *= 2
-    points, face, near, off = (np.concatenate(each) for each in zip(*parts, strict=True))
-    return Places(points=points, face=face.astype(np.int64), owner=tree.order[near], away=np.sqrt(off))
+        buffers = _sample_arrays(threads, capacity)
+        previous = begin.copy()
+        counts = in_threads(cover, *source, *target, *sizes, threshold, begin, *buffers, threads=threads)
+        parts += [tuple(column[n, : counts[n]].copy() for column in buffers) for n in range(threads)]
+        if ((begin == previous) & (previous < len(surface.faces))).any():  # the samples of one face do not fit
+            capacity *= 2
+    points, face, triangle, squared = (np.concatenate(array) for array in zip(*parts, strict=True))
+    return Places(points=points, face=face.astype(np.int64), owner=tree.order[triangle], away=np.sqrt(squared))
 
 
-def _room(threads: int, room: int) -> tuple[Floats, NDArray[np.int32], Whole, Floats]:
-    """Return arrays for what `infill.kernels.covering.cover` finds."""
-    shape = threads, room
+def _sample_arrays(threads: int, capacity: int) -> tuple[Floats, NDArray[np.int32], Whole, Floats]:
+    """Allocate the arrays that `infill.kernels.covering.cover` fills."""
+    shape = threads, capacity
     return np.empty((*shape, 3)), np.empty(shape, dtype=np.int32), np.empty(shape, dtype=np.int64), np.empty(shape)
 
 
 def level_faces(surface: Surface, tolerance: float, *, threads: int | None = None) -> NDArray[np.bool_]:
-    """Return which faces (F,) have nothing near that does not face nearly where they face.
+    """Mark the faces (F,) around which all nearby faces point nearly the same way.
 
-    If all of another surface lies within the tolerance, mm, of this one, such a face lies within it of the other: this
-    surface is a single sheet there, and the other, which can only pass its normals close to it, has to pass them.
+    If all of another surface lies within the tolerance, mm, of this one, then such a face lies within the tolerance of
+    the other: this surface is a single sheet there, and the other surface has to cross its normals close to it.
 
     Parameters
     ----------
     surface : Surface, closed, mm
     tolerance : float, mm
-        Nothing within `CLEAR` times this may face elsewhere, by more than 30 degrees.
+        No face within `CLEAR` times this may point elsewhere by more than 30 degrees.
     threads : int, optional
         See `infill.kernels.threads.thread_count`.
 
@@ -235,19 +235,19 @@ def level_faces(surface: Surface, tolerance: float, *, threads: int | None = Non
     from infill.kernels.covering import level_around
 
     tree, level = Tree.of(surface), np.empty(len(surface.faces), dtype=bool)
-    across = np.cross(tree.corners[:, 1] - tree.corners[:, 0], tree.corners[:, 2] - tree.corners[:, 0])
-    length = np.linalg.norm(across, axis=1, keepdims=True)
-    normals = np.divide(across, length, out=np.zeros_like(across), where=length > 0)
-    given = tree.corners, normals, tree.low, tree.high, LEAF, CLEAR * tolerance
-    in_threads(level_around, *given, level, threads=thread_count(threads))
-    found = np.empty_like(level)
-    found[tree.order] = level
-    return found
+    doubled_normals = np.cross(tree.corners[:, 1] - tree.corners[:, 0], tree.corners[:, 2] - tree.corners[:, 0])
+    length = np.linalg.norm(doubled_normals, axis=1, keepdims=True)
+    normals = np.divide(doubled_normals, length, out=np.zeros_like(doubled_normals), where=length > 0)
+    arguments = tree.corners, normals, tree.low, tree.high, LEAF, CLEAR * tolerance
+    in_threads(level_around, *arguments, level, threads=thread_count(threads))
+    by_face = np.empty_like(level)
+    by_face[tree.order] = level
+    return by_face
 
 
 def looked_at(
     tree: Tree,
-    found: Surface,
+    result: Surface,
     faces: Whole,
     side: float,
     tolerance: float,
@@ -255,41 +255,40 @@ def looked_at(
     sure: NDArray[np.bool_] | None = None,
     threads: int | None = None,
 ) -> Places:
-    """Return places on some faces of a surface that was found which are too far from what was given.
+    """Sample some faces of a result; return the samples that lie too far from the original.
 
-    Between its edges it is flat, and few places are enough; along its edges they are close together. Of a whole
-    surface, each edge is looked at once.
-
+    A face is flat between its edges, so that few samples are enough there; along the edges they are close together.
+    If all faces are given, each edge is sampled once.
     """
-    part = replace(found, faces=found.faces[faces])
-    vertices = np.asarray(found.vertices, dtype=np.float64)
-    used, first = np.unique(part.faces, return_index=True)
-    owner, away = np.zeros(len(vertices), dtype=np.int64), np.zeros(len(vertices))
-    away[used], owner[used] = tree.nearest(vertices[used], enough=tolerance, threads=threads)
-    those = np.arange(len(faces)) if sure is None else np.flatnonzero(~sure)
-    apart, flat = FOUND[tolerance > LARGE * side] * side, replace(part, faces=part.faces[those])
-    inside = between(tree, flat, owner, away, apart, tolerance, all_places=False, threads=threads)
-    points, face = _along_edges(part, min(FINER * side, WIDE * tolerance), whole=len(faces) == len(found.faces))
-    off, nearest = tree.nearest(points, enough=tolerance, threads=threads)
-    far, corner = np.flatnonzero(off > tolerance), np.flatnonzero(away[used] > tolerance)
+    part = replace(result, faces=result.faces[faces])
+    vertices = np.asarray(result.vertices, dtype=np.float64)
+    used, corner_index = np.unique(part.faces, return_index=True)
+    owner, distance = np.zeros(len(vertices), dtype=np.int64), np.zeros(len(vertices))
+    distance[used], owner[used] = tree.nearest(vertices[used], enough=tolerance, threads=threads)
+    unsure = np.arange(len(faces)) if sure is None else np.flatnonzero(~sure)
+    apart, unsure_part = FOUND[tolerance > LARGE * side] * side, replace(part, faces=part.faces[unsure])
+    interior = between(tree, unsure_part, owner, distance, apart, tolerance, all_places=False, threads=threads)
+    points, face = _sample_edges(part, min(FINER * side, WIDE * tolerance), all_faces=len(faces) == len(result.faces))
+    edge_away, nearest = tree.nearest(points, enough=tolerance, threads=threads)
+    far_edge_points, far_vertices = np.flatnonzero(edge_away > tolerance), np.flatnonzero(distance[used] > tolerance)
     return Places(
-        points=np.concatenate([vertices[used[corner]], inside.points, points[far]]),
-        face=faces[np.concatenate([first[corner] // 3, those[inside.face], face[far]])],
-        owner=np.concatenate([owner[used[corner]], inside.owner, nearest[far]]),
-        away=np.concatenate([away[used[corner]], inside.away, off[far]]),
+        points=np.concatenate([vertices[used[far_vertices]], interior.points, points[far_edge_points]]),
+        face=faces[np.concatenate([corner_index[far_vertices] // 3, unsure[interior.face], face[far_edge_points]])],
+        owner=np.concatenate([owner[used[far_vertices]], interior.owner, nearest[far_edge_points]]),
+        away=np.concatenate([distance[used[far_vertices]], interior.away, edge_away[far_edge_points]]),
     )
 
 
-def _along_edges(part: Surface, apart: float, *, whole: bool) -> tuple[Floats, Whole]:
-    """Return places along the edges of a surface, (N, 3) mm, and a face at each; of a whole one, each edge once."""
+def _sample_edges(part: Surface, apart: float, *, all_faces: bool) -> tuple[Floats, Whole]:
+    """Sample the edges of a surface, each edge once if `all_faces`; return points (N, 3), mm, and a face at each."""
     vertices = np.asarray(part.vertices, dtype=np.float64)
     ends = part.faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
     owner = np.repeat(np.arange(len(part.faces)), 3)
-    if whole:  # its two triangles go along an edge in opposite directions
+    if all_faces:  # the two triangles of an edge run along it in opposite directions
         owner, ends = owner[ends[:, 0] < ends[:, 1]], ends[ends[:, 0] < ends[:, 1]]
     begin, step = vertices[ends[:, 0]], vertices[ends[:, 1]] - vertices[ends[:, 0]]
-    parts = np.maximum(np.ceil(np.linalg.norm(step, axis=1) / apart), 1).astype(np.int64)
-    which = np.repeat(np.arange(len(ends)), parts - 1)
-    first = np.cumsum(parts - 1) - (parts - 1)
-    share = (np.arange(len(which)) - first[which] + 1) / parts[which]
-    return begin[which] + share[:, None] * step[which], owner[which]
+    segments = np.maximum(np.ceil(np.linalg.norm(step, axis=1) / apart), 1).astype(np.int64)
+    edge = np.repeat(np.arange(len(ends)), segments - 1)
+    edge_start = np.cumsum(segments - 1) - (segments - 1)
+    share = (np.arange(len(edge)) - edge_start[edge] + 1) / segments[edge]
+    return begin[edge] + share[:, None] * step[edge], owner[edge]

@@ -1,4 +1,4 @@
-"""A mesh that is closed as a sum: neighbouring faces agree, and every hole gets a cap."""
+"""Close a mesh as a sum: orient neighbouring faces alike, and put a cap on every hole."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ Integers = NDArray[np.integer]
 
 
 def open_edges(faces: Integers) -> Integers:
-    """Return the edges (E, 2) that faces run along more often in this direction than back, repeated that many times."""
+    """Return the directed edges (E, 2) that faces use more often one way than back, repeated by the surplus."""
     edges = Edges.of(faces)
     directed = np.where(edges.surplus[:, None] > 0, edges.ends, edges.ends[:, ::-1])
     return np.repeat(directed, np.abs(edges.surplus), axis=0)
 
 
 def agreeing(faces: Integers) -> Integers:
-    """Return the faces, some of them reversed, so that neighbours across an edge of two faces have one orientation.
+    """Reverse faces so that neighbours across an edge of two faces have one orientation; return all faces.
 
     Parameters
     ----------
@@ -34,9 +34,9 @@ def agreeing(faces: Integers) -> Integers:
 
     Notes
     -----
-    Every face is represented twice, as it is and reversed; edges shared by two faces link those copies that agree.
-    A patch is then two components, and the one with more faces as they are is kept. A one-sided patch
-    (a Möbius strip) is a single component, and is left as it is.
+    Every face is represented twice, as it is and reversed; edges shared by two faces link the copies that agree.
+    A patch is then two components, and the one with more faces as they are is used. A one-sided patch
+    (a Möbius strip) is a single component, and stays as it is.
     """
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
@@ -44,23 +44,25 @@ def agreeing(faces: Integers) -> Integers:
     start, end = faces.ravel().astype(np.int64), np.roll(faces, -1, axis=1).ravel().astype(np.int64)
     key = np.minimum(start, end) * (int(faces.max()) + 1) + np.maximum(start, end)
     order = np.argsort(key, kind="stable")
-    first = np.flatnonzero(np.diff(key[order], prepend=-1))
-    pairs = first[np.diff(first, append=len(key)) == 2]
-    one, other = order[pairs], order[pairs + 1]
-    against = (start[one] < end[one]) == (start[other] < end[other])
-    one, other, count = one // 3, other // 3, len(faces)
-    from_, to = np.concatenate([one, one + count]), np.concatenate([other, other + count])
-    to = np.where(np.tile(against, 2), (to + count) % (2 * count), to)
-    graph = coo_array((np.ones(len(to), dtype=np.int8), (from_, to)), shape=(2 * count,) * 2)
+    group_start = np.flatnonzero(np.diff(key[order], prepend=-1))
+    pairs = group_start[np.diff(group_start, append=len(key)) == 2]
+    edge_side, twin_side = order[pairs], order[pairs + 1]
+    opposed = (start[edge_side] < end[edge_side]) == (start[twin_side] < end[twin_side])
+    edge_side, twin_side, count = edge_side // 3, twin_side // 3, len(faces)
+    source, target = np.concatenate([edge_side, edge_side + count]), np.concatenate([twin_side, twin_side + count])
+    target = np.where(np.tile(opposed, 2), (target + count) % (2 * count), target)
+    graph = coo_array((np.ones(len(target), dtype=np.int8), (source, target)), shape=(2 * count,) * 2)
     _, label = connected_components(graph, directed=False)
-    here, there = label[:count], label[count:]
-    kept = np.bincount(here, minlength=int(label.max()) + 1)
-    over = (kept[here] < kept[there]) | ((kept[here] == kept[there]) & (here > there))
-    return np.where(over[:, None], faces[:, ::-1], faces)
+    label_kept, label_reversed = label[:count], label[count:]
+    size = np.bincount(label_kept, minlength=int(label.max()) + 1)
+    reverse = (size[label_kept] < size[label_reversed]) | (
+        (size[label_kept] == size[label_reversed]) & (label_kept > label_reversed)
+    )
+    return np.where(reverse[:, None], faces[:, ::-1], faces)
 
 
 def welded(vertices: Floats, faces: Integers) -> Integers:
-    """Return the faces with corners on open edges merged where they are closer than `WELD`: this closes cracks."""
+    """Merge corners on open edges that are closer than `WELD`, which closes cracks; return the faces."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
     from scipy.spatial import KDTree
@@ -75,7 +77,7 @@ def welded(vertices: Floats, faces: Integers) -> Integers:
 
 
 def loops(edges: Integers) -> list[list[int]]:
-    """Return directed edges as loops that visit no vertex twice; every vertex must have as many in as out.
+    """Split directed edges into loops that visit no vertex twice; every vertex must have as many edges in as out.
 
     >>> loops(np.array([[0, 1], [1, 2], [2, 0]]))
     [[0, 1, 2]]
@@ -83,25 +85,25 @@ def loops(edges: Integers) -> list[list[int]]:
     ahead: dict[int, list[int]] = defaultdict(list)
     for start, end in edges.tolist():
         ahead[start].append(end)
-    found = []
+    cycles = []
     for start in list(ahead):
         path, position = [start], {start: 0}
         while ahead[path[-1]]:
-            to = ahead[path[-1]].pop()
-            if to in position:
-                loop = path[position[to] :]
-                found.append(loop)
-                del path[position[to] + 1 :]
+            following = ahead[path[-1]].pop()
+            if following in position:
+                loop = path[position[following] :]
+                cycles.append(loop)
+                del path[position[following] + 1 :]
                 for vertex in loop[1:]:
                     del position[vertex]
             else:
-                position[to] = len(path)
-                path.append(to)
-    return found
+                position[following] = len(path)
+                path.append(following)
+    return cycles
 
 
 def capped(vertices: Floats, faces: Integers) -> tuple[Floats, Integers, int]:
-    """Return vertices and faces with a cap on every hole, and the number of holes.
+    """Put a cap on every hole; return vertices, faces and the number of holes.
 
     Parameters
     ----------
@@ -125,25 +127,25 @@ def capped(vertices: Floats, faces: Integers) -> tuple[Floats, Integers, int]:
     if len(open_edges(faces)) == 0:
         return vertices, faces, 0
     faces = agreeing(welded(vertices, faces))
-    found = loops(open_edges(faces))
+    rims = loops(open_edges(faces))
     apexes: list[Floats] = []
     caps = []
-    for loop in found:
+    for loop in rims:
         if len(loop) == 3:
             caps.append([loop[::-1]])
             continue
         ring = np.array(loop)
         points = vertices[ring]
         lengths = np.linalg.norm(np.roll(points, -1, axis=0) - points, axis=1)
-        middle = np.average((np.roll(points, -1, axis=0) + points) / 2, axis=0, weights=lengths)
+        centroid = np.average((np.roll(points, -1, axis=0) + points) / 2, axis=0, weights=lengths)
         # Rounding must not move the sum out of a plane of the axes.
-        apexes.append(np.clip(middle, points.min(axis=0), points.max(axis=0)))
+        apexes.append(np.clip(centroid, points.min(axis=0), points.max(axis=0)))
         apex = np.full(len(ring), len(vertices) + len(apexes) - 1)
         caps.append(np.column_stack([np.roll(ring, -1), ring, apex]).tolist())
-    if not found:
+    if not rims:
         return vertices, faces, 0
-    added = np.concatenate([np.array(each, dtype=np.int64) for each in caps])
-    return np.concatenate([vertices, np.reshape(apexes, (-1, 3))]), np.concatenate([faces, added]), len(found)
+    cap_faces = np.concatenate([np.array(faces_of_cap, dtype=np.int64) for faces_of_cap in caps])
+    return np.concatenate([vertices, np.reshape(apexes, (-1, 3))]), np.concatenate([faces, cap_faces]), len(rims)
 
 
 def components(vertices: Floats, faces: Integers) -> tuple[Integers, Floats]:
@@ -163,9 +165,9 @@ def components(vertices: Floats, faces: Integers) -> tuple[Integers, Floats]:
     """
     of_vertex, count = vertex_components(faces, len(vertices))
     component = of_vertex[faces[:, 0]]
-    # Relative to one of its own corners, so that a small component far out loses no digits.
-    first = np.unique(component, return_index=True)[1]
-    a, b, c = (vertices[faces[:, i]] - vertices[faces[first, 0]][component] for i in range(3))
+    # Relative to a corner of the component, so that a small one far out loses no digits.
+    first_face = np.unique(component, return_index=True)[1]
+    a, b, c = (vertices[faces[:, i]] - vertices[faces[first_face, 0]][component] for i in range(3))
     sixfold = np.einsum("ij,ij->i", a, np.cross(b, c))
     reach = np.zeros(count)
     np.maximum.at(reach, component, np.abs([a, b, c]).max(axis=(0, 2)))

@@ -1,4 +1,4 @@
-"""Triangles of a mesh that pass through each other."""
+"""Pairs of triangles of a mesh that pass through each other."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ GROWTH = 1.5
 
 
 def self_intersections(vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> int:
-    """Return how many pairs of triangles pass through each other: see `intersecting`."""
+    """Count the pairs of triangles that pass through each other: see `intersecting`."""
     return len(intersecting(vertices, faces))
 
 
@@ -35,68 +35,77 @@ def intersecting(vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> 
     corners = vertices[faces].astype(np.float64)
     corners -= corners.reshape(-1, 3).mean(axis=0)
     low, high = corners.min(axis=1), corners.max(axis=1)
-    found = [np.empty((0, 2), dtype=np.int64)]
-    for one, other in _candidates(low, high):
-        shared = (faces[one][:, :, None] == faces[other][:, None, :]).any(axis=(1, 2))
-        one, other = one[~shared], other[~shared]
-        through = _pierces(corners[one], corners[other]) | _pierces(corners[other], corners[one])
-        found.append(np.stack([one[through], other[through]], axis=1))
-    return np.concatenate(found)
+    pairs = [np.empty((0, 2), dtype=np.int64)]
+    for first_triangle, second_triangle in _candidate_pairs(low, high):
+        adjacent = (faces[first_triangle][:, :, None] == faces[second_triangle][:, None, :]).any(axis=(1, 2))
+        first_triangle, second_triangle = first_triangle[~adjacent], second_triangle[~adjacent]
+        crossing = _edge_pierces(corners[first_triangle], corners[second_triangle]) | _edge_pierces(
+            corners[second_triangle], corners[first_triangle]
+        )
+        pairs.append(np.stack([first_triangle[crossing], second_triangle[crossing]], axis=1))
+    return np.concatenate(pairs)
 
 
-def _candidates(
+def _candidate_pairs(
     low: NDArray[np.float64], high: NDArray[np.float64]
 ) -> Iterator[tuple[NDArray[np.int64], NDArray[np.int64]]]:
-    """Yield pairs (one, other) of triangles whose bounding boxes meet, each pair once."""
+    """Yield arrays of triangle pairs whose bounding boxes meet, each pair once."""
     size = np.maximum(1.5 * (high - low).mean(axis=0), (high.max(axis=0) - low.min(axis=0)) / 1000) + 1e-300
     lower = low.min(axis=0)
     while True:
-        first, last = np.floor((low - lower) / size).astype(np.int64), np.floor((high - lower) / size).astype(np.int64)
-        across = last - first + 1
-        counts = across.prod(axis=1)
+        low_cell, high_cell = (
+            np.floor((low - lower) / size).astype(np.int64),
+            np.floor((high - lower) / size).astype(np.int64),
+        )
+        cells_across = high_cell - low_cell + 1
+        counts = cells_across.prod(axis=1)
         if counts.sum() <= ENTRIES_PER_TRIANGLE * len(low):
             break
         size = size * GROWTH
     triangle, step = next(spread(counts))
-    wide, deep = across[triangle, 2], across[triangle, 1]
-    cell = first[triangle] + np.stack([step // (wide * deep), step // wide % deep, step % wide], axis=-1)
-    shape = last.max(axis=0) + 1
+    depth_z, depth_y = cells_across[triangle, 2], cells_across[triangle, 1]
+    cell = low_cell[triangle] + np.stack(
+        [step // (depth_z * depth_y), step // depth_z % depth_y, step % depth_z], axis=-1
+    )
+    shape = high_cell.max(axis=0) + 1
     key = (cell[:, 0] * shape[1] + cell[:, 1]) * shape[2] + cell[:, 2]
     order = np.argsort(key, kind="stable")
     triangle, key, cell = triangle[order], key[order], cell[order]
     # An entry pairs with all later entries in the same cell.
     ends = np.searchsorted(key, key, side="right")
-    after = ends - np.arange(len(key)) - 1
-    for entry, place in spread(after, PAIRS_AT_ONCE):
-        one, other = triangle[entry], triangle[entry + 1 + place]
+    later_entries = ends - np.arange(len(key)) - 1
+    for entry, place in spread(later_entries, PAIRS_AT_ONCE):
+        first_triangle, second_triangle = triangle[entry], triangle[entry + 1 + place]
         for axis in range(3):
             # Two boxes may share many cells: the pair belongs to the lowest one.
-            lowest = np.maximum(first[one, axis], first[other, axis]) == cell[entry, axis]
-            meets = (low[one, axis] <= high[other, axis]) & (low[other, axis] <= high[one, axis])
-            kept = np.flatnonzero(lowest & meets)
-            one, other, entry = one[kept], other[kept], entry[kept]
-        yield one, other
+            lowest = np.maximum(low_cell[first_triangle, axis], low_cell[second_triangle, axis]) == cell[entry, axis]
+            meets = (low[first_triangle, axis] <= high[second_triangle, axis]) & (
+                low[second_triangle, axis] <= high[first_triangle, axis]
+            )
+            chosen = np.flatnonzero(lowest & meets)
+            first_triangle, second_triangle, entry = first_triangle[chosen], second_triangle[chosen], entry[chosen]
+        yield first_triangle, second_triangle
 
 
-def _pierces(one: NDArray[np.float64], other: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return whether an edge of `one` (n, 3, 3) crosses the interior of `other`, pair by pair."""
-    a, b, c = other[:, 0], other[:, 1], other[:, 2]
+def _edge_pierces(triangles: NDArray[np.float64], targets: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Tell whether an edge of each of the `triangles` (n, 3, 3) crosses the interior of its partner in `targets`."""
+    a, b, c = targets[:, 0], targets[:, 1], targets[:, 2]
     normal = np.cross(b - a, c - a)
-    scale = np.abs(one - a[:, None]).max(axis=(1, 2)) * np.linalg.norm(normal, axis=1)
-    side = np.einsum("nij,nj->ni", one - a[:, None], normal)
+    scale = np.abs(triangles - a[:, None]).max(axis=(1, 2)) * np.linalg.norm(normal, axis=1)
+    side = np.einsum("nij,nj->ni", triangles - a[:, None], normal)
     side[np.abs(side) <= 1e-9 * scale[:, None]] = 0
-    hit = np.zeros(len(one), dtype=bool)
+    pierces = np.zeros(len(triangles), dtype=bool)
     for start, end in ((0, 1), (1, 2), (2, 0)):
         crossing = np.flatnonzero(side[:, start] * side[:, end] < 0)
         if len(crossing) == 0:
             continue
         from_side, to_side = side[crossing, start], side[crossing, end]
         part = (from_side / (from_side - to_side))[:, None]
-        point = one[crossing, start] + part * (one[crossing, end] - one[crossing, start])
+        point = triangles[crossing, start] + part * (triangles[crossing, end] - triangles[crossing, start])
         inside = np.ones(len(crossing), dtype=bool)
         for p, q in ((a, b), (b, c), (c, a)):
             edge = q[crossing] - p[crossing]
             turn = np.einsum("ni,ni->n", np.cross(edge, point - p[crossing]), normal[crossing])
             inside &= turn > 1e-9 * scale[crossing] * np.linalg.norm(normal[crossing], axis=1)
-        hit[crossing[inside]] = True
-    return hit
+        pierces[crossing[inside]] = True
+    return pierces

@@ -1,4 +1,4 @@
-"""Whether a surface is closed, its volume and its area: what `Surface` says of itself, by all cores in one go."""
+"""Closedness, volume and area of a surface, the same values as `Surface` computes, by all cores in one pass."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ FEW = 2**29  # vertices, whose numbers and two bits more fit into 32
 
 
 def with_measures(surface: Surface, *, threads: int | None = None) -> Surface:
-    """Return the surface, which knows by now whether it is closed, its volume and its area.
+    """Measure a surface; return it with closedness, volume and area known.
 
     The specification is what `Surface` computes by itself: `closed` is the same, volume and area agree to rounding,
     whatever the number of threads.
@@ -30,7 +30,7 @@ def with_measures(surface: Surface, *, threads: int | None = None) -> Surface:
 
 
 def volume_and_area(surface: Surface, *, threads: int | None = None) -> tuple[float, float]:
-    """Return what a surface encloses, mm³, and its area, mm²."""
+    """Return the volume inside a surface, mm³, and its area, mm²."""
     from infill.kernels.measures import BLOCK, sum_up
 
     vertices, faces = np.ascontiguousarray(surface.vertices, dtype=np.float64), surface.faces
@@ -42,7 +42,7 @@ def volume_and_area(surface: Surface, *, threads: int | None = None) -> tuple[fl
 
 
 def face_areas(surface: Surface) -> NDArray[np.float64]:
-    """Return the area of every face, (F,) mm², of some at a time: corners of all would take nine times the memory.
+    """Return the area of every face, (F,) mm², in batches: corners of all faces would take nine times the memory.
 
     >>> corners = np.array([[0.0, 0, 0], [3, 0, 0], [0, 4, 0]])
     >>> face_areas(Surface(vertices=corners, faces=np.array([[0, 1, 2]]))).tolist()
@@ -56,15 +56,15 @@ def face_areas(surface: Surface) -> NDArray[np.float64]:
 
 
 def _is_closed(surface: Surface, threads: int) -> bool:
-    """Return whether every edge has two faces that run along it in opposite directions."""
+    """Tell whether every edge has two faces that run along it in opposite directions."""
     from infill.kernels.measures import begin_edges, match_sides
 
     faces, count = surface.faces, len(surface.vertices)
     if not len(faces):
         return False
-    kind = np.int32 if count < FEW else np.int64
-    first = np.zeros(count + 1, dtype=kind)
-    if not begin_edges(faces, first):
+    index_type = np.int32 if count < FEW else np.int64
+    edge_start = np.zeros(count + 1, dtype=index_type)
+    if not begin_edges(faces, edge_start):
         return False
-    higher = np.full(int(first[-1]), -1, dtype=kind)
-    return all(in_threads(match_sides, faces, first, higher, threads=threads))
+    higher = np.full(int(edge_start[-1]), -1, dtype=index_type)
+    return all(in_threads(match_sides, faces, edge_start, higher, threads=threads))

@@ -1,4 +1,4 @@
-"""A mesh as plain arrays, its vertices merged where necessary to close it."""
+"""Convert a mesh to plain arrays, and merge its vertices where that closes it."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ if TYPE_CHECKING:
 
 
 def surface_of(mesh: trimesh.Trimesh | Surface) -> Surface:
-    """Return the mesh as plain arrays, or raise GeometryError if there is nothing to write or read."""
+    """Convert a mesh to plain arrays; raise GeometryError if there is nothing to write or read."""
     if not hasattr(mesh, "vertices") or not hasattr(mesh, "faces"):
-        read = isinstance(mesh, (str, Path))
-        advice = "read the file with infill.read_mesh" if read else "give a trimesh.Trimesh or a Surface"
+        is_path = isinstance(mesh, (str, Path))
+        advice = "read the file with infill.read_mesh" if is_path else "give a trimesh.Trimesh or a Surface"
         raise GeometryError(f"a {type(mesh).__name__} is not a mesh; {advice}")
     vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
     if len(faces) == 0 or not np.isfinite(vertices).all():
@@ -30,17 +30,17 @@ def surface_of(mesh: trimesh.Trimesh | Surface) -> Surface:
 
 
 def closed_or_merged(vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> Surface:
-    """Return the mesh unchanged if it is closed, else with equal vertices merged; unused vertices are dropped."""
+    """Drop unused vertices; merge equal vertices unless the mesh is closed already."""
     used, index = np.unique(faces, return_inverse=True)
     surface = Surface(vertices=np.asarray(vertices, dtype=np.float64)[used], faces=index.reshape(faces.shape))
     return surface if surface.closed else merged(surface.vertices, surface.faces)
 
 
 def merged(vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> Surface:
-    """Return the mesh with vertices merged where they are equal."""
+    """Merge equal vertices of a mesh."""
     points = vertices + 0.0  # no -0, which equals 0 but has different bits
     order = np.lexsort(points.T)
-    differs = np.concatenate([[True], (points[order][1:] != points[order][:-1]).any(axis=1)])
+    is_new = np.concatenate([[True], (points[order][1:] != points[order][:-1]).any(axis=1)])
     number = np.empty(len(points), dtype=np.intp)
-    number[order] = np.cumsum(differs) - 1
-    return Surface(vertices=points[order[differs]].astype(np.float64), faces=number[faces])
+    number[order] = np.cumsum(is_new) - 1
+    return Surface(vertices=points[order[is_new]].astype(np.float64), faces=number[faces])

@@ -1,4 +1,4 @@
-"""Count the voids that solid seals: resin and powder stay in them."""
+"""Count the voids that solid seals off: resin and powder stay in them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from infill.surface import Surface
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
-SAMPLES = 5  # faces of a shell above which the others are counted; most of them decide
+SAMPLES = 5  # faces of a shell at which the windings of other shells are counted; the majority decides
 
 
 def count_sealed_voids(surface: Surface) -> int:
@@ -25,9 +25,9 @@ def count_sealed_voids(surface: Surface) -> int:
     Notes
     -----
     A void is a shell that faces inwards and around which other shells wind once: solid lies outside it, and none
-    inside. So a solid in a void in a solid leaves one void, a shell that faces outwards within solid leaves none, as
-    slicers print the union, and neither does one that faces inwards where there is no solid. Shells are joined by
-    edges: those that touch in a vertex are two.
+    inside. So a solid in a void in a solid leaves one void. A shell that faces outwards within solid leaves none, as
+    slicers print the union, and so does a shell that faces inwards outside all solid. Shells are joined by edges:
+    two that touch in a vertex are separate.
 
     >>> corners = np.array([[0.0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4]])
     >>> faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
@@ -43,46 +43,48 @@ def count_sealed_voids(surface: Surface) -> int:
         return 0
     a, b, c = (vertices[faces[:, i]] for i in range(3))
     volume = np.bincount(shell, weights=np.einsum("ij,ij->i", a, np.cross(b, c)), minlength=count)
-    way = 1 if volume.sum() >= 0 else -1
-    inward = np.flatnonzero(way * volume < 0)
+    orientation = 1 if volume.sum() >= 0 else -1
+    inward = np.flatnonzero(orientation * volume < 0)
     if len(inward) == 0:
         return 0
     order = np.argsort(shell, kind="stable")
-    first, after = np.searchsorted(shell[order], [inward, inward + 1])
+    begin, end = np.searchsorted(shell[order], [inward, inward + 1])
     steps = np.linspace(0, 1, SAMPLES + 2)[1:-1]
-    chosen = order[first[:, None] + (steps * (after - first)[:, None]).astype(np.int64)]
-    around = _winding_of_others(vertices, faces, shell, chosen.ravel()).reshape(chosen.shape)
-    return int((np.count_nonzero(way * around == 1, axis=1) * 2 > SAMPLES).sum())
+    sampled = order[begin[:, None] + (steps * (end - begin)[:, None]).astype(np.int64)]
+    windings = _winding_of_others(vertices, faces, shell, sampled.ravel()).reshape(sampled.shape)
+    return int((np.count_nonzero(orientation * windings == 1, axis=1) * 2 > SAMPLES).sum())
 
 
 def _winding_of_others(vertices: Floats, faces: Integers, shell: NDArray[np.integer], chosen: Integers) -> Integers:
-    """Return how often the shells wind around the middle of some faces, each less its own shell, (N,).
+    """Count the windings of all other shells around the centroids of some faces, (N,).
 
-    Triangles above a point count, as in `infill.kernels.distances.wind`: of an edge that passes exactly over a point,
-    one of its two triangles has it.
+    Triangles above a point count, as in `infill.kernels.distances.wind`: where an edge passes exactly over a point, one
+    of its two triangles counts.
     """
     import shapely
 
     points = vertices[faces[chosen]].mean(axis=1)
     corners = vertices[faces]
     low, high = corners.min(axis=1), corners.max(axis=1)
-    near = np.flatnonzero(high[:, 2] > points[:, 2].min())
-    tree = shapely.STRtree(shapely.box(low[near, 0], low[near, 1], high[near, 0], high[near, 1]))
-    which, triangle = tree.query(shapely.points(points[:, :2]))
-    triangle = near[triangle]
-    other = (shell[triangle] != shell[chosen[which]]) & (high[triangle, 2] > points[which, 2])
-    which, triangle = which[other], triangle[other]
-    flat = corners[triangle][:, :, :2] - points[which, None, :2]
-    over = corners[triangle][:, :, 2]
-    passed = np.zeros(len(which), dtype=np.int64)
-    weights = np.empty((len(which), 3))
+    above = np.flatnonzero(high[:, 2] > points[:, 2].min())
+    tree = shapely.STRtree(shapely.box(low[above, 0], low[above, 1], high[above, 0], high[above, 1]))
+    sample, triangle = tree.query(shapely.points(points[:, :2]))
+    triangle = above[triangle]
+    counts = (shell[triangle] != shell[chosen[sample]]) & (high[triangle, 2] > points[sample, 2])
+    sample, triangle = sample[counts], triangle[counts]
+    flat = corners[triangle][:, :, :2] - points[sample, None, :2]
+    heights = corners[triangle][:, :, 2]
+    passed = np.zeros(len(sample), dtype=np.int64)
+    weights = np.empty((len(sample), 3))
     for i in range(3):
         (px, py), (qx, qy) = flat[:, i].T, flat[:, (i + 1) % 3].T
         weights[:, (i + 2) % 3] = px * qy - qx * py
         upwards = (qy > 0).astype(np.int64) - (py > 0)
         passed += np.where(upwards * (px * qy - qx * py) > 0, upwards, 0)
-    whole = weights.sum(axis=1)
-    height = np.divide((weights * over).sum(axis=1), whole, out=np.full(len(which), -np.inf), where=whole != 0)
-    found = np.zeros(len(chosen), dtype=np.int64)
-    np.add.at(found, which, np.where(height > points[which, 2], passed, 0))
-    return found
+    doubled_area = weights.sum(axis=1)
+    height = np.divide(
+        (weights * heights).sum(axis=1), doubled_area, out=np.full(len(sample), -np.inf), where=doubled_area != 0
+    )
+    windings = np.zeros(len(chosen), dtype=np.int64)
+    np.add.at(windings, sample, np.where(height > points[sample, 2], passed, 0))
+    return windings

@@ -15,7 +15,7 @@ Names = NDArray[np.int32]
 
 
 def vertex_components(faces: Integers, vertices: int, *, compiled: bool = False) -> tuple[Names, int]:
-    """Return the component of every vertex, and how many components there are.
+    """Label the components of a mesh; return the component of every vertex, and the number of components.
 
     Parameters
     ----------
@@ -23,7 +23,7 @@ def vertex_components(faces: Integers, vertices: int, *, compiled: bool = False)
     vertices : int
         Number of vertices.
     compiled : bool
-        Use a kernel, which gives the same result six times as fast: for the search for levels, which asks every round.
+        Use a kernel, which gives the same result six times as fast: for the search for levels, which calls this often.
 
     Returns
     -------
@@ -34,7 +34,7 @@ def vertex_components(faces: Integers, vertices: int, *, compiled: bool = False)
     >>> vertex_components(np.array([[4, 2, 1], [3, 5, 6], [1, 2, 7]]), 8)[0].tolist()
     [-1, 0, 0, 1, 0, 1, 1, 0]
     """
-    names, count, used = _by_kernel(faces, vertices) if compiled else _by_scipy(faces, vertices)
+    names, count, used = _label_by_kernel(faces, vertices) if compiled else _label_by_scipy(faces, vertices)
     if used.all():
         return names, count
     number = np.zeros(count, dtype=np.int32)
@@ -46,8 +46,8 @@ def vertex_components(faces: Integers, vertices: int, *, compiled: bool = False)
 def first_of_shells(surface: Surface) -> NDArray[np.int64]:
     """Return the first vertex of every component, (N,), in their order."""
     names, _ = vertex_components(surface.faces, len(surface.vertices), compiled=True)
-    found, first = np.unique(names, return_index=True)
-    return first[found >= 0]
+    shells, first_vertex = np.unique(names, return_index=True)
+    return first_vertex[shells >= 0]
 
 
 def shell_volumes(surface: Surface, names: Names, count: int) -> NDArray[np.float64]:
@@ -68,42 +68,42 @@ def shell_volumes(surface: Surface, names: Names, count: int) -> NDArray[np.floa
     return sums / 6
 
 
-def with_faces(surface: Surface, kept: NDArray[np.bool_]) -> Surface:
-    """Return some of the faces, with the vertices that they use, both in their order."""
-    faces = surface.faces[kept]
+def with_faces(surface: Surface, chosen: NDArray[np.bool_]) -> Surface:
+    """Keep some of the faces, and the vertices that they use, both in their order."""
+    faces = surface.faces[chosen]
     used = np.zeros(len(surface.vertices), dtype=bool)
     used[faces.ravel()] = True
     number = np.cumsum(used, dtype=faces.dtype) - 1
     return replace(surface, vertices=surface.vertices[used], faces=number.astype(faces.dtype, copy=False)[faces])
 
 
-def in_batches(surface: Surface, most: int) -> Iterator[Surface]:
-    """Yield a surface as several, none with more faces than a number unless a single component has; all in order."""
-    if len(surface.faces) <= most:
+def in_batches(surface: Surface, limit: int) -> Iterator[Surface]:
+    """Yield a surface as several of at most `limit` faces, or of a single larger component; all in order."""
+    if len(surface.faces) <= limit:
         yield surface
         return
     names, count = vertex_components(surface.faces, len(surface.vertices), compiled=True)
     shell = names[surface.faces[:, 0]]
-    batch = np.cumsum(np.bincount(shell, minlength=count)) // most
-    for each in np.unique(batch):
-        yield with_faces(surface, batch[shell] == each)
+    batch = np.cumsum(np.bincount(shell, minlength=count)) // limit
+    for number in np.unique(batch):
+        yield with_faces(surface, batch[shell] == number)
 
 
-def _by_scipy(faces: Integers, vertices: int) -> tuple[Names, int, NDArray[np.bool_]]:
-    """Return the components, lone vertices included, and which vertices are used: the specification."""
+def _label_by_scipy(faces: Integers, vertices: int) -> tuple[Names, int, NDArray[np.bool_]]:
+    """Label the components, with lone vertices; return names, count and a mask of used vertices: the specification."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
-    one, other = faces[:, [0, 1]].ravel(), faces[:, [1, 2]].ravel()
-    graph = coo_array((np.ones(len(one), dtype=np.int8), (one, other)), shape=(vertices,) * 2)
+    start, end = faces[:, [0, 1]].ravel(), faces[:, [1, 2]].ravel()
+    graph = coo_array((np.ones(len(start), dtype=np.int8), (start, end)), shape=(vertices,) * 2)
     count, names = connected_components(graph, directed=False)
     used = np.zeros(vertices, dtype=bool)
     used[faces.ravel()] = True
     return names, count, used
 
 
-def _by_kernel(faces: Integers, vertices: int) -> tuple[Names, int, NDArray[np.bool_]]:
-    """Return what `_by_scipy` returns."""
+def _label_by_kernel(faces: Integers, vertices: int) -> tuple[Names, int, NDArray[np.bool_]]:
+    """Label the components as `_label_by_scipy` does, by a compiled kernel."""
     from infill.kernels.components import join_faces, name_sets
 
     parent, used = np.arange(vertices), np.zeros(vertices, dtype=bool)

@@ -12,14 +12,14 @@ from infill.meshes.edge_collapse import collapsed
 from infill.surface import Surface
 
 FEWEST = 4
-SAFE = 0.87  # of the tolerance: between the places at which distances are measured, they are up to a seventh larger
-SHIFT = 0.1  # of the mean edge: how far vertices may move so that the volume stays
+SAFE = 0.87  # of the tolerance: between samples, distances are up to a seventh larger
+SHIFT = 0.1  # of the mean edge: farthest that vertices may move to keep the volume
 
 
 def simplified(
     surface: Surface, *, tolerance: float | None = None, triangles: int | None = None, threads: int | None = None
 ) -> Surface:
-    """Return the surface with fewer triangles.
+    """Simplify a surface to fewer triangles.
 
     Parameters
     ----------
@@ -34,32 +34,34 @@ def simplified(
     Raises
     ------
     GeometryError
-        If the surface is not closed, or cannot be simplified to this few triangles without opening it.
+        If the surface is not closed, or cannot be simplified this far without opening it.
 
     See Also
     --------
-    infill.meshes.edge_collapse.collapsed : How it is done.
+    infill.meshes.edge_collapse.collapsed : The method.
     """
-    near = None if tolerance is None else positive("tolerance", tolerance, "mm")
-    few = FEWEST if triangles is None else whole("max_triangles", triangles, FEWEST)
-    found = collapsed(surface, tolerance=None if near is None else SAFE * near, triangles=few, threads=threads)
-    if found is None:
+    leeway_mm = None if tolerance is None else positive("tolerance", tolerance, "mm")
+    limit = FEWEST if triangles is None else whole("max_triangles", triangles, FEWEST)
+    result = collapsed(
+        surface, tolerance=None if leeway_mm is None else SAFE * leeway_mm, triangles=limit, threads=threads
+    )
+    if result is None:
         raise GeometryError(
             "the surface cannot be simplified: not every edge is shared by exactly two triangles; leave it as it is"
         )
-    if triangles is not None and len(found.faces) > few:
-        leeway = "" if near is None else f" and {near:g} mm of leeway"
+    if triangles is not None and len(result.faces) > limit:
+        leeway = "" if leeway_mm is None else f" and {leeway_mm:g} mm of leeway"
         raise GeometryError(
-            f"the surface has {len(surface.faces):,} triangles; it cannot be simplified to at most {few:,} triangles"
-            f"{leeway}, only to {len(found.faces):,}; allow more"
+            f"the surface has {len(surface.faces):,} triangles; it cannot be simplified to at most {limit:,} triangles"
+            f"{leeway}, only to {len(result.faces):,}; allow more"
         )
-    return found
+    return result
 
 
 def with_volume(surface: Surface, volume: float) -> Surface:
-    """Return the surface with its vertices moved along their normals, all equally far, so that it has a volume, mm³.
+    """Move all vertices equally far along their normals, so that the surface has a volume, mm³.
 
-    If it would have to move further than a tenth of its mean edge, it is returned as it is.
+    If the vertices would have to move further than a tenth of the mean edge, the surface is returned unchanged.
 
     >>> points = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
     >>> solid = Surface(vertices=points, faces=np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]))
@@ -71,14 +73,14 @@ def with_volume(surface: Surface, volume: float) -> Surface:
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 2
     area = float(np.linalg.norm(normals, axis=1).sum())
     farthest = SHIFT * float(np.sqrt(area / max(len(surface.faces), 1)))
-    own = np.zeros_like(points)
+    vertex_normals = np.zeros_like(points)
     for corner in range(3):
-        np.add.at(own, surface.faces[:, corner], normals)
-    own /= np.maximum(np.linalg.norm(own, axis=1, keepdims=True), 1e-300)
+        np.add.at(vertex_normals, surface.faces[:, corner], normals)
+    vertex_normals /= np.maximum(np.linalg.norm(vertex_normals, axis=1, keepdims=True), 1e-300)
     moved = surface
     for _ in range(2):
-        by = (volume - moved.volume) / area
-        if abs(by) > farthest:
+        step = (volume - moved.volume) / area
+        if abs(step) > farthest:
             return surface
-        moved = replace(moved, vertices=np.asarray(moved.vertices, dtype=np.float64) + by * own)
+        moved = replace(moved, vertices=np.asarray(moved.vertices, dtype=np.float64) + step * vertex_normals)
     return moved

@@ -1,4 +1,4 @@
-"""Closed surfaces as solids of manifold3d: what it says of them, with fewer triangles, and united."""
+"""Closed surfaces as solids of manifold3d: check, simplify, subtract, intersect and unite them."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ if TYPE_CHECKING:
 FINE = "NoError"
 LONE = np.arange(3, dtype=np.uint32)[None]  # triangle
 Place = tuple[float, ...]
-# Of what is asked of it, tried in turn: where an edge would have four faces, manifold3d makes two edges in one place.
+# Of the tolerance, tried in turn: where an edge would have four faces, manifold3d makes two edges in one place.
 SHARES = (1.0, 0.93, 0.85, 0.75, 0.6)
-ASIDE = 0.1  # of a tolerance: how far such edges are moved apart
-MOVED = 0.4  # of a tolerance: what is asked of manifold3d, which measures each step from the one before
+ASIDE = 0.1  # of a tolerance: distance by which such edges are moved apart
+MOVED = 0.4  # of a tolerance: passed to manifold3d, which measures each step from the one before
 
 
 def solid_of(surface: Surface, *, single: bool = False) -> manifold3d.Manifold:
-    """Hand a surface to manifold3d, in single or double precision; return its solid, whose status may be a refusal.
+    """Hand a surface to manifold3d, in single or double precision; return its solid, whose status may report an error.
 
     Open surfaces are not handed over: manifold3d 3.5 ends the process with a segmentation fault on some of them, those
-    with an odd number of faces in an unlucky order. A lone triangle, which it refuses, takes their place.
+    with an odd number of faces in an unlucky order. A lone triangle, which manifold3d rejects, takes their place.
     """
     import manifold3d
 
@@ -53,21 +53,21 @@ def solid_of(surface: Surface, *, single: bool = False) -> manifold3d.Manifold:
 
 
 def status(surface: Surface, *, single: bool = False) -> str:
-    """Return the verdict of manifold3d: "NoError" if it takes the surface as a solid."""
+    """Return the verdict of manifold3d: "NoError" if it accepts the surface as a solid."""
     return str(solid_of(surface, single=single).status().name)
 
 
 def surface_from(solid: manifold3d.Manifold) -> Surface:
-    """Return a solid of manifold3d as plain arrays."""
+    """Convert a solid of manifold3d to plain arrays."""
     mesh = solid.to_mesh64()
     return Surface(vertices=np.array(mesh.vert_properties)[:, :3], faces=np.array(mesh.tri_verts).astype(np.int64))
 
 
 def shortened(surface: Surface, tolerance: float) -> Surface:
-    """Return a surface with fewer triangles, from some of its vertices, that lies within a tolerance, mm, of it.
+    """Simplify a surface with manifold3d; the result uses some of its vertices and stays within a tolerance, mm.
 
     It takes a hundredth of the time and memory of `infill.meshes.simplification.simplified`, and leaves more
-    triangles. A surface that manifold3d does not take is returned as it is.
+    triangles. A surface that manifold3d rejects is returned unchanged.
 
     >>> import trimesh
     >>> ball = trimesh.creation.icosphere(5)
@@ -79,31 +79,33 @@ def shortened(surface: Surface, tolerance: float) -> Surface:
     if status_of(solid) != FINE:
         return surface
     for share in (*SHARES, 0.0):
-        few = surface
+        simplified = surface
         if share:
-            few = surface_from(solid.simplify(share * MOVED * tolerance))
-            few = replace(few, faces=few.faces.astype(surface.faces.dtype), space=surface.space)
-        if (twins := in_one_place(few)).any():
-            few = _moved_inwards(few, twins, ASIDE * tolerance)
-        if few.closed and not in_one_place(few).any():
-            return few
+            simplified = surface_from(solid.simplify(share * MOVED * tolerance))
+            simplified = replace(simplified, faces=simplified.faces.astype(surface.faces.dtype), space=surface.space)
+        if (twins := in_one_place(simplified)).any():
+            simplified = _move_inwards(simplified, twins, ASIDE * tolerance)
+        if simplified.closed and not in_one_place(simplified).any():
+            return simplified
     return surface
 
 
 def shortened_between(surface: Surface, tolerance: float) -> Surface:
-    """Return what `shortened` does of a surface with open edges, all of which stay as they are.
+    """Simplify a surface with open edges as `shortened` does; all open edges stay unchanged.
 
     Parameters
     ----------
     surface : Surface
-        A part of a closed one that faces outwards: every open edge has one face, and as many lead to a vertex as away.
+        A part of a closed surface that faces outwards: every open edge has one face, and as many of them lead to a
+        vertex as away from it.
     tolerance : float
         mm, or whatever the unit of the vertices is.
 
     Notes
     -----
-    Open edges get a face each that leads to a point, one for each loop. As manifold3d is told that no two of those are
-    of one plane, it takes their vertices only where edges are far shorter than the tolerance; these are put back.
+    Each open edge gets a face that leads to a tip, one tip for each loop. These faces are marked as lying in different
+    planes, so that manifold3d removes their vertices only where edges are far shorter than the tolerance; these
+    vertices are put back.
 
     >>> import trimesh
     >>> ball = trimesh.creation.icosphere(5)
@@ -117,15 +119,15 @@ def shortened_between(surface: Surface, tolerance: float) -> Surface:
     edges = open_edges(surface.faces)
     if not len(edges):
         return shortened(surface, tolerance)
-    many, given = len(surface.vertices), len(surface.faces)
-    loop, loops = _loops(edges)
+    vertex_count, face_count = len(surface.vertices), len(surface.faces)
+    loop, loops = _label_loops(edges)
     (_, _, low), (_, _, high) = surface.bounds
-    above = float(high + (high - low) + 1)  # where nothing else is
+    above = float(high + (high - low) + 1)  # above the whole surface
     middles = np.stack([np.bincount(loop, surface.vertices[edges[:, 0], axis]) for axis in range(2)], axis=1)
     tips = np.column_stack([middles / np.bincount(loop)[:, None], np.full(loops, above)])
     vertices = np.concatenate([np.asarray(surface.vertices, dtype=np.float64), tips])
-    lids = np.column_stack([edges[:, ::-1], many + loop])
-    planes = np.concatenate([np.zeros(given, dtype=np.uint64), np.arange(1, len(lids) + 1, dtype=np.uint64)])
+    lids = np.column_stack([edges[:, ::-1], vertex_count + loop])
+    planes = np.concatenate([np.zeros(face_count, dtype=np.uint64), np.arange(1, len(lids) + 1, dtype=np.uint64)])
     solid = manifold3d.Manifold(
         manifold3d.Mesh64(
             vert_properties=np.ascontiguousarray(vertices),
@@ -138,27 +140,27 @@ def shortened_between(surface: Surface, tolerance: float) -> Surface:
     for share in SHARES:
         mesh = solid.simplify(share * MOVED * tolerance).to_mesh64()
         faces = np.array(mesh.tri_verts).astype(np.int32)[np.array(mesh.face_id) == 0]
-        few = with_faces(
+        simplified = with_faces(
             Surface(vertices=np.array(mesh.vert_properties)[:, :3], faces=faces, space=surface.space),
             np.ones(len(faces), dtype=bool),
         )
-        held = np.zeros(len(few.vertices), dtype=bool)
-        held[(now := open_edges(few.faces)).ravel()] = True
-        if (twins := in_one_place(few) & ~held).any():
-            few = _moved_inwards(few, twins, ASIDE * tolerance)
-        whole = _with_rim(few, now, vertices[edges])
-        if whole is not None and not in_one_place(whole).any():
-            return whole
+        on_rim = np.zeros(len(simplified.vertices), dtype=bool)
+        on_rim[(rim_edges := open_edges(simplified.faces)).ravel()] = True
+        if (twins := in_one_place(simplified) & ~on_rim).any():
+            simplified = _move_inwards(simplified, twins, ASIDE * tolerance)
+        closed_rim = _with_rim(simplified, rim_edges, vertices[edges])
+        if closed_rim is not None and not in_one_place(closed_rim).any():
+            return closed_rim
     return surface
 
 
 def _with_rim(surface: Surface, edges: NDArray[np.integer], rim: NDArray[np.floating]) -> Surface | None:
-    """Return a surface whose open edges (E, 2) run through all points of a rim, or None if they leave it.
+    """Run the open edges (E, 2) of a surface through all points of a rim; return None if they leave the rim.
 
     Parameters
     ----------
     rim : (R, 2, 3) float64
-        From where to where each edge leads that was there before.
+        Start and end of each original open edge.
     """
     follows = dict(zip(map(tuple, rim[:, 0].tolist()), map(tuple, rim[:, 1].tolist()), strict=True))
     places = list(map(tuple, np.asarray(surface.vertices)[edges].reshape(-1, 3).tolist()))
@@ -166,38 +168,41 @@ def _with_rim(surface: Surface, edges: NDArray[np.integer], rim: NDArray[np.floa
         return None
     count, faces = len(surface.vertices), surface.faces
     codes = faces.astype(np.int64) * count + np.roll(faces, -1, axis=1)
-    gone: list[Place] = []
+    restored: list[Place] = []
     cut: list[int] = []
     pieces: list[tuple[int, int, int]] = []
-    for (start, end), place, last in zip(edges.tolist(), places[::2], places[1::2], strict=True):
-        between = list(_between(follows, place, last))
-        if between:
+    for (start, end), place, goal in zip(edges.tolist(), places[::2], places[1::2], strict=True):
+        points = list(_points_between(follows, place, goal))
+        if points:
             ((face, side),) = np.argwhere(codes == start * count + end).tolist()
-            line = [start, *range(count + len(gone), count + len(gone) + len(between)), end]
+            line = [start, *range(count + len(restored), count + len(restored) + len(points)), end]
             cut.append(face)
-            pieces.extend((one, other, int(faces[face, (side + 2) % 3])) for one, other in pairwise(line))
-            gone.extend(between)
-    if len(edges) + len(gone) != len(rim) or len(set(cut)) < len(cut):
+            pieces.extend(
+                (start_vertex, end_vertex, int(faces[face, (side + 2) % 3]))
+                for start_vertex, end_vertex in pairwise(line)
+            )
+            restored.extend(points)
+    if len(edges) + len(restored) != len(rim) or len(set(cut)) < len(cut):
         return None
-    if not gone:
+    if not restored:
         return surface
     return replace(
         surface,
-        vertices=np.concatenate([surface.vertices, np.array(gone)]),
+        vertices=np.concatenate([surface.vertices, np.array(restored)]),
         faces=np.concatenate([np.delete(faces, cut, axis=0), np.array(pieces, dtype=faces.dtype)]),
     )
 
 
-def _between(follows: dict[Place, Place], start: Place, end: Place) -> Iterator[Place]:
-    """Yield what lies between two places of a loop."""
-    at = follows[start]
-    while at not in (start, end):
-        yield at
-        at = follows[at]
+def _points_between(follows: dict[Place, Place], start: Place, end: Place) -> Iterator[Place]:
+    """Yield the points strictly between two points of a loop."""
+    point = follows[start]
+    while point not in (start, end):
+        yield point
+        point = follows[point]
 
 
-def _loops(edges: NDArray[np.integer]) -> tuple[NDArray[np.int32], int]:
-    """Return the loop of each of some edges (E, 2), and how many loops there are."""
+def _label_loops(edges: NDArray[np.integer]) -> tuple[NDArray[np.int32], int]:
+    """Label the loops of some edges (E, 2); return the loop of each edge, and the number of loops."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
@@ -208,7 +213,7 @@ def _loops(edges: NDArray[np.integer]) -> tuple[NDArray[np.int32], int]:
 
 
 def in_one_place(surface: Surface) -> NDArray[np.bool_]:
-    """Return which vertices are where another one is in single precision, as most files have them: (V,).
+    """Mark the vertices (V,) that coincide with another one in single precision, as most files store them.
 
     >>> corners = np.array([[0.0, 0, 0], [1, 0, 0], [1 + 1e-9, 0, 0]])
     >>> in_one_place(Surface(vertices=corners, faces=np.array([[0, 1, 2]]))).tolist()
@@ -217,69 +222,71 @@ def in_one_place(surface: Surface) -> NDArray[np.bool_]:
     points = np.asarray(surface.vertices, dtype=np.float32)
     order = np.lexsort(points.T)
     same = (points[order][1:] == points[order][:-1]).all(axis=1)
-    found = np.zeros(len(points), dtype=bool)
-    found[order[1:][same]] = found[order[:-1][same]] = True
-    return found
+    coincident = np.zeros(len(points), dtype=bool)
+    coincident[order[1:][same]] = coincident[order[:-1][same]] = True
+    return coincident
 
 
-def _moved_inwards(surface: Surface, some: NDArray[np.bool_], far: float) -> Surface:
-    """Return a surface with some vertices moved against the mean normal of their faces, mm."""
+def _move_inwards(surface: Surface, chosen: NDArray[np.bool_], distance: float) -> Surface:
+    """Move some vertices by a distance, mm, against the mean normal of their faces."""
     vertices = np.array(surface.vertices, dtype=np.float64)
-    faces = surface.faces[some[surface.faces].any(axis=1)]
+    faces = surface.faces[chosen[surface.faces].any(axis=1)]
     a, b, c = (vertices[faces[:, i]] for i in range(3))
     normal, inwards = np.cross(b - a, c - a), np.zeros_like(vertices)
     for corner in range(3):
         np.subtract.at(inwards, faces[:, corner], normal)
-    length = np.linalg.norm(inwards[some], axis=1, keepdims=True)
-    vertices[some] += far * np.divide(inwards[some], length, out=np.zeros_like(inwards[some]), where=length > 0)
+    length = np.linalg.norm(inwards[chosen], axis=1, keepdims=True)
+    vertices[chosen] += distance * np.divide(
+        inwards[chosen], length, out=np.zeros_like(inwards[chosen]), where=length > 0
+    )
     return replace(surface, vertices=vertices)
 
 
 def status_of(solid: manifold3d.Manifold) -> str:
-    """Return whether it is one: "NoError" if so."""
+    """Return the status that manifold3d reports for a solid: "NoError" if it is valid."""
     return str(solid.status().name)
 
 
 def without(surface: Surface, others: Iterable[Surface]) -> Surface | None:
-    """Return a closed surface without what others enclose, or None if manifold3d does not take one of them.
+    """Subtract solids from a closed surface; return None if manifold3d rejects one of them.
 
     >>> import trimesh
     >>> boxes = [trimesh.creation.box((2, 2, 2)), trimesh.creation.box((2, 2, 2)).apply_translation((1, 1, 1))]
-    >>> one, other = (Surface(vertices=each.vertices, faces=each.faces) for each in boxes)
-    >>> round(without(one, [other]).volume, 6)
+    >>> box, corner = (Surface(vertices=mesh.vertices, faces=mesh.faces) for mesh in boxes)
+    >>> round(without(box, [corner]).volume, 6)
     7.0
     """
-    solids = [solid_of(each) for each in (surface, *others)]
-    if any(status_of(each) != FINE for each in solids):
+    solids = [solid_of(operand) for operand in (surface, *others)]
+    if any(status_of(solid) != FINE for solid in solids):
         return None
-    return surface_from(reduce(lambda one, other: one - other, solids))
+    return surface_from(reduce(lambda difference, subtrahend: difference - subtrahend, solids))
 
 
-def volume_within(surface: Surface, other: Surface) -> float:
-    """Return the volume that two closed surfaces both enclose; nan if manifold3d does not take one of them.
+def volume_within(surface: Surface, second: Surface) -> float:
+    """Return the volume that two closed surfaces both enclose; nan if manifold3d rejects one of them.
 
     >>> import trimesh
     >>> boxes = [trimesh.creation.box((2, 2, 2)), trimesh.creation.box((2, 2, 2)).apply_translation((1, 1, 1))]
-    >>> round(volume_within(*(Surface(vertices=each.vertices, faces=each.faces) for each in boxes)), 6)
+    >>> round(volume_within(*(Surface(vertices=mesh.vertices, faces=mesh.faces) for mesh in boxes)), 6)
     1.0
     """
-    one, two = solid_of(surface), solid_of(other)
-    if status_of(one) != FINE or status_of(two) != FINE:
+    first_solid, second_solid = solid_of(surface), solid_of(second)
+    if status_of(first_solid) != FINE or status_of(second_solid) != FINE:
         return float("nan")
-    return float((one ^ two).volume())
+    return float((first_solid ^ second_solid).volume())
 
 
 def united(surfaces: Iterable[Surface]) -> Surface | None:
-    """Return the union of closed surfaces, or None if manifold3d does not take one of them.
+    """Unite closed surfaces; return None if manifold3d rejects one of them.
 
     >>> import trimesh
     >>> boxes = [trimesh.creation.box((2, 2, 2)), trimesh.creation.box((2, 2, 2)).apply_translation((1, 1, 1))]
-    >>> both = united([Surface(vertices=each.vertices, faces=each.faces) for each in boxes])
+    >>> both = united([Surface(vertices=mesh.vertices, faces=mesh.faces) for mesh in boxes])
     >>> both.closed, round(both.volume, 6)
     (True, 15.0)
     """
-    solids = [solid_of(each) for each in surfaces]
-    if not solids or any(status_of(each) != FINE for each in solids):
+    solids = [solid_of(surface) for surface in surfaces]
+    if not solids or any(status_of(solid) != FINE for solid in solids):
         return None
-    whole = reduce(lambda one, other: one + other, solids)
-    return surface_from(whole) if status_of(whole) == FINE and not whole.is_empty() else None
+    union_solid = reduce(lambda union, operand: union + operand, solids)
+    return surface_from(union_solid) if status_of(union_solid) == FINE and not union_solid.is_empty() else None

@@ -1,4 +1,4 @@
-"""How often a surface winds around points: what lies inside it, and which of its faces bound its solid."""
+"""Winding numbers of a surface: the points inside it, and the faces that bound its solid."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from infill.surface import Surface
 
 Floats = NDArray[np.float64]
 
-LOOKED = 500_000_000  # triangles looked at, at most, to tell which points are hidden: half a second
+LOOKED = 500_000_000  # most triangles examined to tell which points are hidden: half a second
 
 
 def winding(
@@ -20,13 +20,13 @@ def winding(
     sign: NDArray[np.int64] | None = None,
     threads: int | None = None,
 ) -> NDArray[np.int64]:
-    """Return how often a surface winds around each point, (N,).
+    """Count the windings of a surface around each point, (N,).
 
     Parameters
     ----------
     points : (N, 3) float, mm
     surface : Surface, mm
-        Closed: for an open one, the number is right where no hole lies straight above a point.
+        Closed; for an open surface, the number is right where no hole lies straight above a point.
     sign : (F,) int64, optional
         -1 for a face that counts as if it were turned, else 1.
     threads : int, optional
@@ -39,23 +39,23 @@ def winding(
     """
     from infill.kernels.distances import wind
 
-    found = np.zeros(len(points), dtype=np.int64)
+    windings = np.zeros(len(points), dtype=np.int64)
     if len(points) == 0:
-        return found
+        return windings
     corners = np.ascontiguousarray(np.asarray(surface.vertices, dtype=np.float64)[surface.faces])
-    given = np.ascontiguousarray(points, dtype=np.float64)
+    queries = np.ascontiguousarray(points, dtype=np.float64)
     sign = np.ones(len(corners), dtype=np.int64) if sign is None else sign
-    in_threads(wind, given, corners, sign, found, threads=thread_count(threads))
-    return found
+    in_threads(wind, queries, corners, sign, windings, threads=thread_count(threads))
+    return windings
 
 
 def bounds_solid(
     points: Floats, faces: NDArray[np.integer], surface: Surface, aside: float, *, threads: int | None = None
 ) -> NDArray[np.bool_]:
-    """Return which points (N, 3) on faces (N,) of a surface have its solid on one side only.
+    """Mark the points (N, 3) on faces (N,) of a surface that have solid on one side only.
 
-    The others lie inside the solid, as where bodies overlap, or on a sheet that bounds none: nobody sees the first, and
-    nobody misses the second.
+    Other points lie inside the solid, as where bodies overlap, and are invisible; or they lie on a sheet that bounds no
+    solid, and do not matter.
 
     Parameters
     ----------
@@ -63,19 +63,21 @@ def bounds_solid(
     faces : (N,) int
     surface : Surface, mm
     aside : float, mm
-        How far from the face it is looked, on both sides.
+        Distance from the face at which both sides are examined.
 
     Notes
     -----
-    If the points are very many, some are looked at, and those after them taken to be alike.
+    If there are very many points, only every n-th is examined, and the next ones get the same answer.
     """
     if len(points) == 0:
         return np.zeros(0, dtype=bool)
     a, b, c = (np.asarray(surface.vertices, dtype=np.float64)[surface.faces[faces, i]] for i in range(3))
     normal = np.cross(b - a, c - a)
     length = np.linalg.norm(normal, axis=1, keepdims=True)
-    step = -(-2 * len(points) * len(surface.faces) // LOOKED)
-    away = aside * np.divide(normal, length, out=np.zeros_like(normal), where=length > 0)
-    one, other = (winding((points + way * away)[::step], surface, threads=threads) != 0 for way in (1, -1))
-    found: NDArray[np.bool_] = np.repeat(one != other, step)[: len(points)]
-    return found
+    stride = -(-2 * len(points) * len(surface.faces) // LOOKED)
+    offset = aside * np.divide(normal, length, out=np.zeros_like(normal), where=length > 0)
+    outer_solid, inner_solid = (
+        winding((points + sign * offset)[::stride], surface, threads=threads) != 0 for sign in (1, -1)
+    )
+    bounding: NDArray[np.bool_] = np.repeat(outer_solid != inner_solid, stride)[: len(points)]
+    return bounding

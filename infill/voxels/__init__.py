@@ -1,1 +1,1 @@
-"""What is solid on a grid: stamped patterns, meshes, points and scans turned into cells."""
+"""Solid on a grid: patterns, meshes, points and scans turned into cells."""

@@ -1,4 +1,4 @@
-"""Larger cells in the place of those of a scan: each has the mean of what it covers."""
+"""Coarsen a scan: each larger cell gets the mean of the cells that it covers."""
 
 from __future__ import annotations
 
@@ -13,46 +13,46 @@ from infill.errors import ParameterError
 from infill.volume import Volume
 
 SLAB = 2**24  # cells averaged at a time
-NEAR = 1e-6  # of a cell: how far a voxel may be smaller than those there are, by rounding
+NEAR = 1e-6  # of a cell: by rounding, a voxel may be this much smaller than the cells
 FEWEST = 2  # cells along the longest side
 
 
 def coarser(volume: Volume, voxel: float) -> Volume:
-    """Return a volume with cells of about `voxel` mm along each side.
+    """Average a volume over larger cells of about `voxel` mm along each side.
 
     Parameters
     ----------
     volume : Volume
         Numbers or booleans.
     voxel : float, mm
-        No smaller than the shortest side of its cells. Along axes whose cells are larger, they stay as they are.
+        No smaller than the shortest side of its cells. Axes whose cells are larger stay unchanged.
 
     Returns
     -------
     Volume
-        float32 means, each over the same whole or broken number of cells; the last ones along an axis reach beyond the
-        volume, and count what lies in it.
+        float32 means, each over the same number of cells, which may be a fraction; the last ones along an axis reach
+        beyond the volume, and average the cells inside it.
 
     Raises
     ------
     ParameterError
-        If the voxel is smaller than the cells there are, or larger than half of the volume.
+        If the voxel is smaller than the cells of the volume, or larger than half of the volume.
 
     >>> coarser(Volume(values=np.arange(16.0).reshape(4, 2, 2)), 2.0).values.tolist()
     [[[3.5]], [[11.5]]]
     """
     voxel, size = length("voxel", voxel), volume.cell_size
-    least, most = float(size.min()), float((size * volume.values.shape).max())
-    if voxel < least * (1 - NEAR):
-        raise ParameterError(f"voxel is {voxel:g} mm and the volume has {least:g} mm; give no less, or leave it out")
-    if voxel > most / FEWEST + NEAR:
+    shortest, longest = float(size.min()), float((size * volume.values.shape).max())
+    if voxel < shortest * (1 - NEAR):
+        raise ParameterError(f"voxel is {voxel:g} mm and the volume has {shortest:g} mm; give no less, or leave it out")
+    if voxel > longest / FEWEST + NEAR:
         raise ParameterError(
-            f"voxel is {voxel:g} mm and the volume {most:g} mm long; give at most {most / FEWEST:g} mm"
+            f"voxel is {voxel:g} mm and the volume {longest:g} mm long; give at most {longest / FEWEST:g} mm"
         )
     factors = np.maximum(voxel / size, 1.0)
     counts = np.maximum(1, np.ceil(np.array(volume.values.shape) / factors - NEAR)).astype(int)
     values: NDArray[Any] = np.asarray(volume.values)
-    found = np.zeros(counts, dtype=np.float64)
+    means = np.zeros(counts, dtype=np.float64)
     weights = np.zeros(counts[0])
     rows = max(1, SLAB // int(np.prod(values.shape[1:])))
     for start in range(0, len(values), rows):
@@ -60,17 +60,17 @@ def coarser(volume: Volume, voxel: float) -> Volume:
         for axis in (2, 1):
             part = _means(part, axis, float(factors[axis]), int(counts[axis]))
         for n, layer in enumerate(part, start):
-            first, last = n / factors[0], (n + 1) / factors[0]
-            for cell in range(int(first + NEAR), min(int(np.ceil(last - NEAR)), int(counts[0]))):
-                share = min(last, cell + 1) - max(first, cell)
-                found[cell] += share * layer
+            begin, end = n / factors[0], (n + 1) / factors[0]
+            for cell in range(int(begin + NEAR), min(int(np.ceil(end - NEAR)), int(counts[0]))):
+                share = min(end, cell + 1) - max(begin, cell)
+                means[cell] += share * layer
                 weights[cell] += share
-    found /= weights[:, None, None]
-    return replace(volume, values=found.astype(np.float32), spacing=tuple((size * factors).tolist()))
+    means /= weights[:, None, None]
+    return replace(volume, values=means.astype(np.float32), spacing=tuple((size * factors).tolist()))
 
 
 def _means(values: NDArray[np.float32], axis: int, factor: float, count: int) -> NDArray[np.float32]:
-    """Return the means over stretches of `factor` cells along an axis."""
+    """Average over stretches of `factor` cells along an axis."""
     if factor == 1:
         return values
     along = np.moveaxis(values, axis, -1)
@@ -79,6 +79,6 @@ def _means(values: NDArray[np.float32], axis: int, factor: float, count: int) ->
     np.cumsum(along, axis=-1, out=sums[..., 1:], dtype=np.float64)
     edges = np.minimum(np.arange(count + 1) * factor, cells)
     below = np.minimum(edges.astype(int), cells - 1)
-    at = sums[..., below] + (edges - below) * along[..., below]
-    found = np.diff(at, axis=-1) / np.diff(edges)
-    return np.moveaxis(found.astype(np.float32), -1, axis)
+    integral = sums[..., below] + (edges - below) * along[..., below]
+    means = np.diff(integral, axis=-1) / np.diff(edges)
+    return np.moveaxis(means.astype(np.float32), -1, axis)

@@ -1,4 +1,4 @@
-"""A part of a volume: by cells, or by a box in space."""
+"""Cut a part out of a volume: by cells, or by a box in space."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Box = tuple[float, ...]
 
 
 def part(volume: Volume, low: tuple[int, ...], high: tuple[int, ...]) -> Volume:
-    """Return the cells from `low` up to but without `high`, in the same place; nothing is copied.
+    """Cut out the cells from `low` up to but without `high`, in the same place; nothing is copied.
 
     >>> part(Volume(values=np.arange(8).reshape(2, 2, 2), spacing=0.5), (1, 0, 0), (2, 2, 2)).origin
     (0.5, 0.0, 0.0)
@@ -31,7 +31,7 @@ def part(volume: Volume, low: tuple[int, ...], high: tuple[int, ...]) -> Volume:
 
 
 def cropped(volume: Volume, roi: Box, *, varied: bool = True) -> Volume:
-    """Return the part of a volume that lies in a box.
+    """Cut out the part of a volume that lies in a box.
 
     Parameters
     ----------
@@ -39,13 +39,13 @@ def cropped(volume: Volume, roi: Box, *, varied: bool = True) -> Volume:
     roi : (x0, x1, y0, y1, z0, z1), mm
         The box, in the space of the volume: LPS for medical images.
     varied : bool
-        Whether the part must hold more than one value, as that of a single volume has to.
+        Whether the part must hold more than one value, as the data of a single volume must.
 
     Returns
     -------
     Volume
         The cells with their centre in the box. If the axes of the grid are turned against those of space, the
-        smallest part of the grid that holds these cells, and more beside them; the log says so.
+        smallest part of the grid that holds these cells, and others with them; a warning is logged.
 
     Raises
     ------
@@ -55,7 +55,7 @@ def cropped(volume: Volume, roi: Box, *, varied: bool = True) -> Volume:
     >>> cropped(Volume(values=np.arange(64.0).reshape(4, 4, 4)), (1, 3, 0, 4, 0, 2)).values.shape
     (2, 4, 2)
     """
-    ends = _ends(roi)
+    ends = _box_ends(roi)
     direction, size = np.asarray(volume.direction), volume.cell_size
     corners = np.array([[ends[axis, side >> axis & 1] for axis in range(AXES)] for side in range(2**AXES)])
     along = (corners - np.array(volume.origin)) @ direction / size - 0.5  # in cells, counted from their centres
@@ -63,20 +63,22 @@ def cropped(volume: Volume, roi: Box, *, varied: bool = True) -> Volume:
     low = np.ceil(np.clip(along.min(axis=0) - ROUNDING, 0, count)).astype(int)
     high = np.floor(np.clip(along.max(axis=0) + ROUNDING, -1, count - 1)).astype(int) + 1
     if (low >= high).any():
-        raise ParameterError(f"roi is {_said(ends)} and holds no cell of the volume, {_reach(volume)}; move the box")
+        raise ParameterError(
+            f"roi is {_format_ends(ends)} and holds no cell of the volume, {_describe_extent(volume)}; move the box"
+        )
     turned = np.abs(direction).max(axis=0)
     if (np.sqrt(np.clip(1 - turned**2, 0, 1)) * count > SKEW * count.max()).any():
         angle = math.degrees(math.acos(min(1.0, float(turned.min()))))
         LOG.warning("the grid is turned by %.3g degrees, so that more of it is kept than lies in the roi", angle)
-    kept = part(volume, tuple(low.tolist()), tuple(high.tolist()))
-    least, most = kept.values.min().item(), kept.values.max().item()
-    if varied and least == most:
-        raise ParameterError(f"roi holds {least:g} in all cells, so no surface; make it larger, or move it")
-    return kept
+    cropped_volume = part(volume, tuple(low.tolist()), tuple(high.tolist()))
+    lowest, highest = cropped_volume.values.min().item(), cropped_volume.values.max().item()
+    if varied and lowest == highest:
+        raise ParameterError(f"roi holds {lowest:g} in all cells, so no surface; make it larger, or move it")
+    return cropped_volume
 
 
-def _ends(roi: Box) -> NDArray[np.float64]:
-    """Return the box as (3, 2), checked."""
+def _box_ends(roi: Box) -> NDArray[np.float64]:
+    """Check the box; return it as (3, 2)."""
     numbers = np.array(roi, dtype=np.float64)
     if numbers.shape != (2 * AXES,) or not np.isfinite(numbers).all():
         raise ParameterError(f"roi is {roi}; give six finite numbers: X0,X1,Y0,Y1,Z0,Z1")
@@ -87,14 +89,15 @@ def _ends(roi: Box) -> NDArray[np.float64]:
     return ends
 
 
-def _reach(volume: Volume) -> str:
-    """Return from where to where a volume reaches, for a message."""
+def _describe_extent(volume: Volume) -> str:
+    """Describe the extent of a volume, for a message."""
     size = volume.cell_size * volume.values.shape
     corners = [[size[axis] * (side >> axis & 1) for axis in range(AXES)] for side in range(2**AXES)]
     placed = volume.place(np.array(corners, dtype=np.float64))
     space = f" {volume.space}" if volume.space else ""
-    return f"which reaches {_said(np.stack([placed.min(axis=0), placed.max(axis=0)], axis=1))} mm{space}"
+    return f"which reaches {_format_ends(np.stack([placed.min(axis=0), placed.max(axis=0)], axis=1))} mm{space}"
 
 
-def _said(ends: NDArray[np.float64]) -> str:
+def _format_ends(ends: NDArray[np.float64]) -> str:
+    """Format the ends of a box, for a message."""
     return ", ".join(f"{low:g} to {high:g}" for low, high in ends.tolist())

@@ -1,4 +1,4 @@
-"""What can be reached from outside the solid, found by runs of cells rather than cell by cell."""
+"""Find the void that is reachable from outside the solid, by runs of cells rather than cell by cell."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ LINKS = 2**20  # pairs of runs worked on at a time
 
 
 def enclosed(solid: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Return the void cells that no path of void cells, face to face, joins to the corner of the grid.
+    """Mark the void cells that no path of void cells, face to face, joins to the corner of the grid.
 
     Parameters
     ----------
@@ -36,15 +36,15 @@ def enclosed(solid: NDArray[np.bool_]) -> NDArray[np.bool_]:
     _, ny, nz = solid.shape
     width = nz + 1  # one place more than there are cells keeps the runs of different rows apart
     start, end = _void_runs(solid)
-    ones, others = [], []
+    run_lists, neighbour_lists = [], []
     for shift in (width, ny * width):
         low = np.searchsorted(end, start + shift, side="right")
         high = np.searchsorted(start, end + shift, side="left")
         for run, place in spread(np.maximum(high - low, 0), LINKS):
-            ones.append(run.astype(np.int32))
-            others.append((low[run] + place).astype(np.int32))
-    one, other = np.concatenate(ones), np.concatenate(others)
-    graph = coo_array((np.ones(len(one), dtype=np.int8), (one, other)), shape=(len(start),) * 2)
+            run_lists.append(run.astype(np.int32))
+            neighbour_lists.append((low[run] + place).astype(np.int32))
+    first_run, second_run = np.concatenate(run_lists), np.concatenate(neighbour_lists)
+    graph = coo_array((np.ones(len(first_run), dtype=np.int8), (first_run, second_run)), shape=(len(start),) * 2)
     _, component = connected_components(graph, directed=False)
     inner = component != component[0]
     index = np.concatenate([start[inner], end[inner]])
@@ -62,7 +62,7 @@ def enclosed(solid: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
 
 def _void_runs(solid: NDArray[np.bool_]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return where the runs of void begin and end, as row * (nz + 1) + place."""
+    """Find the runs of void; return where they begin and end, as row * (nz + 1) + place."""
     nx, ny, nz = solid.shape
     thick = max(1, SLAB // (ny * nz))
     starts, ends = [], []

@@ -1,4 +1,4 @@
-"""From a mesh to cells: which cell centres lie inside, whatever state the mesh is in."""
+"""Turn a mesh into cells: mark the cell centres inside it, whatever state the mesh is in."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ CROSSING_BYTES, FACE_BYTES = 60, 420  # measured peaks, sorting included
 
 @dataclass(frozen=True, kw_only=True)
 class Repairs:
-    """What `voxelise` had to assume about a mesh.
+    """Assumptions that `voxelise` made about a mesh.
 
     Parameters
     ----------
@@ -60,12 +60,12 @@ class Voxelised:
     volume : Volume
         Booleans, True inside.
     repairs : Repairs
-        What had to be assumed.
+        Assumptions about the mesh.
     closed : Surface
-        The mesh whose inside these cells are, mm: equal vertices merged where that closes it, else with caps on its
-        holes. The caps are its last faces.
+        The mesh around these cells, mm: equal vertices merged where that closes it, else with caps on its holes. The
+        caps are its last faces.
     enclosed : Enclosed
-        What it encloses, exactly.
+        The exact volumes inside the mesh.
     several : bool
         Whether it has several components, or overlaps itself.
     """
@@ -77,14 +77,14 @@ class Voxelised:
     several: bool
 
     def distances(self, reach: float, *, threads: int | None = None) -> NDArray[np.float32]:
-        """Return how far the centres of the cells lie from the mesh: see `infill.voxels.partial.distances_in_cells`."""
+        """Measure the distance of the cell centres from the mesh: see `infill.voxels.partial.distances_in_cells`."""
         return distances_in_cells(self.closed, self.volume, reach, several=self.several, threads=threads)
 
 
 def grid_around(
     surface: Surface, *, voxel: float | None = None, resolution: int | None = None, margin: int = 2
 ) -> Grid:
-    """Return the grid on which a mesh is looked at: see `voxelise`."""
+    """Lay the grid on which a mesh is voxelised: see `voxelise`."""
     if voxel is not None and resolution is not None:
         raise UsageError("voxel and resolution are both given; give one of them")
     lower, upper = surface.bounds
@@ -106,21 +106,21 @@ def grid_around(
 
 
 def enclosed_cells(surface: Surface, grid: Grid) -> float:
-    """Return how many cells a mesh and the caps on its holes enclose, about: what overlaps counts twice.
+    """Estimate the number of cells inside a mesh and the caps on its holes; overlaps count twice.
 
     Raises
     ------
     GeometryError
         If it encloses nothing.
     """
-    vertices, faces, _ = capped((surface.vertices - np.array(grid.origin)) / grid.cell_size - 0.5, surface.faces)
-    return abs(float(_components(vertices, faces, len(surface.faces))[1].sum()))
+    cell_vertices, faces, _ = capped((surface.vertices - np.array(grid.origin)) / grid.cell_size - 0.5, surface.faces)
+    return abs(float(_components(cell_vertices, faces, len(surface.faces))[1].sum()))
 
 
 def _components(
     vertices: NDArray[np.float64], faces: NDArray[np.integer], given: int
 ) -> tuple[NDArray[np.integer], NDArray[np.float64]]:
-    """Return the component of each face, and what each encloses, signed; `given` is how many faces are no caps."""
+    """Label the components of the faces; return them and signed volumes. The first `given` faces are not caps."""
     component, volumes = components(vertices, faces)
     if not volumes.any():
         raise GeometryError(
@@ -137,7 +137,7 @@ def voxelise(
     margin: int = 2,
     max_memory: int | None = None,
 ) -> Volume:
-    """Return the cells whose centre lies inside a mesh.
+    """Mark the cells whose centre lies inside a mesh.
 
     Parameters
     ----------
@@ -197,7 +197,7 @@ def voxelise_reported(
     margin: int = 2,
     max_memory: int | None = None,
 ) -> Voxelised:
-    """Return the cells inside a mesh, what had to be assumed, and the mesh actually used: see `voxelise`."""
+    """Voxelise a mesh as `voxelise` does; return the cells, the assumptions, and the closed mesh."""
     if voxel is not None and resolution is not None:
         raise UsageError("voxel and resolution are both given; give one of them")
     margin = whole("margin", margin, 0)
@@ -215,15 +215,15 @@ def voxelise_reported(
     vertices, faces, holes = capped((mesh.vertices - origin) / size - 0.5, mesh.faces)
     doubled = np.cross(vertices[faces[:, 1]] - vertices[faces[:, 0]], vertices[faces[:, 2]] - vertices[faces[:, 0]])
     expected = float(np.abs(doubled[:, 2]).sum()) / 2
-    needed = math.prod(shape) + CROSSING_BYTES * expected + FACE_BYTES * len(faces) + 8 * SLAB
-    require_memory(int(needed), max_memory, advice)
+    required = math.prod(shape) + CROSSING_BYTES * expected + FACE_BYTES * len(faces) + 8 * SLAB
+    require_memory(int(required), max_memory, advice)
     areas = np.linalg.norm(doubled, axis=1)
     component, volumes = _components(vertices, faces, len(mesh.faces))
-    found = crossings(vertices, faces, shape)
-    turned = inside_out(found, component, volumes)
+    crossed = crossings(vertices, faces, shape)
+    turned = inside_out(crossed, component, volumes)
     if turned.any():
-        found = replace(found, sign=np.where(turned[component[found.face]], -found.sign, found.sign))
-    inside, most = wound(found, shape)
+        crossed = replace(crossed, sign=np.where(turned[component[crossed.face]], -crossed.sign, crossed.sign))
+    inside, largest_winding = wound(crossed, shape)
     if not inside.any():
         raise ParameterError(
             f"voxel is {size:g} mm and the part {' x '.join(f'{side:g}' for side in extents)} mm: no centre of a "
@@ -231,12 +231,18 @@ def voxelise_reported(
         )
     closed = Surface(vertices=(vertices + 0.5) * size + origin, faces=faces) if holes else mesh
     cells = Volume(values=inside, spacing=size, origin=tuple(origin.tolist()))
-    held = enclosed(closed, component, turned, volumes * size**3, cells, overlap=most > 1)
+    enclosed_volumes = enclosed(closed, component, turned, volumes * size**3, cells, overlap=largest_winding > 1)
     repairs = Repairs(
         components=len(volumes),
         turned=int(turned.sum()),
         holes=holes,
         hole_share=float(areas[len(mesh.faces) :].sum() / areas.sum()),
-        volume=held.total,
+        volume=enclosed_volumes.total,
     )
-    return Voxelised(volume=cells, repairs=repairs, closed=closed, enclosed=held, several=len(volumes) > 1 or most > 1)
+    return Voxelised(
+        volume=cells,
+        repairs=repairs,
+        closed=closed,
+        enclosed=enclosed_volumes,
+        several=len(volumes) > 1 or largest_winding > 1,
+    )

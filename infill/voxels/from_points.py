@@ -1,4 +1,4 @@
-"""From points on a surface to cells: a shell around them, or the solid that they enclose."""
+"""Turn points on a surface into cells: a shell around them, or the solid that they enclose."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ FEWEST = 4  # points that can enclose a volume
 FARTHEST = 1e9  # mm, a thousand kilometres: beyond, a coordinate is broken
 FLAT = 1e-6  # of the largest extent: points that deviate from their plane by less than this count as lying in it
 AT_ONCE = 2**18  # spans of cells handled at a time
-# Points spread evenly over a surface have six others around them; the spacing is the distance to the sixth that 95 %
-# of them do not exceed, so that a shell laid by it is whole except for a few gaps. Measured on 20 000 points, the
+# Points spread evenly over a surface have six neighbours; the spacing is the distance to the sixth neighbour that 95 %
+# of the points do not exceed, so that a shell of this size has only a few gaps. Measured on 20 000 points, the
 # share is 95 % give or take 0.15 %.
 NEIGHBOUR, QUANTILE, SAMPLED = 6, 0.95, 20_000
 # Half widths of the shell to try, in spacings: half a spacing is the least at which balls around neighbours touch;
@@ -51,7 +51,7 @@ def voxelise_points(
     max_memory: int | None = None,
     threads: int | None = None,
 ) -> Volume:
-    """Return the cells near points of a surface, or inside it.
+    """Mark the cells near points of a surface, or inside it.
 
     Parameters
     ----------
@@ -97,23 +97,23 @@ def voxelise_points(
     >>> voxelise_points([[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4]], voxel=1, shell=3).values.shape
     (12, 12, 12)
     """
-    positions, size = _checked(points), length("voxel", voxel)
+    positions, size = _check_points(points), length("voxel", voxel)
     margin = whole("margin", margin, 0)
     if shell is not None:
-        return _shell(positions, size, length("shell", shell), margin, max_memory)
-    return _solid(positions, size, margin, max_memory, thread_count(threads))
+        return _voxelise_shell(positions, size, length("shell", shell), margin, max_memory)
+    return _voxelise_solid(positions, size, margin, max_memory, thread_count(threads))
 
 
 def grid_around_points(points: ArrayLike, *, voxel: float, shell: float | None = None, margin: int = 2) -> Grid:
-    """Return the grid on which points are looked at: see `voxelise_points`."""
-    positions, size = _checked(points), length("voxel", voxel)
+    """Lay the grid on which points are voxelised: see `voxelise_points`."""
+    positions, size = _check_points(points), length("voxel", voxel)
     reach = 0 if shell is None else math.ceil(length("shell", shell) / 2 / size)
-    shape, origin, _ = _grid(positions, size, margin + reach)
+    shape, origin, _ = _lay_grid(positions, size, margin + reach)
     return Grid(shape=shape, spacing=size, origin=tuple(origin.tolist()))
 
 
 def balls(centres: Floats, radius: float, shape: tuple[int, ...]) -> Cells:
-    """Return the cells whose centre lies in a ball around one of the points.
+    """Mark the cells whose centre lies in a ball around one of the points.
 
     Parameters
     ----------
@@ -139,18 +139,18 @@ def balls(centres: Floats, radius: float, shape: tuple[int, ...]) -> Cells:
         if begin == end:
             continue
         ends = np.zeros((ny, nz + 1), dtype=np.int32)
-        left = np.maximum(radius**2 - (x[begin:end] - i) ** 2, 0)
-        reach = np.sqrt(left)
-        first = np.clip(np.ceil(y[begin:end] - reach), 0, ny).astype(np.int64)
-        last = np.clip(np.floor(y[begin:end] + reach), -1, ny - 1).astype(np.int64)
-        for some, step in spread(np.maximum(last - first + 1, 0), AT_ONCE):
-            row = first[some] + step
-            half = np.sqrt(np.maximum(left[some] - (y[begin:end][some] - row) ** 2, 0))
-            middle = z[begin:end][some]
+        half_chord_squared = np.maximum(radius**2 - (x[begin:end] - i) ** 2, 0)
+        reach = np.sqrt(half_chord_squared)
+        low_row = np.clip(np.ceil(y[begin:end] - reach), 0, ny).astype(np.int64)
+        high_row = np.clip(np.floor(y[begin:end] + reach), -1, ny - 1).astype(np.int64)
+        for ball, step in spread(np.maximum(high_row - low_row + 1, 0), AT_ONCE):
+            row = low_row[ball] + step
+            half = np.sqrt(np.maximum(half_chord_squared[ball] - (y[begin:end][ball] - row) ** 2, 0))
+            middle = z[begin:end][ball]
             start = np.clip(np.ceil(middle - half), 0, nz).astype(np.int64)
             stop = np.clip(np.floor(middle + half) + 1, 0, nz).astype(np.int64)
-            seen = start < stop
-            row, start, stop = row[seen] * (nz + 1), start[seen], stop[seen]
+            nonempty = start < stop
+            row, start, stop = row[nonempty] * (nz + 1), start[nonempty], stop[nonempty]
             ends += np.bincount(row + start, minlength=ends.size).reshape(ends.shape).astype(np.int32)
             ends -= np.bincount(row + stop, minlength=ends.size).reshape(ends.shape).astype(np.int32)
         np.greater(np.cumsum(ends, axis=1)[:, :-1], 0, out=inside[i])
@@ -164,7 +164,8 @@ def spacing_of_points(tree: KDTree) -> float:
     return float(np.quantile(tree.query(sample, k=[min(NEIGHBOUR + 1, len(points))])[0], QUANTILE))
 
 
-def _checked(points: ArrayLike) -> Floats:
+def _check_points(points: ArrayLike) -> Floats:
+    """Check points; return them as an array (N, 3)."""
     positions = np.asarray(points, dtype=np.float64)
     if positions.ndim != 2 or positions.shape[1] != 3:
         raise ParameterError(f"the points have the shape {positions.shape}; give N x 3, in mm")
@@ -181,32 +182,35 @@ def _checked(points: ArrayLike) -> Floats:
     return positions
 
 
-def _grid(positions: Floats, size: float, pad: int) -> tuple[tuple[int, ...], Floats, Floats]:
-    """Return the shape and origin of a grid with `pad` cells around the points' box, and the points in its cells."""
+def _lay_grid(positions: Floats, size: float, pad: int) -> tuple[tuple[int, ...], Floats, Floats]:
+    """Lay a grid with `pad` cells around the points' box; return its shape, its origin, and the points in its cells."""
     lower, upper = positions.min(axis=0), positions.max(axis=0)
     shape = tuple(max(1, math.ceil(side / size - 1e-6)) + 2 * pad for side in (upper - lower).tolist())
     origin = (lower + upper) / 2 - np.array(shape) * size / 2
     return shape, origin, (positions - origin) / size - 0.5
 
 
-def _require(shape: tuple[int, ...], points: int, per_cell: int, limit: int | None) -> None:
+def _require_room(shape: tuple[int, ...], points: int, per_cell: int, limit: int | None) -> None:
+    """Raise MemoryLimitError unless a grid and its points fit into memory."""
     advice = f"the grid has {' x '.join(map(str, shape))} cells; give larger voxels"
     require_memory(math.prod(shape) * per_cell + points * POINT_BYTES, limit, advice)
 
 
-def _shell(positions: Floats, size: float, shell: float, margin: int, limit: int | None) -> Volume:
+def _voxelise_shell(positions: Floats, size: float, shell: float, margin: int, limit: int | None) -> Volume:
+    """Mark the cells in a shell around points."""
     if shell < size:
         raise ParameterError(
             f"shell is {shell:g} mm and voxel {size:g} mm: the shell would have gaps; give a shell of at least "
             "one voxel, better three"
         )
     radius = shell / 2 / size
-    shape, origin, placed = _grid(positions, size, margin + math.ceil(radius))
-    _require(shape, len(placed), SHELL_BYTES, limit)
+    shape, origin, placed = _lay_grid(positions, size, margin + math.ceil(radius))
+    _require_room(shape, len(placed), SHELL_BYTES, limit)
     return Volume(values=balls(placed, radius, shape), spacing=size, origin=tuple(origin.tolist()))
 
 
-def _solid(positions: Floats, size: float, margin: int, limit: int | None, threads: int) -> Volume:
+def _voxelise_solid(positions: Floats, size: float, margin: int, limit: int | None, threads: int) -> Volume:
+    """Mark the cells of the solid that points enclose."""
     from scipy.spatial import KDTree
 
     middle = positions.mean(axis=0)
@@ -221,27 +225,27 @@ def _solid(positions: Floats, size: float, margin: int, limit: int | None, threa
         raise ParameterError(
             f"voxel is {size:g} mm and the points are {thickness:.4g} mm thick; give a voxel of at most half of that"
         )
-    _require(_grid(positions, size, margin)[0], len(positions), SOLID_BYTES, limit)
+    _require_room(_lay_grid(positions, size, margin)[0], len(positions), SOLID_BYTES, limit)
     distinct = np.unique(positions, axis=0)
     tree = KDTree(distinct)
     spacing = spacing_of_points(tree)
     radii = [math.hypot(spacing * factor, size) for factor in WIDENING]
-    best, leaking, found = BACKED, 0.0, None
+    best, leaking, best_volume = BACKED, 0.0, None
     for radius in radii:
         pad = margin + math.ceil(radius / size) + 2
-        shape, origin, placed = _grid(distinct, size, pad)
-        _require(shape, len(positions), SOLID_BYTES, limit)
-        values, share = _filled(placed, radius / size, shape, best, threads)
+        shape, origin, placed = _lay_grid(distinct, size, pad)
+        _require_room(shape, len(positions), SOLID_BYTES, limit)
+        values, share = _fill_shell(placed, radius / size, shape, best, threads)
         leaking = max(leaking, share)
         if values is not None:
             cut = slice(pad - margin, margin - pad)
             corner = tuple((origin + (pad - margin) * size).tolist())
             best = share
-            found = Volume(values=np.ascontiguousarray(values[cut, cut, cut]), spacing=size, origin=corner)
-        if found is not None and (best >= ENOUGH or share < best):
-            return found
-    if found is not None:
-        return found
+            best_volume = Volume(values=np.ascontiguousarray(values[cut, cut, cut]), spacing=size, origin=corner)
+        if best_volume is not None and (best >= ENOUGH or share < best):
+            return best_volume
+    if best_volume is not None:
+        return best_volume
     raise GeometryError(
         f"the points do not enclose a solid: no more than {leaking:.0%} of them have an inside behind them in "
         f"a shell of {2 * radii[0]:.3g} to {2 * radii[-1]:.3g} mm; "
@@ -249,12 +253,12 @@ def _solid(positions: Floats, size: float, margin: int, limit: int | None, threa
     )
 
 
-def _filled(
-    points: Floats, radius: float, shape: tuple[int, ...], least: float, threads: int
+def _fill_shell(
+    points: Floats, radius: float, shape: tuple[int, ...], lowest_share: float, threads: int
 ) -> tuple[Cells | None, float]:
-    """Return the solid inside a shell, or None, and the ratio of points with an inside to points with an outside.
+    """Fill a shell; return the solid, or None, and the ratio of points with an inside to points with an outside.
 
-    The solid is None if that ratio is below `least`.
+    The solid is None if that ratio is below `lowest_share`.
     """
     from scipy.spatial import KDTree
 
@@ -263,10 +267,10 @@ def _filled(
     if not core.any():
         return None, 0.0
     tree = KDTree(points)
-    inner, seen_inside = _rolled(tree, _beside(core, shell), radius, threads)
-    outer, seen_outside = _rolled(tree, _beside(~(shell | core), shell), radius, threads)
+    inner, seen_inside = _roll_balls(tree, _adjacent_cells(core, shell), radius, threads)
+    outer, seen_outside = _roll_balls(tree, _adjacent_cells(~(shell | core), shell), radius, threads)
     share = seen_inside / seen_outside
-    if share < least:
+    if share < lowest_share:
         return None, share
     undecided = balls(inner, radius + REACH, shape)
     undecided &= balls(outer, radius + REACH, shape)
@@ -281,24 +285,24 @@ def _filled(
     return solid, share
 
 
-def _beside(cells: Cells, others: Cells) -> NDArray[np.int64]:
-    """Return the indices (N, 3) of the cells that share a face with one of the others; none on the border."""
-    near = np.zeros_like(cells)
+def _adjacent_cells(cells: Cells, neighbours: Cells) -> NDArray[np.int64]:
+    """Return the indices (N, 3) of the cells that share a face with one of `neighbours`; none on the border."""
+    adjacent = np.zeros_like(cells)
     for axis in range(3):
         for ahead, behind in ((slice(1, None), slice(None, -1)), (slice(None, -1), slice(1, None))):
-            to, source = [slice(None)] * 3, [slice(None)] * 3
-            to[axis], source[axis] = ahead, behind
-            near[tuple(to)] |= others[tuple(source)]
-    near &= cells
-    return np.argwhere(near)
+            target, source = [slice(None)] * 3, [slice(None)] * 3
+            target[axis], source[axis] = ahead, behind
+            adjacent[tuple(target)] |= neighbours[tuple(source)]
+    adjacent &= cells
+    return np.argwhere(adjacent)
 
 
-def _rolled(tree: KDTree, cells: NDArray[np.int64], radius: float, threads: int) -> tuple[Floats, int]:
-    """Return centres of balls touching the points from the side of the cells, and how many points they touch."""
+def _roll_balls(tree: KDTree, cells: NDArray[np.int64], radius: float, threads: int) -> tuple[Floats, int]:
+    """Roll balls over the points from the side of the cells; return their centres, and how many points they touch."""
     distance, nearest = tree.query(cells, workers=threads)
     # On the ball around the nearest point, not at the cell: no part of a cell is lost.
     centres = tree.data[nearest] + (cells - tree.data[nearest]) * (radius / distance)[:, None]
     # Between balls s apart, a ridge of s² / 8 R remains: large balls need not be placed in every cell.
-    apart = max(1.0, math.sqrt(RIDGE * radius))
-    _, kept = np.unique(np.floor(centres / apart).astype(np.int64), axis=0, return_index=True)
-    return centres[kept], len(np.unique(nearest))
+    pitch = max(1.0, math.sqrt(RIDGE * radius))
+    _, chosen = np.unique(np.floor(centres / pitch).astype(np.int64), axis=0, return_index=True)
+    return centres[chosen], len(np.unique(nearest))

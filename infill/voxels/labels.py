@@ -1,4 +1,4 @@
-"""The labels of a volume of whole numbers: which there are, and where each of them lies."""
+"""The labels of a volume of whole numbers, and the extent of each."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ SLAB = 2**22  # cells examined in one go
 
 @dataclass(frozen=True, kw_only=True)
 class Extent:
-    """Where a label lies.
+    """The box of cells that holds a label.
 
     Parameters
     ----------
@@ -33,45 +33,45 @@ class Extent:
 
 
 def extents(volume: Volume) -> tuple[Extent, ...]:
-    """Return where every label lies, in the order of their numbers; 0 is none.
+    """Return the extent of every label, in the order of their numbers; 0 is not a label.
 
     Raises
     ------
     ParameterError
-        If a value is no whole number, or there are more labels than any segmentation has.
+        If a value is not a whole number, or there are more labels than any segmentation has.
 
-    >>> [each.value for each in extents(Volume(values=np.array([[[0, 7, 3, 7]]])))]
+    >>> [extent.value for extent in extents(Volume(values=np.array([[[0, 7, 3, 7]]])))]
     [3, 7]
     """
     from scipy.ndimage import find_objects
 
-    values = _whole(volume.values)
+    values = _whole_numbers(volume.values)
     order = np.argsort([-abs(step) for step in values.strides], kind="stable")
     ordered = values.transpose(order)  # as it lies in memory
-    least, most = int(ordered.min()), int(ordered.max())
-    if least < 0 or most > DIRECT:
+    lowest, highest = int(ordered.min()), int(ordered.max())
+    if lowest < 0 or highest > DIRECT:
         names, numbers = np.unique(ordered, return_inverse=True)
         index = numbers.reshape(ordered.shape) + 1
     else:
-        names, index = np.arange(1, most + 1), ordered
-    found = [
-        (int(names[number]), [each[axis] for axis in np.argsort(order)])
-        for number, each in enumerate(find_objects(index))
-        if each is not None and names[number] != 0
+        names, index = np.arange(1, highest + 1), ordered
+    boxes = [
+        (int(names[number]), [box[axis] for axis in np.argsort(order)])
+        for number, box in enumerate(find_objects(index))
+        if box is not None and names[number] != 0
     ]
-    if len(found) > MOST:
+    if len(boxes) > MOST:
         raise ParameterError(
-            f"the volume holds {len(found)} values, more than the {MOST} labels of a segmentation; give --threshold X "
+            f"the volume holds {len(boxes)} values, more than the {MOST} labels of a segmentation; give --threshold X "
             "for grey values, without {label}"
         )
     return tuple(
-        Extent(value=value, low=tuple(each.start for each in box), high=tuple(each.stop for each in box))
-        for value, box in found
+        Extent(value=value, low=tuple(side.start for side in box), high=tuple(side.stop for side in box))
+        for value, box in boxes
     )
 
 
-def _whole(values: NDArray[Any]) -> NDArray[Any]:
-    """Return values as whole numbers, or raise ParameterError."""
+def _whole_numbers(values: NDArray[Any]) -> NDArray[Any]:
+    """Convert values to whole numbers, or raise ParameterError."""
     if values.dtype == bool:
         return values.view(np.uint8)
     if values.dtype.kind in "iu":
@@ -86,5 +86,6 @@ def _whole(values: NDArray[Any]) -> NDArray[Any]:
 
 
 def _slabs(values: NDArray[Any]) -> list[NDArray[Any]]:
+    """Split values into slabs along the first axis."""
     rows = max(1, SLAB * len(values) // values.size)
     return [values[start : start + rows] for start in range(0, len(values), rows)]

@@ -1,4 +1,4 @@
-"""Which components of a mesh lie inside which others, and which of them are inside out."""
+"""Find the components of a mesh that are inside out, by the components that lie around each."""
 
 from __future__ import annotations
 
@@ -7,22 +7,22 @@ from numpy.typing import NDArray
 
 from infill.voxels.scanlines import Crossings
 
-SAMPLES = 9  # crossings of a component that are examined to find out what it lies in
+SAMPLES = 9  # crossings of a component that are examined to find the components around it
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.integer]
 
 
-def inside_out(found: Crossings, component: Integers, volumes: Floats) -> NDArray[np.bool_]:
-    """Return which components must be turned: those that face inwards and lie in no other, and everything inside them.
+def inside_out(crossings: Crossings, component: Integers, volumes: Floats) -> NDArray[np.bool_]:
+    """Mark the components to reverse: those that face inwards outside all others, and everything inside them.
 
     Parameters
     ----------
-    found : Crossings
+    crossings : Crossings
     component : (F,) int
         Component of every face.
     volumes : (B,) float64
-        Signed volume of each.
+        Signed volume of each component.
 
     Returns
     -------
@@ -36,23 +36,23 @@ def inside_out(found: Crossings, component: Integers, volumes: Floats) -> NDArra
     turned = np.zeros(len(volumes), dtype=bool)
     if (volumes >= 0).all() or (volumes <= 0).all():
         return turned
-    owner = component[found.face]
+    owner = component[crossings.face]
     order = np.argsort(owner, kind="stable")
     bounds = np.searchsorted(owner, np.arange(len(volumes) + 1), sorter=order)
     for number in np.flatnonzero(volumes):
-        own = order[bounds[number] : bounds[number + 1]]
-        if len(own) == 0:
+        own_crossings = order[bounds[number] : bounds[number + 1]]
+        if len(own_crossings) == 0:
             continue
-        around: set[int] | None = None
-        for i in own[np.linspace(0, len(own) - 1, SAMPLES).astype(np.int64)]:
-            begin, end = np.searchsorted(found.row, [found.row[i], found.row[i] + 1])
-            owners, signs, places = owner[begin:end], found.sign[begin:end], found.place[begin:end]
-            holding: set[int] = set()
-            for before in (places < found.place[i], places <= found.place[i]):
+        holders: set[int] | None = None
+        for i in own_crossings[np.linspace(0, len(own_crossings) - 1, SAMPLES).astype(np.int64)]:
+            begin, end = np.searchsorted(crossings.row, [crossings.row[i], crossings.row[i] + 1])
+            owners, signs, places = owner[begin:end], crossings.sign[begin:end], crossings.place[begin:end]
+            enclosing: set[int] = set()
+            for before in (places < crossings.place[i], places <= crossings.place[i]):
                 winding = np.bincount(owners[before], weights=signs[before])
-                holding.update(np.flatnonzero(winding).tolist())
-            around = holding if around is None else around & holding
-        larger = [each for each in around or () if abs(volumes[each]) > abs(volumes[number])]
-        outermost = max(larger, key=lambda each: abs(volumes[each]), default=number)
+                enclosing.update(np.flatnonzero(winding).tolist())
+            holders = enclosing if holders is None else holders & enclosing
+        larger = [holder for holder in holders or () if abs(volumes[holder]) > abs(volumes[number])]
+        outermost = max(larger, key=lambda index: abs(volumes[index]), default=number)
         turned[number] = volumes[outermost] < 0
     return turned

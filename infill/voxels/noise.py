@@ -1,4 +1,4 @@
-"""How noisy a solid on a grid is: a majority vote among neighbours overrules noise, and hardly anything else."""
+"""Measure the noise of a solid on a grid: a majority vote among neighbours overrules little else than noise."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from numpy.typing import NDArray
 
 from infill.kernels.threads import thread_count, together
 
-NOISY = 0.2  # what flipping one cell in 25 at random makes; scans of bone and skin have 0.02 to 0.12
-SLABS = 12  # stretches of layers that are looked at
+NOISY = 0.2  # the share when one cell in 25 is flipped at random; scans of bone and skin have 0.02 to 0.12
+SLABS = 12  # stretches of layers that are examined
 LAYERS = 8  # in each
 FEWEST = 500  # cells at the surface
 VOTERS = 27  # a cell and its neighbours
 
 
 def noise_share(solid: NDArray[Any], *, threads: int | None = None) -> float:
-    """Return how many cells a majority of the 27 around each overrules, over those at the surface that is left then.
+    """Return the ratio of cells that a majority of the 27 around each overrules to the surface cells that remain.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ def noise_share(solid: NDArray[Any], *, threads: int | None = None) -> float:
     -----
     Noise flips solid and void alike, so what counts is twice the lesser of both: thin walls and specks are overruled
     one way only. Smooth solids have 0 to 0.1, for the steps along their faces; where one cell in ten is flipped at
-    random, it is 0.5. Stretches of layers all along the first axis are looked at; a surface of a few cells shows
+    random, it is 0.5. Stretches of layers all along the first axis are examined; a surface of a few cells says
     nothing.
 
     >>> noise_share(np.indices((40, 40, 40)).sum(axis=0) < 60) < 0.1
@@ -42,47 +42,47 @@ def noise_share(solid: NDArray[Any], *, threads: int | None = None) -> float:
     starts = sorted(set(np.linspace(0, max(0, len(solid) - LAYERS), SLABS).astype(int).tolist()))
     count = min(thread_count(threads), len(starts))
 
-    def look(thread: int) -> NDArray[np.int64]:
-        found = np.zeros(3, dtype=np.int64)
-        room = np.empty(room_for(solid[:LAYERS]), dtype=np.uint8)
+    def count_in_slabs(thread: int) -> NDArray[np.int64]:
+        tally = np.zeros(3, dtype=np.int64)
+        work = np.empty(room_for(solid[:LAYERS]), dtype=np.uint8)
         for start in starts[thread::count]:
             slab = solid[start : start + LAYERS]
             slab = np.ascontiguousarray(slab if slab.dtype == bool else slab > 0).view(np.uint8)
             slab.flags.writeable = False  # compiled once, whether or not the array is writable
-            count_overruled(slab, room, found)
-        return found
+            count_overruled(slab, work, tally)
+        return tally
 
-    counts = np.array(together(*(partial(look, thread) for thread in range(count)), threads=count))
-    taken, given, surface = counts.sum(axis=0).tolist()
-    return 2 * min(taken, given) / surface if surface >= FEWEST else 0.0
+    counts = np.array(together(*(partial(count_in_slabs, thread) for thread in range(count)), threads=count))
+    solid_overruled, void_overruled, surface = counts.sum(axis=0).tolist()
+    return 2 * min(solid_overruled, void_overruled) / surface if surface >= FEWEST else 0.0
 
 
 def room_for(slab: NDArray[Any]) -> tuple[int, int, int]:
-    """Return the shape of the room that counting in a slab takes."""
+    """Return the shape of the work array that counting in a slab needs."""
     return 3 * len(slab) + 1, slab.shape[1], slab.shape[2]
 
 
 def overruled(slab: NDArray[np.bool_]) -> tuple[int, int, int]:
-    """Return how many solid and void cells of some layers a majority overrules, and how many are at the surface then.
+    """Count the solid and the void cells that a majority overrules, and the surface cells left after the vote.
 
-    That is the specification of `infill.kernels.noise.count_overruled`. The outermost two layers at either end are left
+    This is the specification of `infill.kernels.noise.count_overruled`. The outermost two layers at either end are left
     out, if there are others.
     """
-    most = _votes(slab) > VOTERS / 2
-    again = _votes(most)
+    majority = _votes(slab) > VOTERS / 2
+    second_votes = _votes(majority)
     inner = slice(2, -2) if len(slab) > 4 else slice(None)
-    slab, most, again = slab[inner], most[inner], again[inner]
-    counted = (slab & ~most, ~slab & most, (again > 0) & (again < VOTERS))
-    taken, given, surface = (int(np.count_nonzero(each)) for each in counted)
-    return taken, given, surface
+    slab, majority, second_votes = slab[inner], majority[inner], second_votes[inner]
+    counted = (slab & ~majority, ~slab & majority, (second_votes > 0) & (second_votes < VOTERS))
+    solid_overruled, void_overruled, surface = (int(np.count_nonzero(mask)) for mask in counted)
+    return solid_overruled, void_overruled, surface
 
 
 def _votes(solid: NDArray[np.bool_]) -> NDArray[np.float32]:
-    """Return how many of the 27 cells around each are solid; beyond the edge, cells are those at it."""
+    """Count the solid cells among the 27 around each cell; beyond the border, its cells repeat."""
     from scipy.ndimage import uniform_filter1d
 
     votes = solid.astype(np.float32)
     for axis in range(3):
         votes = uniform_filter1d(votes, 3, axis=axis, mode="nearest")
-    found: NDArray[np.float32] = np.rint(votes * VOTERS)
-    return found
+    counts: NDArray[np.float32] = np.rint(votes * VOTERS)
+    return counts

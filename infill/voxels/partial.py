@@ -1,4 +1,4 @@
-"""Where inside a cell the surface of a mesh lies, and what the mesh encloses: exactly, whatever the cells are."""
+"""Measure the exact surface and volume of a mesh inside cells, whatever the cells are."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from infill.voxels.scanlines import crossings
 
 FEWEST_ROWS, MOST_ROWS = 3, 16  # rows of a cell along x, and along y, on which overlaps are measured
 CROSSED = 5_000_000  # crossings of these rows, roughly; more rows than that are too many
-LOOKED = 2_000_000_000  # triangles looked at, at most, to tell which points are hidden
-BESIDE = 0.5  # cells from a face to the point that is looked at to tell which solid it bounds
+LOOKED = 2_000_000_000  # most triangles examined to tell which points are hidden
+BESIDE = 0.5  # cells from a face to the point that tells which solid the face bounds
 
 Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Enclosed:
-    """What a closed mesh encloses, place by place, so that it can be counted for each component of the cells.
+    """The volume inside a closed mesh, place by place, so that it can be summed for each component of the cells.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ class Enclosed:
     over : (N, 3) float64, mm
         Places that components enclose more than once.
     excess : (N,) float64, mm³
-        How much of the sum of the volumes is counted too often there.
+        Volume that the sum counts too often there.
     """
 
     beside: Floats
@@ -54,17 +54,17 @@ class Enclosed:
     def solid_beside(
         self, mesh: Surface, points: Floats, faces: NDArray[np.integer], cells: float, *, threads: int | None = None
     ) -> NDArray[np.bool_]:
-        """Return whether the mesh is solid a number of cells outwards from points (N, 3) on its faces (N,).
+        """Tell whether the mesh is solid a number of cells outwards from points (N, 3) on its faces (N,).
 
-        Below 0 is inwards. If the points are very many, some are looked at, and those after them taken to be alike.
+        Below 0 is inwards. If there are very many points, only every n-th is examined; the next ones get its result.
         """
         if len(points) == 0:
             return np.zeros(0, dtype=bool)
         middle = np.asarray(mesh.vertices, dtype=np.float64)[mesh.faces[faces]].mean(axis=1)
         beside = points + cells / BESIDE * (middle - self.beside[faces])
-        step = -(-len(points) * len(mesh.faces) // LOOKED)
-        found = winding(beside[::step], mesh, sign=self.sign, threads=threads)
-        return np.repeat(found != 0, step)[: len(points)]
+        stride = -(-len(points) * len(mesh.faces) // LOOKED)
+        windings = winding(beside[::stride], mesh, sign=self.sign, threads=threads)
+        return np.repeat(windings != 0, stride)[: len(points)]
 
     @property
     def total(self) -> float:
@@ -75,7 +75,7 @@ class Enclosed:
 def distances_in_cells(
     mesh: Surface, inside: Volume, reach: float, *, several: bool, threads: int | None = None
 ) -> NDArray[np.float32]:
-    """Return how far the centre of each cell lies from a mesh, (nx, ny, nz) in cells: above 0 inside, at most `reach`.
+    """Measure the distance of each cell centre from a mesh, (nx, ny, nz) in cells: positive inside, at most `reach`.
 
     Parameters
     ----------
@@ -100,20 +100,20 @@ def distances_in_cells(
     solid: NDArray[np.bool_] = np.asarray(inside.values)
     size = float(inside.cell_size[0])
     corners = np.ascontiguousarray(((mesh.vertices - np.array(inside.origin)) / size - 0.5)[mesh.faces])
-    found = np.full(solid.shape, np.float32(reach * reach))
-    in_threads(lower_to_triangles, corners, reach, found, threads=thread_count(threads))
-    np.sqrt(found, out=found)
+    distance_field = np.full(solid.shape, np.float32(reach * reach))
+    in_threads(lower_to_triangles, corners, reach, distance_field, threads=thread_count(threads))
+    np.sqrt(distance_field, out=distance_field)
     if several:
         core = solid
-        for deep in range(1, int(np.ceil(reach)) + 1):
-            core = _shrunk(core)
-            np.maximum(found, np.float32(min(deep, reach)), out=found, where=core)
-    np.negative(found, out=found, where=~solid)
-    return found
+        for depth in range(1, int(np.ceil(reach)) + 1):
+            core = _erode(core)
+            np.maximum(distance_field, np.float32(min(depth, reach)), out=distance_field, where=core)
+    np.negative(distance_field, out=distance_field, where=~solid)
+    return distance_field
 
 
-def _shrunk(solid: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Return the cells whose 26 neighbours are solid too; void is all around."""
+def _erode(solid: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Erode: keep the cells whose 26 neighbours are solid too; void is all around."""
     for axis in range(3):
         along = np.moveaxis(solid, axis, 0)
         out = np.zeros_like(solid)
@@ -131,7 +131,7 @@ def enclosed(
     *,
     overlap: bool,
 ) -> Enclosed:
-    """Return what a closed mesh encloses.
+    """Measure the volume inside a closed mesh.
 
     Parameters
     ----------
@@ -169,27 +169,27 @@ def enclosed(
 
 
 def _excess(mesh: Surface, sign: NDArray[np.integer], inside: Volume) -> tuple[Floats, Floats]:
-    """Return places (N, 3) that are enclosed more than once, mm, and how much volume that is, mm³."""
+    """Find places (N, 3) that are enclosed more than once, mm; return them, and their volumes, mm³."""
     size, (nx, ny, nz) = float(inside.cell_size[0]), inside.values.shape
     points = (np.asarray(mesh.vertices, dtype=np.float64) - np.array(inside.origin)) / size
     (ax, ay), (bx, by), (cx, cy) = (points[mesh.faces[:, i], :2].T for i in range(3))
     flat = float(np.abs((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)).sum()) / 2  # as seen along the rows, cells²
     rows = int(np.clip((CROSSED / max(flat, 1)) ** 0.5, FEWEST_ROWS, MOST_ROWS))
-    found = crossings(points * (rows, rows, 1) - 0.5, mesh.faces, (nx * rows, ny * rows, nz))
-    order = np.lexsort((found.depth, found.row))
-    row, depth = found.row[order].astype(np.int64), found.depth[order].astype(np.float64)
-    wound = np.cumsum(found.sign[order] * sign[found.face[order]])  # 0 again at the end of every row
-    often = np.flatnonzero((row[:-1] == row[1:]) & (wound[:-1] != 0) & (wound[:-1] != 1))
-    long = depth[often + 1] - depth[often]
-    amount = long * (wound[often] - 1) * size**3 / rows**2
-    # In pieces of a cell, so that each is counted where it lies.
-    pieces = np.maximum(1, np.ceil(long)).astype(np.int64)
+    crossed = crossings(points * (rows, rows, 1) - 0.5, mesh.faces, (nx * rows, ny * rows, nz))
+    order = np.lexsort((crossed.depth, crossed.row))
+    row, depth = crossed.row[order].astype(np.int64), crossed.depth[order].astype(np.float64)
+    wound = np.cumsum(crossed.sign[order] * sign[crossed.face[order]])  # 0 again at the end of every row
+    repeated = np.flatnonzero((row[:-1] == row[1:]) & (wound[:-1] != 0) & (wound[:-1] != 1))
+    span = depth[repeated + 1] - depth[repeated]
+    amount = span * (wound[repeated] - 1) * size**3 / rows**2
+    # In pieces of a cell, so that each is counted in the right place.
+    pieces = np.maximum(1, np.ceil(span)).astype(np.int64)
     places, shares = [], []
-    for some, step in spread(pieces):
-        i, j = np.divmod(row[often[some]], ny * rows)
-        z = depth[often[some]] + (step + 0.5) * (long[some] / pieces[some]) + 0.5
+    for stretch, step in spread(pieces):
+        i, j = np.divmod(row[repeated[stretch]], ny * rows)
+        z = depth[repeated[stretch]] + (step + 0.5) * (span[stretch] / pieces[stretch]) + 0.5
         places.append(np.stack([(i + 0.5) / rows, (j + 0.5) / rows, z], axis=1) * size + np.array(inside.origin))
-        shares.append(amount[some] / pieces[some])
+        shares.append(amount[stretch] / pieces[stretch])
     if not places:
         return np.empty((0, 3)), np.empty(0)
     return np.concatenate(places), np.concatenate(shares)

@@ -1,4 +1,4 @@
-"""From a volume of grey values to a solid: by threshold, range, label or Otsu's method, or with grey edges."""
+"""Segment grey values into a solid: by threshold, range, label or Otsu's method, or with grey edges."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def threshold(
     label: int | Sequence[int] | None = None,
     otsu: bool = False,
 ) -> tuple[Volume, dict[str, Any]]:
-    """Return which cells are solid, and the criterion that was used.
+    """Segment a volume; return it with True in solid cells, and the criterion that was used.
 
     Parameters
     ----------
@@ -42,12 +42,12 @@ def threshold(
     label : int or sequence of int, optional
         Solid is every cell with one of these values.
     otsu : bool
-        Solid is what lies above the threshold that Otsu's method finds.
+        Solid lies above the threshold that Otsu's method finds.
 
     Returns
     -------
     Volume
-        Booleans, True is solid, in the same place; a mask of −1 and 1 in single bytes as it is.
+        Booleans, True is solid, in the same place; a mask of −1 and 1 in single bytes is returned unchanged.
     dict
         "method" (range, label, otsu, mask or phase), the numbers it used, "values", the lowest and the highest
         value, and "solid", the solid share of all cells.
@@ -55,49 +55,50 @@ def threshold(
     Raises
     ------
     ParameterError
-        If more than one way is given; if none is, and the values do not show by themselves what is solid; if
+        If more than one criterion is given; if none is, and the values do not define the solid by themselves; if
         nothing or everything would be solid; if values are NaN or infinite.
 
     Notes
     -----
-    If no way is given, booleans are used as they are; 0 and one value above it are a mask whose void is 0, and so are
-    −1 and 1, whose void is −1; and floating-point numbers in [-1, 1] of both signs are a phase field, solid above 0.
+    If no criterion is given, booleans are used directly; 0 and one value above it are a mask whose void is 0; −1 and 1
+    are a mask whose void is −1; and floating-point numbers in [-1, 1] of both signs are a phase field, solid above 0.
 
     >>> threshold(Volume(values=np.arange(8.0).reshape(2, 2, 2)), low=6)[1]["solid"]
     0.25
     """
-    ways = [low is not None or high is not None, label is not None, otsu]
-    if sum(ways) > 1:
+    criteria = [low is not None or high is not None, label is not None, otsu]
+    if sum(criteria) > 1:
         raise UsageError("threshold, label and otsu exclude each other; give one of them")
     values = volume.values
-    least, most = _ends(values)
+    lowest, highest = _value_range(values)
     used: dict[str, Any]
-    if values.dtype == bool and not any(ways):
+    if values.dtype == bool and not any(criteria):
         solid, used = values, {"method": "mask"}
     elif label is not None:
         labels = tuple(label) if isinstance(label, tuple | list | np.ndarray) else (label,)
-        solid, used = _labelled(values, labels), {"method": "label", "label": list(labels)}
+        solid, used = _mark_labels(values, labels), {"method": "label", "label": list(labels)}
     elif otsu:
         low = otsu_threshold(volume)
-        solid, used = _between(values, low, None), {"method": "otsu", "low": low}
-    elif any(ways):
+        solid, used = _mark_range(values, low, None), {"method": "otsu", "low": low}
+    elif any(criteria):
         _check_ends(low, high)
-        solid, used = _between(values, low, high), {"method": "range", "low": low, "high": high}
+        solid, used = _mark_range(values, low, high), {"method": "range", "low": low, "high": high}
     else:
-        solid, used = _plain(volume, least, most)
+        solid, used = _interpret_values(volume, lowest, highest)
     count = solid_cells(solid)
     if count in (0, solid.size):
         amount = "no cell" if count == 0 else "every cell"
         raise ParameterError(
-            f"{_said(used)}, and {amount} would be solid; the values go from {least:g} to {most:g}{_labels(values)}; "
+            f"{_describe(used)}, and {amount} would be solid; "
+            f"the values go from {lowest:g} to {highest:g}{_labels(values)}; "
             "choose within them"
         )
-    used |= {"values": [+least, +most], "solid": count / solid.size}  # of booleans, 0 and 1
+    used |= {"values": [+lowest, +highest], "solid": count / solid.size}  # of booleans, 0 and 1
     return replace(volume, values=solid), used
 
 
 def solid_cells(solid: NDArray[Any]) -> int:
-    """Return how many cells are solid, by what `threshold` returns."""
+    """Count the solid cells in the result of `threshold`."""
     if solid.dtype in (bool, np.int8) and solid.flags.c_contiguous and solid.size > SLAB:
         from infill.kernels.transfer import count_solid
 
@@ -110,7 +111,7 @@ def solid_cells(solid: NDArray[Any]) -> int:
 
 
 def otsu_threshold(volume: Volume) -> float:
-    """Return the threshold by Otsu's method: it separates two classes that each vary as little as possible.
+    """Find the threshold by Otsu's method: it separates two classes that each vary as little as possible.
 
     Notes
     -----
@@ -123,19 +124,19 @@ def otsu_threshold(volume: Volume) -> float:
     """
     from skimage.filters import threshold_otsu
 
-    least, most = _ends(volume.values)
-    if least == most:
-        raise ParameterError(f"all values are {least:g}; there is nothing for Otsu's method to separate")
+    lowest, largest = _value_range(volume.values)
+    if lowest == largest:
+        raise ParameterError(f"all values are {lowest:g}; there is nothing for Otsu's method to separate")
     counts, edges = _histogram(volume.values)
     middles = (edges[:-1] + edges[1:]) / 2
     highest = threshold_otsu(hist=(counts, middles))  # type: ignore[no-untyped-call]
-    found = int(np.searchsorted(middles, highest + (edges[1] - edges[0]) / 2))
-    below, above = np.flatnonzero(counts[:found])[-1], found + np.flatnonzero(counts[found:])[0]
+    boundary = int(np.searchsorted(middles, highest + (edges[1] - edges[0]) / 2))
+    below, above = np.flatnonzero(counts[:boundary])[-1], boundary + np.flatnonzero(counts[boundary:])[0]
     return float((middles[below] + middles[above]) / 2)
 
 
 def grey(volume: Volume, level: float, window: float | None = None) -> Volume:
-    """Return grey values as data in [-1, 1] that preserve where between two cells the surface lies.
+    """Scale grey values to data in [-1, 1] that preserve where between two cells the surface lies.
 
     Parameters
     ----------
@@ -167,10 +168,10 @@ def grey(volume: Volume, level: float, window: float | None = None) -> Volume:
     >>> grey(Volume(values=np.array([[[0, 25, 100]]])), 50, 100).values.tolist()
     [[[-1.0, -0.5, 1.0]]]
     """
-    least, most = _ends(volume.values)
+    lowest, highest = _value_range(volume.values)
     level = within("level", level, -math.inf, math.inf)
-    if not least <= level < most:
-        raise ParameterError(f"level is {level:g} and the values go from {least:g} to {most:g}; choose within them")
+    if not lowest <= level < highest:
+        raise ParameterError(f"level is {level:g} and the values go from {lowest:g} to {highest:g}; choose within them")
     width = edge_window(volume, level) if window is None else positive("window", window)
     field = np.subtract(volume.values, np.float32(level), dtype=np.float32, casting="unsafe")
     field *= np.float32(2 / width)
@@ -178,11 +179,11 @@ def grey(volume: Volume, level: float, window: float | None = None) -> Volume:
 
 
 def edge_window(volume: Volume, level: float) -> float:
-    """Return how much values change over one cell perpendicular to the surface, for `grey`.
+    """Return the change of values over one cell perpendicular to the surface, for `grey`.
 
-    It is the `contrast` of neighbours divided by 2/3, the mean of how squarely the axes of the grid cross
-    a surface that faces all directions equally; but at most the mean of the values above the level minus
-    the mean of those below, so that the two values of a mask stay +1 and -1.
+    It is the `contrast` of neighbours divided by 2/3, the mean directness with which the axes of the grid
+    cross a surface that faces all directions equally. It is at most the mean of the values above the level
+    minus the mean of those below, so that the two values of a mask stay +1 and -1.
 
     >>> edge_window(Volume(values=np.array([[[0, 0, 255, 255]]])), 127.5)
     255.0
@@ -190,18 +191,18 @@ def edge_window(volume: Volume, level: float) -> float:
     sums, cells = np.zeros(2), np.zeros(2)
     for part in _slabs(volume.values):
         above = part > level
-        for side, there in enumerate((~above, above)):
-            sums[side] += part.sum(where=there, dtype=np.float64)
-            cells[side] += np.count_nonzero(there)
+        for side, side_mask in enumerate((~above, above)):
+            sums[side] += part.sum(where=side_mask, dtype=np.float64)
+            cells[side] += np.count_nonzero(side_mask)
     below, solid = sums / np.maximum(cells, 1)
     return min(contrast(volume, level) / STRAIGHT, float(solid - below))
 
 
 def contrast(volume: Volume, level: float) -> float:
-    """Return the mean difference of values across the surface, over all pairs of neighbours with the level between.
+    """Average the difference of values across the surface over all pairs of neighbours with the level between.
 
-    For a sharp picture it is the full step from void to solid; for a blurred one, it is how much values change
-    from one cell to the next, averaged over the directions that the surface takes.
+    For a sharp picture it is the full step from void to solid; for a blurred one, it is the change of values
+    from one cell to the next, averaged over the directions of the surface.
 
     Raises
     ------
@@ -224,32 +225,33 @@ def contrast(volume: Volume, level: float) -> float:
             step = part[1:][across].astype(np.float64) - part[:-1][across].astype(np.float64)
             total, pairs = total + float(np.abs(step).sum()), pairs + step.size
     if pairs == 0:
-        least, most = _ends(values)
-        raise ParameterError(f"no surface lies at {level:g}; the values go from {least:g} to {most:g}")
+        lowest, highest = _value_range(values)
+        raise ParameterError(f"no surface lies at {level:g}; the values go from {lowest:g} to {highest:g}")
     return total / pairs
 
 
-def _plain(volume: Volume, least: float, most: float) -> tuple[NDArray[Any], dict[str, Any]]:
-    """Return what the values mean by themselves, or raise ParameterError that offers the ways to choose."""
+def _interpret_values(volume: Volume, lowest: float, highest: float) -> tuple[NDArray[Any], dict[str, Any]]:
+    """Interpret the values without a criterion, or raise ParameterError that lists the options."""
     values: NDArray[Any] = volume.values
     if values.dtype.itemsize == 1 and values.dtype.kind in "iu":  # two values of one byte are not copied
-        if (least, most) == (0, 1):
+        if (lowest, highest) == (0, 1):
             return values.view(bool), {"method": "mask"}
-        if (least, most) == SIGNS and np.count_nonzero(values) == values.size:
+        if (lowest, highest) == SIGNS and np.count_nonzero(values) == values.size:
             return values, {"method": "mask"}
-    masked = least == 0 < most or (least, most) == SIGNS
-    if masked and all(bool(((part == least) | (part == most)).all()) for part in _slabs(values)):
-        return values == most, {"method": "mask"}
-    if values.dtype.kind == "f" and -1 <= least < 0 < most <= 1:
+    masked = lowest == 0 < highest or (lowest, highest) == SIGNS
+    if masked and all(bool(((part == lowest) | (part == highest)).all()) for part in _slabs(values)):
+        return values == highest, {"method": "mask"}
+    if values.dtype.kind == "f" and -1 <= lowest < 0 < highest <= 1:
         return values > 0, {"method": "phase", "low": 0.0}
-    hint = f" (finds {otsu_threshold(volume):.6g})" if least < most else ""
+    hint = f" (finds {otsu_threshold(volume):.6g})" if lowest < highest else ""
     raise ParameterError(
-        f"the values go from {least:g} to {most:g} and do not say what is solid; "
+        f"the values go from {lowest:g} to {highest:g} and do not say what is solid; "
         f"give --threshold X, --range LOW,HIGH, --label N or --otsu{hint}"
     )
 
 
 def _check_ends(low: float | None, high: float | None) -> None:
+    """Raise ParameterError unless the ends of a range are finite and in order."""
     for value in (low, high):
         if value is not None:
             within("threshold", value, -math.inf, math.inf)
@@ -257,7 +259,8 @@ def _check_ends(low: float | None, high: float | None) -> None:
         raise ParameterError(f"threshold goes from {low:g} to {high:g}; give the lower end first")
 
 
-def _between(values: NDArray[Any], low: float | None, high: float | None) -> NDArray[np.bool_]:
+def _mark_range(values: NDArray[Any], low: float | None, high: float | None) -> NDArray[np.bool_]:
+    """Mark the values in a range."""
     if values.dtype.kind in "iu":  # compared as whole numbers: nothing is converted
         low = math.ceil(low) if low is not None and math.isfinite(low) else low
         high = math.floor(high) if high is not None and math.isfinite(high) else high
@@ -267,7 +270,8 @@ def _between(values: NDArray[Any], low: float | None, high: float | None) -> NDA
     return solid
 
 
-def _labelled(values: NDArray[Any], labels: tuple[int, ...]) -> NDArray[np.bool_]:
+def _mark_labels(values: NDArray[Any], labels: tuple[int, ...]) -> NDArray[np.bool_]:
+    """Mark the values that are one of the labels."""
     if not labels:
         raise ParameterError("label is empty; give one, or several")
     solid = np.zeros_like(values, dtype=bool)
@@ -278,31 +282,31 @@ def _labelled(values: NDArray[Any], labels: tuple[int, ...]) -> NDArray[np.bool_
     return solid
 
 
-def _ends(values: NDArray[Any]) -> tuple[Any, Any]:
+def _value_range(values: NDArray[Any]) -> tuple[Any, Any]:
     """Return the lowest and the highest value as plain numbers."""
-    least, most = values.min().item(), values.max().item()
-    if not (math.isfinite(least) and math.isfinite(most)):
+    lowest, highest = values.min().item(), values.max().item()
+    if not (math.isfinite(lowest) and math.isfinite(highest)):
         raise ParameterError("the volume holds NaN or infinite values; fill or cut those cells first")
-    return least, most
+    return lowest, highest
 
 
 def _histogram(values: NDArray[Any]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return counts and edges of equal bins over all values."""
-    least, most = _ends(values)
-    if values.dtype.kind in "iub" and most - least < EXACT:
-        counts = np.zeros(int(most - least) + 1)
+    lowest, highest = _value_range(values)
+    if values.dtype.kind in "iub" and highest - lowest < EXACT:
+        counts = np.zeros(int(highest - lowest) + 1)
         for part in _slabs(values):
-            counts += np.bincount(part.ravel(order="K").astype(np.int64) - least, minlength=len(counts))
-        return counts, np.arange(len(counts) + 1) + (least - 0.5)
-    edges: NDArray[np.float64] = np.linspace(least, most, BINS + 1)
+            counts += np.bincount(part.ravel(order="K").astype(np.int64) - lowest, minlength=len(counts))
+        return counts, np.arange(len(counts) + 1) + (lowest - 0.5)
+    edges: NDArray[np.float64] = np.linspace(lowest, highest, BINS + 1)
     counts = np.zeros(BINS)
     for part in _slabs(values):
-        counts += np.histogram(part.ravel(order="K").astype(np.float64), BINS, (least, most))[0]
+        counts += np.histogram(part.ravel(order="K").astype(np.float64), BINS, (lowest, highest))[0]
     return counts, edges
 
 
 def _slabs(values: NDArray[Any]) -> Iterator[NDArray[Any]]:
-    """Yield all cells, some at a time, in memory order."""
+    """Yield all cells in batches, in memory order."""
     ordered = _in_memory_order(values)
     rows = max(1, SLAB * len(ordered) // ordered.size)
     for start in range(0, len(ordered), rows):
@@ -315,20 +319,21 @@ def _in_memory_order(values: NDArray[Any]) -> NDArray[Any]:
 
 
 def _labels(values: NDArray[Any]) -> str:
-    """Return the values that occur, for a message, if they are few."""
+    """List the values that occur, for a message, if they are few."""
     if values.dtype.kind not in "iu" or int(values.max()) - int(values.min()) >= EXACT:
         return ""
     counts, edges = _histogram(values)
-    found = (edges[:-1][counts > 0] + 0.5).astype(np.int64).tolist()
-    return f" ({', '.join(str(each) for each in found)})" if len(found) <= NAMED else ""
+    occurring = (edges[:-1][counts > 0] + 0.5).astype(np.int64).tolist()
+    return f" ({', '.join(str(value) for value in occurring)})" if len(occurring) <= NAMED else ""
 
 
-def _said(used: dict[str, Any]) -> str:
+def _describe(used: dict[str, Any]) -> str:
+    """Describe the criterion, for a message."""
     if used["method"] == "label":
-        return f"label is {', '.join(str(each) for each in used['label'])}"
+        return f"label is {', '.join(str(label) for label in used['label'])}"
     if used["method"] != "range":
-        found = f", {used['low']:g}" if "low" in used else ""
-        return f"what is solid is found by {used['method']}{found}"
+        threshold_text = f", {used['low']:g}" if "low" in used else ""
+        return f"what is solid is found by {used['method']}{threshold_text}"
     low, high = (used.get(end) for end in ("low", "high"))
     if low is None or high is None:
         return f"threshold is {f'{low:g}' if high is None else f'up to {high:g}'}"

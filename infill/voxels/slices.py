@@ -1,4 +1,4 @@
-"""Slices further apart than their pixels: the shape between them, so that cells become as high as they are wide."""
+"""Interpolate shapes between thick slices, so that cells become as high as they are wide."""
 
 from __future__ import annotations
 
@@ -11,21 +11,21 @@ from numpy.typing import NDArray
 from infill.volume import Volume
 
 THICK = 2.0  # times the width of a cell: slices further apart than this are interpolated
-BESIDE = 1.01  # half pixels: only those next to the outline are this near
+BESIDE = 1.01  # half pixels: only pixels next to the outline are this near
 REACH = 1.0  # pixels from the outline within which the result is grey
 
 
 def layers_between(volume: Volume) -> tuple[int, int]:
-    """Return the axis of the thickest cells, and how many cells each of them becomes; 1 if they are thick enough."""
+    """Return the axis of the thickest cells, and the number of cells that replaces each; 1 if they are thin enough."""
     size = volume.cell_size
     axis = int(size.argmax())
-    others = float(np.delete(size, axis).max())
-    thick = float(size[axis]) / others
-    return axis, max(1, round(thick)) if thick > THICK and volume.values.shape[axis] > 1 else 1
+    widest = float(np.delete(size, axis).max())
+    ratio = float(size[axis]) / widest
+    return axis, max(1, round(ratio)) if ratio > THICK and volume.values.shape[axis] > 1 else 1
 
 
 def interpolated(volume: Volume, axis: int, count: int) -> Volume:
-    """Return a solid with `count` cells in the place of each along an axis.
+    """Interpolate a solid to `count` cells in the place of each along an axis.
 
     Parameters
     ----------
@@ -41,22 +41,22 @@ def interpolated(volume: Volume, axis: int, count: int) -> Volume:
     Notes
     -----
     Shape-based interpolation (Raya and Udupa, IEEE Transactions on Medical Imaging 9, 1990): in each slice, the signed
-    distance from the outline, and between slices, the mean of both, weighted by nearness. What ends between two slices,
-    because nothing of it goes on in the next, ends half-way.
+    distance from the outline, and between slices, the mean of both, weighted by nearness. A region that does
+    not continue in the next slice ends half-way to it.
     """
     values: NDArray[Any] = np.moveaxis(np.asarray(volume.values), axis, 0)
     size = np.delete(volume.cell_size, axis)
     pixel = float(size.min())
     fine = np.empty((len(values) * count, *values.shape[1:]), dtype=np.float32)
     places = (np.arange(count) + 0.5) / count - 0.5  # of the new cells from the middle of their slice, in slices
-    own = signed_distance(values[0], size)
-    up, down = own, own
+    current = signed_distance(values[0], size)
+    up, down = current, current
     for n in range(len(values)):
-        after = signed_distance(values[n + 1], size) if n + 1 < len(values) else own
-        up = _ended(own, after)
-        for part, at in enumerate(places):
-            fine[n * count + part] = (1 - abs(at)) * own + abs(at) * (up if at > 0 else down)
-        own, down = after, _ended(after, own)
+        following = signed_distance(values[n + 1], size) if n + 1 < len(values) else current
+        up = _end_half_way(current, following)
+        for sublayer, place in enumerate(places):
+            fine[n * count + sublayer] = (1 - abs(place)) * current + abs(place) * (up if place > 0 else down)
+        current, down = following, _end_half_way(following, current)
     fine /= np.float32(REACH * pixel)
     np.clip(fine, -1, 1, out=fine)
     spacing = volume.cell_size.copy()
@@ -64,26 +64,26 @@ def interpolated(volume: Volume, axis: int, count: int) -> Volume:
     return replace(volume, values=np.moveaxis(fine, 0, axis), spacing=tuple(spacing.tolist()))
 
 
-def _ended(own: NDArray[np.float32], other: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Return the distances of a slice beside another one, minus those of that where a region has no part in this."""
+def _end_half_way(current: NDArray[np.float32], neighbour: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Return the distances of the next slice; regions of this slice that do not continue get minus their distances."""
     from scipy.ndimage import binary_dilation, label
 
-    found = other
+    ended = neighbour
     for sign in (1, -1):
-        gone = (sign * own > 0) & (sign * other <= 0)
+        gone = (sign * current > 0) & (sign * neighbour <= 0)
         regions, count = label(gone)
         if count == 0:
             continue
-        # A region goes on where it lies beside what is alike in both slices.
-        near = binary_dilation((sign * own > 0) & (sign * other > 0))
-        goes_on = np.bincount(regions[near & gone], minlength=count + 1) > 0
-        goes_on[0] = True
-        found = np.where(goes_on[regions], found, -own)
-    return found
+        # A region continues where it touches a region that is alike in both slices.
+        touching = binary_dilation((sign * current > 0) & (sign * neighbour > 0))
+        continues = np.bincount(regions[touching & gone], minlength=count + 1) > 0
+        continues[0] = True
+        ended = np.where(continues[regions], ended, -current)
+    return ended
 
 
 def signed_distance(layer: NDArray[Any], size: NDArray[np.float64]) -> NDArray[np.float32]:
-    """Return how far pixels lie inside the outline of a slice, mm: half a pixel for those beside it, less if grey."""
+    """Measure how far pixels lie inside the outline of a slice, mm: half a pixel for those next to it, less if grey."""
     from scipy.ndimage import distance_transform_edt
 
     solid = layer > 0
@@ -91,8 +91,8 @@ def signed_distance(layer: NDArray[Any], size: NDArray[np.float64]) -> NDArray[n
     reach = float(np.hypot(*(np.array(layer.shape) * size)))
     inside = distance_transform_edt(solid, sampling=size) if not solid.all() else np.full(layer.shape, reach)
     outside = distance_transform_edt(~solid, sampling=size) if solid.any() else np.full(layer.shape, reach)
-    found: NDArray[np.float32] = np.where(solid, inside - half, half - outside).astype(np.float32)
+    distance: NDArray[np.float32] = np.where(solid, inside - half, half - outside).astype(np.float32)
     if layer.dtype.kind == "f":  # beside the outline, grey tells where inside a pixel it lies
-        beside = (np.abs(found) <= half * BESIDE) & (np.abs(layer) < 1)
-        np.multiply(layer, np.float32(half), out=found, where=beside)
-    return found
+        at_outline = (np.abs(distance) <= half * BESIDE) & (np.abs(layer) < 1)
+        np.multiply(layer, np.float32(half), out=distance, where=at_outline)
+    return distance

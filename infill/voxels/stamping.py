@@ -1,4 +1,4 @@
-"""Stamping: a pattern as a phase field on a grid.
+"""Stamp a pattern on a grid as a phase field.
 
 `stamp` is the paper's method: every point marks the cell it lies in and the block of cells around it.
 A line comes out `block` cells wide along the axes and up to 41 % wider on the diagonal.
@@ -26,16 +26,16 @@ CANDIDATES_AT_ONCE = 2_000_000  # pairs of a cell and a piece of a line: about 1
 def stamp(
     points: ArrayLike, grid: Grid, *, block: int = 3, outside: Literal["error", "clip"] = "error"
 ) -> NDArray[np.float32]:
-    """Return the field that is SOLID in a block of cells around every point and VOID elsewhere.
+    """Stamp a block of SOLID cells around every point, on a field of VOID.
 
     Parameters
     ----------
     points : (N, dimensions) float, mm
     grid : Grid
     block : int
-        Cells across the stamp, odd, so that it is centred on the point's own cell.
+        Cells across the stamp, odd, so that it is centred on the cell of the point.
     outside : {"error", "clip"}
-        What happens to points outside the grid: they raise an error, or are left out. The part of a block
+        Handling of points outside the grid: they raise an error, or are left out. The part of a block
         that extends beyond the grid is always cut off.
 
     Returns
@@ -59,21 +59,21 @@ def stamp(
         raise ParameterError(f"the block is {block} cells across; it must be odd (1, 3, 5 …) to have a middle cell")
     if outside not in ("error", "clip"):
         raise ParameterError(f"outside is {outside!r}; choose error or clip")
-    where = np.asarray(points, dtype=np.float64)
-    if where.size == 0:
-        where = where.reshape(0, len(grid.shape))
-    if where.ndim != 2 or where.shape[1] != len(grid.shape):
+    place = np.asarray(points, dtype=np.float64)
+    if place.size == 0:
+        place = place.reshape(0, len(grid.shape))
+    if place.ndim != 2 or place.shape[1] != len(grid.shape):
         raise ParameterError(
-            f"the points have the shape {where.shape}; give (N, {len(grid.shape)}) for a grid of {len(grid.shape)} axes"
+            f"the points have the shape {place.shape}; give (N, {len(grid.shape)}) for a grid of {len(grid.shape)} axes"
         )
-    if not np.isfinite(where).all():
+    if not np.isfinite(place).all():
         raise ParameterError("a point is not a finite number; remove NaN and infinite coordinates")
-    cell = (where - grid.origin) / grid.cell_size
+    cell = (place - grid.origin) / grid.cell_size
     inside = ((cell >= -ROUNDING) & (cell <= np.array(grid.shape) + ROUNDING)).all(axis=1)
     if outside == "error" and not inside.all():
-        first = ", ".join(f"{x:g}" for x in where[~inside][0])
+        example = ", ".join(f"{x:g}" for x in place[~inside][0])
         raise ParameterError(
-            f"{int((~inside).sum())} of {len(where)} points lie outside the grid, the first at ({first}) mm; "
+            f"{int((~inside).sum())} of {len(place)} points lie outside the grid, the first at ({example}) mm; "
             "enlarge the grid, or ask for them to be clipped"
         )
     # A straight line along a border of cells stays on one side of it, whichever way its points were rounded.
@@ -86,9 +86,9 @@ def stamp(
 
 
 def widened(marked: NDArray[np.bool_], axis: int, reach: int) -> NDArray[np.bool_]:
-    """Return `marked` grown by `reach` cells in both directions along one axis.
+    """Dilate `marked` by `reach` cells in both directions along one axis.
 
-    The same result as scipy.ndimage.maximum_filter1d, four times as fast for blocks of 3 and 5 cells.
+    The result is that of scipy.ndimage.maximum_filter1d, four times as fast for blocks of 3 and 5 cells.
     """
     along = np.moveaxis(marked, axis, 0)
     grown = along.copy()
@@ -99,7 +99,7 @@ def widened(marked: NDArray[np.bool_], axis: int, reach: int) -> NDArray[np.bool
 
 
 def stamp_lines(lines: MultiLineString, grid: Grid, *, width: float) -> NDArray[np.float32]:
-    """Return f = clip((w/2 - d) / (h/2), -1, 1), d the distance of a cell's centre from the lines.
+    """Stamp lines as f = clip((w/2 - d) / (h/2), -1, 1), d the distance of a cell's centre from the lines.
 
     Parameters
     ----------
@@ -129,25 +129,27 @@ def stamp_lines(lines: MultiLineString, grid: Grid, *, width: float) -> NDArray[
     nearest = np.full(grid.cells, np.float32(reach))
     # Short pieces keep the bounding boxes of candidate cells close to the band of cells they can reach.
     pieces, owner = shapely.get_coordinates(shapely.segmentize(lines.geoms, 2 * width), return_index=True)
-    follows = owner[1:] == owner[:-1]
-    start, end = pieces[:-1][follows], pieces[1:][follows]
+    same_line = owner[1:] == owner[:-1]
+    start, end = pieces[:-1][same_line], pieces[1:][same_line]
     cell, lower, shape = grid.cell_size, np.array(grid.origin), np.array(grid.shape)
-    first = np.ceil((np.minimum(start, end) - reach - lower) / cell - 0.5).astype(np.intp).clip(0)
-    last = np.floor((np.maximum(start, end) + reach - lower) / cell - 0.5).astype(np.intp).clip(None, shape - 1)
-    across = (last - first + 1).clip(0)
-    for piece, place in spread(across.prod(axis=1), CANDIDATES_AT_ONCE):
-        index = first[piece] + np.stack(np.divmod(place, across[piece, 1]), axis=-1)
-        distance = _distance(lower + cell * (index + 0.5), start[piece], end[piece])
+    low_cell = np.ceil((np.minimum(start, end) - reach - lower) / cell - 0.5).astype(np.intp).clip(0)
+    high_cell = np.floor((np.maximum(start, end) + reach - lower) / cell - 0.5).astype(np.intp).clip(None, shape - 1)
+    cells_across = (high_cell - low_cell + 1).clip(0)
+    for piece, place in spread(cells_across.prod(axis=1), CANDIDATES_AT_ONCE):
+        index = low_cell[piece] + np.stack(np.divmod(place, cells_across[piece, 1]), axis=-1)
+        distance = _segment_distance(lower + cell * (index + 0.5), start[piece], end[piece])
         np.minimum.at(nearest, index[:, 0] * shape[1] + index[:, 1], distance.astype(np.float32))
     grey: NDArray[np.float32] = ((width / 2 - nearest) / half_cell).clip(VOID, SOLID).astype(np.float32)
     return grey.reshape(grid.shape)
 
 
-def _distance(points: NDArray[np.float64], start: NDArray[np.float64], end: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the distance of each point from its own segment."""
-    along, out = end - start, points - start
+def _segment_distance(
+    points: NDArray[np.float64], start: NDArray[np.float64], end: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the distance of each point from its segment."""
+    along, offset = end - start, points - start
     length = np.einsum("ij,ij->i", along, along)
-    part = np.einsum("ij,ij->i", out, along) / np.where(length > 0, length, 1)
-    rest = out - part.clip(0, 1)[:, None] * along
-    distance: NDArray[np.float64] = np.sqrt(np.einsum("ij,ij->i", rest, rest))
+    share = np.einsum("ij,ij->i", offset, along) / np.where(length > 0, length, 1)
+    remainder = offset - share.clip(0, 1)[:, None] * along
+    distance: NDArray[np.float64] = np.sqrt(np.einsum("ij,ij->i", remainder, remainder))
     return distance
