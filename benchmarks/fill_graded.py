@@ -23,7 +23,7 @@ import trimesh
 
 from benchmarks.pairs import row
 from infill import read_mesh
-from infill.meshes.solids import solid_of
+from infill.meshes.solids import to_manifold
 
 # Cells of 8 mm are whole inside: parts of cells beside the walls would be denser or less dense than whole ones.
 BAR, WALL, LOW, HIGH = (114.4, 34.4, 34.4), 1.2, 0.1, 0.4  # mm
@@ -49,7 +49,7 @@ def filled(pattern: str, grade: str, size: str, folder: Path) -> tuple[manifold3
     words = ["fill", str(part), "--pattern", pattern, *size.split(), *field, "--wall", str(WALL)]
     command = [sys.executable, "-m", "infill", *words, "--json", "-q", "--force", "-o", str(result)]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
-    return solid_of(read_mesh(result)), json.loads(done.stdout)
+    return to_manifold(read_mesh(result)), json.loads(done.stdout)
 
 
 def parted(length: float, side: float) -> list[tuple[float, float]]:

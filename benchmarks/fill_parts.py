@@ -23,8 +23,8 @@ import trimesh
 
 from benchmarks.pairs import row
 from infill import Surface, check, read_mesh
-from infill.lattices.drain_holes import trapped
-from infill.meshes.distance import Tree
+from infill.lattices.drain_holes import find_closed_voids
+from infill.meshes.distance import TriangleTree
 
 PATTERNS = ("gyroid", "honeycomb", "octet", "concentric-heart")
 DENSITIES = (0.15, 0.3)
@@ -65,7 +65,7 @@ def filled(part: Path, pattern: str, density: float, folder: Path) -> Filled:
 
 def solids(surface: Surface) -> int:
     """Return how many closed surfaces face outwards: what hangs free inside would be one more."""
-    return len(trapped(Surface(vertices=surface.vertices, faces=surface.faces[:, ::-1])))
+    return len(find_closed_voids(Surface(vertices=surface.vertices, faces=surface.faces[:, ::-1])))
 
 
 def faults(part: Surface, found: Filled, density: float) -> list[str]:
@@ -77,7 +77,7 @@ def faults(part: Surface, found: Filled, density: float) -> list[str]:
     voids = Surface(vertices=solid.vertices, faces=solid.faces[count:, ::-1])
     share = 1 - (part.volume - solid.volume) / report["part"]["inside"]
     points = trimesh.sample.sample_surface(part.to_trimesh(), POINTS, seed=1)[0]
-    wall = float(Tree.of(voids).nearest(points)[0].min())
+    wall = float(TriangleTree.of(voids).nearest(points)[0].min())
     verdict = check(found.result)
     wrong = {
         "the skin differs": not np.array_equal(corners, skin),
@@ -88,7 +88,8 @@ def faults(part: Surface, found: Filled, density: float) -> list[str]:
         f"{found.seconds:.0f} s": found.seconds > SECONDS,
         f"{found.peak:.1f} GiB": found.peak > GIBIBYTES,
         f"{len(solid.faces):,} triangles": len(solid.faces) > TRIANGLES,
-        "voids are not listed": len(report["voids"]["closed"]) != report["voids"]["count"] + len(trapped(part)),
+        "voids are not listed": len(report["voids"]["closed"])
+        != report["voids"]["count"] + len(find_closed_voids(part)),
         "solids do not hang together as before": solids(solid) != solids(part),
         "; ".join(report["problems"]): bool(report["problems"]),
     }

@@ -24,8 +24,8 @@ import trimesh
 from benchmarks.fill_parts import FOLDER, LEAST, MEASURE, WALL, solids
 from benchmarks.pairs import Run
 from infill import Surface, check, read_mesh
-from infill.meshes.distance import Tree
-from infill.meshes.winding import winding
+from infill.meshes.distance import TriangleTree
+from infill.meshes.winding import winding_numbers
 
 DENSITY, POINTS = 0.2, 40_000
 WITHIN = 200_000  # points in the box around the part: by chance, the density is off by a third of a percentage point
@@ -48,16 +48,16 @@ class Judged:
 def judge(part: Surface, path: Path) -> Judged:
     """Return what a file holds, compared with the part."""
     solid, verdict = read_mesh(path), check(path)
-    own, tree = Tree.of(part), Tree.of(solid)
+    own, tree = TriangleTree.of(part), TriangleTree.of(solid)
     skin = trimesh.sample.sample_surface(part.to_trimesh(), POINTS, seed=1)[0]
     to_solid = tree.nearest(np.concatenate([part.vertices, skin]))[0].max()
     points = np.random.default_rng(2).uniform(*part.bounds, (WITHIN, 3))
     # What sticks out of the part: points of the result that lie outside it, by how far.
-    stray = solid.vertices[winding(solid.vertices, part) <= 0]
+    stray = solid.vertices[winding_numbers(solid.vertices, part) <= 0]
     to_part = own.nearest(stray)[0].max() if len(stray) else 0.0
-    inner = points[winding(points, part) > 0]
+    inner = points[winding_numbers(points, part) > 0]
     away = own.nearest(inner)[0]
-    filled = winding(inner, solid) > 0
+    filled = winding_numbers(inner, solid) > 0
     empty = away[(away <= WALL) & ~filled]
     return Judged(
         triangles=len(solid.faces),

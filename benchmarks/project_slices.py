@@ -23,7 +23,7 @@ import numpy as np
 from benchmarks.fill_parts import FOLDER, PATTERNS
 from benchmarks.pairs import row
 from infill import Surface, check_project, read_mesh
-from infill.meshes.solids import FINE, solid_of, status
+from infill.meshes.solids import FINE, manifold_status, to_manifold
 from tests.slicers import FILLED_SETTINGS, OVERLAP, PERIMETERS, missing_prusa, prusa_volumes
 
 LAYER = float(str(FILLED_SETTINGS["layer_height"]))
@@ -37,7 +37,7 @@ WALLS = ("Perimeter", "External perimeter", "Overhang perimeter")
 
 def room_in_layers(part: Surface, infill: Surface) -> tuple[float, float]:
     """Return the volume of the infill where the slicer puts any, and what of it has a line of room, mm³."""
-    one, two = solid_of(part), solid_of(infill)
+    one, two = to_manifold(part), to_manifold(infill)
     low, high = part.bounds[:, 2]
     around = manifold3d.JoinType.Round
     found = wide = 0.0
@@ -77,7 +77,7 @@ def one_case(part: Path, pattern: str, density: float, folder: Path) -> bool:
     whole, layers, said = prusa_volumes(project, folder, seconds=SLOW, **OPEN)
     alone, same, _ = prusa_volumes(standing, folder, seconds=SLOW, **OPEN, fill_density="0%")
     body = wide = float("nan")
-    if status(taken) == FINE:
+    if manifold_status(taken) == FINE:
         body, wide = room_in_layers(taken, infill_of(project, taken))
     infill = sum(whole.values()) - sum(alone.values())
     walls = sum(whole.get(kind, 0.0) for kind in WALLS), sum(alone.get(kind, 0.0) for kind in WALLS)

@@ -1,7 +1,7 @@
 """Fewer triangles within a tolerance: ``python -m benchmarks.simplify [FILE ...]``.
 
 The smooth surface of an annulus (voxels of 0.25 mm, tolerance 0.02 mm), and that of any meshes given (200 voxels along
-the longest side, tolerance a tenth of a voxel), simplified by `infill.meshes.simplification.simplified`, and by two
+the longest side, tolerance a tenth of a voxel), simplified by `infill.meshes.simplification`, and by two
 others that are told to stay within the same tolerance: manifold3d collapses short edges, and fast-simplification
 (quadric errors) is run with fewer and fewer triangles until it goes too far or opens the mesh. In pairs; distances both
 ways, at 20 places drawn on each triangle.
@@ -18,9 +18,9 @@ import manifold3d
 import numpy as np
 
 from infill import Surface, read_mesh, smooth_mesh, smooth_volume
-from infill.meshes.distance import Tree
-from infill.meshes.intersections import self_intersections
-from infill.meshes.simplification import simplified
+from infill.meshes.distance import TriangleTree
+from infill.meshes.intersections import count_self_intersections
+from infill.meshes.simplification import simplify_surface
 
 PLACES = 20  # on each triangle
 HALVINGS = 10
@@ -38,7 +38,7 @@ def farthest(one: Surface, other: Surface, places: int = PLACES) -> float:
     """Return how far one surface lies from the other at most, at places that are drawn, mm."""
     shares = np.random.default_rng(1).dirichlet([1, 1, 1], (len(one.faces), places))
     points = np.einsum("fpk,fkc->fpc", shares, np.asarray(one.vertices)[one.faces]).reshape(-1, 3)
-    return float(Tree.of(other).nearest(np.concatenate([points, np.asarray(one.vertices)]))[0].max())
+    return float(TriangleTree.of(other).nearest(np.concatenate([points, np.asarray(one.vertices)]))[0].max())
 
 
 def by_manifold(surface: Surface, tolerance: float) -> Surface:
@@ -71,7 +71,7 @@ def by_quadrics(surface: Surface, tolerance: float) -> Surface:
 
 
 WAYS: dict[str, Callable[[Surface, float], Surface]] = {
-    "ours": lambda surface, tolerance: simplified(surface, tolerance=tolerance),
+    "ours": lambda surface, tolerance: simplify_surface(surface, tolerance=tolerance),
     "manifold3d": by_manifold,
     "fast-simplification, searched": by_quadrics,
 }
@@ -91,7 +91,7 @@ def compare(name: str, surface: Surface, tolerance: float, runs: int) -> None:
     for way, simplify in WAYS.items():
         found = simplify(surface, tolerance)
         whole = found.closed and found.euler_number == surface.euler_number
-        crossing = self_intersections(np.asarray(found.vertices), found.faces)
+        crossing = count_self_intersections(np.asarray(found.vertices), found.faces)
         print(
             f"| {way} | {len(found.faces):,} | {len(surface.faces) / len(found.faces):.1f} | "
             f"{np.median(seconds[way]):.2f} | {farthest(surface, found, 3) / tolerance:.2f} tolerances | "

@@ -27,8 +27,8 @@ from benchmarks.peers.meshers import (
 )
 from benchmarks.solids import Shape, ellipsoid, gyroid, honeycomb, rbox, sphere, torus
 from infill import Smoothing
-from infill.isosurfaces.components import components, data_bits
-from infill.isosurfaces.levels import at_volume, straightened
+from infill.isosurfaces.components import data_bits, find_components
+from infill.isosurfaces.levels import straighten_profile, surface_at_volume
 from infill.isosurfaces.sparse_marching import extract_bricks
 from infill.phasefield.refining import refine_bricks
 from infill.phasefield.sparse import smooth_bricks
@@ -45,9 +45,9 @@ def ours(f: Field, steps: int, level: str, *, refine: bool = False) -> Surface:
     if level == "0":
         surface = extract_bricks(field, spacing=cells)
     else:
-        solid = components(field, data_bits(field))
-        straight = field if refine else straightened(field)
-        found = at_volume(straight, solid, spacing=cells, targets=solid.cells.astype(np.float64))
+        solid = find_components(field, data_bits(field))
+        straight = field if refine else straighten_profile(field)
+        found = surface_at_volume(straight, solid, spacing=cells, targets=solid.cells.astype(np.float64))
         surface = extract_bricks(
             straight, spacing=cells, level=found.common
         )  # specks of noise get no level of their own

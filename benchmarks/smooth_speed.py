@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from benchmarks import pairs
 from benchmarks.pairs import row
 from infill import Smoothing, read_mesh, smooth_mesh, smooth_volume
-from infill.isosurfaces.levels import at_volume, counted
+from infill.isosurfaces.levels import prepare_levels, surface_at_volume
 from infill.isosurfaces.sparse_marching import extract_bricks
 from infill.phasefield.sparse import smooth_bricks
 
@@ -61,8 +61,8 @@ def kernels(f: NDArray[np.bool_]) -> int:
 
 def kernels_volume(f: NDArray[np.bool_]) -> int:
     """Smooth and mesh at the level of the data's volume by kernels alone."""
-    data, field, start = counted(smooth_bricks(f, SMOOTHING), spacing=UNIT)
-    found = at_volume(field, data, spacing=UNIT, targets=data.cells.astype(np.float64), start=start)
+    data, field, start = prepare_levels(smooth_bricks(f, SMOOTHING), spacing=UNIT)
+    found = surface_at_volume(field, data, spacing=UNIT, targets=data.cells.astype(np.float64), start=start)
     return len(found.surface.faces)
 
 

@@ -138,9 +138,9 @@ class CommandLine(SphinxDirective):
         import typer
         from typer.cli import get_docs_for_click
 
-        from infill.cli.app import build
+        from infill.cli.app import build_app
 
-        command = typer.main.get_command(build())
+        command = typer.main.get_command(build_app())
         context = command.make_context("infill", [], resilient_parsing=True)
         text = get_docs_for_click(obj=command, ctx=context, name="infill")
         # The page has its own title, and a list of the commands beside it.

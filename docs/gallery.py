@@ -9,7 +9,7 @@ import trimesh
 from PIL import Image
 
 from infill import GeometryError, Result, Surface, fill
-from infill.inspection.stiffness import Stiffness, stiffness
+from infill.inspection.stiffness import Stiffness, homogenise_stiffness
 from infill.lattices.stages import FillStages
 from infill.pictures.render import render
 from infill.report_keys import FillReport
@@ -155,7 +155,7 @@ def entry(name: str, kind: InSpace | type[Pattern], result: Result[FillStages, F
     """Return the row and the section of a pattern, and write its picture."""
     shown(name, result.surface)
     sizes, voids = result.report["infill"], result.report["voids"]["count"]
-    found = stiffness(cell_of(kind)) if isinstance(kind, Cellular) else None
+    found = homogenise_stiffness(cell_of(kind)) if isinstance(kind, Cellular) else None
     columns = [f"[{name}](#{name})", f"{sizes['cell']:.1f}", f"{sizes['line_width']:.2f}", *modulus(found, kind)]
     columns += [f"{overhang(result.stages.voids):.0%}", str(voids)]
     own = [each for each in parameters(type(kind) if isinstance(kind, InSpace) else kind) if each not in GIVEN]

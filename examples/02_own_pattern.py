@@ -16,7 +16,7 @@ from shapely import MultiLineString, Polygon, linestrings
 
 from infill import make
 from patterns import Pattern, cell_parameter
-from patterns.linework import clip, framed
+from patterns.linework import add_frame, clip
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,7 +31,7 @@ class Squares(Pattern):
         x0, y0, x1, y1 = region.bounds
         across = [[(x, y0), (x, y1)] for x in np.arange(x0 + self.cell, x1 - self.cell / 2, self.cell)]
         along = [[(x0, y), (x1, y)] for y in np.arange(y0 + self.cell, y1 - self.cell / 2, self.cell)]
-        return framed(clip(linestrings(across + along), region), region)
+        return add_frame(clip(linestrings(across + along), region), region)
 
     def line_spacing(self, region: Polygon) -> float:
         return self.cell

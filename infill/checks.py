@@ -10,10 +10,10 @@ SHORTEST, LONGEST = 1e-6, 1e6  # of a length in mm; beyond these, files of 32-bi
 FARTHEST = 1e5  # mm: no machine is larger
 
 
-def positive(name: str, value: float, unit: str = "") -> float:
+def check_positive(name: str, value: float, unit: str = "") -> float:
     """Return `value` as a float, or raise ParameterError if it is not a finite number above 0.
 
-    >>> positive("alpha", 1)
+    >>> check_positive("alpha", 1)
     1.0
     """
     number = _to_float(name, value)
@@ -22,17 +22,17 @@ def positive(name: str, value: float, unit: str = "") -> float:
     return number
 
 
-def length(name: str, value: float) -> float:
+def check_length(name: str, value: float) -> float:
     """Return `value` as a float in mm, or raise ParameterError if no mesh can have that length.
 
-    >>> length("height", 6)
+    >>> check_length("height", 6)
     6.0
     """
-    number = positive(name, value, "mm")
-    return within(name, number, SHORTEST, LONGEST, "mm")
+    number = check_positive(name, value, "mm")
+    return check_range(name, number, SHORTEST, LONGEST, "mm")
 
 
-def within(name: str, value: float, low: float, high: float, unit: str = "") -> float:
+def check_range(name: str, value: float, low: float, high: float, unit: str = "") -> float:
     """Return `value` as a float, or raise ParameterError if it does not lie between `low` and `high`."""
     number = _to_float(name, value)
     if not low <= number <= high:
@@ -40,7 +40,7 @@ def within(name: str, value: float, low: float, high: float, unit: str = "") -> 
     return number
 
 
-def whole(name: str, value: float, low: int) -> int:
+def check_whole_number(name: str, value: float, low: int) -> int:
     """Return `value` as an int, or raise ParameterError if it is not a whole number of at least `low`."""
     number = _to_float(name, value)
     if not math.isfinite(number) or number != int(number) or number < low:

@@ -13,9 +13,9 @@ from infill.errors import FormatError
 Line = NDArray[np.float64]
 Bounds = tuple[float, float, float, float]
 
-LARGEST = 1e5  # mm: beyond a hundred metres, a drawing is a mistake in its units
+LARGEST_COORDINATE = 1e5  # mm: beyond a hundred metres, a drawing is a mistake in its units
 MOST_POINTS = 500_000  # with those of curves, before they are simplified
-FLATNESS = 1e-4  # of the size of a drawing: how far its chords may lie from its curves
+CHORD_TOLERANCE = 1e-4  # of the size of a drawing: how far its chords may lie from its curves
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -83,7 +83,7 @@ def count_points(lines: Iterable[Line]) -> Iterator[Line]:
         yield line
 
 
-def checked_drawing(
+def build_drawing(
     path: object, lines: list[Line], *, page: Bounds | None = None, left_out: dict[str, int] | None = None
 ) -> Drawing:
     """Simplify lines and return them as a drawing; raise FormatError if none remains or one is not finite."""
@@ -97,12 +97,14 @@ def checked_drawing(
         raise FormatError(f"{path} holds no lines{hint}; draw outlines or strokes, and turn texts into paths")
     points = np.concatenate(polylines)
     largest = np.abs(points).max()
-    if not largest <= LARGEST:
-        raise FormatError(f"{path} holds a point at {largest:g} mm; the limit is {LARGEST:g} mm; check its units")
+    if not largest <= LARGEST_COORDINATE:
+        raise FormatError(
+            f"{path} holds a point at {largest:g} mm; the limit is {LARGEST_COORDINATE:g} mm; check its units"
+        )
     size = float(np.ptp(points, axis=0).max())
     if size == 0:
         raise FormatError(f"{path} holds lines without length; draw outlines or strokes")
-    simple = shapely.simplify(shapely.linestrings(points, indices=_owners(polylines)), size * FLATNESS / 2)
+    simple = shapely.simplify(shapely.linestrings(points, indices=_owners(polylines)), size * CHORD_TOLERANCE / 2)
     simplified = (np.array(line.coords) for line in simple[shapely.length(simple) > 0])
     return Drawing(lines=tuple(simplified), page=page, left_out=omissions)
 

@@ -14,10 +14,10 @@ has its own errors, `patterns.PatternError`, since it may not import this packag
 """
 
 
-def printable(text: str) -> str:
+def escape_unprintable(text: str) -> str:
     r"""Return a text on one line, with control and invisible characters escaped.
 
-    >>> print(printable("a.nrrd holds \x1b[31m"))
+    >>> print(escape_unprintable("a.nrrd holds \x1b[31m"))
     a.nrrd holds \x1b[31m
     """
     return (
@@ -32,7 +32,7 @@ class InfillError(Exception):
 
     def __str__(self) -> str:
         """Return the message with control characters escaped."""
-        return printable(super().__str__())
+        return escape_unprintable(super().__str__())
 
 
 class ParameterError(InfillError, ValueError):

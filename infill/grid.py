@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.checks import positive, whole
+from infill.checks import check_positive, check_whole_number
 from infill.errors import ParameterError
 
 SOLID = 1.0
@@ -26,7 +26,7 @@ def spacing_of(spacing: float | tuple[float, ...], dimensions: int) -> tuple[flo
         sizes = sizes * dimensions  # type: ignore[assignment]
     if len(sizes) != dimensions:
         raise ParameterError(f"spacing has {len(sizes)} numbers for {dimensions} axes; give one, or one per axis")
-    return tuple(positive("spacing", size, "mm") for size in sizes)  # type: ignore[arg-type]
+    return tuple(check_positive("spacing", size, "mm") for size in sizes)  # type: ignore[arg-type]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,7 +61,7 @@ class Grid:
 
     def __post_init__(self) -> None:
         """Check all sizes and turn scalars into one number per axis."""
-        shape = tuple(whole("a number of cells", count, 1) for count in self.shape)
+        shape = tuple(check_whole_number("a number of cells", count, 1) for count in self.shape)
         if not shape:
             raise ParameterError("shape is empty; give one number of cells per axis")
         origin = tuple(float(x) for x in self.origin) or (0.0,) * len(shape)

@@ -11,7 +11,7 @@ from pathlib import Path
 from infill.errors import MemoryLimitError
 
 GIB = 2**30
-LARGEST = 2**100  # largest number of bytes in a message: a grid may exceed the range of a float
+LARGEST_SHOWN = 2**100  # largest number of bytes in a message: a grid may exceed the range of a float
 
 
 def usable_cores() -> int:
@@ -52,7 +52,7 @@ def require_memory(needed: int, limit: int | None, advice: str) -> None:
     """Raise MemoryLimitError if `needed` bytes exceed `limit`, or the available memory if `limit` is None."""
     allowed = available_memory() if limit is None else limit
     if allowed is not None and needed > allowed:
-        needed = min(needed, LARGEST)
+        needed = min(needed, LARGEST_SHOWN)
         origin = "is at hand" if limit is None else "is allowed"
         raise MemoryLimitError(
             f"this needs about {needed / GIB:.2f} GiB of memory and {allowed / GIB:.2f} GiB {origin}; {advice}"

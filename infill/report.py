@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
 
-from infill.inspection.changes import Changes, Counts
+from infill.inspection.changes import ConnectionCounts, TopologyChanges
 from infill.surface import Surface
 from infill.version import __version__
 
@@ -24,9 +24,9 @@ def report_of(
     request: Mapping[str, Any],
     grid: Mapping[str, Any],
     solid: Mapping[str, Any],
-    data: Counts,
-    result: Counts,
-    changes: Changes,
+    data: ConnectionCounts,
+    result: ConnectionCounts,
+    changes: TopologyChanges,
     walls: Mapping[str, Any],
     problems: Sequence[str],
     seconds: Mapping[str, float],

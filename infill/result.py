@@ -15,11 +15,11 @@ from typing import TYPE_CHECKING, Any, BinaryIO, Generic, Protocol, TypeVar
 import numpy as np
 
 from infill.errors import OutputError
-from infill.files.whole_files import whole_file
-from infill.formats.mesh_files import PART_WRITERS, parts_writer, writer
+from infill.files.whole_files import atomic_file
+from infill.formats.mesh_files import PART_WRITERS, mesh_writer, parts_writer
 from infill.formats.parts import Part
 from infill.imaging.label_tables import Colour
-from infill.meshes.split_components import joined
+from infill.meshes.split_components import concatenate_surfaces
 from infill.pictures.preview import SUFFIXES as PICTURES
 from infill.pictures.preview import is_picture
 from infill.surface import Surface
@@ -86,7 +86,7 @@ class Result(Generic[Stages, Told]):
     @cached_property
     def whole(self) -> Surface:
         """All surfaces concatenated into one, mm."""
-        return joined(list(self.surfaces.values()))
+        return concatenate_surfaces(list(self.surfaces.values()))
 
     @cached_property
     def mesh(self) -> trimesh.Trimesh:
@@ -132,7 +132,7 @@ class Result(Generic[Stages, Told]):
         write = self._writer(target)
         if not overwrite and os.path.lexists(target):
             raise OutputError(f"{target} exists; give another name, or leave out overwrite=False")
-        with whole_file(target) as file:
+        with atomic_file(target) as file:
             write(file)
         return target
 
@@ -140,7 +140,7 @@ class Result(Generic[Stages, Told]):
         """Return the function that writes the format of a path."""
         if is_picture(target):
             return self.write_picture
-        write_one = writer(target, more=PICTURES)  # raises for an unknown suffix
+        write_one = mesh_writer(target, more=PICTURES)  # raises for an unknown suffix
         if len(self.surfaces) == 1 or (self.joins and target.suffix.lower() not in PART_WRITERS):
             return lambda file: write_one(self.whole, file)
         write_several = parts_writer(target)
@@ -154,7 +154,7 @@ def parts_of(result: Result[Any, Any]) -> list[Part]:
     ]
 
 
-def told_between(progress: Progress | None, begin: float, end: float) -> Progress | None:
+def progress_between(progress: Progress | None, begin: float, end: float) -> Progress | None:
     """Map progress from 0 to 1 onto the range `begin` to `end`; return None without a listener."""
     if progress is None:
         return None

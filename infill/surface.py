@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     import trimesh
 
-AT_ONCE = 50_000  # faces measured at a time, so that they stay in the cache
+FACES_AT_ONCE = 50_000  # faces measured at a time, so that they stay in the cache
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -95,8 +95,8 @@ class Surface:
         """Enclosed volume, mm³, and area, mm²."""
         vertices = self.vertices - self.vertices.mean(axis=0, dtype=np.float64)
         sixfold = doubled = 0.0
-        for low in range(0, len(self.faces), AT_ONCE):
-            a, b, c = (vertices[self.faces[low : low + AT_ONCE, i]].T for i in range(3))
+        for low in range(0, len(self.faces), FACES_AT_ONCE):
+            a, b, c = (vertices[self.faces[low : low + FACES_AT_ONCE, i]].T for i in range(3))
             b, c = b - a, c - a
             normal = (b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0])
             # Not by BLAS: waking its threads takes longer than such a product.

@@ -41,7 +41,7 @@ class _Catalogue(Mapping[str, InSpace]):
 CELLULAR: Mapping[str, InSpace] = _Catalogue()
 
 
-def no_such(name: str, names: Iterable[str]) -> PatternError:
+def unknown_pattern_error(name: str, names: Iterable[str]) -> PatternError:
     """Return the error for an unknown pattern, with the nearest known name."""
     names = list(names)
     matches = difflib.get_close_matches(name.lower(), names, n=1, cutoff=0.4)

@@ -33,12 +33,12 @@ class Concentric(Pattern):
         """Return the outlines of the insets, the largest first, and the frame."""
         import shapely
 
-        from patterns.linework import framed
+        from patterns.linework import add_frame
 
         first_distance = self.cell if self.frame else self.cell / 2
         rings = [shapely.get_rings(shapely.get_parts(inner)) for inner in insets(region, first_distance, self.cell)]
         lines = shapely.MultiLineString([ring for level in rings for ring in level])
-        return framed(lines, region) if self.frame else lines
+        return add_frame(lines, region) if self.frame else lines
 
     def line_spacing(self, region: Polygon | MultiPolygon) -> float:  # noqa: ARG002 - the same everywhere
         """Return the distance between neighbouring lines, mm."""

@@ -33,7 +33,7 @@ Function = Callable[[Floats, Floats, Floats], Floats]
 STEPS_PER_SPACING = 32
 # Nodes are offset from multiples of the step, where straight patterns are zero and rounding decides the sign.
 OFFSET = (math.sqrt(5) - 2, math.sqrt(2) - 1)
-HALVINGS = 26  # of a step: to 1e-8 of it
+BISECTIONS = 26  # of a step: to 1e-8 of it
 NODES_AT_ONCE = 1_000_000
 
 
@@ -145,7 +145,7 @@ def _bisect_zeros(
 ) -> Floats:
     """Return a zero between each point (x0, y0), where the sign is `positive`, and (x1, y1): (N, 2)."""
     low, high = np.zeros(len(x0)), np.ones(len(x0))
-    for _ in range(HALVINGS if len(x0) else 0):
+    for _ in range(BISECTIONS if len(x0) else 0):
         middle = (low + high) / 2
         has_start_sign = (value(x0 + middle * (x1 - x0), y0 + middle * (y1 - y0)) > 0) == positive
         low, high = np.where(has_start_sign, middle, low), np.where(has_start_sign, high, middle)

@@ -46,17 +46,17 @@ class Cross(Pattern):
         import numpy as np
         import shapely
 
-        from patterns.linework import clip, framed, turn
+        from patterns.linework import add_frame, clip, turn
 
         pitch = self.cell / SIDE
         corners = turn(shapely.get_coordinates(shapely.envelope(region)) - self.phase, -self.angle) / pitch
         low, high = np.floor(corners.min(axis=0)), np.ceil(corners.max(axis=0))
         if max(-low.min(), high.max()) > ORIGIN:
             raise PatternError(f"the cell is {self.cell:g} mm; the curve reaches {ORIGIN} octagons: give a larger one")
-        parts = shapely.get_parts(shapely.line_merge(shapely.multilinestrings(steps(low, high))))
+        parts = shapely.get_parts(shapely.line_merge(shapely.multilinestrings(curve_steps(low, high))))
         placed_lines = shapely.transform(parts, lambda ends: turn(ends * pitch, self.angle) + np.array(self.phase))
         lines = clip(placed_lines, region)
-        return framed(lines, region) if self.frame else lines
+        return add_frame(lines, region) if self.frame else lines
 
     def line_spacing(self, region: Polygon | MultiPolygon) -> float:  # noqa: ARG002 - the same everywhere
         """Return the least distance between neighbouring lines, mm."""
@@ -107,7 +107,7 @@ class Cross3D(Cross):
         return self.phase[0] + self.cell / 2 * np.cos(turned), self.phase[1] + self.cell / 2 * np.sin(turned)
 
 
-def steps(low: NDArray[np.float64], high: NDArray[np.float64]) -> NDArray[np.float64]:
+def curve_steps(low: NDArray[np.float64], high: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the steps of the curve around nodes from `low` to `high`, (2,) each: (N, 2, 2), in node distances.
 
     Notes
@@ -117,7 +117,7 @@ def steps(low: NDArray[np.float64], high: NDArray[np.float64]) -> NDArray[np.flo
     coordinates. Two such nodes are never neighbours: one coordinate would be odd in both.
 
     >>> import numpy as np
-    >>> len(steps(np.array([0.0, 0.0]), np.array([9.0, 9.0])))
+    >>> len(curve_steps(np.array([0.0, 0.0]), np.array([9.0, 9.0])))
     400
     """
     import numpy as np

@@ -17,7 +17,7 @@ from patterns.errors import PatternError, PatternUsageError
 
 Unit = Literal["mm", "deg", ""]
 UNITS = get_args(Unit)
-LONGEST_SHOWN = 60  # signs of a value in a message
+MAX_SHOWN_LENGTH = 60  # signs of a value in a message
 SHOWN_UNITS = {"mm": " mm", "deg": " degrees", "": ""}
 
 
@@ -100,10 +100,10 @@ def parameter(
     return dataclasses.field(default=default, metadata={"parameter": declaration})
 
 
-Described = tuple["dataclasses.Field[Any]", Parameter]
+DescribedField = tuple["dataclasses.Field[Any]", Parameter]
 
 
-def parameters(pattern: object) -> dict[str, Described]:
+def parameters(pattern: object) -> dict[str, DescribedField]:
     """Return the described fields of a pattern, or of a class of patterns, by name, in the order of the class."""
     if not dataclasses.is_dataclass(pattern):
         return {}
@@ -124,15 +124,15 @@ def parameter_values(pattern: object) -> dict[str, Any]:
     declared = parameters(pattern)
     values = {name: getattr(pattern, name) for name in declared}
     replaced = {declaration.replaces for name, (_, declaration) in declared.items() if values[name] is not None}
-    return {name: listed(value) for name, value in values.items() if name not in replaced}
+    return {name: as_json_value(value) for name, value in values.items() if name not in replaced}
 
 
-def listed(value: object) -> object:
+def as_json_value(value: object) -> object:
     """Convert a tuple to a list, as JSON and TOML return it."""
     return list(value) if isinstance(value, tuple) else value
 
 
-class Named(Protocol):
+class HasName(Protocol):
     """Any object with parameters that messages name: a pattern, a class of patterns, and others."""
 
     @property
@@ -141,37 +141,37 @@ class Named(Protocol):
         ...
 
 
-def wanted(default: object, declaration: Parameter) -> str:
+def describe_values(default: object, declaration: Parameter) -> str:
     """Describe the values of a parameter in words, with range and unit.
 
-    >>> wanted(None, Parameter(help="", unit="", low=1, high=9, whole=True))
+    >>> describe_values(None, Parameter(help="", unit="", low=1, high=9, whole=True))
     'a whole number from 1 to 9, or none'
     """
     if isinstance(default, bool):
         return "true or false"
     kind = "whole number" if declaration.whole else "number"
-    count = numbers_of(default, declaration)
+    count = value_count(default, declaration)
     quantity = f"a {kind}" if count is None else f"{count} {kind}s"
     return f"{quantity} {declaration.range}".rstrip() + (", or none" if default is None else "")
 
 
-def numbers_of(default: object, declaration: Parameter) -> int | None:
+def value_count(default: object, declaration: Parameter) -> int | None:
     """Return the number of values of a parameter, or None if it is a single one."""
     if isinstance(default, tuple):
         return len(default)
     return declaration.count if default is None and declaration.count != 1 else None
 
 
-def check_parameters(pattern: Named) -> None:
+def check_parameters(pattern: HasName) -> None:
     """Turn the described fields of a pattern into plain numbers, or raise PatternError.
 
     A number must be finite and in its range, a flag True or False, a tuple as long as its default.
     """
     for name, declaration in parameters(pattern).items():
-        object.__setattr__(pattern, name, checked(pattern.name, declaration, getattr(pattern, name)))
+        object.__setattr__(pattern, name, check_value(pattern.name, declaration, getattr(pattern, name)))
 
 
-def checked(pattern: str, described: Described, value: object) -> Any:  # noqa: ANN401 - of the kind of the field
+def check_value(pattern: str, described: DescribedField, value: object) -> Any:  # noqa: ANN401 - of the kind of the field
     """Return `value` as a plain bool, number, tuple or None, or raise PatternError if the parameter cannot have it.
 
     Parameters
@@ -190,13 +190,16 @@ def checked(pattern: str, described: Described, value: object) -> Any:  # noqa: 
     plain: bool | float | tuple[float, ...] | None
     if isinstance(default, bool):
         plain = value if isinstance(value, bool) else None
-    elif (count := numbers_of(default, parameter)) is not None:
+    elif (count := value_count(default, parameter)) is not None:
         plain = _numbers(value, parameter, count)
     else:
         plain = _number(value, parameter)
     if plain is None:
         kind = PatternUsageError if isinstance(value, str) else PatternError
-        raise kind(f"{field.name} of {pattern} is {shown(value, parameter)}; it must be {wanted(default, parameter)}")
+        raise kind(
+            f"{field.name} of {pattern} is {format_value(value, parameter)}; it must be "
+            f"{describe_values(default, parameter)}"
+        )
     return plain
 
 
@@ -225,7 +228,7 @@ def _number(value: object, declaration: Parameter) -> float | None:
     return number
 
 
-def shown(value: object, declaration: Parameter) -> str:
+def format_value(value: object, declaration: Parameter) -> str:
     """Format a value as users enter it, with its unit; numbers of a tuple are separated by commas."""
     items = value if isinstance(value, (tuple, list)) else (value,)
     try:
@@ -234,4 +237,4 @@ def shown(value: object, declaration: Parameter) -> str:
         text = repr(value)
     except (OverflowError, ValueError):
         return "a number of hundreds of digits"
-    return text if len(text) <= LONGEST_SHOWN else text[:LONGEST_SHOWN] + "…"
+    return text if len(text) <= MAX_SHOWN_LENGTH else text[:MAX_SHOWN_LENGTH] + "…"

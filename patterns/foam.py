@@ -9,15 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from patterns.declared import check_parameters, parameter
-from patterns.scattering import scattered
+from patterns.scattering import scatter_points
 from patterns.shared import seed_parameter
 from patterns.unit_cells import Bars
 
 Floats = NDArray[np.float64]
 
-ALONG = 3  # cells along a period
+CELLS_PER_PERIOD = 3  # cells along a period
 NEAR, WIDER = 1.8, 1.2  # cells: distance of the seeds that are tried first, and its factor for every next try
-FINE = 12  # sample points along a cell for centroids
+SAMPLES_PER_CELL = 12  # sample points along a cell for centroids
 ROUNDING = 1e-9
 
 
@@ -29,7 +29,7 @@ class Foam(Bars):
     """
 
     edges: tuple[()] = ()
-    cells: int = ALONG
+    cells: int = CELLS_PER_PERIOD
     seed: int = seed_parameter()
     even: int = parameter(3, "how often cells are evened out", unit="", low=0, high=20, whole=True)
 
@@ -39,15 +39,15 @@ class Foam(Bars):
 
     def axes(self) -> Floats:
         """Return the edges of the Voronoi cells: (E, 2, 3), in periods."""
-        seeds = scattered(np.zeros(3, dtype=np.int64), np.full(3, ALONG), self.seed)
+        seeds = scatter_points(np.zeros(3, dtype=np.int64), np.full(3, CELLS_PER_PERIOD), self.seed)
         for _ in range(self.even):
-            seeds = evened(seeds, ALONG)
-        return voronoi_edges(seeds, ALONG) / ALONG
+            seeds = voronoi_centroids(seeds, CELLS_PER_PERIOD)
+        return voronoi_edges(seeds, CELLS_PER_PERIOD) / CELLS_PER_PERIOD
 
 
-def evened(seeds: Floats, period: int) -> Floats:
+def voronoi_centroids(seeds: Floats, period: int) -> Floats:
     """Return the centroids of the Voronoi cells of seeds (N, 3) that repeat with a period along each axis."""
-    line = (np.arange(FINE * period) + 0.5) / FINE
+    line = (np.arange(SAMPLES_PER_CELL * period) + 0.5) / SAMPLES_PER_CELL
     points = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
     nearest, nearest_seed = np.full(len(points), np.inf), np.zeros(len(points), dtype=np.intp)
     for number, seed in enumerate(seeds):

@@ -8,17 +8,26 @@ import math
 from collections.abc import Iterable
 from typing import Any
 
-from patterns.declared import Described, Named, Parameter, checked, listed, numbers_of, parameters, shown
+from patterns.declared import (
+    DescribedField,
+    HasName,
+    Parameter,
+    as_json_value,
+    check_value,
+    format_value,
+    parameters,
+    value_count,
+)
 from patterns.errors import PatternError, PatternUsageError
 
 BOOLEANS = {"true": True, "yes": True, "on": True, "1": True, "false": False, "no": False, "off": False, "0": False}
 NONE = "none"
 
 
-def nearest(name: str, known: Iterable[str], *, others: Iterable[str] = ()) -> str:
+def suggest_name(name: str, known: Iterable[str], *, others: Iterable[str] = ()) -> str:
     """Return advice for an unknown name: the nearest one of `known` and `others`, or a list of all known names.
 
-    >>> nearest("wavs", ["cell", "waves"]), nearest("qq", ["cell"]), nearest("qq", [])
+    >>> suggest_name("wavs", ["cell", "waves"]), suggest_name("qq", ["cell"]), suggest_name("qq", [])
     ("did you mean 'waves'?", 'it has cell', 'it has none')
     """
     names = list(known)
@@ -26,14 +35,14 @@ def nearest(name: str, known: Iterable[str], *, others: Iterable[str] = ()) -> s
     return f"did you mean {matches[0]!r}?" if matches else f"it has {', '.join(names) or 'none'}"
 
 
-def assigned(kind: Named, text: str) -> tuple[str, Any]:
+def parse_assignment(kind: HasName, text: str) -> tuple[str, Any]:
     """Parse a text such as ``waves=7.5``; return the name and the value, or raise PatternError.
 
     Dashes and underscores are equivalent; several numbers are separated by commas; a flag is true, yes, on, 1,
     false, no, off or 0.
 
     >>> from patterns import Zigzag
-    >>> assigned(Zigzag, "phase=1,2"), assigned(Zigzag, "waves=none"), assigned(Zigzag, "frame=off")
+    >>> tuple(parse_assignment(Zigzag, words) for words in ("phase=1,2", "waves=none", "frame=off"))
     (('phase', (1.0, 2.0)), ('waves', None), ('frame', False))
     """
     word, equals, value = text.partition("=")
@@ -42,16 +51,16 @@ def assigned(kind: Named, text: str) -> tuple[str, Any]:
         raise PatternUsageError("give a name and a value with = between, such as cell=5")
     declared = parameters(kind)
     if name not in declared:
-        raise PatternError(f"{kind.name} has no parameter {word.strip()!r}; {nearest(name, declared)}")
-    return name, value_of(kind, name, _parse_value(value.strip(), *declared[name]))
+        raise PatternError(f"{kind.name} has no parameter {word.strip()!r}; {suggest_name(name, declared)}")
+    return name, check_named_value(kind, name, _parse_value(value.strip(), *declared[name]))
 
 
-def value_of(kind: Named, name: str, value: object) -> Any:  # noqa: ANN401 - of the kind of the parameter
+def check_named_value(kind: HasName, name: str, value: object) -> Any:  # noqa: ANN401 - of the kind of the parameter
     """Return `value` as a plain bool, number, tuple or None, or raise PatternError if the parameter cannot have it."""
-    return checked(kind.name, parameters(kind)[name], value)
+    return check_value(kind.name, parameters(kind)[name], value)
 
 
-def descriptions(kind: Named) -> dict[str, dict[str, Any]]:
+def describe_parameters(kind: HasName) -> dict[str, dict[str, Any]]:
     """Return the parameters of a pattern by name, as plain values: help, unit, default, and the limits low and high."""
     described = {}
     for name, (field, declaration) in parameters(kind).items():
@@ -61,18 +70,18 @@ def descriptions(kind: Named) -> dict[str, dict[str, Any]]:
         described[name] = {
             "help": declaration.help,
             "unit": declaration.shown_unit,
-            "default": listed(field.default),
+            "default": as_json_value(field.default),
             **limits,
         }
     return described
 
 
-def default_text(described: Described) -> str:
+def default_text(described: DescribedField) -> str:
     """Return the default of a parameter as users enter it, with its unit: "6 mm", "0,0 mm", "true", "none"."""
     default = described[0].default
     if default is None or isinstance(default, bool):
         return str(default).lower()
-    return shown(default, described[1])
+    return format_value(default, described[1])
 
 
 def _parse_value(text: str, field: dataclasses.Field[Any], described: Parameter) -> object:
@@ -83,7 +92,7 @@ def _parse_value(text: str, field: dataclasses.Field[Any], described: Parameter)
     if isinstance(default, bool):
         return BOOLEANS.get(word, text)
     try:
-        if numbers_of(default, described) is not None:
+        if value_count(default, described) is not None:
             return tuple(float(part) for part in text.split(","))
         return float(text)
     except ValueError:

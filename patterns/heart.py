@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 ARC_POINTS = 257  # odd, so that the tip of a lobe is a point
 
 
-def outline(arc_points: int = ARC_POINTS) -> NDArray[np.float64]:
+def heart_outline(arc_points: int = ARC_POINTS) -> NDArray[np.float64]:
     r"""Return the closed outline of a heart on the square 0 <= x, y <= 1: (N, 2), first = last.
 
     The straight sides lie on the axes, half discs of radius 1/2 on the right and top sides, the tip
@@ -69,16 +69,18 @@ class ConcentricHeart(Pattern):
         import numpy as np
         import shapely
 
-        from patterns.linework import clip, framed, middle, turn
+        from patterns.linework import add_frame, bounds_centre, clip, turn
 
         largest, gap = self._side(region), self.line_spacing(region)
         # A heart is left out if its interior would be narrower than a gap.
         count = self.hearts or max(1, math.floor((largest - gap) / (2 * gap)) + 1)
         sides = largest - 2 * gap * np.arange(count)
-        hearts = turn(sides[:, None, None] * (outline() - 0.5), self.angle)
-        placed_hearts = hearts - (hearts[0].min(axis=0) + hearts[0].max(axis=0)) / 2 + middle(region) + self.phase
+        hearts = turn(sides[:, None, None] * (heart_outline() - 0.5), self.angle)
+        placed_hearts = (
+            hearts - (hearts[0].min(axis=0) + hearts[0].max(axis=0)) / 2 + bounds_centre(region) + self.phase
+        )
         lines = clip(shapely.linestrings(placed_hearts), region)
-        return framed(lines, region) if self.frame else lines
+        return add_frame(lines, region) if self.frame else lines
 
     def line_spacing(self, region: Polygon | MultiPolygon) -> float:
         """Return the gap between neighbours at the straight sides, mm."""
@@ -89,7 +91,7 @@ class ConcentricHeart(Pattern):
         from patterns.linework import turn
 
         x0, y0, x1, y1 = region.bounds
-        shape = turn(outline(), self.angle)
+        shape = turn(heart_outline(), self.angle)
         width, depth = shape.max(axis=0) - shape.min(axis=0)
         side = float(min((x1 - x0) / width, (y1 - y0) / depth))
         if side <= 0:

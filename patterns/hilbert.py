@@ -39,20 +39,20 @@ class Hilbert(Pattern):
         import numpy as np
         import shapely
 
-        from patterns.linework import clip, framed, turn
+        from patterns.linework import add_frame, clip, turn
 
         corners = turn(shapely.get_coordinates(shapely.envelope(region)) - self.phase, -self.angle) - self.cell / 2
-        parts = curve(np.concatenate([corners.min(axis=0), corners.max(axis=0)]), self.cell)
+        parts = hilbert_curve(np.concatenate([corners.min(axis=0), corners.max(axis=0)]), self.cell)
         placed_parts = [turn(part + self.cell / 2, self.angle) + np.array(self.phase) for part in parts]
         lines = clip([shapely.LineString(part) for part in placed_parts], region)
-        return framed(lines, region) if self.frame else lines
+        return add_frame(lines, region) if self.frame else lines
 
     def line_spacing(self, region: Polygon | MultiPolygon) -> float:  # noqa: ARG002 - the same everywhere
         """Return the distance between neighbouring lines, mm."""
         return self.cell
 
 
-def curve(bounds: NDArray[np.float64], cell: float) -> list[NDArray[np.float64]]:
+def hilbert_curve(bounds: NDArray[np.float64], cell: float) -> list[NDArray[np.float64]]:
     """Return the parts of the curve that cover a box, by their corners: (N, 2) each, mm.
 
     Parameters
@@ -77,18 +77,18 @@ def curve(bounds: NDArray[np.float64], cell: float) -> list[NDArray[np.float64]]
         for low_square, high_square in zip(low, high, strict=True)
     ]
     square = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
-    number = numbers(square[:, 0] + ORIGIN, square[:, 1] + ORIGIN)
+    number = hilbert_index(square[:, 0] + ORIGIN, square[:, 1] + ORIGIN)
     order = np.argsort(number)
     square, number = square[order], number[order]
     breaks = np.flatnonzero(np.diff(number) != 1) + 1
     return [_corners(part) * cell for part in np.split(square, breaks) if len(part) > 1]
 
 
-def numbers(x: NDArray[np.int64], y: NDArray[np.int64]) -> NDArray[np.int64]:
+def hilbert_index(x: NDArray[np.int64], y: NDArray[np.int64]) -> NDArray[np.int64]:
     """Return the position of squares along the curve, int64; source: Hilbert, Math. Ann. 38 (1891).
 
     >>> import numpy as np
-    >>> numbers(np.array([0, 0, 1, 1]), np.array([0, 1, 1, 0])).tolist()
+    >>> hilbert_index(np.array([0, 0, 1, 1]), np.array([0, 1, 1, 0])).tolist()
     [0, 3, 2, 1]
     """
     import numpy as np

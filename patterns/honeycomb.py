@@ -38,7 +38,7 @@ class Honeycomb(Pattern):
         import numpy as np
         import shapely
 
-        from patterns.linework import clip, drop_distant, framed, turn
+        from patterns.linework import add_frame, clip, drop_distant, turn
 
         corners = shapely.get_coordinates(shapely.envelope(region)) - self.phase
         low, high = (limit(turn(corners, -self.angle), axis=0) for limit in (np.min, np.max))
@@ -59,7 +59,7 @@ class Honeycomb(Pattern):
         cell_walls = np.array([[right_low, right_high], [right_high, top], [top, left_high]])
         walls = turn((centres + cell_walls).reshape(-1, 2, 2), self.angle) + np.array(self.phase)
         lines = clip(shapely.linestrings(walls), region)
-        return framed(lines, region) if self.frame else lines
+        return add_frame(lines, region) if self.frame else lines
 
     def line_spacing(self, region: Polygon | MultiPolygon) -> float:  # noqa: ARG002 - the same everywhere
         """Return the distance between opposite walls, mm."""

@@ -24,14 +24,14 @@ def turn(points: NDArray[np.float64], angle: float) -> NDArray[np.float64]:
     return np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
 
 
-def local(
+def to_pattern_coordinates(
     x: NDArray[np.float64], y: NDArray[np.float64], *, angle: float, phase: tuple[float, float]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the coordinates of points in a pattern turned by `angle` degrees and then shifted by `phase`, mm.
 
     A level set of these coordinates is the pattern turned and shifted.
 
-    >>> x, y = local(np.array(1.0), np.array(2.0), angle=90, phase=(1.0, 0.0))
+    >>> x, y = to_pattern_coordinates(np.array(1.0), np.array(2.0), angle=90, phase=(1.0, 0.0))
     >>> round(float(x), 12), round(float(y), 12)
     (2.0, 0.0)
     """
@@ -87,24 +87,24 @@ def clip(lines: Iterable[shapely.Geometry] | NDArray[np.object_], region: Polygo
     return MultiLineString(list(parts))
 
 
-def joined(lines: MultiLineString) -> MultiLineString:
+def join_lines(lines: MultiLineString) -> MultiLineString:
     """Join `lines` that share an end in pairs: clipping also cuts a ring where it begins.
 
-    >>> len(joined(MultiLineString([[(0, 0), (1, 0)], [(1, 0), (2, 0)], [(5, 5), (6, 6)]])).geoms)
+    >>> len(join_lines(MultiLineString([[(0, 0), (1, 0)], [(1, 0), (2, 0)], [(5, 5), (6, 6)]])).geoms)
     2
     """
     return MultiLineString(list(shapely.get_parts(shapely.line_merge(lines))))
 
 
-def framed(lines: MultiLineString, region: Polygon | MultiPolygon) -> MultiLineString:
+def add_frame(lines: MultiLineString, region: Polygon | MultiPolygon) -> MultiLineString:
     """Add the outline of `region` to `lines`."""
     return MultiLineString([*lines.geoms, *shapely.get_parts(shapely.boundary(region))])
 
 
-def sample(lines: MultiLineString, spacing: float) -> NDArray[np.float64]:
+def sample_points(lines: MultiLineString, spacing: float) -> NDArray[np.float64]:
     """Return points along `lines`, neighbours at most `spacing` apart: (N, 2) float64, mm.
 
-    >>> sample(MultiLineString([[(0, 0), (1, 0)]]), 0.5)[:, 0].tolist()
+    >>> sample_points(MultiLineString([[(0, 0), (1, 0)]]), 0.5)[:, 0].tolist()
     [0.0, 0.5, 1.0]
     """
     if not (math.isfinite(spacing) and spacing > 0):
@@ -113,16 +113,16 @@ def sample(lines: MultiLineString, spacing: float) -> NDArray[np.float64]:
     return coordinates
 
 
-def middle(region: Polygon | MultiPolygon) -> NDArray[np.float64]:
+def bounds_centre(region: Polygon | MultiPolygon) -> NDArray[np.float64]:
     """Return the centre (x, y) of the bounding box of `region`."""
     x0, y0, x1, y1 = region.bounds
     return np.array([(x0 + x1) / 2, (y0 + y1) / 2])
 
 
-def bodies(lines: MultiLineString, *, tolerance: float = 1e-6) -> NDArray[np.intp]:
+def body_numbers(lines: MultiLineString, *, tolerance: float = 1e-6) -> NDArray[np.intp]:
     """Return, for every line, the number (from 0) of the connected body of lines it belongs to.
 
-    >>> bodies(MultiLineString([[(0, 0), (2, 0)], [(1, -1), (1, 1)], [(5, 5), (6, 6)]])).tolist()
+    >>> body_numbers(MultiLineString([[(0, 0), (2, 0)], [(1, -1), (1, 1)], [(5, 5), (6, 6)]])).tolist()
     [0, 0, 1]
     """
     parts = np.array(lines.geoms, dtype=object)

@@ -12,17 +12,17 @@ from patterns.shared import angle_parameter, cell_parameter, frame_parameter, ph
 if TYPE_CHECKING:
     from shapely import MultiLineString, MultiPolygon, Polygon
 
-FAR = 0.5  # of an octagon's width
-NEAR = FAR * (math.sqrt(2) - 1)  # half a side
+HALF_WIDTH = 0.5  # of an octagon's width
+HALF_SIDE = HALF_WIDTH * (math.sqrt(2) - 1)  # half a side
 # Of an octagon of width 1 about (0, 0): the side to the right, the one on top, and the four that it shares with
 # squares. Together, those of all octagons are all walls, each once.
 SIDES = (
-    ((FAR, -NEAR), (FAR, NEAR)),
-    ((-NEAR, FAR), (NEAR, FAR)),
-    ((FAR, NEAR), (NEAR, FAR)),
-    ((-NEAR, FAR), (-FAR, NEAR)),
-    ((-FAR, -NEAR), (-NEAR, -FAR)),
-    ((NEAR, -FAR), (FAR, -NEAR)),
+    ((HALF_WIDTH, -HALF_SIDE), (HALF_WIDTH, HALF_SIDE)),
+    ((-HALF_SIDE, HALF_WIDTH), (HALF_SIDE, HALF_WIDTH)),
+    ((HALF_WIDTH, HALF_SIDE), (HALF_SIDE, HALF_WIDTH)),
+    ((-HALF_SIDE, HALF_WIDTH), (-HALF_WIDTH, HALF_SIDE)),
+    ((-HALF_WIDTH, -HALF_SIDE), (-HALF_SIDE, -HALF_WIDTH)),
+    ((HALF_SIDE, -HALF_WIDTH), (HALF_WIDTH, -HALF_SIDE)),
 )
 
 
@@ -46,7 +46,7 @@ class Octagons(Pattern):
         import numpy as np
         import shapely
 
-        from patterns.linework import clip, drop_distant, framed, turn
+        from patterns.linework import add_frame, clip, drop_distant, turn
 
         corners = shapely.get_coordinates(shapely.envelope(region)) - self.phase
         low, high = (limit(turn(corners, -self.angle), axis=0) for limit in (np.min, np.max))
@@ -59,7 +59,7 @@ class Octagons(Pattern):
         cell_walls = np.array(SIDES) * self.cell
         walls = turn((centres + cell_walls).reshape(-1, 2, 2), self.angle) + np.array(self.phase)
         lines = clip(shapely.linestrings(walls), region)
-        return framed(lines, region) if self.frame else lines
+        return add_frame(lines, region) if self.frame else lines
 
     def line_spacing(self, region: Polygon | MultiPolygon) -> float:  # noqa: ARG002 - the same everywhere
         """Return the distance between opposite walls of an octagon, mm."""

@@ -66,7 +66,7 @@ class Octree:
         return round(self.cells / 3)
 
 
-def doubled(whole: Sequence[Flags]) -> NDArray[np.uint8]:
+def cube_levels(whole: Sequence[Flags]) -> NDArray[np.uint8]:
     """Return the level of the cube that contains each smallest cube, (n, m, k): its number of doublings.
 
     Parameters
@@ -82,7 +82,7 @@ def doubled(whole: Sequence[Flags]) -> NDArray[np.uint8]:
     >>> import numpy as np
     >>> fine, coarse = np.ones((6, 2, 2), dtype=bool), np.ones((3, 1, 1), dtype=bool)
     >>> fine[0] = coarse[0] = False
-    >>> doubled([fine, coarse])[:, 0, 0].tolist()
+    >>> cube_levels([fine, coarse])[:, 0, 0].tolist()
     [0, 0, 1, 1, 2, 2, 2, 2, 2, 2, 2, 2]
     """
     import numpy as np

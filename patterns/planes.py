@@ -36,7 +36,7 @@ QUARTER_CUBIC = Planes(
     offsets=(0.0, 0.0, 0.0, 0.5),
 )
 
-LEAST_APART = 15.0  # degrees: walls that cross at less leave slivers
+MIN_ANGLE_BETWEEN = 15.0  # degrees: walls that cross at less leave slivers
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,10 +55,10 @@ class LateralLattice(Planes):
     def __post_init__(self) -> None:
         """Check the parameters, and derive the normals of the planes."""
         check_parameters(self)
-        if abs(self.first - self.second) < LEAST_APART:
+        if abs(self.first - self.second) < MIN_ANGLE_BETWEEN:
             raise PatternError(
                 f"first and second of {self.name} are {self.first:g} and {self.second:g} degrees; they must be at "
-                f"least {LEAST_APART:g} degrees apart"
+                f"least {MIN_ANGLE_BETWEEN:g} degrees apart"
             )
         angles = (self.first, self.second)
         normals = tuple((0.0, 1.0, round(math.tan(math.radians(angle)), 12)) for angle in angles)

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from shapely import MultiLineString, MultiPolygon, Polygon
 
-NEEDED = ("name", "summary", "prismatic", "points", "line_spacing")
+REQUIRED_ATTRIBUTES = ("name", "summary", "prismatic", "points", "line_spacing")
 LINES, LEVEL_SET = "lines", "level set"
 
 
@@ -68,12 +68,12 @@ class Pattern(Protocol):
             the print as well.
         """
         from patterns.contours import zero_lines
-        from patterns.linework import clip, framed, joined
+        from patterns.linework import add_frame, clip, join_lines
 
         if not isinstance(self, LevelSet):
             raise PatternError(f"{self.name} gives neither lines nor a level set; give its class one of them")
-        lines = joined(clip(zero_lines(self.level_set, region.bounds, z, self.line_spacing(region)), region))
-        return framed(lines, region) if getattr(self, "frame", False) else lines
+        lines = join_lines(clip(zero_lines(self.level_set, region.bounds, z, self.line_spacing(region)), region))
+        return add_frame(lines, region) if getattr(self, "frame", False) else lines
 
     def line_spacing(self, region: Polygon | MultiPolygon) -> float:
         """Return the distance, mm, between neighbouring lines in `region` for which the pattern is designed."""
@@ -96,9 +96,9 @@ class Pattern(Protocol):
         -------
         (N, 2) float64, mm
         """
-        from patterns.linework import sample
+        from patterns.linework import sample_points
 
-        return sample(self.lines(region, z), spacing)
+        return sample_points(self.lines(region, z), spacing)
 
     def __post_init__(self) -> None:
         """Check the parameters; a subclass that defines `__post_init__` calls this first."""
@@ -127,7 +127,7 @@ class LevelSet(Protocol):
         ...
 
 
-def lines_of(pattern: Pattern, region: Polygon | MultiPolygon, z: float = 0.0) -> MultiLineString:
+def draw_lines(pattern: Pattern, region: Polygon | MultiPolygon, z: float = 0.0) -> MultiLineString:
     """Return the lines of a pattern; wrap any error, which may come from a plug-in, in a PatternError that names it."""
     try:
         return pattern.lines(region, z)
@@ -156,5 +156,5 @@ def lacking(pattern: object) -> list[str]:
     >>> lacking("honeycomb")[:2]
     ['name', 'summary']
     """
-    missing = [attribute for attribute in NEEDED if not hasattr(pattern, attribute)]
+    missing = [attribute for attribute in REQUIRED_ATTRIBUTES if not hasattr(pattern, attribute)]
     return missing if gives(pattern) else [*missing, "lines or level_set"]

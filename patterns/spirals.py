@@ -52,13 +52,13 @@ class Spiral(Pattern):
         import numpy as np
         import shapely
 
-        from patterns.linework import clip, framed, middle, turn
+        from patterns.linework import add_frame, bounds_centre, clip, turn
 
-        centre = middle(region) + self.phase
+        centre = bounds_centre(region) + self.phase
         farthest = float(np.linalg.norm(shapely.get_coordinates(shapely.envelope(region)) - centre, axis=1).max())
         spiral = turn(self.drawn(farthest / self.cell) * self.cell, self.angle) + centre
         lines = clip([shapely.LineString(spiral)], region)
-        return framed(lines, region) if self.frame else lines
+        return add_frame(lines, region) if self.frame else lines
 
     def line_spacing(self, region: Polygon | MultiPolygon) -> float:  # noqa: ARG002 - the same everywhere
         """Return the distance between neighbouring turns, mm."""

@@ -35,22 +35,22 @@ class Straight(Pattern):
         import numpy as np
         import shapely
 
-        from patterns.linework import clip, framed
+        from patterns.linework import add_frame, clip
 
         corners = shapely.get_coordinates(shapely.envelope(region)) - self.phase
         line_sets = [
-            parallels(corners, distance=self.cell, angle=self.angle + direction, shift=shift)
+            parallel_lines(corners, distance=self.cell, angle=self.angle + direction, shift=shift)
             for direction, shift in self.directions
         ]
         lines = clip(shapely.linestrings(np.concatenate(line_sets) + np.array(self.phase)), region)
-        return framed(lines, region) if self.frame else lines
+        return add_frame(lines, region) if self.frame else lines
 
     def line_spacing(self, region: Polygon | MultiPolygon) -> float:  # noqa: ARG002 - the same everywhere
         """Return the distance between neighbouring parallel lines, mm."""
         return self.cell
 
 
-def parallels(
+def parallel_lines(
     corners: NDArray[np.float64], *, distance: float, angle: float, shift: float = 0.0
 ) -> NDArray[np.float64]:
     """Return parallel lines that cross the box around points (N, 2): (L, 2, 2), in the unit of the points.
@@ -65,7 +65,7 @@ def parallels(
         Shift of the lines to the left of a line through (0, 0), in distances.
 
     >>> import numpy as np
-    >>> parallels(np.array([[0.0, 0.0], [2.0, 1.0]]), distance=1, angle=0, shift=0.5)[:, 0, 1].tolist()
+    >>> parallel_lines(np.array([[0.0, 0.0], [2.0, 1.0]]), distance=1, angle=0, shift=0.5)[:, 0, 1].tolist()
     [-0.5, 0.5, 1.5]
     """
     import numpy as np

@@ -20,14 +20,14 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-STEPS, AGAIN = 3, 2  # of Newton's method, from near the surface to it, and from nearer
-SHEET, SHIFT = 40, 0.0093  # nodes along a cell, between which the surface is looked for; where they begin
+NEWTON_STEPS, NEWTON_STEPS_AGAIN = 3, 2  # of Newton's method, from near the surface to it, and from nearer
+NODES_PER_CELL, SHIFT = 40, 0.0093  # nodes along a cell, between which the surface is looked for; where they begin
 JUMPS = (16, 8, 4, 2, 1, 1)  # distances of jump flooding, in nodes: from half a cell to direct neighbours, twice
-ROUNDS = 3  # of the search for the nearest point of the surface
-NEAR = 1e-3  # values that count as 0
+SEARCH_ROUNDS = 3  # of the search for the nearest point of the surface
+ZERO_TOLERANCE = 1e-3  # values that count as 0
 DIFFERENCE = 1e-6  # of a cell, for slopes
-LONGEST, MOVED = 0.2, 2e-3  # steps, in cells: the longest, and the shortest that matters
-STEEPEST = 0.5  # of a cell: distances beyond this are cut off
+LONGEST_STEP, SHORTEST_STEP = 0.2, 2e-3  # steps, in cells: the longest, and the shortest that matters
+MAX_DISTANCE = 0.5  # of a cell: distances beyond this are cut off
 REACH = 0.8  # of a period: further from the unit cell, no bar is the nearest of any point in it
 FURTHEST = 1.5  # cells: such a bar is not the nearest either
 DEEPEST = 48  # points along a cell, among which the deepest is looked for
@@ -67,19 +67,19 @@ class Surfaces:
 
         points = np.asarray(points, dtype=np.float64)
         foot = points + self._towards(points)
-        nearest = np.minimum(np.linalg.norm(points - foot, axis=1), STEEPEST)
-        active = np.flatnonzero(nearest < STEEPEST)
+        nearest = np.minimum(np.linalg.norm(points - foot, axis=1), MAX_DISTANCE)
+        active = np.flatnonzero(nearest < MAX_DISTANCE)
         foot = foot[active]
-        for _ in range(ROUNDS):
+        for _ in range(SEARCH_ROUNDS):
             # Project the point onto the tangent plane at the foot, and return to the surface.
             offset, normal = points[active] - foot, _unit(self._slope(foot, self._at(foot)))
             across = offset - (offset * normal).sum(axis=1, keepdims=True) * normal
-            moving = np.linalg.norm(across, axis=1) > MOVED
+            moving = np.linalg.norm(across, axis=1) > SHORTEST_STEP
             active, foot = active[moving], foot[moving]
-            foot, value = self._on_surface(foot + across[moving], AGAIN)
+            foot, value = self._on_surface(foot + across[moving], NEWTON_STEPS_AGAIN)
             foot_distance = np.linalg.norm(points[active] - foot, axis=1)
             nearest[active] = np.where(
-                np.abs(value) < NEAR, np.minimum(nearest[active], foot_distance), nearest[active]
+                np.abs(value) < ZERO_TOLERANCE, np.minimum(nearest[active], foot_distance), nearest[active]
             )
         signed: Floats = np.where(self._at(points) < 0, -1.0, 1.0) * nearest
         return signed
@@ -88,12 +88,12 @@ class Surfaces:
         """Return the offset from points (N, 3) to the nearest surface point of the nodes around them, (N, 3)."""
         import numpy as np
 
-        offsets, position = feet_of(self), (points - SHIFT) * SHEET
+        offsets, position = surface_offsets(self), (points - SHIFT) * NODES_PER_CELL
         low = np.floor(position).astype(np.int64)
         best = np.full(points.shape, np.inf)
         for corner in itertools.product((0, 1), repeat=3):
             node = low + corner
-            offset = offsets[tuple((node % SHEET).T)] + (node - position) / SHEET
+            offset = offsets[tuple((node % NODES_PER_CELL).T)] + (node - position) / NODES_PER_CELL
             nearer = (offset**2).sum(axis=1) < (best**2).sum(axis=1)
             best[nearer] = offset[nearer]
         return best
@@ -107,7 +107,7 @@ class Surfaces:
             slope = self._slope(foot, value)
             step = (value / np.maximum((slope**2).sum(axis=1), 1e-12))[:, None] * slope
             length = np.linalg.norm(step, axis=1, keepdims=True)
-            foot -= step * np.minimum(1, LONGEST / np.maximum(length, 1e-12))
+            foot -= step * np.minimum(1, LONGEST_STEP / np.maximum(length, 1e-12))
             value = self._at(foot)
         return foot, value
 
@@ -129,7 +129,7 @@ class Surfaces:
 
 
 @cache
-def feet_of(surfaces: Surfaces) -> Floats:
+def surface_offsets(surfaces: Surfaces) -> Floats:
     """Return the offset from each node of a period to about the nearest point of the surface, (n, n, n, 3), in cells.
 
     Where the value changes sign between two nodes, there is such a point; from there, nodes take over the points of
@@ -138,7 +138,7 @@ def feet_of(surfaces: Surfaces) -> Floats:
     """
     import numpy as np
 
-    line = np.arange(SHEET) / SHEET + SHIFT
+    line = np.arange(NODES_PER_CELL) / NODES_PER_CELL + SHIFT
     nodes = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1)
     value = surfaces._at(nodes.reshape(-1, 3)).reshape(nodes.shape[:3])
     offsets, least_squared = np.full(nodes.shape, np.inf), np.full(value.shape, np.inf)
@@ -148,19 +148,19 @@ def feet_of(surfaces: Surfaces) -> Floats:
         better = squared < least_squared
         offsets[better], least_squared[better] = candidate[better], squared[better]
 
-    for axis, step in enumerate(np.eye(3) / SHEET):
+    for axis, step in enumerate(np.eye(3) / NODES_PER_CELL):
         next_value = np.roll(value, -1, axis=axis)
         crossed = (value < 0) != (next_value < 0)
         share = value[crossed] / (value[crossed] - next_value[crossed])
-        foot, residual = surfaces._on_surface(nodes[crossed] + share[:, None] * step, STEPS)
+        foot, residual = surfaces._on_surface(nodes[crossed] + share[:, None] * step, NEWTON_STEPS)
         candidate = np.full(nodes.shape, np.inf)
-        candidate[crossed] = np.where((np.abs(residual) < NEAR)[:, None], foot - nodes[crossed], np.inf)
+        candidate[crossed] = np.where((np.abs(residual) < ZERO_TOLERANCE)[:, None], foot - nodes[crossed], np.inf)
         nearer(candidate)
         nearer(np.roll(candidate - step, 1, axis=axis))
     directions = [np.array(direction) for direction in itertools.product((-1, 0, 1), repeat=3) if any(direction)]
     for jump in JUMPS:
         for direction in directions:
-            nearer(np.roll(offsets, tuple(-jump * direction), axis=(0, 1, 2)) + jump * direction / SHEET)
+            nearer(np.roll(offsets, tuple(-jump * direction), axis=(0, 1, 2)) + jump * direction / NODES_PER_CELL)
     return offsets
 
 
@@ -209,7 +209,7 @@ class Network:
         return self.side * self.surfaces.distance(points)
 
 
-class Binned(NamedTuple):
+class BinnedEdges(NamedTuple):
     """Edges, and for each of the equal cubes of a period those that may be the nearest to a point in it.
 
     Parameters
@@ -252,7 +252,7 @@ class Bars:
 
         return np.array(self.edges, dtype=np.float64)
 
-    def around_cell(self) -> Binned:
+    def around_cell(self) -> BinnedEdges:
         """Return the edges, and copies of them, that may be the nearest of some point in the unit cell.
 
         >>> from patterns.struts import CUBIC
@@ -277,7 +277,7 @@ class Bars:
         is_used = is_close.any(axis=1)
         cube, edge_number = np.nonzero(is_close[is_used].T)
         first = np.searchsorted(cube, np.arange(len(centres) + 1))
-        return Binned(edges=edges[is_used], first=first.astype(np.int32), which=edge_number.astype(np.int32))
+        return BinnedEdges(edges=edges[is_used], first=first.astype(np.int32), which=edge_number.astype(np.int32))
 
 
 def _squared_distance(points: Floats, edge: Floats) -> Floats:

@@ -14,7 +14,10 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from shapely import MultiLineString, MultiPolygon, Polygon
 
-BEYOND, PER_ROUND = 4, 3  # cells around a region in which seeds have an effect, and more for every Lloyd step
+SEED_MARGIN, MARGIN_PER_STEP = (
+    4,
+    3,
+)  # cells around a region in which seeds have an effect, and more for every Lloyd step
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,23 +42,25 @@ class Voronoi(Pattern):
         import numpy as np
         import shapely
 
-        from patterns.linework import clip, framed, turn
+        from patterns.linework import add_frame, clip, turn
 
         corners = turn(shapely.get_coordinates(shapely.envelope(region)) - self.phase, -self.angle) / self.cell
-        points = evened(np.floor(corners.min(axis=0)), np.ceil(corners.max(axis=0)), seed=self.seed, even=self.even)
+        points = relaxed_seeds(
+            np.floor(corners.min(axis=0)), np.ceil(corners.max(axis=0)), seed=self.seed, even=self.even
+        )
         borders = shapely.get_parts(shapely.voronoi_polygons(shapely.multipoints(points), only_edges=True))
         placed_borders = shapely.transform(
             borders, lambda ends: turn(ends * self.cell, self.angle) + np.array(self.phase)
         )
         lines = clip(placed_borders, region)
-        return framed(lines, region) if self.frame else lines
+        return add_frame(lines, region) if self.frame else lines
 
     def line_spacing(self, region: Polygon | MultiPolygon) -> float:  # noqa: ARG002 - the same everywhere
         """Return the side of a square with the mean area of a cell, mm."""
         return self.cell
 
 
-def evened(low: NDArray[np.float64], high: NDArray[np.float64], *, seed: int, even: int) -> NDArray[np.float64]:
+def relaxed_seeds(low: NDArray[np.float64], high: NDArray[np.float64], *, seed: int, even: int) -> NDArray[np.float64]:
     """Return random points, one for every unit square, after Lloyd steps: (N, 2), from `low` to `high` and beyond.
 
     Parameters
@@ -67,11 +72,11 @@ def evened(low: NDArray[np.float64], high: NDArray[np.float64], *, seed: int, ev
     """
     import shapely
 
-    from patterns.scattering import scattered
+    from patterns.scattering import scatter_points
 
-    margin = BEYOND + PER_ROUND * even
+    margin = SEED_MARGIN + MARGIN_PER_STEP * even
     low, high = low - margin, high + margin
-    points = scattered(low.astype("int64"), high.astype("int64"), seed)
+    points = scatter_points(low.astype("int64"), high.astype("int64"), seed)
     for _ in range(even):
         cells = shapely.get_parts(shapely.voronoi_polygons(shapely.multipoints(points)))
         # Cells on the rim reach to the box; every step drops them, far outside of the visible part.

@@ -47,7 +47,7 @@ class Zigzag(Pattern):
         import numpy as np
         import shapely
 
-        from patterns.linework import clip, framed, middle, turn
+        from patterns.linework import add_frame, bounds_centre, clip, turn
 
         waves = []
         for direction in (45, -45):
@@ -56,9 +56,9 @@ class Zigzag(Pattern):
             samples = math.ceil(2 * along / period * SAMPLES_PER_WAVE) + 1
             x = np.linspace(-along, along, samples)
             wave = np.stack([x, across * np.sin(2 * math.pi * x / period)], axis=-1)
-            waves.append(shapely.linestrings(turn(wave, self.angle + direction) + middle(region) + self.phase))
+            waves.append(shapely.linestrings(turn(wave, self.angle + direction) + bounds_centre(region) + self.phase))
         lines = clip(waves, region)
-        return framed(lines, region) if self.frame else lines
+        return add_frame(lines, region) if self.frame else lines
 
     def line_spacing(self, region: Polygon | MultiPolygon) -> float:
         """Return the distance between neighbouring strokes along the diagonal, mm."""
@@ -72,8 +72,8 @@ class Zigzag(Pattern):
         import numpy as np
         import shapely
 
-        from patterns.linework import middle, turn
+        from patterns.linework import bounds_centre, turn
 
-        corners = shapely.get_coordinates(shapely.envelope(region)) - middle(region) - self.phase
+        corners = shapely.get_coordinates(shapely.envelope(region)) - bounds_centre(region) - self.phase
         along, across = np.abs(turn(corners, -direction)).max(axis=0)
         return float(along), float(across)

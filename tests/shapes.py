@@ -33,7 +33,7 @@ from patterns import (
     parameter,
     phase_parameter,
 )
-from patterns.linework import local
+from patterns.linework import to_pattern_coordinates
 
 DESIGNS: list[Pattern] = [
     Honeycomb(),
@@ -83,7 +83,7 @@ class Ripples(Pattern):
     frame: bool = frame_parameter(default=True)
 
     def level_set(self, x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndarray:
-        x, y = local(x, y, angle=self.angle, phase=self.phase)
+        x, y = to_pattern_coordinates(x, y, angle=self.angle, phase=self.phase)
         swing = -self.swing if self.mirrored else self.swing
         return np.sin(math.pi * (y - swing * np.sin(2 * math.pi * x / self.period)) / self.cell)
 

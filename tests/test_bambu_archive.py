@@ -9,7 +9,7 @@ import zipfile
 import pytest
 
 from infill.errors import FormatError, ParameterError
-from infill.gcode.bambu_archive import is_archive, plate_pieces, plates, rewritten_archive
+from infill.gcode.bambu_archive import is_archive, list_plates, read_plate, rewrite_archive
 
 TEXT = b"".join(b"G1 X%d E.1\n" % number for number in range(20_000))
 
@@ -38,8 +38,8 @@ def contents(file: io.BytesIO) -> dict[str, bytes]:
 
 def test_a_plate_is_read_in_whole_lines() -> None:
     assert is_archive(archive().getvalue())
-    assert plates(archive()) == (1, 2)
-    pieces = list(plate_pieces(archive(), 1))
+    assert list_plates(archive()) == (1, 2)
+    pieces = list(read_plate(archive(), 1))
     assert b"".join(pieces) == TEXT
     assert len(pieces) > 3
     assert all(piece.endswith(b"\n") for piece in pieces)
@@ -47,7 +47,7 @@ def test_a_plate_is_read_in_whole_lines() -> None:
 
 def test_only_the_plate_and_its_sum_change() -> None:
     old, target = archive(), io.BytesIO()
-    rewritten_archive(old, target, {1: (piece.replace(b"X", b"Y") for piece in plate_pieces(archive(), 1))})
+    rewrite_archive(old, target, {1: (piece.replace(b"X", b"Y") for piece in read_plate(archive(), 1))})
     text = TEXT.replace(b"X", b"Y")
     wanted = contents(old) | {"Metadata/plate_1.gcode": text, "Metadata/plate_1.gcode.md5": digest(text)}
     assert contents(target) == wanted
@@ -59,33 +59,33 @@ def test_only_the_plate_and_its_sum_change() -> None:
 
 def test_the_sum_keeps_its_case_and_comes_only_where_it_was() -> None:
     target = io.BytesIO()
-    rewritten_archive(archive(), target, {2: [b"G28", b" W\n"]})
+    rewrite_archive(archive(), target, {2: [b"G28", b" W\n"]})
     assert contents(target)["Metadata/plate_2.gcode.md5"] == digest(b"G28 W\n").lower()
     bare, target = io.BytesIO(), io.BytesIO()
     with zipfile.ZipFile(bare, "w") as new:
         new.writestr("Metadata/plate_1.gcode", b"G28\n")
-    rewritten_archive(bare, target, {1: [b"G1\n"]})
+    rewrite_archive(bare, target, {1: [b"G1\n"]})
     assert contents(target) == {"Metadata/plate_1.gcode": b"G1\n"}
-    assert list(plate_pieces(target, 1)) == [b"G1\n"]
+    assert list(read_plate(target, 1)) == [b"G1\n"]
 
 
 def test_what_is_wrong_is_told() -> None:
     with pytest.raises(FormatError, match=r"plate_1\.gcode is damaged: its MD5"):
-        list(plate_pieces(archive(stated=digest(b"other")), 1))
+        list(read_plate(archive(stated=digest(b"other")), 1))
     with pytest.raises(ParameterError, match="plate is 3, which is not in the archive; it has 1, 2"):
-        rewritten_archive(archive(), io.BytesIO(), {3: []})
+        rewrite_archive(archive(), io.BytesIO(), {3: []})
     with pytest.raises(FormatError, match="cannot be read"):
-        plates(io.BytesIO(archive().getvalue()[:-30]))
+        list_plates(io.BytesIO(archive().getvalue()[:-30]))
     empty = io.BytesIO()
     with zipfile.ZipFile(empty, "w") as new:
         new.writestr("a.model", b"")
     with pytest.raises(FormatError, match="holds no G-code"):
-        plates(empty)
+        list_plates(empty)
     damaged = bytearray(archive().getvalue())
     place = damaged.index(b"plate_1.gcode") + 40
     damaged[place : place + 4] = b"\xff" * 4
     with pytest.raises(FormatError, match="cannot be read"):
-        list(plate_pieces(io.BytesIO(bytes(damaged)), 1))
+        list(read_plate(io.BytesIO(bytes(damaged)), 1))
 
 
 def test_a_fault_of_the_caller_does_not_read_as_a_broken_archive() -> None:
@@ -94,4 +94,4 @@ def test_a_fault_of_the_caller_does_not_read_as_a_broken_archive() -> None:
         raise RuntimeError("a bug")
 
     with pytest.raises(RuntimeError, match="a bug"):
-        rewritten_archive(archive(), io.BytesIO(), {1: text()})
+        rewrite_archive(archive(), io.BytesIO(), {1: text()})

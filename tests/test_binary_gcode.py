@@ -34,7 +34,7 @@ from infill.gcode.binary import (
     stored,
     text_pieces,
 )
-from infill.gcode.chunked_io import LONGEST_TEXT, as_file
+from infill.gcode.chunked_io import MAX_CHUNK_BYTES, open_chunks
 
 TEXT = b"""M201 X1000 Y1000 Z200 E5000
 ;LAYER_CHANGE
@@ -184,13 +184,13 @@ texts = st.lists(moves | others, max_size=30).map(lambda lines: "".join(f"{line}
 def test_heatshrink_reads_and_writes_the_vectors_of_its_own_tests(
     data: bytes, stream: str, window: int, lookahead: int
 ) -> None:
-    assert heatshrink.compressed(data, window=window, lookahead=lookahead).hex() == stream
-    read = heatshrink.decompressed(bytes.fromhex(stream), size=len(data), window=window, lookahead=lookahead)
+    assert heatshrink.compress_heatshrink(data, window=window, lookahead=lookahead).hex() == stream
+    read = heatshrink.decompress_heatshrink(bytes.fromhex(stream), size=len(data), window=window, lookahead=lookahead)
     assert read == data
 
 
 def test_before_the_start_of_heatshrink_all_is_zero() -> None:
-    assert heatshrink.decompressed(bytes.fromhex("0030"), size=4, window=8, lookahead=3) == bytes(4)
+    assert heatshrink.decompress_heatshrink(bytes.fromhex("0030"), size=4, window=8, lookahead=3) == bytes(4)
 
 
 @given(
@@ -200,8 +200,8 @@ def test_before_the_start_of_heatshrink_all_is_zero() -> None:
 @example(bytes(70_000), (12, 4))
 def test_heatshrink_gives_back_what_went_in(data: bytes, bits: tuple[int, int]) -> None:
     window, lookahead = bits
-    stream = heatshrink.compressed(data, window=window, lookahead=lookahead)
-    assert heatshrink.decompressed(stream, size=len(data), window=window, lookahead=lookahead) == data
+    stream = heatshrink.compress_heatshrink(data, window=window, lookahead=lookahead)
+    assert heatshrink.decompress_heatshrink(stream, size=len(data), window=window, lookahead=lookahead) == data
     if len(data) < 2000:
         assert expanded(stream, len(data), window, lookahead) == data
     assert 8 * len(stream) < 9 * len(data) + 8  # never more than a flag beside each byte, and the last byte filled
@@ -211,9 +211,9 @@ def test_heatshrink_gives_back_what_went_in(data: bytes, bits: tuple[int, int]) 
     ("cut", "size", "word"), [(1, 0, "ends before"), (0, 2, "ends before"), (0, -2, "does not end")]
 )
 def test_heatshrink_of_another_size_is_damaged(cut: int, size: int, word: str) -> None:
-    stream = heatshrink.compressed(PICTURE, window=11)
+    stream = heatshrink.compress_heatshrink(PICTURE, window=11)
     with pytest.raises(FormatError, match=word):
-        heatshrink.decompressed(stream[: len(stream) - cut], size=len(PICTURE) + size, window=11)
+        heatshrink.decompress_heatshrink(stream[: len(stream) - cut], size=len(PICTURE) + size, window=11)
 
 
 # --- MeatPack --------------------------------------------------------------------------------------------
@@ -232,8 +232,8 @@ BEGIN = "fffffb fffff7"
     ],
 )
 def test_meatpack_by_hand(text: bytes, data: str) -> None:
-    assert meatpack.packed(text).hex() == bytes.fromhex(BEGIN + data).hex()
-    assert meatpack.unpacked(bytes.fromhex(BEGIN + data)) == text
+    assert meatpack.pack_text(text).hex() == bytes.fromhex(BEGIN + data).hex()
+    assert meatpack.unpack_text(bytes.fromhex(BEGIN + data)) == text
 
 
 @pytest.mark.parametrize(
@@ -247,7 +247,7 @@ def test_meatpack_by_hand(text: bytes, data: str) -> None:
     ],
 )
 def test_meatpack_as_others_may_write_it(data: str, text: bytes) -> None:
-    assert meatpack.unpacked(bytes.fromhex(data)) == text
+    assert meatpack.unpack_text(bytes.fromhex(data)) == text
 
 
 @settings(max_examples=200)
@@ -255,10 +255,10 @@ def test_meatpack_as_others_may_write_it(data: str, text: bytes) -> None:
 @example(TEXT, True)
 @example(b"G1 X1 E1\n" * 40, True)
 def test_packing_loses_what_normalising_left_out_and_no_more(text: bytes, comments: bool) -> None:
-    wanted = meatpack.normalised(text, comments=comments)
-    assert meatpack.normalised(wanted, comments=comments) == wanted
-    data = meatpack.packed(wanted, comments=comments)
-    assert meatpack.unpacked(data) == wanted
+    wanted = meatpack.normalise_text(text, comments=comments)
+    assert meatpack.normalise_text(wanted, comments=comments) == wanted
+    data = meatpack.pack_text(wanted, comments=comments)
+    assert meatpack.unpack_text(data) == wanted
     # libbgcode needs a block to be at least half as large as its text.
     assert 2 * len(data) > len(wanted)
     assert unpacked_by_steps(data).replace(b" ", b"").replace(b"\n\n", b"\n") == wanted.replace(b" ", b"")
@@ -266,8 +266,8 @@ def test_packing_loses_what_normalising_left_out_and_no_more(text: bytes, commen
 
 def test_normalised_says_what_it_leaves_out() -> None:
     text = b"  G1X1   Y2 ; why\n\n;TYPE:A \n \t; b\nM117  two  \r\ng1 x1\n"
-    assert meatpack.normalised(text) == b"G1 X1 Y2\n;TYPE:A \n; b\nM117  two\ng1 x1\n"
-    assert meatpack.normalised(text, comments=False) == b"G1 X1 Y2\nM117  two\ng1 x1\n"
+    assert meatpack.normalise_text(text) == b"G1 X1 Y2\n;TYPE:A \n; b\nM117  two\ng1 x1\n"
+    assert meatpack.normalise_text(text, comments=False) == b"G1 X1 Y2\nM117  two\ng1 x1\n"
 
 
 @pytest.mark.parametrize(
@@ -281,7 +281,7 @@ def test_normalised_says_what_it_leaves_out() -> None:
 )
 def test_damaged_meatpack_is_named(data: str, word: str) -> None:
     with pytest.raises(FormatError, match=word):
-        meatpack.unpacked(bytes.fromhex(data))
+        meatpack.unpack_text(bytes.fromhex(data))
 
 
 # --- blocks ----------------------------------------------------------------------------------------------
@@ -315,7 +315,7 @@ def test_what_is_encoded_decodes_to_the_same(text: bytes, compression: Compressi
     assert (new.compression, new.encoding) == (compression, encoding)
     wanted = text
     if encoding:
-        wanted = meatpack.normalised(text, comments=encoding == Encoding.MEATPACK_COMMENTS)
+        wanted = meatpack.normalise_text(text, comments=encoding == Encoding.MEATPACK_COMMENTS)
     assert decoded(new) == wanted
     assert next(blocks(opened([HEAD, stored(new)]))).data == new.data
 
@@ -333,7 +333,7 @@ def test_what_meatpack_cannot_hold_is_refused() -> None:
 
 
 @pytest.mark.parametrize("broken", [b"", b"\xff\xff\xfb\x1d\x1f", b"\xff\xff\xfb\x1d\x1d"])
-@pytest.mark.parametrize(("place", "name"), [(meatpack, "packed"), (heatshrink, "compressed")])
+@pytest.mark.parametrize(("place", "name"), [(meatpack, "pack_text"), (heatshrink, "compress_heatshrink")])
 def test_a_packer_that_errs_is_found_out(
     broken: bytes, place: ModuleType, name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -424,7 +424,7 @@ def test_only_the_text_and_the_metadata_that_are_named_change(compression: int, 
     assert {(each.compression, each.encoding) for each in new[5:]} == {(compression, encoding)}
     wanted = TEXT + b"M84\n"
     if encoding:
-        wanted = meatpack.normalised(wanted, comments=encoding == 2)
+        wanted = meatpack.normalise_text(wanted, comments=encoding == 2)
     assert b"".join(text_pieces(opened(whole))) == wanted
 
 
@@ -439,7 +439,7 @@ def test_compressed_metadata_is_edited_and_a_line_break_is_refused() -> None:
 
 def test_blocks_hold_whole_lines_and_no_more_than_the_limit() -> None:
     lines = [b"G1 X%d\n" % number for number in range(30_000)]
-    longest = b";" + b"a" * LONGEST_TEXT + b"\n"
+    longest = b";" + b"a" * MAX_CHUNK_BYTES + b"\n"
     text = b"".join(lines) + longest + lines[0]
     target = io.BytesIO()
     rewritten(opened(a_file()), target, (text[start : start + 999] for start in range(0, len(text), 999)))
@@ -447,16 +447,16 @@ def test_blocks_hold_whole_lines_and_no_more_than_the_limit() -> None:
     assert b"".join(found) == text
     assert all(each.endswith(b"\n") for each in found)
     # As full as whole lines allow: the next line would not have fitted.
-    assert all(len(each) > LONGEST_TEXT - 10 for each in found[:-3])
-    assert [len(each) > LONGEST_TEXT for each in found] == [each == longest for each in found]
+    assert all(len(each) > MAX_CHUNK_BYTES - 10 for each in found[:-3])
+    assert [len(each) > MAX_CHUNK_BYTES for each in found] == [each == longest for each in found]
     assert list(text_pieces(opened(target.getvalue()))) == found
 
 
 @given(st.lists(st.binary(max_size=20), max_size=20), st.integers(1, 50))
 def test_pieces_read_as_a_file(pieces: list[bytes], size: int) -> None:
-    file = as_file(pieces)
+    file = open_chunks(pieces)
     assert b"".join(iter(lambda: file.read(size), b"")) == b"".join(pieces)
-    assert as_file(pieces).readlines() == io.BytesIO(b"".join(pieces)).readlines()
+    assert open_chunks(pieces).readlines() == io.BytesIO(b"".join(pieces)).readlines()
 
 
 def test_memory_does_not_grow_with_the_file(tmp_path) -> None:

@@ -14,7 +14,7 @@ from PIL import Image
 from test_frames_and_more_formats import mgh, vti, vtk
 
 from infill import FormatError, MemoryLimitError, Volume, read_mesh, save
-from infill.files.broken import told_broken
+from infill.files.broken import wrap_reader_errors
 from infill.formats.point_files import read_points
 from infill.imaging.volume_files import read_volume, write_field
 
@@ -148,7 +148,7 @@ def test_what_data_make_our_lines_raise_is_a_broken_file(error: type[Exception],
     exec("def parse():\n    raise error('no number')", space)
     with (
         pytest.raises(FormatError, match=r"x.stl is broken or not a .stl file \(no number\); save it again"),
-        told_broken(Path("x.stl")),
+        wrap_reader_errors(Path("x.stl")),
     ):
         space["parse"]()
 

@@ -16,7 +16,7 @@ from shapes import assert_printable
 from test_command_line import one_line_error, run
 
 from infill import GeometryError, ParameterError, Surface, read_mesh, smooth_mesh
-from infill.meshes.split_components import edge_components, joined, parted
+from infill.meshes.split_components import concatenate_surfaces, edge_components, split_components
 
 pytestmark = pytest.mark.usefixtures("compiled", "silent_compiler")
 
@@ -60,7 +60,7 @@ CROSS = [
 
 def test_seven_boxes_that_share_their_faces_are_seven() -> None:
     for mesh in (surface(*map(box, CROSS)), merged(*map(box, CROSS))):
-        parts = parted(mesh, 0.1)
+        parts = split_components(mesh, 0.1)
         assert [len(each.faces) for each in parts.surfaces] == [12] * 7
         assert all(each.closed and each.volume == pytest.approx(1000) for each in parts.surfaces)
         assert sorted(tuple(each.bounds.mean(axis=0).round(6)) for each in parts.surfaces) == sorted(CROSS)
@@ -68,7 +68,7 @@ def test_seven_boxes_that_share_their_faces_are_seven() -> None:
 
 def test_boxes_that_share_an_edge_or_a_corner_are_apart() -> None:
     for at in ((10.0, 10.0, 0.0), (10.0, 10.0, 10.0)):
-        parts = parted(merged(box((0, 0, 0)), box(at)), 0.1)
+        parts = split_components(merged(box((0, 0, 0)), box(at)), 0.1)
         assert [each.volume for each in parts.surfaces] == pytest.approx([1000, 1000])
 
 
@@ -111,38 +111,38 @@ def test_a_solid_that_touches_itself_is_one() -> None:
     mesh = Surface(vertices=points, faces=index.reshape(-1)[np.array(faces)])
     assert mesh.volume == pytest.approx(7)
     assert not mesh.closed  # four faces share the edge between (1, 2) and (2, 1)
-    assert len(parted(mesh, 0.1).surfaces) == 1
+    assert len(split_components(mesh, 0.1).surfaces) == 1
 
 
 def test_cavities_belong_to_what_is_around_them_and_islands_do_not() -> None:
     nested = surface(ball(10), ball(7, inwards=True), ball(4), ball(2, inwards=True))
     for mesh in (nested, Surface(vertices=nested.vertices, faces=nested.faces[:, ::-1])):
-        parts = parted(mesh, 0.1)
+        parts = split_components(mesh, 0.1)
         volumes = [abs(each.volume) for each in parts.surfaces]
         expected = [ball(10).volume - ball(7).volume, ball(4).volume - ball(2).volume]
         assert volumes == pytest.approx(expected)
 
 
 def test_a_ball_inside_another_that_faces_the_same_way_is_its_own() -> None:
-    assert len(parted(surface(ball(10), ball(5)), 0.1).surfaces) == 2
+    assert len(split_components(surface(ball(10), ball(5)), 0.1).surfaces) == 2
 
 
 def test_sheets_are_counted_and_left_out() -> None:
     loose = trimesh.Trimesh([(30, 0, 0), (31, 0, 0), (30, 1, 0)], [(0, 1, 2)], process=False)
-    parts = parted(surface(ball(10), loose), 0.1)
+    parts = split_components(surface(ball(10), loose), 0.1)
     assert (len(parts.surfaces), parts.sheets) == (1, 1)
 
 
 def test_an_open_component_is_one_too() -> None:
     half = ball(10)
     half.update_faces(half.triangles_center[:, 2] < 5)
-    parts = parted(surface(half, ball(3, (20, 0, 0))), 0.1)
+    parts = split_components(surface(half, ball(3, (20, 0, 0))), 0.1)
     assert [len(each.faces) for each in parts.surfaces] == [len(half.faces), len(ball(3).faces)]
 
 
 def test_joined_surfaces_are_one_after_the_other() -> None:
     one, other = surface(ball(10)), surface(ball(5))
-    both = joined([one, other])
+    both = concatenate_surfaces([one, other])
     assert both.volume == pytest.approx(one.volume + other.volume)
     assert both.closed
     assert (both.faces[: len(one.faces)] == one.faces).all()

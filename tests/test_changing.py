@@ -13,10 +13,10 @@ from made_shapes import box
 from test_slabs import asked
 
 from infill import Surface, fill
-from infill.interior.interior import space_inside
-from infill.lattices.choosing import voids_of
-from infill.meshes.distance import Tree
-from infill.meshes.winding import winding
+from infill.interior.interior import compute_interior
+from infill.lattices.choosing import choose_voids
+from infill.meshes.distance import TriangleTree
+from infill.meshes.winding import winding_numbers
 from patterns import Cross, Pattern, cell_parameter
 from patterns.cross import Cross3D
 
@@ -114,8 +114,8 @@ class Twisting(Leaning):
 @pytest.mark.parametrize("turn", [0.0, 1.5, 3.0])
 def test_fillets_suit_the_height_at_which_walls_meet_at_the_sharpest_angles(turn: float) -> None:
     part = box(24, 20, 22)
-    inside = space_inside(Surface(vertices=part.vertices, faces=part.faces), wall=1.0, voxel=0.5)
-    voids = voids_of(asked(Twisting(turn=turn)), inside.part.bounds, None)
+    inside = compute_interior(Surface(vertices=part.vertices, faces=part.faces), wall=1.0, voxel=0.5)
+    voids = choose_voids(asked(Twisting(turn=turn)), inside.part.bounds, None)
     assert voids.sharpest(inside, cell=6.0, width=0.8) == pytest.approx(90 - 10 * turn, abs=0.5 * turn)
 
 
@@ -138,7 +138,7 @@ def test_walls_of_lines_that_change_are_as_wide_as_asked_for_however_they_lean(k
     assert np.abs(away - 0.4).max() < 0.05
     # Points in walls are in no void, and those between them are in one.
     places = np.random.default_rng(5).uniform(-1, 1, (20000, 3)) * (np.array([12, 10, 11]) - 1.2)
-    solid = winding(places, voids) == 0
+    solid = winding_numbers(places, voids) == 0
     near = to_walls(places, 6.0, slope)
     assert solid[near < 0.33].all()
     assert not solid[near > 0.47].any()
@@ -176,4 +176,4 @@ def test_the_pattern_rises_with_align_and_phase() -> None:
 
 
 def apart(one: Surface, other: Surface) -> float:
-    return float(Tree.of(one).nearest(np.asarray(other.vertices, np.float64))[0].max())
+    return float(TriangleTree.of(one).nearest(np.asarray(other.vertices, np.float64))[0].max())

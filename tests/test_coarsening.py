@@ -8,13 +8,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from infill import ParameterError, Volume, smooth_volume
-from infill.voxels.coarsening import coarser
+from infill.voxels.coarsening import coarsen
 
 
 @given(st.integers(0, 99), st.tuples(*[st.integers(2, 9)] * 3), st.integers(1, 4))
 def test_whole_factors_are_means_of_blocks(seed: int, cells: tuple[int, int, int], factor: int) -> None:
     values = np.random.default_rng(seed).normal(size=[count * factor for count in cells])
-    found = coarser(Volume(values=values), float(factor))
+    found = coarsen(Volume(values=values), float(factor))
     blocks = values.reshape(cells[0], factor, cells[1], factor, cells[2], factor).mean(axis=(1, 3, 5))
     assert found.spacing == (factor, factor, factor)
     assert np.allclose(found.values, blocks, atol=1e-6)
@@ -22,11 +22,11 @@ def test_whole_factors_are_means_of_blocks(seed: int, cells: tuple[int, int, int
 
 @given(st.floats(1.0, 6.0), st.tuples(*[st.integers(12, 30)] * 3))
 def test_what_is_even_stays_even_and_slopes_stay_slopes(voxel: float, shape: tuple[int, int, int]) -> None:
-    even = coarser(Volume(values=np.full(shape, 7.5), spacing=(1.0, 1.0, 2.0)), voxel)
+    even = coarsen(Volume(values=np.full(shape, 7.5), spacing=(1.0, 1.0, 2.0)), voxel)
     assert np.allclose(even.values, 7.5)
     assert even.spacing == pytest.approx((voxel, voxel, max(voxel, 2.0)))
     x = np.broadcast_to(np.arange(shape[0])[:, None, None] + 0.5, shape)
-    slope = coarser(Volume(values=x), voxel).values[:, 0, 0]
+    slope = coarsen(Volume(values=x), voxel).values[:, 0, 0]
     middles = (np.arange(len(slope)) + 0.5) * voxel
     assert np.abs(slope - middles)[:-1].max() < 0.13  # cells that are cut count as even; the last may reach beyond
 
@@ -48,4 +48,4 @@ def test_a_mask_keeps_its_volume_in_larger_voxels() -> None:
 )
 def test_sizes_that_make_no_sense(voxel: float, says: str) -> None:
     with pytest.raises(ParameterError, match=says):
-        coarser(Volume(values=np.zeros((26, 9, 9))), voxel)
+        coarsen(Volume(values=np.zeros((26, 9, 9))), voxel)

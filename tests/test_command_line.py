@@ -21,8 +21,8 @@ from typer.testing import CliRunner
 
 import infill
 from infill import ParameterError, read_mesh
-from infill.cli.app import build
-from infill.cli.console import as_bytes
+from infill.cli.app import build_app
+from infill.cli.console import format_bytes
 from infill.cli.listing import BRAILLE_BLANK
 from infill.cli.words import parse_bytes
 from infill.making.settings import MakeSettings, parse_size, resolve
@@ -36,7 +36,7 @@ RUN = [sys.executable, "-m", "infill.cli"]
 
 
 def run(*words: str | Path) -> Any:
-    return CliRunner().invoke(build(), [str(word) for word in words])
+    return CliRunner().invoke(build_app(), [str(word) for word in words])
 
 
 def plain(text: str) -> str:
@@ -83,7 +83,7 @@ def test_help_has_an_example_and_exits_0(command: str) -> None:
 def test_help_names_every_command() -> None:
     text = plain(run("--help").stdout)
     assert all(command in text for command in COMMANDS)
-    assert {command.name for command in build().registered_commands} == set(COMMANDS)
+    assert {command.name for command in build_app().registered_commands} == set(COMMANDS)
     assert "Example: infill make" in text
 
 
@@ -509,7 +509,7 @@ def test_sizes_and_bytes_are_read_as_people_write_them() -> None:
     for bad in ("", "-1G", "0", "2Q"):
         with pytest.raises(ParameterError, match="max_memory is"):
             parse_bytes(bad)
-    assert [as_bytes(n) for n in (5, 12_345, 10_625_284, 3e9, 5e12)] == [
+    assert [format_bytes(n) for n in (5, 12_345, 10_625_284, 3e9, 5e12)] == [
         "5 B",
         "12.3 kB",
         "10.6 MB",
@@ -519,9 +519,9 @@ def test_sizes_and_bytes_are_read_as_people_write_them() -> None:
 
 
 def test_toml_quotes_what_it_must() -> None:
-    from infill.options.toml import toml_rows
+    from infill.options.toml import write_rows
 
-    assert toml_rows({"name": 'a "b" \\ c'}) == ['name = "a \\"b\\" \\\\ c"']
+    assert write_rows({"name": 'a "b" \\ c'}) == ['name = "a \\"b\\" \\\\ c"']
 
 
 def test_cell_and_what_replaces_it(tmp_path: Path) -> None:

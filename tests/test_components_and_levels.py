@@ -9,13 +9,21 @@ from hypothesis import strategies as st
 from scipy import ndimage
 
 from infill import Smoothing
-from infill.inspection.bricks import Verdict, compared, verdict
+from infill.inspection.bricks import TopologyCheck, check_topology, match_components
 from infill.inspection.thickness import thinnest_walls
-from infill.isosurfaces.components import components, cores, data_bits, opened, shells, solid_bits, without
-from infill.isosurfaces.levels import at_level, at_volume, straightened
+from infill.isosurfaces.components import (
+    data_bits,
+    dilate_cores,
+    erase_components,
+    erode_to_cores,
+    find_components,
+    label_shells,
+    solid_bits,
+)
+from infill.isosurfaces.levels import straighten_profile, surface_at_level, surface_at_volume
 from infill.isosurfaces.sparse_marching import extract_level
 from infill.kernels.sparse import BRICK
-from infill.phasefield.profile import STRAIGHT
+from infill.phasefield.profile import PLAIN_PROFILE
 from infill.phasefield.sparse import smooth_bricks
 
 UNIT = (1.0, 1.0, 1.0)
@@ -43,14 +51,14 @@ def test_components_are_those_of_scipy(shape: tuple[int, ...], density: float, s
     f = np.random.default_rng(seed).random(shape) < density
     field = smooth_bricks(f, Smoothing(steps=steps))
     for bits, solid in ((data_bits(field), f), (solid_bits(field), field.to_dense() > 0)):
-        found = components(field, bits, thickness=True)
+        found = find_components(field, bits, thickness=True)
         labels, number = ndimage.label(solid)
         assert found.count == number
         assert sorted(found.cells) == sorted(np.bincount(labels.ravel())[1:])
         core = ndimage.minimum_filter(np.pad(solid, (0, 1)), 2, origin=-1)[:-1, :-1, :-1]
         assert found.thick.sum() == len(np.unique(labels[core > 0]))
-        assert count(cores(field, bits)) + 1024 * (field.slots == -2).sum() >= core.sum()
-        void = components(field, bits, void=True)
+        assert count(erode_to_cores(field, bits)) + 1024 * (field.slots == -2).sum() >= core.sum()
+        void = find_components(field, bits, void=True)
         _, number = ndimage.label(~np.pad(solid, 1), EDGES)
         assert void.count == number
         assert void.cells.sum() + found.cells.sum() == f.size
@@ -61,15 +69,15 @@ def test_opening_takes_what_is_one_cell_thick() -> None:
     f[5:15, 5:15, 5:15] = True
     f[10, 10:35, 10:35] = True  # a sheet
     field = smooth_bricks(f, Smoothing(steps=0))
-    found = opened(field, cores(field, data_bits(field)))
+    found = dilate_cores(field, erode_to_cores(field, data_bits(field)))
     assert count(found) == 1000
 
 
 def test_two_components_before_and_after() -> None:
     f = ball(40, (12, 12, 12), 8) | ball(40, (28, 28, 28), 8)
     field = smooth_bricks(f, Smoothing(steps=4))
-    before = components(field, data_bits(field))
-    same = compared(before, components(field, solid_bits(field)))
+    before = find_components(field, data_bits(field))
+    same = match_components(before, find_components(field, solid_bits(field)))
     assert [len(each) for each in (same.vanished, same.broken, same.fused, same.appeared)] == [0, 0, 0, 0]
 
 
@@ -111,10 +119,10 @@ def cubes(*parts: tuple[slice, ...]) -> np.ndarray:
     ],
 )
 def test_what_became_of_components(before: list, after: list, counts: tuple[int, ...]) -> None:
-    """Vanished, broken, fused, appeared: on the same bricks, as `verdict` asks for it."""
+    """Vanished, broken, fused, appeared: on the same bricks, as `check_topology` asks for it."""
     field = smooth_bricks(np.indices((12, 14, 40)).sum(axis=0) % 2 == 0, Smoothing(steps=0))  # every brick is kept
-    was, now = (components(field, rows_of(cubes(*parts), len(field.where))) for parts in (before, after))
-    found = compared(was, now)
+    was, now = (find_components(field, rows_of(cubes(*parts), len(field.where))) for parts in (before, after))
+    found = match_components(was, now)
     assert tuple(len(each) for each in (found.vanished, found.broken, found.fused, found.appeared)) == counts
 
 
@@ -131,7 +139,7 @@ def rows_of(solid: np.ndarray, bricks: int) -> np.ndarray:
 def test_shells_of_a_ball_in_a_hollow_ball() -> None:
     f = (ball(60, (30, 30, 30), 25) & ~ball(60, (30, 30, 30), 18)) | ball(60, (30, 30, 30), 8)
     found = extract_level(smooth_bricks(f, Smoothing(steps=4)), spacing=UNIT)
-    parts = shells(found.surface, found.rate)
+    parts = label_shells(found.surface, found.rate)
     assert (parts.components, parts.cavities, parts.tunnels) == (2, 1, 0)
     assert parts.volume.sum() == pytest.approx(found.surface.volume)
 
@@ -141,10 +149,10 @@ def test_a_ball_keeps_its_volume_and_comes_nearer_to_the_truth(steps: int) -> No
     """Faces of cells lie 0.29 cells off (rms of an even spread over one cell); a fifth of that may be left."""
     f = ball(80, (40, 40, 40), 32)
     field = smooth_bricks(f, Smoothing(steps=steps))
-    data = components(field, data_bits(field))
+    data = find_components(field, data_bits(field))
     target = data.cells.astype(float)
-    raw = at_level(field, data, spacing=UNIT, level=0.0)
-    kept = at_volume(straightened(field), data, spacing=UNIT, targets=target)
+    raw = surface_at_level(field, data, spacing=UNIT, level=0.0)
+    kept = surface_at_volume(straighten_profile(field), data, spacing=UNIT, targets=target)
     assert raw.surface.volume < target.sum() * (1 - 2e-4 * steps)
     assert kept.surface.volume == pytest.approx(target.sum(), rel=6e-5)
 
@@ -158,8 +166,8 @@ def test_a_ball_keeps_its_volume_and_comes_nearer_to_the_truth(steps: int) -> No
 def test_every_component_keeps_its_own_volume_and_its_cavity() -> None:
     f = ball(90, (30, 30, 30), 22) | ball(90, (68, 68, 68), 9) | ball(90, (68, 25, 25), 14) & ~ball(90, (68, 25, 25), 8)
     field = smooth_bricks(f, Smoothing(steps=20))
-    data = components(field, data_bits(field))
-    found = at_volume(straightened(field), data, spacing=UNIT, targets=data.cells.astype(float))
+    data = find_components(field, data_bits(field))
+    found = surface_at_volume(straighten_profile(field), data, spacing=UNIT, targets=data.cells.astype(float))
     assert found.surface.volume == pytest.approx(data.cells.sum(), rel=2e-4)
     assert len(found.shells.volume) == 4
     outer = sorted(found.shells.volume[found.shells.volume > 0])
@@ -173,38 +181,38 @@ def test_components_that_run_together_keep_their_volume_together() -> None:
     f = ball(60, (22, 30, 30), 12) | ball(60, (40, 30, 30), 5)
     assert ndimage.label(f)[1] == 2
     field = smooth_bricks(f, Smoothing(steps=30))
-    data = components(field, data_bits(field))
-    found = at_volume(straightened(field), data, spacing=UNIT, targets=data.cells.astype(float))
+    data = find_components(field, data_bits(field))
+    found = surface_at_volume(straighten_profile(field), data, spacing=UNIT, targets=data.cells.astype(float))
     assert found.surface.volume == pytest.approx(f.sum(), rel=1e-3)
     assert found.surface.closed
 
 
 def test_the_straight_profile_has_the_same_zero_and_sign() -> None:
     field = smooth_bricks(ball(40, (20, 20, 20), 12), Smoothing(steps=10))
-    straight = straightened(field)
+    straight = straighten_profile(field)
     assert np.array_equal(np.sign(straight.values), np.sign(field.values))
     wanted = np.arctanh(np.clip(field.values.astype(float), -0.9999, 0.9999)) / np.arctanh(0.9999)
     inner = np.abs(field.values) < 0.9999
     assert np.abs(straight.values - wanted)[inner].max() < 2e-6
     assert (np.abs(straight.values[~inner]) == 1).all()
-    assert STRAIGHT.phase_level(0.0) == 0
+    assert PLAIN_PROFILE.phase_level(0.0) == 0
 
 
 def test_erasing_components() -> None:
     f = ball(40, (15, 15, 15), 8) | ball(40, (33, 33, 33), 2)
     field = smooth_bricks(f, Smoothing(steps=0))
-    every = components(field, data_bits(field))
-    cleaned = without(f, field, every, every.cells < 100)
+    every = find_components(field, data_bits(field))
+    cleaned = erase_components(f, field, every, every.cells < 100)
     assert np.array_equal(cleaned, ball(40, (15, 15, 15), 8))
     assert f.sum() > cleaned.sum()
 
 
-def judged(f: np.ndarray, steps: int) -> Verdict:
+def judged(f: np.ndarray, steps: int) -> TopologyCheck:
     smoothing = Smoothing(steps=steps)
     field = smooth_bricks(f, smoothing)
-    data = components(field, data_bits(field), thickness=True)
-    found = at_level(field, data, spacing=UNIT, level=0.0)
-    return verdict(found, data, spacing=UNIT, blur=smoothing.blur, levels=np.zeros(data.count))
+    data = find_components(field, data_bits(field), thickness=True)
+    found = surface_at_level(field, data, spacing=UNIT, level=0.0)
+    return check_topology(found, data, spacing=UNIT, blur=smoothing.blur, levels=np.zeros(data.count))
 
 
 @pytest.mark.parametrize(
@@ -294,11 +302,11 @@ def test_a_component_that_only_a_low_level_holds_is_faint(steps: int, faint: int
     """The small ball of above keeps its volume, at a level of -0.78 after 10 steps and of -0.98 after 20."""
     smoothing = Smoothing(steps=steps)
     field = smooth_bricks(ball(50, (18, 18, 18), 13) | ball(50, (40, 40, 40), 2.9), smoothing)
-    data = components(field, data_bits(field), thickness=True)
+    data = find_components(field, data_bits(field), thickness=True)
     targets = data.cells.astype(float)
-    kept = at_volume(straightened(field), data, spacing=UNIT, targets=targets)
-    levels = np.array([STRAIGHT.phase_level(float(level)) for level in kept.levels])
-    found = verdict(kept, data, spacing=UNIT, blur=smoothing.blur, levels=levels)
+    kept = surface_at_volume(straighten_profile(field), data, spacing=UNIT, targets=targets)
+    levels = np.array([PLAIN_PROFILE.phase_level(float(level)) for level in kept.levels])
+    found = check_topology(kept, data, spacing=UNIT, blur=smoothing.blur, levels=levels)
     assert found.changes.faint == faint
     assert found.changes.vanished == 0
     assert (levels.min() < -0.9) == bool(faint)

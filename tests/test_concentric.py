@@ -13,14 +13,14 @@ from made_shapes import ball, box, less, rod, together, union
 from test_slabs import asked, in_slabs, surface
 
 from infill import ParameterError, Result, Surface, fill
-from infill.interior.interior import space_inside
-from infill.interior.layer_stack import Layers
-from infill.interior.shadow import shadow_of
-from infill.lattices.choosing import voids_of
-from infill.lattices.drawn_voids import Drawn
-from infill.meshes.distance import Tree
-from infill.meshes.solids import FINE, status
-from infill.meshes.winding import winding
+from infill.interior.interior import compute_interior
+from infill.interior.layer_stack import LayerStack
+from infill.interior.shadow import silhouette
+from infill.lattices.choosing import choose_voids
+from infill.lattices.drawn_voids import Prismatic
+from infill.meshes.distance import TriangleTree
+from infill.meshes.solids import FINE, manifold_status
+from infill.meshes.winding import winding_numbers
 
 pytestmark = pytest.mark.usefixtures("compiled")
 
@@ -71,22 +71,22 @@ def test_the_shadow_is_what_lies_inside_the_walls(name: str, turned: float) -> N
     """Within half a cell, which is at corners, and in area within what polygons of 48 corners lack of their circles."""
     mesh, wanted = INSIDE[name]
     voxel = 0.4
-    space = space_inside(surface(turned_by(mesh, turned, (0, 0, 1))), wall=WALL, voxel=voxel)
-    found, wanted = shadow_of(space), shapely.affinity.rotate(wanted, turned, origin=(0, 0))
+    space = compute_interior(surface(turned_by(mesh, turned, (0, 0, 1))), wall=WALL, voxel=voxel)
+    found, wanted = silhouette(space), shapely.affinity.rotate(wanted, turned, origin=(0, 0))
     assert found.area == pytest.approx(wanted.area, rel=0.012)
     assert shapely.hausdorff_distance(found.boundary, wanted.boundary, densify=0.01) < 0.5 * voxel
     assert len(shapely.get_rings(found)) == len(shapely.get_rings(wanted))
-    assert shadow_of(in_slabs(space)).equals(found)
+    assert silhouette(in_slabs(space)).equals(found)
     assert found.length == pytest.approx(wanted.length, rel=0.02)  # a staircase is longer
     # Where voids reach through the walls, these are no part of it; which corners are left out may differ.
-    assert shapely.hausdorff_distance(shadow_of(space.unwalled).boundary, found.boundary) < 0.05 * voxel
+    assert shapely.hausdorff_distance(silhouette(space.unwalled).boundary, found.boundary) < 0.05 * voxel
 
 
 def test_a_part_with_hardly_any_room_has_no_shadow_and_no_lines() -> None:
-    space = space_inside(surface(box(20, 20, 8)), wall=WALL, voxel=0.4)
-    space = replace(space, layers=Layers.of(np.minimum(space.depth, np.float32(0.05))))
-    assert shadow_of(space).is_empty
-    voids = voids_of(asked("concentric", phase=(0, 0)), space.part.bounds, None)
+    space = compute_interior(surface(box(20, 20, 8)), wall=WALL, voxel=0.4)
+    space = replace(space, layers=LayerStack.of(np.minimum(space.depth, np.float32(0.05))))
+    assert silhouette(space).is_empty
+    voids = choose_voids(asked("concentric", phase=(0, 0)), space.part.bounds, None)
     assert voids.count(space, cell=CELL, width=WIDTH) == 1
 
 
@@ -102,7 +102,7 @@ def astray(result: Result[Any, Any], inside: shapely.Polygon, away: float, *, he
         np.array(inside.bounds)[:2, None], np.array(inside.bounds)[2:, None], (2, 9000)
     )
     deep = np.where(shapely.contains_xy(inside, x, y), shapely.distance(shapely.points(x, y), inside.boundary), np.nan)
-    solid = winding(np.stack([x, y, np.full(len(x), height)], axis=1), result.stages.voids) <= 0
+    solid = winding_numbers(np.stack([x, y, np.full(len(x), height)], axis=1), result.stages.voids) <= 0
     place = deep % CELL
     wall = (place > CELL - WIDTH + away) & (place < CELL - away)
     void = (place > away) & (place < CELL - WIDTH - away)
@@ -136,7 +136,7 @@ def test_turning_the_part_turns_the_result() -> None:
     other = fill(turned_by(angled(), 33, (0, 0, 1)), "concentric", **EXACT).stages.voids
     assert other.volume == pytest.approx(one.volume, rel=5e-3)
     back = turned_by(other.to_trimesh(), -33, (0, 0, 1)).vertices
-    away = Tree.of(one).nearest(np.asarray(back))[0]
+    away = TriangleTree.of(one).nearest(np.asarray(back))[0]
     assert np.quantile(away, 0.99) < 0.1
     assert away.max() < 0.5  # in corners
 
@@ -147,14 +147,14 @@ def test_walls_stand_upright_from_skin_to_skin(name: str) -> None:
     part = PARTS[name]
     result = fill(part, "concentric", **(SHARP | {"voxel": 0.4, "tolerance": 0.01}))
     points = np.random.default_rng(1).uniform(*part.bounds, (8000, 3))
-    inside = winding(points, surface(part)) > 0
-    points = points[inside][Tree.of(surface(part)).nearest(points[inside])[0] > WALL + 0.5]
-    solid = points[winding(points, result.stages.voids) <= 0]
+    inside = winding_numbers(points, surface(part)) > 0
+    points = points[inside][TriangleTree.of(surface(part)).nearest(points[inside])[0] > WALL + 0.5]
+    solid = points[winding_numbers(points, result.stages.voids) <= 0]
     assert len(solid) > 60
     heights = np.linspace(part.bounds[0, 2], part.bounds[1, 2], 40)
     above = np.repeat(solid, len(heights), axis=0)
     above[:, 2] = np.tile(heights, len(solid))
-    assert (winding(above, result.stages.voids) > 0).mean() < 0.002  # by what walls lean in a grid
+    assert (winding_numbers(above, result.stages.voids) > 0).mean() < 0.002  # by what walls lean in a grid
 
 
 # --- what fill promises -----------------------------------------------------------------------------------------------
@@ -168,14 +168,14 @@ def test_a_part_is_one_solid_of_the_density_asked_for(name: str, density: float)
     assert report["problems"] == []
     assert report["density"] == pytest.approx(density, abs=0.005)
     assert report["voids"]["islands"] == 0
-    assert status(solid) == FINE
+    assert manifold_status(solid) == FINE
     outer = [each for each in solid.to_trimesh().split(only_watertight=False) if each.volume > 0]
     assert len(outer) == 1
 
 
 def test_lines_are_about_as_dense_as_their_share_of_a_cell() -> None:
-    voids = voids_of(asked("concentric", phase=(0, 0)), np.array([[0.0, 0, 0], [30, 30, 30]]), None)
-    assert isinstance(voids, Drawn)
+    voids = choose_voids(asked("concentric", phase=(0, 0)), np.array([[0.0, 0, 0], [30, 30, 30]]), None)
+    assert isinstance(voids, Prismatic)
     for density in (0.1, 0.2, 0.5):
         assert voids.widths(density) == pytest.approx(density, rel=0.06)
     assert voids.sample.apart == 1.0
@@ -191,7 +191,9 @@ def test_every_body_has_its_own_outline() -> None:
     def farthest(voids: Surface) -> float:
         points = np.asarray(voids.vertices)
         below = points[:, 2] < 6
-        away = (Tree.of(each).nearest(points[side])[0] for each, side in zip(alone, (below, ~below), strict=True))
+        away = (
+            TriangleTree.of(each).nearest(points[side])[0] for each, side in zip(alone, (below, ~below), strict=True)
+        )
         return float(np.concatenate(list(away)).max())
 
     assert own.volume == pytest.approx(sum(each.volume for each in alone), rel=0.01)

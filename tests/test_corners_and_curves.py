@@ -12,11 +12,19 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from infill.paths.contact import STEP as CONTACT_STEP
-from infill.paths.contact import Contact, Samples, contact, merged, sampled
-from infill.paths.corners import COARSEST, SHARPEST, SHORTEST_CHORD, Machine, rounded
-from infill.paths.curves import GENTLE, MOST_BULGE, recut
-from infill.paths.neighbours import ANCHORED, BESIDE, TOWARDS, Around, bounded_deviation, foot, walls_of
-from infill.refilling.regions import NEARER, STEP, region_of
+from infill.paths.contact import Contact, Samples, concatenate_samples, layer_contact, sample_paths
+from infill.paths.corners import COARSEST, SHARPEST, SHORTEST_CHORD, Machine, round_corners
+from infill.paths.curves import GENTLE, MOST_BULGE, recut_curves
+from infill.paths.neighbours import (
+    AWAY_LIMIT,
+    BESIDE,
+    TOWARDS_LIMIT,
+    LayerBeads,
+    deviation_beside_beads,
+    index_beads,
+    project_to_beads,
+)
+from infill.refilling.regions import NEARER, STEP, find_region
 from infill.refilling.timing import neutral_limits, path_seconds
 
 EXACT = 1e-9  # mm: of coordinates up to 100 mm, computed in a handful of steps
@@ -72,7 +80,7 @@ machines = st.builds(
 @given(path=walks(171), deviation=limits, radius=limits, machine=machines)
 def test_corners_become_arcs(path: np.ndarray, deviation: float, radius: float, machine: Machine) -> None:
     """Tangent to both legs, as large as told, within the deviation, inside the corner, and cut as the machine needs."""
-    done = rounded(*one(path), deviation=deviation, radius=radius, machine=machine)
+    done = round_corners(*one(path), deviation=deviation, radius=radius, machine=machine)
     assert done.first.tolist() == [0, len(done.points)]
     assert (done.points[[0, -1]] == path[[0, -1]]).all()
     assert (np.diff(done.source) >= 0).all()
@@ -118,7 +126,7 @@ def test_turning_adds_up(path: np.ndarray, radius: float) -> None:
     """Arcs turn the way of their corners: never further, nor back. Short ends would be taken up by arcs."""
     path = np.concatenate([[2 * path[0] - path[1]], path, [2 * path[-1] - path[-2]]])
     path[[0, -1]] += 20 * (path[[0, -1]] - path[[1, -2]]) / np.hypot(*(path[[0, -1]] - path[[1, -2]]).T)[:, None]
-    done = rounded(*one(path), radius=radius)
+    done = round_corners(*one(path), radius=radius)
     old, new = turns(path), turns(done.points)
     assert new.sum() == pytest.approx(old.sum(), abs=1e-6)
     # Where arcs of a left and a right turn meet, one chord bridges them.
@@ -128,32 +136,32 @@ def test_turning_adds_up(path: np.ndarray, radius: float) -> None:
 def test_length_of_an_arc_is_radius_times_turn() -> None:
     """Chords of 0.06 mm turn by 0.015 rad, and are shorter than their arc by 1e-5 of it."""
     path = walk([(10, 0), (10, 90)])
-    done = rounded(*one(path), radius=4.0, machine=Machine(corner=0.0632))
+    done = round_corners(*one(path), radius=4.0, machine=Machine(corner=0.0632))
     assert len(done.points) == 2 + 1 + int(2 * math.pi / SHORTEST_CHORD)
     assert length_of(done.points) == pytest.approx(2 * 6 + 4 * math.pi / 2, abs=1e-4)
 
 
 def test_two_corners_share_a_leg() -> None:
     path = walk([(10, 0), (4, 90), (10, -90)])
-    assert rounded(*one(path)).radius[1:3] == pytest.approx([2, 2])
+    assert round_corners(*one(path)).radius[1:3] == pytest.approx([2, 2])
     # A corner that needs less leaves the rest to the other.
     needs = np.array([0, np.inf, 0.5 * math.tan(math.radians(22.5)), 0])
-    assert rounded(*one(path), deviation=needs).radius[1:3] == pytest.approx([3.5, 0.5])
-    assert rounded(*one(path), radius=1.5).radius[1:3] == pytest.approx([1.5, 1.5])
+    assert round_corners(*one(path), deviation=needs).radius[1:3] == pytest.approx([3.5, 0.5])
+    assert round_corners(*one(path), radius=1.5).radius[1:3] == pytest.approx([1.5, 1.5])
     # Arcs that meet share the point between them.
-    done = rounded(*one(path))
+    done = round_corners(*one(path))
     assert (np.hypot(*np.diff(done.points, axis=0).T) > 0.01).all()
 
 
 @given(path=walks(170), deviation=limits, angle=st.floats(0, 2 * math.pi))
 def test_symmetries(path: np.ndarray, deviation: float, angle: float) -> None:
-    done = rounded(*one(path), deviation=deviation)
+    done = round_corners(*one(path), deviation=deviation)
     turning = np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]])
     for matrix in (np.diag([-1.0, 1.0]), turning):
-        other = rounded(*one(path @ matrix), deviation=deviation)
+        other = round_corners(*one(path @ matrix), deviation=deviation)
         assert other.points == pytest.approx(done.points @ matrix, abs=1e-7)
         assert other.radius == pytest.approx(done.radius, rel=1e-6)
-    back = rounded(*one(path[::-1]), deviation=deviation)
+    back = round_corners(*one(path[::-1]), deviation=deviation)
     assert back.points[::-1] == pytest.approx(done.points, abs=1e-7)
     assert back.radius[::-1] == pytest.approx(done.radius, rel=1e-6)
 
@@ -161,7 +169,7 @@ def test_symmetries(path: np.ndarray, deviation: float, angle: float) -> None:
 @given(path=walks(179))
 def test_nothing_asked_nothing_changed(path: np.ndarray) -> None:
     for asked in ({"radius": 0.0}, {"deviation": 0.0}, {"deviation": np.zeros(len(path))}):
-        done = rounded(*one(path), **asked)
+        done = round_corners(*one(path), **asked)
         assert (done.points == path).all()
         assert done.source.tolist() == list(range(len(path)))
 
@@ -177,7 +185,7 @@ def test_nothing_asked_nothing_changed(path: np.ndarray) -> None:
 )
 def test_straight_and_reversing_paths_stay(legs: list[tuple[float, float]]) -> None:
     path = walk(legs)
-    done = rounded(*one(path))
+    done = round_corners(*one(path))
     assert (done.points == path).all()
     assert not ((done.radius > 0) & (done.radius < np.inf)).any()
     assert math.radians(170) < SHARPEST < math.radians(175)
@@ -185,11 +193,11 @@ def test_straight_and_reversing_paths_stay(legs: list[tuple[float, float]]) -> N
 
 def test_points_on_one_another_stay() -> None:
     path = np.array([[0, 0], [5, 0], [5, 0], [5, 5], [5, 5], [5, 5], [0, 5.0]])
-    assert (rounded(*one(path)).points == path).all()
+    assert (round_corners(*one(path)).points == path).all()
 
 
 def test_no_paths() -> None:
-    done = rounded(np.empty((0, 2)), np.array([0]))
+    done = round_corners(np.empty((0, 2)), np.array([0]))
     assert len(done.points) == len(done.source) == 0
     assert done.first.tolist() == [0]
 
@@ -199,8 +207,8 @@ def test_paths_are_rounded_each_for_itself(paths: list[np.ndarray], deviation: f
     """Also if one begins where another ends."""
     paths = [path - path[0] + (paths[k - 1][-1] - paths[k - 1][0] if k else 0) for k, path in enumerate(paths)]
     first = ends_of(paths)
-    whole = rounded(np.concatenate(paths), first, deviation=deviation)
-    single = [rounded(*one(path), deviation=deviation) for path in paths]
+    whole = round_corners(np.concatenate(paths), first, deviation=deviation)
+    single = [round_corners(*one(path), deviation=deviation) for path in paths]
     assert (whole.points == np.concatenate([each.points for each in single])).all()
     assert whole.first.tolist() == ends_of([each.points for each in single]).tolist()
     assert whole.source.tolist() == [
@@ -213,7 +221,7 @@ def test_paths_are_rounded_each_for_itself(paths: list[np.ndarray], deviation: f
 def test_points_are_numbers_of_gcode(path: np.ndarray, deviation: float) -> None:
     """Nearer to the exact ones than a unit along each axis, and none on the one before it."""
     path = np.round(path, 3)
-    exact, done = (rounded(*one(path), deviation=deviation, unit=unit) for unit in (0.0, 0.001))
+    exact, done = (round_corners(*one(path), deviation=deviation, unit=unit) for unit in (0.0, 0.001))
     assert done.points / 0.001 == pytest.approx(np.rint(done.points / 0.001), abs=1e-6)
     assert done.points[[0, -1]] == pytest.approx(path[[0, -1]], abs=EXACT)
     assert (np.hypot(*np.diff(done.points, axis=0).T) > 0.001).all()
@@ -238,7 +246,7 @@ def test_a_circle_is_found_again(radius: float, steps: list[float], machine: Mac
     """A cubic curve through the ends of a chord of turn t, tangent there, errs by t² / 16 of the sagitta."""
     chord = min(0.5, 0.5 * math.sqrt(8 * MOST_BULGE / radius))  # half the limit for equal chords
     path = arc(radius, np.degrees(chord) * np.cumsum([0.0, *steps]))
-    done = recut(*one(path), machine)
+    done = recut_curves(*one(path), machine)
     assert (done.points[[0, 1, -2, -1]] == path[[0, 1, -2, -1]]).all()
     longest = 1.3 * chord
     sagitta = radius * (1 - math.cos(longest / 2))
@@ -261,7 +269,7 @@ def test_a_circle_is_found_again(radius: float, steps: list[float], machine: Mac
 @given(path=walks(60, 0.05, 3.0), bulge=st.floats(0.0, MOST_BULGE), machine=machines)
 def test_curves_lie_where_the_chords_did(path: np.ndarray, bulge: float, machine: Machine) -> None:
     first = one(path)[1]
-    done = recut(path, first, machine, bulge)
+    done = recut_curves(path, first, machine, bulge)
     assert (done.points[[0, -1]] == path[[0, -1]]).all()
     assert (np.diff(done.source) >= 0).all()
     assert done.first.tolist() == [0, len(done.points)]
@@ -281,7 +289,7 @@ def test_curves_lie_where_the_chords_did(path: np.ndarray, bulge: float, machine
 def test_the_bulge_is_kept_point_by_point() -> None:
     path = arc(5, range(0, 181, 15))
     bulge = np.where(np.arange(len(path)) < 6, MOST_BULGE, 0.02)
-    done = recut(*one(path), Machine(), bulge)
+    done = recut_curves(*one(path), Machine(), bulge)
     # A leg of 15° bulges by 5 mm × (1 − cos 7.5°) = 0.043 mm.
     assert not done.curved[[0, -1]].any()
     assert done.curved[done.source <= 4].sum() > 3
@@ -292,8 +300,8 @@ def test_the_bulge_is_kept_point_by_point() -> None:
 @given(paths=st.lists(walks(50, 0.1, 2.0), min_size=2, max_size=4), machine=machines)
 def test_paths_are_recut_each_for_itself(paths: list[np.ndarray], machine: Machine) -> None:
     first = ends_of(paths)
-    whole = recut(np.concatenate(paths), first, machine)
-    single = [recut(*one(path), machine) for path in paths]
+    whole = recut_curves(np.concatenate(paths), first, machine)
+    single = [recut_curves(*one(path), machine) for path in paths]
     assert whole.points == pytest.approx(np.concatenate([each.points for each in single]), abs=EXACT)
     assert whole.first.tolist() == ends_of([each.points for each in single]).tolist()
     assert (whole.curved == np.concatenate([each.curved for each in single])).all()
@@ -302,7 +310,7 @@ def test_paths_are_recut_each_for_itself(paths: list[np.ndarray], machine: Machi
 @given(path=walks(50, 0.1, 2.0))
 def test_the_way_back_is_the_same_curve(path: np.ndarray) -> None:
     """As long within a hundredth: chords begin at the other end of each run."""
-    there, back = (recut(*one(each), Machine()).points for each in (path, path[::-1]))
+    there, back = (recut_curves(*one(each), Machine()).points for each in (path, path[::-1]))
     assert length_of(back) == pytest.approx(length_of(there), rel=0.01)
     assert shapely.LineString(there).hausdorff_distance(shapely.LineString(back)) <= 2 * COARSEST
 
@@ -311,20 +319,20 @@ def test_the_way_back_is_the_same_curve(path: np.ndarray) -> None:
 
 
 def line(*ends: tuple[float, float]) -> Samples:
-    return sampled(np.array(ends, dtype=float), np.array([0, len(ends)]))
+    return sample_paths(np.array(ends, dtype=float), np.array([0, len(ends)]))
 
 
 def along(y: float, length: float = 30.0) -> Samples:
     return line((0, y), (length, y))
 
 
-NOTHING = sampled(np.empty((0, 2)), np.array([0]))
+NOTHING = sample_paths(np.empty((0, 2)), np.array([0]))
 
 
 @given(paths=st.lists(walks(170, 0.01), min_size=1, max_size=4))
 def test_weights_add_up_to_the_length(paths: list[np.ndarray]) -> None:
     """And each sample stands for a fifth of a millimetre at most, in the middle of its piece."""
-    found = sampled(np.concatenate(paths), ends_of(paths))
+    found = sample_paths(np.concatenate(paths), ends_of(paths))
     for k, path in enumerate(paths):
         own = found.path == k
         assert found.weight[own].sum() == pytest.approx(length_of(path))
@@ -336,7 +344,7 @@ def test_weights_add_up_to_the_length(paths: list[np.ndarray]) -> None:
 
 @pytest.mark.parametrize(("apart", "share"), [(0.4, 1.0), (0.47, 1.0), (0.48, 0.0), (0.6, 0.0)])
 def test_parallel_lines_are_bonded_where_beads_touch(apart: float, share: float) -> None:
-    found = contact(merged(along(0), along(apart)), NOTHING, WIDTH)
+    found = layer_contact(concatenate_samples(along(0), along(apart)), NOTHING, WIDTH)
     assert found.length == pytest.approx(60)
     assert found.shares == pytest.approx((0.0, share))
 
@@ -344,27 +352,29 @@ def test_parallel_lines_are_bonded_where_beads_touch(apart: float, share: float)
 @pytest.mark.parametrize("width", [0.3, 0.6, 0.8, 1.2, 2.0])
 def test_wide_beads_touch_as_narrow_ones_do(width: float) -> None:
     for apart, share in ((0.95 * width, 1.0), (1.1 * width, 0.0)):
-        assert contact(merged(along(0), along(apart)), NOTHING, width).shares[1] == pytest.approx(share)
+        assert layer_contact(concatenate_samples(along(0), along(apart)), NOTHING, width).shares[1] == pytest.approx(
+            share
+        )
 
 
 def test_short_chords_hide_no_neighbour() -> None:
     """Points 0.02 mm apart: the next fifty neighbours are all of the same line."""
     x = np.arange(0, 10, 0.02)
     paths = [np.stack([x, np.full(len(x), y)], axis=1) for y in (0, 0.44)]
-    found = contact(sampled(np.concatenate(paths), ends_of(paths)), NOTHING, WIDTH)
+    found = layer_contact(sample_paths(np.concatenate(paths), ends_of(paths)), NOTHING, WIDTH)
     assert found.shares[1] == pytest.approx(1)
 
 
 def test_a_line_is_no_neighbour_of_itself_unless_it_comes_back() -> None:
-    assert contact(line((0, 0), (20, 0), (20, 20)), NOTHING, WIDTH).bonded == 0
-    back = contact(line((0, 0), (20, 0), (20, 0.4), (0, 0.4)), NOTHING, WIDTH)
+    assert layer_contact(line((0, 0), (20, 0), (20, 20)), NOTHING, WIDTH).bonded == 0
+    back = layer_contact(line((0, 0), (20, 0), (20, 0.4), (0, 0.4)), NOTHING, WIDTH)
     # Near the turn both sides are within 1.8 mm along the path: 0.7 mm of each.
     assert back.bonded == pytest.approx(40.4 - 2 * 0.7 - 0.4, abs=0.4)  # one of three samples is looked at
 
 
 @pytest.mark.parametrize(("aside", "share"), [(0.0, 1.0), (0.22, 1.0), (0.23, 0.0), (0.45, 0.0)])
 def test_a_line_lies_on_a_line(aside: float, share: float) -> None:
-    assert contact(along(0), along(aside), WIDTH).shares == pytest.approx((share, 0.0))
+    assert layer_contact(along(0), along(aside), WIDTH).shares == pytest.approx((share, 0.0))
 
 
 @pytest.mark.parametrize("angle", [90, 60, 30])
@@ -372,7 +382,7 @@ def test_crossing_lines_lie_on_one_another_where_they_cross(angle: float) -> Non
     """Half a width to both sides of each of 99 crossings, seen from the line above."""
     slant = 1 / math.tan(math.radians(angle))
     below = [np.array([[k - slant, -1.0], [k + slant, 1.0]]) for k in range(1, 100)]
-    found = contact(along(0, 100.0), sampled(np.concatenate(below), ends_of(below)), WIDTH)
+    found = layer_contact(along(0, 100.0), sample_paths(np.concatenate(below), ends_of(below)), WIDTH)
     crossed = min(WIDTH / math.sin(math.radians(angle)), 1.0)
     # A third of 1000 samples decides: 0.45 of them, with a standard error of 0.027.
     assert found.shares[0] == pytest.approx(crossed, abs=0.06)
@@ -381,7 +391,7 @@ def test_crossing_lines_lie_on_one_another_where_they_cross(angle: float) -> Non
 def test_contacts_add_up() -> None:
     sums = Contact(length=4, supported=2, bonded=1) + Contact(length=1, supported=1, bonded=0)
     assert sums.shares == (0.6, 0.2)
-    assert contact(NOTHING, along(0), WIDTH) == Contact()
+    assert layer_contact(NOTHING, along(0), WIDTH) == Contact()
     assert Contact().shares == (0, 0)
 
 
@@ -394,7 +404,7 @@ clouds = st.lists(coordinates, min_size=1, max_size=40).map(np.array)
 @given(points=clouds, walls=clouds, distance=st.floats(0.1, 3))
 def test_what_lies_beside_walls_is_found(points: np.ndarray, walls: np.ndarray, distance: float) -> None:
     apart = np.hypot(*(points[:, None] - walls).transpose(2, 0, 1)).min(axis=1)
-    near = walls_of(walls).near(points, np.zeros(len(points), dtype=int), distance)
+    near = index_beads(walls).near(points, np.zeros(len(points), dtype=int), distance)
     assert near == pytest.approx(np.where(apart < distance, apart, np.inf))
 
 
@@ -404,7 +414,7 @@ def test_each_point_sees_the_walls_of_its_layer(
 ) -> None:
     numbers = st.integers(3, 6)
     layer, of = (np.array(data.draw(st.lists(numbers, min_size=len(x), max_size=len(x)))) for x in (points, walls))
-    near = walls_of(walls, of).near(points, layer, distance)
+    near = index_beads(walls, of).near(points, layer, distance)
     apart = np.hypot(*(points[:, None] - walls).transpose(2, 0, 1))
     apart = np.where(layer[:, None] == of, apart, np.inf).min(axis=1)
     assert near == pytest.approx(np.where(apart < distance, apart, np.inf))
@@ -412,10 +422,10 @@ def test_each_point_sees_the_walls_of_its_layer(
 
 def test_a_wall_far_away_takes_no_memory() -> None:
     walls = np.array([[0.0, 0.0], [1e7, -1e7], [3e300, 0.0]])
-    near = walls_of(walls).near(np.array([[0.3, 0.0], [5.0, 0.0], [-2e8, 1e9]]), np.zeros(3, dtype=int), 0.5)
+    near = index_beads(walls).near(np.array([[0.3, 0.0], [5.0, 0.0], [-2e8, 1e9]]), np.zeros(3, dtype=int), 0.5)
     assert near == pytest.approx([0.3, np.inf, np.inf])
-    assert len(walls_of(walls).near(np.empty((0, 2)), np.empty(0, dtype=int), 0.5)) == 0
-    assert walls_of(np.empty((0, 2))).near(walls, np.zeros(3, dtype=int), 0.5).tolist() == [np.inf] * 3
+    assert len(index_beads(walls).near(np.empty((0, 2)), np.empty(0, dtype=int), 0.5)) == 0
+    assert index_beads(np.empty((0, 2))).near(walls, np.zeros(3, dtype=int), 0.5).tolist() == [np.inf] * 3
 
 
 @given(
@@ -427,7 +437,7 @@ def test_corners_beside_walls_hardly_move(turn: float, side: float, near: float,
     middle = path[1] + near * np.array([math.cos(side), math.sin(side)])
     direction = np.array([-math.sin(side), math.cos(side)])
     walls = middle + np.linspace(-4, 4, 801)[:, None] * direction  # a straight one, at `near`
-    found, layer = walls_of(walls), np.zeros(1, dtype=int)
+    found, layer = index_beads(walls), np.zeros(1, dtype=int)
     apart = found.near(path[1:2], layer, BESIDE * WIDTH)
     if near > BESIDE * WIDTH:
         assert apart == [np.inf]
@@ -435,21 +445,21 @@ def test_corners_beside_walls_hardly_move(turn: float, side: float, near: float,
     if not np.isfinite(apart[0]):
         assert near > BESIDE * WIDTH - 0.001  # points on the wall are 0.01 mm apart
         return
-    allowed = bounded_deviation(path, np.array([1]), apart, found, layer, deviation=deviation, line_width=WIDTH)[0]
-    assert 0 < allowed <= min(deviation, ANCHORED * WIDTH) + EXACT
+    allowed = deviation_beside_beads(path, np.array([1]), apart, found, layer, deviation=deviation, line_width=WIDTH)[0]
+    assert 0 < allowed <= min(deviation, AWAY_LIMIT * WIDTH) + EXACT
     inward = (path[0] - path[1]) / 5 + (path[2] - path[1]) / 5
     towards = float(inward @ (middle - path[1])) / near / np.hypot(*inward)  # of each mm that the corner moves
     # Across the wall or up to it: points on it are 0.01 mm apart.
-    assert allowed * towards <= TOWARDS + 0.001 or allowed <= TOWARDS
+    assert allowed * towards <= TOWARDS_LIMIT + 0.001 or allowed <= TOWARDS_LIMIT
     if towards <= 0:
-        assert allowed == min(deviation, ANCHORED * WIDTH)
+        assert allowed == min(deviation, AWAY_LIMIT * WIDTH)
 
 
 # --- regions ---------------------------------------------------------------------------------------------------
 
 
-def beads_at(points: np.ndarray) -> Around:
-    return Around(points=points, skin=np.zeros(len(points), dtype=bool))
+def beads_at(points: np.ndarray) -> LayerBeads:
+    return LayerBeads(points=points, skin=np.zeros(len(points), dtype=bool))
 
 
 def dense(geometry: shapely.Geometry, step: float) -> np.ndarray:
@@ -480,7 +490,7 @@ AREAS = {
 def test_a_region_is_what_walls_leave_free(name: str, kept: float) -> None:
     """Within 0.5 % of the area, and 0.05 mm of the outline: its corners are rounded by 0.5 mm, 0.21 mm from there."""
     area = AREAS[name]
-    found = region_of(beads_at(dense(area.boundary, STEP)), filled(area, kept))
+    found = find_region(beads_at(dense(area.boundary, STEP)), filled(area, kept))
     wanted = area.buffer(-kept, quad_segs=32)
     assert found.distance == pytest.approx(kept, abs=0.01)
     whole = shapely.MultiPolygon(list(found.polygons))
@@ -498,7 +508,7 @@ def test_a_region_is_what_walls_leave_free(name: str, kept: float) -> None:
 def test_a_region_is_bounded_exactly_by_pieces_of_beads(name: str) -> None:
     """By pieces of beads, not by points on them: its outline lies nowhere nearer than asked, and is as simple."""
     area = AREAS[name]
-    found = region_of(around_of(area), filled(area, 0.36))
+    found = find_region(around_of(area), filled(area, 0.36))
     whole = shapely.MultiPolygon(list(found.polygons))
     apart = shapely.distance(shapely.points(shapely.get_coordinates(shapely.segmentize(whole, 0.1))), area.boundary)
     assert apart.min() > found.distance - 2 * NEARER
@@ -506,14 +516,14 @@ def test_a_region_is_bounded_exactly_by_pieces_of_beads(name: str) -> None:
     assert np.quantile(apart, 0.9 if straight else 0.5) < found.distance + 2 * NEARER
 
 
-def around_of(area: shapely.Geometry) -> Around:
+def around_of(area: shapely.Geometry) -> LayerBeads:
     """Return the walls of an area as pieces of beads."""
     rings = [
         shapely.get_coordinates(shapely.segmentize(ring, STEP)) for ring in shapely.get_rings(shapely.get_parts(area))
     ]
     middles = np.concatenate([(ring[1:] + ring[:-1]) / 2 for ring in rings])
     half = np.concatenate([(ring[1:] - ring[:-1]) / 2 for ring in rings])
-    return Around(points=middles, skin=np.zeros(len(middles), dtype=bool), half=half)
+    return LayerBeads(points=middles, skin=np.zeros(len(middles), dtype=bool), half=half)
 
 
 @given(st.integers(0, 2**32 - 1))
@@ -530,7 +540,7 @@ def test_any_region_is_valid_and_keeps_its_distance(seed: int) -> None:
     star = shapely.Polygon(np.stack([np.cos(angle), np.sin(angle)], axis=1) * random.uniform(2, 9, (len(angle), 1)))
     holes = [shapely.Point(*random.uniform(-6, 6, 2)).buffer(random.uniform(0.3, 2)) for _ in range(3)]
     area = star.difference(shapely.union_all(holes))
-    found = region_of(around_of(area), dense(area.buffer(-0.4), 0.3))
+    found = find_region(around_of(area), dense(area.buffer(-0.4), 0.3))
     whole = shapely.MultiPolygon(list(found.polygons))
     assert all(polygon.is_valid for polygon in found.polygons)
     if not whole.is_empty:
@@ -542,9 +552,9 @@ def test_any_region_is_valid_and_keeps_its_distance(seed: int) -> None:
 def test_the_foot_is_the_nearest_place_on_a_bead(seed: int) -> None:
     random = np.random.default_rng(seed)
     path = np.cumsum(random.normal(0, 2, (6, 2)), axis=0)
-    some = sampled(path, np.array([0, len(path)]), STEP)
+    some = sample_paths(path, np.array([0, len(path)]), STEP)
     points = path[random.integers(0, len(path), 20)] + random.normal(0, 1, (20, 2))
-    place, apart = foot(points, walls_of(some.points, half=some.half))
+    place, apart = project_to_beads(points, index_beads(some.points, half=some.half))
     line = shapely.LineString(path)
     # Of the nearest pieces three are looked at: where lines come together, the nearest place may lie on a fourth.
     np.testing.assert_allclose(apart, shapely.distance(shapely.points(points), line), atol=STEP / 10)
@@ -553,17 +563,17 @@ def test_the_foot_is_the_nearest_place_on_a_bead(seed: int) -> None:
 
 
 def test_without_beads_there_is_no_foot() -> None:
-    assert foot(np.zeros((2, 2)), walls_of(np.empty((0, 2))))[1].tolist() == [np.inf] * 2
+    assert project_to_beads(np.zeros((2, 2)), index_beads(np.empty((0, 2))))[1].tolist() == [np.inf] * 2
 
 
 def test_what_holds_no_infill_is_no_region() -> None:
     walls = dense(AREAS["two islands"].boundary, STEP)
-    found = region_of(beads_at(walls), filled(SQUARE, 0.36))
+    found = find_region(beads_at(walls), filled(SQUARE, 0.36))
     assert len(found.polygons) == 1
     assert SQUARE.covers(found.polygons[0])
     assert (
-        region_of(beads_at(np.empty((0, 2))), walls).polygons
-        == region_of(beads_at(walls), np.empty((0, 2))).polygons
+        find_region(beads_at(np.empty((0, 2))), walls).polygons
+        == find_region(beads_at(walls), np.empty((0, 2))).polygons
         == ()
     )
 
@@ -571,7 +581,7 @@ def test_what_holds_no_infill_is_no_region() -> None:
 @pytest.mark.parametrize("far", [1e4, 1e9, 1e300])
 def test_infill_far_away_takes_no_memory(far: float) -> None:
     lost = np.concatenate([filled(SQUARE, 0.36), [[far, far]]])
-    assert region_of(beads_at(dense(SQUARE.boundary, STEP)), lost).polygons == ()
+    assert find_region(beads_at(dense(SQUARE.boundary, STEP)), lost).polygons == ()
 
 
 @pytest.mark.parametrize("further", [0.0, 0.04])
@@ -582,9 +592,9 @@ def test_a_region_keeps_from_skins_what_the_slicer_does(further: float) -> None:
     rows = np.stack([np.where(np.arange(len(y)) % 2, ends.T, ends.T[::-1]).T.ravel(), np.repeat(y, 2)], axis=1)
     skin = dense(shapely.LineString(rows), STEP)
     walls = dense(SQUARE.boundary, STEP)
-    around = Around(points=np.concatenate([walls, skin]), skin=np.arange(len(walls) + len(skin)) >= len(walls))
+    around = LayerBeads(points=np.concatenate([walls, skin]), skin=np.arange(len(walls) + len(skin)) >= len(walls))
     free = shapely.box(110.2 + further, 80, 120, 100)
-    found = region_of(around, filled(free, 0.36))
+    found = find_region(around, filled(free, 0.36))
     assert found.distance == pytest.approx(0.36, abs=0.01)
     assert found.skin_distance == pytest.approx(0.36 + further, abs=0.015)
     (area,) = found.polygons
@@ -596,20 +606,20 @@ def test_a_region_keeps_from_skins_what_the_slicer_does(further: float) -> None:
 
 def test_the_outline_of_a_region_has_no_more_points_than_it_needs() -> None:
     """Straight walls are straight: corners of paths that meet them need legs."""
-    (polygon,) = region_of(beads_at(dense(SQUARE.boundary, STEP)), filled(SQUARE, 0.36)).polygons
+    (polygon,) = find_region(beads_at(dense(SQUARE.boundary, STEP)), filled(SQUARE, 0.36)).polygons
     assert len(polygon.exterior.coords) < 40
 
 
 def test_a_region_is_taken_again_only_where_it_fits() -> None:
     walls, infill = dense(SQUARE.boundary, STEP), filled(SQUARE, 0.36)
-    before = region_of(beads_at(walls), infill)
-    assert region_of(beads_at(walls), infill, before) is before
+    before = find_region(beads_at(walls), infill)
+    assert find_region(beads_at(walls), infill, before) is before
     # The next layer's samples lie elsewhere on the same walls.
     moved = dense(shapely.segmentize(SQUARE.boundary, 0.13), STEP)
-    assert region_of(beads_at(moved), filled(SQUARE, 0.36), before) is before
+    assert find_region(beads_at(moved), filled(SQUARE, 0.36), before) is before
     for other in (shapely.box(100, 80, 120, 100.2), SQUARE.buffer(0.1, join_style="mitre"), AREAS["hole"]):
-        assert region_of(beads_at(dense(other.boundary, STEP)), filled(other, 0.36), before) is not before
-    assert region_of(beads_at(walls), filled(SQUARE, 0.42), before) is not before
+        assert find_region(beads_at(dense(other.boundary, STEP)), filled(other, 0.36), before) is not before
+    assert find_region(beads_at(walls), filled(SQUARE, 0.42), before) is not before
 
 
 # --- time ------------------------------------------------------------------------------------------------------
@@ -663,5 +673,5 @@ def test_no_paths_take_no_time() -> None:
 def test_round_corners_take_less_time() -> None:
     """A zigzag of right angles, passed at 5 mm/s, or on arcs of 1 mm at √(1000) mm/s."""
     path = walk([(3, 90 * (-1) ** k) for k in range(20)])
-    round_ones = rounded(*one(path), radius=1.0)
+    round_ones = round_corners(*one(path), radius=1.0)
     assert seconds(round_ones.points)[0] < 0.75 * seconds(path)[0]

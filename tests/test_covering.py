@@ -18,9 +18,9 @@ from infill.paths.covering import cover, solve_cell, total_length
 from infill.paths.families.catalogue import FAMILIES
 from infill.paths.families.protocol import TOUCH, Path
 from infill.paths.joining import join
-from infill.paths.layer_below import ground_of
-from infill.paths.neighbours import walls_of
-from infill.paths.ordering import order, travel
+from infill.paths.layer_below import index_layer_below
+from infill.paths.neighbours import index_beads
+from infill.paths.ordering import order_paths, travel_length
 from infill.paths.outlines import outline_of
 
 WIDTH = 0.45
@@ -78,7 +78,7 @@ def test_parts_are_filled_as_asked(name: str, part: str, density: float) -> None
     # Closed lines need a way from each to the next; others are joined, and ways are shorter than a fifth of them.
     closed = dict.fromkeys(("schwarz-p", "concentric", "voronoi"), 1.0)
     if across > 2:
-        assert travel(paths) < closed.get(name, 0.35) * length_of(paths)
+        assert travel_length(paths) < closed.get(name, 0.35) * length_of(paths)
 
 
 @every_family
@@ -236,7 +236,7 @@ def test_ends_are_joined_above_what_lies_below(mirrored: bool) -> None:
     pieces = clip(lines_across(4), region)
     plain = join(pieces, region, line_width=WIDTH, anchor=0, anchor_max=12)
     below = [path * (-1, 1) + (10, 0) if mirrored else path for path in plain]
-    ground = ground_of(below, walls_of(np.empty((0, 2))), WIDTH)
+    ground = index_layer_below(below, index_beads(np.empty((0, 2))), WIDTH)
     paths = join(pieces, region, line_width=WIDTH, anchor=0, anchor_max=12, ground=ground)
     assert multi(paths).equals(multi(below))
     assert multi(plain).equals(multi(below)) != mirrored
@@ -247,7 +247,7 @@ def test_free_ends_are_anchored_above_what_lies_below() -> None:
     pieces = clip(lines_across(2, apart=4.0), region)
     for up in (-2.0, 2.0):
         wall = shapely.segmentize(shapely.LineString([(10, 2), (10, 2 + up)]), 0.1)
-        ground = ground_of([], walls_of(shapely.get_coordinates(wall)), WIDTH)
+        ground = index_layer_below([], index_beads(shapely.get_coordinates(wall)), WIDTH)
         (path,) = (
             path
             for path in join(pieces, region, line_width=WIDTH, anchor=1.5, anchor_max=0, ground=ground)
@@ -262,7 +262,7 @@ def test_free_ends_are_anchored_above_what_lies_below() -> None:
 def test_any_region_is_covered_soundly_above_another(region: Polygon | MultiPolygon, name: str, cell: float) -> None:
     region = region.buffer(WIDTH).buffer(-WIDTH)
     under = cover(region.buffer(0.4), FAMILIES[name], cell=cell, line_width=WIDTH, z=Z, layer=LAYER)
-    ground = ground_of(under, walls_of(shapely.get_coordinates(region)), WIDTH)
+    ground = index_layer_below(under, index_beads(shapely.get_coordinates(region)), WIDTH)
     paths = cover(region, FAMILIES[name], cell=cell, line_width=WIDTH, z=Z, layer=LAYER, ground=ground)
     assert_sound(paths, region)
 
@@ -305,12 +305,12 @@ def test_a_closed_line_that_leaves_the_region_is_cut_where_it_leaves() -> None:
 def test_order_goes_to_the_nearest_end() -> None:
     rng = np.random.default_rng(3)
     paths = [rng.uniform(0, 50, 2) + np.array([[0, 0], [1, 0], [1, 1]]) for _ in range(200)]
-    ordered = order(paths, (0, 0))
+    ordered = order_paths(paths, (0, 0))
     assert length_of(ordered) == pytest.approx(length_of(paths))
-    assert travel(ordered, (0, 0)) < 0.25 * travel(paths, (0, 0))
-    assert order([], (0, 0)) == []
+    assert travel_length(ordered, (0, 0)) < 0.25 * travel_length(paths, (0, 0))
+    assert order_paths([], (0, 0)) == []
     ring = np.array([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 0.0]])
-    assert order([ring], (5.0, 5.0))[0].tolist() == [[4.0, 4.0], [0.0, 0.0], [4.0, 0.0], [4.0, 4.0]]
+    assert order_paths([ring], (5.0, 5.0))[0].tolist() == [[4.0, 4.0], [0.0, 0.0], [4.0, 0.0], [4.0, 4.0]]
 
 
 def test_thin_rings_are_joined() -> None:

@@ -13,8 +13,8 @@ from PIL import Image
 from typer.testing import CliRunner
 
 from infill import ParameterError, Surface, UsageError
-from infill.cli.app import build
-from infill.pictures.cuts import CUT, cuts
+from infill.cli.app import build_app
+from infill.pictures.cuts import CUT, draw_cuts
 from infill.pictures.sections import AXES, Cut, check_cuts, choose_cuts, parse_cut
 
 pytestmark = pytest.mark.usefixtures("compiled")
@@ -110,7 +110,7 @@ def test_the_cut_face_is_seen(axis: int) -> None:
         "voids": {"count": 1},
     }
     given = [Cut(axis=axis, at=2.0)]
-    picture = np.asarray(cuts(surface(walls(0, 1, cells=4)), report, given=given)).astype(float)
+    picture = np.asarray(draw_cuts(surface(walls(0, 1, cells=4)), report, given=given)).astype(float)
     panel = picture[40:450, :434] if axis < 2 else picture[40:450, 434:]
     share = panel / np.maximum(panel.max(axis=2, keepdims=True), 1)
     seen = (np.abs(share - np.array(CUT) / max(CUT)) < 0.02).all(axis=2)
@@ -150,15 +150,15 @@ def test_the_command_cuts_where_it_is_told(tmp_path: Path) -> None:
     part, picture = tmp_path / "part.stl", tmp_path / "cut.png"
     box(20, 20, 20).export(part)
     words = ["fill", str(part), "--pattern", "grid", "--voxel", "0.5", "-q", "--preview", str(picture), "--force"]
-    assert CliRunner().invoke(build("fill"), words).exit_code == 0
+    assert CliRunner().invoke(build_app("fill"), words).exit_code == 0
     usual = np.asarray(Image.open(picture))
-    assert CliRunner().invoke(build("fill"), [*words, "--cut", "z=5", "--cut", "x=-3"]).exit_code == 0
+    assert CliRunner().invoke(build_app("fill"), [*words, "--cut", "z=5", "--cut", "x=-3"]).exit_code == 0
     assert (np.asarray(Image.open(picture)) != usual).any()
     picture.unlink()
     for cut, code, said in (("z=99", 1, "error: --cut is z=99"), ("w=3", 2, "--cut is 'w=3'"), ("z=nan", 1, "--cut")):
-        done = CliRunner().invoke(build("fill"), [*words, "--cut", cut])
+        done = CliRunner().invoke(build_app("fill"), [*words, "--cut", cut])
         assert (done.exit_code, said in done.output) == (code, True), done.output
         assert not picture.exists()
-    without = CliRunner().invoke(build("fill"), ["fill", str(part), "--cut", "z=5", "-o", str(tmp_path / "a.stl")])
+    without = CliRunner().invoke(build_app("fill"), ["fill", str(part), "--cut", "z=5", "-o", str(tmp_path / "a.stl")])
     assert without.exit_code == 2
     assert "give --preview FILE.png" in without.output

@@ -21,7 +21,7 @@ from hypothesis import strategies as st
 
 from infill import FormatError, Surface, check, read_mesh
 from infill.errors import InfillError
-from infill.meshes.solids import status
+from infill.meshes.solids import manifold_status
 
 WORDS = [
     "0", "-1", "3", "8", "1e400", "nan", "inf", "99999999999999999999", "1,5", "", "x", "\x1b[2J", "#", "\\", "/", "1/2/3",
@@ -204,4 +204,4 @@ UNLUCKY = [
 def test_an_open_mesh_in_any_order_is_no_solid(faces: list[tuple[int, int, int]], count: int) -> None:
     surface = Surface(vertices=CORNERS, faces=np.array(faces[:count], dtype=np.int64).reshape(-1, 3))
     for single in (True, False):
-        assert status(surface, single=single) == "NotManifold"
+        assert manifold_status(surface, single=single) == "NotManifold"

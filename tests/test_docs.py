@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from infill.cli.app import build
+from infill.cli.app import build_app
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")])
@@ -45,7 +45,7 @@ def test_links_lead_somewhere(page: Path) -> None:
 
 def test_the_readme_names_every_command() -> None:
     text = (ROOT / "README.md").read_text(encoding="utf-8")
-    names = [command.name or command.callback.__name__ for command in build().registered_commands]
+    names = [command.name or command.callback.__name__ for command in build_app().registered_commands]
     assert len(names) >= 4
     for name in names:
         assert f"infill {name}" in text

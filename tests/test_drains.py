@@ -21,14 +21,14 @@ from typer.testing import CliRunner
 from benchmarks import fill_drains
 from benchmarks.fill_drains import PARTS, Case, distances, faults, mouth_of, run, tilted
 from infill import GeometryError, Surface, UsageError, fill
-from infill.cli.app import build
+from infill.cli.app import build_app
 from infill.drains.drain_clearance import Skin
-from infill.drains.drain_columns import Lattice, cross, find_ways
-from infill.drains.drain_places import TURN_OVER, Needs
+from infill.drains.drain_columns import LineLattice, find_crossings, find_ways
+from infill.drains.drain_places import TURN_OVER, DrainNeeds
 from infill.drains.drain_plan import DrainPlan, plan_drains
 from infill.isosurfaces.components import shell_names
-from infill.lattices.drain_holes import Drained, trapped
-from infill.meshes.distance import Tree
+from infill.lattices.drain_holes import DrainedSolid, find_closed_voids
+from infill.meshes.distance import TriangleTree
 
 pytestmark = pytest.mark.usefixtures("compiled")
 
@@ -41,7 +41,7 @@ def surface(mesh: Any) -> Surface:
 
 
 def plan(part: trimesh.Trimesh, *voids: trimesh.Trimesh, diameter: float, wall: float = WALL, **more: Any) -> DrainPlan:
-    needs = Needs(diameter=diameter, wall=wall, cell=4.0, threads=1)
+    needs = DrainNeeds(diameter=diameter, wall=wall, cell=4.0, threads=1)
     return plan_drains(surface(part), surface(together(*voids)), needs, **more)
 
 
@@ -370,7 +370,7 @@ def test_a_drain_wider_than_the_part_is_refused_before_anything_is_computed() ->
 def test_every_void_that_stays_closed_is_told_with_its_place() -> None:
     part = box(9, 40, 12)
     result = fill(part, "honeycomb", drain=6.5, wall=WALL, **QUICK)
-    closed = trapped(result.surface)
+    closed = find_closed_voids(result.surface)
     report = result.report
     assert len(closed) == len(report["voids"]["closed"])
     told = [each for each in report["problems"] if "still closed" in each]
@@ -394,14 +394,14 @@ def test_the_command_takes_places_and_vents(tmp_path: Path) -> None:
     config = tmp_path / "drains.toml"
     drains = ["--drain", "3", "--vent", "--drain-at", "5,5,-10", "--drain-at=-10,5,5"]
     saved = ["--save-config", str(config), "-o", str(tmp_path / "a.stl")]
-    done = CliRunner().invoke(build("fill"), [*words, *drains, *saved])
+    done = CliRunner().invoke(build_app("fill"), [*words, *drains, *saved])
     assert done.exit_code == 0, done.output
     assert "2 drain(s) of 3 mm; 1 vent(s) of 3 mm" in done.output
-    again = CliRunner().invoke(build("fill"), [*words[:2], "--config", str(config), "-o", str(tmp_path / "b.stl")])
+    again = CliRunner().invoke(build_app("fill"), [*words[:2], "--config", str(config), "-o", str(tmp_path / "b.stl")])
     assert again.exit_code == 0, again.output
     assert (tmp_path / "a.stl").read_bytes() == (tmp_path / "b.stl").read_bytes()
     wrong = CliRunner().invoke(
-        build("fill"), [*words, "--drain", "3", "--drain-at", "1,2", "-o", str(tmp_path / "c.stl")]
+        build_app("fill"), [*words, "--drain", "3", "--drain-at", "1,2", "-o", str(tmp_path / "c.stl")]
     )
     assert wrong.exit_code == 2
     assert not (tmp_path / "c.stl").exists()
@@ -419,9 +419,9 @@ def test_lines_cross_triangles_where_arithmetic_without_rounding_has_it(
     corners: NDArray[np.int64], step: float
 ) -> None:
     """Lines through corners and along edges included; coordinates are halves, of which products are exact."""
-    lattice = Lattice(low=np.array([-1.0, 0.5]), step=step, shape=(7, 5))
+    lattice = LineLattice(low=np.array([-1.0, 0.5]), step=step, shape=(7, 5))
     soup = Surface(vertices=corners.reshape(-1, 3) / 2, faces=np.arange(3 * len(corners)).reshape(-1, 3))
-    line, height, up, face = cross(soup, lattice)
+    line, height, up, face = find_crossings(soup, lattice)
     found = Counter(zip(line.tolist(), height.round(9).tolist(), up.tolist(), face.tolist(), strict=True))
     expected: Counter[tuple[int, float, int, int]] = Counter()
     for (number, (a, b, c)), node in product(enumerate(corners / 2), range(35)):
@@ -439,13 +439,13 @@ def test_lines_cross_triangles_where_arithmetic_without_rounding_has_it(
 def test_a_void_without_room_for_a_hole_costs_few_distances(monkeypatch: pytest.MonkeyPatch) -> None:
     """Each hole that is tried is measured by twelve points first: there were two hundred, of every one."""
     asked = []
-    nearest = Tree.nearest
+    nearest = TriangleTree.nearest
 
-    def counted(tree: Tree, points: NDArray[np.floating], **options: Any) -> Any:
+    def counted(tree: TriangleTree, points: NDArray[np.floating], **options: Any) -> Any:
         asked.append(len(points))
         return nearest(tree, points, **options)
 
-    monkeypatch.setattr(Tree, "nearest", counted)
+    monkeypatch.setattr(TriangleTree, "nearest", counted)
     part, void = less(box(24, 24, 30), box(30, 18, 0.8, (0, 0, -5))), box(18, 14, 10, (0, 0, 5))
     assert plan(part, void, diameter=3.0).undrained
     assert sum(asked) < 1_000_000  # with four narrower diameters and five other directions; 10 million before
@@ -453,8 +453,8 @@ def test_a_void_without_room_for_a_hole_costs_few_distances(monkeypatch: pytest.
 
 def test_lines_cross_a_solid_as_often_in_as_out() -> None:
     part = union(PARTS["bracket"](), box(5, 5, 5, (-20, 0, 30)))
-    lattice = Lattice(low=np.array([-30.13, -20.27]), step=0.91, shape=(70, 45))
-    line, height, up, face = cross(surface(part), lattice)
+    lattice = LineLattice(low=np.array([-30.13, -20.27]), step=0.91, shape=(70, 45))
+    line, height, up, face = find_crossings(surface(part), lattice)
     assert (np.bincount(line, weights=up) == 0).all()
     corners = part.triangles[face]
     points = np.column_stack([lattice.places(line), height])
@@ -468,7 +468,7 @@ def test_ways_lead_through_solid_alone() -> None:
     part, voids = box(20, 20, 30), [box(17, 17, 6, (0, 0, -8)), box(17, 17, 6, (0, 0, 4)), box(2, 2, 2, (0, 0, 12))]
     hollow = surface(together(*voids))
     names, _ = shell_names(hollow)
-    ways = find_ways(surface(part), hollow, names, Lattice(low=np.array([-9.9, -9.8]), step=0.7, shape=(29, 29)))
+    ways = find_ways(surface(part), hollow, names, LineLattice(low=np.array([-9.9, -9.8]), step=0.7, shape=(29, 29)))
     assert set(ways.void.tolist()) == {0}
     assert ways.skin == pytest.approx(-15.0)
     assert ways.floor == pytest.approx(-11.0)
@@ -477,7 +477,7 @@ def test_ways_lead_through_solid_alone() -> None:
 
 def test_a_solid_without_drains_is_left_as_it_is() -> None:
     solid = surface(box(4, 4, 4))
-    assert Drained(solid=solid).facts()["holes"] == []
+    assert DrainedSolid(solid=solid).facts()["holes"] == []
 
 
 @pytest.mark.parametrize("degrees", [20, 45, 55])

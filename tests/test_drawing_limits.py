@@ -18,7 +18,7 @@ from infill import FormatError
 from infill.drawing import MOST_POINTS
 from infill.drawings.drawing_files import read_drawing
 from infill.errors import GeometryError
-from infill.paths.tiles.borders import borders
+from infill.paths.tiles.borders import find_borders
 
 HEAD = '<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="20mm" viewBox="0 0 20 20">'
 
@@ -166,7 +166,7 @@ def test_lines_that_vanish_in_a_small_tile_are_an_error_of_ours() -> None:
     with pytest.raises(
         GeometryError, match=r"every line of the drawing is shorter than 0\.113 mm in tiles of 1 × 1 mm"
     ):
-        borders([np.array([[0.0, 0.0], [0.01, 0.0]])], (1.0, 1.0), line_width=0.45)
+        find_borders([np.array([[0.0, 0.0], [0.01, 0.0]])], (1.0, 1.0), line_width=0.45)
 
 
 @pytest.mark.parametrize("far", [1e10, 1e300])

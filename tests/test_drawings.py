@@ -17,11 +17,11 @@ from PIL import Image, ImageDraw
 from infill.drawing import Drawing, Picture
 from infill.drawings.drawing_files import READERS, read_drawing
 from infill.drawings.svg_paths import bezier_points, path_lines
-from infill.drawings.tile_files import drawn
+from infill.drawings.tile_files import read_tile_family
 from infill.errors import FormatError, GeometryError, ParameterError
 from infill.paths.covering import cover, solve_cell
-from infill.paths.tiles.drawn_family import BLUR_PER_RADIUS, Drawn
-from infill.paths.tiles.nodes import COARSEST, colours, distances, tile_grid
+from infill.paths.tiles.drawn_family import BLUR_PER_RADIUS, DrawnFamily
+from infill.paths.tiles.nodes import COARSEST, colour_parity, distance_field, tile_grid
 from infill.paths.tiles.two_colours import ALPHA
 
 WIDTH = 0.45
@@ -85,7 +85,7 @@ def test_a_picture_of_a_circle_has_its_radius(tmp_path: Path, name: str) -> None
     image.resize((200, 200), Image.Resampling.BOX).save(tmp_path / name)
     picture = read_drawing(tmp_path / name)
     assert isinstance(picture, Picture)
-    family = drawn(tmp_path / name, width=20)
+    family = read_tile_family(tmp_path / name, width=20)
     (line,) = family.drawing.lines
     assert family.width == pytest.approx(20)
     assert np.abs(np.hypot(*(line - line[:-1].mean(axis=0)).T) - 5).max() < 0.025
@@ -300,7 +300,7 @@ BROKEN = {
 def test_a_broken_file_is_told_in_one_line(tmp_path: Path, kind: str) -> None:
     name, content, said = BROKEN[kind]
     with pytest.raises(FormatError) as caught:
-        drawn(written(tmp_path, content, name))
+        read_tile_family(written(tmp_path, content, name))
     message = str(caught.value)
     assert said in message
     assert "\n" not in message
@@ -365,7 +365,7 @@ def test_pictures_without_a_picture(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     speck[30, 30] = 0
     Image.fromarray(speck).save(path)
     with pytest.raises(FormatError, match="specks"):
-        drawn(path)
+        read_tile_family(path)
     data = path.read_bytes()
     path.write_bytes(data[: len(data) // 2])
     with pytest.raises(FormatError, match="broken"):
@@ -472,7 +472,7 @@ def test_crossings_are_counted() -> None:
 
 @pytest.mark.parametrize("make", [hearts, leaves, splines, scribble], ids=lambda make: make.__name__)
 def test_paths_of_a_drawing_keep_the_contract(folder: Path, make: object) -> None:
-    family = drawn(make(folder))
+    family = read_tile_family(make(folder))
     cell, height = 14.0, 14.0 * (family.tile[3] - family.tile[1]) / family.width
     asked = {"cell": cell, "line_width": WIDTH, "radius": 0.6}
     paths = family.strands((-3, -3, 30, 30), **asked)
@@ -500,7 +500,7 @@ def test_paths_of_a_drawing_keep_the_contract(folder: Path, make: object) -> Non
 @pytest.mark.parametrize("make", [hearts, splines], ids=lambda make: make.__name__)
 def test_the_first_guess_of_the_cell_is_near(folder: Path, make: object) -> None:
     """Smoothing to the radius shortens paths further, which the guess leaves out: a tenth."""
-    family = drawn(make(folder))
+    family = read_tile_family(make(folder))
     cell = family.cell_for(0.15, WIDTH)
     height = cell * (family.tile[3] - family.tile[1]) / family.width
     paths = family.strands((0, 0, cell, height), cell=cell, line_width=WIDTH)
@@ -510,7 +510,7 @@ def test_the_first_guess_of_the_cell_is_near(folder: Path, make: object) -> None
 
 def test_lengths_change_smoothly_with_the_cell(folder: Path) -> None:
     """Between the cells whose fields are computed, 4 % apart, length per area is as 1 / cell, to rounding."""
-    family = drawn(scribble(folder))
+    family = read_tile_family(scribble(folder))
     cells = 1.04 ** np.array([66.6, 67.0, 67.4])
     paths = [family.strands((0, 0, cell, cell), cell=cell, line_width=WIDTH, radius=0.6) for cell in cells]
     lengths = [
@@ -532,7 +532,7 @@ def test_lengths_change_smoothly_with_the_cell(folder: Path) -> None:
 )
 def test_what_is_repeated(folder: Path, body: str, head: str, tile: tuple[float, ...]) -> None:
     """Without a page, a px is a px: 25.4 / 96 mm; y goes up from the first line."""
-    found = np.array(drawn(written(folder, svg(body, head), "some.svg")).tile)
+    found = np.array(read_tile_family(written(folder, svg(body, head), "some.svg")).tile)
     if not head:
         found = found * 96 / 25.4
         found[[1, 3]] = -found[[3, 1]]
@@ -541,7 +541,7 @@ def test_what_is_repeated(folder: Path, body: str, head: str, tile: tuple[float,
 
 def test_beads_have_room(folder: Path) -> None:
     """Wherever lines come close, other paths stay 0.8 line widths away; a hundredth may be nearer, at crossings."""
-    paths = drawn(scribble(folder)).strands((0, 0, 20, 20), cell=18, line_width=WIDTH, radius=0.6)
+    paths = read_tile_family(scribble(folder)).strands((0, 0, 20, 20), cell=18, line_width=WIDTH, radius=0.6)
     lines = as_lines(paths)
     one, other = shapely.STRtree(lines).query(lines, predicate="dwithin", distance=0.8 * WIDTH)
     near = [
@@ -556,7 +556,7 @@ def test_beads_have_room(folder: Path) -> None:
 
 
 def strands(folder: Path, body: str, *, cell: float = 20.0, radius: float = 0.0, **head: str) -> list[np.ndarray]:
-    family = drawn(written(folder, svg(body, **head), "some.svg"))
+    family = read_tile_family(written(folder, svg(body, **head), "some.svg"))
     return family.strands((0.5, 0.5, cell - 0.5, cell - 0.5), cell=cell, line_width=WIDTH, radius=radius)
 
 
@@ -578,7 +578,7 @@ def test_right_angles_get_about_the_radius(folder: Path, radius: float) -> None:
 
 
 def test_the_largest_radius_is_a_tenth_of_the_tile(folder: Path) -> None:
-    family = drawn(written(folder, svg('<rect x="5" y="5" width="10" height="10"/>'), "some.svg"))
+    family = read_tile_family(written(folder, svg('<rect x="5" y="5" width="10" height="10"/>'), "some.svg"))
     cell = 1.04**59  # about 10 mm, and one of those whose fields are computed
     one, other = (
         family.strands((0, 0, 9, 9), cell=cell, line_width=WIDTH, radius=radius)[0]
@@ -596,7 +596,9 @@ def test_parallel_lines_stay_where_they_are(folder: Path) -> None:
 
 def test_a_honeycomb_drawn_once_becomes_touching_waves(folder: Path) -> None:
     """One wall in three is doubled; every path goes on for ever, and doubled walls are 0.905 line widths apart."""
-    family = drawn(written(folder, svg(f'<path d="{HONEYCOMB}"/>', 'viewBox="0 0 18 11.547"'), "honeycomb.svg"))
+    family = read_tile_family(
+        written(folder, svg(f'<path d="{HONEYCOMB}"/>', 'viewBox="0 0 18 11.547"'), "honeycomb.svg")
+    )
     paths = family.strands((0, 0, 36, 23.094), cell=18, line_width=WIDTH)
     assert not any(np.array_equal(path[0], path[-1]) for path in paths)
     length = shapely.length(inside(paths, shapely.box(0, 0, 18, 11.547)))
@@ -618,7 +620,7 @@ def test_a_honeycomb_drawn_once_becomes_touching_waves(folder: Path) -> None:
     ],
 )
 def test_crossings_are_turned_off_at(folder: Path, body: str, loops: bool) -> None:
-    family = drawn(written(folder, svg(body), "some.svg"))
+    family = read_tile_family(written(folder, svg(body), "some.svg"))
     paths = family.strands((0, 0, 40, 40), cell=20, line_width=WIDTH)
     assert crossings(paths) == 0
     assert all(np.array_equal(path[0], path[-1]) == loops for path in paths)
@@ -648,16 +650,18 @@ def test_colours_are_insides(corners: list[tuple[float, float]]) -> None:
     x, y = (grid.first[axis] + grid.spacing[axis] * np.arange(grid.nodes[axis]) for axis in (0, 1))
     points = shapely.points(*np.broadcast_arrays(x[:, None], y[None]))
     exact = shapely.distance(shapely.LineString(ring), points)
-    assert np.abs(distances(edges, grid, 2.0) - np.minimum(exact, 2.0)).max() < 1e-9
+    assert np.abs(distance_field(edges, grid, 2.0) - np.minimum(exact, 2.0)).max() < 1e-9
     polygon = shapely.Polygon(ring)
     if polygon.is_valid:
-        assert (colours(edges, grid) == shapely.contains(polygon, points))[exact > 1e-9].all()
+        assert (colour_parity(edges, grid) == shapely.contains(polygon, points))[exact > 1e-9].all()
 
 
 @pytest.mark.parametrize("cell", [10.0, 40.0, 90.0, 120.0])
 def test_a_tile_is_smoothed_in_seconds(cell: float) -> None:
     """Cells get wider, up to a limit, where a large tile would take long to smooth: with the fourth power of its size."""
-    family = Drawn(name="a", drawing=Drawing(lines=(np.array([[0.0, 0.0], [1.0, 1.0]]),), page=(0.0, 0.0, 1.0, 1.0)))
+    family = DrawnFamily(
+        name="a", drawing=Drawing(lines=(np.array([[0.0, 0.0], [1.0, 1.0]]),), page=(0.0, 0.0, 1.0, 1.0))
+    )
     blur = BLUR_PER_RADIUS * family.largest_radius(cell, 0.45)
     grid = tile_grid((cell, cell), line_width=0.45, blur=blur)
     steps = (blur / max(grid.spacing)) ** 2 / (2 * ALPHA)
@@ -666,18 +670,18 @@ def test_a_tile_is_smoothed_in_seconds(cell: float) -> None:
 
 
 def test_limits_are_told(folder: Path) -> None:
-    family = drawn(hearts(folder))
+    family = read_tile_family(hearts(folder))
     with pytest.raises(GeometryError, match=r"too large .* the limit is \d+ × \d+ mm"):
         family.strands((0, 0, 1, 1), cell=2000, line_width=WIDTH)
     with pytest.raises(GeometryError, match=r"nothing is left of hearts.svg .* make the cell larger"):
         family.strands((0, 0, 1, 1), cell=0.5, line_width=WIDTH)
-    far = drawn(written(folder, svg('<path d="M-50000 0L50000 3"/>'), "far.svg"))
+    far = read_tile_family(written(folder, svg('<path d="M-50000 0L50000 3"/>'), "far.svg"))
     with pytest.raises(GeometryError, match="draw on the page: .* copies of a line"):
         far.strands((0, 0, 1, 1), cell=20, line_width=WIDTH)
     with pytest.raises(ParameterError, match="cell"):
         family.strands((0, 0, 1, 1), cell=math.nan, line_width=WIDTH)
     with pytest.raises(ParameterError, match="width"):
-        drawn(hearts(folder), width=-1)
+        read_tile_family(hearts(folder), width=-1)
 
 
 # --- a part --------------------------------------------------------------------------------------------------
@@ -691,7 +695,7 @@ def test_a_drawing_fills_a_bracket(folder: Path, make: object) -> None:
         [shapely.Point(12, 40).buffer(5), shapely.Point(60, 10).buffer(4), shapely.box(25, 8, 45, 20)]
     )
     region = shapely.difference(outside, bores)
-    family, asked = drawn(make(folder)), {"line_width": WIDTH, "radius": 0.6}
+    family, asked = read_tile_family(make(folder)), {"line_width": WIDTH, "radius": 0.6}
     wanted = 0.2 * region.area / (0.905 * WIDTH)
     solved = solve_cell([(region, 0.2, 0)], family, wanted, **asked)
     paths = cover(region, family, cell=solved.cell, z=0.2, layer=0, **asked)

@@ -11,7 +11,7 @@ import pytest
 from test_command_line import SMALL, one_line_error, run
 
 import infill.making.duration
-from infill.making.duration import ROUGHLY, TRIED, smoothing_seconds, warning_of
+from infill.making.duration import ASSUMED_RATE, TRIAL_STEPS, duration_warning, smoothing_seconds
 from infill.making.settings import MakeSettings, resolve
 
 PER_CELL_AND_STEP = 5e-9  # s, of the machine that the tests pretend to run on
@@ -25,7 +25,7 @@ def tried(monkeypatch: pytest.MonkeyPatch) -> list[tuple[int, ...]]:
 
     def smooth(f: np.ndarray, smoothing: Any) -> None:
         shapes.append(f.shape)
-        assert smoothing.steps == TRIED
+        assert smoothing.steps == TRIAL_STEPS
         clock[0] += f.size * smoothing.steps * PER_CELL_AND_STEP + (1.0 if len(shapes) == 1 else 0.0)
 
     monkeypatch.setattr(infill.making.duration, "smooth", smooth)
@@ -48,16 +48,16 @@ def test_the_time_is_that_of_all_cells_and_steps(size: str, steps: int, tried: l
 
 def test_what_is_short_is_neither_measured_nor_told(tried: list[Any]) -> None:
     for size, steps in (("60", 0), ("60", 10), ("250x210", 100)):
-        assert smoothing_seconds(block(size, steps)) <= block(size, steps).grid.cells * steps * ROUGHLY
-        assert warning_of(block(size, steps)) == ""
+        assert smoothing_seconds(block(size, steps)) <= block(size, steps).grid.cells * steps * ASSUMED_RATE
+        assert duration_warning(block(size, steps)) == ""
     assert tried == []
 
 
 def test_the_warning_says_how_long_and_what_to_do(tried: list[Any]) -> None:
-    assert warning_of(block("60", LONG)) == (
+    assert duration_warning(block("60", LONG)) == (
         "1,000,000,000 steps on 400 x 400 cells take about 9 days here; take fewer steps (10 are usual), or fewer cells"
     )
-    assert "about 2 minutes here" in warning_of(block("60", 150_000))
+    assert "about 2 minutes here" in duration_warning(block("60", 150_000))
 
 
 def test_a_dry_run_tells_what_many_steps_cost(tmp_path: Path) -> None:
@@ -87,4 +87,4 @@ def test_memory_is_told_first(tmp_path: Path) -> None:
 
 
 def test_few_steps_are_not_told_to_be_fewer(tried: list[Any]) -> None:
-    assert warning_of(block("20000", 10)).endswith(" here; take fewer cells")
+    assert duration_warning(block("20000", 10)).endswith(" here; take fewer cells")

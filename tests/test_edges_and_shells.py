@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from infill import check
 from infill.meshes.hole_filling import open_edges
-from infill.meshes.shells import in_batches, shell_volumes, vertex_components, with_faces
+from infill.meshes.shells import select_faces, shell_volumes, split_into_batches, vertex_components
 from infill.surface import Edges, Surface
 
 faces_of = st.lists(st.tuples(*[st.integers(0, 9)] * 3), min_size=1, max_size=20).map(
@@ -122,13 +122,13 @@ def test_check_needs_no_compiler() -> None:
 def test_a_stamp_is_what_a_filter_of_maxima_makes(seed: int, reach: int) -> None:
     from scipy.ndimage import maximum_filter1d
 
-    from infill.voxels.stamping import widened
+    from infill.voxels.stamping import dilate_along
 
     rng = np.random.default_rng(seed)
     marked = rng.random(rng.integers(1, 9, size=3)) < 0.2
     for axis in range(3):
         expected = maximum_filter1d(marked, 2 * reach + 1, axis=axis, mode="constant")
-        assert np.array_equal(widened(marked, axis, reach), expected)
+        assert np.array_equal(dilate_along(marked, axis, reach), expected)
 
 
 def test_distances_from_triangles_are_those_of_trimesh(rng: np.random.Generator) -> None:
@@ -162,17 +162,17 @@ def test_the_volume_of_every_shell_is_that_of_its_mesh() -> None:
 
 def test_batches_hold_every_face_once_and_whole_shells() -> None:
     surface = several()
-    batches = list(in_batches(surface, len(surface.faces) // 3 + 1))
+    batches = list(split_into_batches(surface, len(surface.faces) // 3 + 1))
     assert len(batches) > 1
     assert all(batch.closed for batch in batches)
     corners = np.concatenate([batch.vertices[batch.faces] for batch in batches])
     np.testing.assert_array_equal(corners, surface.vertices[surface.faces])
-    assert list(in_batches(surface, len(surface.faces))) == [surface]
+    assert list(split_into_batches(surface, len(surface.faces))) == [surface]
 
 
 def test_some_faces_keep_their_corners_and_only_these() -> None:
     surface = several()
     kept = np.arange(len(surface.faces)) % 3 == 0
-    some = with_faces(surface, kept)
+    some = select_faces(surface, kept)
     np.testing.assert_array_equal(some.vertices[some.faces], surface.vertices[surface.faces[kept]])
     assert len(np.unique(some.faces)) == len(some.vertices)

@@ -25,8 +25,8 @@ from infill.paths.families.protocol import TOUCH, Family, Path, RegionFamily
 from infill.paths.families.spirals import Spirals
 from infill.paths.families.waves import BOND
 from patterns.cross import SIDE
-from patterns.hilbert import numbers
-from patterns.octagons import NEAR as NEAR_SIDE
+from patterns.hilbert import hilbert_index
+from patterns.octagons import HALF_SIDE as NEAR_SIDE
 
 WIDTH = 0.45
 GAP = TOUCH * WIDTH
@@ -287,7 +287,7 @@ def test_chords_are_as_long_as_the_curve_allows(family: Family) -> None:
 
 def test_hilbert_visits_neighbours_each_once() -> None:
     x, y = (each.ravel() for each in np.meshgrid(np.arange(64), np.arange(64)))
-    number = numbers(x, y)
+    number = hilbert_index(x, y)
     order = np.argsort(number)
     assert (number[order] == np.arange(64 * 64)).all()
     assert (np.abs(np.diff(x[order])) + np.abs(np.diff(y[order])) == 1).all()

@@ -20,16 +20,16 @@ from test_report import FILL, PAGE, described, differences, misfits
 
 from infill import GeometryError, MemoryLimitError, ParameterError, Surface, UsageError, fill, read_mesh
 from infill.interior.opening import Opening
-from infill.interior.root_finding import root
+from infill.interior.root_finding import find_root
 from infill.lattices import quality_checks as telling
-from infill.lattices.choosing import voids_of
-from infill.lattices.grading import NONE
-from infill.lattices.hollowing import hollowed
-from infill.lattices.quality_checks import least_wall, outside
-from infill.lattices.request import checked
-from infill.meshes.distance import Tree
-from infill.meshes.solids import FINE, in_one_place, shortened, solid_of, status
-from infill.meshes.winding import winding
+from infill.lattices.choosing import choose_voids
+from infill.lattices.grading import UNIFORM_WIDTH
+from infill.lattices.hollowing import make_void_meshes
+from infill.lattices.quality_checks import count_outside, measure_least_wall
+from infill.lattices.request import check_request
+from infill.meshes.distance import TriangleTree
+from infill.meshes.solids import FINE, coincident_vertices, manifold_status, simplify_solid, to_manifold
+from infill.meshes.winding import winding_numbers
 from infill.report_keys import FillReport
 from infill.result import Clock
 from patterns import PATTERNS
@@ -74,21 +74,21 @@ def test_a_filled_part_is_the_part_without_voids_that_keep_their_distance(patter
     assert len(solid.faces) == len(part.faces) + len(voids.faces) == report["triangles"]
     # A solid, with the density asked for.
     assert solid.closed
-    assert status(solid) == FINE
+    assert manifold_status(solid) == FINE
     assert solid.volume == pytest.approx(part.volume - voids.volume)
     assert report["density"] == pytest.approx(0.25, abs=0.005)
     assert report["voids"]["count"] == len(report["voids"]["closed"])  # all of which are closed, as there is no drain
     # The density again, by points: those at least a wall below the skin that lie in no void.
     points = np.random.default_rng(1).uniform(*part.bounds, (24000, 3))
-    away = np.where(winding(points, surface(part)) > 0, Tree.of(surface(part)).nearest(points)[0], 0.0)
+    away = np.where(winding_numbers(points, surface(part)) > 0, TriangleTree.of(surface(part)).nearest(points)[0], 0.0)
     deep = points[away > 1.2]
     assert len(deep) > 3000
-    assert np.mean(winding(deep, voids) == 0) == pytest.approx(0.25, abs=0.025)  # three times what chance does
+    assert np.mean(winding_numbers(deep, voids) == 0) == pytest.approx(0.25, abs=0.025)  # three times what chance does
     # The wall, from both sides.
-    assert least_wall(surface(part), [voids], 2)[0] >= 0.9 * 1.2
+    assert measure_least_wall(surface(part), [voids], 2)[0] >= 0.9 * 1.2
     skin = trimesh.sample.sample_surface(part, 5000, seed=2)[0]
-    assert Tree.of(voids).nearest(skin)[0].min() >= 0.9 * 1.2
-    assert not winding(points[(away > 0) & (away < 0.9 * 1.2)][:2000], voids).any()
+    assert TriangleTree.of(voids).nearest(skin)[0].min() >= 0.9 * 1.2
+    assert not winding_numbers(points[(away > 0) & (away < 0.9 * 1.2)][:2000], voids).any()
 
 
 @pytest.mark.parametrize("name", CELLULAR)
@@ -133,7 +133,7 @@ def test_distances_to_a_surface_are_those_to_its_mesh(name: str) -> None:
     corners, faces, _, _ = marching_cubes(pattern.value(x, y, z), 0.0, spacing=(line[1] - line[0],) * 3)
     mesh = Surface(vertices=corners.astype(np.float64) - 0.25, faces=faces)
     points = np.random.default_rng(3).random((3000, 3))
-    exact, _ = Tree.of(mesh).nearest(points)
+    exact, _ = TriangleTree.of(mesh).nearest(points)
     found = pattern.distance(points)
     off = np.abs(np.abs(found) - exact)
     near = exact < 0.06  # as thick as walls are, at least
@@ -327,7 +327,7 @@ def test_a_network_hangs_together_from_its_lowest_density_on(name: str) -> None:
 
 
 def test_the_edges_of_foam_are_as_far_from_three_seeds_as_from_no_other() -> None:
-    from patterns.foam import evened, voronoi_edges
+    from patterns.foam import voronoi_centroids, voronoi_edges
 
     period = 3
     seeds = np.random.default_rng(8).random((27, 3)) * period
@@ -343,7 +343,7 @@ def test_the_edges_of_foam_are_as_far_from_three_seeds_as_from_no_other() -> Non
         # Four edges end at every vertex, and a torus has as many vertices and faces as edges and cells.
         ends = np.round(edges.reshape(-1, 3) % period, 6) % period
         assert (np.unique(ends, axis=0, return_counts=True)[1] == 4).all()
-        seeds = evened(seeds, period)
+        seeds = voronoi_centroids(seeds, period)
 
 
 def test_foam_of_another_seed_is_another() -> None:
@@ -377,7 +377,7 @@ def test_kernels_are_their_definitions() -> None:
     pattern = CELLULAR["kelvin"]
     assert isinstance(pattern, Bars)
     binned, out = pattern.around_cell(), np.empty_like(depth)
-    filled = from_bars(depth, -1.0, *binned, turn, start, period, half, *NONE, out, 0, 1)
+    filled = from_bars(depth, -1.0, *binned, turn, start, period, half, *UNIFORM_WIDTH, out, 0, 1)
     exact = to_edges((places % 1).reshape(-1, 3), binned.edges).reshape(depth.shape) * period - half
     wanted = np.where(depth <= -1, depth, np.minimum(exact, depth))
     assert out == pytest.approx(wanted, abs=1e-5)
@@ -387,7 +387,7 @@ def test_kernels_are_their_definitions() -> None:
     from scipy.ndimage import map_coordinates
 
     for sign in (1.0, -1.0):
-        from_period(depth, -1.0, table, turn, start, period, sign, half, *NONE, out, 0, 1)
+        from_period(depth, -1.0, table, turn, start, period, sign, half, *UNIFORM_WIDTH, out, 0, 1)
         there = map_coordinates(table, (places % 1 * 4).reshape(-1, 3).T, order=1, mode="grid-wrap")
         exact = sign * there.reshape(depth.shape) * period - half
         assert out == pytest.approx(np.where(depth <= -1, depth, np.minimum(exact, depth)), abs=1e-4)
@@ -397,7 +397,7 @@ def test_kernels_are_their_definitions() -> None:
     slopes, first = normals @ turn / period, normals @ start / period + offsets
     apart = period / np.linalg.norm(normals, axis=1)
     for which in range(crossing.classes):
-        from_planes(depth, -1.0, slopes, first, apart, which, half, *NONE, out, 0, 1)
+        from_planes(depth, -1.0, slopes, first, apart, which, half, *UNIFORM_WIDTH, out, 0, 1)
         exact = crossing.depth(places.reshape(-1, 3), which).reshape(depth.shape) * period - half
         assert out == pytest.approx(np.where(depth <= -1, depth, np.minimum(exact, depth)), abs=1e-4)
     solids = CELLULAR["honeycomb-3d"]
@@ -405,11 +405,11 @@ def test_kernels_are_their_definitions() -> None:
     (normals, halves), (sides, middles) = solids.faces(), solids.lattice()
     for which in range(solids.classes):
         placed = (normals, halves * period, sides * period, middles[which] * period)
-        from_polyhedra(depth, -1.0, turn, start, *placed, half, *NONE, out, 0, 1)
+        from_polyhedra(depth, -1.0, turn, start, *placed, half, *UNIFORM_WIDTH, out, 0, 1)
         exact = solids.depth(places.reshape(-1, 3), which).reshape(depth.shape) * period - half
         assert out == pytest.approx(np.where(depth <= -1, depth, np.minimum(exact, depth)), abs=1e-4)
     plane = rng.uniform(-2, 2, (5, 6)).astype(np.float32)
-    from_plane(depth, plane, 0.0, *NONE, out, 0, 1)
+    from_plane(depth, plane, 0.0, *UNIFORM_WIDTH, out, 0, 1)
     assert (out == np.minimum(plane[:, :, None], depth)).all()
     # Walls that are wider from place to place: nodes 2.5 cells apart, straight in between.
     ratio = rng.uniform(0.5, 2, (3, 4, 4)).astype(np.float32)
@@ -436,8 +436,8 @@ def test_kernels_are_their_definitions() -> None:
 
 
 def test_a_root_is_found_where_there_are_jumps() -> None:
-    assert root(lambda times: np.log(times**2 / 5), 1e-9, 30) == pytest.approx(5**0.5)
-    stairs = root(lambda times: np.log(np.ceil(20 * times) / 57), 0.02, 30)
+    assert find_root(lambda times: np.log(times**2 / 5), 1e-9, 30) == pytest.approx(5**0.5)
+    stairs = find_root(lambda times: np.log(np.ceil(20 * times) / 57), 0.02, 30)
     assert np.ceil(20 * stairs) == pytest.approx(57, abs=1)
 
 
@@ -480,7 +480,7 @@ def test_a_cavity_keeps_its_wall() -> None:
     part = less(box(24, 24, 24), ball(5))
     result = fill(part, "gyroid", **FEW)
     assert result.report["problems"] == []
-    assert Tree.of(result.stages.voids).nearest(ball(5).vertices)[0].min() >= 0.9 * 1.5
+    assert TriangleTree.of(result.stages.voids).nearest(ball(5).vertices)[0].min() >= 0.9 * 1.5
 
 
 def test_what_overlaps_is_united_and_what_touches_is_not() -> None:
@@ -575,7 +575,7 @@ def test_the_infill_alone_reaches_into_the_wall(form: str) -> None:
     given = {"cell": 6.0, "line_width": 0.8, "wall": 1.5, "voxel": 0.3, "tolerance": 0}
     result = fill(block, "gyroid", as_=form, overlap=0.4, **given)
     assert list(result.surfaces) == [form]
-    assert status(result.surface) == FINE
+    assert manifold_status(result.surface) == FINE
     lower, upper = result.surface.bounds
     if form == "infill":
         assert (upper - lower) / 2 == pytest.approx(np.array([10, 10, 6]) - 1.5 + 0.4, abs=0.03)
@@ -600,13 +600,13 @@ def test_every_void_drains_or_is_listed(pattern: str, part: trimesh.Trimesh) -> 
     assert report["voids"]["closed"] == []
     assert {hole["void"] for hole in report["drains"]["holes"]} == set(range(report["voids"]["count"]))
     assert solid.closed
-    assert status(solid) == FINE
+    assert manifold_status(solid) == FINE
     assert len(solid.to_trimesh().split(only_watertight=False)) == 1  # one surface, inside and out
     # A line through each drain meets no solid from the void to where it leaves the part.
     for x, y, z in report["drains"]["at"]:
         line = np.array([[x, y, z + step] for step in np.linspace(-0.5, 0.5, 9)])
-        assert (winding(line, solid) == 0).all()
-    assert Tree.of(surface(part)).nearest(np.array(report["drains"]["at"]))[0].max() < 1e-6
+        assert (winding_numbers(line, solid) == 0).all()
+    assert TriangleTree.of(surface(part)).nearest(np.array(report["drains"]["at"]))[0].max() < 1e-6
 
 
 def test_a_void_that_stays_closed_is_told() -> None:
@@ -640,16 +640,16 @@ def test_equal_bodies_are_filled_alike(pattern: str) -> None:
     two = trimesh.util.concatenate([each for each, x in zip(voids, in_x, strict=True) if x > 11])
     assert two.volume == pytest.approx(one.volume, rel=1e-3)
     moved = surface(two.apply_translation((-20, -3.5, 0)))
-    assert Tree.of(surface(one)).nearest(moved.vertices)[0].max() < 0.05
+    assert TriangleTree.of(surface(one)).nearest(moved.vertices)[0].max() < 0.05
     # As if it were the only one.
-    assert Tree.of(alone).nearest(np.asarray(one.vertices))[0].max() < 0.05
+    assert TriangleTree.of(alone).nearest(np.asarray(one.vertices))[0].max() < 0.05
     apart = (
         fill(together(*shapes), pattern, smooth_radius=0, **given)
         .stages.voids.to_trimesh()
         .split(only_watertight=False)
     )
     other = trimesh.util.concatenate([each for each in apart if each.bounds.mean(axis=0)[0] > 11])
-    assert Tree.of(surface(other)).nearest(moved.vertices + np.array([20, 3.5, 0]))[0].max() > 0.5
+    assert TriangleTree.of(surface(other)).nearest(moved.vertices + np.array([20, 3.5, 0]))[0].max() > 0.5
 
 
 @pytest.mark.parametrize("more", [{"density": (0.2, 0.4), "by": "x"}, {"as_": "project"}, {"open_": "top"}])
@@ -692,7 +692,7 @@ def test_an_open_part_is_one_solid_with_its_own_skin_but_for_the_side(pattern: s
     result = fill(STEPPED, pattern, density=0.25, open_=open_)
     solid, report, opening = result.surface, result.report, result.stages.opening
     assert report["problems"] == []
-    assert (solid.closed, status(solid)) == (True, FINE)
+    assert (solid.closed, manifold_status(solid)) == (True, FINE)
     # One piece, and what else there is are voids.
     shells = solid.to_trimesh().split(only_watertight=False)
     assert sum(each.volume > 0 for each in shells) == 1
@@ -703,21 +703,21 @@ def test_an_open_part_is_one_solid_with_its_own_skin_but_for_the_side(pattern: s
     assert corners.issuperset(map(tuple, STEPPED.vertices.tolist()))
     assert opening is not None
     skin = trimesh.sample.sample_surface(opening.shell.to_trimesh(), 3000, seed=2)[0]
-    assert Tree.of(solid).nearest(skin)[0].max() < 1e-9
-    assert Tree.of(result.stages.voids).nearest(skin)[0].min() >= 0.9 * 1.2
+    assert TriangleTree.of(solid).nearest(skin)[0].max() < 1e-9
+    assert TriangleTree.of(result.stages.voids).nearest(skin)[0].min() >= 0.9 * 1.2
     assert report["bounds"] == pytest.approx(STEPPED.bounds)
     # Walls and density, by points: the wall is solid, and the density is that of what lies deeper, up to the very side.
     points = np.random.default_rng(1).uniform(*STEPPED.bounds, (30000, 3))
-    points = points[winding(points, surface(STEPPED)) > 0]
-    away = Tree.of(opening.shell).nearest(points)[0]
-    assert winding(points[away < 0.9 * 1.2], solid).all()
+    points = points[winding_numbers(points, surface(STEPPED)) > 0]
+    away = TriangleTree.of(opening.shell).nearest(points)[0]
+    assert winding_numbers(points[away < 0.9 * 1.2], solid).all()
     deep = points[away > 1.2]
     assert len(deep) > 5000
-    assert np.mean(winding(deep, solid) > 0) == pytest.approx(0.25, abs=0.02)  # three times what chance does
+    assert np.mean(winding_numbers(deep, solid) > 0) == pytest.approx(0.25, abs=0.02)  # three times what chance does
     ends = [end for end in (opening.low, opening.high) if np.isfinite(end)]
     for end in ends:
         near = deep[np.abs(deep[:, 2] - end) < 0.6]
-        assert np.mean(winding(near, solid) > 0) < 0.7  # no skin
+        assert np.mean(winding_numbers(near, solid) > 0) < 0.7  # no skin
     assert result.surface.volume == pytest.approx(STEPPED.volume - report["voids"]["volume"], rel=1e-3)
     assert report["density"] == pytest.approx(1 - report["voids"]["volume"] / report["part"]["inside"])
 
@@ -725,9 +725,9 @@ def test_an_open_part_is_one_solid_with_its_own_skin_but_for_the_side(pattern: s
 def test_an_open_part_stays_closed_in_a_file(tmp_path: Path) -> None:
     for pattern in ("honeycomb", "gyroid", "triangles"):
         result = fill(STEPPED, pattern, open_="both", **FEW)
-        assert not in_one_place(result.surface).any()
+        assert not coincident_vertices(result.surface).any()
         result.save(tmp_path / f"{pattern}.stl")
-        assert status(read_mesh(tmp_path / f"{pattern}.stl")) == FINE
+        assert manifold_status(read_mesh(tmp_path / f"{pattern}.stl")) == FINE
 
 
 def test_what_hung_on_what_is_cut_off_is_left_out() -> None:
@@ -765,7 +765,7 @@ def test_a_part_lower_than_two_walls_may_be_open() -> None:
 def test_the_infill_alone_reaches_an_open_side(open_: str) -> None:
     given = {"cell": 6.0, "line_width": 0.8, "wall": 1.5, "voxel": 0.3, "tolerance": 0, "overlap": 0.4}
     result = fill(box(20, 20, 12), "gyroid", as_="infill", open_=open_, **given)
-    assert (result.surface.closed, status(result.surface)) == (True, FINE)
+    assert (result.surface.closed, manifold_status(result.surface)) == (True, FINE)
     assert result.report["problems"] == []
     assert result.surface.bounds[1] == pytest.approx(np.array([8.9, 8.9, 6]), abs=0.03)
     assert result.surface.bounds[0] == pytest.approx(np.array([-8.9, -8.9, -6 if open_ == "both" else -4.9]), abs=0.03)
@@ -778,12 +778,12 @@ def test_a_density_that_changes_ends_at_an_open_side(by: str) -> None:
     points = np.random.default_rng(1).uniform(-9, 9, (20000, 3)) + np.array([0, 0, 1])
     top = points[points[:, 2] > 8.5]
     # At the very top it is the last density by height; by the depth below the skin it is what it is further down.
-    solid = np.mean(winding(top, result.surface) > 0)
+    solid = np.mean(winding_numbers(top, result.surface) > 0)
     if by == "z":
         assert solid == pytest.approx(0.34, abs=0.05)
     else:
         middle = points[np.abs(points[:, 2] - 2) < 3]
-        assert solid == pytest.approx(np.mean(winding(middle, result.surface) > 0), abs=0.05)
+        assert solid == pytest.approx(np.mean(winding_numbers(middle, result.surface) > 0), abs=0.05)
 
 
 def test_a_side_that_cannot_be_open_is_one_clear_line(tmp_path: Path) -> None:
@@ -814,7 +814,7 @@ def test_a_side_that_cannot_be_open_is_one_clear_line(tmp_path: Path) -> None:
 
 def test_volumes_between_open_sides_are_those_of_cut_solids() -> None:
     mesh = turned(union(box(9, 7, 8), ball(5)), np.random.default_rng(2))
-    solid = solid_of(surface(mesh))
+    solid = to_manifold(surface(mesh))
     for low, high in ((-2.0, 3.0), (-np.inf, 1.5), (0.5, np.inf), (-np.inf, 0.0)):
         opening = Opening(name="both", low=low, high=high, shell=surface(mesh))
         cut = solid.trim_by_plane((0, 0, 1), max(low, -99.0)).trim_by_plane((0, 0, -1), -min(high, 99.0))
@@ -828,17 +828,17 @@ def test_a_thin_wall_and_a_void_outside_are_found(monkeypatch: pytest.MonkeyPatc
     """Planted: voids that are moved towards the skin, and through it."""
     part = surface(box(20, 20, 20))
     voids = fill(part, "gyroid", **FEW).stages.voids
-    assert least_wall(part, [voids], 1)[0] >= 0.9 * 1.5
+    assert measure_least_wall(part, [voids], 1)[0] >= 0.9 * 1.5
     nearer = replace(voids, vertices=voids.vertices + np.array([1.0, 0, 0]))
-    least, at = least_wall(part, [nearer], 1)
+    least, at = measure_least_wall(part, [nearer], 1)
     assert 0.3 < least < 0.6
     assert at[0] == pytest.approx(10 - least, abs=0.01)
     points = np.concatenate([nearer.vertices, nearer.vertices[nearer.faces].mean(axis=1)])
-    assert least == pytest.approx(Tree.of(part).nearest(points)[0].min(), rel=1e-12)
+    assert least == pytest.approx(TriangleTree.of(part).nearest(points)[0].min(), rel=1e-12)
     monkeypatch.setattr(telling, "AT_ONCE", 700)
-    assert least_wall(part, [nearer], 1)[0] == least
-    assert outside(part, [voids], 1) == 0
-    assert outside(part, [replace(voids, vertices=voids.vertices + np.array([40.0, 0, 0]))], 1) > 0
+    assert measure_least_wall(part, [nearer], 1)[0] == least
+    assert count_outside(part, [voids], 1) == 0
+    assert count_outside(part, [replace(voids, vertices=voids.vertices + np.array([40.0, 0, 0]))], 1) > 0
 
 
 @pytest.mark.parametrize(
@@ -896,7 +896,7 @@ def test_files_that_are_broken_are_filled_or_one_clear_line(data: Path, tmp_path
         else:
             report = json.loads(done.stdout)
             assert (report["mesh"]["manifold"], report["density"]) == (FINE, pytest.approx(0.2, abs=0.005))
-            assert status(read_mesh(out)) == FINE
+            assert manifold_status(read_mesh(out)) == FINE
 
 
 def test_a_sheet_is_no_part() -> None:
@@ -930,18 +930,18 @@ def test_triangles_are_no_more_than_asked_for(part: trimesh.Trimesh) -> None:
 def test_simplified_voids_stay_closed_in_single_precision(part: trimesh.Trimesh) -> None:
     """Files of most formats have no more: two vertices in one place would be one, and an edge between two such, four."""
     voids = fill(part, BAR, density=0.25, tolerance=0).stages.voids
-    assert not in_one_place(voids).any()
+    assert not coincident_vertices(voids).any()
     for tolerance in np.linspace(0.01, 0.1, 10):
-        few = shortened(voids, tolerance)
-        assert not in_one_place(few).any()
+        few = simplify_solid(voids, tolerance)
+        assert not coincident_vertices(few).any()
         assert few.closed
     assert len(few.faces) < 0.6 * len(voids.faces)
     twice = replace(voids, vertices=np.concatenate([voids.vertices, voids.vertices[:1] + 1e-9]))
-    assert in_one_place(twice).sum() == 2
+    assert coincident_vertices(twice).sum() == 2
 
 
 def test_a_hollow_knows_its_density() -> None:
-    request = checked(
+    request = check_request(
         pattern="gyroid",
         own={},
         drain=None,
@@ -962,7 +962,7 @@ def test_a_hollow_knows_its_density() -> None:
         max_triangles=None,
     )
     block = surface(box(16, 16, 16))
-    hollow = hollowed(block, request, voids_of(request, block.bounds, 1), clock=Clock(None))
+    hollow = make_void_meshes(block, request, choose_voids(request, block.bounds, 1), clock=Clock(None))
     assert hollow.space.volume == pytest.approx(14**3, rel=1e-3)
     assert hollow.density == pytest.approx(0.3, abs=0.002 + 1e-9)
     assert hollow.triangles == len(hollow.surface.faces)

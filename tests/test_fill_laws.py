@@ -16,9 +16,9 @@ from made_shapes import box, union
 
 from infill import Surface, fill
 from infill.lattices.fillets import DEGREES, TIPS
-from infill.lattices.line_sample import faces_between, sized, square
-from infill.meshes.distance import Tree
-from infill.meshes.winding import winding
+from infill.lattices.line_sample import centred_square, faces_between, with_cell
+from infill.meshes.distance import TriangleTree
+from infill.meshes.winding import winding_numbers
 from patterns import PATTERNS, Pattern
 from patterns.cellular import CELLULAR, InSpace
 from patterns.cross import Cross3D
@@ -26,7 +26,7 @@ from patterns.declared import parameter
 from patterns.lightning import Lightning
 from patterns.octree import Octree
 from patterns.polyhedra import Polyhedra
-from patterns.protocol import lines_of
+from patterns.protocol import draw_lines
 from patterns.unit_cells import Bars, Network, Planes, Surfaces
 
 pytestmark = pytest.mark.usefixtures("compiled")
@@ -53,8 +53,8 @@ def far(name: str) -> dict[str, float]:
 
 def farthest(one: Surface, other: Surface) -> float:
     """How far apart two surfaces are, either way, by their vertices, mm."""
-    there = Tree.of(one).nearest(np.asarray(other.vertices, np.float64))[0].max()
-    return float(max(there, Tree.of(other).nearest(np.asarray(one.vertices, np.float64))[0].max()))
+    there = TriangleTree.of(one).nearest(np.asarray(other.vertices, np.float64))[0].max()
+    return float(max(there, TriangleTree.of(other).nearest(np.asarray(one.vertices, np.float64))[0].max()))
 
 
 @pytest.mark.parametrize("name", EVERY)
@@ -80,7 +80,7 @@ def across(voids: Surface, reach: float, inside: float) -> float:
     assert len(points) > 100
     step = reach / 100
     places = points[:, None] + step * (np.arange(1, 101) - 0.5)[:, None] * normals[:, None]
-    hit = (winding(places.reshape(-1, 3), voids) > 0).reshape(len(points), 100)
+    hit = (winding_numbers(places.reshape(-1, 3), voids) > 0).reshape(len(points), 100)
     return float(np.median(np.where(hit.any(axis=1), hit.argmax(axis=1), 100))) * step
 
 
@@ -138,8 +138,8 @@ def test_tips_are_those_of_corners_that_stay_themselves() -> None:
 @hypothesis.given(cell=st.floats(2.0, 9.0), half=st.floats(20, 30))
 def test_no_wall_is_lost_between_voids(name: str, corners: int, cell: float, half: float) -> None:
     """Walls that meet but for rounding, in a pattern of any size: every face between them is as drawn."""
-    region = square(half)
-    lines = shapely.intersection(lines_of(sized(PATTERNS[name](), cell), square(2 * half)), region)
+    region = centred_square(half)
+    lines = shapely.intersection(draw_lines(with_cell(PATTERNS[name](), cell), centred_square(2 * half)), region)
     faces = faces_between(lines, region, cell=cell)
     whole = faces[shapely.distance(faces, region.exterior) > 0.01 * cell]
     assert len(whole) > 8
@@ -173,7 +173,7 @@ def fillets(voids: Surface, part: Surface, radius: float = RADIUS) -> np.ndarray
     bend = ((normals[edges[:, 1]] - normals[edges[:, 0]]) * step).sum(axis=1) / (step**2).sum(axis=1)
     rough = np.full(len(places), -np.inf)
     np.maximum.at(rough, edges[:, 0], bend)
-    far = Tree.of(part).nearest(places)[0] > 1 + 0.8 + 2.5 * radius
+    far = TriangleTree.of(part).nearest(places)[0] > 1 + 0.8 + 2.5 * radius
     round_ = np.flatnonzero(far & (rough > 0.25 / radius))
     round_ = np.random.default_rng(0).permutation(round_)[:3000]
     tree = cKDTree(places)
@@ -337,8 +337,8 @@ def test_lines_and_the_function_that_is_0_on_them_fill_alike(name: str, more: di
     one = fill(PART, lines, cell=cell, **given)
     other = fill(PART, function, cell=10.0, **given)
     assert other.report["density"] == pytest.approx(one.report["density"], abs=0.002)
-    there = Tree.of(one.stages.voids).nearest(np.asarray(other.stages.voids.vertices, np.float64))[0]
-    back = Tree.of(other.stages.voids).nearest(np.asarray(one.stages.voids.vertices, np.float64))[0]
+    there = TriangleTree.of(one.stages.voids).nearest(np.asarray(other.stages.voids.vertices, np.float64))[0]
+    back = TriangleTree.of(other.stages.voids).nearest(np.asarray(one.stages.voids.vertices, np.float64))[0]
     assert max(there.max(), back.max()) < 0.04
 
 

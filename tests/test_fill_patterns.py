@@ -16,8 +16,8 @@ from test_command_line import one_line_error
 from test_command_line import run as command
 
 from infill import FormatError, ParameterError, fill
-from infill.lattices.resolve_pattern import kind_of
-from infill.lattices.tiled import tiled
+from infill.lattices.resolve_pattern import resolve_pattern
+from infill.lattices.tiled import read_tiled
 from patterns import Honeycomb, Pattern, PatternError, parameter
 from patterns.cellular import CELLULAR
 from patterns.linework import clip
@@ -67,7 +67,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def test_a_drawing_is_repeated(folder: Path) -> None:
     """A tile of `cell` by half of it, with a line along each side: 1 / cell + 2 / cell mm of it per mm^2."""
-    pattern = tiled(folder / "cross.svg")
+    pattern = read_tiled(folder / "cross.svg")
     assert pattern.name == "cross.svg"
     assert pattern.height == pytest.approx(0.5)
     for cell, angle in ((8.0, 0.0), (5.0, 33.0)):
@@ -157,7 +157,7 @@ def test_a_pattern_that_cannot_be_turned_says_so() -> None:
 )
 def test_what_is_no_pattern_is_one_clear_line(folder: Path, pattern: str, error: type[Exception], says: str) -> None:
     with pytest.raises(error, match=says):
-        kind_of(pattern)
+        resolve_pattern(pattern)
     result = command("fill", "part.stl", "--pattern", pattern, "-o", "a.stl")
     one_line_error(result, says)
     assert not Path("a.stl").exists()

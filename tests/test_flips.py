@@ -13,18 +13,18 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter, label
 
 from infill import InfillError, Smoothing, Surface, Volume, smooth_volume
-from infill.inspection.bricks import verdict, verdict_by_flips
-from infill.inspection.fidelity import fidelity
-from infill.inspection.sign_changes import Flips, near_each_other
+from infill.inspection.bricks import check_topology, check_topology_by_signs
+from infill.inspection.fidelity import measure_fidelity
+from infill.inspection.sign_changes import SignChanges, are_surfaces_near
 from infill.isosurfaces.components import data_bits
 from infill.kernels.flips import simple
 from infill.phasefield.sparse import smooth_bricks
-from infill.smoothing.levelling import levelled
-from infill.smoothing.placing import placed, raw_surface
-from infill.smoothing.request import Given, Request
+from infill.smoothing.levelling import extract_surface
+from infill.smoothing.placing import place_surface, raw_surface
+from infill.smoothing.request import SmoothInput, SmoothRequest
 from infill.smoothing.sources import read_source
 from infill.voxels.from_mesh import voxelise
-from infill.voxels.segmentation import threshold
+from infill.voxels.segmentation import segment_volume
 
 FIELDS = 200
 TOP = 32  # the last layer that is left of the knob
@@ -50,15 +50,15 @@ def random_field(seed: int) -> tuple[Volume, Smoothing, float | str]:
     )
 
 
-def compared(given: Given, request: Request) -> tuple[bool, bool]:
+def compared(given: SmoothInput, request: SmoothRequest) -> tuple[bool, bool]:
     """Check both forms against each other; return whether the cells that flipped decided each."""
     data, spacing = given.data, tuple(given.data.cell_size.tolist())
     field = smooth_bricks(data.values, request.smoothing, spacing=spacing)
-    surfaced = levelled(field, given, request)
+    surfaced = extract_surface(field, given, request)
     found = surfaced.found
-    flips = Flips.of(found.against, surfaced.before.bits, found.height)
-    whole = verdict(found, surfaced.before, spacing=spacing, blur=request.smoothing.blur, levels=surfaced.levels)
-    part = verdict_by_flips(found, surfaced.before, flips, levels=surfaced.levels)
+    flips = SignChanges.of(found.against, surfaced.before.bits, found.height)
+    whole = check_topology(found, surfaced.before, spacing=spacing, blur=request.smoothing.blur, levels=surfaced.levels)
+    part = check_topology_by_signs(found, surfaced.before, flips, levels=surfaced.levels)
     if part is not None:
         assert (part.data, part.result, part.changes, part.problems) == (
             whole.data,
@@ -67,9 +67,11 @@ def compared(given: Given, request: Request) -> tuple[bool, bool]:
             whole.problems,
         )
         assert part.lost == whole.lost == ()
-    near = near_each_other(flips, spacing=spacing)
+    near = are_surfaces_near(flips, spacing=spacing)
     if near:
-        measured = fidelity(raw_surface(field, data, None), placed(found.surface, data), cell=max(spacing))
+        measured = measure_fidelity(
+            raw_surface(field, data, None), place_surface(found.surface, data), cell=max(spacing)
+        )
         assert measured.word == "kept"
         assert measured.phrases == ()
         assert max(measured.there.max, measured.back.max) <= 1.25 * max(spacing)
@@ -82,7 +84,9 @@ def test_both_forms_agree_on_random_fields() -> None:
         volume, smoothing, level = random_field(seed)
         try:
             decided.append(
-                compared(Given(data=volume, facts={}), Request(smoothing=smoothing, level=level, method="plain"))
+                compared(
+                    SmoothInput(data=volume, facts={}), SmoothRequest(smoothing=smoothing, level=level, method="plain")
+                )
             )
         except InfillError:  # nothing is left, or nothing was there
             continue
@@ -126,8 +130,8 @@ def test_a_loss_that_is_planted_is_not_passed_over() -> None:
     beyond = field.where[:, 2, None] * 16 + np.arange(16) > TOP + 1  # the lattice begins one cell before the grid
     values = np.where(beyond[:, None, None, :], np.float32(-1), field.values)
     for cut, near in ((field, True), (replace(field, values=values), False)):
-        flips = Flips.of(cut, data_bits(cut), 0.0)
-        assert near_each_other(flips, spacing=(1.0, 1.0, 1.0)) == near
+        flips = SignChanges.of(cut, data_bits(cut), 0.0)
+        assert are_surfaces_near(flips, spacing=(1.0, 1.0, 1.0)) == near
         assert (len(flips.places) > 100) != near
 
 
@@ -151,14 +155,14 @@ def test_both_forms_agree_on_real_files(data: Path) -> None:
                 solid = voxelise(source, resolution=COARSE)
             elif isinstance(source, Volume):
                 step = max(1, max(source.values.shape) // COARSE)
-                solid, _ = threshold(replace(source, values=source.values[::step, ::step, ::step]), otsu=True)
+                solid, _ = segment_volume(replace(source, values=source.values[::step, ::step, ::step]), otsu=True)
             else:
                 continue
         except InfillError:
             continue
         for steps in (2, 8):
-            request = Request(smoothing=Smoothing(steps=steps), method="plain")
-            decided.append(compared(Given(data=solid, facts={}), request))
+            request = SmoothRequest(smoothing=Smoothing(steps=steps), method="plain")
+            decided.append(compared(SmoothInput(data=solid, facts={}), request))
     assert len(decided) > 40
     assert any(alike for alike, _ in decided)
     assert any(near for _, near in decided)
@@ -181,7 +185,7 @@ def test_what_is_near_need_not_be_measured(moved: float) -> None:
     given = Surface(vertices=ball.vertices, faces=ball.faces)
     dent = np.where(ball.vertices[:, 2:] > 8, moved, 0.3) * [0.0, 0.0, -1.0]
     result = Surface(vertices=ball.vertices + dent, faces=ball.faces)
-    exact, rough = (fidelity(given, result, cell=1.0, exact=each) for each in (True, False))
+    exact, rough = (measure_fidelity(given, result, cell=1.0, exact=each) for each in (True, False))
     assert (rough.word, rough.phrases, rough.lost, rough.added) == (exact.word, exact.phrases, exact.lost, exact.added)
     assert (rough.thin, rough.sheet, rough.hidden) == (exact.thin, exact.sheet, exact.hidden)
     assert (exact.exact, rough.exact) == (True, False)

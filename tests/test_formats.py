@@ -18,7 +18,7 @@ import trimesh
 from shapes import assert_printable, smooth_noise
 
 from infill import FormatError, OutputError, Surface, isosurface, make, read_mesh, save
-from infill.files.whole_files import check_target, whole_file, whole_files
+from infill.files.whole_files import atomic_file, atomic_files, check_target
 from infill.formats import stl
 from infill.formats.mesh_files import READERS, WRITERS
 
@@ -81,7 +81,7 @@ def test_the_old_file_stays_until_the_new_one_is_whole(
 
 
 def test_an_interrupted_file_leaves_nothing(tmp_path: Path) -> None:
-    with pytest.raises(KeyboardInterrupt), whole_file(tmp_path / "x.stl") as file:
+    with pytest.raises(KeyboardInterrupt), atomic_file(tmp_path / "x.stl") as file:
         file.write(b"half")
         raise KeyboardInterrupt
     assert list(tmp_path.iterdir()) == []
@@ -91,7 +91,7 @@ def test_an_interrupted_file_leaves_nothing(tmp_path: Path) -> None:
 def test_files_of_one_run_take_their_places_together(
     error: BaseException, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """As `whole_files` promises: if anything fails, an interrupt included, all paths are as they were."""
+    """As `atomic_files` promises: if anything fails, an interrupt included, all paths are as they were."""
     paths = [tmp_path / "a.stl", tmp_path / "b.stl"]
     paths[0].write_text("precious")
     replace, calls = os.replace, []
@@ -103,7 +103,7 @@ def test_files_of_one_run_take_their_places_together(
         replace(one, other)
 
     monkeypatch.setattr(os, "replace", second_fails)
-    with pytest.raises((OutputError, KeyboardInterrupt)), whole_files(paths) as files:
+    with pytest.raises((OutputError, KeyboardInterrupt)), atomic_files(paths) as files:
         for file in files:
             file.write(b"new")
     assert paths[0].read_text() == "precious"
@@ -123,7 +123,7 @@ def test_files_that_take_their_places_leave_nothing_behind(
 
     if not linked:
         monkeypatch.setattr(os, "link", refused)
-    with whole_files(paths) as files:
+    with atomic_files(paths) as files:
         for file in files:
             file.write(b"new")
     assert [path.read_bytes() for path in paths] == [b"new"] * 2
@@ -135,7 +135,7 @@ def test_files_that_take_their_places_leave_nothing_behind(
 
     monkeypatch.setattr(os, "link", refused)
     monkeypatch.setattr(shutil, "copy2", full)
-    with pytest.raises(OutputError, match="disk is full"), whole_files(paths) as files:
+    with pytest.raises(OutputError, match="disk is full"), atomic_files(paths) as files:
         for file in files:
             file.write(b"newer")
     assert [path.read_bytes() for path in paths] == [b"new"] * 2
@@ -143,17 +143,17 @@ def test_files_that_take_their_places_leave_nothing_behind(
 
 
 def test_other_errors_are_told_by_the_system(tmp_path: Path) -> None:
-    with pytest.raises(OutputError, match="cannot write .*: Input/output error"), whole_file(tmp_path / "x") as file:
+    with pytest.raises(OutputError, match="cannot write .*: Input/output error"), atomic_file(tmp_path / "x") as file:
         file.write(b"x")
         raise OSError(errno.EIO, "Input/output error")
-    with pytest.raises(OutputError, match="No such file"), whole_file(tmp_path / "missing" / "x"):
+    with pytest.raises(OutputError, match="No such file"), atomic_file(tmp_path / "missing" / "x"):
         pass
     assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.skipif(not Path("/dev/null").exists(), reason="no /dev/null on this system")
 def test_a_device_is_written_to_in_place(block: trimesh.Trimesh) -> None:
-    with whole_file("/dev/null") as file:
+    with atomic_file("/dev/null") as file:
         file.write(b"x")
     assert Path("/dev/null").is_char_device()
 

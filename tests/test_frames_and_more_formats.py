@@ -18,7 +18,7 @@ import pytest
 from infill.errors import FormatError, MemoryLimitError, ParameterError
 from infill.imaging.volume_files import read_volume
 from infill.volume import Volume
-from infill.voxels.cropping import cropped, part
+from infill.voxels.cropping import crop, cut_cells
 
 SHAPE = (5, 6, 7)
 SPACING = (0.5, 0.7, 2.0)
@@ -502,7 +502,7 @@ def test_the_only_frame_needs_no_choice_and_others_are_not_there(sitk: Any, tmp_
 
 def test_a_part_keeps_every_cell_in_its_place() -> None:
     volume = Volume(values=NUMBERS, spacing=SPACING, origin=ORIGIN, direction=turn(), space="LPS")
-    some = part(volume, (1, 0, 2), (4, 6, 7))
+    some = cut_cells(volume, (1, 0, 2), (4, 6, 7))
     assert some.values.base is not None
     assert centre(some, (2, 3, 1)) == pytest.approx(centre(volume, (3, 3, 3)))
     assert some.values[2, 3, 1] == NUMBERS[3, 3, 3]
@@ -522,7 +522,7 @@ def test_a_box_takes_the_cells_with_their_centre_in_it(
         inside = ((centres > ends[0]) & (centres < ends[1])).all(axis=1)
         if inside.sum() < 2:
             continue
-        kept = cropped(volume, tuple(ends.T.ravel().tolist()))
+        kept = crop(volume, tuple(ends.T.ravel().tolist()))
         assert sorted(kept.values.ravel()) == sorted(NUMBERS.ravel()[inside])
         cell = (0,) * 3
         assert centre(kept, cell) == pytest.approx(centres[NUMBERS.ravel() == kept.values[cell]][0])
@@ -531,7 +531,7 @@ def test_a_box_takes_the_cells_with_their_centre_in_it(
 def test_a_box_in_a_turned_grid_is_held_and_told(caplog: pytest.LogCaptureFixture) -> None:
     volume = Volume(values=np.arange(40**3).reshape((40,) * 3), direction=turn())
     middle = volume.place(np.array([[20.0, 20, 20]]))[0]
-    kept = cropped(volume, tuple(np.stack([middle - 5, middle + 5], axis=1).ravel().tolist()))
+    kept = crop(volume, tuple(np.stack([middle - 5, middle + 5], axis=1).ravel().tolist()))
     assert all(10 <= count <= 20 for count in kept.values.shape)
     assert "turned by" in caplog.text
 
@@ -550,5 +550,5 @@ def test_a_box_in_a_turned_grid_is_held_and_told(caplog: pytest.LogCaptureFixtur
 )
 def test_a_box_that_cannot_be(roi: tuple[float, ...], says: str) -> None:
     with pytest.raises(ParameterError, match=says) as caught:
-        cropped(Volume(values=NUMBERS), roi)
+        crop(Volume(values=NUMBERS), roi)
     assert "\n" not in str(caught.value)

@@ -16,11 +16,11 @@ from hypothesis import strategies as st
 from infill import FormatError
 from infill.gcode import stream
 from infill.gcode.lines import ARC, BLANK, COMMENT, MOVE, ODD, OTHER
-from infill.gcode.numbers import MOST_DIGITS, WORD, long_numbers, read_numbers, short_numbers, write_words
-from infill.gcode.sections import Marks, Strokes, Tags, marked, strokes
+from infill.gcode.numbers import MAX_DIGITS, WORD, long_numbers, read_numbers, short_numbers, write_words
+from infill.gcode.sections import InfillStrokes, LineMarks, TagState, find_strokes, mark_lines
 from infill.gcode.stream import batches
-from infill.gcode.survey import HEAD, STAMP, TAIL, Survey, survey
-from infill.gcode.table import State, Table, read
+from infill.gcode.survey import HEAD, STAMP, TAIL, Survey, survey_print
+from infill.gcode.table import GcodeTable, MachineState, read_table
 
 NUMBER = rb"[-+]?(?:\d+\.?\d*|\.\d+)"
 EIGHTHS = st.integers(-4000, 4000)  # of which every sum is exact, so that nothing here needs a tolerance
@@ -56,7 +56,7 @@ def test_a_number_is_what_float_says_or_none(token: str) -> None:
     plain = re.fullmatch(NUMBER, token.encode()) is not None
     assert same(value, float(token)) if good else np.isnan(value)
     assert plain or not good
-    if sum(map(str.isdigit, token)) <= MOST_DIGITS:
+    if sum(map(str.isdigit, token)) <= MAX_DIGITS:
         assert good == plain
 
 
@@ -75,7 +75,7 @@ def test_what_slicers_write_is_read(value: float, decimals: int, front: str, beh
 
 
 def test_digits_beyond_what_a_float_holds_are_no_number() -> None:
-    assert one_number(b"1" * MOST_DIGITS) == (float("1" * MOST_DIGITS), True)
+    assert one_number(b"1" * MAX_DIGITS) == (float("1" * MAX_DIGITS), True)
     for token in (b"1" * 17, b"0." + b"1" * 15, b"1" * 300):
         assert not one_number(token)[1]
 
@@ -227,7 +227,7 @@ def kind_of(line: bytes) -> tuple[int, int, bytes]:
     return (ARC if code > 1 else MOVE) if fine else ODD, code, words
 
 
-def slowly(lines: Sequence[bytes], state: State) -> tuple[list[tuple[Any, ...]], State]:
+def slowly(lines: Sequence[bytes], state: MachineState) -> tuple[list[tuple[Any, ...]], MachineState]:
     """Read line by line: kind, x, y, z, e, f, extruded and whether E is relative, and the state at the end."""
     rows = []
     for line in lines:
@@ -257,12 +257,12 @@ def slowly(lines: Sequence[bytes], state: State) -> tuple[list[tuple[Any, ...]],
     return rows, state
 
 
-def counts_from_last_move(state: State) -> bool:
+def counts_from_last_move(state: MachineState) -> bool:
     """Return whether E is relative by Marlin's rule, as its pages of G90, G91, M82 and M83 have it."""
     return state.relative_e or (state.relative and not state.absolute_e)
 
 
-def after_command(line: bytes, state: State) -> State:
+def after_command(line: bytes, state: MachineState) -> MachineState:
     text = re.sub(r"^[Nn]\d+ ?", "", line.decode().strip()).split(";")[0].upper()
     name, *rest = text.split() or [""]
     said = {word[0]: float(word[1:] or 0) for word in rest if re.fullmatch(r"[A-Z][-+.\d]*", word)}
@@ -284,14 +284,17 @@ def after_command(line: bytes, state: State) -> State:
 
 
 COLUMNS = ("kind", "x", "y", "z", "e", "f", "extruded", "relative_e")
-BEGIN = State(x=1.0, y=2.0, z=3.0, e=4.0, f=600.0)
+BEGIN = MachineState(x=1.0, y=2.0, z=3.0, e=4.0, f=600.0)
 
 
 @settings(max_examples=120)
-@given(print_text(), st.sampled_from([State(), BEGIN, replace(BEGIN, relative=True), replace(BEGIN, relative_e=True)]))
-def test_a_table_is_what_reading_line_by_line_gives(lines: list[bytes], state: State) -> None:
+@given(
+    print_text(),
+    st.sampled_from([MachineState(), BEGIN, replace(BEGIN, relative=True), replace(BEGIN, relative_e=True)]),
+)
+def test_a_table_is_what_reading_line_by_line_gives(lines: list[bytes], state: MachineState) -> None:
     data = b"".join(lines)
-    table = read(data, state)
+    table = read_table(data, state)
     rows, after = slowly(lines, state)
     assert len(table) == len(lines)
     assert [table.text(k, k + 1) for k in range(len(lines))] == lines
@@ -308,9 +311,9 @@ def test_a_table_is_what_reading_line_by_line_gives(lines: list[bytes], state: S
 @settings(max_examples=60)
 @given(print_text(), st.integers(0, 14))
 def test_a_print_read_in_two_batches_is_the_same(lines: list[bytes], cut: int) -> None:
-    whole = read(b"".join(lines), BEGIN)
-    one = read(b"".join(lines[:cut]), BEGIN)
-    two = read(b"".join(lines[cut:]), one.after)
+    whole = read_table(b"".join(lines), BEGIN)
+    one = read_table(b"".join(lines[:cut]), BEGIN)
+    two = read_table(b"".join(lines[cut:]), one.after)
     for name in (*COLUMNS, "given", "i", "j", "code", "numbered"):
         both = np.concatenate([getattr(one, name), getattr(two, name)])
         np.testing.assert_array_equal(both, getattr(whole, name), err_msg=name)
@@ -320,7 +323,7 @@ def test_a_print_read_in_two_batches_is_the_same(lines: list[bytes], cut: int) -
 
 
 def test_words_that_a_line_gives_are_told_apart_from_what_it_inherits() -> None:
-    table = read(b"G1 X1 F900\nG2 Y2 I.5 J-1 E.25\n;G1 X9\nG1\n", State())
+    table = read_table(b"G1 X1 F900\nG2 Y2 I.5 J-1 E.25\n;G1 X9\nG1\n", MachineState())
     assert table.given.tolist() == [
         [True, False, False, False, True, False, False],
         [False, True, False, True, False, True, True],
@@ -334,7 +337,7 @@ def test_words_that_a_line_gives_are_told_apart_from_what_it_inherits() -> None:
 
 @pytest.mark.parametrize("line", ODDS)
 def test_what_cannot_be_read_for_certain_is_odd_and_moves_nothing(line: str) -> None:
-    table = read(line.encode() + b"\n", BEGIN)
+    table = read_table(line.encode() + b"\n", BEGIN)
     assert table.kind.tolist() == [ODD]
     assert not table.given.any()
     assert table.unread.all()
@@ -354,12 +357,12 @@ def test_what_cannot_be_read_for_certain_is_odd_and_moves_nothing(line: str) -> 
     ],
 )
 def test_a_command_has_its_code_and_its_numbers(line: bytes, code: str, words: dict[str, float | None]) -> None:
-    (command,) = read(b";\n" + line + b"\n", State()).commands
+    (command,) = read_table(b";\n" + line + b"\n", MachineState()).commands
     assert (command.line, command.code, command.words) == (1, code, words)
 
 
 def test_an_empty_text_is_an_empty_table() -> None:
-    table = read(b"", BEGIN)
+    table = read_table(b"", BEGIN)
     assert len(table) == 0
     assert table.start.tolist() == [0]
     assert table.after == BEGIN
@@ -367,7 +370,7 @@ def test_an_empty_text_is_an_empty_table() -> None:
 
 def test_a_blank_line_is_blank_with_and_without_its_end() -> None:
     for text in (b"\n", b"\r\n", b"  \n", b"  ", b"\t", b" \r\n"):
-        assert read(b"G1 X1\n" + text, State()).kind.tolist() == [MOVE, BLANK]
+        assert read_table(b"G1 X1\n" + text, MachineState()).kind.tolist() == [MOVE, BLANK]
 
 
 # Batches.
@@ -429,7 +432,7 @@ def test_after_a_long_layer_batches_are_as_short_as_before() -> None:
 
 
 def test_a_layer_longer_than_any_is_cut_between_lines(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(stream, "LARGEST_LAYER", 4096)
+    monkeypatch.setattr(stream, "MAX_LAYER_BYTES", 4096)
     line = b"G1 X1 Y2 E.5\n"
     found = list(batches(io.BytesIO(line * 5000), 256))
     assert b"".join(found) == line * 5000
@@ -442,7 +445,7 @@ def test_a_layer_longer_than_any_is_cut_between_lines(monkeypatch: pytest.Monkey
 def test_a_line_that_is_too_long_is_refused_wherever_it_is(
     size: int, front: int, behind: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(stream, "LONGEST_LINE", 8192)
+    monkeypatch.setattr(stream, "MAX_LINE_BYTES", 8192)
     around = b"G1 X1\n"
     for longest in (8192, 8193):
         text = around * (front // 6) + b";" * longest + b"\n" + around * (behind // 6)
@@ -456,14 +459,16 @@ def test_a_line_that_is_too_long_is_refused_wherever_it_is(
 # Tags and strokes.
 
 
-ORIGIN = State(x=0.0, y=0.0, z=0.2)
-NOTHING_SAID = Tags()
+ORIGIN = MachineState(x=0.0, y=0.0, z=0.2)
+NOTHING_SAID = TagState()
 
 
-def read_all(text: bytes, before: State = ORIGIN, tags: Tags = NOTHING_SAID) -> tuple[Table, Marks, Strokes]:
-    table = read(text, before)
-    marks = marked(table, tags)
-    return table, marks, strokes(table, marks)
+def read_all(
+    text: bytes, before: MachineState = ORIGIN, tags: TagState = NOTHING_SAID
+) -> tuple[GcodeTable, LineMarks, InfillStrokes]:
+    table = read_table(text, before)
+    marks = mark_lines(table, tags)
+    return table, marks, find_strokes(table, marks)
 
 
 def role_after(text: bytes) -> str:
@@ -501,7 +506,7 @@ def test_a_role_is_that_of_the_last_tag() -> None:
 def test_widths_heights_and_accelerations_are_inherited() -> None:
     text = b"G1 X1\n;WIDTH:0.45\n;TYPE:FILL\n;HEIGHT:0.2\nM204 S800\n;LAYER_CHANGE\n; LINE_WIDTH: 0.5\nM204 P900 T5\n"
     text += b";WIDTH:nonsense\n;HEIGHT:-1\n;WIDTH:1e9\n;WIDTH:nan\nM204 T4\nG1 X2\n"
-    _, marks, _ = read_all(text, tags=Tags(height=0.3))
+    _, marks, _ = read_all(text, tags=TagState(height=0.3))
     nan = float("nan")
     np.testing.assert_array_equal(marks.width, [nan] + [0.45] * 5 + [0.5] * 8)
     np.testing.assert_array_equal(marks.height, [0.3] * 3 + [0.2] * 11)
@@ -515,9 +520,9 @@ TAGGED += (b"; printing object a\n", b"; stop printing object a\n", b"M204 S5\n"
 
 @given(st.lists(st.sampled_from(TAGGED), max_size=14), st.integers(0, 14))
 def test_tags_read_in_two_batches_are_the_same(lines: list[bytes], cut: int) -> None:
-    whole = marked(read(b"".join(lines), State()), Tags())
-    one = marked(read(b"".join(lines[:cut]), State()), Tags())
-    two = marked(read(b"".join(lines[cut:]), State()), one.after)
+    whole = mark_lines(read_table(b"".join(lines), MachineState()), TagState())
+    one = mark_lines(read_table(b"".join(lines[:cut]), MachineState()), TagState())
+    two = mark_lines(read_table(b"".join(lines[cut:]), MachineState()), one.after)
     np.testing.assert_equal(two.after, whole.after)
     for name in ("layer", "width", "height", "acceleration", "wiping", "tagged"):
         both = np.concatenate([getattr(one, name), getattr(two, name)])
@@ -600,7 +605,7 @@ def test_what_ends_a_stroke(between: str) -> None:
 def test_what_is_in_no_stroke(line: str) -> None:
     _, _, infill = read_all(f"M83\n;TYPE:FILL\nG1 F900\nG1 X10 E1\nG1 Y10 E1\n{line}\n".encode())
     assert infill.line.tolist() == [2, 3, 4]
-    _, _, infill = read_all(f"M83\n;TYPE:FILL\nG1 F900\n{line}\n".encode(), State(x=10.0, y=10.0, z=0.2))
+    _, _, infill = read_all(f"M83\n;TYPE:FILL\nG1 F900\n{line}\n".encode(), MachineState(x=10.0, y=10.0, z=0.2))
     assert len(infill) == 0
     assert infill.points.shape == (0, 2)
     assert infill.first.tolist() == [0]
@@ -623,7 +628,7 @@ def test_strokes_are_the_runs_of_one_rate(points: list[tuple[int, int]], absolut
     words = np.cumsum(pushed) if absolute else pushed
     text = f"M8{'2' if absolute else '3'}\n;TYPE:FILL\nG1 F1800\n"
     text += "".join(f"G1 X{x:.3f} Y{y:.3f} E{e:.5f}\n" for (x, y), e in zip(path[1:].tolist(), words, strict=True))
-    _, _, infill = read_all(text.encode(), State(x=float(path[0, 0]), y=float(path[0, 1]), z=0.2))
+    _, _, infill = read_all(text.encode(), MachineState(x=float(path[0, 0]), y=float(path[0, 1]), z=0.2))
     breaks = np.flatnonzero(np.diff(rates)) + 1
     runs = np.split(np.arange(len(rates)), breaks)
     assert len(infill) == len(runs)
@@ -641,7 +646,7 @@ def test_strokes_are_the_runs_of_one_rate(points: list[tuple[int, int]], absolut
 
 def looked_at(text: bytes) -> Survey:
     file = io.BytesIO(text)
-    found = survey(file)
+    found = survey_print(file)
     assert file.tell() == 0
     assert found.size == len(text)
     return found
@@ -738,7 +743,7 @@ def test_what_a_print_tells_of_itself(field: str, line: bytes) -> None:
 )
 def test_what_is_no_gcode_is_refused_in_one_line(text: bytes, told: str) -> None:
     with pytest.raises(FormatError) as error:
-        survey(io.BytesIO(text))
+        survey_print(io.BytesIO(text))
     assert told in str(error.value)
     assert "G-code" in str(error.value)
     assert "\n" not in str(error.value)

@@ -13,17 +13,25 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from infill.gcode.bodies import Body, Ways, bodies, composed, exchanged, unlawful, ways_of
-from infill.gcode.estimates import Change, estimates, finished, said_seconds, told_anew
+from infill.gcode.bodies import (
+    InfillSection,
+    TravelSettings,
+    compose_section,
+    find_sections,
+    measure_travel,
+    replace_sections,
+    validate_section,
+)
+from infill.gcode.estimates import EstimateChange, completion_letters, find_estimates, stated_seconds, update_estimate
 from infill.gcode.lines import MOVE
-from infill.gcode.sections import FILAMENT_UNIT, Strokes, Tags, marked, strokes
-from infill.gcode.splicing import Redrawn, Spliced, differing, spliced, unlike
-from infill.gcode.table import State, Table, read
+from infill.gcode.sections import FILAMENT_UNIT, InfillStrokes, TagState, find_strokes, mark_lines
+from infill.gcode.splicing import NewPaths, SplicedText, find_difference, splice_paths, verify_replay
+from infill.gcode.table import GcodeTable, MachineState, read_table
 
 Floats = NDArray[np.float64]
 
 RATE = 0.04  # mm of filament per mm
-BEGIN = State(x=0.0, y=0.0, z=0.2, f=7200.0)
+BEGIN = MachineState(x=0.0, y=0.0, z=0.2, f=7200.0)
 FOREIGN = ("M73 P5 R3", "; remark", "", "M117 hello", ";", "; feature: X9")  # what may stand inside a stroke
 STEPS = st.tuples(st.integers(-30_000, 30_000), st.integers(-30_000, 30_000))  # µm
 
@@ -81,22 +89,24 @@ def prints(draw: st.DrawFn) -> bytes:
     return Writer(absolute=absolute, end=draw(st.sampled_from([b"\n", b"\r\n"])), lines=lines).text()
 
 
-def looked_at(text: bytes) -> tuple[Table, Strokes]:
-    table = read(text, BEGIN)
-    return table, strokes(table, marked(table, Tags()))
+def looked_at(text: bytes) -> tuple[GcodeTable, InfillStrokes]:
+    table = read_table(text, BEGIN)
+    return table, find_strokes(table, mark_lines(table, TagState()))
 
 
 def lengths(points: Floats, first: Sequence[int]) -> Floats:
     return np.array([np.hypot(*np.diff(points[a:b], axis=0).T).sum() for a, b in pairwise(first)])
 
 
-def anew(infill: Strokes, which: Sequence[int], paths: Sequence[Floats], source: Sequence[Sequence[int]]) -> Redrawn:
+def anew(
+    infill: InfillStrokes, which: Sequence[int], paths: Sequence[Floats], source: Sequence[Sequence[int]]
+) -> NewPaths:
     """Return new paths with the filament per mm of the old ones."""
     first = np.concatenate([[0], np.cumsum([len(path) for path in paths])]).astype(np.intp)
     points = np.concatenate([*paths, np.empty((0, 2))])
     some = np.array(which, dtype=np.intp)
     rate = infill.filament[some] / infill.length[some]
-    return Redrawn(
+    return NewPaths(
         which=some,
         points=points,
         first=first,
@@ -105,13 +115,13 @@ def anew(infill: Strokes, which: Sequence[int], paths: Sequence[Floats], source:
     )
 
 
-def as_it_was(infill: Strokes, which: Sequence[int]) -> Redrawn:
+def as_it_was(infill: InfillStrokes, which: Sequence[int]) -> NewPaths:
     places = [range(int(infill.first[k]), int(infill.first[k + 1])) for k in which]
     return anew(infill, which, [infill.points[list(each)] for each in places], places)
 
 
 @st.composite
-def redrawings(draw: st.DrawFn, infill: Strokes) -> Redrawn:
+def redrawings(draw: st.DrawFn, infill: InfillStrokes) -> NewPaths:
     """Some strokes, each with corners left out, moved, or become several."""
     which = [k for k in range(len(infill)) if draw(st.integers(0, 3))]
     paths, sources = [], []
@@ -143,8 +153,8 @@ def is_drawn(line: bytes) -> bool:
 def test_whatever_is_redrawn_all_else_stays(text: bytes, data: st.DataObject) -> None:
     table, infill = looked_at(text)
     new = data.draw(redrawings(infill))
-    done = spliced(table, infill, new)
-    assert unlike(table, infill, new, done) == ""
+    done = splice_paths(table, infill, new)
+    assert verify_replay(table, infill, new, done) == ""
     old_lines, new_lines = text.splitlines(keepends=True), done.text.splitlines(keepends=True)
     taken = {int(n) for k in new.which for n in infill.line[infill.first[k] + 1 : infill.first[k + 1]]}
     rest = [line for n, line in enumerate(old_lines) if n not in taken]
@@ -163,13 +173,13 @@ def test_whatever_is_redrawn_all_else_stays(text: bytes, data: st.DataObject) ->
     ]
     assert sum(map(is_drawn, fresh)) == len(new.points) - len(new.which)
     # Where the nozzle passes is what was asked for.
-    other = read(done.text, BEGIN)
+    other = read_table(done.text, BEGIN)
     now = [n for n in range(len(other)) if n not in _copied(done) and is_drawn(new_lines[n])]
     wanted = np.delete(new.points, new.first[:-1], axis=0)
     np.testing.assert_array_equal(np.stack([other.x[now], other.y[now]], axis=1), np.round(wanted, 3))
 
 
-def _copied(done: Spliced) -> set[int]:
+def _copied(done: SplicedText) -> set[int]:
     old = np.flatnonzero(done.same)
     return set((old + done.shift[old]).tolist())
 
@@ -179,7 +189,7 @@ def _copied(done: Spliced) -> set[int]:
 def test_the_counter_is_reset_only_where_it_is_needed(text: bytes, data: st.DataObject) -> None:
     table, infill = looked_at(text)
     new = data.draw(redrawings(infill))
-    done = spliced(table, infill, new)
+    done = splice_paths(table, infill, new)
     resets = done.text.count(b"G92 E") - text.count(b"G92 E")
     if text.startswith(b"M83"):
         assert resets == 0
@@ -197,20 +207,20 @@ def test_the_counter_is_reset_only_where_it_is_needed(text: bytes, data: st.Data
 def test_nothing_redrawn_is_the_same_text(text: bytes) -> None:
     table, infill = looked_at(text)
     new = as_it_was(infill, [])
-    done = spliced(table, infill, new)
+    done = splice_paths(table, infill, new)
     assert done.text == text
     assert done.same.all()
     assert not done.shift.any()
-    assert unlike(table, infill, new, done) == ""
+    assert verify_replay(table, infill, new, done) == ""
 
 
 @given(prints())
 def test_a_stroke_redrawn_as_it_was_has_as_many_lines_and_the_same_places(text: bytes) -> None:
     table, infill = looked_at(text)
     new = as_it_was(infill, range(len(infill)))
-    done = spliced(table, infill, new)
-    assert unlike(table, infill, new, done) == ""
-    other = read(done.text, BEGIN)
+    done = splice_paths(table, infill, new)
+    assert verify_replay(table, infill, new, done) == ""
+    other = read_table(done.text, BEGIN)
     assert len(other) == len(table)
     for name in ("kind", "x", "y", "z", "f"):
         np.testing.assert_array_equal(getattr(other, name), getattr(table, name))
@@ -228,7 +238,7 @@ def test_whole_millimetres_are_written_as_they_were(mode: str, end: str) -> None
     text = end.join([mode, ";TYPE:FILL", moves[0] + " F1800", moves[1], "; remark", *moves[2:], "M107", ""]).encode()
     table, infill = looked_at(text)
     assert len(infill) == 1
-    done = spliced(table, infill, as_it_was(infill, [0]))
+    done = splice_paths(table, infill, as_it_was(infill, [0]))
     assert done.text == text
 
 
@@ -238,10 +248,10 @@ def test_lines_between_moves_keep_their_places_between_corners() -> None:
     first = int(infill.first[0])
     path = np.array([[0, 0], [9, 0], [10, 1], [10, 9], [11, 10], [20, 10]], dtype=float)
     new = anew(infill, [0], [path], [[first, first + 1, first + 1, first + 2, first + 2, first + 3]])
-    done = spliced(table, infill, new)
+    done = splice_paths(table, infill, new)
     names = [b"".join(re.findall(rb"[XY]\d+|;.*|M73", line)) for line in done.text.split(b"\n")[2:-1]]
     assert names == [b"X9Y0", b"X10Y1", b"; one", b"X10Y9", b"X11Y10", b"M73", b"", b"; two", b"X20Y10", b"; three"]
-    assert unlike(table, infill, new, done) == ""
+    assert verify_replay(table, infill, new, done) == ""
 
 
 # Faults that are planted in a new text, and what is said of them.
@@ -277,18 +287,18 @@ FAULTS: dict[str, tuple[str, str, str]] = {
 }
 
 
-def cut_corner(text: str) -> tuple[Table, Strokes, Redrawn, Spliced]:
+def cut_corner(text: str) -> tuple[GcodeTable, InfillStrokes, NewPaths, SplicedText]:
     table, infill = looked_at(text.encode())
     path = np.array([[0, 0], [9, 0], [10, 1], [10, 9], [11, 10], [20, 10]], dtype=float)
     new = anew(infill, [0], [path], [[0, 1, 1, 2, 2, 3]])
-    return table, infill, new, spliced(table, infill, new)
+    return table, infill, new, splice_paths(table, infill, new)
 
 
 @pytest.mark.parametrize("mode", OLD)
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_planted_fault_is_named(mode: str, fault: str) -> None:
     table, infill, new, done = cut_corner(f"{mode}\n{OLD[mode]}")
-    assert unlike(table, infill, new, done) == ""
+    assert verify_replay(table, infill, new, done) == ""
     found, instead, told = FAULTS[fault]
     text = done.text.decode()
     if instead or fault.startswith("a line"):
@@ -297,7 +307,7 @@ def test_a_planted_fault_is_named(mode: str, fault: str) -> None:
         wrong, times = re.subn(r"(X10 Y9 E)(\S+)", lambda m: f"{m[1]}{float(m[2]) + 0.016:.5f}", text, count=1)
     assert times == 1
     assert wrong != text
-    assert re.search(told, unlike(table, infill, new, replace(done, text=wrong.encode())))
+    assert re.search(told, verify_replay(table, infill, new, replace(done, text=wrong.encode())))
 
 
 @pytest.mark.parametrize("fault", ["feed", "mode", "tool", "retracted"])
@@ -305,7 +315,7 @@ def test_another_state_at_the_end_is_named(fault: str) -> None:
     table, infill, new, done = cut_corner(
         "M83\n;TYPE:FILL\nG1 X10 Y0 E1 F1800\nG1 X10 Y10 E1\nG1 X20 Y10 E1\nM107\nG10\n"
     )
-    assert unlike(table, infill, new, done) == ""
+    assert verify_replay(table, infill, new, done) == ""
     old, instead = {
         "feed": (b"M107\n", b"M107\n"),
         "mode": (b"M107", b"M82"),
@@ -315,14 +325,14 @@ def test_another_state_at_the_end_is_named(fault: str) -> None:
     text = done.text.replace(old, instead)
     if fault == "feed":
         text = re.sub(rb"(X20 Y10 E\S+)", rb"\1 F1500", text)
-    told = unlike(table, infill, new, replace(done, text=text))
+    told = verify_replay(table, infill, new, replace(done, text=text))
     assert told in ("the state at the end", "F after a line that was copied")
 
 
 def test_a_counter_that_is_not_reset_is_named() -> None:
     table, infill, new, done = cut_corner(f"M82\n{OLD['M82']}")
     assert done.text.count(b"G92 E8\n") == 1
-    told = unlike(table, infill, new, replace(done, text=done.text.replace(b"G92 E8\n", b";G92 E8\n")))
+    told = verify_replay(table, infill, new, replace(done, text=done.text.replace(b"G92 E8\n", b";G92 E8\n")))
     assert told in ("the filament of a line that was copied", "the counter of filament")
 
 
@@ -338,10 +348,10 @@ def test_a_counter_that_is_not_reset_is_named() -> None:
 def test_a_fault_that_the_next_line_covers_is_named(after: str, old: str, instead: str, told: str) -> None:
     moves = "G1 X10 Y0 E6\nG1 X10 Y10 E7\nG1 X20 Y10 E8\n"
     table, infill, new, done = cut_corner(f"M82\nG92 E5\n{HEAD}{moves}{after}")
-    assert unlike(table, infill, new, done) == ""
+    assert verify_replay(table, infill, new, done) == ""
     assert done.text.count(old.encode()) == 1
     text = done.text.replace(old.encode(), instead.encode())
-    assert unlike(table, infill, new, replace(done, text=text)) == told
+    assert verify_replay(table, infill, new, replace(done, text=text)) == told
 
 
 @pytest.mark.parametrize(("steps", "resets"), [(0, 0), (1, 1), (-1, 1), (3, 1)])
@@ -352,9 +362,9 @@ def test_a_counter_is_reset_if_it_is_off_by_a_step(mode: str, steps: int, resets
     table, infill = looked_at(text.encode())
     new = as_it_was(infill, [0])
     new = replace(new, filament=new.filament + steps * FILAMENT_UNIT)
-    done = spliced(table, infill, new)
+    done = splice_paths(table, infill, new)
     assert done.text.count(b"G92 E2\n") == done.text.count(b"G92") == (resets if mode == "M82" else 0)
-    assert unlike(table, infill, new, done) == ""
+    assert verify_replay(table, infill, new, done) == ""
 
 
 # Sections drawn anew.
@@ -398,7 +408,7 @@ PATHS = st.lists(
     max_size=4,
 )
 WAYS = st.builds(
-    Ways,
+    TravelSettings,
     travel=st.sampled_from([9000.0, 7200.0]),
     retraction=st.sampled_from([0.0, 0.8, 2.5]),
     lift=st.sampled_from([0.0, 0.4]),
@@ -406,10 +416,10 @@ WAYS = st.builds(
 )
 
 
-def one_body(text: bytes) -> tuple[Table, Body]:
-    table = read(text, BEGIN)
-    marks = marked(table, Tags())
-    found, odd = bodies(table, marks, strokes(table, marks))
+def one_body(text: bytes) -> tuple[GcodeTable, InfillSection]:
+    table = read_table(text, BEGIN)
+    marks = mark_lines(table, TagState())
+    found, odd = find_sections(table, marks, find_strokes(table, marks))
     assert odd == {}
     (body,) = found
     return table, body
@@ -418,18 +428,18 @@ def one_body(text: bytes) -> tuple[Table, Body]:
 @settings(max_examples=60)
 @given(sections(), PATHS, WAYS, st.lists(st.booleans(), min_size=5, max_size=5))
 def test_a_section_drawn_anew_leaves_all_as_it_was(
-    section: tuple[bytes, int], paths: list[Floats], ways: Ways, retracts: list[bool]
+    section: tuple[bytes, int], paths: list[Floats], ways: TravelSettings, retracts: list[bool]
 ) -> None:
     table, body = one_body(section[0])
-    text, pushed = composed(table, body, paths, body.rate, ways, retracts[: len(paths) + 1])
+    text, pushed = compose_section(table, body, paths, body.rate, ways, retracts[: len(paths) + 1])
     begins = [body.start, *(path[-1] for path in paths)]
     ends = [*(path[0] for path in paths), body.end]
     travels = [bool((one != other).any()) for one, other in zip(begins, ends, strict=True)]
     number = sum(map(min, travels, retracts)) if ways.firmware or ways.retraction else 0
-    done = exchanged(table, [body], [text])
-    other = read(done.text, BEGIN)
-    assert differing(table, other, done) == ""
-    assert unlawful(other, done, [body], [text]) == ""
+    done = replace_sections(table, [body], [text])
+    other = read_table(done.text, BEGIN)
+    assert find_difference(table, other, done) == ""
+    assert validate_section(other, done, [body], [text]) == ""
     assert done.text == table.text(0, body.first) + text + table.text(body.last + 1, len(table))
     part = slice(body.first, body.first + text.count(b"\n"))
     before, after = other.e[part.start - 1], other.e[part.stop - 1]
@@ -499,9 +509,9 @@ ODDITIES = {
 
 @pytest.mark.parametrize("middle", ODDITIES)
 def test_an_odd_section_is_told(middle: str) -> None:
-    table = read(square(middle), BEGIN)
-    marks = marked(table, Tags())
-    assert bodies(table, marks, strokes(table, marks)) == ([], {ODDITIES[middle]: [1]})
+    table = read_table(square(middle), BEGIN)
+    marks = mark_lines(table, TagState())
+    assert find_sections(table, marks, find_strokes(table, marks)) == ([], {ODDITIES[middle]: [1]})
 
 
 @pytest.mark.parametrize(
@@ -543,9 +553,9 @@ def test_the_feed_rate_of_a_section_is_that_of_most_of_it() -> None:
 
 def test_every_section_has_its_own_body() -> None:
     text = square() + square("G4 P1\n") + square("M73 P2\n")
-    table = read(text, BEGIN)
-    marks = marked(table, Tags())
-    found, odd = bodies(table, marks, strokes(table, marks))
+    table = read_table(text, BEGIN)
+    marks = mark_lines(table, TagState())
+    found, odd = find_sections(table, marks, find_strokes(table, marks))
     assert odd == {"a G4 command in between": [3]}
     assert [body.first for body in found] == [4, 4 + 2 * 12 + 1]
     assert len({body.section for body in found}) == 2
@@ -560,18 +570,20 @@ def test_a_counter_that_is_set_on_the_way_is_set_once_in_the_end(resets: int) ->
     text += f"G1 X0 Y0 E{counter + 0.4:.1f}\nG1 X5 Y0 E{counter + 0.6:.1f}\n;TYPE:Perimeter\n"
     table, body = one_body(text.encode())
     assert body.filament == pytest.approx(1.4)
-    new, pushed = composed(table, body, [path], body.rate, Ways(), [False, False])
+    new, pushed = compose_section(table, body, [path], body.rate, TravelSettings(), [False, False])
     assert pushed == pytest.approx(0.2)
     assert new.count(b"G92") == 1
     assert b"\nG92 E%.1f\n" % (counter + 0.6) in new
     table, body = one_body(square(middle))
-    new, _ = composed(table, body, [path], body.rate, Ways(), [False, False])
+    new, _ = compose_section(table, body, [path], body.rate, TravelSettings(), [False, False])
     assert new.count(b"G92 E0\n") == new.count(b"G92") == resets
 
 
 def test_a_temperature_that_is_set_by_g10_is_kept_and_a_retraction_is_not() -> None:
     table, body = one_body(square("G10 P0 S200\nG10\nG11\n"))
-    text, _ = composed(table, body, [np.array([[0.0, 0.0], [5.0, 0.0]])], body.rate, Ways(), [False, False])
+    text, _ = compose_section(
+        table, body, [np.array([[0.0, 0.0], [5.0, 0.0]])], body.rate, TravelSettings(), [False, False]
+    )
     assert text.splitlines().count(b"G10 P0 S200") == 1
     assert b"G10\n" not in text
     assert b"G11" not in text
@@ -594,8 +606,8 @@ WRONG = {
 def test_a_new_section_that_is_unlawful_is_told(wrong: str) -> None:
     table, body = one_body(square())
     text = wrong.encode()
-    done = exchanged(table, [body], [text])
-    assert unlawful(read(done.text, BEGIN), done, [body], [text]) == WRONG[wrong]
+    done = replace_sections(table, [body], [text])
+    assert validate_section(read_table(done.text, BEGIN), done, [body], [text]) == WRONG[wrong]
 
 
 @pytest.mark.parametrize("absolute", [False, True])
@@ -604,13 +616,15 @@ def test_the_ways_of_a_print(absolute: bool) -> None:
     text = f"M8{'23'[not absolute]}\nG1 Z.2\n"
     for k in range(4):
         text += f"G92 E0\nG1 X10 Y{k} {e[0]} F1800\nG1 {e[1]}\nG1 Z.6 F700\nG1 X0 Y{k} F8000\nG1 Z.2\nG1 {e[2]}\n"
-    ways = ways_of(read(text.encode(), BEGIN))
+    ways = measure_travel(read_table(text.encode(), BEGIN))
     assert ways.lift == pytest.approx(0.4)
     ways = replace(ways, lift=0.4)
-    assert ways == Ways(travel=8000, retraction=0.8, retract_feed=2400, prime_feed=1500, lift=0.4, lift_feed=700)
-    assert ways_of(read(b"M107\n", BEGIN), ways) == ways  # nothing told: as before
-    assert ways_of(read(b"G10\n", BEGIN)).firmware
-    assert not ways_of(read(b"G10 P0 S200\n", BEGIN)).firmware
+    assert ways == TravelSettings(
+        travel=8000, retraction=0.8, retract_feed=2400, prime_feed=1500, lift=0.4, lift_feed=700
+    )
+    assert measure_travel(read_table(b"M107\n", BEGIN), ways) == ways  # nothing told: as before
+    assert measure_travel(read_table(b"G10\n", BEGIN)).firmware
+    assert not measure_travel(read_table(b"G10 P0 S200\n", BEGIN)).firmware
 
 
 # Time and filament told anew.
@@ -665,13 +679,13 @@ NOT_TOLD = [
 def test_lines_that_tell_are_found_and_no_others(end: bytes) -> None:
     lines = [line for pair in zip(TOLD, NOT_TOLD * 3, strict=False) for line in pair]
     text = end.join(lines) + end
-    assert [text[first:last] for first, last in estimates(text)] == TOLD
+    assert [text[first:last] for first, last in find_estimates(text)] == TOLD
 
 
 @pytest.mark.parametrize("line", TOLD)
 def test_of_a_print_without_moves_time_is_told_as_it_was(line: bytes) -> None:
-    assert told_anew(line, 0.0, Change()) == line
-    assert told_anew(line, 7.0, Change(tools=(1.0, 1.0))) == line
+    assert update_estimate(line, 0.0, EstimateChange()) == line
+    assert update_estimate(line, 7.0, EstimateChange(tools=(1.0, 1.0))) == line
 
 
 @settings(max_examples=60)
@@ -680,12 +694,12 @@ def test_of_a_print_without_moves_time_is_told_as_it_was(line: bytes) -> None:
 )
 @example(b";TIME:1234", 0.2, 1.0, 1.0, b"")
 def test_no_time_is_ever_negative(line: bytes, seconds: float, share: float, filament: float, done: bytes) -> None:
-    change = Change(seconds=seconds, ratio=0.9, silent=2 * seconds, filament=filament, tools=(filament, 1.0))
-    new = told_anew(line, seconds * share, change, done)
+    change = EstimateChange(seconds=seconds, ratio=0.9, silent=2 * seconds, filament=filament, tools=(filament, 1.0))
+    new = update_estimate(line, seconds * share, change, done)
     assert b"-" not in new
     assert b"\n" not in new
     assert re.sub(rb"[\d.]+[dhms]?", b"", new).split() == re.sub(rb"[\d.]+[dhms]?", b"", line).split()
-    assert said_seconds(new) >= (1 if said_seconds(line) else 0)
+    assert stated_seconds(new) >= (1 if stated_seconds(line) else 0)
     for share_done in re.findall(rb"[PQ](\d+)", new.split(b";")[0] if line.startswith(b"M73") else b""):
         assert 0 <= int(share_done) <= 100
     if b"ilament" in line:
@@ -700,20 +714,20 @@ def test_no_time_is_ever_negative(line: bytes, seconds: float, share: float, fil
 @example(3600)
 def test_a_time_is_what_was_planned(seconds: int) -> None:
     for line in (b"; estimated printing time (normal mode) = 1h 2s", b";TIME:5", b"; model printing time: 1d 1m 1s"):
-        new = told_anew(line, 0.0, Change(seconds=float(seconds)))
-        assert said_seconds(new) == seconds
-        assert told_anew(new, 0.0, Change(seconds=float(seconds))) == new
+        new = update_estimate(line, 0.0, EstimateChange(seconds=float(seconds)))
+        assert stated_seconds(new) == seconds
+        assert update_estimate(new, 0.0, EstimateChange(seconds=float(seconds))) == new
 
 
 @given(st.lists(st.floats(0, 1), min_size=1, max_size=30), st.floats(1, 400_000), st.integers(0, 2))
 def test_progress_runs_from_all_that_is_left_to_nothing(at: list[float], total: float, decimals: int) -> None:
     """Of a print of any length, the share done rises and what is left falls, from the whole to nothing."""
-    change = Change(seconds=total, silent=1.5 * total)
+    change = EstimateChange(seconds=total, silent=1.5 * total)
     places = [0.0, *sorted(at), 1.0]
     lines = [b"M73 P%.*f R9 Q3 S%.*f" % (decimals, 4, decimals, 9)] * (len(places) - 1) + [b"M73 P100 R0 Q100 S0"]
     new = [
-        told_anew(line, share * total, change, done)
-        for line, share, done in zip(lines, places, finished(lines), strict=True)
+        update_estimate(line, share * total, change, done)
+        for line, share, done in zip(lines, places, completion_letters(lines), strict=True)
     ]
     for letter, sign in ((b"P", 1), (b"Q", 1), (b"R", -1), (b"S", -1)):
         values = [sign * float(re.search(letter + rb"([\d.]+)", line)[1]) for line in new]  # type: ignore[index]
@@ -738,21 +752,33 @@ def test_progress_runs_from_all_that_is_left_to_nothing(at: list[float], total: 
     ],
 )
 def test_what_is_done_in_the_end(lines: list[bytes], done: list[bytes]) -> None:
-    assert finished(lines) == done
+    assert completion_letters(lines) == done
 
 
-HOUR = Change(seconds=3600.0, first_layer=60.0, ratio=0.9, first_ratio=0.5, silent=7200.0, prepared=300.0)
+HOUR = EstimateChange(seconds=3600.0, first_layer=60.0, ratio=0.9, first_ratio=0.5, silent=7200.0, prepared=300.0)
 
 
 @pytest.mark.parametrize(
     ("line", "change", "told"),
     [
-        (b"; filament used [mm] = 100.00", Change(filament=0.9), b"; filament used [mm] = 90.00"),
-        (b"; filament used [g] = 10.0, 20.0, 30.0", Change(tools=(0.5, 2.0)), b"; filament used [g] = 5.0, 40.0, 30.0"),
-        (b"; total filament used [g] = 10", Change(filament=1.26, tools=(9.0,)), b"; total filament used [g] = 13"),
-        (b"; total filament weight [g] : 4.00,2.00", Change(tools=(0.5,)), b"; total filament weight [g] : 2.00,2.00"),
-        (b"; total filament length [mm] : 100.0", Change(filament=0.9), b"; total filament length [mm] : 90.0"),
-        (b";Filament used: 2.00000m, 1m", Change(tools=(0.25, 2.0)), b";Filament used: 0.50000m, 2m"),
+        (b"; filament used [mm] = 100.00", EstimateChange(filament=0.9), b"; filament used [mm] = 90.00"),
+        (
+            b"; filament used [g] = 10.0, 20.0, 30.0",
+            EstimateChange(tools=(0.5, 2.0)),
+            b"; filament used [g] = 5.0, 40.0, 30.0",
+        ),
+        (
+            b"; total filament used [g] = 10",
+            EstimateChange(filament=1.26, tools=(9.0,)),
+            b"; total filament used [g] = 13",
+        ),
+        (
+            b"; total filament weight [g] : 4.00,2.00",
+            EstimateChange(tools=(0.5,)),
+            b"; total filament weight [g] : 2.00,2.00",
+        ),
+        (b"; total filament length [mm] : 100.0", EstimateChange(filament=0.9), b"; total filament length [mm] : 90.0"),
+        (b";Filament used: 2.00000m, 1m", EstimateChange(tools=(0.25, 2.0)), b";Filament used: 0.50000m, 2m"),
         (b";TIME_ELAPSED:100.500000", HOUR, b";TIME_ELAPSED:900.000000"),
         (b"M73 P50 R61 ; P50 R60", HOUR, b"M73 P25 R48 ; P50 R60"),
         (b"M73 P5.0 R6.5", HOUR, b"M73 P25.0 R48.7"),
@@ -777,8 +803,8 @@ HOUR = Change(seconds=3600.0, first_layer=60.0, ratio=0.9, first_ratio=0.5, sile
         (b"; total estimated time: 2h 0m 0s", HOUR, b"; total estimated time: 1h 5m 0s"),
     ],
 )
-def test_what_is_told(line: bytes, change: Change, told: bytes) -> None:
-    assert told_anew(line, 900.0, change) == told
+def test_what_is_told(line: bytes, change: EstimateChange, told: bytes) -> None:
+    assert update_estimate(line, 900.0, change) == told
 
 
 def test_what_is_not_planned_follows_what_is() -> None:
@@ -788,16 +814,16 @@ def test_what_is_not_planned_follows_what_is() -> None:
         b"; model printing time: 50m 0s; total estimated time: 57m 0s",
         b"M73 Q0 S999",
     ]
-    assert Change(ratio=0.5).told_by(lines) == Change(ratio=0.5, silent=1800.0, prepared=420.0)
-    assert Change(ratio=0.5).told_by([b"M73 Q0 S30", b"M73 Q5 S20"]).silent == 900.0
+    assert EstimateChange(ratio=0.5).told_by(lines) == EstimateChange(ratio=0.5, silent=1800.0, prepared=420.0)
+    assert EstimateChange(ratio=0.5).told_by([b"M73 Q0 S30", b"M73 Q5 S20"]).silent == 900.0
 
 
 def test_filament_is_told_by_what_the_print_says_of_its_tools() -> None:
     lines = [b"; filament used [g] = 9.0", b"; filament used [mm] = 100.0, 0.0, 300.0"]
-    change = Change(seconds=5.0).as_told(lines, {0: -10.0, 2: 30.0, 7: 1.0})
-    assert change == Change(seconds=5.0, filament=420 / 400, tools=(0.9, 1.0, 1.1))
+    change = EstimateChange(seconds=5.0).as_told(lines, {0: -10.0, 2: 30.0, 7: 1.0})
+    assert change == EstimateChange(seconds=5.0, filament=420 / 400, tools=(0.9, 1.0, 1.1))
     for said in ([], [b"; filament used [mm] = 0.0"], [b"; filament used [mm] = 5.0, 1.0"]):
-        untold = Change(filament=0.97, tools=(0.97,))
+        untold = EstimateChange(filament=0.97, tools=(0.97,))
         assert untold.as_told(said, {0: -10.0}) == untold
 
 
@@ -814,4 +840,4 @@ def test_filament_is_told_by_what_the_print_says_of_its_tools() -> None:
     ],
 )
 def test_seconds_that_are_said(line: bytes, seconds: float) -> None:
-    assert said_seconds(line) == seconds
+    assert stated_seconds(line) == seconds

@@ -13,12 +13,12 @@ from hypothesis import strategies as st
 from typer.testing import CliRunner
 
 from infill import FormatError, Motion, motion, refill
-from infill.cli.app import build
+from infill.cli.app import build_app
 from infill.cli.timing import format_length
-from infill.gcode.found_limits import found_limits
-from infill.gcode.limits import Limits, commanded
+from infill.gcode.found_limits import read_limits
+from infill.gcode.limits import Limits, apply_command
 from infill.gcode.lines import MOVE
-from infill.gcode.table import State, read
+from infill.gcode.table import MachineState, read_table
 from infill.gcode.unusual_moves import is_macro, may_move, read_move
 from tests.handmade_prints import Dialect, written
 
@@ -124,12 +124,12 @@ def test_what_cannot_be_planned_is_counted(name: str, tmp_path: Path) -> None:
     found = of(tmp_path, f"G1 X60 E1\n{COUNTED[name]}\n;\n{COUNTED[name]}\nG1 X50 Y50 E1\n")
     assert (found.unread_lines, found.first_unread_line) == (2, HEAD.count("\n") + 2)
     assert found.first_unread_text == COUNTED[name]
-    result = CliRunner().invoke(build(), ["motion", str(tmp_path / "print.gcode")])
+    result = CliRunner().invoke(build_app(), ["motion", str(tmp_path / "print.gcode")])
     assert result.exit_code == 0
     assert (
         f"2 line(s) that may move or extrude are left out; the first is line {HEAD.count(chr(10)) + 2}" in result.stdout
     )
-    result = CliRunner().invoke(build(), ["motion", str(tmp_path / "print.gcode"), "--json"])
+    result = CliRunner().invoke(build_app(), ["motion", str(tmp_path / "print.gcode"), "--json"])
     assert json.loads(result.stdout)["unread_lines"] == 2
 
 
@@ -163,14 +163,14 @@ QUIET += ("EXCLUDE_OBJECT_START NAME=g1_x5", "SET_PRESSURE_ADVANCE ADVANCE=0.1",
 @pytest.mark.parametrize("line", QUIET)
 def test_what_moves_nothing_is_not_counted(line: str, tmp_path: Path) -> None:
     assert of(tmp_path, f"G1 X70 E1\n{line}\nG1 X90 E1\n").unread_lines == 0
-    code = read(line.encode() + b"\n", State()).commands
+    code = read_table(line.encode() + b"\n", MachineState()).commands
     assert not any(may_move(each.code, line.encode()) or is_macro(each.code) for each in code)
 
 
 def test_macros_are_named(tmp_path: Path) -> None:
     found = of(tmp_path, "print_start EXTRUDER=200\nG1 X70 E1\nPRINT_START\nEND_PRINT\n")
     assert found.macros == ("PRINT_START", "END_PRINT")
-    result = CliRunner().invoke(build(), ["motion", str(tmp_path / "print.gcode")])
+    result = CliRunner().invoke(build_app(), ["motion", str(tmp_path / "print.gcode")])
     assert "PRINT_START, END_PRINT: what the printer does there is not known" in result.stdout
 
 
@@ -181,7 +181,9 @@ def test_macros_are_named(tmp_path: Path) -> None:
 )
 def test_however_a_move_is_spelled_it_is_the_same(words: dict[str, float], data: st.DataObject) -> None:
     """Blanks, small letters, line numbers, remarks and words that change nothing: read by the line or many at a time."""
-    plain = read(("G1" + "".join(f" {letter}{value:g}" for letter, value in words.items()) + "\n").encode(), State())
+    plain = read_table(
+        ("G1" + "".join(f" {letter}{value:g}" for letter, value in words.items()) + "\n").encode(), MachineState()
+    )
     text = data.draw(st.sampled_from(["", " ", "N7 ", "N12", "\t" * 12])) + data.draw(
         st.sampled_from(["G1", "g01", "G1 "])
     )
@@ -193,7 +195,7 @@ def test_however_a_move_is_spelled_it_is_the_same(words: dict[str, float], data:
         )
         text += letter + data.draw(st.sampled_from(["", " ", "   "])) + f"{value:.3f}"
     text += data.draw(st.sampled_from(["", " ; X1", "(Y2)", "*71", " *7", "\r"]))
-    table = read(text.encode() + b"\n", State())
+    table = read_table(text.encode() + b"\n", MachineState())
     assert not table.unread.any(), text
     for name in ("x", "y", "z", "e", "f"):
         assert getattr(table.after, name) == pytest.approx(getattr(plain.after, name), nan_ok=True), text
@@ -204,7 +206,7 @@ def test_however_a_move_is_spelled_it_is_the_same(words: dict[str, float], data:
 def test_a_file_is_read_alike_by_both_readers() -> None:
     text = written(Dialect(arcs=True))
     careful = text.replace(b"G1 X", b"G1 H0 X").replace(b"G2 X", b"G2 H0 X").replace(b"G3 X", b"G3 H0 X")
-    quick, slow = read(text, State()), read(careful, State())
+    quick, slow = read_table(text, MachineState()), read_table(careful, MachineState())
     assert (quick.kind == MOVE).sum() > 2 * (slow.kind == MOVE).sum()
     for name in ("x", "y", "z", "e", "f", "extruded"):
         assert getattr(quick, name).tolist() == pytest.approx(getattr(slow, name).tolist(), nan_ok=True)
@@ -237,12 +239,12 @@ def test_klippers_limits_are_read_and_taken_back(spelled: str, tmp_path: Path) -
 
 
 def test_firmwares_mean_other_things_by_the_same_codes() -> None:
-    assert commanded(Limits(), "M204", b"M204 X7 Y2 P900", firmware="repetier") == Limits()  # a heater's constants
-    assert commanded(Limits(), "M205", b"M205 X0.02", firmware="smoothie").junction_deviation == 0.02
-    assert found_limits(b"; gcode_flavor = smoothie\n", b"").limits.model == "junction"
+    assert apply_command(Limits(), "M204", b"M204 X7 Y2 P900", firmware="repetier") == Limits()  # a heater's constants
+    assert apply_command(Limits(), "M205", b"M205 X0.02", firmware="smoothie").junction_deviation == 0.02
+    assert read_limits(b"; gcode_flavor = smoothie\n", b"").limits.model == "junction"
     for head in (b"M566 X600\nM203 X12000\n", b"M203 X30000 Y30000 Z900\n"):
-        assert found_limits(head, b"").feedrate_unit == 1 / 60
-    assert found_limits(b"M203 X500 Y500 Z12\n", b"").feedrate_unit == 1
+        assert read_limits(head, b"").feedrate_unit == 1 / 60
+    assert read_limits(b"M203 X500 Y500 Z12\n", b"").feedrate_unit == 1
 
 
 def test_feed_rate_and_flow_are_scaled(tmp_path: Path) -> None:
@@ -337,12 +339,12 @@ def test_lines_that_end_with_cr_alone_are_told(command: str, tmp_path: Path) -> 
     path, new = tmp_path / "mac.gcode", tmp_path / "new.gcode"
     path.write_bytes(old.replace(b"\n", b"\r"))
     output = [] if command == "motion" else ["-o", str(new)]
-    result = CliRunner().invoke(build(), [command, str(path), *output])
+    result = CliRunner().invoke(build_app(), [command, str(path), *output])
     assert (result.exit_code, result.stdout, result.stderr.count("\n")) == (1, "", 1)
     assert f"{path}: its lines end with CR alone" in result.stderr
     assert not new.exists()
     path.write_bytes(path.read_bytes().replace(b"\r", b"\n"))  # the remedy
-    assert CliRunner().invoke(build(), [command, str(path), *output]).exit_code == 0
+    assert CliRunner().invoke(build_app(), [command, str(path), *output]).exit_code == 0
 
 
 @given(st.floats(0, 1e7))
@@ -362,7 +364,7 @@ def test_a_length_is_told_to_a_hundredth_or_to_what_it_is_printed_to(mm: float) 
 def test_where_the_nozzle_is_behind_what_may_move_it_is_not_known(line: str) -> None:
     """Before x and y are both said again, nothing begins that could be drawn anew."""
     text = f"M83\n;TYPE:FILL\nG1 X10 Y0 E1 F900\n{line}\nG1 X20 E1\nG1 Y20 E1\nG1 X30 E1\n"
-    table = read(text.encode(), State())
+    table = read_table(text.encode(), MachineState())
     assert table.unread.tolist() == [False, False, False, True, False, False, False]
     assert table.unsure.tolist() == [False, False, False, False, True, True, False]
 
@@ -370,7 +372,7 @@ def test_where_the_nozzle_is_behind_what_may_move_it_is_not_known(line: str) -> 
 def test_infill_beside_lines_that_cannot_be_read_stays(tmp_path: Path) -> None:
     """What follows such a line begins nobody knows where: not before x and y are said again is anything drawn anew."""
     text = b"M83\n;TYPE:FILL\nG1 X10 Y0 E1 F900\nG1 X{a} Y9 E1\nG1 X20 E1\nG1 Y20 E1\nG1 X30 E1\n"
-    table = read(text, State())
+    table = read_table(text, MachineState())
     assert table.unsure.tolist() == [False, False, False, False, True, True, False]
     old = written(Dialect())
     marked = old.replace(b"G1 X1", b"G1 Q1 X1", 3)
@@ -391,12 +393,14 @@ def test_infill_beside_lines_that_cannot_be_read_stays(tmp_path: Path) -> None:
 def test_a_place_beyond_every_machine_is_counted_and_draws_nothing(word: str, begin: str) -> None:
     """Sampled along such a move, a wall would fill the memory."""
     axis = word[0].lower() if begin.islower() else word[0]
-    table = read(f"G1 X1 Y2 F600\n{begin}{axis}{word[1:]} E1\nG1 X3 Y2 E1\n".encode(), State(relative_e=True))
+    table = read_table(
+        f"G1 X1 Y2 F600\n{begin}{axis}{word[1:]} E1\nG1 X3 Y2 E1\n".encode(), MachineState(relative_e=True)
+    )
     assert table.unread.tolist() == [False, True, False]
     assert table.x[2] == 3
 
 
 def test_the_farthest_place_is_a_place() -> None:
-    table = read(b"G1 X100000 Y-100000 E1\n", State())
+    table = read_table(b"G1 X100000 Y-100000 E1\n", MachineState())
     assert table.x.tolist() == [100_000]
     assert not table.unread.any()

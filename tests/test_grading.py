@@ -15,7 +15,7 @@ from test_command_line import one_line_error, run, usage_error
 
 from infill import GeometryError, InfillError, UsageError, fill
 from infill.errors import FormatError
-from infill.meshes.solids import solid_of
+from infill.meshes.solids import to_manifold
 
 pytestmark = pytest.mark.usefixtures("compiled")
 
@@ -31,7 +31,7 @@ def test_the_local_density_follows_a_linear_field(pattern: str, voxel: float | N
     """In boxes of two cells that make up all of the inside, to two percentage points; and nothing comes apart."""
     block = box(2 * SIDE + 2 * WALL, 2 * SIDE + 2 * WALL, 3 * SIDE + 2 * WALL)
     result = fill(block, pattern, density=(LOW, HIGH), by="z", cell=CELL, wall=WALL, voxel=voxel)
-    report, voids = result.report, solid_of(result.stages.voids)
+    report, voids = result.report, to_manifold(result.stages.voids)
     assert report["problems"] == []
     for level in range(3):
         wanted = LOW + (HIGH - LOW) * (level + 0.5) / 3
@@ -90,14 +90,16 @@ def test_the_other_way_round_is_the_mirror_image() -> None:
     one = fill(box(24, 20, 16), "schwarz-p", density=(0.15, 0.4), by="x", wall=1, voxel=0.5, cell=8.0, tolerance=0)
     other = fill(box(24, 20, 16), "schwarz-p", density=(0.4, 0.15), by="x", wall=1, voxel=0.5, cell=8.0, tolerance=0)
     assert other.surface.volume == pytest.approx(one.surface.volume, rel=5e-3)
-    left, right = (solid_of(each.stages.voids).trim_by_plane([sign, 0, 0], 0) for each, sign in ((one, 1), (other, -1)))
+    left, right = (
+        to_manifold(each.stages.voids).trim_by_plane([sign, 0, 0], 0) for each, sign in ((one, 1), (other, -1))
+    )
     assert left.volume() == pytest.approx(right.volume(), rel=1e-2)
 
 
 def test_the_skin_is_where_its_field_begins() -> None:
     result = fill(box(30, 30, 30), density=(0.4, 0.12), by="skin", wall=1, voxel=0.5, cell=5.0)
     assert result.report["problems"] == []
-    voids = solid_of(result.stages.voids)
+    voids = to_manifold(result.stages.voids)
 
     def density(low: float, high: float) -> float:
         """Of what lies between two cubes."""

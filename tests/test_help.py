@@ -12,7 +12,7 @@ import typer
 from test_command_line import COMMANDS, SMALL, plain, run
 from typer.testing import CliRunner
 
-from infill.cli.app import build
+from infill.cli.app import build_app
 
 GREEK = (
     "alpha|beta|gamma|delta|epsilon|zeta|eta|theta|iota|kappa|lambda|mu|nu|xi|omicron|pi|rho|sigma|tau|upsilon|phi|chi|"
@@ -30,7 +30,7 @@ WIDE = {"COLUMNS": "600"}
 @cache
 def panels(command: str) -> dict[str, list[str]]:
     """Return the rows of the help of a command, by panel, as they stand on a wide screen."""
-    text = CliRunner().invoke(build(command), [command, "--help"], env=WIDE).stdout
+    text = CliRunner().invoke(build_app(command), [command, "--help"], env=WIDE).stdout
     found: dict[str, list[str]] = {"": []}
     rows = found[""]
     for line in re.sub(r"\x1b\[[0-9;]*m", "", text).splitlines():
@@ -52,7 +52,7 @@ def options(command: str) -> list[list[str]]:
 @cache
 def flags_of(command: str) -> set[str]:
     """Return the options of a command that take no value, as the parser knows them."""
-    found = typer.main.get_command(build(command)).commands[command]  # type: ignore[attr-defined]
+    found = typer.main.get_command(build_app(command)).commands[command]  # type: ignore[attr-defined]
     params = found.get_params(typer.Context(found))
     return {name for each in params if getattr(each, "is_flag", False) for name in each.opts}
 

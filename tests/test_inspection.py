@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from infill import FormatError, GeometryError, Surface, check, isosurface, save
 from infill.inspection.printability import guess_unit
-from infill.meshes.intersections import self_intersections
+from infill.meshes.intersections import count_self_intersections
 
 BOX = trimesh.creation.box((10, 10, 10))
 
@@ -158,16 +158,16 @@ def test_crossing_triangles_are_counted_as_by_brute_force(seed: int, size: float
         for i in range(18)
         for j in range(i)
     )
-    assert self_intersections(corners.reshape(-1, 3), np.arange(54).reshape(-1, 3)) == expected
+    assert count_self_intersections(corners.reshape(-1, 3), np.arange(54).reshape(-1, 3)) == expected
 
 
 def test_many_pairs_are_tried_some_at_a_time(monkeypatch: pytest.MonkeyPatch) -> None:
     sphere = trimesh.creation.icosphere(subdivisions=3)
     both = joined(sphere, moved(sphere, 0.5, 0.2, 0.1))
-    whole = self_intersections(both.vertices, both.faces)
+    whole = count_self_intersections(both.vertices, both.faces)
     assert whole > 50
     monkeypatch.setattr("infill.meshes.intersections.PAIRS_AT_ONCE", 100)
-    assert self_intersections(both.vertices, both.faces) == whole
+    assert count_self_intersections(both.vertices, both.faces) == whole
 
 
 def test_a_surface_of_ours_passes(rng: np.random.Generator) -> None:

@@ -14,7 +14,15 @@ from scipy import ndimage
 from scipy.ndimage import convolve1d, map_coordinates
 
 from infill import Smoothing
-from infill.isosurfaces.components import Components, cells_of, components, cores, data_bits, grown, opened
+from infill.isosurfaces.components import (
+    Components,
+    component_cells,
+    data_bits,
+    dilate,
+    dilate_cores,
+    erode_to_cores,
+    find_components,
+)
 from infill.kernels import components as parts
 from infill.kernels import refining
 from infill.kernels.compiling import njit
@@ -31,13 +39,13 @@ from infill.kernels.sparse import (
     ROWS,
     SOLID_BRICK,
     VOID_BRICK,
-    emit,
     repeat_edges,
+    update_faces,
 )
-from infill.kernels.sparse_marching import BLOCK, place, sum_volumes, volumes
-from infill.kernels.threads import MOST, VARIABLE, in_threads, thread_count
+from infill.kernels.sparse_marching import BLOCK, face_volumes, scale_to_mm, sum_volumes
+from infill.kernels.threads import MAX_THREADS, VARIABLE, in_threads, thread_count
 from infill.kernels.transfer import gather
-from infill.phasefield.sparse import SparseField, smooth_bricks, states_of
+from infill.phasefield.sparse import SparseField, brick_states, smooth_bricks
 
 SINGLE = 2e-6  # of numbers about 1: some ten roundings of float32
 
@@ -105,13 +113,13 @@ def test_cells_of_which_all_or_any_are_set(field: SparseField) -> None:
     bits = data_bits(field)
     solid = on_lattice(field, unpacked(bits), False, True)
     core = ndimage.minimum_filter(solid, 2, origin=-1, mode="constant", cval=False)
-    assert np.array_equal(unpacked(cores(field, bits)), of_bricks(field, core))
+    assert np.array_equal(unpacked(erode_to_cores(field, bits)), of_bricks(field, core))
     # Only what bricks keep is spread: where nothing is kept, cores are those of solid bricks, all of them.
-    core = on_lattice(field, unpacked(cores(field, bits)), False, True)
+    core = on_lattice(field, unpacked(erode_to_cores(field, bits)), False, True)
     wide = ndimage.maximum_filter(core, 2, origin=0, mode="constant", cval=False)
-    assert np.array_equal(unpacked(opened(field, cores(field, bits))), of_bricks(field, wide))
+    assert np.array_equal(unpacked(dilate_cores(field, erode_to_cores(field, bits))), of_bricks(field, wide))
     near = ndimage.maximum_filter(solid, 3, mode="constant", cval=False)
-    kept = unpacked(grown(field, bits, 1))
+    kept = unpacked(dilate(field, bits, 1))
     inside = of_bricks(field, on_lattice(field, np.ones_like(kept), False, True))  # as far as bricks are kept
     assert inside.all()
     assert np.array_equal(kept, of_bricks(field, near))
@@ -136,7 +144,7 @@ def test_overlaps_are_those_of_the_cells(field: SparseField) -> None:
     bits = data_bits(field)
     rng = np.random.default_rng(4)
     fewer = bits & rng.integers(0, 2**16, bits.shape, dtype=np.uint16)
-    before, after = components(field, bits), components(field, fewer, whole=False)
+    before, after = find_components(field, bits), find_components(field, fewer, whole=False)
     assert before.count > 1
     assert after.count > 100
     found = parts.overlaps(
@@ -170,7 +178,7 @@ def lattice_of_names(field: SparseField, every: Components) -> np.ndarray:
 
 
 def test_cells_take_the_nearest_component_and_its_level(field: SparseField) -> None:
-    every = components(field, data_bits(field))
+    every = find_components(field, data_bits(field))
     names = lattice_of_names(field, every)
     labels, number = ndimage.label(names >= 0)
     assert number == every.count > 1
@@ -208,12 +216,12 @@ def test_cells_take_the_nearest_component_and_its_level(field: SparseField) -> N
 
 
 def test_cells_of_a_component(field: SparseField) -> None:
-    every = components(field, data_bits(field))
+    every = find_components(field, data_bits(field))
     names = of_bricks(field, lattice_of_names(field, every))
     for number in range(every.count):
         brick, *inner = np.nonzero(names == number)
         expected = field.where[brick] * BRICK + np.stack(inner, axis=1) - 1
-        assert sorted(map(tuple, cells_of(field, every, number))) == sorted(map(tuple, expected))
+        assert sorted(map(tuple, component_cells(field, every, number))) == sorted(map(tuple, expected))
 
 
 # --- faces and edges of bricks ---------------------------------------------------------------------------
@@ -229,7 +237,7 @@ def test_faces_are_copied_and_flat_ones_are_noted(value: float | None) -> None:
             np.moveaxis(brick, axis, 0)[-last] = value
         faces, flat = np.full(FACES, np.nan, dtype=np.float32), np.full(6, 9, dtype=np.int8)
         rows = np.zeros(MASKS, dtype=np.uint64)
-        emit(brick.reshape(-1), faces, flat, rows, ALL)
+        update_faces(brick.reshape(-1), faces, flat, rows, ALL)
         cuts = [np.moveaxis(brick, a, 0)[end].reshape(-1) for a in range(3) for end in (0, -1)]
         expected = [0] * 6
         expected[side] = int(value) if value in (1.0, -1.0) else 0
@@ -338,7 +346,7 @@ def test_volumes_and_slopes_of_faces() -> None:
         own, change = np.full((2, len(faces)), np.nan)
         sums = np.full((-(-len(faces) // BLOCK), 2), np.nan)
         for thread in range(threads):
-            volumes(vertices, rate, faces, middle, own, change, thread, threads)
+            face_volumes(vertices, rate, faces, middle, own, change, thread, threads)
             sum_volumes(vertices, rate, faces, middle, sums, thread, threads)
         assert own == pytest.approx(exact(0), abs=1e-14)
         assert change.sum() == pytest.approx(slope, abs=1e-8)
@@ -352,7 +360,7 @@ def test_vertices_are_placed_in_mm(threads: int) -> None:
     spacing, origin = np.array([0.3, 0.5, 2.0]), np.array([5.0, -1.0, 0.0])
     there, moved = vertices.copy(), rate.copy()
     for thread in range(threads):
-        place(there, moved, spacing, origin, thread, threads)
+        scale_to_mm(there, moved, spacing, origin, thread, threads)
     assert there == pytest.approx((vertices + 0.5) * spacing + origin)
     assert moved == pytest.approx(rate * spacing)
 
@@ -376,7 +384,7 @@ def test_states_of_bricks(shape: tuple[int, int, int], kind: str) -> None:
     grey = kind == "float32"
     if grey and shape[0] > 1:
         data[0, 0, 0] = 0.5
-    _, found = states_of(data, threads=2)
+    _, found = brick_states(data, threads=2)
     for at in np.ndindex(*found.shape):
         sides = [slice(max(n * x - 1, 0), max(n * (x + 1) - 1, 0)) for n, x in zip(BRICK, at, strict=True)]
         assert found[at] == state(data[tuple(sides)], grey)
@@ -449,13 +457,13 @@ def test_a_thread_that_fails_is_heard(failing: int) -> None:
 
 def test_how_many_threads_there_are(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("infill.kernels.threads.usable_cores", lambda: 7)
-    for said, expected in (("3", 3), ("0", 7), ("many", 7), ("", 7), ("100000", MOST)):
+    for said, expected in (("3", 3), ("0", 7), ("many", 7), ("", 7), ("100000", MAX_THREADS)):
         monkeypatch.setenv(VARIABLE, said)
         assert thread_count() == expected
         assert thread_count(2) == 2
     monkeypatch.delenv(VARIABLE)
     assert thread_count() == 7
-    assert thread_count(10**6) == MOST
+    assert thread_count(10**6) == MAX_THREADS
 
 
 @pytest.mark.parametrize("kind", ["any", "slender", "line", "point", "upright"])

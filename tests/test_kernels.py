@@ -19,7 +19,7 @@ from shapes import smooth_noise
 
 from infill import ParameterError, Smoothing, rescale, smooth
 from infill.phasefield.allen_cahn import laplacian
-from infill.phasefield.dense import parts_of_one
+from infill.phasefield.dense import split_one
 from infill.phasefield.methods import KERNELS
 
 FAST = 2e-5  # what float32 may lose over 30 steps
@@ -162,7 +162,7 @@ def test_compiled_kernels_take_three_axes(method: str) -> None:
 @given(decay=st.floats(1e-30, 1.0))
 def test_the_parts_of_one_are_one(decay: float) -> None:
     """In 32 bits too: so that +1 and -1 are fixed points to the last bit."""
-    one, other = parts_of_one(decay)
+    one, other = split_one(decay)
     assert one + other == np.float32(1)
     assert one > 0
     assert one == pytest.approx(decay, abs=1e-7)
@@ -185,13 +185,13 @@ def test_far_from_the_surface_nothing_is_kept() -> None:
 def test_threads_do_not_change_the_result(monkeypatch: pytest.MonkeyPatch, rng: np.random.Generator) -> None:
     f = smooth_noise(rng, (90, 70))
     alone = smooth(f, Smoothing(steps=7), method="inplace")
-    monkeypatch.setattr("infill.phasefield.inplace.BLOCK", 512)
+    monkeypatch.setattr("infill.phasefield.inplace.CELLS_PER_BLOCK", 512)
     monkeypatch.setattr("infill.phasefield.inplace.thread_count", lambda _: 3)
     assert np.array_equal(smooth(f, Smoothing(steps=7), method="inplace"), alone)
 
 
 def test_a_thread_that_fails_is_heard(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("infill.phasefield.inplace.BLOCK", 512)
+    monkeypatch.setattr("infill.phasefield.inplace.CELLS_PER_BLOCK", 512)
     monkeypatch.setattr("infill.phasefield.inplace.thread_count", lambda _: 2)
     real = np.sqrt
     calls = []
@@ -446,7 +446,7 @@ def test_settings_are_plain_numbers() -> None:
 
 def test_an_interrupt_is_an_interrupt(monkeypatch: pytest.MonkeyPatch) -> None:
     """Ctrl-C in the main thread comes out as such, not as the failure of another thread."""
-    monkeypatch.setattr("infill.phasefield.inplace.BLOCK", 512)
+    monkeypatch.setattr("infill.phasefield.inplace.CELLS_PER_BLOCK", 512)
     monkeypatch.setattr("infill.phasefield.inplace.thread_count", lambda _: 3)
     real, main = np.sqrt, threading.main_thread()
 

@@ -14,7 +14,7 @@ from infill import Segment, read_labels, read_segmentation
 from infill.errors import FormatError
 from infill.files.file_names import MOST_BYTES, safe_names
 from infill.imaging.label_tables import segments_of_nrrd
-from infill.imaging.name_templates import filled, is_template
+from infill.imaging.name_templates import fill_template, is_template
 
 SNAP = """################################################
 # ITK-SnAP Label Description File
@@ -219,9 +219,12 @@ def test_names_that_are_safe_stay() -> None:
 
 def test_a_template_takes_name_and_number(tmp_path: Path) -> None:
     segments = [Segment(value=3, name="A/B"), Segment(value=12)]
-    assert [str(each) for each in filled(Path("x/{number}-{label}.stl"), ["A/B", "label_12"], segments)] == [
+    assert [str(each) for each in fill_template(Path("x/{number}-{label}.stl"), ["A/B", "label_12"], segments)] == [
         str(Path("x/3-A_B.stl")),
         str(Path("x/12-label_12.stl")),
     ]
-    assert [str(each) for each in filled(Path("{number}.stl"), ["{number}", "b"], segments)] == ["3.stl", "12.stl"]
+    assert [str(each) for each in fill_template(Path("{number}.stl"), ["{number}", "b"], segments)] == [
+        "3.stl",
+        "12.stl",
+    ]
     assert not is_template(Path("{other}.stl"))

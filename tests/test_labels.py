@@ -30,7 +30,7 @@ from infill import (
     smooth_volume,
 )
 from infill.errors import FormatError
-from infill.voxels.labels import MOST, extents
+from infill.voxels.labels import MOST_LABELS, label_extents
 
 pytestmark = pytest.mark.usefixtures("compiled", "silent_compiler")
 
@@ -54,7 +54,7 @@ def bones(dtype: Any = np.uint8) -> np.ndarray:
 @given(arrays.arrays(np.int16, arrays.array_shapes(min_dims=3, max_dims=3, max_side=6), elements=st.integers(-2, 4)))
 def test_an_extent_holds_all_of_its_label_and_no_less(values: np.ndarray) -> None:
     for shape in (values, np.asfortranarray(values), values.transpose(2, 0, 1), values[::-1]):
-        found = extents(Volume(values=shape))
+        found = label_extents(Volume(values=shape))
         assert [each.value for each in found] == [value for value in np.unique(values).tolist() if value != 0]
         for each in found:
             where = np.argwhere(shape == each.value)
@@ -68,20 +68,20 @@ def test_an_extent_holds_all_of_its_label_and_no_less(values: np.ndarray) -> Non
 def test_labels_of_every_type(dtype: Any) -> None:
     values = np.zeros((4, 5, 6), dtype=dtype)
     values[1, 2, 3] = 1
-    assert [each.value for each in extents(Volume(values=values))] == [1]
+    assert [each.value for each in label_extents(Volume(values=values))] == [1]
 
 
 def test_large_numbers_are_labels_too() -> None:
     values = np.zeros((4, 5, 6), dtype=np.int64)
     values[1], values[2] = 2_000_000_000, 70_000
-    assert [each.value for each in extents(Volume(values=values))] == [70_000, 2_000_000_000]
+    assert [each.value for each in label_extents(Volume(values=values))] == [70_000, 2_000_000_000]
 
 
 def test_grey_values_are_no_labels() -> None:
     with pytest.raises(ParameterError, match="no whole numbers, and so no labels; give --threshold X"):
-        extents(Volume(values=np.linspace(0, 1, 27).reshape(3, 3, 3)))
-    with pytest.raises(ParameterError, match=f"more than the {MOST} labels"):
-        extents(Volume(values=np.arange(20**3, dtype=np.int32).reshape(20, 20, 20)))
+        label_extents(Volume(values=np.linspace(0, 1, 27).reshape(3, 3, 3)))
+    with pytest.raises(ParameterError, match=f"more than the {MOST_LABELS} labels"):
+        label_extents(Volume(values=np.arange(20**3, dtype=np.int32).reshape(20, 20, 20)))
 
 
 # --- smoothing -------------------------------------------------------------------------------------------
@@ -115,8 +115,8 @@ def test_the_surface_is_that_of_the_whole_volume(options: dict[str, Any]) -> Non
 
 
 def test_a_margin_too_small_would_be_seen(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("infill.smoothing.labels.REACH", 0)
-    monkeypatch.setattr("infill.smoothing.labels.MORE", 0)
+    monkeypatch.setattr("infill.smoothing.labels.REACH_IN_INTERFACES", 0)
+    monkeypatch.setattr("infill.smoothing.labels.REFINING_MARGIN", 0)
     monkeypatch.setattr("infill.smoothing.labels.BRICK", (1, 1, 1))
     values = bones()
     surface = smooth_labels(values, label=3).surface
@@ -273,7 +273,7 @@ def test_a_format_of_one_mesh_is_told(result: Result[Any, Any], tmp_path: Path) 
 
 def test_no_more_files_are_open_at_a_time_than_one(tmp_path: Path) -> None:
     """A system may allow 256."""
-    from infill.files.whole_files import deliver
+    from infill.files.whole_files import write_all_files
 
     held: list[Any] = []
 
@@ -282,7 +282,7 @@ def test_no_more_files_are_open_at_a_time_than_one(tmp_path: Path) -> None:
         held.append(file)
         file.write(b"x")
 
-    deliver({tmp_path / str(number): write for number in range(300)})
+    write_all_files({tmp_path / str(number): write for number in range(300)})
     assert len(list(tmp_path.iterdir())) == 300
 
 

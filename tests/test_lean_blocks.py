@@ -17,14 +17,14 @@ from hypothesis import strategies as st
 from shapes import BUILT_IN, as_manifold, assert_printable, smooth_noise
 
 from infill import GeometryError, ParameterError, Result, Smoothing, check, extrude, make, smooth
-from infill.contours.prisms import prism
-from infill.contours.straightening import straightened
-from infill.contours.strips import strips
-from infill.contours.triangulation import filled
-from infill.contours.zero_contours import Contours, contours
-from infill.inspection.layers import solid_area, topology
-from infill.isosurfaces.stacking import extruded
-from infill.making.request import plan
+from infill.contours.prisms import extrude_contours
+from infill.contours.straightening import simplify_contours
+from infill.contours.strips import cut_strips
+from infill.contours.triangulation import triangulate_rings
+from infill.contours.zero_contours import Contours, trace_contours
+from infill.inspection.layers import count_layer, solid_area
+from infill.isosurfaces.stacking import extrude_surface
+from infill.making.request import plan_block
 from patterns import PATTERNS, parameters
 
 ROUNDING = 1e-5  # mm: marching cubes keeps its vertices as 32-bit numbers
@@ -133,7 +133,7 @@ def test_the_default_honeycomb_is_small(tmp_path: Any) -> None:
 def test_the_grid_is_the_isosurface_as_it_is() -> None:
     result = make("honeycomb", surface="grid", tolerance=0)
     stages, surface = result.stages, result.surface
-    wanted = extruded(stages.smoothed, 6.0, tuple(stages.grid.cell_size), origin=(*stages.grid.origin, 0.0))
+    wanted = extrude_surface(stages.smoothed, 6.0, tuple(stages.grid.cell_size), origin=(*stages.grid.origin, 0.0))
     assert np.array_equal(surface.vertices, wanted.vertices)
     assert np.array_equal(surface.faces, wanted.faces)
     assert (len(surface.vertices), len(surface.faces)) == (105_980, 212_504)
@@ -196,9 +196,9 @@ any_layer = st.builds(
 @given(layer=any_layer, tolerance=st.sampled_from([0.0, 0.01, 0.1, 0.3]))
 def test_any_layer_keeps_its_topology(layer: np.ndarray, tolerance: float) -> None:
     """Also with undecided saddles, exact zeros, and walls and gaps of a thousandth of a cell."""
-    found = straightened(contours(layer), tolerance)
-    surface = prism(found, 1.0)
-    counts = topology(layer)
+    found = simplify_contours(trace_contours(layer), tolerance)
+    surface = extrude_contours(found, 1.0)
+    counts = count_layer(layer)
     assert surface.closed
     assert as_manifold(surface).status().name == "NoError"
     assert surface.euler_number == 2 * counts.euler_number
@@ -209,7 +209,7 @@ def test_any_layer_keeps_its_topology(layer: np.ndarray, tolerance: float) -> No
 @settings(max_examples=30)
 @given(layer=any_layer)
 def test_contours_are_the_cut_of_the_isosurface(layer: np.ndarray) -> None:
-    found = contours(layer, (0.5, 0.25), origin=(3, -2))
+    found = trace_contours(layer, (0.5, 0.25), origin=(3, -2))
     mesh = extrude(layer, 1.0, (0.5, 0.25), origin=(3, -2, 0))
     here, there = np.stack([found.points, found.points[found.ahead]], axis=1), cut(mesh, 0.5)
     assert farthest(here, there) < 1e-6
@@ -219,8 +219,8 @@ def test_contours_are_the_cut_of_the_isosurface(layer: np.ndarray) -> None:
 @settings(max_examples=30)
 @given(layer=any_layer, tolerance=st.sampled_from([0.01, 0.1, 0.3]))
 def test_straightening_keeps_every_area_and_stays_near(layer: np.ndarray, tolerance: float) -> None:
-    raw = contours(layer)
-    found = straightened(raw, tolerance)
+    raw = trace_contours(layer)
+    found = simplify_contours(raw, tolerance)
     assert found.areas == pytest.approx(raw.areas, rel=1e-3, abs=1e-9)
     here, there = (np.stack([each.points, each.points[each.ahead]], axis=1) for each in (found, raw))
     assert farthest(here, there) <= tolerance + 1e-9
@@ -230,12 +230,12 @@ def test_straightening_keeps_every_area_and_stays_near(layer: np.ndarray, tolera
 def test_a_circle_gets_the_chords_that_its_curvature_allows() -> None:
     """Corners two thirds outside and chords one third inside: a chord of length l lies l² / 8 r from its arc."""
     x = np.arange(200) - 99.5
-    disc = contours(np.clip(80 - np.hypot(x[:, None], x), -1, 1))
-    found = straightened(disc, 0.05)
+    disc = trace_contours(np.clip(80 - np.hypot(x[:, None], x), -1, 1))
+    found = simplify_contours(disc, 0.05)
     assert found.areas == pytest.approx(disc.areas, rel=1e-9)
     longest = math.sqrt(8 * 80 * 1.5 * 0.05)
     assert 1 <= len(found.points) / (2 * math.pi * 80 / longest) < 2.1  # halving stops at up to half of the longest
-    assert straightened(disc, 0) is disc
+    assert simplify_contours(disc, 0) is disc
 
 
 @example(corners=3)
@@ -243,12 +243,12 @@ def test_a_circle_gets_the_chords_that_its_curvature_allows() -> None:
 @settings(max_examples=10)
 def test_strips_fill_the_same_area_with_the_same_contour(corners: int) -> None:
     rng = np.random.default_rng(corners)
-    rings = contours(smooth_noise(rng, (40, 30)))
-    pieces = strips(rings, corners)
+    rings = trace_contours(smooth_noise(rng, (40, 30)))
+    pieces = cut_strips(rings, corners)
     assert pieces.contours.areas == pytest.approx(rings.areas, rel=1e-12)
     around = Contours(points=pieces.contours.points[pieces.order], first=pieces.first)
     assert around.areas.sum() == pytest.approx(rings.areas.sum(), rel=1e-12)
-    a, b, c = around.points[filled(around)].transpose(1, 0, 2)
+    a, b, c = around.points[triangulate_rings(around)].transpose(1, 0, 2)
     doubled = np.cross(np.c_[b - a, np.zeros(len(a))], np.c_[c - a, np.zeros(len(a))])[:, 2]
     assert (doubled > 0).all()
     assert doubled.sum() / 2 == pytest.approx(rings.areas.sum(), rel=1e-12)
@@ -256,16 +256,16 @@ def test_strips_fill_the_same_area_with_the_same_contour(corners: int) -> None:
 
 def test_the_area_of_contours_is_that_of_the_layer() -> None:
     layer = make("zigzag", size=20).stages.smoothed
-    assert contours(layer).areas.sum() == pytest.approx(solid_area(layer), rel=1e-5)  # weakened by `TIE`
+    assert trace_contours(layer).areas.sum() == pytest.approx(solid_area(layer), rel=1e-5)  # weakened by `TIE`
 
 
 def test_what_cannot_be_filled_is_an_error() -> None:
     bow = Contours(points=np.array([[0.0, 0], [4, 0], [1, 3], [3, 3]]), first=np.array([0, 4]))
     with pytest.raises(GeometryError, match="cannot be filled"):
-        filled(bow)
+        triangulate_rings(bow)
     hole = Contours(points=np.array([[0.0, 0], [0, 1], [1, 0]]), first=np.array([0, 3]))
     with pytest.raises(GeometryError):
-        filled(hole)
+        triangulate_rings(hole)
 
 
 # --- what it will cost, and what the exact stamp would give -------------------------------------------------
@@ -273,7 +273,7 @@ def test_what_cannot_be_filled_is_an_error() -> None:
 
 @pytest.mark.parametrize(("name", "stamp"), [("concentric-heart", "block"), ("honeycomb", "exact")])
 def test_a_large_block_is_expected_from_samples(name: str, stamp: Any) -> None:
-    block = plan(
+    block = plan_block(
         name, size=(120, 90), height=6, line_width=0.45, stamp=stamp, cells=None, smoothing=Smoothing(), parameters={}
     )
     assert block.triangles == pytest.approx(make(name, size=(120, 90), stamp=stamp).report["triangles"], rel=0.25)

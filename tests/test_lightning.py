@@ -13,13 +13,13 @@ from made_shapes import box
 from scipy.ndimage import distance_transform_edt
 
 from infill import ParameterError, UsageError, fill
-from infill.interior.interior import Space, space_inside
-from infill.kernels.layered import beside_lines, from_layers
-from infill.lattices.choosing import voids_of
+from infill.interior.interior import Interior, compute_interior
+from infill.kernels.layered import distances_to_lines, from_layers
+from infill.lattices.choosing import choose_voids
 from infill.lattices.forest import NONE, Forest
-from infill.lattices.grading import NONE as EVEN
-from infill.lattices.layered import Layered
-from infill.lattices.request import checked
+from infill.lattices.grading import UNIFORM_WIDTH as EVEN
+from infill.lattices.layered import NonPrismatic
+from infill.lattices.request import check_request
 from infill.lattices.settings import DEFAULTS
 from infill.meshes.merging import surface_of
 from patterns.errors import PatternError
@@ -116,14 +116,14 @@ def test_a_foot_goes_with_its_wall_or_stretches_to_it() -> None:
 # --- branches in a part ----------------------------------------------------------------------------------------------
 
 
-def branches_in(part: trimesh.Trimesh, **more: Any) -> tuple[Space, list[np.ndarray]]:
+def branches_in(part: trimesh.Trimesh, **more: Any) -> tuple[Interior, list[np.ndarray]]:
     """The inside of a part, and the branches of each of its layers."""
-    request = checked(
+    request = check_request(
         pattern="lightning", own=more, form="solid", **{**DEFAULTS, "cell": CELL, "line_width": 0.8, "density": None}
     )
     surface = surface_of(part)
-    voids, space = voids_of(request, surface.bounds, None), space_inside(surface, wall=1.0, voxel=0.4)
-    assert isinstance(voids, Layered)
+    voids, space = choose_voids(request, surface.bounds, None), compute_interior(surface, wall=1.0, voxel=0.4)
+    assert isinstance(voids, NonPrismatic)
     return space, voids.layers.lines(space, CELL)
 
 
@@ -222,7 +222,7 @@ def test_the_kernel_is_its_definition() -> None:
     first = np.cumsum([0, *map(len, layers)])
     away = np.empty(shape, dtype=np.float32)
     for thread in range(2):
-        beside_lines(np.concatenate(layers), first, reach, away, thread, 2)
+        distances_to_lines(np.concatenate(layers), first, reach, away, thread, 2)
     cells = shapely.points(np.argwhere(np.ones(shape[:2])))
     for layer, lines in enumerate(layers):
         exact = np.full(len(cells), reach)
@@ -248,7 +248,7 @@ def test_a_wall_that_leans_is_as_wide_as_one_that_does_not(lean: float) -> None:
     places = 10 + lean * np.arange(shape[2])
     segments = np.array([[(x, -9.0), (x, 20.0)] for x in places])
     away = np.empty(shape, dtype=np.float32)
-    beside_lines(segments, np.arange(shape[2] + 1), 12.0, away, 0, 1)
+    distances_to_lines(segments, np.arange(shape[2] + 1), 12.0, away, 0, 1)
     deep, out = np.full(shape, np.float32(9)), np.empty(shape, dtype=np.float32)
     from_layers(deep, -1.0, away, 12.0, 1.5, 1.0, half, *EVEN, out, 0, 1)
     x, z = np.meshgrid(np.arange(shape[0]), np.arange(shape[2]), indexing="ij")

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from infill import MemoryLimitError, machine
-from infill.ragged import spread
+from infill.ragged import expand_rows
 
 
 def test_there_is_memory_and_a_core() -> None:
@@ -46,9 +46,9 @@ def test_limits_are_told_in_gib() -> None:
 @pytest.mark.parametrize("most", [None, 1, 3, 100])
 def test_rows_are_laid_end_to_end(most: int | None) -> None:
     counts = np.array([0, 2, 0, 5, 1, 0])
-    parts = list(spread(counts, most))
+    parts = list(expand_rows(counts, most))
     row = np.concatenate([part[0] for part in parts])
     place = np.concatenate([part[1] for part in parts])
     assert row.tolist() == [1, 1, 3, 3, 3, 3, 3, 4]
     assert place.tolist() == [0, 1, 0, 1, 2, 3, 4, 0]
-    assert list(spread(np.zeros(0, dtype=int))) == []
+    assert list(expand_rows(np.zeros(0, dtype=int))) == []

@@ -14,8 +14,8 @@ from scipy import ndimage
 from shapes import BUILT_IN, OF_THE_PAPER, SIZES, assert_printable
 
 from infill import GeometryError, Grid, MemoryLimitError, ParameterError, Smoothing, extrude, make
-from infill.inspection.layers import topology
-from infill.making.request import plan
+from infill.inspection.layers import count_layer
+from infill.making.request import plan_block
 from patterns import PATTERNS, Honeycomb, Pattern, PatternError
 
 STAGES = {"points", "stamp", "smooth", "check", "surface", "total"}
@@ -62,7 +62,7 @@ def test_the_designs_are_printable_at_many_sizes(name: str, size: Any, cell: flo
 
 
 def plan_of(name: str, size: Any, cell: float) -> Any:
-    return plan(
+    return plan_block(
         name,
         size=size,
         height=4,
@@ -109,7 +109,7 @@ def test_the_report_tells_the_truth(name: str) -> None:
     assert report["grid"]["spacing"] == pytest.approx([0.15, 0.15, 5 / round(5 / 0.15)])
     assert (report["request"]["steps"], report["request"]["fidelity"]) == (10, 0.01)
     for key, layer in (("data", result.stages.stamp), ("result", result.stages.smoothed)):
-        counts = topology(layer)
+        counts = count_layer(layer)
         assert report["topology"][key] == {
             "components": counts.components,
             "cavities": 0,
@@ -396,7 +396,7 @@ def test_an_open_surface_is_never_written(monkeypatch: pytest.MonkeyPatch) -> No
 @pytest.mark.parametrize("stamp", ["block", "exact"])
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_the_plan_expects_the_triangles_and_the_file(name: str, stamp: Any, surface: Any, tmp_path: Path) -> None:
-    block = plan(
+    block = plan_block(
         name,
         size=(50, 40),
         height=6,

@@ -19,7 +19,7 @@ from skimage.measure import find_contours
 
 from examples.paper import walls
 from infill import Smoothing
-from infill.phasefield.allen_cahn import STEEPNESS, diffused, held, laplacian, reacted, smooth_reference, step
+from infill.phasefield.allen_cahn import STEEPNESS, apply_fidelity, diffuse, laplacian, react, smooth_reference, step
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "mathematics.md"
 ROUNDING = 1e-12  # relative: sums of some thousand terms in float64
@@ -123,7 +123,7 @@ def test_the_reaction_is_solved_exactly(start: float) -> None:
     ode = integrate.solve_ivp(
         lambda t, y: -rate * (y**3 - y), (0, smoothing.alpha), [start], rtol=1e-11, atol=1e-13, method="DOP853"
     )
-    assert reacted(np.array([start]), smoothing.decay)[0] == pytest.approx(ode.y[0, -1], abs=1e-9)  # of the ODE solver
+    assert react(np.array([start]), smoothing.decay)[0] == pytest.approx(ode.y[0, -1], abs=1e-9)  # of the ODE solver
 
 
 @given(problem=problems())
@@ -132,18 +132,18 @@ def test_no_part_of_a_step_leaves_the_range_of_what_it_starts_from(problem: Prob
     slack = 4 * np.finfo(float).eps  # a sum of seven terms
     phi = problem.f
     for _ in range(5):
-        after = diffused(phi, problem.weights, problem.mask)
+        after = diffuse(phi, problem.weights, problem.mask)
         assert phi.min() - slack <= after.min()
         assert after.max() <= phi.max() + slack
-        after = reacted(after, problem.smoothing.decay)
+        after = react(after, problem.smoothing.decay)
         assert np.abs(after).max() <= 1 + slack
-        phi = held(after, problem.f, problem.smoothing.pull)
+        phi = apply_fidelity(after, problem.f, problem.smoothing.pull)
         assert np.abs(phi).max() <= 1 + slack
 
 
 def test_over_the_limit_the_maximum_principle_fails() -> None:
     board = np.where(np.indices((8, 8)).sum(axis=0) % 2, 1.0, -1.0)
-    at, over = (np.abs(diffused(board, (w, w))[1:-1, 1:-1]).max() for w in (1 / 4, 1.01 / 4))
+    at, over = (np.abs(diffuse(board, (w, w))[1:-1, 1:-1]).max() for w in (1 / 4, 1.01 / 4))
     assert at == 1  # the checkerboard turns its sign and nothing else
     assert over == pytest.approx(1.02)  # |1 - 8 w|
 
@@ -168,13 +168,13 @@ def test_cosines_are_the_modes_of_diffusion(spacing: tuple[float, ...]) -> None:
             wave = np.cos(np.pi * k * (np.arange(n) + 0.5) / n)
             field = field * np.expand_dims(wave, tuple(a for a in range(len(shape)) if a != axis))
             growth -= 4 * weight * math.sin(math.pi * k / (2 * n)) ** 2
-        assert np.abs(diffused(field, weights) - growth * field).max() < ROUNDING
+        assert np.abs(diffuse(field, weights) - growth * field).max() < ROUNDING
         assert abs(growth) <= 1
 
 
 @given(problem=problems())
 def test_diffusion_keeps_the_sum(problem: Problem) -> None:
-    after = diffused(problem.f, problem.weights, problem.mask)
+    after = diffuse(problem.f, problem.weights, problem.mask)
     assert problem.total(after) == pytest.approx(problem.total(problem.f), abs=ROUNDING * problem.f.size)
     if problem.mask is not None:
         assert (after == problem.f)[~problem.mask].all()  # what is outside takes no part
@@ -224,9 +224,9 @@ def test_each_part_of_a_step_lowers_its_own_energy(problem: Problem) -> None:
     phi = problem.f
     for _ in range(5):
         for move, part in (
-            (lambda phi: diffused(phi, problem.weights, problem.mask), problem.diffusion),
-            (lambda phi: reacted(phi, problem.smoothing.decay), problem.reaction),
-            (lambda phi: held(phi, problem.f, problem.smoothing.pull), problem.fidelity),
+            (lambda phi: diffuse(phi, problem.weights, problem.mask), problem.diffusion),
+            (lambda phi: react(phi, problem.smoothing.decay), problem.reaction),
+            (lambda phi: apply_fidelity(phi, problem.f, problem.smoothing.pull), problem.fidelity),
         ):
             after = move(phi)
             assert part(after) <= part(phi) * (1 + ROUNDING) + ROUNDING * problem.f.size
@@ -235,7 +235,7 @@ def test_each_part_of_a_step_lowers_its_own_energy(problem: Problem) -> None:
 
 def test_one_part_may_raise_the_energy_of_another() -> None:
     problem = Problem(f=np.sign(np.arange(-8, 8) + 0.5), smoothing=Smoothing(), spacing=(1.0,))
-    phi = diffused(problem.f, problem.weights)
+    phi = diffuse(problem.f, problem.weights)
     assert problem.reaction(phi) > problem.reaction(problem.f)
 
 
@@ -417,7 +417,7 @@ def test_diffusion_has_the_variance_of_the_gaussian() -> None:
     phi = np.zeros(201)
     phi[100] = 1
     for _ in range(30):
-        phi = diffused(phi, (1 / 7,))
+        phi = diffuse(phi, (1 / 7,))
     assert (phi * (np.arange(201) - 100) ** 2).sum() == pytest.approx(2 * 30 / 7)  # exact but for rounding
 
 

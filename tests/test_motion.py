@@ -17,15 +17,15 @@ from typer.testing import CliRunner
 
 import infill
 from infill import FormatError, Motion, ParameterError, motion
-from infill.cli.app import build
-from infill.gcode.found_limits import CURA, KLIPPER, MARLIN, found_limits
-from infill.gcode.limits import LIMITING_CODES, Limits, commanded
-from infill.pictures.speeds import colours
+from infill.cli.app import build_app
+from infill.gcode.found_limits import CURA, KLIPPER, MARLIN, read_limits
+from infill.gcode.limits import LIMITING_CODES, Limits, apply_command
+from infill.pictures.speeds import speed_colours
 from infill.planner import timeline
-from infill.planner.chords import chords
-from infill.planner.layer_speeds import PIECE, layer_speeds
+from infill.planner.chords import cut_chords
+from infill.planner.layer_speeds import PIECE_LENGTH, layer_speeds
 from infill.planner.printing_time import FeatureMotion
-from infill.planner.struct_of_arrays import chained, part
+from infill.planner.struct_of_arrays import concatenate_rows, slice_rows
 from infill.planner.timeline import Timeline
 from tests import slicers
 from tests.prints import FAST, box, cura_print, prusa_print
@@ -81,7 +81,7 @@ def of(found: Motion, role: str) -> FeatureMotion:
 
 
 def run(*words: object) -> Any:
-    return CliRunner().invoke(build(), ["motion", *map(str, words)])
+    return CliRunner().invoke(build_app(), ["motion", *map(str, words)])
 
 
 # --- limits ----------------------------------------------------------------------------------------------
@@ -107,16 +107,16 @@ def run(*words: object) -> Any:
     ],
 )
 def test_a_command_changes_a_limit(line: bytes, name: str, value: object) -> None:
-    after = commanded(Limits(), line.split()[0].decode(), line)
+    after = apply_command(Limits(), line.split()[0].decode(), line)
     assert getattr(after, name) == pytest.approx(value)
 
 
 def test_klipper_takes_the_lower_of_both() -> None:
     limits = Limits(model="klipper")
-    assert commanded(limits, "M204", b"M204 P900 T700").acceleration == 700
-    assert commanded(limits, "M204", b"M204 P900") == limits
+    assert apply_command(limits, "M204", b"M204 P900 T700").acceleration == 700
+    assert apply_command(limits, "M204", b"M204 P900") == limits
     line = b"SET_VELOCITY_LIMIT ACCEL=5000 accel_to_decel=2000 SQUARE_CORNER_VELOCITY=8 VELOCITY=250"
-    after = commanded(limits, "SET_VELOCITY_LIMIT", line)
+    after = apply_command(limits, "SET_VELOCITY_LIMIT", line)
     assert (after.acceleration, after.travel_acceleration, after.square_corner_velocity) == (5000, 5000, 8)
     assert after.minimum_cruise_ratio == pytest.approx(0.6)
     assert after.feedrate[:2] == (250, 250)
@@ -135,16 +135,16 @@ def test_klipper_takes_the_lower_of_both() -> None:
     ],
 )
 def test_commands_without_sense_change_nothing(line: bytes) -> None:
-    assert commanded(KLIPPER, line.split()[0].decode(), line) == KLIPPER
-    assert commanded(MARLIN, line.split()[0].decode(), line) == MARLIN
+    assert apply_command(KLIPPER, line.split()[0].decode(), line) == KLIPPER
+    assert apply_command(MARLIN, line.split()[0].decode(), line) == MARLIN
 
 
 def test_settings_without_sense_are_left_out() -> None:
     text = (
         b"; machine_max_acceleration_x = -5\n; machine_max_jerk_x = nan\n; machine_max_acceleration_extruding = inf\n"
     )
-    assert found_limits(b"", text + b"; filament_diameter = 0\n").limits == MARLIN
-    assert found_limits(b"", text + b"; filament_diameter = 0\n").filament_diameter == 1.75
+    assert read_limits(b"", text + b"; filament_diameter = 0\n").limits == MARLIN
+    assert read_limits(b"", text + b"; filament_diameter = 0\n").filament_diameter == 1.75
 
 
 @pytest.mark.parametrize("value", ["1e-300", "1e-7", "1e300", "1e12"])
@@ -153,8 +153,8 @@ def test_settings_of_no_machine_are_left_out(value: str) -> None:
     names += [f"machine_max_acceleration_{kind}" for kind in ("extruding", "travel", "retracting")]
     names += ["machine_min_extruding_rate", "machine_min_travel_rate"]
     text = "".join(f"; {name} = {value},{value}\n" for name in names).encode()
-    assert found_limits(b"", text).limits == MARLIN
-    deviation = found_limits(b"", b"; machine_max_junction_deviation = 1e-300\n").limits
+    assert read_limits(b"", text).limits == MARLIN
+    deviation = read_limits(b"", b"; machine_max_junction_deviation = 1e-300\n").limits
     assert deviation == MARLIN
 
 
@@ -170,8 +170,8 @@ def test_limits_of_no_machine_change_no_time(tmp_path: Path, head: bytes) -> Non
 
 def test_a_command_does_not_raise_what_the_printer_allows() -> None:
     limits = Limits(highest_acceleration=800)
-    assert commanded(limits, "M204", b"M204 P5000 T5000").acceleration == 800
-    assert commanded(limits, "M204", b"M204 P5000 T5000").travel_acceleration == 5000
+    assert apply_command(limits, "M204", b"M204 P5000 T5000").acceleration == 800
+    assert apply_command(limits, "M204", b"M204 P5000 T5000").travel_acceleration == 5000
 
 
 @pytest.mark.parametrize(
@@ -211,12 +211,12 @@ PRUSA = b"""; generated by PrusaSlicer 2.5.0 on 2026-11-22
 
 
 def test_settings_are_found() -> None:
-    found = found_limits(b"", PRUSA)
+    found = read_limits(b"", PRUSA)
     assert (found.slicer, found.filament_diameter, found.estimate) == ("", 2.85, 93784)
-    assert found_limits(PRUSA, b"").slicer == "PrusaSlicer 2.5.0"
+    assert read_limits(PRUSA, b"").slicer == "PrusaSlicer 2.5.0"
     limits = found.limits
     assert (limits.model, limits.acceleration, limits.travel_acceleration) == ("jerk", 1250, 1250)
-    assert found_limits(b"", PRUSA.replace(b"= marlin", b"= marlin2")).limits.travel_acceleration == 1400
+    assert read_limits(b"", PRUSA.replace(b"= marlin", b"= marlin2")).limits.travel_acceleration == 1400
     assert limits.axis_acceleration == (1000, 3000, 100, 5000)  # of y and z it says nothing
     assert limits.jerk == (10, 10, 0.3, 4.5)
     assert set(found.sources.values()) == {"settings"}
@@ -224,14 +224,14 @@ def test_settings_are_found() -> None:
 
 
 def test_klipper_takes_what_the_settings_have() -> None:
-    found = found_limits(b"", PRUSA.replace(b"= marlin", b"= klipper"))
+    found = read_limits(b"", PRUSA.replace(b"= marlin", b"= klipper"))
     assert (found.limits.model, found.limits.acceleration, found.limits.square_corner_velocity) == ("klipper", 1250, 5)
     assert found.sources["square_corner_velocity"] == "assumed"
     assert found.after("M204", b"M204 S9000").limits.acceleration == 9000  # its own limits it keeps to itself
 
 
 def test_settings_that_do_not_count_are_left_out() -> None:
-    found = found_limits(b"", PRUSA + b"; machine_limits_usage = ignore\n")
+    found = read_limits(b"", PRUSA + b"; machine_limits_usage = ignore\n")
     assert found.limits == MARLIN
     assert set(found.sources.values()) == {"assumed"}
 
@@ -246,23 +246,23 @@ def test_settings_that_do_not_count_are_left_out() -> None:
     ],
 )
 def test_what_is_assumed_is_said(head: bytes, limits: Limits) -> None:
-    found = found_limits(head, b"")
+    found = read_limits(head, b"")
     assert found.limits == limits
     assert set(found.sources.values()) == {"assumed"}
 
 
 def test_a_junction_deviation_makes_the_model() -> None:
-    assert found_limits(b"", b"; machine_max_junction_deviation = 0.02\n").limits.model == "junction"
-    assert found_limits(b"", b"; machine_max_junction_deviation = 0\n").limits.model == "jerk"
+    assert read_limits(b"", b"; machine_max_junction_deviation = 0.02\n").limits.model == "junction"
+    assert read_limits(b"", b"; machine_max_junction_deviation = 0\n").limits.model == "jerk"
 
 
 def test_reprap_counts_in_minutes() -> None:
-    found = found_limits(b"; gcode_flavor = reprapfirmware\n", b"").after("M203", b"M203 X12000 Y6000")
+    found = read_limits(b"; gcode_flavor = reprapfirmware\n", b"").after("M203", b"M203 X12000 Y6000")
     assert found.limits.feedrate[:2] == (200, 100)
 
 
 def test_commands_are_a_source_and_what_is_given_stays() -> None:
-    found = found_limits(b"", b"", {"acceleration": 500.0})
+    found = read_limits(b"", b"", {"acceleration": 500.0})
     for line in (b"M204 P900", b"M205 X12", b"M201 X900"):
         found = found.after(line[:4].decode(), line)
     assert found.limits.acceleration == 500
@@ -280,7 +280,7 @@ def test_commands_are_a_source_and_what_is_given_stays() -> None:
     ],
 )
 def test_estimates_are_found(text: bytes, seconds: float | None) -> None:
-    assert found_limits(text, b"").estimate == seconds
+    assert read_limits(text, b"").estimate == seconds
 
 
 # --- files -----------------------------------------------------------------------------------------------
@@ -391,7 +391,7 @@ def test_chords_lie_on_their_arc(degrees: float, clockwise: bool) -> None:
     start = np.array([[4.0, 2.0, 1.0]])
     centre = np.array([[1.0, 2.0]])
     end = np.array([[1 + 3 * math.cos(turn), 2 + 3 * math.sin(turn), 2.0]])
-    arc, first, last = chords(start, end, centre, np.array([clockwise]))
+    arc, first, last = cut_chords(start, end, centre, np.array([clockwise]))
     assert (arc == 0).all()
     assert (first[1:] == last[:-1]).all()
     assert first[0].tolist() == start[0].tolist()
@@ -527,7 +527,7 @@ def test_the_pieces_of_a_layer(tmp_path: Path) -> None:
     layer = layer_speeds(written(tmp_path, SQUARE), 1)
     assert layer.start[1:] == pytest.approx(layer.end[:-1])
     long = np.linalg.norm(layer.end - layer.start, axis=1)
-    assert long.max() <= PIECE * (1 + 1e-9)
+    assert long.max() <= PIECE_LENGTH * (1 + 1e-9)
     assert set(layer.role) == {"external perimeter", "sparse infill"}
     side = layer.draws & (layer.start[:, 1] == 0) & (layer.end[:, 1] == 0)
     middle = (layer.start[side, 0] + layer.end[side, 0]) / 2
@@ -538,7 +538,7 @@ def test_the_pieces_of_a_layer(tmp_path: Path) -> None:
 
 
 def test_colours_tell_speeds_apart() -> None:
-    assert len(np.unique(colours(np.linspace(0, 1, 9), 1), axis=0)) == 9
+    assert len(np.unique(speed_colours(np.linspace(0, 1, 9), 1), axis=0)) == 9
 
 
 # --- columns ---------------------------------------------------------------------------------------------
@@ -546,7 +546,7 @@ def test_colours_tell_speeds_apart() -> None:
 
 def test_columns_are_cut_and_joined(tmp_path: Path) -> None:
     (whole,) = [steps for steps, _ in Timeline(io.BytesIO(SQUARE)) if len(steps) > 3]
-    again = chained([part(whole, slice(2)), part(whole, slice(2, None))])
+    again = concatenate_rows([slice_rows(whole, slice(2)), slice_rows(whole, slice(2, None))])
     assert np.array_equal(again.moves.delta, whole.moves.delta)
     assert np.array_equal(again.feature, whole.feature)
 
@@ -555,7 +555,7 @@ def test_every_limiting_code_does_something() -> None:
     words = {"M204": "S1", "M205": "X1", "SET_VELOCITY_LIMIT": "ACCEL=1"}
     for code in LIMITING_CODES - {"RESET_VELOCITY_LIMIT"}:  # which takes the others back
         line = f"{code} {words.get(code, 'X1')}".encode()
-        assert commanded(Limits(), code, line) != Limits()
+        assert apply_command(Limits(), code, line) != Limits()
 
 
 # --- the slicers' own estimates --------------------------------------------------------------------------

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from infill.kernels.noise import count_overruled
-from infill.voxels.noise import NOISY, noise_share, overruled, room_for
+from infill.voxels.noise import NOISY, count_overruled_cells, noise_share, work_shape
 
 
 @given(
@@ -19,8 +19,8 @@ from infill.voxels.noise import NOISY, noise_share, overruled, room_for
 def test_the_kernel_counts_what_the_specification_counts(shape: tuple[int, int, int], share: float, seed: int) -> None:
     slab = np.random.default_rng(seed).random(shape) < share
     counts = np.zeros(3, dtype=np.int64)
-    count_overruled(slab.view(np.uint8), np.empty(room_for(slab), dtype=np.uint8), counts)
-    assert tuple(counts) == overruled(slab)
+    count_overruled(slab.view(np.uint8), np.empty(work_shape(slab), dtype=np.uint8), counts)
+    assert tuple(counts) == count_overruled_cells(slab)
 
 
 @pytest.mark.parametrize("order", ["C", "F"])

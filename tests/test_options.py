@@ -19,7 +19,7 @@ from test_command_line import COMMANDS, one_line_error, usage_error
 from typer.testing import CliRunner
 
 from infill import ParameterError, make, motion, smooth_mesh, smooth_volume
-from infill.cli.app import build
+from infill.cli.app import build_app
 from infill.gcode.limits import MODELS
 from infill.making.settings import resolve
 from infill.smoothing.request import METHODS
@@ -155,13 +155,13 @@ NAMES = {"FILE", "NAME", "UID", "keep|NAME|FILE"}  # metavars of what may be any
 
 def run(*words: str) -> Any:
     """Run a command, as the console script does: without the parsers of the others."""
-    return CliRunner().invoke(build(words[0]), words)
+    return CliRunner().invoke(build_app(words[0]), words)
 
 
 @cache
 def parsed(command: str) -> Any:
     """Return the parser of a command."""
-    return typer.main.get_command(build(command)).commands[command]  # type: ignore[attr-defined]
+    return typer.main.get_command(build_app(command)).commands[command]  # type: ignore[attr-defined]
 
 
 @pytest.fixture

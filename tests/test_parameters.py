@@ -20,7 +20,7 @@ from test_command_line import SMALL, one_line_error, plain, refused, run
 from infill import ParameterError, read_mesh
 from infill.making.settings import resolve
 from patterns import PATTERNS, Pattern, PatternError, parameter, parameter_values, parameters
-from patterns.given import value_of
+from patterns.given import check_named_value
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -166,7 +166,7 @@ def test_what_a_tuple_takes_is_told_when_it_is_no_tuple(kind: str) -> None:
     tuples = [name for name, (field, _) in parameters(KINDS[kind]).items() if isinstance(field.default, tuple)]
     for name, value in itertools.product(tuples, (3, "1,2", [1, "b"], [], {})):
         with pytest.raises(PatternError, match=f"{name} of {kind} is .*; it must be 2 numbers from"):
-            value_of(KINDS[kind], name, value)
+            check_named_value(KINDS[kind], name, value)
 
 
 # --- how they are written --------------------------------------------------------------------------------
@@ -328,9 +328,9 @@ def offered(words: str) -> set[str]:
 def run_completing(environment: dict[str, str]) -> str:
     from typer.testing import CliRunner
 
-    from infill.cli.app import build
+    from infill.cli.app import build_app
 
-    return CliRunner().invoke(build(), [], env=environment, prog_name="infill").stdout
+    return CliRunner().invoke(build_app(), [], env=environment, prog_name="infill").stdout
 
 
 def test_names_of_patterns_are_completed() -> None:

@@ -35,8 +35,8 @@ from patterns import (
     parameters,
 )
 from patterns import parameter as described
-from patterns.heart import outline
-from patterns.linework import bodies, sample
+from patterns.heart import heart_outline
+from patterns.linework import body_numbers, sample_points
 from patterns.shared import SHARED
 
 ROUNDING = 1e-9  # mm: clipping computes the cut points
@@ -64,7 +64,7 @@ def test_points_follow_the_lines_closely(pattern: Pattern) -> None:
     points = pattern.points(REGIONS[0], spacing)
     assert shapely.distance(shapely.points(points), lines).max() < ROUNDING
     # Every place on a line has a point within half the spacing: so neighbours are at most one apart.
-    probes = sample(lines, 0.05)
+    probes = sample_points(lines, 0.05)
     distance = shapely.STRtree(shapely.points(points)).query_nearest(
         shapely.points(probes), return_distance=True, all_matches=False
     )[1]
@@ -114,7 +114,7 @@ def test_the_frame_is_the_outline_of_the_region(name: str) -> None:
 
 def test_framed_designs_hang_together() -> None:
     for name in ("honeycomb", "zigzag"):
-        assert bodies(PATTERNS[name]().lines(REGIONS[0])).max() == 0
+        assert body_numbers(PATTERNS[name]().lines(REGIONS[0])).max() == 0
 
 
 @given(
@@ -179,13 +179,13 @@ def test_zigzag_is_the_papers_design() -> None:
 
 
 def test_the_heart_is_symmetric_about_the_diagonal() -> None:
-    heart = outline()
+    heart = heart_outline()
     assert np.array_equal(heart, heart[::-1, ::-1])
     assert np.array_equal(heart[0], heart[-1])
 
 
 def test_the_heart_is_a_square_with_two_half_discs() -> None:
-    polygon = shapely.Polygon(outline())
+    polygon = shapely.Polygon(heart_outline())
     assert polygon.is_valid
     assert polygon.area == pytest.approx(1 + math.pi / 4, rel=1e-4)  # 256 chords an arc
     assert polygon.bounds == pytest.approx((0, 0, 1.5, 1.5))
@@ -196,7 +196,7 @@ def test_the_heart_is_a_square_with_two_half_discs() -> None:
 def test_hearts_are_nested_with_even_gaps(hearts: int) -> None:
     region = box(-30, -30, 30, 30)
     lines = ConcentricHeart(hearts=hearts).lines(region)
-    assert bodies(lines).max() + 1 == hearts
+    assert body_numbers(lines).max() + 1 == hearts
     assert lines.bounds == pytest.approx(region.bounds)
     polygons = sorted(map(shapely.Polygon, lines.geoms), key=lambda polygon: -shapely.envelope(polygon).area)
     left = [polygon.bounds[0] for polygon in polygons]
@@ -442,7 +442,7 @@ def test_spirals_are_one_line_that_lies_evenly(kind: type[Pattern]) -> None:
 
 def test_the_round_spiral_is_nearly_that_of_archimedes() -> None:
     spiral = ArchimedeanChords(cell=1, frame=False).lines(shapely.Point(0, 0).buffer(20))
-    x, y = sample(spiral, 0.01).T
+    x, y = sample_points(spiral, 0.01).T
     radius = np.hypot(x, y)
     turns = radius + np.arctan2(y, x) / math.pi
     away = np.abs(turns - np.round(turns))
@@ -525,7 +525,7 @@ def test_concentric_lines_are_parallel_to_the_outline(region: shapely.Polygon, c
     """At half cells from it, or in a frame at whole ones; about a hole, chords are nearer by their share of a cell."""
     cell = 2.5
     lines = Concentric(cell=cell, frame=frame).lines(region)
-    away = shapely.distance(shapely.points(sample(lines, 0.2)), region.boundary)
+    away = shapely.distance(shapely.points(sample_points(lines, 0.2)), region.boundary)
     place = away / cell - (0 if frame else 0.5)
     assert np.abs(place - np.round(place)).max() < chords * away.max() / cell + ROUNDING
     # Every inset has its lines: as many as fit into the widest place.

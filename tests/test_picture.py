@@ -12,8 +12,8 @@ from PIL import Image
 from test_command_line import run
 
 from infill import FormatError, OutputError, Smoothing, Surface, make, smooth_labels, smooth_mesh, smooth_volume
-from infill.meshes.winding import bounds_solid, winding
-from infill.pictures.before_and_after import FAR, Marked
+from infill.meshes.winding import is_solid_boundary, winding_numbers
+from infill.pictures.before_and_after import FAR_VOXELS, MarkedSurface
 from infill.pictures.preview import check_preview
 from infill.pictures.render import render
 from infill.pictures.sheet import CAPTION, MARGIN, PANEL
@@ -171,9 +171,9 @@ def test_only_what_lies_far_from_the_other_has_an_area() -> None:
     one, other = trimesh.creation.box((10, 10, 10)), trimesh.creation.box((10, 10, 10))
     other.apply_translation((0, 0, 14))
     both, lone = surface(trimesh.util.concatenate([one, other])), surface(one)
-    added = Marked(surface=both, other=lone, far=FAR, colour=(0, 0, 255))
+    added = MarkedSurface(surface=both, other=lone, far=FAR_VOXELS, colour=(0, 0, 255))
     assert added.area == pytest.approx(600, rel=0.02)
-    assert Marked(surface=lone, other=both, far=FAR, colour=(255, 0, 0)).area == 0
+    assert MarkedSurface(surface=lone, other=both, far=FAR_VOXELS, colour=(255, 0, 0)).area == 0
 
 
 @pytest.mark.usefixtures("compiled")
@@ -182,7 +182,7 @@ def test_faces_hidden_inside_the_solid_are_not_lost() -> None:
     other.apply_translation((4, 4, 4))
     both = surface(trimesh.util.concatenate([one, other]))
     union = surface(trimesh.creation.box((60, 60, 60)))
-    lost = Marked(surface=both, other=union, far=FAR, colour=(255, 0, 0))
+    lost = MarkedSurface(surface=both, other=union, far=FAR_VOXELS, colour=(255, 0, 0))
     assert lost.area == pytest.approx(1200 - 6 * 36, rel=0.02)  # all of both but 6 x 6 mm of six faces
 
 
@@ -192,11 +192,11 @@ def test_winding_counts_bodies() -> None:
     other.apply_translation((4, 4, 4))
     both = surface(trimesh.util.concatenate([one, other]))
     points = np.array([[-3, -3.1, -3.2], [2, 2.1, 2.3], [8, 8.1, 8.2], [20, 0, 0.0]])
-    assert winding(points, both).tolist() == [1, 2, 1, 0]
+    assert winding_numbers(points, both).tolist() == [1, 2, 1, 0]
     inside = surface(trimesh.creation.box((10, 10, 10)))
     face = np.flatnonzero(inside.vertices[inside.faces][..., 0].min(axis=1) == 5)[:1]
-    assert bounds_solid(np.array([[5.0, 1, 2]]), face, inside, 1e-3).all()
-    assert len(bounds_solid(np.zeros((0, 3)), np.zeros(0, int), inside, 1e-3)) == 0
+    assert is_solid_boundary(np.array([[5.0, 1, 2]]), face, inside, 1e-3).all()
+    assert len(is_solid_boundary(np.zeros((0, 3)), np.zeros(0, int), inside, 1e-3)) == 0
 
 
 # --- of a result -----------------------------------------------------------------------------------------

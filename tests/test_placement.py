@@ -21,13 +21,13 @@ from infill.paths.covering import cover, solve_cell
 from infill.paths.families.catalogue import FAMILIES
 from infill.paths.families.honeycomb import Honeycomb
 from infill.paths.families.protocol import TOUCH, Family
-from infill.paths.families.turned import Turned
+from infill.paths.families.turned import TurnedFamily
 from infill.paths.outlines import outline_of
-from infill.refilling.placement import family_of, unplaced
+from infill.refilling.placement import default_parameters, family_of
 from infill.refilling.settings import ENDLESS, parse_radius, parse_range, parse_share_or_same, resolve
 from patterns import PatternError
-from patterns.declared import parameters, wanted
-from patterns.given import assigned
+from patterns.declared import describe_values, parameters
+from patterns.given import parse_assignment
 from patterns.linework import turn
 from tests.gcode_judge import judge
 from tests.handmade_prints import Dialect, written
@@ -40,7 +40,7 @@ ANGLE = 17.0
 AROUND = shapely.Point(0, 0).buffer(9, quad_segs=64)
 TILE = '<svg xmlns="http://www.w3.org/2000/svg" width="8mm" height="6mm" viewBox="0 0 8 6"><path d="{}"/></svg>'
 
-TURNING = [name for name in FAMILIES if "angle" in parameters(unplaced(name))]
+TURNING = [name for name in FAMILIES if "angle" in parameters(default_parameters(name))]
 every_turning = pytest.mark.parametrize("name", TURNING)
 
 
@@ -87,13 +87,13 @@ def turned(found: shapely.MultiLineString, angle: float) -> shapely.MultiLineStr
 def test_what_can_be_turned() -> None:
     """All that have a direction; nested outlines have none."""
     assert [name for name in FAMILIES if name not in TURNING] == ["concentric"]
-    assert not parameters(unplaced("keep"))
+    assert not parameters(default_parameters("keep"))
 
 
 @every_turning
 def test_a_turn_keeps_the_lines(name: str) -> None:
     """They are those of the pattern, turned: as long within a disc about (0, 0), and where they should be."""
-    more = {"middle": (0.0, 0.0)} if "middle" in parameters(unplaced(name)) else {}
+    more = {"middle": (0.0, 0.0)} if "middle" in parameters(default_parameters(name)) else {}
     plain, other = lines(family_of(name, more)), lines(family_of(name, {**more, "angle": ANGLE}))
     assert apart(turned(plain, ANGLE), other) < 1e-6
     lengths = [found.intersection(AROUND).length for found in (plain, other)]
@@ -145,7 +145,7 @@ def test_the_comparison_can_fail() -> None:
 
 def test_without_a_turn_a_family_is_itself() -> None:
     for name in FAMILIES:
-        assert not isinstance(family_of(name, {}), Turned)
+        assert not isinstance(family_of(name, {}), TurnedFamily)
 
 
 def test_hearts_stand_on_a_point() -> None:
@@ -263,9 +263,9 @@ def test_ranges_are_read_as_written(first: int, last: int) -> None:
 
 @given(st.floats(-180, 180), st.floats(-1e4, 1e4), st.floats(-1e4, 1e4))
 def test_parameters_are_read_as_written(angle: float, x: float, y: float) -> None:
-    kind = unplaced("gyroid")
-    assert assigned(kind, f"angle={angle!r}") == ("angle", angle)
-    assert assigned(kind, f"phase = {x!r}, {y!r}") == ("phase", (x, y))
+    kind = default_parameters("gyroid")
+    assert parse_assignment(kind, f"angle={angle!r}") == ("angle", angle)
+    assert parse_assignment(kind, f"phase = {x!r}, {y!r}") == ("phase", (x, y))
     found = resolve({"pattern": "gyroid"}, assigned=[f"angle={angle!r}", f"phase={x!r},{y!r}"])
     assert found == {"pattern": "gyroid", "angle": angle, "phase": (x, y)}
 
@@ -412,12 +412,12 @@ def test_the_page_tells_every_parameter() -> None:
     told = {row[0].strip("`"): row for row in rows}
     having: dict[str, list[str]] = {}
     for pattern in FAMILIES:
-        for name in parameters(unplaced(pattern)):
+        for name in parameters(default_parameters(pattern)):
             having.setdefault(name, []).append(pattern)
     assert set(told) == set(having)
     for name, (_, of, meaning, may) in told.items():
         named = set(re.findall(r"`([^`]+)`", of))
         assert having[name] == [each for each in FAMILIES if (each in named) != of.startswith("all")]
-        field, described = parameters(unplaced(having[name][0]))[name]
+        field, described = parameters(default_parameters(having[name][0]))[name]
         assert meaning.startswith(described.help)
-        assert wanted(field.default, described).removeprefix("a number ") == may
+        assert describe_values(field.default, described).removeprefix("a number ") == may

@@ -12,12 +12,12 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from numpy.typing import ArrayLike
 
-from infill.gcode.limits import INFINITE, JERKS, LEAST, MODELS, MOST, Limits
-from infill.planner.bounds import Moves, bounded
-from infill.planner.cruising import tops
+from infill.gcode.limits import INFINITE, JERK_MODELS, MAX_LIMIT, MIN_LIMIT, MODELS, Limits
+from infill.planner.bounds import Moves, bound_moves
+from infill.planner.cruising import hump_tops
 from infill.planner.junctions import joint_limits
-from infill.planner.lookahead import PIECE, Plan, look_ahead, plan, settle
-from infill.planner.struct_of_arrays import chained, part
+from infill.planner.lookahead import MOVES_AT_ONCE, MotionPlan, look_ahead, plan_moves, plan_settled
+from infill.planner.struct_of_arrays import concatenate_rows, slice_rows
 
 FREE = (INFINITE,) * 4
 # A machine without limits of its axes: what is left is the path's.
@@ -39,7 +39,7 @@ def moves_of(delta: ArrayLike, feedrate: ArrayLike) -> Moves:
 
 
 def total(delta: ArrayLike, feedrate: ArrayLike, limits: Limits) -> float:
-    return float(plan(moves_of(delta, feedrate), [limits]).seconds.sum())
+    return float(plan_moves(moves_of(delta, feedrate), [limits]).seconds.sum())
 
 
 @st.composite
@@ -73,7 +73,7 @@ def test_one_move_from_rest_to_rest(distance: float, speed: float, acceleration:
 def test_a_short_move_cruises_for_the_ratio(distance: float, ratio: float) -> None:
     """Klipper's ratio r: the move rises to v² = a (1 - r) d, so it runs r d at constant speed."""
     limits = replace(STEADY, minimum_cruise_ratio=ratio)
-    done = plan(moves_of([distance, 0], 1e6), [limits])
+    done = plan_moves(moves_of([distance, 0], 1e6), [limits])
     peak = math.sqrt(1000 * (1 - ratio) * distance)
     assert done.peak[0] == pytest.approx(peak, rel=1e-12)
     assert done.seconds[0] == pytest.approx(2 * peak / 1000 + ratio * distance / peak, rel=1e-9)
@@ -88,7 +88,7 @@ def test_jerk_starts_and_stops_at_once() -> None:
 def test_of_old_half_the_jerk_is_for_starting() -> None:
     expected = 2 * (80 - 4) / 1000 + (100 - (80**2 - 4**2) / 1000) / 80
     assert total([100, 0], 80, VECTOR) == pytest.approx(expected, rel=1e-12)
-    done = plan(moves_of([[100, 0], [0, 100]], 80), [VECTOR])
+    done = plan_moves(moves_of([[100, 0], [0, 100]], 80), [VECTOR])
     assert done.exit[0] == pytest.approx(8 / math.sqrt(2), rel=1e-12)  # x and y jump together by 80 sqrt(2)
 
 
@@ -102,7 +102,7 @@ def test_filament_alone_has_its_own_limits() -> None:
 def test_an_axis_limits_by_its_share() -> None:
     """At 45 degrees an axis of 100 mm/s lets the path run at 100 sqrt(2)."""
     limits = replace(JUNCTION, feedrate=(100, 100, 5, 5), axis_acceleration=(500, 500, 100, 100))
-    bounds = bounded(moves_of([[30, 30, 0], [30, 0, 0], [0, 0, 2]], 400), [limits])
+    bounds = bound_moves(moves_of([[30, 30, 0], [30, 0, 0], [0, 0, 2]], 400), [limits])
     assert bounds.speed == pytest.approx([100 * math.sqrt(2), 100, 5], rel=1e-12)
     assert bounds.acceleration == pytest.approx([500 * math.sqrt(2), 500, 100], rel=1e-12)
 
@@ -111,7 +111,7 @@ def test_an_axis_limits_by_its_share() -> None:
 
 
 def test_klipper_turns_a_right_angle_at_its_velocity() -> None:
-    done = plan(moves_of([[100, 0], [0, 100]], 200), [replace(STEADY, square_corner_velocity=7)])
+    done = plan_moves(moves_of([[100, 0], [0, 100]], 200), [replace(STEADY, square_corner_velocity=7)])
     assert done.exit[0] == pytest.approx(7, rel=1e-12)
 
 
@@ -119,7 +119,7 @@ def test_klipper_limits_short_moves_by_their_circle() -> None:
     """Moves of 0.1 mm that turn by p: v² = a d / 2 cot(p / 2), below what the deviation allows."""
     p = 0.2
     turn = np.arange(40) * p
-    done = plan(moves_of(0.1 * np.column_stack([np.cos(turn), np.sin(turn)]), 200), [STEADY])
+    done = plan_moves(moves_of(0.1 * np.column_stack([np.cos(turn), np.sin(turn)]), 200), [STEADY])
     circle = 1000 * 0.05 / math.tan(p / 2)
     deviation = 25 * (math.sqrt(2) - 1) * math.cos(p / 2) / (1 - math.cos(p / 2))
     assert circle < deviation
@@ -129,15 +129,15 @@ def test_klipper_limits_short_moves_by_their_circle() -> None:
 def test_marlin_takes_a_corner_by_its_deviation() -> None:
     """At a right angle s = sqrt(1/2): v² = a J s / (1 - s)."""
     s = math.sqrt(0.5)
-    done = plan(moves_of([[100, 0], [0, 100]], 200), [replace(JUNCTION, junction_deviation=0.05)])
+    done = plan_moves(moves_of([[100, 0], [0, 100]], 200), [replace(JUNCTION, junction_deviation=0.05)])
     assert done.exit[0] == pytest.approx(math.sqrt(1000 * 0.05 * s / (1 - s)), rel=1e-9)
 
 
 def test_jerk_bounds_the_jump_of_each_axis() -> None:
     """From +x to +y at 80 mm/s each axis jumps by the speed; from +x to -x it counts once, as firmware has it."""
     for delta in ([[100, 0], [0, 100]], [[100, 0], [-100, 0]]):
-        assert plan(moves_of(delta, 80), [PLAIN]).exit[0] == pytest.approx(8, rel=1e-12)
-    gentle = plan(moves_of([[100, 0], [100, 5]], 80), [PLAIN])
+        assert plan_moves(moves_of(delta, 80), [PLAIN]).exit[0] == pytest.approx(8, rel=1e-12)
+    gentle = plan_moves(moves_of([[100, 0], [100, 5]], 80), [PLAIN])
     assert gentle.exit[0] == pytest.approx(80, rel=1e-12)  # y jumps by 4
 
 
@@ -146,8 +146,8 @@ def test_a_stop_in_between_is_two_paths(limits: Limits) -> None:
     both = moves_of([[30, 0], [30, 0]], 100)
     stopped = replace(both, stop=np.array([False, True]))
     expected = 2 * total([30, 0], 100, limits)
-    assert plan(stopped, [limits]).seconds.sum() == pytest.approx(expected, rel=1e-12)
-    assert plan(both, [limits]).seconds.sum() < expected
+    assert plan_moves(stopped, [limits]).seconds.sum() == pytest.approx(expected, rel=1e-12)
+    assert plan_moves(both, [limits]).seconds.sum() < expected
 
 
 # --- laws ------------------------------------------------------------------------------------------------
@@ -156,12 +156,12 @@ def test_a_stop_in_between_is_two_paths(limits: Limits) -> None:
 @given(paths(), st.sampled_from(EVERY), st.floats(1, 3))
 @settings(deadline=None, max_examples=60)
 def test_time_falls_when_limits_rise(moves: Moves, limits: Limits, factor: float) -> None:
-    before = plan(moves, [limits]).seconds.sum()
+    before = plan_moves(moves, [limits]).seconds.sum()
     scaled = ("acceleration", "travel_acceleration", "retract_acceleration", "junction_deviation")
     scaled += ("square_corner_velocity", "corner_extrusion_velocity")
     higher = {name: getattr(limits, name) * factor for name in scaled}
     limits = replace(limits, jerk=tuple(value * factor for value in limits.jerk), **higher)
-    assert plan(moves, [limits]).seconds.sum() <= before * (1 + 1e-9)
+    assert plan_moves(moves, [limits]).seconds.sum() <= before * (1 + 1e-9)
 
 
 @given(st.lists(st.floats(0.05, 20), min_size=1, max_size=30), st.floats(10, 300), st.sampled_from(EVERY))
@@ -181,13 +181,13 @@ def test_the_way_back_takes_as_long(moves: Moves, limits: Limits) -> None:
 
     With its cruise ratio Klipper lets a move before the top of a hump reach that, and holds one after it at its entry.
     """
-    if limits.model in JERKS:
+    if limits.model in JERK_MODELS:
         level = np.where(moves.delta[:, :2].any(axis=1)[:, None], moves.delta, [1.0, 0, 0, 0])
         moves = replace(moves, delta=level, feedrate=np.full(len(moves), 60.0))
     back = replace(moves, delta=-moves.delta[::-1], feedrate=moves.feedrate[::-1])
     # What is drawn back on the way there is pushed on the way back; nothing here limits one and not the other.
-    there = plan(moves, [limits]).seconds.sum()
-    assert plan(back, [limits]).seconds.sum() == pytest.approx(there, rel=1e-9)
+    there = plan_moves(moves, [limits]).seconds.sum()
+    assert plan_moves(back, [limits]).seconds.sum() == pytest.approx(there, rel=1e-9)
 
 
 # --- the slow planner ------------------------------------------------------------------------------------
@@ -240,15 +240,15 @@ def test_it_agrees_with_a_slow_planner(moves: Moves, corner: float, acceleration
     limits = replace(STEADY, square_corner_velocity=corner, **same)
     expected = slow_klipper(moves, limits)
     # An angle by its cosine is exact to 1e-8 only.
-    assert plan(moves, [limits]).seconds == pytest.approx(expected, rel=1e-5, abs=1e-9)
+    assert plan_moves(moves, [limits]).seconds == pytest.approx(expected, rel=1e-5, abs=1e-9)
 
 
 @given(paths(), st.sampled_from(EVERY))
 @settings(deadline=None, max_examples=60)
 def test_a_plan_keeps_to_its_limits(moves: Moves, limits: Limits) -> None:
     """Speeds join, no joint is passed too fast, no move speeds up faster than it may, and every length is driven."""
-    done = plan(moves, [limits])
-    bounds = bounded(moves, [limits])
+    done = plan_moves(moves, [limits])
+    bounds = bound_moves(moves, [limits])
     joints = joint_limits(moves, bounds, [limits])
     slack = 1e-6  # mm²/s², of rounding
     assert done.exit[:-1] == pytest.approx(done.entry[1:])
@@ -275,11 +275,13 @@ def test_look_ahead_is_its_definition(rows: list[tuple[float, float]]) -> None:
 @settings(deadline=None, max_examples=60)
 def test_moves_in_pieces_are_planned_as_one(moves: Moves, limits: Limits, size: int) -> None:
     """Planned as a stream, whatever is settled is final."""
-    whole, found = plan(moves, [limits]), 0.0
+    whole, found = plan_moves(moves, [limits]), 0.0
     entry, first, last = None, 0, 0
     while first < len(moves):
         last = min(last + size, len(moves))
-        settled, done, entry = settle(part(moves, slice(first, last)), [limits], entry, ends=last == len(moves))
+        settled, done, entry = plan_settled(
+            slice_rows(moves, slice(first, last)), [limits], entry, ends=last == len(moves)
+        )
         assert done.seconds == pytest.approx(whole.seconds[first : first + settled], rel=1e-9, abs=1e-9)
         first += settled
         found += done.seconds.sum()
@@ -309,7 +311,7 @@ def settings_of(limits: Limits) -> list[Limits]:
     """Return five settings of one model: usual ones, and accelerations at the ends of what is taken."""
     return [
         replace(limits, acceleration=a, travel_acceleration=a, retract_acceleration=a, minimum_cruise_ratio=ratio)
-        for a, ratio in ((500.0, 0.0), (1000.0, 0.5), (20000.0, 0.9), (MOST, 0.5), (LEAST, 0.0))
+        for a, ratio in ((500.0, 0.0), (1000.0, 0.5), (20000.0, 0.9), (MAX_LIMIT, 0.5), (MIN_LIMIT, 0.0))
     ]
 
 
@@ -321,14 +323,16 @@ def settings_of(limits: Limits) -> list[Limits]:
 def test_a_move_means_the_same_in_any_surroundings(moves: Moves, limits: Limits, size: int) -> None:
     """In pieces of any size as in one, and behind or before a move by which a machine could reach any speed."""
     several = settings_of(limits)
-    _, whole, _ = settle(moves, several, None, ends=True)
+    _, whole, _ = plan_settled(moves, several, None, ends=True)
     entry, first, last, found = None, 0, 0, []
     while first < len(moves):
         last = min(last + size, len(moves))
-        settled, done, entry = settle(part(moves, slice(first, last)), several, entry, ends=last == len(moves))
+        settled, done, entry = plan_settled(
+            slice_rows(moves, slice(first, last)), several, entry, ends=last == len(moves)
+        )
         found.append(done)
         first += settled
-    pieces = chained(found)
+    pieces = concatenate_rows(found)
     # A square root doubles the share that rounding is of a small speed: 1e-12 of 200 mm/s is 1e-6 of 1e-4 mm/s.
     for name in ("seconds", "entry", "peak", "exit"):
         assert getattr(pieces, name) == pytest.approx(getattr(whole, name), rel=1e-9, abs=1e-9)
@@ -348,13 +352,15 @@ def test_what_lies_behind_a_long_ramp_is_exact(rows: list[tuple[float, float]]) 
 
 def test_a_long_file_is_as_exact_as_a_short_one() -> None:
     """The same 60,000 moves four times over, with a stop after each, take four times as long to ten digits."""
-    turn = np.cumsum(np.random.default_rng(1).normal(0, 0.3, PIECE - 4000))
+    turn = np.cumsum(np.random.default_rng(1).normal(0, 0.3, MOVES_AT_ONCE - 4000))
     once = moves_of(2 * np.column_stack([np.cos(turn), np.sin(turn)]), 200)
     stop = np.zeros(4 * len(once), dtype=bool)
     stop[:: len(once)] = True
     several = replace(moves_of(np.tile(once.delta, (4, 1)), 200), stop=stop)
     limits = [replace(STEADY, travel_acceleration=20000)]
-    assert plan(several, limits).seconds.sum() == pytest.approx(4 * plan(once, limits).seconds.sum(), rel=1e-10)
+    assert plan_moves(several, limits).seconds.sum() == pytest.approx(
+        4 * plan_moves(once, limits).seconds.sum(), rel=1e-10
+    )
 
 
 # --- the cruise ratio ------------------------------------------------------------------------------------
@@ -364,14 +370,14 @@ def test_a_rise_and_a_fall_share_a_top() -> None:
     """Humps: up over two moves, down over two; the moves in between keep the top."""
     joints = np.array([0.0, 50, 100, 100, 50, 0])
     reach = np.array([50.0, 50, 30, 50, 50])
-    assert tops(joints, reach, np.full(5, 900.0)).tolist() == [115.0] * 5
-    assert tops(joints, reach, np.full(5, 101.0)).tolist() == [101.0] * 5
+    assert hump_tops(joints, reach, np.full(5, 900.0)).tolist() == [115.0] * 5
+    assert hump_tops(joints, reach, np.full(5, 101.0)).tolist() == [101.0] * 5
 
 
 def test_a_higher_ratio_takes_longer() -> None:
     turn = np.cumsum(np.random.default_rng(2).normal(0, 0.8, 500))
     moves = moves_of(np.column_stack([np.cos(turn), np.sin(turn)]), 200)
-    times = [plan(moves, [replace(STEADY, minimum_cruise_ratio=r)]).seconds.sum() for r in (0, 0.2, 0.5, 0.9)]
+    times = [plan_moves(moves, [replace(STEADY, minimum_cruise_ratio=r)]).seconds.sum() for r in (0, 0.2, 0.5, 0.9)]
     assert times == sorted(times)
     assert times[-1] > 1.05 * times[0]
 
@@ -381,5 +387,5 @@ def test_every_model_is_tried() -> None:
 
 
 def test_nothing_takes_no_time() -> None:
-    assert isinstance(plan(moves_of(np.empty((0, 4)), []), [PLAIN]), Plan)
+    assert isinstance(plan_moves(moves_of(np.empty((0, 4)), []), [PLAIN]), MotionPlan)
     assert total(np.empty((0, 4)), [], PLAIN) == 0

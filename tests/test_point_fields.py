@@ -21,10 +21,10 @@ from infill.voxels.point_fields import (
     PASSES,
     REACH,
     SHARPNESS,
-    binned,
+    cell_distances,
     distance_from_points,
-    near_points,
-    thinned,
+    merge_close_points,
+    sort_into_bins,
 )
 
 RADIUS = 20.0
@@ -49,7 +49,7 @@ def test_the_kernel_does_what_the_formula_says(seed: int, count: int, threads: i
     normals /= np.linalg.norm(normals, axis=1)[:, None]
     places = np.argwhere(np.ones((12, 11, 10), dtype=bool)).astype(np.int32)
     sigma = float(rng.uniform(0.75, 2.0))
-    order, first, shape = binned(points, REACH * sigma)
+    order, first, shape = sort_into_bins(points, REACH * sigma)
     found = np.empty(len(places), dtype=np.float32)
     arguments = (places, points[order], normals[order], first, shape, sigma, REACH * sigma, SHARPNESS, PASSES)
     in_threads(signed_distances, *arguments, found, threads=threads)
@@ -79,11 +79,11 @@ def test_a_place_without_points_near_has_no_distance() -> None:
 def test_normals_may_point_either_way_have_any_length_or_be_missing() -> None:
     points, rng = on_ball(2000), np.random.default_rng(2)
     solid = voxelise_points(points, voxel=1.0)
-    exact = near_points(solid, points, points)
+    exact = cell_distances(solid, points, points)
     scaled = points * rng.uniform(0.1, 5, size=(len(points), 1)) * rng.choice([-1, 1], size=(len(points), 1))
-    assert near_points(solid, points, scaled) == pytest.approx(exact, abs=1e-5)
+    assert cell_distances(solid, points, scaled) == pytest.approx(exact, abs=1e-5)
     some = np.where(np.arange(len(points))[:, None] % 2, 0.0, points)
-    for estimated in (near_points(solid, points, None), near_points(solid, points, some)):
+    for estimated in (cell_distances(solid, points, None), cell_distances(solid, points, some)):
         assert np.abs(estimated - exact).max() < 0.1
 
 
@@ -91,7 +91,7 @@ def test_normals_may_point_either_way_have_any_length_or_be_missing() -> None:
 def test_units_change_nothing(factor: float) -> None:
     points = on_ball(1000)
     one, other = (
-        near_points(voxelise_points(points * unit, voxel=2 * unit), points * unit, points) for unit in (1.0, factor)
+        cell_distances(voxelise_points(points * unit, voxel=2 * unit), points * unit, points) for unit in (1.0, factor)
     )
     assert np.array_equal(one, other)
 
@@ -99,7 +99,7 @@ def test_units_change_nothing(factor: float) -> None:
 def test_points_in_half_a_cell_become_one_and_opposite_ones_none() -> None:
     places = np.array([[0.1, 0.1, 0.1], [0.3, 0.3, 0.3], [2.0, 2, 2], [2.1, 2.1, 2.1]])
     across = np.array([[0.0, 0, 1], [0, 0, 1], [0, 1, 0], [0, -1, 0]])
-    points, normals = thinned(places, across)
+    points, normals = merge_close_points(places, across)
     assert points == pytest.approx(np.array([[0.2, 0.2, 0.2]]))
     assert normals == pytest.approx(np.array([[0.0, 0, 1]]))
 
@@ -156,7 +156,7 @@ def test_normals_of_a_file_are_used_and_a_shell_leaves_them_out(tmp_path: Path) 
 def test_all_that_is_far_from_points_stays_as_the_cells_are() -> None:
     points = on_ball(2000)
     solid = voxelise_points(points, voxel=1.0, margin=8)
-    found = near_points(solid, points, None)
+    found = cell_distances(solid, points, None)
     centres = (np.argwhere(np.ones(found.shape, dtype=bool)) + 0.5) + np.array(solid.origin)
     away = RADIUS - np.linalg.norm(centres, axis=1).reshape(found.shape)
     sure = np.abs(away) > 0.1

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 from infill import GeometryError, MemoryLimitError, ParameterError, read_mesh
 from infill.volume import Volume
-from infill.voxels.flooding import enclosed
-from infill.voxels.from_points import balls, voxelise_points
+from infill.voxels.flooding import enclosed_void
+from infill.voxels.from_points import fill_balls, voxelise_points
 
 RADIUS = 20.0
 BALL = 4 / 3 * math.pi * RADIUS**3
@@ -53,7 +53,7 @@ def test_balls_may_lie_outside_the_grid(seed: int) -> None:
     centres = np.random.default_rng(seed).uniform(-4, 12, size=(12, 3))
     cells = np.argwhere(np.ones((8, 7, 6), dtype=bool))
     near = np.linalg.norm(cells[:, None] - centres, axis=2).min(axis=1) <= 2.7
-    assert np.array_equal(balls(centres, 2.7, (8, 7, 6)).ravel(), near)
+    assert np.array_equal(fill_balls(centres, 2.7, (8, 7, 6)).ravel(), near)
 
 
 @given(seed=st.integers(0, 10_000), density=st.floats(0.1, 0.9))
@@ -62,7 +62,7 @@ def test_enclosed_is_what_a_flood_does_not_reach(seed: int, density: float) -> N
 
     solid = np.pad(np.random.default_rng(seed).random((7, 6, 5)) < density, 1)
     component, _ = ndimage.label(~solid)
-    assert np.array_equal(enclosed(solid), (component != component[0, 0, 0]) & ~solid)
+    assert np.array_equal(enclosed_void(solid), (component != component[0, 0, 0]) & ~solid)
 
 
 @pytest.mark.parametrize("shell", [None, 3.0])

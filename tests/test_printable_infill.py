@@ -13,8 +13,8 @@ from made_shapes import box
 from test_command_line import run as command
 
 from infill import Surface, fill, save_project
-from infill.interior.narrow import too_narrow, without_narrow
-from infill.meshes.solids import in_one_place, solid_of, status
+from infill.interior.narrow import drop_narrow, estimate_narrow
+from infill.meshes.solids import coincident_vertices, manifold_status, to_manifold
 from infill.result import Result
 
 pytestmark = pytest.mark.usefixtures("compiled")
@@ -54,7 +54,7 @@ def printed(found: Result[Any, Any], size: Size, folder: Path) -> float:
 def volume_in(infill: Surface, size: Size, wall: float = slicers.PERIMETERS - slicers.OVERLAP) -> float:
     """Return the volume of infill inside upright walls of a box, mm³: those where slicers print no infill."""
     room = standing((size[0] - 2 * wall, size[1] - 2 * wall, size[2]))
-    return float((solid_of(infill) ^ solid_of(surface(room))).volume())
+    return float((to_manifold(infill) ^ to_manifold(surface(room))).volume())
 
 
 @cut_by_walls
@@ -83,8 +83,8 @@ def test_infill_that_slicers_do_not_print_is_left_out_and_told(
     report, infill = found.report, found.surfaces["infill"]
     assert report["infill"]["phase"] == [*HARDLY_SHIFTED, 0.0]
     assert any("so that was left out; shift the pattern by --phase" in each for each in report["problems"])
-    assert status(infill) == "NoError"
-    assert not in_one_place(infill).any()
+    assert manifold_status(infill) == "NoError"
+    assert not coincident_vertices(infill).any()
     assert printed(found, size, tmp_path) == pytest.approx(volume_in(infill, size), rel=0.05)
 
     monkeypatch.setattr("infill.lattices.projected.NARROW", 1.0)
@@ -92,8 +92,8 @@ def test_infill_that_slicers_do_not_print_is_left_out_and_told(
     before = whole.surfaces["infill"]
     assert whole.report["infill"]["left_out"] == 0
     assert printed(whole, size, tmp_path) < 0.9 * volume_in(before, size)
-    gone = solid_of(before) - solid_of(infill)
-    room = solid_of(surface(box(*(np.array(size) - 2 * WALL), (100, 100, size[2] / 2))))
+    gone = to_manifold(before) - to_manifold(infill)
+    room = to_manifold(surface(box(*(np.array(size) - 2 * WALL), (100, 100, size[2] / 2))))
     assert report["infill"]["left_out"] == pytest.approx((gone ^ room).volume(), rel=0.03)
     lost = whole.report["density"] - report["density"]
     assert lost == pytest.approx(report["infill"]["left_out"] / report["part"]["inside"], abs=0.002)
@@ -102,14 +102,14 @@ def test_infill_that_slicers_do_not_print_is_left_out_and_told(
 @pytest.mark.parametrize("wide", [0.3, 0.5, 0.7, 2.0])
 def test_bars_narrower_than_the_least_are_left_out_whole_and_wider_ones_stay(wide: float) -> None:
     part, bar = surface(box(10, 10, 8)), surface(box(wide, 12, 8))
-    found = too_narrow(part, bar, WALL, LINE, LEAST)
-    left = without_narrow(part, bar, WALL, LINE, LEAST)
-    inside = solid_of(surface(box(10 - 2 * WALL, 10 - 2 * WALL, 8)))
+    found = estimate_narrow(part, bar, WALL, LINE, LEAST)
+    left = drop_narrow(part, bar, WALL, LINE, LEAST)
+    inside = to_manifold(surface(box(10 - 2 * WALL, 10 - 2 * WALL, 8)))
     assert found is not None
     assert found.room == pytest.approx(0.0, abs=1e-9)
     if wide < LEAST:
         assert found.all == pytest.approx(1.0, abs=0.01)
-        assert (solid_of(left) ^ inside).volume() == pytest.approx(0.0, abs=1e-6)
+        assert (to_manifold(left) ^ inside).volume() == pytest.approx(0.0, abs=1e-6)
     else:
         assert found.all == 0.0
         assert left is bar
@@ -122,12 +122,14 @@ def test_what_is_kept_is_not_touched() -> None:
     for each in (bar, sliver):
         each.apply_transform(trimesh.transformations.rotation_matrix(0.4, (0, 1, 0)))
     both = trimesh.util.concatenate([bar, sliver])
-    slab = solid_of(surface(box(40, 40, 10)))
-    left = solid_of(without_narrow(part, surface(both), WALL, LINE, LEAST))
-    kept = solid_of(surface(bar)) ^ slab
+    slab = to_manifold(surface(box(40, 40, 10)))
+    left = to_manifold(drop_narrow(part, surface(both), WALL, LINE, LEAST))
+    kept = to_manifold(surface(bar)) ^ slab
     assert (left ^ kept).volume() == pytest.approx(kept.volume(), rel=1e-6)
-    inside = solid_of(surface(box(20 - 2 * WALL, 20 - 2 * WALL, 10)))
-    assert (left ^ solid_of(surface(sliver)) ^ inside).volume() < 0.01 * (solid_of(surface(sliver)) ^ inside).volume()
+    inside = to_manifold(surface(box(20 - 2 * WALL, 20 - 2 * WALL, 10)))
+    assert (left ^ to_manifold(surface(sliver)) ^ inside).volume() < 0.01 * (
+        to_manifold(surface(sliver)) ^ inside
+    ).volume()
 
 
 def test_a_part_without_room_keeps_its_infill_and_that_is_told() -> None:

@@ -9,7 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 from infill import motion, refill
-from infill.cli.app import build
+from infill.cli.app import build_app
 from tests.handmade_prints import Dialect, written
 
 TAIL = b"""; filament used [cm3] = 0.96
@@ -103,7 +103,7 @@ def test_a_layer_and_grams_are_told(tmp_path: Path) -> None:
     assert layer is not None
     # Cut off, its last move ends at rest.
     assert float(layer[1]) == pytest.approx(motion(tmp_path / "first.gcode").seconds, abs=1)
-    result = CliRunner().invoke(build(), ["refill", str(old), "-o", str(new), "--force"])
+    result = CliRunner().invoke(build_app(), ["refill", str(old), "-o", str(new), "--force"])
     assert f"and {report['filament']['print_after_g']:.2f} g" in result.stderr
     assert "the slicer said 0:59:59" in result.stderr
 

@@ -22,12 +22,12 @@ from test_command_line import one_line_error, usage_error
 from test_command_line import run as command
 
 from infill import FormatError, Surface, UsageError, check_project, fill, read_mesh, save_project
-from infill.lattices.request import checked
+from infill.lattices.request import check_request
 from infill.lattices.settings import DEFAULTS
-from infill.lattices.sizing import larger
-from infill.meshes.solids import solid_of
+from infill.lattices.sizing import enlarge
+from infill.meshes.solids import to_manifold
 from infill.projects.project import SLICERS, Project, Slicer
-from infill.projects.saving import project_writer
+from infill.projects.saving import writer_for
 from infill.report_keys import FillReport
 from infill.result import Result
 
@@ -69,7 +69,7 @@ def project() -> Project:
 
 def saved(project: Project, path: Path, slicer: str) -> Path:
     with path.open("wb") as file:
-        project_writer(slicer)(project, file)
+        writer_for(slicer)(project, file)
     return path
 
 
@@ -109,11 +109,11 @@ def test_the_infill_of_a_project_goes_through_the_walls_and_lies_in_the_part(fil
     assert infill.closed
     assert (infill.bounds[0] >= part.bounds[0] - 1e-6).all()
     assert (infill.bounds[1] <= part.bounds[1] + 1e-6).all()
-    both = solid_of(part) ^ solid_of(infill)
+    both = to_manifold(part) ^ to_manifold(infill)
     assert both.volume() == pytest.approx(infill.volume, rel=1e-6)
     assert infill.bounds == pytest.approx(part.bounds, abs=1e-3)  # as far as the skin, on all sides
-    inner = solid_of(surface(inset(0.9, 0.9)))
-    share = (inner ^ solid_of(infill)).volume() / inner.volume()
+    inner = to_manifold(surface(inset(0.9, 0.9)))
+    share = (inner ^ to_manifold(infill)).volume() / inner.volume()
     assert share == pytest.approx(report["density"], abs=0.01)
     assert report["density"] == pytest.approx(0.2, abs=0.005)
     assert report["walls"] == {"requested": 0.9, "least": None, "at": None}
@@ -123,8 +123,8 @@ def test_the_infill_of_a_project_goes_through_the_walls_and_lies_in_the_part(fil
 @pytest.mark.parametrize("pattern", ["octet", "honeycomb", "concentric-heart"])
 def test_other_patterns_are_as_dense_as_asked_too(pattern: str) -> None:
     result = fill(box(24, 20, 12), pattern, as_="project", density=0.25)
-    inner = solid_of(surface(box(24 - 1.8, 20 - 1.8, 12 - 1.8)))
-    share = (inner ^ solid_of(result.surfaces["infill"])).volume() / inner.volume()
+    inner = to_manifold(surface(box(24 - 1.8, 20 - 1.8, 12 - 1.8)))
+    share = (inner ^ to_manifold(result.surfaces["infill"])).volume() / inner.volume()
     assert share == pytest.approx(0.25, abs=0.006)
     assert result.report["density"] == pytest.approx(0.25, abs=0.005)
     assert result.report["problems"] == []
@@ -169,13 +169,14 @@ def test_room_that_is_narrower_than_a_line_is_told(thick: float, told: bool) -> 
 def test_larger_walls_of_a_project_leave_no_gap_between_two_lines() -> None:
     """Where there are too many triangles, cells and walls are larger: to 1.5 mm at least, if to more than 1 mm."""
     request, solid = (
-        checked(pattern="gyroid", own={}, form=form, **{**DEFAULTS, "density": 0.2}) for form in ("project", "solid")
+        check_request(pattern="gyroid", own={}, form=form, **{**DEFAULTS, "density": 0.2})
+        for form in ("project", "solid")
     )
-    assert larger(request, (12.0, 0.9), 1.05) == pytest.approx((12.6, 0.945))
-    assert larger(request, (12.0, 0.9), 1.3) == pytest.approx((20.0, 1.5))
-    assert larger(request, (12.0, 0.9), 2.0) == pytest.approx((24.0, 1.8))
-    assert larger(solid, (12.0, 0.9), 1.3) == pytest.approx((15.6, 1.17))
-    assert larger(solid, (12.0, 0.9), 0.5) == (12.0, 0.9)
+    assert enlarge(request, (12.0, 0.9), 1.05) == pytest.approx((12.6, 0.945))
+    assert enlarge(request, (12.0, 0.9), 1.3) == pytest.approx((20.0, 1.5))
+    assert enlarge(request, (12.0, 0.9), 2.0) == pytest.approx((24.0, 1.8))
+    assert enlarge(solid, (12.0, 0.9), 1.3) == pytest.approx((15.6, 1.17))
+    assert enlarge(solid, (12.0, 0.9), 0.5) == (12.0, 0.9)
 
 
 @pytest.mark.parametrize("slicer", SLICERS)
@@ -364,7 +365,7 @@ def test_prusaslicer_prints_the_infill_and_no_wall_more(filled: Result[Any, Fill
     for kind in ("Perimeter", "External perimeter", "Overhang perimeter"):
         assert whole.get(kind, 0.0) == pytest.approx(alone.get(kind, 0.0), rel=0.01)
     # What the infill body has inside of two perimeters and between three solid layers: the block without those.
-    body = (solid_of(surface(inset(0.857, 0.6))) ^ solid_of(filled.surfaces["infill"])).volume()
+    body = (to_manifold(surface(inset(0.857, 0.6))) ^ to_manifold(filled.surfaces["infill"])).volume()
     assert sum(whole.values()) - sum(alone.values()) == pytest.approx(body, rel=0.05)
     facts = slicers.run_slicer(["prusa-slicer", "--datadir", "data", "--info", str(path)], tmp_path)
     assert "manifold = yes" in facts
@@ -419,7 +420,7 @@ def test_cura_prints_the_infill(filled: Result[Any, FillReport], tmp_path: Path)
         said = slicers.run_slicer(start, tmp_path, CURA_ENGINE_SEARCH_PATH=path)
         return float(re.findall(r"^Filament \(mm\^3\): ([\d.]+)", said, re.MULTILINE)[0])
 
-    body = (solid_of(surface(inset(0.9, 0.8))) ^ solid_of(filled.surfaces["infill"])).volume()
+    body = (to_manifold(surface(inset(0.9, 0.8))) ^ to_manifold(filled.surfaces["infill"])).volume()
     assert extruded("-l", "infill.stl", *added) - extruded() == pytest.approx(body, rel=0.06)
 
 
@@ -554,7 +555,7 @@ def test_paths_out_of_a_package_lead_nowhere(tmp_path: Path) -> None:
     with pytest.raises(FormatError, match="refers to an object 1 that it does not hold"):
         read_mesh(path)
     with pytest.raises(FormatError, match="no options of ours"):
-        from infill.formats.threemf import attached_settings
+        from infill.formats.threemf import read_attached_settings
 
-        attached_settings(path)
+        read_attached_settings(path)
     assert sorted(each.name for each in tmp_path.rglob("*")) == ["a.3mf", "in", "secret.model"]

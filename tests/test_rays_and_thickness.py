@@ -10,11 +10,11 @@ import trimesh
 from numpy.typing import NDArray
 
 from infill import Grid, Smoothing, smooth_mesh
-from infill.inspection.rays import way_inside
+from infill.inspection.rays import length_inside
 from infill.inspection.thickness import thinnest_walls
 from infill.inspection.width import wall_width
 from infill.isosurfaces.sparse_marching import extract_bricks
-from infill.kernels.rays import follow
+from infill.kernels.rays import sample_rays
 from infill.phasefield.sparse import smooth_bricks
 
 UNIT = (1.0, 1.0, 1.0)
@@ -98,11 +98,11 @@ def test_rays_from_the_middle_of_a_ball(dimensions: int, rng: np.random.Generato
     def ball(points: NDArray[np.float64]) -> NDArray[np.float64]:
         return 3.3 - np.linalg.norm(points, axis=1)
 
-    assert way_inside(ball, middle, direction, np.arange(0, 5, 0.25)) == pytest.approx(3.3)
-    assert np.isinf(way_inside(ball, middle, direction, np.arange(0, 3, 0.25))).all()
-    outside = way_inside(ball, middle - 3.5 * direction, direction, np.arange(0, 9, 0.25))
+    assert length_inside(ball, middle, direction, np.arange(0, 5, 0.25)) == pytest.approx(3.3)
+    assert np.isinf(length_inside(ball, middle, direction, np.arange(0, 3, 0.25))).all()
+    outside = length_inside(ball, middle - 3.5 * direction, direction, np.arange(0, 9, 0.25))
     assert (outside == 0).all()  # it begins in the void
-    late = way_inside(ball, middle - 3.5 * direction, direction, np.arange(0, 9, 0.25), leeway=1)
+    late = length_inside(ball, middle - 3.5 * direction, direction, np.arange(0, 9, 0.25), leeway=1)
     assert late == pytest.approx(6.6)
 
 
@@ -119,7 +119,7 @@ def test_rays_through_bricks_find_what_the_whole_field_says(steps: int, rng: np.
     distance = np.arange(0, 12, 0.25)
     found = np.empty((len(start), len(distance)))
     for values, level in ((field.values, 0.1), (field.data, 0.0)):
-        follow(field.slots, values, field.shape, start, direction, distance, spacing, level, found)
+        sample_rays(field.slots, values, field.shape, start, direction, distance, spacing, level, found)
         cells = np.floor((start[:, None] + distance[:, None] * direction[:, None]) / spacing).astype(int)
         inside = ((cells >= 0) & (cells < whole.shape)).all(axis=2)
         dense = whole if values is field.values else np.where(solid, 1.0, -1.0)

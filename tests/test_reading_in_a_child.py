@@ -14,8 +14,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from infill.cli.console import log_said, say, warn
-from infill.errors import FormatError, InfillError, MemoryLimitError, OutputError, ParameterError, printable
+from infill.cli.console import print_log, say, warn
+from infill.errors import FormatError, InfillError, MemoryLimitError, OutputError, ParameterError, escape_unprintable
 from infill.files.child_process import read_in_child
 from infill.imaging.volume_files import read_volume
 from tests import volume_writers as w
@@ -159,7 +159,7 @@ def test_nothing_is_left_in_the_folder_for_temporary_files(tmp_path: Path, monke
 def test_a_system_whose_files_have_names_works_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """As on Windows, which passes no numbers of files and removes no file that is mapped."""
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
-    monkeypatch.setattr("infill.files.child_process.NAMELESS", False)
+    monkeypatch.setattr("infill.files.child_process.HAS_NAMELESS_FILES", False)
     assert read_in_child(f"{READERS}arrays", 60, "u1", path=SCAN).arrays["values"].sum() == 1770
     with pytest.raises(FormatError):
         read_in_child(f"{READERS}leaves", 1, path=SCAN)
@@ -197,7 +197,7 @@ def test_what_is_quoted_from_a_file_cannot_steer_a_terminal(bad: str, tmp_path: 
     with pytest.raises(FormatError) as caught:
         read_volume(path)
     assert str(caught.value).isprintable()
-    assert printable(f"a{bad}b").isprintable()
+    assert escape_unprintable(f"a{bad}b").isprintable()
     assert str(OutputError(f"cannot write {bad}; choose another name")).isprintable()
 
 
@@ -207,7 +207,7 @@ def test_other_words_stay(word: str) -> None:
 
 
 def test_messages_and_warnings_of_the_program_are_shown_as_text(capsys: pytest.CaptureFixture[str]) -> None:
-    with log_said(shown=True):
+    with print_log(shown=True):
         logging.getLogger("infill").warning("%s gives \x1b[31m\r\n", "a.nrrd")
     warn("broken \x9b\n", UserWarning, "", 0)
     say("one\x07\ntwo")

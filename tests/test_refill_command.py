@@ -17,7 +17,7 @@ from test_binary_gcode import made, parts
 from test_command_line import one_line_error, refused, run, usage_error
 
 from infill.gcode.binary import Block, Kind, blocks, decoded, encoded, stored
-from infill.gcode.meatpack import normalised
+from infill.gcode.meatpack import normalise_text
 from tests.gcode_judge import changed, judge
 from tests.handmade_prints import Dialect, written
 from tests.prints import PRINT as SETTINGS
@@ -145,7 +145,7 @@ def test_names_as_slicers_give_them(name: str, gcode: Path) -> None:
 
 def test_binary_gcode_stays_binary(tmp_path: Path) -> None:
     """Under a name that says nothing of it, as PrusaSlicer hands it to a script: as MeatPack within Heatshrink."""
-    text = normalised(PRINT, comments=True)
+    text = normalise_text(PRINT, comments=True)
     path = tmp_path / "1234.gcode.pp"
     path.write_bytes(b"".join(parts([stored(encoded(text, like=made(compression=3, encoding=2)))])))
     pictures = [block.data for block in blocks_of(path) if block.kind == Kind.THUMBNAIL]
@@ -337,12 +337,12 @@ def test_keeping_paths_needs_no_compiler(gcode: Path) -> None:
 
 
 def test_a_command_builds_no_other() -> None:
-    from infill.cli.app import COMMANDS, build
+    from infill.cli.app import COMMANDS, build_app
 
     for name in COMMANDS:
-        assert [command.name for command in build(name).registered_commands] == [name]
+        assert [command.name for command in build_app(name).registered_commands] == [name]
     for name in ("", "nonsense", "--help"):
-        assert [command.name for command in build(name).registered_commands] == list(COMMANDS)
+        assert [command.name for command in build_app(name).registered_commands] == list(COMMANDS)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="times of the processor as POSIX has them")

@@ -13,19 +13,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from infill import FormatError, OutputError, ParameterError, refill
-from infill.gcode.survey import survey
+from infill.gcode.survey import survey_print
 from infill.paths.families.catalogue import FAMILIES
-from infill.paths.neighbours import Beads
+from infill.paths.neighbours import BeadMoves
 from infill.paths.rounding import Rounding
-from infill.ragged import packed
+from infill.ragged import concatenate_rows
 from infill.refilling.batch import Batch
-from infill.refilling.measuring import Drawing, measured
-from infill.refilling.planning import planned
-from infill.refilling.report import report_of_refill
+from infill.refilling.measuring import LayerPaths, measure_layers
+from infill.refilling.planning import plan_refill
+from infill.refilling.report import refill_report
 from infill.refilling.request import Request
-from infill.refilling.rules import Rules
-from infill.refilling.stats import Amounts, Tally
-from infill.refilling.support import AIM, LEAST_SHARE, first_enough, largest_deviation, samples
+from infill.refilling.rules import RefillRules
+from infill.refilling.stats import InfillAmounts, RefillStats
+from infill.refilling.support import AIM, LEAST_SHARE, largest_deviation, largest_sufficient, sample_batches
 from tests.gcode_judge import judge, lines_of
 from tests.gcode_structure import bonded, layers_of, supported
 from tests.prints import box, prusa_print
@@ -72,7 +72,7 @@ def kept(honeycomb: Path) -> Path:
 @pytest.fixture(scope="module")
 def looked_at(honeycomb: Path) -> list[Batch]:
     with honeycomb.open("rb") as file:
-        return samples(survey(file))
+        return sample_batches(survey_print(file))
 
 
 def infill_of(path: Path) -> list[np.ndarray]:
@@ -130,11 +130,13 @@ def test_what_small_regions_owe_is_paid(part: str, name: str, data: Path, tmp_pa
 )
 def test_filament_that_is_off_is_told(asked: dict[str, Any], ratio: float, told: bool, honeycomb: Path) -> None:
     with honeycomb.open("rb") as file:
-        found = survey(file)
-    tally = Tally(sections=1, replaced=1, infill=Amounts(filament=100.0), infill_after=Amounts(filament=100 * ratio))
+        found = survey_print(file)
+    tally = RefillStats(
+        sections=1, replaced=1, infill=InfillAmounts(filament=100.0), infill_after=InfillAmounts(filament=100 * ratio)
+    )
     request = Request(**asked)
-    rules = Rules(request=request, rounding=Rounding())
-    problems = report_of_refill(request, found, tally, already=False, rules=rules)["problems"]
+    rules = RefillRules(request=request, rounding=Rounding())
+    problems = refill_report(request, found, tally, already=False, rules=rules)["problems"]
     assert [f"{ratio - 1:+.1%} filament" in problem for problem in problems] == [True] * told
 
 
@@ -159,7 +161,7 @@ def test_a_whole_number_is_a_density_too(honeycomb: Path) -> None:
 
 def test_hearts_lie_about_the_middle_of_the_part(looked_at: list[Batch]) -> None:
     """Half a node of the grid that regions are found on is 0.1 mm."""
-    plan = planned(FAMILIES["concentric-heart"], looked_at, Rounding(), density=None, acceleration=1000.0)
+    plan = plan_refill(FAMILIES["concentric-heart"], looked_at, Rounding(), density=None, acceleration=1000.0)
     assert plan is not None
     assert plan.family.middle == pytest.approx(CENTRE, abs=0.1)  # type: ignore[attr-defined]
 
@@ -225,7 +227,7 @@ def test_the_first_deviation_that_is_enough_is_found(candidates: list[float], sl
         return float(1 - slope * deviation**power)
 
     wanted = next((each for each in candidates if 1 - slope * each**power >= AIM), 0.0)
-    assert first_enough(candidates, share) == wanted
+    assert largest_sufficient(candidates, share) == wanted
     assert len(set(tried)) == len(tried) <= 14  # none twice; by halves after a few
 
 
@@ -237,16 +239,16 @@ def test_the_largest_deviation(looked_at: list[Batch]) -> None:
     assert LEAST_SHARE < AIM < LEAST_SHARE + 0.005
 
 
-def stacked(aside: float) -> Drawing:
+def stacked(aside: float) -> LayerPaths:
     """Ten lines 3 mm apart, on five layers, each layer `aside` of the one below."""
     paths = [np.array([[0, 3 * k + n * aside], [30, 3 * k + n * aside]]) for n in range(1, 6) for k in range(10)]
-    points, first = packed(paths)
-    return Drawing(points=points, first=first, layer=np.repeat(np.arange(1, 6), 10))
+    points, first = concatenate_rows(paths)
+    return LayerPaths(points=points, first=first, layer=np.repeat(np.arange(1, 6), 10))
 
 
 def test_the_measure_can_fail() -> None:
-    nothing = Beads(ends=np.empty((0, 2, 2)), layer=np.empty(0, dtype=np.intp), skin=np.empty(0, dtype=bool))
-    old, new, last = measured(
+    nothing = BeadMoves(ends=np.empty((0, 2, 2)), layer=np.empty(0, dtype=np.intp), skin=np.empty(0, dtype=bool))
+    old, new, last = measure_layers(
         stacked(0.0), stacked(0.45), nothing, np.arange(1, 6), line_width=0.45, stride=1, last=None
     )
     assert old.length == new.length == pytest.approx(4 * 300)  # of the lowest layer, nothing is known

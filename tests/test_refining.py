@@ -9,17 +9,17 @@ import pytest
 from scipy.ndimage import gaussian_filter
 
 from infill import ParameterError, Smoothing, smooth_volume
-from infill.isosurfaces.components import components, data_bits
-from infill.isosurfaces.levels import at_volume, straightened
+from infill.isosurfaces.components import data_bits, find_components
+from infill.isosurfaces.levels import straighten_profile, surface_at_volume
 from infill.phasefield.allen_cahn import STEEPNESS
-from infill.phasefield.profile import REFINED
-from infill.phasefield.refining import filtered_bricks, filtered_reference, refine_bricks, refine_reference
+from infill.phasefield.profile import REFINED_PROFILE
+from infill.phasefield.refining import filter_bricks, filter_reference, refine_bricks, refine_reference
 from infill.phasefield.schedule import FILTERS, Schedule
 from infill.phasefield.sparse import SparseField, smooth_bricks
 from infill.surface import Surface
 
 TWENTY = Smoothing(steps=20)
-CELLS = REFINED.scale * 2 / STEEPNESS  # what a refined distance of 1 stands for
+CELLS = REFINED_PROFILE.scale * 2 / STEEPNESS  # what a refined distance of 1 stands for
 
 
 def blobs(shape: tuple[int, ...], seed: int = 1, width: float = 3) -> np.ndarray:
@@ -43,8 +43,8 @@ def box(points: list[np.ndarray], half: tuple[float, ...], radius: float) -> np.
 
 def surface_of(field: SparseField) -> Surface:
     """The surface of the volume of the data, about the middle of the grid, in cells."""
-    data = components(field, data_bits(field))
-    surface = at_volume(field, data, spacing=(1.0, 1.0, 1.0), targets=data.cells.astype(np.float64)).surface
+    data = find_components(field, data_bits(field))
+    surface = surface_at_volume(field, data, spacing=(1.0, 1.0, 1.0), targets=data.cells.astype(np.float64)).surface
     return Surface(vertices=surface.vertices - np.array(field.shape) / 2, faces=surface.faces)
 
 
@@ -74,7 +74,7 @@ def test_uniform_data_are_fixed(solid: bool) -> None:
     sign = 1 if solid else -1
     data = np.full((20, 9, 33), solid)
     assert (refine_bricks(data, TWENTY).to_dense() == sign).all()
-    assert filtered_reference(data * 2.0 - 1, TWENTY)[2] == pytest.approx(sign)
+    assert filter_reference(data * 2.0 - 1, TWENTY)[2] == pytest.approx(sign)
 
 
 def test_far_cells_are_plus_and_minus_one_to_the_last_bit() -> None:
@@ -94,8 +94,8 @@ def test_bricks_filter_as_the_specification(data: str) -> None:
     if data == "grey":
         f = exact = np.clip(gaussian_filter(exact, 1) * 1.2, -1, 1)
     for smoothing, spacing in ((TWENTY, 1.0), (Smoothing(steps=6, interface=3), (1.0, 1.0, 1.5))):
-        expected = filtered_reference(exact, smoothing, spacing=spacing)
-        found = filtered_bricks(f, smoothing, spacing=spacing)
+        expected = filter_reference(exact, smoothing, spacing=spacing)
+        found = filter_bricks(f, smoothing, spacing=spacing)
         for ours, theirs in zip(found, expected, strict=True):
             assert np.abs(ours.to_dense() - theirs).max() < 1e-5  # rounding of float32, some 1e-6
 
@@ -162,7 +162,7 @@ def test_a_box_keeps_its_edges() -> None:
     half, radius = (28.0, 20.0, 13.0), 5.0
     solid = box(grid(76, 76, 76), half, radius) < 0
     off = []
-    for field in (refine_bricks(solid, TWENTY), straightened(smooth_bricks(solid, TWENTY))):
+    for field in (refine_bricks(solid, TWENTY), straighten_profile(smooth_bricks(solid, TWENTY))):
         surface = surface_of(field)
         distance = box([surface.vertices[:, None, None, axis] for axis in range(3)], half, radius)
         off.append((np.sqrt((distance**2).mean()), np.abs(distance).max()))
@@ -210,16 +210,16 @@ def test_levels_and_fields_of_a_result_are_those_of_phi() -> None:
 
 def test_phase_and_distance_are_inverse() -> None:
     for level in (-0.9, 0.0, 0.3):
-        assert REFINED.phase(np.array([REFINED.distance_level(level)], dtype=np.float32))[0] == pytest.approx(
-            level, abs=1e-6
-        )
+        assert REFINED_PROFILE.phase(np.array([REFINED_PROFILE.distance_level(level)], dtype=np.float32))[
+            0
+        ] == pytest.approx(level, abs=1e-6)
 
 
 def test_the_phase_may_take_the_place_of_distances(rng: np.random.Generator) -> None:
     distance = rng.normal(scale=4, size=(7, 40, 3)).astype(np.float32)
-    apart = REFINED.phase(distance, unit=3)
+    apart = REFINED_PROFILE.phase(distance, unit=3)
     assert not np.shares_memory(apart, distance)
-    assert np.shares_memory(REFINED.phase(distance, unit=3, out=distance), distance)
+    assert np.shares_memory(REFINED_PROFILE.phase(distance, unit=3, out=distance), distance)
     assert np.array_equal(distance, apart)
 
 

@@ -9,8 +9,8 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from infill import refill
-from infill.gcode.sections import Tags, marked
-from infill.gcode.table import State, read
+from infill.gcode.sections import TagState, mark_lines
+from infill.gcode.table import MachineState, read_table
 from tests.handmade_prints import Dialect, written
 from tests.two_colours import colours
 
@@ -147,13 +147,13 @@ def test_tags_of_a_layer_with_nothing_printed_between_begin_it_once(middle: list
     """As where the settings of PrusaSlicer write ";LAYER:4" after its own tag."""
     head = "M83\n;LAYER_CHANGE\n;TYPE:FILL\nG1 X9 E1 F900\n;LAYER_CHANGE\n"
     text = head + "".join(f"{line}\n" for line in middle) + ";TYPE:FILL\nG1 X1 E1\n"
-    marks = marked(read(text.encode(), State()), Tags())
+    marks = mark_lines(read_table(text.encode(), MachineState()), TagState())
     assert (marks.layers, marks.after.layer, marks.layer[-1]) == (2, 2, 2)
 
 
 def test_an_empty_layer_with_a_number_is_one() -> None:
     text = b";LAYER:1\n;TYPE:FILL\nG1 X9 E1 F900\n;LAYER:2\n;LAYER:3\n;TYPE:FILL\nG1 X1 E2\n"
-    assert marked(read(text, State()), Tags()).after.layer == 3
+    assert mark_lines(read_table(text, MachineState()), TagState()).after.layer == 3
 
 
 @pytest.mark.parametrize("slicer", ["prusa", "orca", "bambu"])
@@ -176,7 +176,7 @@ def test_a_role_that_is_said_once_lasts(slicer: str) -> None:
 @pytest.mark.parametrize("end", ["", ";WIPE_END\n"])
 def test_a_wipe_ends_with_what_extrudes_if_nothing_says_so(end: str) -> None:
     text = f"M83\n;TYPE:FILL\nG1 X9 E1 F900\n;WIPE_START\nG1 X5 E-.5\n{end};TYPE:FILL\nG1 E.5\nG1 Y9 E1\nG1 X0 E1\n"
-    marks = marked(read(text.encode(), State()), Tags())
+    marks = mark_lines(read_table(text.encode(), MachineState()), TagState())
     lines = text.splitlines()
     assert [lines[k] for k in marks.wiping.nonzero()[0]] == [";WIPE_START", "G1 X5 E-.5"]
     assert not marks.after.wiping
@@ -184,5 +184,5 @@ def test_a_wipe_ends_with_what_extrudes_if_nothing_says_so(end: str) -> None:
 
 def test_the_name_of_an_object_ends_with_its_layer() -> None:
     text = b";LAYER_CHANGE\n; printing object a\n;TYPE:FILL\nG1 X9 E1 F900\n;LAYER_CHANGE\n;TYPE:FILL\nG1 X1 E2\n"
-    marks = marked(read(text, State()), Tags())
+    marks = mark_lines(read_table(text, MachineState()), TagState())
     assert [marks.names[int(section)] for section in marks.section[[3, 6]]] == ["a", ""]

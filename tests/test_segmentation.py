@@ -16,7 +16,7 @@ from skimage.filters import threshold_otsu
 from infill.errors import ParameterError
 from infill.imaging.volume_files import read_volume
 from infill.volume import Volume
-from infill.voxels.segmentation import contrast, edge_window, grey, otsu_threshold, threshold
+from infill.voxels.segmentation import contrast, edge_window, otsu_threshold, scale_grey_values, segment_volume
 
 
 def volume(values: Any, dtype: Any = None) -> Volume:
@@ -53,7 +53,7 @@ def ball(cells: int = 24, radius: float = 8.0) -> np.ndarray:
 def test_each_way_says_which_cells(way: dict[str, Any], expected: np.ndarray, dtype: Any) -> None:
     given = volume(RAMP.astype(dtype))
     before = given.values.copy()
-    solid, used = threshold(given, **way)
+    solid, used = segment_volume(given, **way)
     assert solid.values.dtype == bool
     assert np.array_equal(solid.values, expected)
     assert (solid.spacing, solid.origin, solid.space) == (given.spacing, given.origin, given.space)
@@ -68,31 +68,31 @@ def test_each_way_says_which_cells(way: dict[str, Any], expected: np.ndarray, dt
 def test_whole_numbers_are_compared_as_such(dtype: Any, low: int) -> None:
     """As 64-bit floating-point numbers, the large ones would not differ by 1."""
     values = np.array([[[0, low - 1, low]]], dtype=dtype)
-    assert threshold(volume(values), low=low)[0].values.tolist() == [[[False, False, True]]]
-    assert threshold(volume(values), label=low)[0].values.tolist() == [[[False, False, True]]]
+    assert segment_volume(volume(values), low=low)[0].values.tolist() == [[[False, False, True]]]
+    assert segment_volume(volume(values), label=low)[0].values.tolist() == [[[False, False, True]]]
     with pytest.raises(ParameterError, match="every cell"):
-        threshold(volume(values), low=-1)
+        segment_volume(volume(values), low=-1)
 
 
 @pytest.mark.parametrize("pair", [(0, 1), (-1, 1), (0, 255), (0, 9), (0, 1000)])
 @pytest.mark.parametrize("dtype", [np.int16, np.float32, float])
 def test_two_values_are_a_mask(pair: tuple[int, int], dtype: Any) -> None:
     expected = RAMP % 3 == 0
-    solid, used = threshold(volume(np.where(expected, pair[1], pair[0]), dtype))
+    solid, used = segment_volume(volume(np.where(expected, pair[1], pair[0]), dtype))
     assert np.array_equal(solid.values, expected)
     assert used["method"] == "mask"
 
 
 def test_booleans_stay() -> None:
     given = volume(RAMP > 3)
-    solid, used = threshold(given)
+    solid, used = segment_volume(given)
     assert solid.values is given.values
     assert used == {"method": "mask", "values": [False, True], "solid": (RAMP > 3).mean()}
 
 
 def test_a_field_of_both_signs_is_a_phase() -> None:
     field = np.linspace(-1, 0.7, 27).reshape(3, 3, 3)
-    solid, used = threshold(volume(field))
+    solid, used = segment_volume(volume(field))
     assert np.array_equal(solid.values, field > 0)
     assert used["method"] == "phase"
 
@@ -111,7 +111,7 @@ def test_a_field_of_both_signs_is_a_phase() -> None:
 )
 def test_values_that_do_not_tell_are_not_guessed(values: np.ndarray, least: float, most: float) -> None:
     with pytest.raises(ParameterError, match="do not say what is solid") as caught:
-        threshold(volume(values))
+        segment_volume(volume(values))
     said = str(caught.value)
     assert f"from {least:.3g}"[:7] in said
     for offer in ("--threshold X", "--range LOW,HIGH", "--label N", "--otsu (finds "):
@@ -141,29 +141,29 @@ def test_values_that_do_not_tell_are_not_guessed(values: np.ndarray, least: floa
 )
 def test_a_choice_that_cannot_be(way: dict[str, Any], says: str) -> None:
     with pytest.raises(ParameterError, match=says) as caught:
-        threshold(volume(RAMP), **way)
+        segment_volume(volume(RAMP), **way)
     assert "\n" not in str(caught.value)
 
 
 def test_few_labels_are_named() -> None:
     with pytest.raises(ParameterError, match=r"label is 7, and no cell would be solid; .* from 0 to 4 \(0, 2, 4\)"):
-        threshold(volume(np.array([0, 2, 4, 4])), label=7)
+        segment_volume(volume(np.array([0, 2, 4, 4])), label=7)
 
 
 @pytest.mark.parametrize("cells", [np.zeros(5), np.ones(5, bool), np.zeros(5, bool), np.ones(5, np.int16)])
 def test_volumes_of_one_value(cells: np.ndarray) -> None:
     for options in ({}, {"otsu": True}, {"low": 0.5}):
         with pytest.raises(ParameterError, match=r"would be solid|all values are|do not say what is solid"):
-            threshold(volume(cells), **options)
+            segment_volume(volume(cells), **options)
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf])
 def test_cells_that_are_no_numbers(bad: float) -> None:
     cells = np.array([0.0, 1.0, bad])
     for work in (
-        lambda: threshold(volume(cells), low=0.5),
+        lambda: segment_volume(volume(cells), low=0.5),
         lambda: otsu_threshold(volume(cells)),
-        lambda: grey(volume(cells), 0.5),
+        lambda: scale_grey_values(volume(cells), 0.5),
     ):
         with pytest.raises(ParameterError, match="NaN or infinite"):
             work()
@@ -196,7 +196,7 @@ def test_otsu_agrees_with_scikit_image(order: Any, rng: np.random.Generator) -> 
     # It parts the same cells, in the middle between the classes; bins are a 4096th of about 1700.
     parted = np.asarray(values, order=order)
     assert ((parted >= otsu_threshold(volume(parted))) != (parted > threshold_otsu(values, 4096))).mean() < 1e-3
-    assert threshold(volume(whole), otsu=True)[1]["low"] == otsu_threshold(volume(whole))
+    assert segment_volume(volume(whole), otsu=True)[1]["low"] == otsu_threshold(volume(whole))
     wide = whole.astype(np.int32) * 1000
     assert np.array_equal(wide >= otsu_threshold(volume(wide)), whole > threshold_otsu(whole))
 
@@ -215,7 +215,7 @@ def test_nothing_is_turned_into_64_bits() -> None:
     values[:64] = 400
     values[0, 0, 0] = -1000
     given = volume(values)
-    threshold(volume(values[:2, :2]), otsu=True)  # scikit-image loads
+    segment_volume(volume(values[:2, :2]), otsu=True)  # scikit-image loads
 
     def peak(work: Any) -> float:
         tracemalloc.start()
@@ -224,9 +224,9 @@ def test_nothing_is_turned_into_64_bits() -> None:
         tracemalloc.stop()
         return most / 2**20
 
-    assert peak(lambda: threshold(given, low=200)) < 5  # the booleans, 4
-    assert peak(lambda: threshold(given, low=200, high=500)) < 9  # two of them
-    assert peak(lambda: grey(given, 200, 400)) < 17  # the field, 16
+    assert peak(lambda: segment_volume(given, low=200)) < 5  # the booleans, 4
+    assert peak(lambda: segment_volume(given, low=200, high=500)) < 9  # two of them
+    assert peak(lambda: scale_grey_values(given, 200, 400)) < 17  # the field, 16
 
 
 # --- grey ------------------------------------------------------------------------------------------------
@@ -234,7 +234,7 @@ def test_nothing_is_turned_into_64_bits() -> None:
 
 def test_grey_of_a_mask_is_plus_and_minus_one() -> None:
     given = volume(np.where(ball() > 0, 255, 0), np.uint8)
-    field = grey(given, 127.5)
+    field = scale_grey_values(given, 127.5)
     assert contrast(given, 127.5) == 255
     assert field.values.dtype == np.float32
     assert np.array_equal(field.values, np.where(ball() > 0, 1, -1))
@@ -245,7 +245,7 @@ def test_grey_of_a_mask_is_plus_and_minus_one() -> None:
 def test_grey_keeps_the_sign_and_the_bounds(dtype: Any) -> None:
     values = (1000 + 200 * np.clip(ball(), -3, 3)).astype(dtype)
     before = values.copy()
-    field = grey(volume(values), 1100).values
+    field = scale_grey_values(volume(values), 1100).values
     assert np.array_equal(field > 0, values > 1100)
     assert np.abs(field).max() == 1
     assert (np.abs(field) < 1).any()
@@ -255,9 +255,9 @@ def test_grey_keeps_the_sign_and_the_bounds(dtype: Any) -> None:
 def test_grey_of_a_flipped_and_scaled_scan_is_the_same() -> None:
     """Grey values have no unit: another zero and another scale change nothing but rounding to 32 bits."""
     values = 200 * np.clip(ball(), -3, 3)
-    one, other = grey(volume(values), 100), grey(volume(values * 0.01 + 7), 8)
+    one, other = scale_grey_values(volume(values), 100), scale_grey_values(volume(values * 0.01 + 7), 8)
     assert other.values == pytest.approx(one.values, abs=1e-4)
-    assert grey(volume(values.T), 100).values == pytest.approx(one.values.T, abs=1e-6)
+    assert scale_grey_values(volume(values.T), 100).values == pytest.approx(one.values.T, abs=1e-6)
 
 
 def test_the_edge_is_about_a_cell_wide() -> None:
@@ -273,7 +273,7 @@ def test_spots_far_away_do_not_weigh() -> None:
     values = np.clip(ball() * 100, -100, 100)
     spotted = values.copy()
     spotted[12, 12, 12] = 1e5
-    assert np.array_equal(grey(volume(spotted), 3).values, grey(volume(values), 3).values)
+    assert np.array_equal(scale_grey_values(volume(spotted), 3).values, scale_grey_values(volume(values), 3).values)
 
 
 def test_the_surface_of_grey_data_is_nearer_than_that_of_a_mask() -> None:
@@ -288,7 +288,7 @@ def test_the_surface_of_grey_data_is_nearer_than_that_of_a_mask() -> None:
         return (truth[:-1][across] * (1 - part) + truth[1:][across] * part) ** 2
 
     mask = np.where(values > 1000, 1.0, -1.0)
-    grey_field = grey(volume(values), 1000.0)
+    grey_field = scale_grey_values(volume(values), 1000.0)
     assert np.sqrt(distances(grey_field.values).mean()) < 0.2 * np.sqrt(distances(mask).mean())
 
 
@@ -304,7 +304,7 @@ def test_the_surface_of_grey_data_is_nearer_than_that_of_a_mask() -> None:
 )
 def test_a_level_or_window_that_cannot_be(level: float, window: float | None, says: str) -> None:
     with pytest.raises(ParameterError, match=says):
-        grey(volume(RAMP), level, window)
+        scale_grey_values(volume(RAMP), level, window)
     with pytest.raises(ParameterError, match="no surface lies at 99"):
         contrast(volume(RAMP), 99)
 
@@ -315,12 +315,12 @@ def test_a_level_or_window_that_cannot_be(level: float, window: float | None, sa
 def test_real_scans(data: Path) -> None:
     folder = data / "volumes"
     head = read_volume(folder / "ct_head_cranium_int16.npz")
-    solid, used = threshold(head, low=226)
+    solid, used = segment_volume(head, low=226)
     assert used["solid"] == pytest.approx(0.08486, abs=1e-5)
     assert np.array_equal(solid.values, np.load(folder / "ct_head_cranium_int16.npz")["hu"].T >= 226)
     assert contrast(head, 226) == pytest.approx(370.4, abs=0.1)
-    skull, used = threshold(read_volume(folder / "seg_skull_label_seg3d.npz"))
+    skull, used = segment_volume(read_volume(folder / "seg_skull_label_seg3d.npz"))
     assert used["method"] == "mask"
     assert np.array_equal(skull.values, np.load(folder / "seg_skull_label_seg3d.npz")["label"].T == 1)
     with pytest.raises(ParameterError, match=r"from 0 to 3926 .*--otsu \(finds 648.5\)"):
-        threshold(read_volume(folder / "ct_headsq_64x64x93_uint16.npz"))
+        segment_volume(read_volume(folder / "ct_headsq_64x64x93_uint16.npz"))

@@ -17,12 +17,12 @@ from skimage.measure import marching_cubes
 from infill.errors import GeometryError, ParameterError
 from infill.kernels import quadrics
 from infill.meshes import edge_collapse as collapsing
-from infill.meshes.distance import LEAF, Tree
-from infill.meshes.edge_collapse import Table, collapsed
-from infill.meshes.hausdorff_samples import CLEAR, SURE, between, level_faces, same_faces
-from infill.meshes.intersections import self_intersections
-from infill.meshes.project_back import MANY, mended
-from infill.meshes.simplification import simplified
+from infill.meshes.distance import LEAF, TriangleTree
+from infill.meshes.edge_collapse import CornerTable, collapse_edges
+from infill.meshes.hausdorff_samples import CLEAR, SURE, level_faces, match_faces, sample_between_vertices
+from infill.meshes.intersections import count_self_intersections
+from infill.meshes.project_back import MANY_FACES, project_back
+from infill.meshes.simplification import simplify_surface
 from infill.surface import Surface
 
 DRIFT = 0.05  # of the tolerance: how far the surface may have moved outwards or inwards on average
@@ -73,7 +73,7 @@ def spread_at_random(surface: Surface, count: int, seed: int) -> NDArray[np.floa
 
 def farthest(one: Surface, other: Surface, count: int = PER_TRIANGLE) -> float:
     """The largest distance of one surface from the other, at places that are drawn."""
-    return float(Tree.of(other).nearest(spread_at_random(one, count, 1))[0].max())
+    return float(TriangleTree.of(other).nearest(spread_at_random(one, count, 1))[0].max())
 
 
 def components(surface: Surface) -> int:
@@ -84,13 +84,13 @@ def components(surface: Surface) -> int:
 @pytest.mark.parametrize("tolerance", [0.02, 0.1, 0.4])
 def test_a_simplified_surface_is_closed_near_and_as_connected_and_large_as_before(shape: str, tolerance: float) -> None:
     surface = made(shape, 24)
-    found = simplified(surface, tolerance=tolerance)
+    found = simplify_surface(surface, tolerance=tolerance)
     assert len(found.faces) < len(surface.faces)
     assert found.closed
     assert found.euler_number == surface.euler_number
     assert components(found) == components(surface)
     assert abs(found.volume - surface.volume) <= DRIFT * tolerance * surface.area
-    assert self_intersections(np.asarray(found.vertices), found.faces) == 0
+    assert count_self_intersections(np.asarray(found.vertices), found.faces) == 0
     assert farthest(found, surface) <= tolerance
     assert farthest(surface, found, 3) <= tolerance
     assert_printable(trimesh.Trimesh(found.vertices, found.faces, process=False))
@@ -110,7 +110,7 @@ def test_the_laws_hold_for_any_solid_tolerance_and_unit(
     x, y, z = (w * axis + p for w, p, axis in zip(waves, phases, grid(18), strict=True))
     surface = isosurface(np.cos(x) + np.cos(y + np.sin(z)) + np.cos(z) - level)
     surface = Surface(vertices=surface.vertices * unit + 100 * unit, faces=surface.faces)
-    found = simplified(surface, tolerance=tolerance * unit)
+    found = simplify_surface(surface, tolerance=tolerance * unit)
     assert found.closed
     assert found.euler_number == surface.euler_number
     assert abs(found.volume - surface.volume) <= DRIFT * tolerance * unit * surface.area
@@ -122,7 +122,7 @@ def test_flat_faces_become_as_few_triangles_as_they_need() -> None:
     box = trimesh.creation.box((3, 2, 1)).subdivide().subdivide().subdivide()
     surface = surface_of(box)
     assert len(surface.faces) == 768
-    found = simplified(surface, tolerance=1e-4)
+    found = simplify_surface(surface, tolerance=1e-4)
     assert len(found.faces) == 12
     assert found.volume == pytest.approx(6, rel=1e-12)
     np.testing.assert_allclose(found.bounds, [[-1.5, -1, -0.5], [1.5, 1, 0.5]], atol=1e-4)
@@ -130,30 +130,30 @@ def test_flat_faces_become_as_few_triangles_as_they_need() -> None:
 
 def test_ten_times_fewer_triangles_on_a_smooth_ring() -> None:
     surface = made("torus", 80)
-    found = simplified(surface, tolerance=0.1)
+    found = simplify_surface(surface, tolerance=0.1)
     assert len(found.faces) * 10 <= len(surface.faces)
 
 
 def test_the_number_of_triangles_asked_for_is_kept() -> None:
     surface = made("gyroid", 24)
     for count in (2000, 501):
-        found = simplified(surface, triangles=count)
+        found = simplify_surface(surface, triangles=count)
         assert count - 2 < len(found.faces) <= count
         assert found.closed
         assert found.euler_number == surface.euler_number
         assert found.volume == pytest.approx(surface.volume, rel=1e-3)
-    both = simplified(surface, triangles=len(simplified(surface, tolerance=0.3).faces) + 20, tolerance=0.3)
+    both = simplify_surface(surface, triangles=len(simplify_surface(surface, tolerance=0.3).faces) + 20, tolerance=0.3)
     assert farthest(both, surface) <= 0.3
     with pytest.raises(GeometryError, match=r"only to [\d,]+; allow more"):
-        simplified(surface, triangles=4)
+        simplify_surface(surface, triangles=4)
     with pytest.raises(GeometryError, match=r"at most 100 triangles and 0\.01 mm of leeway, only to"):
-        simplified(surface, triangles=100, tolerance=0.01)
+        simplify_surface(surface, triangles=100, tolerance=0.01)
 
 
 @pytest.mark.parametrize("wrong", [{"tolerance": 0.0}, {"tolerance": math.nan}, {"triangles": 3}])
 def test_what_makes_no_sense_is_an_error(wrong: dict[str, float]) -> None:
     with pytest.raises(ParameterError, match=r"tolerance is|triangles is"):
-        simplified(made("ball", 12), **wrong)  # type: ignore[arg-type]
+        simplify_surface(made("ball", 12), **wrong)  # type: ignore[arg-type]
 
 
 def test_a_spike_higher_than_the_tolerance_stays() -> None:
@@ -162,7 +162,7 @@ def test_a_spike_higher_than_the_tolerance_stays() -> None:
     top = int(vertices[:, 2].argmax())
     vertices[top] *= 1.08
     surface = Surface(vertices=vertices, faces=np.asarray(ball.faces))
-    found = simplified(surface, tolerance=0.2)
+    found = simplify_surface(surface, tolerance=0.2)
     assert np.linalg.norm(np.asarray(found.vertices) - vertices[top], axis=1).min() <= 0.2
     assert len(found.faces) < len(surface.faces) / 2
 
@@ -173,10 +173,10 @@ def test_solids_that_touch_at_a_vertex_still_do() -> None:
     both = trimesh.Trimesh(np.concatenate([one, other]), np.concatenate([box.faces, box.faces + len(one)]))
     surface = surface_of(both)  # merged where they touch
     assert len(surface.vertices) == 2 * len(one) - 1
-    table = Table.of(surface)
+    table = CornerTable.of(surface)
     assert table is not None
     assert table.fixed.sum() == 2
-    found = simplified(surface, tolerance=1e-3)
+    found = simplify_surface(surface, tolerance=1e-3)
     assert found.closed
     assert found.volume == pytest.approx(2)
     assert len(found.faces) < 40
@@ -187,9 +187,9 @@ def test_what_is_not_closed_or_shares_an_edge_four_times_is_refused() -> None:
     box = surface_of(trimesh.creation.box((1, 1, 1)))
     for faces in (box.faces[1:], np.concatenate([box.faces, box.faces[:1, ::-1], box.faces[:1]])):
         broken = Surface(vertices=box.vertices, faces=faces)
-        assert collapsed(broken, tolerance=0.1) is None
+        assert collapse_edges(broken, tolerance=0.1) is None
         with pytest.raises(GeometryError, match="not every edge is shared by exactly two triangles"):
-            simplified(broken, tolerance=0.1)
+            simplify_surface(broken, tolerance=0.1)
 
 
 @pytest.mark.parametrize("far", [0.3, -0.3])
@@ -201,7 +201,7 @@ def test_a_surface_that_strays_is_bent_back(far: float) -> None:
     strayed[::37] *= 1 + far / 10
     found = Surface(vertices=strayed, faces=coarse.faces)
     assert farthest(found, surface) > 0.25
-    back, left, _ = mended(found, surface, Tree.of(surface), 0.15)
+    back, left, _ = project_back(found, surface, TriangleTree.of(surface), 0.15)
     assert not len(left)
     assert back.closed
     assert farthest(back, surface) <= 0.16
@@ -211,9 +211,9 @@ def test_a_surface_that_strays_is_bent_back(far: float) -> None:
 @pytest.mark.parametrize("threads", [1, 3])
 def test_places_lie_on_their_faces_and_tell_how_far_those_are(threads: int) -> None:
     surface, other = made("noise", 20), made("gyroid", 20)
-    tree, far = Tree.of(other), 3.0
+    tree, far = TriangleTree.of(other), 3.0
     away, owner = tree.nearest(np.asarray(surface.vertices), enough=far)
-    found = between(tree, surface, owner, away, 0.5, far, threads=threads)
+    found = sample_between_vertices(tree, surface, owner, away, 0.5, far, threads=threads)
     corners, others = (np.asarray(each.vertices)[each.faces] for each in (surface, other))
     on_face = trimesh.triangles.closest_point(corners[found.face], found.points) - found.points
     np.testing.assert_allclose(on_face, 0, atol=1e-9)
@@ -235,9 +235,9 @@ def test_places_lie_on_their_faces_and_tell_how_far_those_are(threads: int) -> N
 def test_a_piece_whose_corners_are_near_one_face_is_left_out() -> None:
     flat = Surface(vertices=np.array([[0.0, 0, 0], [9, 0, 0], [0, 9, 0]]), faces=np.array([[0, 1, 2]]))
     above = Surface(vertices=np.array([[1.0, 1, 0.5], [4, 1, 0.5], [1, 4, 0.5]]), faces=np.array([[0, 1, 2]]))
-    away, owner = Tree.of(flat).nearest(above.vertices)
-    assert len(between(Tree.of(flat), above, owner, away, 0.5, 0.6).points) == 0
-    assert len(between(Tree.of(flat), above, owner, away, 0.5, 0.4).points) > 20
+    away, owner = TriangleTree.of(flat).nearest(above.vertices)
+    assert len(sample_between_vertices(TriangleTree.of(flat), above, owner, away, 0.5, 0.6).points) == 0
+    assert len(sample_between_vertices(TriangleTree.of(flat), above, owner, away, 0.5, 0.4).points) > 20
 
 
 def test_faces_that_two_surfaces_share_are_known_whatever_their_order() -> None:
@@ -250,22 +250,22 @@ def test_faces_that_two_surfaces_share_are_known_whatever_their_order() -> None:
     moved[turned[0, 0]] += 1e-9
     other = Surface(vertices=moved, faces=turned)
     gone = (turned == turned[0, 0]).any(axis=1)
-    np.testing.assert_array_equal(same_faces(other, surface), np.where(gone, -1, chosen))
+    np.testing.assert_array_equal(match_faces(other, surface), np.where(gone, -1, chosen))
 
 
 def test_what_was_measured_is_handed_to_a_surface_that_differs_in_a_place() -> None:
     surface = made("gyroid", 24)
-    first = collapsed(surface, tolerance=0.1)
+    first = collapse_edges(surface, tolerance=0.1)
     assert first is not None
-    back, _, seen = mended(first, surface, Tree.of(surface), 0.1)
+    back, _, seen = project_back(first, surface, TriangleTree.of(surface), 0.1)
     strayed = np.array(back.vertices)
     strayed[7] += 0.5
     found = replace(back, vertices=strayed)
     handed = seen.handed_to(found, surface, 1.0, 0.1)
-    exact = Tree.of(found).nearest(handed.points)[0]
+    exact = TriangleTree.of(found).nearest(handed.points)[0]
     np.testing.assert_array_equal(handed.away > 0.1, exact > 0.1)
     np.testing.assert_array_equal(handed.unsure, np.flatnonzero((found.faces == 7).any(axis=1)))
-    again, left, _ = mended(found, surface, Tree.of(surface), 0.1, known=seen)
+    again, left, _ = project_back(found, surface, TriangleTree.of(surface), 0.1, known=seen)
     assert not len(left)
     assert max(farthest(again, surface), farthest(surface, again, 3)) <= 0.11
 
@@ -274,7 +274,7 @@ def test_what_was_measured_is_handed_to_a_surface_that_differs_in_a_place() -> N
 @pytest.mark.parametrize("tolerance", [0.05, 0.3, 1.0])
 def test_a_level_face_has_nothing_near_that_faces_elsewhere(shape: str, tolerance: float) -> None:
     """By points all over the faces, against every pair of faces whose normals differ by more than 30 degrees."""
-    found = collapsed(made(shape, 16), tolerance=0.1)
+    found = collapse_edges(made(shape, 16), tolerance=0.1)
     assert found is not None
     level = level_faces(found, tolerance)
     corners = np.asarray(found.vertices)[found.faces]
@@ -285,7 +285,7 @@ def test_a_level_face_has_nothing_near_that_faces_elsewhere(shape: str, toleranc
         aslant = normals @ normals[face] < np.cos(np.radians(30.1))
         if aslant.any():
             others = Surface(vertices=found.vertices, faces=found.faces[aslant])
-            assert Tree.of(others).nearest(own[face])[0].min() >= CLEAR * tolerance
+            assert TriangleTree.of(others).nearest(own[face])[0].min() >= CLEAR * tolerance
     assert level.any() or shape in ("plate", "box with a hole") or tolerance == 1.0
     if shape == "plate" and tolerance == 1.0:  # its other side is two cells away
         assert not level.any()
@@ -293,15 +293,15 @@ def test_a_level_face_has_nothing_near_that_faces_elsewhere(shape: str, toleranc
 
 def test_a_vertex_that_strayed_where_all_is_level_is_brought_back() -> None:
     surface, tolerance = made("ball", 40), 0.1
-    first = collapsed(surface, tolerance=tolerance)
+    first = collapse_edges(surface, tolerance=tolerance)
     assert first is not None
-    assert len(first.faces) > MANY
+    assert len(first.faces) > MANY_FACES
     strayed = np.array(first.vertices)
     strayed[70] += 3 * tolerance * (strayed[70] - first.bounds.mean(axis=0)) / 20
     found = replace(first, vertices=strayed)
     assert level_faces(found, tolerance)[(found.faces == 70).any(axis=1)].all()  # nothing but its distance tells
     assert farthest(found, surface) > 2 * tolerance
-    again, left, _ = mended(found, surface, Tree.of(surface), tolerance)
+    again, left, _ = project_back(found, surface, TriangleTree.of(surface), tolerance)
     assert not len(left)
     assert max(farthest(again, surface), farthest(surface, again, 3)) <= 1.01 * tolerance
 
@@ -310,7 +310,7 @@ def test_a_vertex_that_strayed_where_all_is_level_is_brought_back() -> None:
 def test_patches_keep_the_laws_and_do_not_depend_on_threads(shape: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(collapsing, "PATCH", 100)
     surface, tolerance = made(shape, 24), 0.1
-    table = Table.of(surface)
+    table = CornerTable.of(surface)
     assert table is not None
     assert len(surface.faces) > 10 * collapsing.PATCH
     one = table.without_edges((0.2 * tolerance) ** 2, 4, threads=1)
@@ -325,14 +325,14 @@ def test_patches_keep_the_laws_and_do_not_depend_on_threads(shape: str, monkeypa
     assert found.euler_number == surface.euler_number
     assert components(found) == components(surface)
     assert abs(found.volume - surface.volume) <= DRIFT * tolerance * surface.area
-    whole = simplified(surface, tolerance=tolerance)
+    whole = simplify_surface(surface, tolerance=tolerance)
     assert max(farthest(whole, surface), farthest(surface, whole, 3)) <= tolerance
 
 
 def test_the_nearest_triangle_is_found_whatever_came_before_and_any_that_is_near_enough() -> None:
     surface = made("noise", 16)
     points = np.random.default_rng(3).uniform(-2, 18, (500, 3))
-    tree = Tree.of(surface)
+    tree = TriangleTree.of(surface)
     away, face = tree.nearest(points)
     everywhere = np.repeat(np.asarray(surface.vertices)[surface.faces][None], 40, axis=0).reshape(-1, 3, 3)
     each = np.repeat(points[:40], len(surface.faces), axis=0)
@@ -352,7 +352,7 @@ def test_the_nearest_triangle_is_found_whatever_came_before_and_any_that_is_near
 @pytest.mark.parametrize("count", [1, 2, 3, 4, 5, 8, 9, 16, 17, 31])
 def test_boxes_of_a_tree_hold_what_is_below_them(count: int) -> None:
     vertices = np.random.default_rng(count).uniform(-3, 3, (count, 3, 3))
-    tree = Tree.of(Surface(vertices=vertices.reshape(-1, 3), faces=np.arange(3 * count).reshape(-1, 3)))
+    tree = TriangleTree.of(Surface(vertices=vertices.reshape(-1, 3), faces=np.arange(3 * count).reshape(-1, 3)))
     np.testing.assert_array_equal(tree.corners, vertices[tree.order])
     np.testing.assert_array_equal(np.sort(tree.order), np.arange(count))
     leaves = (len(tree.low) + 1) // 2

@@ -12,7 +12,7 @@ import pytest
 
 import infill
 import patterns
-from infill.cli.app import build
+from infill.cli.app import build_app
 
 pytest.importorskip("sphinx", reason="Sphinx is not here: `make docs` installs it")
 ROOT = Path(__file__).resolve().parents[1]
@@ -53,7 +53,7 @@ def test_nothing_else_is(site: Path) -> None:
 
 def test_every_command_is_described(site: Path) -> None:
     page = (site / "commands.html").read_text(encoding="utf-8")
-    for command in build().registered_commands:
+    for command in build_app().registered_commands:
         assert f"infill {command.name}" in page
     assert "--stamp" in page
 

@@ -15,21 +15,28 @@ from scipy.spatial import KDTree
 
 from infill import GeometryError, Surface, Volume, fill
 from infill.interior import layer_stack as layers
-from infill.interior.interior import Space, space_inside
-from infill.interior.layer_stack import Layers
+from infill.interior.interior import Interior, compute_interior
+from infill.interior.layer_stack import LayerStack
 from infill.isosurfaces import slabs
-from infill.isosurfaces.slabs import Piece, few_of, piece_between, shells_of, stitched, volumes_of
+from infill.isosurfaces.slabs import (
+    SlabPiece,
+    cut_slab_piece,
+    measure_slab_shells,
+    simplify_piece,
+    stitch_pieces,
+    sum_shell_volumes,
+)
 from infill.lattices import hollowing
-from infill.lattices.choosing import voids_of
-from infill.lattices.drawn_voids import Drawn
-from infill.lattices.hollowing import share_of_cells
-from infill.lattices.request import Request, checked
-from infill.lattices.slabwise import surfaces_by_slabs, unmade
-from infill.lattices.surfacing import smoothing_for, surfaces_of
-from infill.meshes.distance import Tree
+from infill.lattices.choosing import choose_voids
+from infill.lattices.drawn_voids import Prismatic
+from infill.lattices.hollowing import solid_share
+from infill.lattices.request import FillSpec, check_request
+from infill.lattices.slabwise import defer_voids, surfaces_by_slabs
+from infill.lattices.surfacing import choose_smoothing, make_surfaces
+from infill.meshes.distance import TriangleTree
 from infill.meshes.hole_filling import open_edges
-from infill.meshes.shells import with_faces
-from infill.meshes.solids import FINE, shortened_between, status
+from infill.meshes.shells import select_faces
+from infill.meshes.solids import FINE, manifold_status, simplify_open_piece
 from patterns import Pattern
 from patterns.shared import cell_parameter
 
@@ -43,7 +50,7 @@ def surface(mesh: Any) -> Surface:
     return Surface(vertices=np.asarray(mesh.vertices), faces=np.asarray(mesh.faces))
 
 
-def asked(pattern: str, **more: Any) -> Request:
+def asked(pattern: str, **more: Any) -> FillSpec:
     given: dict[str, Any] = {
         "density": None,
         "by": None,
@@ -62,33 +69,33 @@ def asked(pattern: str, **more: Any) -> Request:
         "voxel": 0.4,
         "max_triangles": None,
     }
-    return checked(pattern=pattern, own={}, **(given | more))
+    return check_request(pattern=pattern, own={}, **(given | more))
 
 
-def in_slabs(space: Space, thick: int = THICK) -> Space:
+def in_slabs(space: Interior, thick: int = THICK) -> Interior:
     nz = space.shape[2]
     return replace(
-        space, layers=Layers.packed(space.layers.between(low, min(low + thick, nz)) for low in range(0, nz, thick))
+        space, layers=LayerStack.packed(space.layers.between(low, min(low + thick, nz)) for low in range(0, nz, thick))
     )
 
 
 @pytest.fixture(scope="module")
-def space() -> Space:
+def space() -> Interior:
     """Of a block with a hole and a ball on it, turned, so that no two layers are alike."""
     mesh = union(less(box(26, 20, 14), rod(4, 30)), box(8, 8, 8, (9, 6, 8)))
-    return space_inside(surface(turned(mesh, np.random.default_rng(4))), wall=1.2, voxel=0.4)
+    return compute_interior(surface(turned(mesh, np.random.default_rng(4))), wall=1.2, voxel=0.4)
 
 
 def made(
-    space: Space, pattern: str, **more: Any
-) -> tuple[Request, Drawn, tuple[Surface, ...], tuple[Surface, ...], float]:
+    space: Interior, pattern: str, **more: Any
+) -> tuple[FillSpec, Prismatic, tuple[Surface, ...], tuple[Surface, ...], float]:
     """Return the surfaces of the whole and of slabs, every triangle of them, and what slabs say the volume is."""
     request = asked(pattern, **more)
-    voids = voids_of(request, space.part.bounds, None)
-    assert isinstance(voids, Drawn)
-    whole = surfaces_of(space, voids, request, SIZES, threads=None)
+    voids = choose_voids(request, space.part.bounds, None)
+    assert isinstance(voids, Prismatic)
+    whole = make_surfaces(space, voids, request, SIZES, threads=None)
     slabs = surfaces_by_slabs(in_slabs(space), voids, request, SIZES, tolerance=0.0, threads=None)
-    known = unmade(in_slabs(space), voids, request, SIZES, threads=None).volume
+    known = defer_voids(in_slabs(space), voids, request, SIZES, threads=None).volume
     assert (whole.islands, whole.specks) == (slabs.islands, slabs.specks)
     return request, voids, tuple(whole.surfaces), tuple(slabs.surfaces), known
 
@@ -111,14 +118,14 @@ def test_packed_layers_are_what_was_packed(
     monkeypatch.setattr(layers, "AT_ONCE", at_once)
     whole = rng.normal(size=(5, 4, 23)).astype(np.float32)
     whole[:, :, 6:12] = whole[:, :, 12:18]
-    packed = Layers.packed(whole[:, :, low : low + 6] for low in range(0, 23, 6))
+    packed = LayerStack.packed(whole[:, :, low : low + 6] for low in range(0, 23, 6))
     assert packed.in_slabs
-    assert not Layers.of(whole).in_slabs
+    assert not LayerStack.of(whole).in_slabs
     assert packed.shape == whole.shape
     assert packed.bounds() == [(0, 6), (6, 12), (12, 18), (18, 23)]
     for low, high in ((0, 23), (0, 6), (3, 4), (5, 13), (17, 23)):
         assert np.array_equal(packed.between(low, high), whole[:, :, low:high])
-        assert np.array_equal(Layers.of(whole).between(low, high), whole[:, :, low:high])
+        assert np.array_equal(LayerStack.of(whole).between(low, high), whole[:, :, low:high])
     assert packed.alike(6, 12) == packed.alike(12, 18) != packed.alike(0, 6)
 
 
@@ -129,19 +136,19 @@ def test_a_volume_in_slabs_is_that_volume(
     monkeypatch.setattr(layers, "LEAST_LAYERS", thick)
     monkeypatch.setattr(layers, "SLAB", 1)
     whole = Volume(values=rng.random((4, 5, 23)) < 0.5, spacing=0.5, origin=(1, 2, 3))
-    found = list(layers.in_slabs(whole))
+    found = list(layers.split_into_slabs(whole))
     assert np.array_equal(np.concatenate([each.values for each in found], axis=2), whole.values)
     assert [each.origin for each in found] == [(1, 2, 3 + 0.5 * low) for low in range(0, 23, thick)]
 
 
-def test_a_space_in_slabs_measures_as_the_whole(space: Space) -> None:
+def test_a_space_in_slabs_measures_as_the_whole(space: Interior) -> None:
     slabs = in_slabs(space)
     assert slabs.shape == space.shape
     assert slabs.cells == pytest.approx(space.cells, rel=1e-12)
     assert slabs.thickness == pytest.approx(space.thickness, rel=1e-12)
     assert slabs.across == space.across
-    voids = voids_of(asked("honeycomb"), space.part.bounds, None)
-    shares = [share_of_cells(each, voids, *SIZES) for each in (space, slabs)]
+    voids = choose_voids(asked("honeycomb"), space.part.bounds, None)
+    shares = [solid_share(each, voids, *SIZES) for each in (space, slabs)]
     assert shares[0] == pytest.approx(shares[1], rel=1e-9)
 
 
@@ -149,10 +156,10 @@ def test_a_large_part_is_measured_slab_by_slab(monkeypatch: pytest.MonkeyPatch) 
     from infill.interior import interior as module
 
     part = surface(box(10, 12, 30))
-    whole = space_inside(part, wall=1.2, voxel=0.4)
+    whole = compute_interior(part, wall=1.2, voxel=0.4)
     monkeypatch.setattr(module, "WHOLE", 1000)
     monkeypatch.setattr(layers, "SLAB", 10_000)
-    slabs = space_inside(part, wall=1.2, voxel=0.4, slabs=True)
+    slabs = compute_interior(part, wall=1.2, voxel=0.4, slabs=True)
     assert slabs.layers.in_slabs
     assert not whole.layers.in_slabs
     # Heights are counted from the slab: single precision may round the other way.
@@ -165,11 +172,11 @@ def test_a_large_part_is_measured_slab_by_slab(monkeypatch: pytest.MonkeyPatch) 
 
 @pytest.mark.parametrize("radius", [0.0, 0.25, 1.5])
 @pytest.mark.parametrize("pattern", ["honeycomb", "rectilinear", "concentric-heart", "concentric"])
-def test_slabs_make_the_surfaces_of_the_whole(pattern: str, radius: float, space: Space) -> None:
+def test_slabs_make_the_surfaces_of_the_whole(pattern: str, radius: float, space: Interior) -> None:
     """Triangle by triangle; with a radius of 1.5 mm, more layers are needed beside a slab than it has."""
     phase = (0.0, 0.0) if pattern == "concentric" else (0.3, 0.1)
     request, voids, whole, slabs, known = made(space, pattern, smooth_radius=radius, phase=phase)
-    steps = smoothing_for(space, voids, request, SIZES).steps
+    steps = choose_smoothing(space, voids, request, SIZES).steps
     assert (steps > THICK) == (radius > 1)
     assert len(whole) == len(slabs) > 0
     for one, other in zip(whole, slabs, strict=True):
@@ -187,8 +194,8 @@ def test_slabs_make_the_surfaces_of_the_whole(pattern: str, radius: float, space
 
 
 def sharpest(mesh: Any, pattern: str, **more: Any) -> float:
-    inside = space_inside(surface(mesh), wall=1.0, voxel=0.4)
-    voids = voids_of(asked(pattern, phase=(0.0, 0.0), **more), inside.part.bounds, None)
+    inside = compute_interior(surface(mesh), wall=1.0, voxel=0.4)
+    voids = choose_voids(asked(pattern, phase=(0.0, 0.0), **more), inside.part.bounds, None)
     return voids.sharpest(inside, cell=7.8, width=0.8)
 
 
@@ -222,19 +229,21 @@ class Star(Pattern):
 def test_corners_outside_of_the_walls_are_none() -> None:
     """Two walls that meet at 53 degrees in the hole of a frame, and nowhere in the frame itself."""
     frame, block = (surface(mesh) for mesh in (less(box(20, 20, 6), box(12, 12, 8)), box(20, 20, 6)))
-    voids = Drawn(pattern=Star(), anchor=np.zeros(3), share=0.1)
-    found = [voids.sharpest(space_inside(each, wall=1.0, voxel=0.4), cell=7.8, width=0.8) for each in (frame, block)]
+    voids = Prismatic(pattern=Star(), anchor=np.zeros(3), share=0.1)
+    found = [
+        voids.sharpest(compute_interior(each, wall=1.0, voxel=0.4), cell=7.8, width=0.8) for each in (frame, block)
+    ]
     assert found == [90, pytest.approx(53.13, abs=0.01)]
 
 
-def test_too_few_layers_beside_a_slab_are_seen(space: Space, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_too_few_layers_beside_a_slab_are_seen(space: Interior, monkeypatch: pytest.MonkeyPatch) -> None:
     """The comparison can fail: without them, pieces do not meet, or surfaces differ."""
     from infill.lattices import slabwise
 
     request = asked("honeycomb", smooth_radius=1.5)
-    voids = voids_of(request, space.part.bounds, None)
-    assert isinstance(voids, Drawn)
-    smoothing = smoothing_for(space, voids, request, SIZES)
+    voids = choose_voids(request, space.part.bounds, None)
+    assert isinstance(voids, Prismatic)
+    smoothing = choose_smoothing(space, voids, request, SIZES)
 
     def few(*_: Any) -> Any:
         return replace(smoothing, steps=0)
@@ -250,20 +259,20 @@ def test_too_few_layers_beside_a_slab_are_seen(space: Space, monkeypatch: pytest
 
 def test_pieces_that_do_not_meet_are_refused() -> None:
     whole = surface(trimesh.creation.box((4, 4, 4)).subdivide().subdivide())
-    pieces = [piece_between(whole, low, high) for low, high in ((-3, 0), (0, 3))]
+    pieces = [cut_slab_piece(whole, low, high) for low, high in ((-3, 0), (0, 3))]
     assert all(piece is not None for piece in pieces)
     lower, upper = (each for each in pieces if each is not None)
-    again = stitched([(-3, lower), (0, upper)])
+    again = stitch_pieces([(-3, lower), (0, upper)])
     assert again.closed
     assert np.array_equal(corners(again, 9), corners(whole, 9))
-    assert volumes_of([shells_of(lower), shells_of(upper)]) == pytest.approx([64])
+    assert sum_shell_volumes([measure_slab_shells(lower), measure_slab_shells(upper)]) == pytest.approx([64])
     moved = np.array(upper.surface.vertices)
     moved[upper.rim(0)[0], 0] += 1e-9
     for wrong in (replace(upper, surface=replace(upper.surface, vertices=moved)), None):
         with pytest.raises(GeometryError, match="do not meet"):
-            stitched([(-3, lower), (0, wrong)])
+            stitch_pieces([(-3, lower), (0, wrong)])
     with pytest.raises(GeometryError, match="do not meet"):
-        volumes_of([shells_of(lower), None])
+        sum_shell_volumes([measure_slab_shells(lower), None])
 
 
 # --- simplified -------------------------------------------------------------------------------------------------------
@@ -271,8 +280,8 @@ def test_pieces_that_do_not_meet_are_refused() -> None:
 
 def test_open_edges_stay_to_the_last_bit() -> None:
     ball = surface(trimesh.creation.icosphere(5, radius=10))
-    half = with_faces(ball, (ball.vertices[:, 2] > 0.2)[ball.faces].all(axis=1))
-    few = shortened_between(half, 0.1)
+    half = select_faces(ball, (ball.vertices[:, 2] > 0.2)[ball.faces].all(axis=1))
+    few = simplify_open_piece(half, 0.1)
     assert len(few.faces) < len(half.faces) / 3
 
     def rim(each: Surface) -> np.ndarray:
@@ -280,28 +289,28 @@ def test_open_edges_stay_to_the_last_bit() -> None:
         return ends[np.lexsort(ends.T)]
 
     assert np.array_equal(rim(few), rim(half))
-    assert Tree.of(half).nearest(few.vertices)[0].max() < 1e-9  # vertices are some of those that were
-    assert Tree.of(few).nearest(half.vertices)[0].max() <= 0.1
+    assert TriangleTree.of(half).nearest(few.vertices)[0].max() < 1e-9  # vertices are some of those that were
+    assert TriangleTree.of(few).nearest(half.vertices)[0].max() <= 0.1
 
 
 @pytest.mark.parametrize("pattern", ["honeycomb", "rectilinear", "concentric-heart"])
-def test_simplified_slabs_stay_within_the_tolerance(pattern: str, space: Space) -> None:
+def test_simplified_slabs_stay_within_the_tolerance(pattern: str, space: Interior) -> None:
     request = asked(pattern)
-    voids = voids_of(request, space.part.bounds, None)
-    assert isinstance(voids, Drawn)
+    voids = choose_voids(request, space.part.bounds, None)
+    assert isinstance(voids, Prismatic)
     slabs = in_slabs(space)
     every = surfaces_by_slabs(slabs, voids, request, SIZES, tolerance=0.0, threads=None)
-    few = hollowing.few_triangles(unmade(slabs, voids, request, SIZES, threads=None), request.tolerance)
-    alone = hollowing.few_triangles(replace(every, unmade=None), request.tolerance)
+    few = hollowing.simplify_voids(defer_voids(slabs, voids, request, SIZES, threads=None), request.tolerance)
+    alone = hollowing.simplify_voids(replace(every, unmade=None), request.tolerance)
     assert few.triangles < 1.4 * alone.triangles  # with a plane at every eleventh layer, at which all are kept at first
     assert few.triangles < every.triangles / 2
     assert few.count == every.count
     assert few.density == pytest.approx(every.density, abs=0.005)
     for one, other in zip(every.surfaces, few.surfaces, strict=True):
-        assert status(other) == FINE
+        assert manifold_status(other) == FINE
         for near, far in ((one, other), (other, one)):
             points = np.asarray(near.vertices)
-            assert Tree.of(far).nearest(points)[0].max() <= request.tolerance
+            assert TriangleTree.of(far).nearest(points)[0].max() <= request.tolerance
 
 
 @pytest.mark.parametrize("pattern", ["honeycomb", "concentric-heart", "concentric"])
@@ -312,7 +321,7 @@ def test_a_part_filled_in_slabs_keeps_all_promises(pattern: str, monkeypatch: py
     monkeypatch.setattr(module, "WHOLE", 1000)
     monkeypatch.setattr(layers, "SLAB", 100_000)
     seen = []
-    monkeypatch.setattr(hollowing, "unmade", lambda *given, **more: seen.append(1) or unmade(*given, **more))
+    monkeypatch.setattr(hollowing, "unmade", lambda *given, **more: seen.append(1) or defer_voids(*given, **more))
     result = fill(mesh, pattern, density=0.25)
     report, solid = result.report, result.surface
     assert seen
@@ -320,7 +329,7 @@ def test_a_part_filled_in_slabs_keeps_all_promises(pattern: str, monkeypatch: py
     assert (solid.vertices[: len(mesh.vertices)] == mesh.vertices).all()
     assert (solid.faces[: len(mesh.faces)] == mesh.faces).all()
     assert solid.closed
-    assert status(solid) == FINE
+    assert manifold_status(solid) == FINE
     assert report["density"] == pytest.approx(0.25, abs=0.005)
     assert report["walls"]["least"] >= 0.9 * 1.2
     assert report["voids"]["count"] == len(report["voids"]["closed"])
@@ -339,18 +348,18 @@ def test_slabs_are_planned_for_upright_voids_alone() -> None:
         ("honeycomb", {"density": (0.1, 0.3), "cell": None, "line_width": None}, False),
     ):
         request = asked(pattern, **more)
-        assert goes_by_slabs(request, voids_of(request, bounds, None)) is expected, (pattern, more)
+        assert goes_by_slabs(request, choose_voids(request, bounds, None)) is expected, (pattern, more)
 
 
 def test_a_tall_part_has_voxels_as_fine_as_a_low_one() -> None:
-    from infill.lattices.sizing import sizes_for, voxel_for
+    from infill.lattices.sizing import choose_sizes, choose_voxel
 
     request = asked("honeycomb", cell=None, line_width=None, density=0.2, voxel=None)
     found = []
     for height in (100, 400):
         extents = np.array([60.0, 60.0, height])
-        voids = voids_of(request, np.array([[0, 0, 0], extents]), None)
-        found.append(voxel_for(request, voids, extents, *sizes_for(request, voids, extents)))
+        voids = choose_voids(request, np.array([[0, 0, 0], extents]), None)
+        found.append(choose_voxel(request, voids, extents, *choose_sizes(request, voids, extents)))
     assert [low >= high for low, high in pairwise(found)] == [True]
 
 
@@ -358,9 +367,9 @@ def test_few_of_a_piece_keeps_its_planes() -> None:
     mesh = trimesh.creation.box((4, 4, 4))
     for _ in range(4):
         mesh = mesh.subdivide()
-    piece = piece_between(surface(mesh), -3, 0)
-    assert isinstance(piece, Piece)
-    few = few_of(piece, 0.1)
+    piece = cut_slab_piece(surface(mesh), -3, 0)
+    assert isinstance(piece, SlabPiece)
+    few = simplify_piece(piece, 0.1)
     assert len(few.surface.faces) < len(piece.surface.faces)
     rims = [each.surface.vertices[each.rim(each.high)] for each in (piece, few)]
     assert np.array_equal(*rims)
@@ -369,13 +378,13 @@ def test_few_of_a_piece_keeps_its_planes() -> None:
 def test_components_of_a_piece_are_simplified_some_at_a_time(monkeypatch: pytest.MonkeyPatch) -> None:
     ball = trimesh.creation.icosphere(4, radius=3)
     both = trimesh.util.concatenate([ball, ball.copy().apply_translation((8, 0, 0))])
-    piece = piece_between(surface(both), -2, 1)
-    assert isinstance(piece, Piece)
+    piece = cut_slab_piece(surface(both), -2, 1)
+    assert isinstance(piece, SlabPiece)
     monkeypatch.setattr(slabs, "AT_ONCE", 100)
-    few = few_of(piece, 0.1)
+    few = simplify_piece(piece, 0.1)
     assert len(few.surface.faces) < len(piece.surface.faces) / 2
     for height in (0, piece.high):
         np.testing.assert_array_equal(few.surface.vertices[few.rim(height)], piece.surface.vertices[piece.rim(height)])
     for one, other in ((piece, few), (few, piece)):
-        assert Tree.of(one.surface).nearest(other.surface.vertices)[0].max() < 0.1
+        assert TriangleTree.of(one.surface).nearest(other.surface.vertices)[0].max() < 0.1
     assert len(open_edges(few.surface.faces)) == len(open_edges(piece.surface.faces))

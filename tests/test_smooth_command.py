@@ -19,7 +19,7 @@ from shapes import assert_printable
 from test_command_line import one_line_error, refused, run
 
 from infill import Volume, read_mesh, read_volume
-from infill.cli.console import log_said
+from infill.cli.console import print_log
 from infill.imaging.volume_files import write_field
 
 pytestmark = pytest.mark.usefixtures("compiled", "silent_compiler")
@@ -512,7 +512,7 @@ def test_the_log_is_said(capsys: pytest.CaptureFixture[str], monkeypatch: pytest
     log = logging.getLogger("infill")
     monkeypatch.setattr(log, "disabled", False)  # which the fixture that is silent of the compiler sets
     for shown in (True, False):
-        with log_said(shown=shown):
+        with print_log(shown=shown):
             log.warning("compiling %s", "it")
     assert capsys.readouterr().err == "compiling it\n"
     assert log.propagate

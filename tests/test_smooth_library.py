@@ -31,10 +31,10 @@ from infill import (
     smooth_volume,
 )
 from infill.isosurfaces.levels import SMALLEST
-from infill.kernels.compiling import told_of_compiling
+from infill.kernels.compiling import log_compilation
 from infill.meshes.distance import distances
 from infill.phasefield.sparse import smooth_bricks
-from infill.smoothing.attempt import OFF
+from infill.smoothing.attempt import VOLUME_TOLERANCE
 
 Solid = NDArray[np.bool_]
 
@@ -131,7 +131,7 @@ def test_every_solid_gives_a_closed_mesh_and_an_honest_report(solid: Solid, step
     assert (mesh.bounds[1] <= np.array(solid.shape) + 0.5).all()
     if components == 1 and solid.sum() >= SMALLEST:
         assert abs(report["volume_change"]) <= 5 * VOLUME  # crumbs of a few cells are not found as closely
-    elif components == 1 and abs(report["volume_change"]) > OFF:
+    elif components == 1 and abs(report["volume_change"]) > VOLUME_TOLERANCE:
         assert any("the volume is off by" in problem for problem in report["problems"])
     json.dumps(report, allow_nan=False)
 
@@ -892,11 +892,11 @@ def test_the_log_tells_once_of_compiling(caplog: pytest.LogCaptureFixture, monke
     """What is compiled inside of what is compiled is not told again, nor is what is compiled later."""
     import numba
 
-    monkeypatch.setattr("infill.kernels.compiling.TOLD", threading.Event())
+    monkeypatch.setattr("infill.kernels.compiling.REPORTED", threading.Event())
 
-    @told_of_compiling("all")
+    @log_compilation("all")
     def work() -> int:
-        with told_of_compiling("a part"):
+        with log_compilation("a part"):
             return numba.njit(lambda x: x + 1)(1) + numba.njit(lambda x: x * 2.5)(1)
 
     assert work() == work() == 4.5
@@ -910,7 +910,7 @@ def test_nobody_waits_for_a_compiler_untold(
     """What takes seconds to compile is watched: here something that needs compiling is passed in as its progress."""
     import numba
 
-    monkeypatch.setattr("infill.kernels.compiling.TOLD", threading.Event())
+    monkeypatch.setattr("infill.kernels.compiling.REPORTED", threading.Event())
 
     def progress(*_: object) -> None:
         numba.njit(lambda x: x + 1)(1)

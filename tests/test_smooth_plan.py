@@ -19,7 +19,7 @@ FAR = 8 - np.sqrt(np.sum((np.indices((24, 26, 24)) - 11.5) ** 2, axis=0))
 @pytest.fixture(autouse=True)
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("infill.smoothing.plan.BALL", 5.0)  # cells: how long it takes is not looked at here
+    monkeypatch.setattr("infill.smoothing.plan.BALL_RADIUS", 5.0)  # cells: how long it takes is not looked at here
     np.save("ball.npy", FAR > 0)
     np.save("thick.npy", (FAR > 0)[:, :, ::4])
     np.save("ct.npy", (100 * FAR).astype(np.int16))

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from test_command_line import one_line_error, run
 
 from infill import ParameterError
-from infill.cli.app import build
+from infill.cli.app import build_app
 from infill.smoothing.settings import FIELDS, READERS, SmoothSettings, resolve
 
 pytestmark = pytest.mark.usefixtures("compiled", "silent_compiler")
@@ -32,7 +32,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_every_option_that_changes_the_mesh_is_a_setting() -> None:
-    (command,) = [each for each in build("smooth").registered_commands if each.name == "smooth"]
+    (command,) = [each for each in build_app("smooth").registered_commands if each.name == "smooth"]
     from typer.main import get_command_from_info
 
     found = get_command_from_info(command, pretty_exceptions_short=True, rich_markup_mode=None)

@@ -10,14 +10,14 @@ from scipy.spatial import cKDTree
 
 from infill import GeometryError, Smoothing
 from infill.isosurfaces.components import data_bits
-from infill.isosurfaces.levels import tried
-from infill.isosurfaces.marching import extract
+from infill.isosurfaces.levels import try_level
+from infill.isosurfaces.marching import extract_dense
 from infill.isosurfaces.sparse_marching import (
     cube_table,
     euler_number_of_bits,
     extract_bricks,
     extract_level,
-    measured,
+    measure_level,
     raw_counts,
 )
 from infill.kernels.sparse_marching import UNDECIDED
@@ -39,7 +39,7 @@ def same(one: Surface, other: Surface) -> bool:
 
 def both(f: np.ndarray, steps: int, level: float = 0.0) -> tuple[Surface, Surface]:
     field = smooth_bricks(f, Smoothing(steps=steps))
-    whole = extract(field.to_dense(), spacing=UNIT, origin=NOTHING, level=level)
+    whole = extract_dense(field.to_dense(), spacing=UNIT, origin=NOTHING, level=level)
     return extract_bricks(field, spacing=UNIT, level=level), whole
 
 
@@ -135,7 +135,7 @@ def test_the_table_knows_the_cubes_that_signs_do_not_decide() -> None:
 def test_the_euler_number_of_bits_is_that_of_their_surface(density: float, rng: np.random.Generator) -> None:
     f = rng.random((20, 33, 50)) < density
     field = smooth_bricks(f, Smoothing(steps=3))
-    raw = extract(np.where(f, np.float32(1), np.float32(-1)), spacing=UNIT, origin=NOTHING)
+    raw = extract_dense(np.where(f, np.float32(1), np.float32(-1)), spacing=UNIT, origin=NOTHING)
     assert euler_number_of_bits(field, data_bits(field)) == raw.euler_number
 
 
@@ -166,11 +166,11 @@ def test_a_surface_is_measured_as_it_is_made(monkeypatch: pytest.MonkeyPatch) ->
     """Volume and slope without the surface, where it is large: made small here."""
     x = np.indices((30, 30, 40)) - np.array([14.2, 15.1, 19.7])[:, None, None, None]
     field = smooth_bricks((x**2).sum(axis=0) < 121, Smoothing(steps=8), spacing=(0.5, 0.5, 0.4))
-    assert measured(field, spacing=(0.5, 0.5, 0.4), level=-0.02) is None
+    assert measure_level(field, spacing=(0.5, 0.5, 0.4), level=-0.02) is None
     monkeypatch.setattr("infill.isosurfaces.sparse_marching.LARGE", 0)
-    volume, slope = measured(field, spacing=(0.5, 0.5, 0.4), level=-0.02, threads=2)
+    volume, slope = measure_level(field, spacing=(0.5, 0.5, 0.4), level=-0.02, threads=2)
     made = extract_level(field, spacing=(0.5, 0.5, 0.4), level=-0.02)
     assert volume == pytest.approx(made.surface.volume, rel=1e-9)
-    assert slope == pytest.approx(tried(field, -0.02, spacing=(0.5, 0.5, 0.4), threads=1).slope, rel=1e-6)
+    assert slope == pytest.approx(try_level(field, -0.02, spacing=(0.5, 0.5, 0.4), threads=1).slope, rel=1e-6)
     rough = smooth_bricks(np.random.default_rng(0).random((20, 20, 20)) < 0.4, Smoothing(steps=1))
-    assert measured(rough, spacing=UNIT, level=0.0) is None  # signs do not decide every cube
+    assert measure_level(rough, spacing=UNIT, level=0.0) is None  # signs do not decide every cube

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from shapes import DESIGNS
 
 from infill import Grid, Smoothing, stamp
-from infill.making.request import plan
+from infill.making.request import plan_block
 from patterns import PATTERNS
-from patterns.linework import sample
+from patterns.linework import sample_points
 from patterns.straight import Grid as GridPattern
 
 DEFAULT_BLOCK = {
@@ -32,7 +32,7 @@ NOISE = 1e-12  # of a cell: what turning, clipping and sampling leave
 
 def stamped_bounds(line: np.ndarray, grid: Grid) -> tuple[np.ndarray, np.ndarray]:
     """Return the lower and upper end of the cells that each column along a line has, for its longer axis."""
-    points = sample(shapely.MultiLineString([line]), min(grid.spacing) / 2)
+    points = sample_points(shapely.MultiLineString([line]), min(grid.spacing) / 2)
     solid = stamp(points, grid, outside="clip") > 0
     along = int(np.argmax(np.ptp(line, axis=0)))
     columns = np.moveaxis(solid, along, 0)
@@ -59,7 +59,7 @@ def test_walls_along_an_axis_have_no_kink(pattern) -> None:
     """By the default block, whose lines lie on borders of cells as often as not; turned by a quarter too."""
     turned = [replace(pattern, angle=pattern.angle + 90)] if hasattr(pattern, "angle") else []
     for each in (pattern, *turned):
-        block = plan(each, **DEFAULT_BLOCK)
+        block = plan_block(each, **DEFAULT_BLOCK)
         for piece in straight_pieces(block.lines, 5 * min(block.grid.spacing)):
             low, high = stamped_bounds(piece, block.grid)
             assert np.unique(low).size == np.unique(high).size == 1, f"{each} at {piece.tolist()}"

@@ -18,10 +18,10 @@ from test_command_line import run, usage_error
 
 from infill import UsageError, fill
 from infill.interior import crossing
-from infill.interior.conformal_map import place, slopes_of, stretched, walls_in
+from infill.interior.conformal_map import fit_conformal_map, map_points, spline_slopes, wall_factor
 from infill.interior.crossing import median_width
 from infill.lattices.voids import NODES
-from infill.meshes.solids import solid_of
+from infill.meshes.solids import to_manifold
 from patterns.tpms import GYROID
 
 pytestmark = pytest.mark.usefixtures("compiled")
@@ -34,21 +34,21 @@ LOW, HIGH = 0.15, 0.4
 @given(scale=st.floats(0.2, 5), shape=st.tuples(*[st.integers(2, 6)] * 3))
 @settings(max_examples=20, deadline=None)
 def test_one_scale_everywhere_is_a_scale(scale: float, shape: tuple[int, int, int]) -> None:
-    coordinates, more = stretched(np.full(shape, scale))
+    coordinates, more = fit_conformal_map(np.full(shape, scale))
     nodes = np.stack(np.meshgrid(*map(np.arange, shape), indexing="ij"), axis=-1).reshape(-1, 3).astype(float)
     middle = (np.array(shape) - 1) / 2
-    np.testing.assert_allclose(place(coordinates, nodes), middle + scale * (nodes - middle), atol=1e-9)
+    np.testing.assert_allclose(map_points(coordinates, nodes), middle + scale * (nodes - middle), atol=1e-9)
     np.testing.assert_allclose(more, scale, rtol=1e-9)
 
 
 def test_coordinates_are_as_their_slopes_say() -> None:
     random = np.random.default_rng(1)
-    coordinates, _ = stretched(random.uniform(0.7, 1.5, (7, 9, 8)))
+    coordinates, _ = fit_conformal_map(random.uniform(0.7, 1.5, (7, 9, 8)))
     nodes, tiny = np.stack(np.meshgrid(*map(np.arange, (5, 7, 6)), indexing="ij"), axis=-1).reshape(-1, 3) + 1.0, 1e-5
     for axis in range(3):
         step = tiny * np.eye(3)[axis]
-        slopes = (place(coordinates, nodes + step) - place(coordinates, nodes - step)) / (2 * tiny)
-        found = slopes_of(coordinates)[1:-1, 1:-1, 1:-1, :, axis].reshape(-1, 3)
+        slopes = (map_points(coordinates, nodes + step) - map_points(coordinates, nodes - step)) / (2 * tiny)
+        found = spline_slopes(coordinates)[1:-1, 1:-1, 1:-1, :, axis].reshape(-1, 3)
         np.testing.assert_allclose(found, slopes, atol=1e-8)
 
 
@@ -59,7 +59,7 @@ def test_walls_in_a_volume_are_those_of_the_ellipsoid() -> None:
         root = math.sqrt(abs(slope))
         partial = math.asinh(root) if slope > 0 else math.asin(root)
         expected = (long + partial / root) / 2
-        assert walls_in(np.diag([1.0, 1.0, long])) == pytest.approx(expected, rel=2e-3)
+        assert wall_factor(np.diag([1.0, 1.0, long])) == pytest.approx(expected, rel=2e-3)
 
 
 @given(data=st.data())
@@ -69,16 +69,16 @@ def test_no_cell_is_torn_or_folded_over(data: st.DataObject) -> None:
     shape = data.draw(st.tuples(*[st.integers(4, 12)] * 3))
     random = np.random.default_rng(data.draw(st.integers(0, 1000)))
     scales = np.exp(random.uniform(-1.2, 1.2, shape))
-    coordinates, more = stretched(scales)
-    assert np.linalg.det(slopes_of(coordinates)).min() > 0
+    coordinates, more = fit_conformal_map(scales)
+    assert np.linalg.det(spline_slopes(coordinates)).min() > 0
     assert np.isfinite(more).all()
 
 
 def test_a_step_that_would_fold_cells_is_evened_out() -> None:
     up = np.linspace(0, 1, 24)
     scales = np.broadcast_to(np.where(up > 0.5, 4.0, 0.2), (12, 12, 24))
-    coordinates, more = stretched(scales)
-    assert np.linalg.det(slopes_of(coordinates)).min() > 0
+    coordinates, more = fit_conformal_map(scales)
+    assert np.linalg.det(spline_slopes(coordinates)).min() > 0
     assert more[..., -1].mean() > 2 * more[..., 0].mean()
 
 
@@ -93,7 +93,7 @@ def specification(table: NDArray[np.float32], coordinates: Floats, step: float, 
     tiny = 1e-6
 
     def where(points: Floats) -> Floats:
-        inside: Floats = (place(coordinates, points / step) * step / period) % 1.0
+        inside: Floats = (map_points(coordinates, points / step) * step / period) % 1.0
         return inside
 
     value = distance(where(cells))
@@ -108,7 +108,10 @@ def specification(table: NDArray[np.float32], coordinates: Floats, step: float, 
     slope /= np.maximum(np.linalg.norm(slope, axis=1), 0.05)[:, None]
     jacobian = np.stack(
         [
-            (place(coordinates, (cells + tiny * each) / step) - place(coordinates, (cells - tiny * each) / step))
+            (
+                map_points(coordinates, (cells + tiny * each) / step)
+                - map_points(coordinates, (cells - tiny * each) / step)
+            )
             * step
             / (2 * tiny)
             for each in np.eye(3)
@@ -127,7 +130,7 @@ def test_the_kernel_computes_what_it_is_to(sign: float) -> None:
 
     random = np.random.default_rng(3)
     nodes, step, period = (4, 5, 4), 5.0, 11.0
-    coordinates, _ = stretched(random.uniform(0.7, 1.5, nodes))
+    coordinates, _ = fit_conformal_map(random.uniform(0.7, 1.5, nodes))
     shape = tuple(int((count - 1) * step) for count in nodes)
     table = period_table(GYROID)
     depth = np.full(shape, np.float32(np.inf))
@@ -163,7 +166,7 @@ def ramp() -> Any:
 
 def test_the_local_density_follows_a_linear_field(ramp: Any) -> None:
     """In slabs of the inside, to two percentage points, and walls are as wide where cells are small as where large."""
-    report, voids = ramp.report, solid_of(ramp.stages.voids)
+    report, voids = ramp.report, to_manifold(ramp.stages.voids)
     assert report["problems"] == []
     side, high = 4 * CELL, 6 * CELL
     for level in range(3):
@@ -185,7 +188,7 @@ def test_densities_that_are_told_are_those_of_the_mesh() -> None:
     """Of thin walls too, in cells of the grid as wide as they are: which centres are solid says something else."""
     found = fill(box(90, 24, 24), density=(0.1, 0.4), by="x", grade="cell", voxel=0.9, wall=WALL)
     long, side = 90 - 2 * WALL, 24 - 2 * WALL
-    voids = solid_of(found.stages.voids)
+    voids = to_manifold(found.stages.voids)
     for third, step in enumerate(found.report["graded"]):
         slab = manifold3d.Manifold.cube([long / 3, side, side], True).translate([(third - 1) * long / 3, 0, 0])
         assert step["wanted"] == pytest.approx(0.1 + 0.3 * (third + 0.5) / 3, abs=0.003)

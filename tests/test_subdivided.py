@@ -12,19 +12,19 @@ from made_shapes import box
 from scipy.ndimage import distance_transform_edt
 
 from infill import ParameterError, fill
-from infill.interior.interior import Space, space_inside
+from infill.interior.interior import Interior, compute_interior
 from infill.kernels.cells import colour_of_cube, colours_of_cubes, from_cubes
-from infill.lattices.choosing import voids_of
-from infill.lattices.grading import NONE
-from infill.lattices.request import checked
+from infill.lattices.choosing import choose_voids
+from infill.lattices.grading import UNIFORM_WIDTH
+from infill.lattices.request import check_request
 from infill.lattices.settings import DEFAULTS
-from infill.lattices.subdivided import Subdivided, Tree
+from infill.lattices.subdivided import CubeTree, Subdivided
 from infill.meshes.merging import surface_of
-from infill.meshes.winding import winding
-from infill.voxels.scanlines import crossings, filled
+from infill.meshes.winding import winding_numbers
+from infill.voxels.scanlines import fill_rows, intersect_rows
 from patterns.cellular import CELLULAR
 from patterns.errors import PatternError
-from patterns.octree import OCTREES, doubled
+from patterns.octree import OCTREES, cube_levels
 
 pytestmark = pytest.mark.usefixtures("compiled")
 
@@ -69,7 +69,7 @@ def scattered(seed: int, levels: int) -> list[np.ndarray]:
 @pytest.mark.parametrize("seed", [0, 1])
 def test_cubes_fill_space_and_those_that_touch_differ_by_a_level_and_in_colour(seed: int, levels: int) -> None:
     whole = scattered(seed, levels)
-    tree = doubled(whole)
+    tree = cube_levels(whole)
     found = cubes(tree)
     assert (found[:, 3] ** 3).sum() == tree.size  # each of the smallest is in one cube, so they are as many
     corner, side, colour = found[:, :3], found[:, 3], found[:, 4]
@@ -108,7 +108,7 @@ def test_no_cube_is_split_without_need() -> None:
         if not wrong.any():
             break
         tree = np.where(wrong, tree - 1, tree).astype(np.uint8)
-    assert (tree == doubled(whole)).all()
+    assert (tree == cube_levels(whole)).all()
 
 
 def _block_any(flags: np.ndarray, tree: np.ndarray) -> np.ndarray:
@@ -123,7 +123,7 @@ def _block_any(flags: np.ndarray, tree: np.ndarray) -> np.ndarray:
 def test_the_kernel_is_its_definition() -> None:
     """By every cube: within it, the least distance to its faces; outside, the largest along an axis, up to `reach`."""
     rng = np.random.default_rng(7)
-    tree = doubled(scattered(5, 2))[:16]
+    tree = cube_levels(scattered(5, 2))[:16]
     assert set(np.unique(tree)) == {0, 1, 2}
     shape, period, half, reach = (24, 20, 22), 2.6, 0.4, 0.45
     depth = rng.uniform(-2, 6, shape).astype(np.float32)
@@ -143,7 +143,7 @@ def test_the_kernel_is_its_definition() -> None:
     out = np.empty_like(depth)
     for colour in range(16):
         wanted = np.where(depth <= -1, depth, np.minimum(exact[colour] * period - half, depth))
-        count = from_cubes(depth, -1.0, tree, turn, start, period, reach, colour, half, *NONE, out, 0, 1)
+        count = from_cubes(depth, -1.0, tree, turn, start, period, reach, colour, half, *UNIFORM_WIDTH, out, 0, 1)
         assert out == pytest.approx(wanted, abs=1e-5)
         assert count == pytest.approx(np.clip(wanted + 0.5, 0, 1).sum(), rel=1e-4)
         assert seen[colour] == ((exact[colour] > 0) & (depth > 0)).any()
@@ -152,17 +152,19 @@ def test_the_kernel_is_its_definition() -> None:
     assert seen.sum() > 10
 
 
-def tree_in(part: trimesh.Trimesh, name: str, cell: float, **more: Any) -> tuple[Space, Tree, Subdivided]:
-    request = checked(
+def tree_in(part: trimesh.Trimesh, name: str, cell: float, **more: Any) -> tuple[Interior, CubeTree, Subdivided]:
+    request = check_request(
         pattern=name, own=more, form="solid", **{**DEFAULTS, "cell": cell, "line_width": 0.45, "density": None}
     )
     surface = surface_of(part)
-    voids, space = voids_of(request, surface.bounds, None), space_inside(surface, wall=1.0, voxel=0.5)
+    voids, space = choose_voids(request, surface.bounds, None), compute_interior(surface, wall=1.0, voxel=0.5)
     assert isinstance(voids, Subdivided)
     return space, voids.tree(space, cell), voids
 
 
-def at_cells(space: Space, tree: Tree, voids: Subdivided, cell: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def at_cells(
+    space: Interior, tree: CubeTree, voids: Subdivided, cell: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Of each cell of the grid: how often its cube is doubled, and corner and side of this, in the smallest ones."""
     index = np.stack(np.meshgrid(*map(np.arange, space.depth.shape), indexing="ij"), axis=-1)
     places = (space.origin + space.size * index - voids.anchor) @ voids.turn.T / cell + voids.pattern.middle
@@ -225,7 +227,7 @@ def test_a_core_is_lighter_than_that_of_cubic_and_the_skin_is_not() -> None:
         voids = fill(part, name, **GIVEN).stages.voids
         line = np.arange(-23, 23, 0.5)
         corners = (np.asarray(voids.vertices, dtype=np.float64) - line[0]) / 0.5
-        solid = ~filled(crossings(corners, voids.faces, (92,) * 3), (92,) * 3)
+        solid = ~fill_rows(intersect_rows(corners, voids.faces, (92,) * 3), (92,) * 3)
         away = np.abs(line) < 8
         core.append(solid[np.ix_(away, away, away)].mean())
         roof.append(solid[np.ix_(away, away, (line > 17) & (line < 20.5))].mean())
@@ -254,7 +256,7 @@ def test_the_tree_is_that_of_the_inner_side_of_the_wall_in_a_project_too(name: s
     part = box(30, 30, 30)
     one, other = (fill(part, name, as_=form, **GIVEN) for form in ("infill", "project"))
     points = np.random.default_rng(4).uniform(-12, 12, (1500, 3))
-    alike = (winding(points, one.stages.voids) > 0) == (winding(points, other.stages.voids) > 0)
+    alike = (winding_numbers(points, one.stages.voids) > 0) == (winding_numbers(points, other.stages.voids) > 0)
     assert alike.mean() > 0.995
 
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from shapes import assert_printable, smooth_noise
 
 from infill import GeometryError, ParameterError, Smoothing, Surface, extrude, isosurface, smooth, stack
-from infill.inspection.layers import topology
+from infill.inspection.layers import count_layer
 from infill.isosurfaces.stacking import layer_count
 
 
@@ -160,8 +160,8 @@ def test_the_layer_predicts_the_euler_number_of_the_mesh(seed: int) -> None:
     f = np.sign(rng.uniform(-1, 1, (12, 9)))
     for layer in (f, smooth(f, Smoothing(steps=1)), rng.uniform(-1, 1, (12, 9))):
         mesh = extrude(layer, 3, 1)
-        assert mesh.euler_number == 2 * topology(layer).euler_number
-        assert mesh.body_count == topology(layer).components
+        assert mesh.euler_number == 2 * count_layer(layer).euler_number
+        assert mesh.body_count == count_layer(layer).components
 
 
 def test_layer_counts() -> None:

@@ -13,11 +13,11 @@ from hypothesis import strategies as st
 from shapes import smooth_noise
 
 from infill import Grid, ParameterError, Smoothing, extrude, smooth, stamp_lines, wall_width
-from infill.inspection.changes import Changes
-from infill.inspection.layers import Topology, changes, regions, solid_area, topology
+from infill.inspection.changes import TopologyChanges
+from infill.inspection.layers import LayerTopology, compare_layers, count_layer, label_regions, solid_area
 from patterns import Honeycomb
 
-NONE = Changes(pinholes=0, pinhole_share=0.0)
+NONE = TopologyChanges(pinholes=0, pinhole_share=0.0)
 
 
 def drawn(text: str) -> np.ndarray:
@@ -46,17 +46,17 @@ def flooded(inside: np.ndarray, corners: bool) -> int:
 def test_counts_are_those_of_a_walk(seed: int, share: float) -> None:
     """On +1 and -1 an undecided saddle is void: solid hangs together at sides, void at corners too."""
     solid = np.random.default_rng(seed).random((11, 13)) < share
-    found = topology(np.where(solid, 1.0, -1.0))
+    found = count_layer(np.where(solid, 1.0, -1.0))
     assert found.components == flooded(solid, corners=False)
     assert found.holes == flooded(np.pad(~solid, 1, constant_values=True), corners=True) - 1
 
 
 def test_a_saddle_decides_who_is_joined() -> None:
     strong_solid = np.array([[0.9, -0.1], [-0.1, 0.9]])
-    assert topology(strong_solid) == Topology(components=1, holes=0)
-    assert topology(-strong_solid) == Topology(components=2, holes=0)
-    assert topology(strong_solid[::-1]) == Topology(components=1, holes=0)
-    assert topology(strong_solid).euler_number == 1
+    assert count_layer(strong_solid) == LayerTopology(components=1, holes=0)
+    assert count_layer(-strong_solid) == LayerTopology(components=2, holes=0)
+    assert count_layer(strong_solid[::-1]) == LayerTopology(components=1, holes=0)
+    assert count_layer(strong_solid).euler_number == 1
 
 
 @pytest.mark.parametrize("much", [1e-6, 1e-4])
@@ -65,18 +65,18 @@ def test_a_saddle_that_is_all_but_undecided_is_that_of_the_mesh(much: float) -> 
     void = -0.5 * (1 - much)
     layer = np.array([[0.5, void], [void, 0.5]])
     mesh = extrude(layer, 3, 1)
-    assert topology(layer).components == mesh.body_count == (2 if much < 1e-5 else 1)
+    assert count_layer(layer).components == mesh.body_count == (2 if much < 1e-5 else 1)
 
 
 def test_saddles_join_rings() -> None:
     ring = np.array([[-1, 0.9, -1.0], [0.9, -1, 0.9], [-1, 0.9, -1.0]])
-    assert topology(ring) == Topology(components=4, holes=0)
+    assert count_layer(ring) == LayerTopology(components=4, holes=0)
     joined = np.where(ring == -1, -0.2, ring)
-    assert topology(joined) == Topology(components=1, holes=1)
+    assert count_layer(joined) == LayerTopology(components=1, holes=1)
 
 
-def compare(before: str, after: str) -> Changes:
-    return changes(regions(drawn(before)), regions(drawn(after)))
+def compare(before: str, after: str) -> TopologyChanges:
+    return compare_layers(label_regions(drawn(before)), label_regions(drawn(after)))
 
 
 RING = """
@@ -130,10 +130,10 @@ def test_pinholes_are_counted_apart() -> None:
 
 def test_what_is_as_wide_as_a_line_is_no_pinhole() -> None:
     narrow = "#########\n#.......#\n#.......#\n#########"
-    before, after = regions(drawn(narrow)), regions(drawn(narrow.replace(".", "#")))
-    assert changes(before, after, line_cells=5) == dataclasses.replace(NONE, pinholes=1, pinhole_share=1.0)
+    before, after = label_regions(drawn(narrow)), label_regions(drawn(narrow.replace(".", "#")))
+    assert compare_layers(before, after, line_cells=5) == dataclasses.replace(NONE, pinholes=1, pinhole_share=1.0)
     for line_cells in (1, 2):
-        assert changes(before, after, line_cells=line_cells) == dataclasses.replace(NONE, voids_closed=1)
+        assert compare_layers(before, after, line_cells=line_cells) == dataclasses.replace(NONE, voids_closed=1)
 
 
 def test_a_neck_that_closes_is_a_pinhole() -> None:
@@ -156,7 +156,7 @@ def test_a_wall_between_narrow_voids_is_a_wall() -> None:
 def test_the_solid_area_is_the_extruded_volume(seed: int) -> None:
     """A tall prism with sharp edges: every layer but the rounded ends has the area of the layer."""
     layer = smooth(np.sign(smooth_noise(np.random.default_rng(seed), (14, 12))))
-    assume(topology(layer).components)
+    assume(count_layer(layer).components)
     low, high = (extrude(layer, height, 1.0, layer_height=1.0).volume for height in (10, 11))
     # Float32, values moved off the level by 2^-10; saddles are joined here and may be parted there.
     assert high - low == pytest.approx(solid_area(layer), rel=2e-3, abs=0.5)
@@ -172,9 +172,9 @@ def test_what_kills_a_wall_is_seen() -> None:
     f = -np.ones((60, 60))
     f[10:50, 10:50] = 1
     f[13:47, 13:47] = -1
-    before = regions(f)
-    assert changes(before, regions(smooth(f, Smoothing(steps=10)))) == NONE
-    assert changes(before, regions(smooth(f, Smoothing(steps=60)))).vanished == 1
+    before = label_regions(f)
+    assert compare_layers(before, label_regions(smooth(f, Smoothing(steps=10)))) == NONE
+    assert compare_layers(before, label_regions(smooth(f, Smoothing(steps=60)))).vanished == 1
 
 
 def wall(angle: float, width: float) -> tuple[shapely.MultiLineString, Grid]:

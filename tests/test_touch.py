@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 import shapely
 
-from infill.paths.neighbours import walls_of
-from infill.paths.rounding import Rounding, corners_of
-from infill.paths.touch import MOST_LOST, REACH, deviations_that_keep_touch
+from infill.paths.neighbours import index_beads
+from infill.paths.rounding import Rounding, find_corners
+from infill.paths.touch import MOST_LOST, REACH, touch_preserving_deviations
 
 WIDTH = 0.45
 # What arcs lose where they leave a wall before the slanted leg would have, and chords: 0.47 % at most of 60 such paths.
@@ -43,10 +43,10 @@ def waves(rng: np.random.Generator) -> np.ndarray:
 
 
 def rounded(path: np.ndarray, *, keep_touch: bool, deviation: float = math.inf) -> np.ndarray:
-    corners = corners_of(
+    corners = find_corners(
         path,
         np.array([0, len(path)]),
-        walls=walls_of(wall()),
+        walls=index_beads(wall()),
         layer=np.zeros(1, dtype=np.intp),
         acceleration=np.array([2000.0]),
         speed=np.array([80.0]),
@@ -87,16 +87,16 @@ def test_without_it_touch_is_lost() -> None:
 def test_an_arc_may_reach_to_where_its_leg_comes_to_touch() -> None:
     """A corner 2 mm above a wall, on a leg that goes straight down to it: its arc ends before the leg touches."""
     path = np.array([[0.0, 2.0], [5.0, 2.0], [5.0, 0.3]])
-    walls = walls_of(wall())
+    walls = index_beads(wall())
     layer = np.zeros(3, dtype=np.intp)
-    (most,) = deviations_that_keep_touch(path, np.array([0, 3]), np.array([1]), layer, walls, line_width=WIDTH)
+    (most,) = touch_preserving_deviations(path, np.array([0, 3]), np.array([1]), layer, walls, line_width=WIDTH)
     assert most == pytest.approx((2 - REACH * WIDTH) * math.tan(math.pi / 8), rel=1e-3)
 
 
 def test_corners_far_from_walls_may_move_as_they_like() -> None:
     path = np.array([[0.0, 9.0], [5.0, 9.0], [5.0, 4.0]])
-    for walls in (walls_of(wall()), walls_of(np.empty((0, 2)))):
-        (most,) = deviations_that_keep_touch(
+    for walls in (index_beads(wall()), index_beads(np.empty((0, 2)))):
+        (most,) = touch_preserving_deviations(
             path, np.array([0, 3]), np.array([1]), np.zeros(3, dtype=np.intp), walls, line_width=WIDTH
         )
         assert most == math.inf

@@ -14,7 +14,7 @@ from test_command_line import run
 
 from infill import ParameterError, Surface, check, read_mesh, save
 from infill.formats.mesh_files import READERS, WRITERS
-from infill.imaging.units import STATED, guess_unit
+from infill.imaging.units import STATED_UNITS, guess_unit
 from infill.smoothing.sources import read_source
 
 SIZES = [0.01, 0.3, 0.5, 0.51, 1.0, 1.5, 1.999, 2.0, 2.001, 7.0, 60.0, 500.0, 2000.0, 2001.0, 5000.0]
@@ -53,7 +53,7 @@ def test_check_and_smooth_say_the_same(
 
 
 @pytest.mark.parametrize("size", SIZES)
-@pytest.mark.parametrize("suffix", sorted(set(STATED) & set(WRITERS)))
+@pytest.mark.parametrize("suffix", sorted(set(STATED_UNITS) & set(WRITERS)))
 def test_a_format_that_says_its_unit_is_not_questioned(
     size: float, suffix: str, tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
@@ -67,9 +67,9 @@ def test_a_format_that_says_its_unit_is_not_questioned(
 
 
 def test_formats_that_say_their_unit_are_formats() -> None:
-    assert set(STATED) <= set(READERS)
+    assert set(STATED_UNITS) <= set(READERS)
     assert set(WRITERS) <= set(READERS)
-    assert set(STATED) - set(WRITERS) == {".gltf"}  # which is read only
+    assert set(STATED_UNITS) - set(WRITERS) == {".gltf"}  # which is read only
 
 
 # --- glTF is in metres -----------------------------------------------------------------------------------

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from infill import motion, refill
-from infill.gcode.table import State, filament_counted, read
+from infill.gcode.table import MachineState, apply_m200, read_table
 from tests.handmade_prints import Dialect, written
 
 AREA = math.pi / 4 * 1.75**2  # mm²
@@ -74,19 +74,19 @@ def test_what_is_counted_in_mm_stays_so(line: str, tmp_path: Path) -> None:
 
 def test_each_tool_has_its_filament() -> None:
     text = b"M83\nM200 T0 D1.75\nM200 T1 D2.85\nG1 X1 E10\nT1\nG1 X2 E10\nM200 D0\nG1 X3 E10\n"
-    table = read(text, State(x=0.0, y=0.0, z=0.0))
+    table = read_table(text, MachineState(x=0.0, y=0.0, z=0.0))
     assert table.filament[[3, 5, 7]].tolist() == pytest.approx([10 / AREA, 10 / (math.pi / 4 * 2.85**2), 10])
     assert table.extruded[[3, 5, 7]].tolist() == [10, 10, 10]
 
 
 def test_no_diameter_without_sense_is_taken() -> None:
     for words in ({"D": 1e9}, {"D": None}, {"T": -1.0, "D": 2.0}, {"T": 1e9, "D": 2.0}, {"L": 3.0}):
-        assert filament_counted(State(), words).diameters == (1.75,)
+        assert apply_m200(MachineState(), words).diameters == (1.75,)
 
 
 def test_a_diameter_is_in_the_unit_of_the_file() -> None:
     text = b"M83\nG20\nM200 D.07\nG1 X1 E1\n"
-    table = read(text, State(x=0.0, y=0.0, z=0.0))
+    table = read_table(text, MachineState(x=0.0, y=0.0, z=0.0))
     assert table.filament[3] == pytest.approx(25.4 / (math.pi / 4 * (0.07 * 25.4) ** 2))
 
 

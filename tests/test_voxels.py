@@ -13,12 +13,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from infill import GeometryError, MemoryLimitError, ParameterError, Surface, read_mesh
-from infill.meshes.hole_filling import agreeing, capped, loops, open_edges
-from infill.meshes.merging import merged
+from infill.meshes.hole_filling import fill_holes, open_edges, orient_faces, split_loops
+from infill.meshes.merging import merge_vertices
 from infill.volume import Volume
-from infill.voxels.flooding import enclosed
-from infill.voxels.from_mesh import voxelise, voxelise_reported
-from infill.voxels.scanlines import crossings, filled
+from infill.voxels.flooding import enclosed_void
+from infill.voxels.from_mesh import voxelise, voxelise_with_report
+from infill.voxels.scanlines import fill_rows, intersect_rows
 
 BALL = trimesh.creation.icosphere(subdivisions=3, radius=10.0)
 SHIFT = (0.123, 0.234, 0.345)  # keeps faces off the cell centres
@@ -102,7 +102,7 @@ def test_the_signs_of_every_row_add_up_to_nothing(seed: int, points: int, scale:
     # Whole and half numbers put corners, edges and faces on the rows themselves.
     mesh = closed_mesh(seed, points)
     corners = np.round(rng.uniform(1, 30, size=mesh.vertices.shape) * 2) / 2 if seed % 2 else mesh.vertices * 14 + 16
-    found = crossings(corners, mesh.faces, (33, 33, 33))
+    found = intersect_rows(corners, mesh.faces, (33, 33, 33))
     total = np.bincount(found.row, weights=found.sign)
     assert not total.any()
 
@@ -173,7 +173,7 @@ def test_a_ball_has_its_volume() -> None:
 @pytest.mark.parametrize("turned", [(False, False), (True, True), (False, True), (True, False)])
 def test_overlapping_balls_are_united(turned: tuple[bool, bool]) -> None:
     one, other = ball(inward=turned[0]), ball(at=(12, 0, 0), inward=turned[1])
-    both = voxelise_reported(surface(one, other), voxel=0.5)
+    both = voxelise_with_report(surface(one, other), voxel=0.5)
     reference = voxelise(surface(ball(), ball(at=(12, 0, 0))), voxel=0.5)
     assert np.array_equal(both.volume.values, reference.values)
     apart = np.abs(winding(surface(ball()), centres(reference)[::997])) > 0.5
@@ -196,7 +196,7 @@ def test_a_ball_that_faces_as_the_one_around_it_adds_nothing(inward: bool) -> No
 
 def test_an_inverted_ball_beside_a_larger_one_keeps_its_cavity() -> None:
     mesh = surface(ball(20), ball(at=(40, 0, 0), inward=True), ball(5, at=(40, 0, 0)))
-    found = voxelise_reported(mesh, voxel=0.5)
+    found = voxelise_with_report(mesh, voxel=0.5)
     volume, repairs = found.volume, found.repairs
     expected = BALL.volume * (8 + 1 - 1 / 8)
     assert size(volume) == pytest.approx(expected, rel=0.002)
@@ -214,7 +214,7 @@ def test_solid_in_a_cavity_is_solid() -> None:
 def test_a_box_without_a_triangle_is_the_box(missing: int) -> None:
     whole = surface(box(5, 4, 3))
     holed = Surface(vertices=whole.vertices, faces=np.delete(whole.faces, missing, axis=0))
-    found = voxelise_reported(holed, voxel=0.25)
+    found = voxelise_with_report(holed, voxel=0.25)
     volume, repairs = found.volume, found.repairs
     assert np.array_equal(volume.values, voxelise(whole, voxel=0.25).values)
     assert repairs.holes == 1
@@ -237,7 +237,7 @@ def test_triangles_turned_over_or_doubled_change_nothing(seed: int) -> None:
 
 def test_half_a_ball_is_closed_by_a_disc_as_by_the_generalised_winding_number() -> None:
     dome = trimesh.intersections.slice_mesh_plane(BALL, plane_normal=(0, 0, 1), plane_origin=(0, 0, 0.1))
-    mesh = merged(np.round(dome.vertices, 9), np.array(dome.faces))  # the cut leaves cracks of 1e-15 mm
+    mesh = merge_vertices(np.round(dome.vertices, 9), np.array(dome.faces))  # the cut leaves cracks of 1e-15 mm
     assert (mesh.vertices[np.unique(open_edges(mesh.faces)), 2] == 0.1).all()  # the hole is flat
     volume = voxelise(mesh, voxel=1.03)
     points = centres(volume)
@@ -252,7 +252,7 @@ def test_cracks_change_nothing(rng: np.random.Generator) -> None:
         vertices=(corners + rng.uniform(-1e-12, 1e-12, corners.shape)).reshape(-1, 3),
         faces=np.arange(corners.size // 3).reshape(-1, 3),
     )
-    found = voxelise_reported(apart, voxel=1.03)
+    found = voxelise_with_report(apart, voxel=1.03)
     volume, repairs = found.volume, found.repairs
     assert np.array_equal(volume.values, voxelise(surface(BALL), voxel=1.03).values)
     assert repairs.components == 1
@@ -262,7 +262,7 @@ def test_a_pipe_without_ends_is_filled() -> None:
     pipe = trimesh.creation.cylinder(radius=5, height=20, sections=64)
     mesh = surface(pipe)
     wall = Surface(vertices=mesh.vertices, faces=mesh.faces[np.abs(pipe.face_normals[:, 2]) < 0.5])
-    found = voxelise_reported(wall, voxel=0.3)
+    found = voxelise_with_report(wall, voxel=0.3)
     volume, repairs = found.volume, found.repairs
     assert np.array_equal(volume.values, voxelise(mesh, voxel=0.3).values)
     assert repairs.holes == 2
@@ -279,34 +279,36 @@ def test_a_box_without_a_lid_is_filled_to_the_brim_as_by_the_generalised_winding
 
 def test_loops_part_where_they_touch() -> None:
     edges = np.array([[0, 1], [1, 2], [2, 0], [0, 3], [3, 4], [4, 0]])
-    assert sorted(sorted(loop) for loop in loops(edges)) == [[0, 1, 2], [0, 3, 4]]
+    assert sorted(sorted(loop) for loop in split_loops(edges)) == [[0, 1, 2], [0, 3, 4]]
 
 
 def test_a_capped_mesh_is_closed_as_a_sum() -> None:
     rng = np.random.default_rng(3)
     whole = surface(ball())
     faces = whole.faces[rng.random(len(whole.faces)) > 0.3]
-    _, closed, holes = capped(whole.vertices, faces)
+    _, closed, holes = fill_holes(whole.vertices, faces)
     assert holes > 10
     assert len(open_edges(closed)) == 0
 
 
 def test_a_moebius_strip_is_left_as_it_is() -> None:
     strip = np.array([[i, (i + 1) % 5, (i + 2) % 5] for i in range(5)])  # the five-vertex Möbius band
-    assert np.array_equal(agreeing(strip), strip)
+    assert np.array_equal(orient_faces(strip), strip)
 
 
 def test_filled_cells_and_flooded_cells_agree() -> None:
     volume = voxelise(surface(ball(), ball(5, inward=True)), voxel=0.5)
-    hollow = enclosed(volume.values)
+    hollow = enclosed_void(volume.values)
     assert hollow.sum() * volume.cell_volume == pytest.approx(BALL.volume / 8, rel=0.02)  # 20 cells across
     assert not (hollow & volume.values).any()
 
 
 def test_a_row_through_nothing_is_empty() -> None:
-    nothing = crossings(np.array([[0.1, 0.1, 0.1], [0.2, 0.1, 0.1], [0.1, 0.2, 0.1]]), np.array([[0, 1, 2]]), (2, 2, 2))
+    nothing = intersect_rows(
+        np.array([[0.1, 0.1, 0.1], [0.2, 0.1, 0.1], [0.1, 0.2, 0.1]]), np.array([[0, 1, 2]]), (2, 2, 2)
+    )
     assert len(nothing.row) == 0
-    assert not filled(nothing, (2, 2, 2)).any()
+    assert not fill_rows(nothing, (2, 2, 2)).any()
 
 
 @pytest.mark.parametrize(
@@ -370,7 +372,7 @@ def test_broken_meshes_have_the_volume_of_the_part(data: Path, name: str, expect
 
 
 def test_an_open_mesh_is_the_same_mesh_filled(data: Path) -> None:
-    found = voxelise_reported(read_mesh(data / "models/pig_open.stl"))
+    found = voxelise_with_report(read_mesh(data / "models/pig_open.stl"))
     volume, repairs = found.volume, found.repairs
     assert repairs.holes == 432
     assert np.array_equal(volume.values, voxelise(read_mesh(data / "models/pig_filled.stl")).values)
@@ -378,7 +380,7 @@ def test_an_open_mesh_is_the_same_mesh_filled(data: Path) -> None:
 
 def test_overlapping_bones_are_united(data: Path) -> None:
     mesh = read_mesh(data / "medical/foot_right_bodyparts3d.stl")
-    found = voxelise_reported(mesh, resolution=40)
+    found = voxelise_with_report(mesh, resolution=40)
     volume, repairs = found.volume, found.repairs
     assert (repairs.components, repairs.turned, repairs.holes) == (24, 0, 0)
     some = np.random.default_rng(4).choice(volume.values.size, 20, replace=False)
@@ -397,7 +399,7 @@ def test_the_mesh_that_was_voxelised_is_closed_and_encloses_what_was_told() -> N
     soup = Surface(vertices=whole.vertices[whole.faces].reshape(-1, 3), faces=np.arange(36).reshape(-1, 3))
     holed = Surface(vertices=whole.vertices, faces=whole.faces[:-1])
     for mesh in (whole, soup, holed):
-        found = voxelise_reported(mesh, voxel=0.25)
+        found = voxelise_with_report(mesh, voxel=0.25)
         assert found.closed.closed
         assert found.closed.volume == pytest.approx(60)
         assert found.repairs.volume == pytest.approx(60)
@@ -412,7 +414,7 @@ def test_a_mesh_with_holes_is_capped_once(monkeypatch: pytest.MonkeyPatch) -> No
 
     def counted(*arguments: Any) -> Any:
         calls.append(1)
-        return capped(*arguments)
+        return fill_holes(*arguments)
 
     for module in ("infill.voxels.from_mesh", "infill.smoothing.solids"):
         monkeypatch.setattr(f"{module}.capped", counted, raising=False)

@@ -12,29 +12,29 @@ from hypothesis import strategies as st
 
 from infill.paths.contact import TOUCHING
 from infill.paths.corner_offset import ASIDE, HAIRPIN
-from infill.paths.corners import COARSEST, Machine, rounded
-from infill.paths.curves import MOST_BULGE, recut
+from infill.paths.corners import COARSEST, Machine, round_corners
+from infill.paths.curves import MOST_BULGE, recut_curves
 from infill.paths.families.hilbert import Hilbert
 from infill.paths.families.protocol import TOUCH
-from infill.paths.neighbours import BESIDE, walls_of
-from infill.paths.rounding import Rounding, corners_of
-from infill.ragged import packed, parted
+from infill.paths.neighbours import BESIDE, index_beads
+from infill.paths.rounding import Rounding, find_corners
+from infill.ragged import concatenate_rows, split_rows
 from tests.test_corners_and_curves import length_of, one, turns, walk, walks
 
 WIDTH = 0.45  # mm
-NOTHING = walls_of(np.empty((0, 2)))
+NOTHING = index_beads(np.empty((0, 2)))
 
 
 def taken(
     paths: list[np.ndarray], *, deviation: float = math.inf, wide: bool = True, walls: np.ndarray | None = None
 ) -> list[np.ndarray]:
     """Return paths of one layer rounded."""
-    points, first = packed(paths)
+    points, first = concatenate_rows(paths)
     each = np.ones(len(paths))
-    found = corners_of(
+    found = find_corners(
         points,
         first,
-        walls=NOTHING if walls is None else walls_of(walls),
+        walls=NOTHING if walls is None else index_beads(walls),
         layer=np.zeros(len(paths), dtype=int),
         acceleration=1000.0 * each,
         speed=80.0 * each,
@@ -43,7 +43,7 @@ def taken(
         wide=wide,
     )
     done = found.rounded(Rounding(deviation=deviation))
-    return parted(done.points, done.first)
+    return split_rows(done.points, done.first)
 
 
 def smallest_radius(path: np.ndarray) -> float:
@@ -78,7 +78,7 @@ def test_no_path_moves_farther_than_told(path: np.ndarray, deviation: float) -> 
     Chords that stand for a curve are not moved, but the curve leaves them by their own sagitta: see `curves`.
     """
     (done,) = taken([path], deviation=deviation)
-    if recut(*packed([path]), Machine(acceleration=1000.0, speed=80.0, corner=9.0)).curved.any():
+    if recut_curves(*concatenate_rows([path]), Machine(acceleration=1000.0, speed=80.0, corner=9.0)).curved.any():
         deviation = max(deviation, MOST_BULGE)
     assert np.allclose(done[[0, -1]], path[[0, -1]], atol=0.0006)
     new, old = shapely.linestrings(done), shapely.linestrings(path)
@@ -156,5 +156,5 @@ def test_plain_rounding_is_the_same_without_room() -> None:
     path = np.array([[0.0, 0.0], [5.0, 0.0], [5.0, 5.0]])
     other = np.array([[0.0, -WIDTH], [5.0 + WIDTH, -WIDTH], [5.0 + WIDTH, 5.0]])
     (done, _) = taken([path, other], deviation=0.1)
-    plain = rounded(*one(path), deviation=0.1, machine=Machine(acceleration=1000.0), unit=0.001)
+    plain = round_corners(*one(path), deviation=0.1, machine=Machine(acceleration=1000.0), unit=0.001)
     assert np.allclose(done, plain.points, atol=0.0011)

@@ -27,7 +27,18 @@ DIALECTS = [
     {"slicer": "prusa", "absolute": True},
     {"slicer": "prusa", "crlf": True, "objects": 2, "labels": "M486"},
 ]
-PATTERNS = ["gyroid", "schwarz-p", "cubic", "octet", "kelvin", "honeycomb", "grid", "zigzag", "voronoi-foam", "triangles"]
+PATTERNS = [
+    "gyroid",
+    "schwarz-p",
+    "cubic",
+    "octet",
+    "kelvin",
+    "honeycomb",
+    "grid",
+    "zigzag",
+    "voronoi-foam",
+    "triangles",
+]
 
 
 def make_inputs(folder: Path) -> list[list[str]]:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter, uniform_filter
 
-from infill.isosurfaces.marching import extract
+from infill.isosurfaces.marching import extract_dense
 from infill.surface import Surface
 
 Field = NDArray[np.floating]
@@ -21,7 +21,7 @@ Field = NDArray[np.floating]
 def surface_of(field: Field, level: float = 0.0) -> Surface:
     """Return the surface of {field > level}, in cells about the middle of the grid."""
     origin = tuple(-n / 2 for n in field.shape)
-    return extract(field, spacing=(1.0, 1.0, 1.0), origin=origin, level=level)
+    return extract_dense(field, spacing=(1.0, 1.0, 1.0), origin=origin, level=level)
 
 
 def majority_sinc(f: Field, passes: int, band: float) -> Surface:

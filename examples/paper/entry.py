@@ -11,7 +11,7 @@ from pathlib import Path
 
 from examples.paper.models import MissingModels
 from infill import InfillError
-from infill.files.whole_files import whole_file
+from infill.files.whole_files import atomic_file
 
 PICTURE_ONLY = "picture only"
 NOT_GIVEN = "–"
@@ -66,7 +66,7 @@ class Entry:
 
     def save(self, folder: Path) -> Entry:
         """Write name.json."""
-        with whole_file(folder / f"{self.name}.json") as file:
+        with atomic_file(folder / f"{self.name}.json") as file:
             file.write((json.dumps(asdict(self), indent=1) + "\n").encode())
         return self
 

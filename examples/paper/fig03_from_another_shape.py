@@ -9,7 +9,7 @@ from pathlib import Path
 from examples.paper import plots, shapes
 from examples.paper.entry import PICTURE_ONLY, Entry, Row, run
 from infill import Smoothing
-from infill.phasefield.allen_cahn import held
+from infill.phasefield.allen_cahn import apply_fidelity
 
 H, LAM, SHOWN = 0.1, 100, (0, 3, 6, 20)
 
@@ -28,7 +28,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         if math.isnan(crossed) and ((phi > 0) == (data > 0)).all():
             crossed = step
         left = abs(phi - data)[differs].max()
-        phi = held(phi, data, pull)
+        phi = apply_fidelity(phi, data, pull)
     plots.legend(figure, axes[0, 0])
     plots.save(figure, folder / "fig03.png")
     expected = math.ceil(math.log(2) / math.log1p(pull))

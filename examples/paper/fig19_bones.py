@@ -15,7 +15,7 @@ from examples.paper import models, plots
 from examples.paper.entry import NOT_GIVEN, PICTURE_ONLY, Entry, Row, run
 from infill import Smoothing, smooth_points
 from infill.meshes.distance import distances
-from infill.smoothing.placing import some
+from infill.smoothing.placing import subsample
 
 STEPS, WIDTH = 30, 5  # voxels
 
@@ -35,7 +35,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         refined = smooth_points(points, refine=True, **shell)
         report, raw, counts = result.report, result.stages.staircase(), result.report["topology"]
         surfaces = {"data": raw, "ours": result.surface, "refined": refined.surface}
-        off = {which: distances(some(surface.vertices), bone) / voxel for which, surface in surfaces.items()}
+        off = {which: distances(subsample(surface.vertices), bone) / voxel for which, surface in surfaces.items()}
         data = result.stages.data
         with suppress(ModuleNotFoundError):
             surface_nets(np.ones((2, 2, 2)))  # loads
@@ -43,7 +43,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
             nets = surface_nets(np.where(data.values, 1.0, -1.0))
             netted = time.perf_counter() - begin
             middle = np.array(data.origin) + np.array(data.values.shape) * voxel / 2
-            off["nets"] = distances(some(nets.vertices) * voxel + middle, bone) / voxel
+            off["nets"] = distances(subsample(nets.vertices) * voxel + middle, bone) / voxel
         unit = "mm" if name != "skull" else ""  # of which the unit is not known
         titles = (f"{name}: narrow volume", f"{STEPS} steps")
         plots.show_solids(line[:2], [raw, result.surface], titles, unit=unit)

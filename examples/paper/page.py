@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from examples.paper.entry import Entry, load
-from infill.files.whole_files import whole_file
+from infill.files.whole_files import atomic_file
 
 HEAD = """# The paper, reproduced
 
@@ -86,7 +86,7 @@ def write(docs: Path) -> Path:
         else:
             parts.append(f"\n## {script.entry}\n\nNot run: it takes models that were not there.\n")
     page = docs / "paper.md"
-    with whole_file(page) as file:
+    with atomic_file(page) as file:
         file.write(("".join(parts) + FOOT).encode())
     return page
 

@@ -13,7 +13,7 @@ import shapely
 from numpy.typing import NDArray
 from PIL import Image
 
-from infill.files.whole_files import whole_file
+from infill.files.whole_files import atomic_file
 from infill.pictures.render import directions, render
 from infill.surface import Surface
 
@@ -47,7 +47,7 @@ def save(figure: Figure, path: Path) -> None:
     """Write the picture with 256 colours, which is a third of the size."""
     drawn = BytesIO()
     figure.savefig(drawn, dpi=100)
-    with Image.open(drawn) as picture, whole_file(path) as file:
+    with Image.open(drawn) as picture, atomic_file(path) as file:
         picture.convert("RGB").quantize(256).save(file, format="PNG", optimize=True)
 
 

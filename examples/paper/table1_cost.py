@@ -16,7 +16,7 @@ from examples.paper.complexity import FITS, FITTED, SIZES, THEIRS, draw, exponen
 from examples.paper.entry import NOT_GIVEN, Entry, Row, run
 from examples.paper.measures import mse
 from examples.paper.timing import CHOI, CHOI_PLAIN, DENSE, PLAIN, ROUNDS, SPARSE, STEPS, in_turn, methods, swing
-from infill.isosurfaces.marching import extract
+from infill.isosurfaces.marching import extract_dense
 from infill.kernels.threads import thread_count
 
 NOISE = 0.2
@@ -146,7 +146,7 @@ def measured(f: shapes.Field, *, small: bool) -> Cost:
     seconds, found = in_turn(fast, rounds=1 if small else ROUNDS)
     return Cost(
         cells=f.size,
-        vertices=len(extract(f, spacing=(1.0, 1.0, 1.0), origin=(0.0, 0.0, 0.0)).vertices),
+        vertices=len(extract_dense(f, spacing=(1.0, 1.0, 1.0), origin=(0.0, 0.0, 0.0)).vertices),
         mse=mse(found[DENSE], f),
         peer_mse=mse(found[CHOI], f),
         times=seconds | in_turn(slow, rounds=1 if small else ROUNDS)[0],

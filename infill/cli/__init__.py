@@ -101,15 +101,15 @@ def _leave(code: int) -> None:
 def _run(*, alone: bool) -> None:
     import warnings
 
-    from infill.cli.app import build
+    from infill.cli.app import build_app
     from infill.cli.console import warn
-    from infill.kernels.compiling import OURS
+    from infill.kernels.compiling import SOLE_COMPILER
 
     if alone:
-        OURS.set()
+        SOLE_COMPILER.set()
     warnings.showwarning = warn
     try:
-        build("".join(sys.argv[1:2]))()
+        build_app("".join(sys.argv[1:2]))()
     except SystemExit as end:
         if end.code:
             raise

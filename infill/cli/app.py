@@ -32,7 +32,7 @@ COMMANDS: dict[str, tuple[Callable[..., Any], str]] = {
 }
 
 
-def build(command_name: str = "") -> typer.Typer:
+def build_app(command_name: str = "") -> typer.Typer:
     """Build the app; given the name of a command, only with that command, which starts sooner."""
     app = typer.Typer(
         name="infill",

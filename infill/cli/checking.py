@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from infill.cli.console import print_json, say, table
+from infill.cli.console import format_table, print_json, say
 from infill.errors import InfillError
 
 if TYPE_CHECKING:
@@ -106,7 +106,7 @@ def _diagnosis_table(diagnosis: Diagnosis, name: str) -> str:
         if settings:
             rows[f"settings {number}"] = settings
     rows["written by"] = diagnosis.application or "nobody, as it says"
-    return table(rows, title=f"{name}, for {diagnosis.slicer}")
+    return format_table(rows, title=f"{name}, for {diagnosis.slicer}")
 
 
 def _passes(inspection: Inspection, *, strict: bool) -> bool:
@@ -138,7 +138,7 @@ def _inspection_table(inspection: Inspection, name: str) -> str:
         "volume, area": f"{inspection.volume:.6g}, {inspection.area:.6g}",
         "extents": " x ".join(f"{length:.4g}" for length in inspection.extents),
     }
-    return table(rows, title=name)
+    return format_table(rows, title=name)
 
 
 def _sealed_text(voids: int | None) -> str:

@@ -19,10 +19,10 @@ from infill.errors import InfillError, UsageError
 from patterns.errors import PatternError, PatternUsageError
 
 FAILED, USAGE = 1, 2
-Misused: type[Exception] = typer.BadParameter.__mro__[1]  # the root of usage errors, which typer does not export
+UsageException: type[Exception] = typer.BadParameter.__mro__[1]  # the root of usage errors, which typer does not export
 ADVANCED = "Advanced"  # the panel of options that need the mathematics
 # Names of an argument of the library as a parameter of a command, where they differ.
-CALLED = {
+PARAMETERS_OF_ARGUMENT = {
     "threshold": ("threshold", "between"),
     "radius": ("smooth_radius",),
     "object": ("part",),
@@ -32,7 +32,7 @@ CALLED = {
     "range": ("between",),
     "smooth": ("method",),
 }
-ABOUT = re.compile(
+ARGUMENTS_AT_START = re.compile(
     r"(?P<where>label [^:]*: )?"  # one of several labels
     r"(?P<names>\w+(?:(?:, | and )\w+)*)"
     r"(?= (?:is|are|of|goes|x|y|has|holds|exclude|belong)\b)"
@@ -52,17 +52,17 @@ class Command(TyperCommand):
             return super().parse_args(ctx, args)
         try:
             return super().parse_args(ctx, args)
-        except Misused as error:
+        except UsageException as error:
             raise _usage_exit(ctx, _plain_message(error)) from error
 
     def invoke(self, ctx: Any) -> Any:  # noqa: ANN401
         """Run the command; an error of the library is one line and exit status 1, or 2 with the usage."""
         try:
             return super().invoke(ctx)
-        except Misused as error:
+        except UsageException as error:
             raise _usage_exit(ctx, _plain_message(error)) from error
         except (InfillError, PatternError) as error:
-            message = spelled(str(error), ctx)
+            message = use_typed_options(str(error), ctx)
             # An option of a config file is not part of the command line.
             names_option = message != str(error) or message.startswith("--")
             if names_option and isinstance(error, (UsageError, PatternUsageError)):
@@ -86,20 +86,20 @@ class Group(TyperGroup):
             return super().parse_args(ctx, args)
         try:
             return super().parse_args(ctx, args)
-        except Misused as error:
+        except UsageException as error:
             raise _usage_exit(ctx, _plain_message(error)) from error
 
     def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:  # noqa: ANN401
         """Return the command of a name, or end with the usage and exit status 2 if it does not exist."""
         try:
             return super().resolve_command(ctx, args)
-        except Misused as error:
+        except UsageException as error:
             raise _usage_exit(ctx, _plain_message(error)) from error
 
 
-def spelled(message: str, context: typer.Context) -> str:
+def use_typed_options(message: str, context: typer.Context) -> str:
     """Replace the arguments at the beginning of a message with the options that were typed."""
-    match = ABOUT.match(message)
+    match = ARGUMENTS_AT_START.match(message)
     if match is None:
         return message
     names = re.sub(r"\w+", lambda word: _typed_option(word[0], context), match["names"])
@@ -110,7 +110,11 @@ def _typed_option(word: str, context: typer.Context) -> str:
     """Return the option that was typed for an argument of the library, or the word itself."""
     for option in context.command.params:
         source = context.get_parameter_source(str(option.name))
-        if option.name in CALLED.get(word, (word,)) and source is not None and source.name == "COMMANDLINE":
+        if (
+            option.name in PARAMETERS_OF_ARGUMENT.get(word, (word,))
+            and source is not None
+            and source.name == "COMMANDLINE"
+        ):
             return max(option.opts, key=len)
     return word
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import typer
 
 if TYPE_CHECKING:
-    from patterns.declared import Described
+    from patterns.declared import DescribedField
 
 
 def stamp_names(incomplete: str) -> list[str]:
@@ -63,13 +63,13 @@ def pattern_assignments(context: typer.Context, incomplete: str) -> list[tuple[s
 
 def placement_assignments(context: typer.Context, incomplete: str) -> list[tuple[str, str]]:
     """Return ``name=`` for the parameters of the pattern of a refill."""
-    from infill.refilling.placement import unplaced
+    from infill.refilling.placement import default_parameters
     from patterns import parameters
 
-    return _assignments(parameters(unplaced(context.params.get("pattern") or "keep")), incomplete)
+    return _assignments(parameters(default_parameters(context.params.get("pattern") or "keep")), incomplete)
 
 
-def _assignments(declared: dict[str, Described], incomplete: str) -> list[tuple[str, str]]:
+def _assignments(declared: dict[str, DescribedField], incomplete: str) -> list[tuple[str, str]]:
     candidates = []
     for name, (field, described) in declared.items():
         word = f"{name if '_' in incomplete else name.replace('_', '-')}="

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, BinaryIO
 
 import typer
 
-from infill.cli.console import as_bytes, table
+from infill.cli.console import format_bytes, format_table
 
 if TYPE_CHECKING:
     from infill.report_keys import ComponentsReport
@@ -43,12 +43,12 @@ def component_writer(
     path: Path, result: Result[ComponentStages, ComponentsReport], *, ascii_stl: bool
 ) -> Callable[[BinaryIO], object]:
     """Return a function that writes all components to one file: by name if its format has names, else in a row."""
-    from infill.formats.mesh_files import PART_WRITERS, writer
+    from infill.formats.mesh_files import PART_WRITERS, mesh_writer
     from infill.result import parts_of
 
     if path.suffix.lower() in PART_WRITERS:
         return partial(PART_WRITERS[path.suffix.lower()], parts_of(result))
-    return partial(writer(path, ascii=ascii_stl), result.whole)
+    return partial(mesh_writer(path, ascii=ascii_stl), result.whole)
 
 
 def component_summary(result: Result[ComponentStages, ComponentsReport], files: Sequence[str], name: str) -> str:
@@ -69,5 +69,5 @@ def component_summary(result: Result[ComponentStages, ComponentsReport], files: 
         rows["left out"] = f"{report['sheets']} components that enclose nothing"
     rows["verdict"] = report["verdict"]["word"]
     for file in files:
-        rows[f"wrote {file}"] = as_bytes(Path(file).stat().st_size) if Path(file).is_file() else ""
-    return table(rows, title=name)
+        rows[f"wrote {file}"] = format_bytes(Path(file).stat().st_size) if Path(file).is_file() else ""
+    return format_table(rows, title=name)

@@ -11,14 +11,14 @@ from typing import Any, TextIO
 
 import typer
 
-from infill.errors import printable
+from infill.errors import escape_unprintable
 
 UNITS = ("B", "kB", "MB", "GB")
 
 
 def say(text: str) -> None:
     """Print a message to stderr; control characters that it quotes from a file or a name are made harmless."""
-    typer.echo("\n".join(printable(line) for line in text.split("\n")), err=True)
+    typer.echo("\n".join(escape_unprintable(line) for line in text.split("\n")), err=True)
 
 
 def warn(
@@ -30,7 +30,7 @@ def warn(
     line: str | None = None,  # noqa: ARG001
 ) -> None:
     """Print a warning as one line."""
-    say(f"warning: {printable(str(message))}")
+    say(f"warning: {escape_unprintable(str(message))}")
 
 
 @contextlib.contextmanager
@@ -49,7 +49,7 @@ def progress_bar(*, shown: bool) -> Iterator[Callable[[str, float], None] | None
 
 
 @contextlib.contextmanager
-def log_said(*, shown: bool) -> Iterator[None]:
+def print_log(*, shown: bool) -> Iterator[None]:
     """Print messages that the library logs, including hints, or none."""
     log = logging.getLogger("infill")
     handler = _PrintHandler() if shown else logging.NullHandler()
@@ -70,7 +70,7 @@ class _PrintHandler(logging.Handler):
 
     def emit(self, record: logging.LogRecord) -> None:
         """Print one record."""
-        say(printable(record.getMessage()))
+        say(escape_unprintable(record.getMessage()))
 
 
 def is_typed(context: typer.Context, name: str) -> bool:
@@ -83,7 +83,7 @@ def is_typed(context: typer.Context, name: str) -> bool:
     return False
 
 
-def table(rows: Mapping[str, str], title: str = "") -> str:
+def format_table(rows: Mapping[str, str], title: str = "") -> str:
     """Format rows of a name and a text, with aligned texts."""
     width = max(len(name) for name in rows)
     lines = [f"  {name:<{width}}  {text}" for name, text in rows.items()]
@@ -104,10 +104,10 @@ def print_json(value: Mapping[str, Any] | Sequence[Mapping[str, Any]]) -> None:
     typer.echo(json.dumps(value, indent=2, allow_nan=False))
 
 
-def as_bytes(count: float) -> str:
+def format_bytes(count: float) -> str:
     """Format a number of bytes in a readable unit.
 
-    >>> as_bytes(10_625_284)
+    >>> format_bytes(10_625_284)
     '10.6 MB'
     """
     for unit in UNITS:

@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from infill.cli.console import as_bytes, print_json, table
+from infill.cli.console import format_bytes, format_table, print_json
 
 if TYPE_CHECKING:
     from infill.report_keys import FillReport
 
-DONE = {
+REPAIR_TEXTS = {
     "turned": "faces turned outwards",
     "closed": "holes closed",
     "parted": "components that touch taken apart",
     "united": "components that overlap united",
 }
-ENDS = {"top": "top", "bottom": "bottom", "both": "top and bottom"}
+END_TEXTS = {"top": "top", "bottom": "bottom", "both": "top and bottom"}
 
 
 def show_plan(plan: dict[str, Any], name: str, *, as_json: bool) -> None:
@@ -30,9 +30,9 @@ def show_plan(plan: dict[str, Any], name: str, *, as_json: bool) -> None:
     rows = {
         "infill": f"cell about {infill['cell']:.4g} mm, line width about {infill['line_width']:.4g} mm",
         "grid": f"{' x '.join(map(str, grid['shape']))} cells of {grid['spacing'][0]:.4g} mm",
-        "memory": f"about {as_bytes(plan['memory'])}",
+        "memory": f"about {format_bytes(plan['memory'])}",
     }
-    typer.echo(table(rows, title=f"{name}, {plan['request']['pattern']}: nothing is written (--dry-run)"))
+    typer.echo(format_table(rows, title=f"{name}, {plan['request']['pattern']}: nothing is written (--dry-run)"))
 
 
 def summary(report: FillReport, files: list[str], name: str, *, verbose: bool) -> str:
@@ -44,11 +44,11 @@ def summary(report: FillReport, files: list[str], name: str, *, verbose: bool) -
         report["walls"],
         report["infill"],
     )
-    skin = "as it was" if mesh["skin"] == "as given" else DONE[mesh["skin"]]
+    skin = "as it was" if mesh["skin"] == "as given" else REPAIR_TEXTS[mesh["skin"]]
     if report["drains"]["count"]:
         skin += ", but for the drains"
     if request["open"]:
-        skin += f", but for the open {ENDS[request['open']]}"
+        skin += f", but for the open {END_TEXTS[request['open']]}"
     graded = report["graded"]
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}; skin {skin}",
@@ -84,8 +84,8 @@ def summary(report: FillReport, files: list[str], name: str, *, verbose: bool) -
         rows["fillets"] = f"{infill['radius']:.3g} mm"
         rows["seconds"] = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in report["seconds"].items())
     for path in files:
-        rows[f"wrote {path}"] = as_bytes(Path(path).stat().st_size) if Path(path).is_file() else ""
-    return table(rows, title=f"{name}, {request['pattern']}")
+        rows[f"wrote {path}"] = format_bytes(Path(path).stat().st_size) if Path(path).is_file() else ""
+    return format_table(rows, title=f"{name}, {request['pattern']}")
 
 
 def _drain_text(report: FillReport) -> str:
@@ -93,7 +93,7 @@ def _drain_text(report: FillReport) -> str:
     holes = report["drains"]["holes"]
     if not (holes or side):
         return "closed: nothing drains from them"
-    phrases = [f"{report['voids']['open']:,} open at the {ENDS[side]}"] if side else []
+    phrases = [f"{report['voids']['open']:,} open at the {END_TEXTS[side]}"] if side else []
     for kinds, noun in ((("drain", "place"), "drain(s)"), (("vent",), "vent(s)"), (("branch",), "branch(es)")):
         widths = [hole["diameter"] for hole in holes if hole["kind"] in kinds]
         if widths:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, BinaryIO, Literal
 import typer
 
 from infill.cli.completing import fill_assignments, fill_names, unit_names
-from infill.cli.console import is_typed, log_said, print_json, progress_bar, say
+from infill.cli.console import is_typed, print_json, print_log, progress_bar, say
 
 if TYPE_CHECKING:
     from infill.lattices.settings import FillSettings
@@ -377,13 +377,13 @@ def fill(
             say(f"wrote {', '.join(written)}")
         return
     with progress_bar(shown=not quiet and not dry_run) as progress:
-        from infill.lattices.job import filled
+        from infill.lattices.job import fill_request
         from infill.lattices.planning import planned_fill
         from infill.smoothing.sources import read_source
 
         if progress is not None:
             progress("read", 0.0)
-        with log_said(shown=not quiet):
+        with print_log(shown=not quiet):
             mesh: Any = read_source(part, kind="mesh", units=settings.units)
             if cuts:
                 from infill.pictures.sections import check_cuts
@@ -392,7 +392,7 @@ def fill(
             if dry_run:
                 show_plan(planned_fill(mesh, settings.request, threads=threads), str(part), as_json=as_json)
                 return
-            result = filled(mesh, settings.request, threads=threads, max_memory=limit, progress=progress)
+            result = fill_request(mesh, settings.request, threads=threads, max_memory=limit, progress=progress)
         if progress is not None:
             progress("write", 0.95)
         parts: dict[Path, Callable[[BinaryIO], object]] = {
@@ -424,14 +424,16 @@ def _writer(
     path: Path, settings: FillSettings, *, ascii_stl: bool
 ) -> Callable[[Result[Any, FillReport], str, BinaryIO], object]:
     """Return a function that writes a result with a title in the format of a file, or raise FormatError."""
-    from infill.formats.mesh_files import writer
+    from infill.formats.mesh_files import mesh_writer
 
-    write = writer(path, ascii=ascii_stl)
+    write = mesh_writer(path, ascii=ascii_stl)
     if settings.slicer is None:
         return lambda result, title, file: write(result.surface, file)  # noqa: ARG005 - as projects are written
-    from infill.projects.saving import check_suffix, project_of, project_writer
+    from infill.projects.saving import check_suffix, make_project, writer_for
 
     slicer, units = settings.slicer, settings.units
     check_suffix(path)
-    write_project = project_writer(slicer)
-    return lambda result, title, file: write_project(project_of(result, slicer=slicer, title=title, units=units), file)
+    write_project = writer_for(slicer)
+    return lambda result, title, file: write_project(
+        make_project(result, slicer=slicer, title=title, units=units), file
+    )

@@ -9,27 +9,27 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from infill.cli.console import as_bytes, log_said, print_json, table
+from infill.cli.console import format_bytes, format_table, print_json, print_log
 from infill.machine import available_memory
 
 if TYPE_CHECKING:
-    from infill.smoothing.plan import Plan
-    from infill.smoothing.request import Options
+    from infill.smoothing.plan import SmoothPlan
+    from infill.smoothing.request import SmoothOptions
     from infill.smoothing.settings import SmoothSettings
 
 MINUTE = 60  # seconds; longer times are shown in minutes
 
 
-def foresee(
-    source: Path, settings: SmoothSettings, options: Options, files: Iterable[Path], *, as_json: bool, quiet: bool
+def show_smooth_plan(
+    source: Path, settings: SmoothSettings, options: SmoothOptions, files: Iterable[Path], *, as_json: bool, quiet: bool
 ) -> None:
     """Print the plan of smoothing a file or folder."""
-    from infill.smoothing.plan import planned
+    from infill.smoothing.plan import plan_smoothing
     from infill.smoothing.sources import read_source
 
     begin = time.perf_counter()
-    with log_said(shown=not quiet):
-        plan = planned(read_source(source, **settings.reading), begin=begin, **settings.choice, **options)
+    with print_log(shown=not quiet):
+        plan = plan_smoothing(read_source(source, **settings.reading), begin=begin, **settings.choice, **options)
     names = [str(path) for path in files]
     if as_json:
         print_json({**plan.report(), "files": names})
@@ -37,7 +37,7 @@ def foresee(
         typer.echo(_plan_table(plan, names, str(source)))
 
 
-def _plan_table(plan: Plan, files: list[str], name: str) -> str:
+def _plan_table(plan: SmoothPlan, files: list[str], name: str) -> str:
     grid, request, facts = plan.grid, plan.request, plan.facts
     cells = " x ".join(map(str, grid.shape))
     fidelity = "" if request.refined else f", fidelity {request.smoothing.fidelity:g}"
@@ -50,15 +50,19 @@ def _plan_table(plan: Plan, files: list[str], name: str) -> str:
         "solid": f"{about_word}{plan.solid:,.0f} voxels, {share}, {plan.volume:.6g} mm³",
         "method": f"{plan.ways[0]}: {request.smoothing.steps} steps{fidelity}",
         "triangles": f"about {plan.triangles:,}, before it is simplified",
-        "memory": f"about {as_bytes(plan.memory)}"
-        + (f", and {as_bytes(free_memory)} is free" if free_memory is not None and free_memory < plan.memory else ""),
+        "memory": f"about {format_bytes(plan.memory)}"
+        + (
+            f", and {format_bytes(free_memory)} is free"
+            if free_memory is not None and free_memory < plan.memory
+            else ""
+        ),
         "time": f"about {_format_span(plan.seconds)} on this machine, as busy as it is",
     }
     if plan.ways[1:]:
         rows["if something is lost"] = f"it tries in turn: {'; '.join(plan.ways[1:])}"
     if files:
         rows["would write"] = ", ".join(files)
-    return table(rows, title=f"{name}: nothing is written (--dry-run)")
+    return format_table(rows, title=f"{name}: nothing is written (--dry-run)")
 
 
 def _source_text(facts: Any) -> str:  # noqa: ANN401 - the section `input` of a report

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Annotated, BinaryIO
 
 import typer
 
-from infill.cli.console import as_bytes, log_said, print_json, progress_bar, say, table
+from infill.cli.console import format_bytes, format_table, print_json, print_log, progress_bar, say
 
 if TYPE_CHECKING:
     from infill.report_keys import LabelsReport
     from infill.result import Result
     from infill.smoothing.labels import LabelStages
-    from infill.smoothing.request import Options
+    from infill.smoothing.request import SmoothOptions
 
 LABELS = "Every label in one run"
 MOST_ROWS = 60  # labels in the summary
@@ -70,8 +70,8 @@ Roi = Annotated[
 
 
 @dataclass(frozen=True, kw_only=True)
-class Given:
-    """The input and its options: see `infill.smoothing.sources.read_labelled`."""
+class LabelInput:
+    """The input and its options: see `infill.smoothing.sources.read_label_source`."""
 
     source: Path
     kind: str | None
@@ -84,7 +84,7 @@ class Given:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Written:
+class LabelOutput:
     """The outputs of a run, and their options."""
 
     outputs: Sequence[Path]
@@ -96,7 +96,7 @@ class Written:
     saved: Mapping[Path, Callable[[BinaryIO], object]]
 
 
-def wants_each(outputs: Sequence[Path], *, each_label: bool, labels: Path | None, keep_going: bool) -> bool:
+def wants_every_label(outputs: Sequence[Path], *, each_label: bool, labels: Path | None, keep_going: bool) -> bool:
     """Tell whether every label is requested; raise BadParameter for options that make no sense otherwise."""
     from infill.imaging.name_templates import is_template
 
@@ -108,7 +108,7 @@ def wants_each(outputs: Sequence[Path], *, each_label: bool, labels: Path | None
     return False
 
 
-def refuse(**given: bool) -> None:
+def refuse_options(**given: bool) -> None:
     """Raise BadParameter for the first option that is given but does not apply to labels."""
     for name, used in given.items():
         if used:
@@ -116,28 +116,30 @@ def refuse(**given: bool) -> None:
             raise typer.BadParameter(f"--{option} does not go with --each-label or {{label}}; leave one of them out")
 
 
-def smooth_each(label_input: Given, output: Written, *, label: tuple[int, ...] | None, options: Options) -> None:
+def smooth_every_label(
+    label_input: LabelInput, output: LabelOutput, *, label: tuple[int, ...] | None, options: SmoothOptions
+) -> None:
     """Smooth every label, write the files and print a summary."""
     from infill.cli.piping import check_outputs, deliver_all
-    from infill.formats.mesh_files import parts_writer, writer
+    from infill.formats.mesh_files import mesh_writer, parts_writer
     from infill.imaging.name_templates import is_template
 
     single = [path for path in output.outputs if not is_template(path)]
     for path in output.outputs:
-        writer(path, ascii=output.ascii_stl)
+        mesh_writer(path, ascii=output.ascii_stl)
         if path in single:
             parts_writer(path)
     text = next(iter(output.saved), None)
     check_outputs(single, text=text, overwrite=output.force, as_json=output.as_json)
-    with progress_bar(shown=not output.quiet) as progress, log_said(shown=not output.quiet):
+    with progress_bar(shown=not output.quiet) as progress, print_log(shown=not output.quiet):
         from infill.imaging.label_tables import read_labels
         from infill.smoothing.labels import smooth_labels
-        from infill.smoothing.sources import read_labelled
+        from infill.smoothing.sources import read_label_source
 
         if progress is not None:
             progress("read", 0.0)
         segments = () if label_input.labels is None else read_labels(label_input.labels)
-        segmentation = read_labelled(
+        segmentation = read_label_source(
             label_input.source,
             kind=label_input.kind,
             array=label_input.array,
@@ -146,7 +148,7 @@ def smooth_each(label_input: Given, output: Written, *, label: tuple[int, ...] |
             spacing=label_input.spacing,
             roi=label_input.roi,
         )
-        label_options: Options = {**options, "progress": _scaled_progress(progress)}
+        label_options: SmoothOptions = {**options, "progress": _scaled_progress(progress)}
         result = smooth_labels(
             segmentation,
             label=label,
@@ -176,11 +178,11 @@ def _scaled_progress(progress: Callable[[str, float], None] | None) -> Callable[
     return lambda stage, share: progress(stage, 0.9 * share)
 
 
-def _parts(result: Result[LabelStages, LabelsReport], written: Written) -> dict[Path, Callable[[BinaryIO], object]]:
+def _parts(result: Result[LabelStages, LabelsReport], written: LabelOutput) -> dict[Path, Callable[[BinaryIO], object]]:
     """Return a function for each file that writes it."""
     from infill.errors import OutputError
-    from infill.formats.mesh_files import parts_writer, writer
-    from infill.imaging.name_templates import filled, is_template
+    from infill.formats.mesh_files import mesh_writer, parts_writer
+    from infill.imaging.name_templates import fill_template, is_template
     from infill.result import parts_of
 
     # All names, also of labels that failed: the name of a file does not depend on the other labels.
@@ -190,8 +192,8 @@ def _parts(result: Result[LabelStages, LabelsReport], written: Written) -> dict[
         if not is_template(output):
             parts[output] = partial(parts_writer(output), parts_of(result))
             continue
-        write = writer(output, ascii=written.ascii_stl)
-        for name, path in zip(names, filled(output, names, list(result.stages.segments.values())), strict=True):
+        write = mesh_writer(output, ascii=written.ascii_stl)
+        for name, path in zip(names, fill_template(output, names, list(result.stages.segments.values())), strict=True):
             if name not in result.surfaces:
                 continue
             if path in parts:
@@ -219,7 +221,7 @@ def _summary(result: Result[LabelStages, LabelsReport], files: Sequence[str], na
         rows["PROBLEMS"] = "; ".join(report["problems"])
     sizes = [Path(file).stat().st_size for file in files if Path(file).is_file()]
     if len(files) == 1:
-        rows[f"wrote {files[0]}"] = as_bytes(sum(sizes))
+        rows[f"wrote {files[0]}"] = format_bytes(sum(sizes))
     elif files:
-        rows["wrote"] = f"{len(files)} files, {files[0]} to {files[-1]}, {as_bytes(sum(sizes))}"
-    return table(rows, title=name)
+        rows["wrote"] = f"{len(files)} files, {files[0]} to {files[-1]}, {format_bytes(sum(sizes))}"
+    return format_table(rows, title=name)

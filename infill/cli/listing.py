@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from infill.cli.completing import fill_names
-from infill.cli.console import can_show, print_json, say, table
+from infill.cli.console import can_show, format_table, print_json, say
 
 if TYPE_CHECKING:
     from patterns import Pattern
@@ -50,9 +50,9 @@ def list_patterns(
         descriptions = {name: _facts(kind) for name, kind in kinds.items()}
         print_json({"patterns": descriptions} | ({"in_space": in_space} if pattern is None else {}))
     elif pattern is None:
-        typer.echo(table({name: kind.summary for name, kind in kinds.items()}))
+        typer.echo(format_table({name: kind.summary for name, kind in kinds.items()}))
         typer.echo("'infill list PATTERN' shows one, with its parameters and a picture.")
-        typer.echo(table(in_space, title="\nin space, for 'infill fill':"))
+        typer.echo(format_table(in_space, title="\nin space, for 'infill fill':"))
     else:
         typer.echo(_pattern_text(kinds[pattern]))
 
@@ -73,43 +73,43 @@ def _show_in_space(name: str, kind: InSpace, *, pictured: bool, as_json: bool) -
 
 
 def _write_preview(kind: type[Pattern], path: Path, *, overwrite: bool) -> None:
-    from infill.files.whole_files import check_targets, deliver
+    from infill.files.whole_files import check_targets, write_all_files
     from infill.pictures.drawing import write_drawing
     from infill.pictures.preview import check_preview
 
     check_targets([check_preview(path)], overwrite=overwrite)
-    deliver({path: partial(write_drawing, kind())})
+    write_all_files({path: partial(write_drawing, kind())})
     say(f"wrote {path}")
 
 
 def _facts(kind: type[Pattern]) -> dict[str, Any]:
     """Return the summary of a pattern, its descriptions, and its parameters, angles in degrees."""
     from patterns import gives
-    from patterns.given import descriptions
+    from patterns.given import describe_parameters
 
     return {
         "summary": kind.summary,
         "prismatic": kind.prismatic,
         "gives": list(gives(kind)),
-        "options": descriptions(kind),
+        "options": describe_parameters(kind),
     }
 
 
 def _pattern_text(kind: type[Pattern]) -> str:
     """Format a pattern for the terminal: its summary, its parameters, a picture."""
-    from infill.pictures.drawing import text_drawing
+    from infill.pictures.drawing import draw_text
     from patterns import gives
 
     heights = "the same at every height" if kind.prismatic else "changing with height"
     title = f"{kind.name}: {kind.summary}\n  {' and '.join(gives(kind))}, {heights}\n"
-    drawing = text_drawing(kind(), braille=can_show(BRAILLE_BLANK))
+    drawing = draw_text(kind(), braille=can_show(BRAILLE_BLANK))
     return f"{_parameter_table(kind, title)}\n{drawing}"
 
 
 def _parameter_table(kind: type[Any], title: str, *, own: bool = False) -> str:
     """Format a table of the parameters of a pattern, or only of those it does not share, below a title."""
     from patterns import parameters
-    from patterns.declared import wanted
+    from patterns.declared import describe_values
     from patterns.given import default_text
     from patterns.shared import SHARED
 
@@ -120,9 +120,8 @@ def _parameter_table(kind: type[Any], title: str, *, own: bool = False) -> str:
     words = {name: f"--{flag}" if name in SHARED else f"--set {flag}" for name, flag in flags.items()}
     indent = " " * (max(map(len, words.values())) + 4)
     rows = {
-        words[
-            name
-        ]: f"{described.help}\n{indent}{default_text(shown_parameters[name])}; {wanted(field.default, described)}"
+        words[name]: f"{described.help}\n{indent}{default_text(shown_parameters[name])}; "
+        + describe_values(field.default, described)
         for name, (field, described) in shown_parameters.items()
     }
-    return table(rows, title=title) + "\n"
+    return format_table(rows, title=title) + "\n"

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, BinaryIO, Literal
 import typer
 
 from infill.cli.completing import pattern_assignments, pattern_names, stamp_names, surface_names
-from infill.cli.console import as_bytes, print_json, progress_bar, say, table
+from infill.cli.console import format_bytes, format_table, print_json, progress_bar, say
 
 if TYPE_CHECKING:
     from infill.report_keys import MakeReport
@@ -192,8 +192,8 @@ def make(
     """Make a block of infill from a pattern: smooth walls, a closed mesh for a slicer."""
     from infill.cli.piping import check_outputs, deliver_all, with_suffix
     from infill.cli.words import parse_bytes
-    from infill.formats.mesh_files import writer
-    from infill.making.duration import warning_of
+    from infill.formats.mesh_files import mesh_writer
+    from infill.making.duration import duration_warning
     from infill.making.settings import resolve
 
     flags = {
@@ -224,7 +224,7 @@ def make(
     settings = resolve(flags, config, assigned or [])
     limit = None if max_memory is None else parse_bytes(max_memory)
     for path in outputs:
-        writer(path, ascii=ascii_stl)
+        mesh_writer(path, ascii=ascii_stl)
     if preview is not None:
         from infill.pictures.preview import check_preview
 
@@ -235,7 +235,7 @@ def make(
         _show_plan(block, limit, as_json=as_json)
     else:
         block.require_grid_memory(limit)  # no warning of a long run for a block that does not fit
-    if not quiet and (slow := warning_of(block)):
+    if not quiet and (slow := duration_warning(block)):
         say(f"warning: {slow}")
     if dry_run:
         return
@@ -247,7 +247,7 @@ def make(
             progress("write", 0.8)
         parts: dict[Path, Callable[[BinaryIO], object]] = {}
         if result is not None:
-            parts |= {path: partial(writer(path, ascii=ascii_stl), result.surface) for path in outputs}
+            parts |= {path: partial(mesh_writer(path, ascii=ascii_stl), result.surface) for path in outputs}
             if preview is not None:
                 parts[preview] = result.write_picture
         if save_config is not None:
@@ -271,11 +271,11 @@ def _show_plan(block: Any, limit: int | None, *, as_json: bool) -> None:  # noqa
         return
     rows = {
         "grid": f"{' x '.join(map(str, block.grid.shape))} cells of {facts['grid']['spacing'][0]:.4g} mm",
-        "memory": f"about {as_bytes(block.memory)}",
+        "memory": f"about {format_bytes(block.memory)}",
         "triangles": f"about {block.triangles:,}",
-        "binary STL": f"about {as_bytes(block.stl_bytes)}",
+        "binary STL": f"about {format_bytes(block.stl_bytes)}",
     }
-    typer.echo(table(rows, title=f"{block.pattern.name}: nothing is written (--dry-run)"))
+    typer.echo(format_table(rows, title=f"{block.pattern.name}: nothing is written (--dry-run)"))
 
 
 def _summary(report: MakeReport, files: list[str], requested_size: tuple[float, float], *, verbose: bool) -> str:
@@ -319,5 +319,5 @@ def _summary(report: MakeReport, files: list[str], requested_size: tuple[float, 
             rows[name] = f"{counts['components']} component(s), {counts['tunnels']} holes"
         rows["seconds"] = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in report["seconds"].items())
     for path in files:
-        rows[f"wrote {path}"] = as_bytes(Path(path).stat().st_size) if Path(path).is_file() else ""
-    return table(rows, title=f"{request['pattern']}, {size} mm")
+        rows[f"wrote {path}"] = format_bytes(Path(path).stat().st_size) if Path(path).is_file() else ""
+    return format_table(rows, title=f"{request['pattern']}, {size} mm")

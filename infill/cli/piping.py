@@ -16,7 +16,7 @@ from typing import BinaryIO
 import typer
 
 from infill.errors import OutputError
-from infill.files.whole_files import check_targets, deliver
+from infill.files.whole_files import check_targets, write_all_files
 
 STDOUT = "-"
 
@@ -88,7 +88,7 @@ def deliver_all(parts: Mapping[Path, Callable[[BinaryIO], object]]) -> list[str]
     for path, write in parts.items():
         if path not in files:
             write(buffer)
-    deliver(files, then=partial(_send, buffer))
+    write_all_files(files, then=partial(_send, buffer))
     return [STDOUT if is_piped(path) else str(path) for path in parts]
 
 

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from infill.cli.commands import spelled
+from infill.cli.commands import use_typed_options
 from infill.cli.completing import placement_assignments
-from infill.cli.console import print_json, progress_bar, say, table
+from infill.cli.console import format_table, print_json, progress_bar, say
 from infill.cli.piping import STDOUT, check_outputs, is_piped, send_file
 from infill.errors import InfillError
 from patterns.errors import PatternError
@@ -202,11 +202,11 @@ def _sliced_layer(
 def _write_preview(number: int, sliced_layers: dict[str, LayerSpeeds], path: Path, preview: Path) -> None:
     from functools import partial
 
-    from infill.files.whole_files import deliver
+    from infill.files.whole_files import write_all_files
     from infill.pictures.speeds import write_speeds
     from infill.planner.layer_speeds import layer_speeds
 
-    deliver(
+    write_all_files(
         {preview: partial(write_speeds, {**sliced_layers, f"layer {number}, refilled": layer_speeds(path, number)})}
     )
 
@@ -218,7 +218,7 @@ def _log_errors(gcode: Path, context: typer.Context, *, in_place: bool) -> Itera
     try:
         yield
     except (InfillError, PatternError) as error:
-        error.args = (spelled(str(error), context),)
+        error.args = (use_typed_options(str(error), context),)
         for log in logs if gcode.is_file() else []:
             with contextlib.suppress(OSError):
                 log.write_text(f"error: {error}\n", encoding="utf-8")
@@ -241,7 +241,7 @@ def _log_paths(gcode: Path) -> list[Path]:
 def _summary(report: dict[str, Any], name: str, path: str) -> str:
     """Return the short table for stderr."""
     if report["print"]["already_refilled"]:
-        return table({"nothing to do": "it was refilled before"}, title=name)
+        return format_table({"nothing to do": "it was refilled before"}, title=name)
     sections, filament, seconds = report["sections"], report["filament"], report["time"]
     rows = {"infill": f"{sections['replaced']} of {sections['all']} sections in {report['print']['layers']} layers"}
     if plates := report["print"]["plates"]:
@@ -270,7 +270,7 @@ def _summary(report: dict[str, Any], name: str, path: str) -> str:
         rows["PROBLEMS"] = "; ".join(report["problems"])
     if path:
         rows["wrote"] = path
-    return table(rows, title=name)
+    return format_table(rows, title=name)
 
 
 def _print_text(filament: dict[str, Any], seconds: dict[str, Any]) -> str:

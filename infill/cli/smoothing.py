@@ -11,14 +11,24 @@ import typer
 
 from infill.cli.completing import unit_names
 from infill.cli.components import ByComponent, check_fields, component_summary, component_writer
-from infill.cli.console import as_bytes, is_typed, log_said, print_json, progress_bar, say, table
-from infill.cli.foreseeing import foresee
-from infill.cli.labelled import EachLabel, Frame, KeepGoing, Labels, Roi, Written, refuse, smooth_each, wants_each
-from infill.cli.labelled import Given as GivenLabels
+from infill.cli.console import format_bytes, format_table, is_typed, print_json, print_log, progress_bar, say
+from infill.cli.foreseeing import show_smooth_plan
+from infill.cli.labelled import (
+    EachLabel,
+    Frame,
+    KeepGoing,
+    LabelOutput,
+    Labels,
+    Roi,
+    refuse_options,
+    smooth_every_label,
+    wants_every_label,
+)
+from infill.cli.labelled import LabelInput as GivenLabels
 
 if TYPE_CHECKING:
     from infill.report_keys import SmoothReport
-    from infill.smoothing.request import Options
+    from infill.smoothing.request import SmoothOptions
 
 GRID, SOLID, SURFACE, FILES, RUN, ADVANCED = "Grid", "What is solid", "Surface", "Files", "Run", "Advanced"
 
@@ -292,7 +302,7 @@ def smooth(
     """Smooth a scan, a mesh or points: no staircase, no shrinkage, a closed mesh."""
     from infill.cli.piping import check_outputs, deliver_all, with_suffix
     from infill.cli.words import parse_bytes
-    from infill.formats.mesh_files import WRITERS, writer
+    from infill.formats.mesh_files import WRITERS, mesh_writer
     from infill.imaging.volume_files import FIELD_WRITERS, field_writer
     from infill.smoothing.settings import resolve
 
@@ -339,7 +349,7 @@ def smooth(
     }
     settings = resolve({name: value for name, value in flags.items() if is_typed(context, name)}, config, trust=trust)
     settings.check()
-    options: Options = {
+    options: SmoothOptions = {
         **settings.options,
         "threads": threads,
         "max_memory": None if max_memory is None else parse_bytes(max_memory),
@@ -354,8 +364,10 @@ def smooth(
         if not quiet and written != ["-"]:
             say(f"wrote {', '.join(written)}")
         return
-    if wants_each(outputs, each_label=settings.each_label, labels=settings.labels, keep_going=settings.keep_going):
-        refuse(
+    if wants_every_label(
+        outputs, each_label=settings.each_label, labels=settings.labels, keep_going=settings.keep_going
+    ):
+        refuse_options(
             preview=preview is not None,
             units=settings.units is not None,
             resolution=settings.resolution is not None,
@@ -368,7 +380,7 @@ def smooth(
             by_component=settings.by_component,
             dry_run=dry_run,
         )
-        smooth_each(
+        smooth_every_label(
             GivenLabels(
                 source=source,
                 kind=settings.kind,
@@ -379,7 +391,7 @@ def smooth(
                 roi=settings.roi,
                 labels=settings.labels,
             ),
-            Written(
+            LabelOutput(
                 outputs=outputs,
                 ascii_stl=ascii_stl,
                 force=force,
@@ -394,7 +406,7 @@ def smooth(
         return
     for path in outputs:
         if path.suffix.lower() not in FIELD_WRITERS:
-            writer(path, ascii=ascii_stl, more=tuple(FIELD_WRITERS))
+            mesh_writer(path, ascii=ascii_stl, more=tuple(FIELD_WRITERS))
     if settings.by_component:
         check_fields(outputs)
     if preview is not None:
@@ -404,16 +416,17 @@ def smooth(
     check_outputs((*outputs, preview), text=save_config, overwrite=force, as_json=as_json, dry_run=dry_run)
     if dry_run:
         files = filter(None, (*outputs, preview, save_config))
-        foresee(source, settings, options, files, as_json=as_json, quiet=quiet)
+        show_smooth_plan(source, settings, options, files, as_json=as_json, quiet=quiet)
         return
     with progress_bar(shown=not quiet) as progress:
         from infill.smoothing.sources import read_source, smooth_source
 
         if progress is not None:
             progress("read", 0.0)
-        with log_said(shown=not quiet):
+        with print_log(shown=not quiet):
             data = read_source(source, **settings.reading)
-            result: Any = smooth_source(data, **settings.choice, **cast("Options", {**options, "progress": progress}))
+            smoothing_options = cast("SmoothOptions", {**options, "progress": progress})
+            result: Any = smooth_source(data, **settings.choice, **smoothing_options)
         if progress is not None:
             progress("write", 0.9)
         parts: dict[Path, Callable[[BinaryIO], object]] = {}
@@ -421,7 +434,7 @@ def smooth(
             if settings.by_component:
                 parts[path] = component_writer(path, result, ascii_stl=ascii_stl)
             elif path.suffix.lower() in WRITERS:
-                parts[path] = partial(writer(path, ascii=ascii_stl), result.surface)
+                parts[path] = partial(mesh_writer(path, ascii=ascii_stl), result.surface)
             else:
                 parts[path] = partial(field_writer(path), result.stages.field())
         if preview is not None:
@@ -483,5 +496,5 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
         rows["Euler number"] = f"{data['euler_number']} -> {result['euler_number']}"
         rows["seconds"] = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in report["seconds"].items())
     for path in files:
-        rows[f"wrote {path}"] = as_bytes(Path(path).stat().st_size) if Path(path).is_file() else ""
-    return table(rows, title=name)
+        rows[f"wrote {path}"] = format_bytes(Path(path).stat().st_size) if Path(path).is_file() else ""
+    return format_table(rows, title=name)

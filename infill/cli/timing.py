@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from infill.cli.console import print_json, say, table
+from infill.cli.console import format_table, print_json, say
 
 if TYPE_CHECKING:
     from infill.planner.printing_time import FeatureMotion, Motion
@@ -129,7 +129,7 @@ def _check_plot(path: Path, *, overwrite: bool) -> None:
 
 
 def _write_plot(paths: Sequence[Path], layer: int, planner_options: dict[str, Any], plot: Path) -> None:
-    from infill.files.whole_files import deliver
+    from infill.files.whole_files import write_all_files
     from infill.pictures.speeds import write_speeds
     from infill.planner.layer_speeds import layer_speeds
 
@@ -137,7 +137,7 @@ def _write_plot(paths: Sequence[Path], layer: int, planner_options: dict[str, An
         f"{number}: {path.name}, layer {layer}": layer_speeds(path, layer, **planner_options)
         for number, path in enumerate(paths, 1)
     }
-    deliver({plot: partial(write_speeds, layers)})
+    write_all_files({plot: partial(write_speeds, layers)})
     say(f"wrote {plot}")
 
 
@@ -165,7 +165,7 @@ def _summary(path: Path, plan: Motion) -> str:
         )
     if plan.macros:
         rows["macros"] = f"{', '.join(plan.macros)}: what the printer does there is not known and left out"
-    return table(rows, title=str(path))
+    return format_table(rows, title=str(path))
 
 
 def format_length(mm: float, decimals: int) -> str:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from infill.contours.strips import strips
-from infill.contours.triangulation import filled
+from infill.contours.strips import cut_strips
+from infill.contours.triangulation import triangulate_rings
 from infill.contours.zero_contours import Contours
 from infill.surface import Surface
 
 
-def prism(contours: Contours, height: float, *, base: float = 0.0) -> Surface:
+def extrude_contours(contours: Contours, height: float, *, base: float = 0.0) -> Surface:
     """Extrude contours from z = `base` to `base` + `height`, mm; return the solid inside them.
 
     Every edge of a contour becomes a rectangle of two triangles; both caps have the same triangles. Long contours get
@@ -22,13 +22,13 @@ def prism(contours: Contours, height: float, *, base: float = 0.0) -> Surface:
         If the caps cannot be filled.
 
     >>> square = Contours(points=np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), first=np.array([0, 4]))
-    >>> cube = prism(square, 1)
+    >>> cube = extrude_contours(square, 1)
     >>> len(cube.faces), cube.closed, cube.volume
     (12, True, 1.0)
     """
-    pieces = strips(contours)
+    pieces = cut_strips(contours)
     rings = pieces.contours
-    cap = pieces.order[filled(Contours(points=rings.points[pieces.order], first=pieces.first))]
+    cap = pieces.order[triangulate_rings(Contours(points=rings.points[pieces.order], first=pieces.first))]
     count, ahead = len(rings.points), rings.ahead
     corner = np.arange(count)
     walls = [[corner, ahead, ahead + count], [corner, ahead + count, corner + count]]

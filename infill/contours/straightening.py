@@ -21,7 +21,7 @@ BEFORE = 1.5
 FRAIL = 2.0  # a ring with less area than this times tolerance and length keeps all its corners
 
 
-def straightened(contours: Contours, tolerance: float) -> Contours:
+def simplify_contours(contours: Contours, tolerance: float) -> Contours:
     """Simplify contours to fewer corners.
 
     Parameters

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.contours.zero_contours import Contours, cycles
+from infill.contours.zero_contours import Contours, permutation_cycles
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 CORNERS = 1000  # of a strip, about; see `infill.contours.triangulation`
-CLEAR = 1e-5  # of all x: smallest distance of a cut from corners, so that a 32-bit file does not merge them
+CUT_CLEARANCE = 1e-5  # of all x: smallest distance of a cut from corners, so that a 32-bit file does not merge them
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -36,18 +36,18 @@ class Strips:
     first: Indices
 
 
-def strips(contours: Contours, corners: int = CORNERS) -> Strips:
+def cut_strips(contours: Contours, corners: int = CORNERS) -> Strips:
     """Cut the solid inside contours at values of x, so that a strip has about `corners` corners.
 
     >>> square = Contours(points=np.array([[0.0, 0], [2, 0], [2, 1], [0, 1]]), first=np.array([0, 4]))
-    >>> halves = strips(square, 2)
+    >>> halves = cut_strips(square, 2)
     >>> len(halves.contours.points), halves.first.tolist()
     (6, [0, 4, 8])
     """
     cuts = _choose_cuts(contours.points[:, 0], corners)
     cut, number = _add_crossings(contours, cuts)
     steps, right = _steps(cut, number)
-    order, first = cycles(steps)
+    order, first = permutation_cycles(steps)
     return Strips(contours=cut, order=np.concatenate([np.arange(len(number)), right])[order], first=first)
 
 
@@ -58,7 +58,7 @@ def _choose_cuts(x: Floats, corners: int) -> Floats:
         return np.empty(0)
     ordered = np.sort(x)
     gaps = np.diff(ordered)
-    clearance = 2 * CLEAR * max(float(np.abs(ordered[[0, -1]]).max()), float(ordered[-1] - ordered[0]))
+    clearance = 2 * CUT_CLEARANCE * max(float(np.abs(ordered[[0, -1]]).max()), float(ordered[-1] - ordered[0]))
     cuts = []
     for number in range(1, count):
         low, high = (round(len(gaps) * (number + side) / count) for side in (-0.25, 0.25))

@@ -15,7 +15,7 @@ Indices = NDArray[np.intp]
 UNFILLED = "the outline cannot be filled with triangles; smooth less, or use walls of more cells"
 
 
-def filled(rings: Contours) -> Indices:
+def triangulate_rings(rings: Contours) -> Indices:
     """Fill the solid inside rings with triangles (T, 3), counter-clockwise, as numbers of corners.
 
     Parameters
@@ -34,7 +34,7 @@ def filled(rings: Contours) -> Indices:
     has the largest smallest angle. The time grows with the square of a piece's corners.
 
     >>> square = Contours(points=np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), first=np.array([0, 4]))
-    >>> len(filled(square))
+    >>> len(triangulate_rings(square))
     2
     """
     areas = rings.areas

@@ -68,7 +68,7 @@ class Contours:
         return np.asarray(np.add.reduceat(np.hypot(x, y), self.first[:-1]))
 
 
-def contours(
+def trace_contours(
     layer: NDArray[np.floating],
     spacing: tuple[float, ...] = (1.0, 1.0),
     *,
@@ -96,13 +96,13 @@ def contours(
     middle if the bilinear saddle there is solid (the asymptotic decider of Nielson and Hamann 1991), as the marching
     cubes of Lewiner et al. 2003 decide for two equal layers.
 
-    >>> contours(np.ones((4, 4))).areas.round(4).tolist()  # the four corners are cut off
+    >>> trace_contours(np.ones((4, 4))).areas.round(4).tolist()  # the four corners are cut off
     [15.5]
     """
     field = np.pad(np.asarray(layer, dtype=np.float32), 1, constant_values=np.float32(VOID))
-    solid = nudged(field)
+    solid = nudge_field(field)
     crossings, along_x, along_y = _crossings(field, solid)
-    order, first = cycles(_steps(field, solid, along_x, along_y, len(crossings)))
+    order, first = permutation_cycles(_steps(field, solid, along_x, along_y, len(crossings)))
     # The centre of the first cell, now at index 1, lies half a cell inside the box.
     return Contours(points=(crossings[order] - 0.5) * np.array(spacing) + np.array(origin[:2]), first=first)
 
@@ -162,10 +162,10 @@ def _diagonal(value: Floats, corner: Flags) -> Floats:
     return np.asarray(np.where(corner[0], even - odd, odd - even))
 
 
-def cycles(ahead: Indices) -> tuple[Indices, Indices]:
+def permutation_cycles(ahead: Indices) -> tuple[Indices, Indices]:
     """Split a permutation (N,) into cycles, each from its lowest number on; return the order, and where each begins.
 
-    >>> [array.tolist() for array in cycles(np.array([2, 1, 3, 0]))]
+    >>> [array.tolist() for array in permutation_cycles(np.array([2, 1, 3, 0]))]
     [[0, 2, 3, 1], [0, 3, 4]]
     """
     following = ahead.tolist()
@@ -181,7 +181,7 @@ def cycles(ahead: Indices) -> tuple[Indices, Indices]:
     return np.array(order, dtype=np.intp), np.array(first, dtype=np.intp)
 
 
-def nudged(field: NDArray[np.float32], level: float = 0.0) -> NDArray[np.bool_]:
+def nudge_field(field: NDArray[np.float32], level: float = 0.0) -> NDArray[np.bool_]:
     """Shift a field in place so that the surface of {field > level} lies at level 0; return the solid cells.
 
     No value stays within `CLEARANCE` of the level, and solid is weakened by `TIE`.

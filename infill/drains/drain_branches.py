@@ -10,9 +10,9 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.drains.drain_columns import cross
-from infill.drains.drain_places import Below, Needs
-from infill.meshes.distance import Tree
+from infill.drains.drain_columns import find_crossings
+from infill.drains.drain_places import DrainNeeds, TurnedPart
+from infill.meshes.distance import TriangleTree
 from infill.surface import Surface
 
 MOST_POINTS, LINES, LATTICE = 400, 1600, 40_000  # of a void; lines through a void, and through all
@@ -58,7 +58,7 @@ class Branch:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Reach:
+class BranchEnds:
     """Places for the ends of branches, so deep below all skin that the hole around them keeps the wall.
 
     Parameters
@@ -78,7 +78,7 @@ class Reach:
     above: Floats
 
 
-def find_branches(below: Below, needs: Needs, drained: Iterable[int], wanting: Iterable[int]) -> list[Branch]:
+def find_branches(below: TurnedPart, needs: DrainNeeds, drained: Iterable[int], wanting: Iterable[int]) -> list[Branch]:
     """Find branches that join voids to drained ones, or to other voids on the way there.
 
     Parameters
@@ -118,7 +118,7 @@ def find_branches(below: Below, needs: Needs, drained: Iterable[int], wanting: I
 
 
 def _find_cheapest(
-    needs: Needs, tree: Tree, reach: Reach, starts: Integers, goals: Integers, cost: Floats
+    needs: DrainNeeds, tree: TriangleTree, reach: BranchEnds, starts: Integers, goals: Integers, cost: Floats
 ) -> list[tuple[float, Branch]]:
     """Find the cheapest branch of every void that keeps the wall; return each with its cost."""
     branches = []
@@ -146,7 +146,7 @@ def _find_cheapest(
     return branches
 
 
-def _measure_clearance(tree: Tree, start: Floats, end: Floats, needs: Needs) -> tuple[float, Floats]:
+def _measure_clearance(tree: TriangleTree, start: Floats, end: Floats, needs: DrainNeeds) -> tuple[float, Floats]:
     """Measure the least distance of a branch from all skin, mm, and its place on the axis."""
     length = float(np.linalg.norm(end - start))
     count = math.ceil(length / min(ALONG, needs.radius / 4)) + 1
@@ -157,7 +157,7 @@ def _measure_clearance(tree: Tree, start: Floats, end: Floats, needs: Needs) -> 
     return math.sqrt(max(float(distances[nearest]) ** 2 - half**2, 0.0)) - needs.radius, points[nearest]
 
 
-def _find_ends(below: Below, needs: Needs, drained: set[int], wanting: set[int]) -> Reach:
+def _find_ends(below: TurnedPart, needs: DrainNeeds, drained: set[int], wanting: set[int]) -> BranchEnds:
     """Find places for the ends of branches: in all voids that want one, and near those in the drained voids."""
     points, void = _sample_voids(below, needs)
     is_wanting = np.isin(void, list(wanting))
@@ -166,7 +166,7 @@ def _find_ends(below: Below, needs: Needs, drained: set[int], wanting: set[int])
         return starts
     goals, owner = _find_goals(below, needs, starts, points[~is_wanting], void[~is_wanting], drained)
     ends = _push_inwards(below, needs, goals, owner)
-    return Reach(
+    return BranchEnds(
         at=np.concatenate([starts.at, ends.at]),
         void=np.concatenate([starts.void, ends.void]),
         cost=np.concatenate([starts.cost, ends.cost]),
@@ -175,7 +175,7 @@ def _find_ends(below: Below, needs: Needs, drained: set[int], wanting: set[int])
 
 
 def _find_goals(
-    below: Below, needs: Needs, starts: Reach, points: Floats, void: Integers, drained: set[int]
+    below: TurnedPart, needs: DrainNeeds, starts: BranchEnds, points: Floats, void: Integers, drained: set[int]
 ) -> tuple[Floats, Integers]:
     """Find the points of drained voids nearest to the starts: of the candidates, and of their surfaces."""
     from scipy.spatial import cKDTree
@@ -190,14 +190,14 @@ def _find_goals(
     faces = _find_faces_near(below, starts, drained, needs.cell + 2 * (needs.diameter + needs.wall))
     if len(faces):
         surface = Surface(vertices=below.voids.vertices, faces=below.voids.faces[faces])
-        _, face = Tree.of(surface).nearest(starts.at, threads=needs.threads)
+        _, face = TriangleTree.of(surface).nearest(starts.at, threads=needs.threads)
         corners = np.asarray(surface.vertices, dtype=np.float64)[surface.faces[face]]
         nearest = np.asarray(closest_point(corners, starts.at), dtype=np.float64)  # type: ignore[no-untyped-call]
         points, void = np.concatenate([points, nearest]), np.concatenate([void, below.owners[faces[face]]])
     return points, void
 
 
-def _find_faces_near(below: Below, starts: Reach, drained: set[int], distance: float) -> Integers:
+def _find_faces_near(below: TurnedPart, starts: BranchEnds, drained: set[int], distance: float) -> Integers:
     """Find the faces of drained voids within a distance of the box of the starts of any void."""
     faces = np.flatnonzero(np.isin(below.owners, list(drained)))
     low, high = below.boxes[:, faces]
@@ -212,7 +212,7 @@ def _find_faces_near(below: Below, starts: Reach, drained: set[int], distance: f
     return faces[is_near]
 
 
-def _push_inwards(below: Below, needs: Needs, points: Floats, void: Integers) -> Reach:
+def _push_inwards(below: TurnedPart, needs: DrainNeeds, points: Floats, void: Integers) -> BranchEnds:
     """Move points inwards until a hole around them keeps the wall; drop points that leave their void by that."""
     tree, lowest = below.skin.whole, below.lowest
     at, needed = points.copy(), needs.radius + needs.wall
@@ -240,13 +240,13 @@ def _push_inwards(below: Below, needs: Needs, points: Floats, void: Integers) ->
     is_kept = (distance >= needed) & (moved <= needs.radius - overlap)
     at, void, moved = at[is_kept], void[is_kept], moved[is_kept]
     above = np.clip(at[:, 2] - needs.radius - lowest[void], 0, None)
-    return Reach(at=at, void=void, cost=moved + RISE * above, above=above)
+    return BranchEnds(at=at, void=void, cost=moved + RISE * above, above=above)
 
 
-def _sample_voids(below: Below, needs: Needs) -> tuple[Floats, Integers]:
+def _sample_voids(below: TurnedPart, needs: DrainNeeds) -> tuple[Floats, Integers]:
     """Sample points inside voids, (N, 3) mm, and the void of each."""
     lattice = below.lattice(needs, LATTICE)
-    line, height, up, face = cross(below.voids, lattice)
+    line, height, up, face = find_crossings(below.voids, lattice)
     void = below.owners[face]
     order = np.argsort(void, kind="stable")  # lines and heights stay in order
     line, height, up, void = line[order], height[order], up[order], void[order]

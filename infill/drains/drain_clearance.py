@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.isosurfaces.components import shell_names
-from infill.meshes.distance import Tree
+from infill.meshes.distance import TriangleTree
 from infill.meshes.shells import shell_volumes
 from infill.surface import Surface
 
@@ -71,7 +71,7 @@ class Skin:
     """
 
     part: Surface
-    _trees: dict[int, Tree | None] = field(default_factory=dict, repr=False)
+    _trees: dict[int, TriangleTree | None] = field(default_factory=dict, repr=False)
 
     @cached_property
     def corners(self) -> Floats:
@@ -122,17 +122,19 @@ class Skin:
         return level
 
     @cached_property
-    def whole(self) -> Tree:
+    def whole(self) -> TriangleTree:
         """Search tree of all faces."""
-        return Tree.of(self.part)
+        return TriangleTree.of(self.part)
 
-    def tree(self, mouth: int) -> Tree | None:
+    def tree(self, mouth: int) -> TriangleTree | None:
         """Build the tree of faces outside a mouth, or of all that do not look down for -1; None without faces."""
         if mouth not in self._trees:
             is_outside = ~self.facing if mouth < 0 else self.mouths != mouth
             self._trees[mouth] = None
             if is_outside.any():
-                self._trees[mouth] = Tree.of(Surface(vertices=self.part.vertices, faces=self.part.faces[is_outside]))
+                self._trees[mouth] = TriangleTree.of(
+                    Surface(vertices=self.part.vertices, faces=self.part.faces[is_outside])
+                )
         return self._trees[mouth]
 
     def knows(self, mouth: int) -> bool:
@@ -219,7 +221,7 @@ class Skin:
         points, spacing = _fine_points(at, lowest, high, radius)
         trees = [self.tree(int(self.mouths[face]))]
         if len(stray):
-            trees.append(Tree.of(Surface(vertices=self.part.vertices, faces=self.part.faces[stray])))
+            trees.append(TriangleTree.of(Surface(vertices=self.part.vertices, faces=self.part.faces[stray])))
         distances = np.full(len(points), np.inf)
         for tree in trees:
             if tree is not None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.meshes.split_components import joined
+from infill.meshes.split_components import concatenate_surfaces
 from infill.surface import Surface
 
 PART = -1  # the owner of a crossing of the skin of the part
@@ -17,7 +17,7 @@ Integers = NDArray[np.int64]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Lattice:
+class LineLattice:
     """Vertical lines through the nodes of a square lattice.
 
     Parameters
@@ -38,7 +38,7 @@ class Lattice:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Ways:
+class DrainWays:
     """Lines that enter the solid of a part and meet a void next, (N,) each.
 
     Parameters
@@ -65,7 +65,7 @@ class Ways:
     ceiling: Floats
 
 
-def find_ways(part: Surface, voids: Surface, names: NDArray[np.integer], lattice: Lattice) -> Ways:
+def find_ways(part: Surface, voids: Surface, names: NDArray[np.integer], lattice: LineLattice) -> DrainWays:
     """Find the lines of a lattice that pass from outside a part through solid alone into a void.
 
     Parameters
@@ -84,10 +84,10 @@ def find_ways(part: Surface, voids: Surface, names: NDArray[np.integer], lattice
     crossing into the part that is directly followed by one into a void. Lines that leave the part or a void more or
     less often than they enter it run along an edge, and are left out.
     """
-    both = joined([part, voids])
+    both = concatenate_surfaces([part, voids])
     owner = np.full(len(both.faces), PART, dtype=np.int64)
     owner[len(part.faces) :] = names[voids.faces[:, 0]]
-    lines, heights, rising, faces = cross(both, lattice)
+    lines, heights, rising, faces = find_crossings(both, lattice)
     owners = owner[faces]
     of_part, count = owners == PART, int(np.prod(lattice.shape))
     is_balanced = np.ones(count, dtype=bool)
@@ -115,7 +115,7 @@ def find_ways(part: Surface, voids: Surface, names: NDArray[np.integer], lattice
         & (rising[third] < 0)
     )
     ways = np.flatnonzero(is_way)
-    return Ways(
+    return DrainWays(
         line=lines[ways],
         at=lattice.places(lines[ways]),
         skin=heights[ways],
@@ -126,15 +126,15 @@ def find_ways(part: Surface, voids: Surface, names: NDArray[np.integer], lattice
     )
 
 
-def cross(surface: Surface, lattice: Lattice) -> tuple[Integers, Floats, Integers, Integers]:
+def find_crossings(surface: Surface, lattice: LineLattice) -> tuple[Integers, Floats, Integers, Integers]:
     """Find the crossings of lines with a surface: the line, the height in mm, 1 into it or -1 out, and the face.
 
     Crossings are in the order of the lines, and of the heights on each line.
 
     >>> import trimesh
     >>> box = trimesh.creation.box((2, 2, 2))
-    >>> lattice = Lattice(low=np.array([0.1, 0.3]), step=1.0, shape=(1, 1))
-    >>> line, height, up, _ = cross(Surface(vertices=box.vertices, faces=box.faces), lattice)
+    >>> lattice = LineLattice(low=np.array([0.1, 0.3]), step=1.0, shape=(1, 1))
+    >>> line, height, up, _ = find_crossings(Surface(vertices=box.vertices, faces=box.faces), lattice)
     >>> sorted(zip(height.round(9).tolist(), up.tolist()))
     [(-1.0, 1), (1.0, -1)]
     """

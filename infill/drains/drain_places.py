@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.drains.drain_clearance import Shaft, Skin
-from infill.drains.drain_columns import Lattice, Ways, find_ways
+from infill.drains.drain_columns import DrainWays, LineLattice, find_ways
 from infill.surface import Surface
 
 ACROSS, IN_A_CELL = 6, 10  # lines in the diameter of a drain, and in a cell of the pattern
@@ -31,7 +31,7 @@ Integers = NDArray[np.int64]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Needs:
+class DrainNeeds:
     """Requirements of a drain.
 
     Parameters
@@ -57,7 +57,7 @@ class Needs:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Below:
+class TurnedPart:
     """A part and its voids, turned so that drains go straight down.
 
     Parameters
@@ -79,7 +79,7 @@ class Below:
     skin: Skin = field(repr=False)
 
     @classmethod
-    def of(cls, part: Surface, voids: Surface, names: NDArray[np.integer], count: int, turned: Floats) -> Below:
+    def of(cls, part: Surface, voids: Surface, names: NDArray[np.integer], count: int, turned: Floats) -> TurnedPart:
         """Turn a part and its voids."""
         turned_part, turned_voids = _turn(part, turned), _turn(voids, turned)
         return cls(
@@ -91,22 +91,22 @@ class Below:
         original: Floats = points @ self.turned
         return original
 
-    def lattice(self, needs: Needs, most: int = MOST_LINES) -> Lattice:
+    def lattice(self, needs: DrainNeeds, most: int = MOST_LINES) -> LineLattice:
         """Lay lines through all of the part, close enough for drains and cells if that takes few enough lines."""
         low, high = (np.asarray(corner, dtype=np.float64)[:2] for corner in self.part.bounds)
         sides = high - low
         step = min(needs.diameter / ACROSS, needs.cell / IN_A_CELL)
         step = max(step, math.sqrt(float(sides.prod()) / most))
         nx, ny = (np.ceil(sides / step).astype(int) + 1).tolist()
-        return Lattice(low=low + step * (np.array(ASIDE) - 1), step=step, shape=(nx + 1, ny + 1))
+        return LineLattice(low=low + step * (np.array(ASIDE) - 1), step=step, shape=(nx + 1, ny + 1))
 
-    def lattice_of(self, needs: Needs, void: int) -> Lattice:
+    def lattice_of(self, needs: DrainNeeds, void: int) -> LineLattice:
         """Select the lines that may pass through a void."""
         lattice = self.lattice(needs)
         places = np.asarray(self.voids.vertices, dtype=np.float64)[self.names == void, :2]
         node = np.floor((places.min(axis=0) - lattice.low) / lattice.step)
         nx, ny = (np.ceil((places.max(axis=0) - lattice.low) / lattice.step) - node).astype(int).tolist()
-        return Lattice(low=lattice.low + lattice.step * node, step=lattice.step, shape=(nx + 1, ny + 1))
+        return LineLattice(low=lattice.low + lattice.step * node, step=lattice.step, shape=(nx + 1, ny + 1))
 
     @cached_property
     def lowest(self) -> Floats:
@@ -131,7 +131,7 @@ class Below:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Places:
+class DrainPlaces:
     """Places at which voids may be drained.
 
     Parameters
@@ -145,14 +145,14 @@ class Places:
         mm
     """
 
-    below: Below
-    needs: Needs
-    ways: Ways
+    below: TurnedPart
+    needs: DrainNeeds
+    ways: DrainWays
     order: list[Integers]
     lowest: Floats
 
     @classmethod
-    def of(cls, below: Below, needs: Needs, *, void: int | None = None) -> Places:
+    def of(cls, below: TurnedPart, needs: DrainNeeds, *, void: int | None = None) -> DrainPlaces:
         """Find the places from which a line straight down leaves the part through solid alone, of all voids or one."""
         lattice = below.lattice(needs) if void is None else below.lattice_of(needs, void)
         ways = find_ways(below.part, below.voids, below.names, lattice)
@@ -256,7 +256,7 @@ def _build_trees(skin: Skin, faces: Integers) -> None:
         skin.tree(mouth)
 
 
-def _room_around(ways: Ways, lattice: Lattice, radius: float) -> Floats:
+def _room_around(ways: DrainWays, lattice: LineLattice, radius: float) -> Floats:
     """Return the distance of each way from the rim of its void, or from a much higher floor, seen from above, mm."""
     from scipy.ndimage import distance_transform_edt
 

@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 from infill.drains.drain_branches import Branch, find_branches
 from infill.drains.drain_clearance import Shaft
-from infill.drains.drain_columns import Lattice, Ways, find_ways
-from infill.drains.drain_places import TURN_OVER, UP, Below, Needs, Places
+from infill.drains.drain_columns import DrainWays, LineLattice, find_ways
+from infill.drains.drain_places import TURN_OVER, UP, DrainNeeds, DrainPlaces, TurnedPart
 from infill.errors import GeometryError
 from infill.interior.opening import Opening
 from infill.isosurfaces.components import shell_names
-from infill.meshes.distance import Tree
+from infill.meshes.distance import TriangleTree
 from infill.meshes.shells import shell_volumes
 from infill.surface import Surface
 
@@ -74,7 +74,7 @@ class Hole:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Undrained:
+class SealedVoid:
     """A void without a hole.
 
     Parameters
@@ -126,8 +126,8 @@ class DrainPlan:
 
     holes: tuple[Hole, ...]
     volumes: tuple[float, ...] = ()
-    undrained: tuple[Undrained, ...] = ()
-    unvented: tuple[Undrained, ...] = ()
+    undrained: tuple[SealedVoid, ...] = ()
+    unvented: tuple[SealedVoid, ...] = ()
     diameter: float = 0.0
     beside: tuple[float, float, float] | None = None
     lower: float | None = None
@@ -146,7 +146,7 @@ class DrainPlan:
 def plan_drains(
     part: Surface,
     voids: Surface,
-    needs: Needs,
+    needs: DrainNeeds,
     *,
     vent: bool = False,
     places: tuple[tuple[float, float, float], ...] = (),
@@ -191,13 +191,13 @@ class _Views:
     voids: Surface
     names: NDArray[np.int64]
     count: int
-    _seen: dict[bytes, Below] = field(default_factory=dict)
+    _seen: dict[bytes, TurnedPart] = field(default_factory=dict)
 
-    def along(self, turned: Floats) -> Below:
+    def along(self, turned: Floats) -> TurnedPart:
         """Return the part turned, from a cache."""
         key = turned.round(12).tobytes()
         if key not in self._seen:
-            self._seen[key] = Below.of(self.part, self.voids, self.names, self.count, turned)
+            self._seen[key] = TurnedPart.of(self.part, self.voids, self.names, self.count, turned)
         return self._seen[key]
 
 
@@ -210,7 +210,7 @@ class _Wish:
     opening: Opening | None
 
 
-def _plan_holes(views: _Views, volume: Floats, needs: Needs, wish: _Wish) -> DrainPlan:
+def _plan_holes(views: _Views, volume: Floats, needs: DrainNeeds, wish: _Wish) -> DrainPlan:
     """Plan holes of one diameter, without remedies for voids that have none."""
     names, opening, count = views.names, wish.opening, views.count
     is_open = np.zeros(count, dtype=bool)
@@ -225,7 +225,7 @@ def _plan_holes(views: _Views, volume: Floats, needs: Needs, wish: _Wish) -> Dra
         views.along(DOWN), low, "drain", drained, set(range(count)) - drained, volume, holes
     )
     holes += drains
-    unvented: tuple[Undrained, ...] = ()
+    unvented: tuple[SealedVoid, ...] = ()
     if wish.vent:
         high = needs if opening is None or not math.isfinite(opening.high) else replace(needs, closed_at=-opening.high)
         shut = {closed.void for closed in undrained}
@@ -243,7 +243,7 @@ def _plan_holes(views: _Views, volume: Floats, needs: Needs, wish: _Wish) -> Dra
     )
 
 
-def _add_remedies(plan: DrainPlan, views: _Views, volume: Floats, needs: Needs, wish: _Wish) -> DrainPlan:
+def _add_remedies(plan: DrainPlan, views: _Views, volume: Floats, needs: DrainNeeds, wish: _Wish) -> DrainPlan:
     """Complete a plan with the narrower diameters that give a hole to voids without one."""
     undrained, unvented, lower = list(plan.undrained), list(plan.unvented), None
     for width in _narrower_diameters(needs.diameter):
@@ -262,7 +262,7 @@ def _add_remedies(plan: DrainPlan, views: _Views, volume: Floats, needs: Needs, 
     return replace(plan, undrained=tuple(undrained), unvented=tuple(unvented), lower=lower)
 
 
-def _record_fits(voids: list[Undrained], width: float, without: set[int]) -> list[Undrained]:
+def _record_fits(voids: list[SealedVoid], width: float, without: set[int]) -> list[SealedVoid]:
     """Record a width in voids that have a hole of that width, and had none of a wider one."""
     together = sum(void.void not in without for void in voids)
     return [
@@ -282,11 +282,11 @@ def _narrower_diameters(diameter: float) -> list[float]:
     return sizes or ([NARROWEST] if diameter > NARROWEST else [])
 
 
-def _find_place(void: int, views: _Views, needs: Needs, wish: _Wish) -> tuple[float, float, float] | None:
+def _find_place(void: int, views: _Views, needs: DrainNeeds, wish: _Wish) -> tuple[float, float, float] | None:
     """Find a place of the skin, upwards or at a side, from which a hole straight in drains a void, or return None."""
     for way in np.concatenate([DOWN[2:], DOWN[:2], -DOWN[:2]]):
         below = views.along(_rotation_down(way))
-        if (shaft := Places.of(below, needs, void=void).shaft(void, None)) is None:
+        if (shaft := DrainPlaces.of(below, needs, void=void).shaft(void, None)) is None:
             continue
         place = _round_place(below.back(np.array([*shaft.at, shaft.skin])))
         if _is_possible(place, void, views, needs, wish.opening):
@@ -295,7 +295,7 @@ def _find_place(void: int, views: _Views, needs: Needs, wish: _Wish) -> tuple[fl
 
 
 def _is_possible(
-    place: tuple[float, float, float], void: int | None, views: _Views, needs: Needs, opening: Opening | None
+    place: tuple[float, float, float], void: int | None, views: _Views, needs: DrainNeeds, opening: Opening | None
 ) -> bool:
     """Tell whether a hole at a place is made as requested, into a void if given, and not at an open side."""
     if opening is not None and not opening.low < place[2] < opening.high:
@@ -323,10 +323,16 @@ def _number_by_volume(voids: Surface) -> tuple[NDArray[np.int64], Floats]:
 
 
 def _drain_one_way(
-    below: Below, needs: Needs, kind: Kind, drained: set[int], wanting: set[int], volume: Floats, holes: list[Hole]
-) -> tuple[list[Hole], tuple[Undrained, ...]]:
+    below: TurnedPart,
+    needs: DrainNeeds,
+    kind: Kind,
+    drained: set[int],
+    wanting: set[int],
+    volume: Floats,
+    holes: list[Hole],
+) -> tuple[list[Hole], tuple[SealedVoid, ...]]:
     """Drain voids one way; return the holes, including branches to drained voids, and the voids that have none."""
-    places = Places.of(below, needs)
+    places = DrainPlaces.of(below, needs)
     taken = [(below.turned @ hole.at)[:2] for hole in holes if -(below.turned @ hole.way)[2] > LEVEL]
     new_holes: list[Hole] = []
     drained, remaining = set(drained), sorted(wanting)
@@ -357,7 +363,7 @@ def _drain_one_way(
     return new_holes, tuple(_describe_undrained(void, below, places, float(volume[void])) for void in missing)
 
 
-def _make_hole(shaft: Shaft, below: Below, kind: Kind, void: int, diameter: float, lowest: float) -> Hole:
+def _make_hole(shaft: Shaft, below: TurnedPart, kind: Kind, void: int, diameter: float, lowest: float) -> Hole:
     at = np.array([*shaft.at, shaft.skin])
     to = np.array([*shaft.at, shaft.high])
     return Hole(
@@ -375,7 +381,7 @@ def _make_hole(shaft: Shaft, below: Below, kind: Kind, void: int, diameter: floa
     )
 
 
-def _make_branch(branch: Branch, below: Below) -> Hole:
+def _make_branch(branch: Branch, below: TurnedPart) -> Hole:
     start, end = below.back(branch.start), below.back(branch.end)
     length = float(np.linalg.norm(end - start))
     return Hole(
@@ -393,21 +399,23 @@ def _make_branch(branch: Branch, below: Below) -> Hole:
     )
 
 
-def _describe_undrained(void: int, below: Below, places: Places, volume: float) -> Undrained:
+def _describe_undrained(void: int, below: TurnedPart, places: DrainPlaces, volume: float) -> SealedVoid:
     """Describe a void without a hole."""
     vertices = np.asarray(below.voids.vertices, dtype=np.float64)
     corners = np.flatnonzero(below.names == void)
     lowest = vertices[corners[np.argmin(vertices[corners, 2])]]
-    return Undrained(void=void, volume=volume, at=below.back(lowest), blocked=not len(places.order[void]))
+    return SealedVoid(void=void, volume=volume, at=below.back(lowest), blocked=not len(places.order[void]))
 
 
-def _make_hole_at(place: tuple[float, float, float], views: _Views, needs: Needs, *, remedies: bool = True) -> Hole:
+def _make_hole_at(
+    place: tuple[float, float, float], views: _Views, needs: DrainNeeds, *, remedies: bool = True
+) -> Hole:
     """Make the hole at a place of the skin, straight in from there, or raise GeometryError."""
     request = "drain_at is ({:g}, {:g}, {:g})".format(*place)
     point, face, distance = _nearest_on_skin(np.array(place), views.part)
     below = views.along(_rotation_down(_normal(views.part, face)))
     x, y, z = below.turned @ point
-    line = Lattice(low=np.array([x, y]) + needs.diameter * np.array(NUDGE), step=1.0, shape=(1, 1))
+    line = LineLattice(low=np.array([x, y]) + needs.diameter * np.array(NUDGE), step=1.0, shape=(1, 1))
     ways = find_ways(below.part, below.voids, below.names, line)
     at_place = np.flatnonzero(np.abs(ways.skin - z) < needs.radius)
     way = int(at_place[0]) if len(at_place) and below.skin.leaving[ways.face[at_place[0]]] else None
@@ -440,7 +448,7 @@ def _make_hole_at(place: tuple[float, float, float], views: _Views, needs: Needs
     raise GeometryError(f"{fault}; {remedy}")
 
 
-def _measure_shaft(below: Below, ways: Ways, way: int, needs: Needs) -> Shaft | None:
+def _measure_shaft(below: TurnedPart, ways: DrainWays, way: int, needs: DrainNeeds) -> Shaft | None:
     """Measure the hole along a way; it reaches less far into the void if it would not keep the wall."""
     shaft = None
     for up in UP:
@@ -460,10 +468,10 @@ def _measure_shaft(below: Below, ways: Ways, way: int, needs: Needs) -> Shaft | 
     return shaft
 
 
-def _advise_place(point: Floats, below: Below, views: _Views, needs: Needs) -> str:
+def _advise_place(point: Floats, below: TurnedPart, views: _Views, needs: DrainNeeds) -> str:
     """Advise what to do in place of an impossible hole: the nearest possible place, seen from the same direction."""
     x, y, z = below.turned @ point
-    shaft = Places.of(below, needs).nearest(np.array([x, y]), z)
+    shaft = DrainPlaces.of(below, needs).nearest(np.array([x, y]), z)
     if shaft is not None:
         place = _round_place(below.back(np.array([*shaft.at, shaft.skin])))
         if _is_possible(place, None, views, needs, None):
@@ -475,7 +483,7 @@ def _nearest_on_skin(place: Floats, part: Surface) -> tuple[Floats, int, float]:
     """Find the nearest point of the skin to a place; return it, its face, and its distance, mm."""
     from trimesh.triangles import closest_point
 
-    distance, face = Tree.of(part).nearest(place[None])
+    distance, face = TriangleTree.of(part).nearest(place[None])
     corners = np.asarray(part.vertices, dtype=np.float64)[part.faces[face]]
     nearest = closest_point(corners, place[None])  # type: ignore[no-untyped-call]
     return np.asarray(nearest, dtype=np.float64)[0], int(face[0]), float(distance[0])

@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from infill.drawing import Picture
 from infill.errors import FormatError
-from infill.files.broken import told_broken
+from infill.files.broken import wrap_reader_errors
 
 MOST_PIXELS = 16_000_000
-LEAST = 0.05  # of black to white: a fainter picture counts as a single colour
+LEAST_CONTRAST = 0.05  # of black to white: a fainter picture counts as a single colour
 
 
 def read_grey(path: Path) -> NDArray[np.float32]:
@@ -20,7 +20,7 @@ def read_grey(path: Path) -> NDArray[np.float32]:
     from PIL import Image, UnidentifiedImageError
 
     try:
-        with told_broken(path), Image.open(path) as image:
+        with wrap_reader_errors(path), Image.open(path) as image:
             width, height = image.size
             if width * height > MOST_PIXELS:
                 raise FormatError(
@@ -44,7 +44,7 @@ def read_bitmap(path: Path) -> Picture:
 
     grey = read_grey(path)
     dark, light = float(grey.min()), float(grey.max())
-    if light - dark < LEAST:
+    if light - dark < LEAST_CONTRAST:
         raise FormatError(f"{path} is a picture of one colour; draw dark shapes on a light ground")
     middle = float(threshold_otsu(grey))  # type: ignore[no-untyped-call]
     if not dark < middle < light:

@@ -18,7 +18,7 @@ from infill.drawings.dxf import read_dxf
 from infill.drawings.svg import read_svg
 from infill.drawings.wkt import read_wkt
 from infill.errors import FormatError
-from infill.files.broken import readable
+from infill.files.broken import require_readable
 
 READERS: dict[str, Callable[[Path], Drawing | Picture]] = {
     ".svg": read_svg,
@@ -45,7 +45,7 @@ def read_drawing(path: str | os.PathLike[str]) -> Drawing | Picture:
         If the file is missing, its suffix is unknown, it is broken, it holds no lines (only texts, for example), it is
         a picture of one colour, or it exceeds the limit in the message.
     """
-    source = readable(path, READERS, "a drawing")
+    source = require_readable(path, READERS, "a drawing")
     try:
         return READERS[source.suffix.lower()](source)
     except TooComplexError as error:

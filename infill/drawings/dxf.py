@@ -15,25 +15,25 @@ from typing import Any
 import numpy as np
 
 from infill.drawing import (
-    FLATNESS,
+    CHORD_TOLERANCE,
     MOST_POINTS,
     Drawing,
     Line,
-    checked_drawing,
+    build_drawing,
     count_points,
     require_at_most,
 )
 from infill.errors import FormatError
-from infill.files.broken import one_line, told_broken
+from infill.files.broken import error_text, wrap_reader_errors
 
-AGAIN = "save it again as DXF (R2000 or later, text)"
+SAVE_ADVICE = "save it again as DXF (R2000 or later, text)"
 LARGEST_FILE = 10_000_000  # bytes: reading takes a second per million
 MOST_ENTITIES = 50_000
 MOST_FIT_POINTS = 1000  # of a spline: time and memory for its controls grow with their square
 HIGHEST_DEGREE = 20  # of a spline
 DEEPEST = 50  # blocks in blocks
-DRAWN = ("LINE", "ARC", "CIRCLE", "ELLIPSE", "LWPOLYLINE", "POLYLINE", "SPLINE", "HELIX")
-TEXTS = ("TEXT", "MTEXT", "ATTRIB", "ATTDEF")
+CURVE_TYPES = ("LINE", "ARC", "CIRCLE", "ELLIPSE", "LWPOLYLINE", "POLYLINE", "SPLINE", "HELIX")
+TEXT_TYPES = ("TEXT", "MTEXT", "ATTRIB", "ATTDEF")
 
 
 def _import_ezdxf() -> ModuleType:
@@ -52,13 +52,13 @@ def read_dxf(path: Path) -> Drawing:
     ezdxf = _import_ezdxf()
     left_out: Counter[str] = Counter()
     try:
-        with told_broken(path, advice=AGAIN), np.errstate(all="ignore"):
+        with wrap_reader_errors(path, advice=SAVE_ADVICE), np.errstate(all="ignore"):
             document = ezdxf.readfile(path)
             lines = _read_lines(document, left_out)
             unit = _unit_length(path, document.header.get("$INSUNITS", 0))
     except (ezdxf.DXFError, OSError, StopIteration) as error:
-        raise FormatError(f"{path} is broken or not a .dxf file ({one_line(error)}); {AGAIN}") from error
-    return checked_drawing(path, [line * unit for line in lines], left_out=+left_out)
+        raise FormatError(f"{path} is broken or not a .dxf file ({error_text(error)}); {SAVE_ADVICE}") from error
+    return build_drawing(path, [line * unit for line in lines], left_out=+left_out)
 
 
 def _unit_length(path: Path, unit: int) -> float:
@@ -87,7 +87,7 @@ def _read_lines(document: Any, left_out: Counter[str]) -> list[Line]:  # noqa: A
         if entity.dxf.get("layer", "0") in hidden or entity.dxf.get("invisible", 0):
             left_out["hidden line"] += 1
             continue
-        if kind in DRAWN:
+        if kind in CURVE_TYPES:
             _require_short(_splines(entity))
             new_paths = [path.make_path(entity)]
             left_out["empty line"] += not len(new_paths[0])
@@ -95,7 +95,7 @@ def _read_lines(document: Any, left_out: Counter[str]) -> list[Line]:  # noqa: A
             _require_short(_splines(entity))
             new_paths = list(path.from_hatch(entity))
         else:
-            left_out["text" if kind in TEXTS else kind.lower()] += 1
+            left_out["text" if kind in TEXT_TYPES else kind.lower()] += 1
             continue
         for curve in new_paths:
             if len(curve):
@@ -109,7 +109,7 @@ def _read_lines(document: Any, left_out: Counter[str]) -> list[Line]:  # noqa: A
     if not (math.isfinite(size) and size > 0):
         raise ValueError(f"its lines extend over {size:g}")
     parts = (part for curve in paths for part in (curve.sub_paths() if curve.has_sub_paths else [curve]) if len(part))
-    flat = (np.array([(v.x, v.y) for v in part.flattening(FLATNESS * size / 2)]) for part in parts)
+    flat = (np.array([(v.x, v.y) for v in part.flattening(CHORD_TOLERANCE * size / 2)]) for part in parts)
     return list(count_points(flat))
 
 

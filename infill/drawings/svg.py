@@ -19,24 +19,33 @@ from xml.parsers import expat
 
 import numpy as np
 
-from infill.drawing import Bounds, Drawing, Line, checked_drawing, count_points, require_at_most
-from infill.drawings.svg_numbers import IDENTITY, PX, Matrix, chained, fitted, length_in_px, matrix_of, numbers_in
+from infill.drawing import Bounds, Drawing, Line, build_drawing, count_points, require_at_most
+from infill.drawings.svg_numbers import (
+    IDENTITY,
+    PX,
+    Matrix,
+    compose,
+    fit_view_box,
+    parse_length,
+    parse_numbers,
+    parse_transform,
+)
 from infill.drawings.svg_paths import ellipse_lines, path_lines, rectangle_lines
-from infill.files.broken import told_broken
+from infill.files.broken import wrap_reader_errors
 
 LARGEST_FILE = 20_000_000  # bytes
 LONGEST_ENTITY = 256  # characters: names of namespaces, which some programs abbreviate
 MOST_ELEMENTS = 100_000  # drawn elements, including copies of copies
 MOST_PARSED = 400_000  # elements of the file, drawn or not
 DEEPEST = 100
-HIDDEN = {"defs", "symbol", "clipPath", "mask", "pattern", "marker"}
-LEFT_OUT = {"text": "text", "image": "picture", "foreignObject": "foreign object"}
+HIDDEN_TAGS = {"defs", "symbol", "clipPath", "mask", "pattern", "marker"}
+OMITTED_TAGS = {"text": "text", "image": "picture", "foreignObject": "foreign object"}
 
 
 def read_svg(path: Path) -> Drawing:
     """Read the drawing of an SVG file; the module lists the supported elements."""
     require_at_most(LARGEST_FILE, path.stat().st_size, "bytes")
-    with told_broken(path, advice="save it again as plain SVG"), np.errstate(all="ignore"):
+    with wrap_reader_errors(path, advice="save it again as plain SVG"), np.errstate(all="ignore"):
         root = _parse_xml(path.read_bytes())
         if _tag(root) != "svg":
             raise ValueError(f"its root is {_tag(root)}, not svg")
@@ -48,7 +57,7 @@ def read_svg(path: Path) -> Drawing:
     if reader.page:
         x0, y0, x1, y1 = (coordinate * PX for coordinate in reader.page)
         page = (x0, y1 - y1, x1, y1 - y0)
-    return checked_drawing(path, upright, page=page, left_out=dict(reader.left_out))
+    return build_drawing(path, upright, page=page, left_out=dict(reader.left_out))
 
 
 # --- XML -------------------------------------------------------------------------------------------------
@@ -110,20 +119,20 @@ class _Reader:
     def _page(self) -> Bounds | None:
         """Return the page in px, or None without a size."""
         box = self.root.get("viewBox")
-        numbers = numbers_in(box) if box else []
+        numbers = parse_numbers(box) if box else []
         box_width, box_height = numbers[2:] if len(numbers) == 4 else (0.0, 0.0)
-        width = length_in_px(self.root.get("width"), box_width, box_width)
-        height = length_in_px(self.root.get("height"), box_height, box_height)
+        width = parse_length(self.root.get("width"), box_width, box_width)
+        height = parse_length(self.root.get("height"), box_height, box_height)
         return (0.0, 0.0, width, height) if width > 0 and height > 0 else None
 
     def lines(self) -> Iterator[Line]:
         """Yield the lines in px of the page, y downwards."""
         matrix = IDENTITY
         if self.page:
-            matrix = fitted(self.root, self.page[2], self.page[3])
+            matrix = fit_view_box(self.root, self.page[2], self.page[3])
         box = self.root.get("viewBox")
         if box:
-            self.view = (numbers_in(box)[2], numbers_in(box)[3])
+            self.view = (parse_numbers(box)[2], parse_numbers(box)[3])
         for child in self.root:
             yield from self._lines_of(child, matrix, 0)
 
@@ -131,10 +140,10 @@ class _Reader:
         """Yield the lines of an element and its children."""
         tag, get = _tag(element), element.get
         style = f"{get('style', '')};display:{get('display', '')};visibility:{get('visibility', '')}"
-        if tag in HIDDEN or re.search(r"display:\s*none|visibility:\s*(hidden|collapse)", style):
+        if tag in HIDDEN_TAGS or re.search(r"display:\s*none|visibility:\s*(hidden|collapse)", style):
             return
-        if tag in LEFT_OUT:
-            self.left_out[LEFT_OUT[tag]] += 1
+        if tag in OMITTED_TAGS:
+            self.left_out[OMITTED_TAGS[tag]] += 1
             return
         if get("clip-path") or get("mask"):
             self.left_out["clip"] += 1
@@ -142,13 +151,13 @@ class _Reader:
         require_at_most(MOST_ELEMENTS, self.visited, "drawn elements or more, copies counted")
         if depth > DEEPEST:
             raise ValueError("a copy by `use` contains itself")
-        matrix = chained(outer, matrix_of(get("transform")))
+        matrix = compose(outer, parse_transform(get("transform")))
         width, height = self.view
         if tag in ("svg", "use", "symbol"):
-            shift = np.array([[1, 0, length_in_px(get("x"), width)], [0, 1, length_in_px(get("y"), height)]])
-            matrix = chained(matrix, shift)
+            shift = np.array([[1, 0, parse_length(get("x"), width)], [0, 1, parse_length(get("y"), height)]])
+            matrix = compose(matrix, shift)
         if tag == "svg":
-            matrix = chained(matrix, self._nested_matrix(element, element))
+            matrix = compose(matrix, self._nested_matrix(element, element))
         if tag == "use":
             yield from self._lines_of_copy(element, matrix, depth)
         elif tag in ("g", "svg", "a", "switch"):
@@ -163,10 +172,10 @@ class _Reader:
     def _nested_matrix(self, element: ElementTree.Element, sized: ElementTree.Element) -> Matrix:
         """Return the matrix of a nested view box."""
         width, height = (
-            length_in_px(sized.get(name), full_size, full_size)
+            parse_length(sized.get(name), full_size, full_size)
             for name, full_size in zip(("width", "height"), self.view, strict=True)
         )
-        return fitted(element, width, height)
+        return fit_view_box(element, width, height)
 
     def _lines_of_copy(self, element: ElementTree.Element, matrix: Matrix, depth: int) -> Iterator[Line]:
         """Yield the lines of the target of a `use` element."""
@@ -175,7 +184,7 @@ class _Reader:
         if target is None:
             self.left_out["broken link"] += 1
         elif _tag(target) == "symbol":
-            matrix = chained(matrix, self._nested_matrix(target, element))
+            matrix = compose(matrix, self._nested_matrix(target, element))
             for child in target:
                 yield from self._lines_of(child, matrix, depth + 1)
         else:
@@ -188,7 +197,7 @@ class _Reader:
 
         def get(name: str) -> float:
             full_size = {"x": width, "c": width, "w": width, "y": height, "h": height}.get(name[0], mean)
-            return length_in_px(element.get(name), height if name in ("cy", "ry") else full_size)
+            return parse_length(element.get(name), height if name in ("cy", "ry") else full_size)
 
         match tag:
             case "path":
@@ -196,7 +205,7 @@ class _Reader:
             case "line":
                 return [np.array([[get("x1"), get("y1")], [get("x2"), get("y2")]])]
             case "polyline" | "polygon":
-                numbers = numbers_in(element.get("points") or "")
+                numbers = parse_numbers(element.get("points") or "")
                 points = np.array(numbers[: len(numbers) // 2 * 2]).reshape(-1, 2)
                 return [np.vstack([points, points[:1]]) if tag == "polygon" else points]
             case "circle":

@@ -21,7 +21,7 @@ MOST_TRANSFORMS = 100  # one after another, of one element
 IDENTITY = np.array([[1.0, 0, 0], [0, 1, 0]])
 
 
-def length_in_px(text: str | None, whole: float, otherwise: float = 0.0) -> float:
+def parse_length(text: str | None, whole: float, otherwise: float = 0.0) -> float:
     """Convert a length to user units (px); `whole` is the length of 100 %."""
     if text is None or text.strip() in ("", "auto"):
         return otherwise
@@ -33,7 +33,7 @@ def length_in_px(text: str | None, whole: float, otherwise: float = 0.0) -> floa
     return float(match[1]) * UNITS[match[2].lower()]
 
 
-def numbers_in(text: str) -> list[float]:
+def parse_numbers(text: str) -> list[float]:
     """Parse a list of numbers, or raise ValueError for other content."""
     if re.sub(r"[\s,]", "", re.sub(NUMBER, "", text)):
         raise ValueError(f"it gives {text.strip()[:30]!r} for numbers")
@@ -41,13 +41,13 @@ def numbers_in(text: str) -> list[float]:
 
 
 @lru_cache(maxsize=10_000)
-def matrix_of(text: str | None) -> Matrix:
+def parse_transform(text: str | None) -> Matrix:
     """Parse an attribute `transform` to a matrix."""
     matrix = IDENTITY
     transforms = re.findall(r"(\w+)\s*\(([^)]*)\)", text or "")
     require_at_most(MOST_TRANSFORMS, len(transforms), "transforms of one element")
     for name, inside in transforms:
-        numbers = numbers_in(inside)
+        numbers = parse_numbers(inside)
         match name, numbers:
             case "matrix", [a, b, c, d, e, f]:
                 rows = [[a, c, e], [b, d, f]]
@@ -65,23 +65,23 @@ def matrix_of(text: str | None) -> Matrix:
                 rows = [[1, 0, 0], [math.tan(math.radians(angle)), 1, 0]]
             case _:
                 raise ValueError(f"it holds the transform {name}({inside[:30]})")
-        matrix = chained(matrix, np.array(rows, dtype=np.float64))
+        matrix = compose(matrix, np.array(rows, dtype=np.float64))
     return matrix
 
 
-def chained(outer: Matrix, inner: Matrix) -> Matrix:
+def compose(outer: Matrix, inner: Matrix) -> Matrix:
     """Return the matrix of the inner transform followed by the outer one, (2, 3)."""
     product: Matrix = outer[:, :2] @ inner
     product[:, 2] += outer[:, 2]
     return product
 
 
-def fitted(element: ElementTree.Element, width: float, height: float) -> Matrix:
+def fit_view_box(element: ElementTree.Element, width: float, height: float) -> Matrix:
     """Return the matrix that fits the view box of an element into width × height."""
     box = element.get("viewBox")
     if not box:
         return IDENTITY
-    numbers = numbers_in(box)
+    numbers = parse_numbers(box)
     if len(numbers) != 4 or min(numbers[2:]) <= 0:
         raise ValueError(f"it gives the view box {box[:40]!r}")
     x, y, box_width, box_height = numbers

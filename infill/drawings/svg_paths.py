@@ -1,6 +1,6 @@
 """Path data of SVG: letters and numbers to points.
 
-Curves become chords that turn by about `TURN`, so a chord lies within TURN²/8 of a radius from its curve.
+Curves become chords that turn by about `TURN_ANGLE`, so a chord lies within TURN²/8 of a radius from its curve.
 
 Source: Scalable Vector Graphics (SVG) 2, chapter 9 (paths) and appendix B.2 (elliptical arcs), W3C 2018.
 """
@@ -14,9 +14,9 @@ import numpy as np
 
 from infill.drawing import MOST_POINTS, Line, require_at_most
 
-TURN = 0.03  # rad
-HUGE = 1e9
-FEWEST = 4  # chords of a Bézier curve
+TURN_ANGLE = 0.03  # rad
+LARGEST_NUMBER = 1e9
+FEWEST_CHORDS = 4  # chords of a Bézier curve
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 SEPARATOR = r"[\s,]*"
 NUMBERS = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7, "Z": 0}
@@ -72,8 +72,8 @@ def _number_rows(letter: str, text: str) -> list[list[float]]:
     require_at_most(MOST_POINTS, len(rows), "points or more in a path")
     if not rows:
         raise ValueError(f"a path gives {letter} a wrong number of numbers")
-    if not all(abs(number) < HUGE for row in rows for number in row):
-        raise ValueError(f"a path holds a number beyond {HUGE:g}")
+    if not all(abs(number) < LARGEST_NUMBER for row in rows for number in row):
+        raise ValueError(f"a path holds a number beyond {LARGEST_NUMBER:g}")
     return rows
 
 
@@ -142,7 +142,7 @@ def bezier_points(controls: Line) -> Line:
     legs = legs[np.hypot(*legs.T) > 0]
     angles = np.arctan2(legs[:, 1], legs[:, 0])
     turning = np.abs((np.diff(angles) + math.pi) % (2 * math.pi) - math.pi).sum()
-    count = FEWEST + math.ceil(2 * turning / TURN)  # twice, since its speed is not even
+    count = FEWEST_CHORDS + math.ceil(2 * turning / TURN_ANGLE)  # twice, since its speed is not even
     t = np.linspace(0, 1, count + 1)[1:, None]
     points = np.repeat(controls[None], count, axis=0)
     while points.shape[1] > 1:  # de Casteljau
@@ -172,7 +172,7 @@ def arc_points(start: Line, end: Line, radii: tuple[float, float], turned: float
     start_angle = math.atan2(*(half - centre)[::-1])
     end_angle = math.atan2(*(-half - centre)[::-1])
     swept = (end_angle - start_angle) % (2 * math.pi) if sweep else -((start_angle - end_angle) % (2 * math.pi))
-    angles = start_angle + swept * np.linspace(0, 1, 1 + max(1, math.ceil(abs(swept) / TURN)))[1:]
+    angles = start_angle + swept * np.linspace(0, 1, 1 + max(1, math.ceil(abs(swept) / TURN_ANGLE)))[1:]
     circle = np.stack([np.cos(angles), np.sin(angles)], axis=1) + centre
     points: Line = (circle * (rx, ry)) @ axes + (start + end) / 2
     points[-1] = end
@@ -183,7 +183,7 @@ def ellipse_lines(x: float, y: float, rx: float, ry: float) -> list[Line]:
     """Return the outline of an ellipse, or an empty list if a radius is not above 0."""
     if not (rx > 0 and ry > 0):
         return []
-    angles = np.linspace(0, 2 * math.pi, 1 + math.ceil(2 * math.pi / TURN))
+    angles = np.linspace(0, 2 * math.pi, 1 + math.ceil(2 * math.pi / TURN_ANGLE))
     points = np.stack([x + rx * np.cos(angles), y + ry * np.sin(angles)], axis=1)
     points[-1] = points[0]
     return [points]

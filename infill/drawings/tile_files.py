@@ -6,14 +6,14 @@ import os
 from dataclasses import replace
 from pathlib import Path
 
-from infill.checks import length, positive
+from infill.checks import check_length, check_positive
 from infill.drawing import Drawing, Picture
 from infill.drawings.drawing_files import read_drawing
-from infill.paths.tiles.drawn_family import Drawn
-from infill.paths.tiles.tiling import tile_of, traced
+from infill.paths.tiles.drawn_family import DrawnFamily
+from infill.paths.tiles.tiling import repeating_box, trace_picture
 
 
-def drawn(path: str | os.PathLike[str], *, width: float | None = None) -> Drawn:
+def read_tile_family(path: str | os.PathLike[str], *, width: float | None = None) -> DrawnFamily:
     """Read a drawing as a family of paths.
 
     Parameters
@@ -31,16 +31,20 @@ def drawn(path: str | os.PathLike[str], *, width: float | None = None) -> Drawn:
         See `read_drawing`.
     """
     content = read_drawing(path)
-    drawing = traced(content, Path(path)) if isinstance(content, Picture) else replace(content, page=tile_of(content))
+    drawing = (
+        trace_picture(content, Path(path))
+        if isinstance(content, Picture)
+        else replace(content, page=repeating_box(content))
+    )
     if width is not None:
-        drawing = _scale_to_width(drawing, length("width", width))
-    return Drawn(name=Path(path).name, drawing=drawing)
+        drawing = _scale_to_width(drawing, check_length("width", width))
+    return DrawnFamily(name=Path(path).name, drawing=drawing)
 
 
 def _scale_to_width(drawing: Drawing, width: float) -> Drawing:
     """Scale a drawing to a width, and move its page to the origin."""
     assert drawing.page is not None
     x0, y0, x1, y1 = drawing.page
-    factor = positive("width", width, "mm") / (x1 - x0)
+    factor = check_positive("width", width, "mm") / (x1 - x0)
     lines = tuple((line - (x0, y0)) * factor for line in drawing.lines)
     return replace(drawing, lines=lines, page=(0.0, 0.0, width, (y1 - y0) * factor))

@@ -7,23 +7,23 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from infill.drawing import MOST_POINTS, Drawing, checked_drawing, require_at_most
+from infill.drawing import MOST_POINTS, Drawing, build_drawing, require_at_most
 from infill.errors import FormatError
-from infill.files.broken import one_line, told_broken
+from infill.files.broken import error_text, wrap_reader_errors
 
 if TYPE_CHECKING:
     from shapely import Geometry
 
 LARGEST_FILE = 50_000_000  # bytes
 DEEPEST = 20  # parentheses: a polygon has two, and collections hold others
-AGAIN = "write lines as well-known text, such as LINESTRING (0 0, 10 5)"
+WKT_ADVICE = "write lines as well-known text, such as LINESTRING (0 0, 10 5)"
 
 
 def read_wkt(path: Path) -> Drawing:
     """Read the lines and the outlines of areas in a file of well-known text; points are left out."""
     import shapely
 
-    with told_broken(path, advice=AGAIN), np.errstate(invalid="ignore"):
+    with wrap_reader_errors(path, advice=WKT_ADVICE), np.errstate(invalid="ignore"):
         require_at_most(LARGEST_FILE, path.stat().st_size, "bytes")
         text = path.read_text(encoding="utf-8-sig").strip()
         _require_bounds(text)
@@ -39,7 +39,7 @@ def read_wkt(path: Path) -> Drawing:
     rings = shapely.get_rings(parts[areas])
     lines = [shapely.get_coordinates(line_or_ring) for line_or_ring in [*parts[np.isin(kinds, [1, 2])], *rings]]
     points = int((kinds == 0).sum())
-    return checked_drawing(path, lines, left_out={"point": points} if points else {})
+    return build_drawing(path, lines, left_out={"point": points} if points else {})
 
 
 def _require_bounds(text: str) -> None:
@@ -58,4 +58,4 @@ def _parse_lines(path: Path, text: str) -> list[Geometry]:
     try:
         return [shapely.from_wkt(line) for line in text.splitlines() if line.strip()]
     except shapely.errors.GEOSException as error:
-        raise FormatError(f"{path} is broken or not a .wkt file ({one_line(error)}); {AGAIN}") from error
+        raise FormatError(f"{path} is broken or not a .wkt file ({error_text(error)}); {WKT_ADVICE}") from error

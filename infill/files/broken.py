@@ -21,9 +21,9 @@ from infill.errors import FormatError, InfillError, MemoryLimitError, ParameterE
 from infill.files.excerpts import excerpt
 from infill.volume import AXES, Volume
 
-SMALLER = "cut the volume to the part that matters, or halve its resolution"
+SMALLER_VOLUME_ADVICE = "cut the volume to the part that matters, or halve its resolution"
 # The errors that libraries raise when a file is broken.
-BROKEN = (
+READER_ERRORS = (
     ValueError,
     LookupError,
     TypeError,
@@ -42,11 +42,11 @@ BROKEN = (
     ElementTree.ParseError,
 )
 # Of these, the errors that this package raises for such files: numbers that are not finite, and truncated files.
-BY_DATA = (ValueError, OverflowError, EOFError, struct.error, zlib.error)
-COLOURS = (2, 3, 4)  # numbers per cell of a picture that is not grey
+DATA_ERRORS = (ValueError, OverflowError, EOFError, struct.error, zlib.error)
+COLOUR_CHANNELS = (2, 3, 4)  # numbers per cell of a picture that is not grey
 
 
-def readable(path: str | os.PathLike[str], suffixes: Iterable[str], what: str) -> Path:
+def require_readable(path: str | os.PathLike[str], suffixes: Iterable[str], what: str) -> Path:
     """Return the path of a file that exists and has one of the suffixes, or raise FormatError."""
     source = Path(path)
     if source.suffix.lower() not in suffixes:
@@ -56,10 +56,10 @@ def readable(path: str | os.PathLike[str], suffixes: Iterable[str], what: str) -
         raise FormatError(f"{source} is a folder; give a file")
     if not source.is_file():
         raise FormatError(f"there is no file {source}; check the name")
-    return not_empty(source)
+    return require_not_empty(source)
 
 
-def not_empty(path: Path) -> Path:
+def require_not_empty(path: Path) -> Path:
     """Return the path of a file that is not empty, or raise FormatError; a full disk leaves empty files."""
     if path.is_file() and path.stat().st_size == 0:
         raise FormatError(f"{path} is empty (0 bytes); export or save it again")
@@ -67,7 +67,7 @@ def not_empty(path: Path) -> Path:
 
 
 @contextlib.contextmanager
-def told_broken(path: Path, what: str | None = None, advice: str = "save it again") -> Iterator[None]:
+def wrap_reader_errors(path: Path, what: str | None = None, advice: str = "save it again") -> Iterator[None]:
     """Turn the exception of a reader about a broken file into a FormatError; errors of this package pass unchanged.
 
     Parameters
@@ -83,30 +83,30 @@ def told_broken(path: Path, what: str | None = None, advice: str = "save it agai
         raise
     except MemoryError as error:
         raise MemoryLimitError(f"{path} needs more memory than there is; check it, or give a smaller one") from error
-    except BROKEN as error:
-        if is_ours(error) and not isinstance(error, BY_DATA):
+    except READER_ERRORS as error:
+        if is_own_error(error) and not isinstance(error, DATA_ERRORS):
             raise
         complaint = what or f"is broken or not a {path.suffix} file"
-        raise FormatError(f"{path} {complaint} ({one_line(error)}); {advice}") from error
+        raise FormatError(f"{path} {complaint} ({error_text(error)}); {advice}") from error
 
 
 @contextlib.contextmanager
-def told_unreadable(path: Path) -> Iterator[None]:
+def wrap_read_errors(path: Path) -> Iterator[None]:
     """Turn an error of the operating system, such as a missing permission, into a FormatError."""
     try:
         yield
     except OSError as error:
-        reason = error.strerror or one_line(error)
+        reason = error.strerror or error_text(error)
         raise FormatError(f"cannot read {path}: {reason}; check the file") from error
 
 
-def is_ours(error: BaseException) -> bool:
+def is_own_error(error: BaseException) -> bool:
     """Tell whether this package raised the error itself, and not a library that it calls."""
     names = [frame.f_globals.get("__name__", "") for frame, _ in traceback.walk_tb(error.__traceback__)]
     return bool(names) and names[-1].split(".")[0] == __name__.split(".")[0]
 
 
-def one_line(error: Exception) -> str:
+def error_text(error: Exception) -> str:
     """Return the text of an error on one line, truncated if too long."""
     words = " ".join(str(error).split())
     if isinstance(error, LookupError) or not words:  # whose text is just a key
@@ -120,7 +120,7 @@ def checked_volume(path: Path, values: NDArray[Any], *, varied: bool = True, **p
         raise FormatError(f"{path} holds complex numbers; save their magnitude or their phase")
     if values.dtype.kind not in "biuf":
         raise FormatError(f"{path} holds values of type {values.dtype}; save numbers or booleans")
-    if values.ndim > AXES and values.shape[-1] in COLOURS:
+    if values.ndim > AXES and values.shape[-1] in COLOUR_CHANNELS:
         raise FormatError(f"{path} holds {values.shape[-1]} numbers per cell, shape {values.shape}; save one as grey")
     if values.ndim != AXES or values.size == 0:
         raise FormatError(f"{path} holds an array of shape {values.shape}; save three axes, with cells")

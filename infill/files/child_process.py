@@ -28,19 +28,21 @@ from numpy.typing import NDArray
 
 from infill import errors
 from infill.errors import FormatError, InfillError, MemoryLimitError
-from infill.files.broken import BROKEN
+from infill.files.broken import READER_ERRORS
 from infill.machine import GIB, available_memory
 
-SECONDS = 600.0  # for one file: the slowest network drive fills memory in that time
-BASE = GIB  # bytes of address space for the interpreter and its libraries
+TIME_LIMIT = 600.0  # for one file: the slowest network drive fills memory in that time
+BASE_MEMORY = GIB  # bytes of address space for the interpreter and its libraries
 MOST_LINES = 20  # of the output of libraries
 LONGEST_LINE = 300
-PLACE = re.compile(r"^(WARNING|ERROR): In .*, line \d+$")  # a place in the source of a library
+SOURCE_PLACE = re.compile(r"^(WARNING|ERROR): In .*, line \d+$")  # a place in the source of a library
 ADDRESS = re.compile(r" ?\(0x[0-9a-f]+\)")
 TRACE = "Traceback (most recent call last)"
-LENGTH = 8  # bytes, at the end, that say how long the text before them is
-ALIGNED = 64  # bytes
-NAMELESS = os.name == "posix"  # elsewhere numbers of files do not travel, and no file is removed while it is mapped
+LENGTH_BYTES = 8  # bytes, at the end, that say how long the text before them is
+ALIGNMENT = 64  # bytes
+HAS_NAMELESS_FILES = (
+    os.name == "posix"
+)  # elsewhere numbers of files do not travel, and no file is removed while it is mapped
 KILL_ON_DEATH = 1  # PR_SET_PDEATHSIG of Linux
 # Threads reserve address space, and reading needs none.
 ENVIRONMENT = {
@@ -49,7 +51,7 @@ ENVIRONMENT = {
     "OMP_NUM_THREADS": "1",
 }
 # `-P` keeps the working directory off the path: a file there must not stand in for a module.
-BOOT = (
+BOOT_CODE = (
     "import json, sys; request = json.load(sys.stdin); sys.path[:] = request['path']; "
     "from infill.files.child_process import serve; serve(request)"
 )
@@ -78,7 +80,7 @@ def read_in_child(
     reader: str,
     *arguments: Any,  # noqa: ANN401 - whatever JSON holds
     path: Path,
-    seconds: float = SECONDS,
+    seconds: float = TIME_LIMIT,
     memory: int | None = None,
 ) -> Reply:
     """Run a reader in a child process and return its result.
@@ -116,7 +118,7 @@ def read_in_child(
         "path": sys.path,
         "reader": reader,
         "arguments": arguments,
-        "memory": None if allowed is None else allowed + BASE,
+        "memory": None if allowed is None else allowed + BASE_MEMORY,
         "seconds": seconds,
         "parent": os.getpid(),
     }
@@ -134,7 +136,7 @@ def read_in_child(
 def _run_child(request: str, seconds: float, path: Path, files: tuple[int, ...]) -> tuple[int, str]:
     """Run the child to its end; return its exit status and its output. It does not outlive this call."""
     with subprocess.Popen(  # noqa: S603 - this interpreter, and a constant text
-        [sys.executable, "-P", "-c", BOOT],
+        [sys.executable, "-P", "-c", BOOT_CODE],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
@@ -157,10 +159,10 @@ def _run_child(request: str, seconds: float, path: Path, files: tuple[int, ...])
 @contextlib.contextmanager
 def _result_file() -> Iterator[tuple[IO[bytes], int | str]]:
     """Yield a file for the result, and its number or its name for the child."""
-    if NAMELESS and hasattr(os, "memfd_create"):
+    if HAS_NAMELESS_FILES and hasattr(os, "memfd_create"):
         with open(os.memfd_create("infill-volume"), "r+b") as file:
             yield file, file.fileno()
-    elif NAMELESS:
+    elif HAS_NAMELESS_FILES:
         with tempfile.TemporaryFile() as file:
             yield file, file.fileno()
     else:
@@ -171,13 +173,13 @@ def _result_file() -> Iterator[tuple[IO[bytes], int | str]]:
 def _read_answer(file: IO[bytes]) -> dict[str, Any] | None:
     """Return the answer that the child wrote at the end of the file, or None if it did not come to that."""
     size = os.fstat(file.fileno()).st_size
-    if size < LENGTH:
+    if size < LENGTH_BYTES:
         return None
-    file.seek(size - LENGTH)
-    length = int.from_bytes(file.read(LENGTH), "little")
-    if length > size - LENGTH:
+    file.seek(size - LENGTH_BYTES)
+    length = int.from_bytes(file.read(LENGTH_BYTES), "little")
+    if length > size - LENGTH_BYTES:
         return None
-    file.seek(size - LENGTH - length)
+    file.seek(size - LENGTH_BYTES - length)
     try:
         answer = json.loads(file.read(length))
     except ValueError:
@@ -190,7 +192,7 @@ def _map_arrays(file: IO[bytes], entries: Mapping[str, Any]) -> dict[str, NDArra
     if not entries:
         return {}
     buffer: Any
-    if NAMELESS:
+    if HAS_NAMELESS_FILES:
         buffer = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_COPY)
     else:
         file.seek(0)
@@ -204,7 +206,7 @@ def _map_arrays(file: IO[bytes], entries: Mapping[str, Any]) -> dict[str, NDArra
 def _output_lines(printed: str) -> tuple[str, ...]:
     """Split the output of the child into lines, each once, without places in the source of a library."""
     lines = (ADDRESS.sub("", line.strip())[:LONGEST_LINE] for line in printed.splitlines())
-    return tuple(dict.fromkeys(line for line in lines if line and not PLACE.match(line)))[:MOST_LINES]
+    return tuple(dict.fromkeys(line for line in lines if line and not SOURCE_PLACE.match(line)))[:MOST_LINES]
 
 
 def _child_error(path: Path, kind: str, text: str, *, ours: bool) -> InfillError:
@@ -238,14 +240,14 @@ def serve(request: dict[str, Any]) -> None:
     arrays: dict[str, NDArray[Any]] = {}
     try:
         answer["data"], arrays = _import_function(request["reader"])(*request["arguments"])
-    except (InfillError, MemoryError, OSError, *BROKEN) as error:
+    except (InfillError, MemoryError, OSError, *READER_ERRORS) as error:
         arrays = {}
         message = str(error) if isinstance(error, InfillError) else _error_message(error)
         answer = {"error": {"kind": type(error).__name__, "text": message, "ours": isinstance(error, InfillError)}}
     with open(request["result"], "r+b") as file:
         answer["arrays"] = {name: _append_array(file, values) for name, values in arrays.items()}
         text = json.dumps(answer).encode()
-        file.write(text + len(text).to_bytes(LENGTH, "little"))
+        file.write(text + len(text).to_bytes(LENGTH_BYTES, "little"))
 
 
 def _set_limits(request: dict[str, Any]) -> None:
@@ -272,8 +274,8 @@ def _set_limits(request: dict[str, Any]) -> None:
 def _append_array(file: IO[bytes], values: NDArray[Any]) -> dict[str, Any]:
     """Append an array to a file; return its shape, type and position."""
     position = file.seek(0, os.SEEK_END)
-    file.write(b"\0" * (-position % ALIGNED))
-    position += -position % ALIGNED
+    file.write(b"\0" * (-position % ALIGNMENT))
+    position += -position % ALIGNMENT
     contiguous = np.ascontiguousarray(values)
     file.write(contiguous.reshape(-1).view(np.uint8).data if contiguous.size else b"")
     return {"shape": contiguous.shape, "dtype": contiguous.dtype.str, "at": position}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from infill.errors import printable
+from infill.errors import escape_unprintable
 
 
 def excerpt(text: str, limit: int = 60) -> str:
@@ -11,7 +11,7 @@ def excerpt(text: str, limit: int = 60) -> str:
     >>> excerpt("a\x1b[2J\nb\u202e")
     'a\\x1b[2J b\\u202e'
     """
-    words = printable(" ".join(text[: limit + 200].split()))
+    words = escape_unprintable(" ".join(text[: limit + 200].split()))
     return words if len(words) <= limit else words[:limit] + "…"
 
 

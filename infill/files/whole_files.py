@@ -37,7 +37,7 @@ def check_targets(paths: Iterable[str | os.PathLike[str]], *, overwrite: bool) -
 def check_target(path: str | os.PathLike[str], *, overwrite: bool) -> Path:
     """Return `path`, or raise OutputError if a file cannot be written there; call it before the work."""
     target = Path(path)
-    with told(target):
+    with wrap_os_errors(target):
         if target.is_dir():
             raise OutputError(f"{target} is a folder; give a file name")
         if not target.parent.is_dir():
@@ -50,7 +50,7 @@ def check_target(path: str | os.PathLike[str], *, overwrite: bool) -> Path:
 
 
 @contextlib.contextmanager
-def told(target: Path) -> Iterator[None]:
+def wrap_os_errors(target: Path) -> Iterator[None]:
     """Turn an error of the operating system about a file into an OutputError."""
     try:
         yield
@@ -62,7 +62,7 @@ def told(target: Path) -> Iterator[None]:
 
 
 @contextlib.contextmanager
-def whole_files(paths: Sequence[str | os.PathLike[str]]) -> Iterator[list[BinaryIO]]:
+def atomic_files(paths: Sequence[str | os.PathLike[str]]) -> Iterator[list[BinaryIO]]:
     """Yield a file to write to for each path; they replace the paths together at the end.
 
     If anything fails, or is interrupted, all paths are left as they were.
@@ -75,14 +75,14 @@ def whole_files(paths: Sequence[str | os.PathLike[str]]) -> Iterator[list[Binary
     targets = [Path(path) for path in paths]
     partials = [_partial_path(target) for target in targets]
     try:
-        with told(targets[0]), contextlib.ExitStack() as stack:
+        with wrap_os_errors(targets[0]), contextlib.ExitStack() as stack:
             files: list[BinaryIO] = []
             for target, partial in zip(targets, partials, strict=True):
-                with told(target):
+                with wrap_os_errors(target):
                     files.append(stack.enter_context(open(partial, "wb" if partial == target else "xb")))
             yield files
             for target, file in zip(targets, files, strict=True):
-                with told(target):
+                with wrap_os_errors(target):
                     file.close()  # writes the last bytes, or raises
         _move_to_targets(
             [(partial, target) for partial, target in zip(partials, targets, strict=True) if partial != target]
@@ -94,14 +94,14 @@ def whole_files(paths: Sequence[str | os.PathLike[str]]) -> Iterator[list[Binary
 
 
 @contextlib.contextmanager
-def whole_file(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
-    """Yield one file to write to, as `whole_files` does."""
-    with whole_files([path]) as files, told(Path(path)):
+def atomic_file(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
+    """Yield one file to write to, as `atomic_files` does."""
+    with atomic_files([path]) as files, wrap_os_errors(Path(path)):
         yield files[0]
 
 
 @contextlib.contextmanager
-def scratch(folder: Path | None) -> Iterator[BinaryIO]:
+def scratch_file(folder: Path | None) -> Iterator[BinaryIO]:
     """Yield a nameless file in the folder of the result, so that the same disk holds both.
 
     Raises
@@ -109,11 +109,11 @@ def scratch(folder: Path | None) -> Iterator[BinaryIO]:
     OutputError
         If it cannot be written.
     """
-    with told(folder or Path("a temporary file")), tempfile.TemporaryFile(dir=folder) as file:
+    with wrap_os_errors(folder or Path("a temporary file")), tempfile.TemporaryFile(dir=folder) as file:
         yield file
 
 
-def deliver(
+def write_all_files(
     parts: Mapping[Path, Callable[[BinaryIO], object]], *, then: Callable[[], object] | None = None
 ) -> list[Path]:
     """Write the files of one run, each by its function, and return their paths.
@@ -133,7 +133,7 @@ def deliver(
     partials = [_partial_path(path) for path in paths]
     try:
         for path, partial in zip(paths, partials, strict=True):  # one at a time: there may be hundreds
-            with told(path), open(partial, "wb" if partial == path else "xb") as file:
+            with wrap_os_errors(path), open(partial, "wb" if partial == path else "xb") as file:
                 parts[path](file)
         if then is not None:
             then()
@@ -149,7 +149,7 @@ def _move_to_targets(moves: Sequence[tuple[Path, Path]]) -> None:
     """Move each file to its target; if one move fails, restore all targets."""
     with contextlib.ExitStack() as tidy, contextlib.ExitStack() as undo:
         for partial, target in moves:
-            with told(target):
+            with wrap_os_errors(target):
                 if len(moves) > 1:
                     backup = target.with_name(f".{secrets.token_hex(4)}.kept")
                     tidy.callback(_remove, backup)

@@ -12,14 +12,14 @@ from collections.abc import Sequence
 from typing import Any, BinaryIO
 
 from infill.errors import FormatError
-from infill.formats.parts import Part, plain
+from infill.formats.parts import Part, printable_name
 from infill.imaging.label_tables import Colour
 from infill.surface import Surface
 from infill.version import __version__
 
 FLOAT, UNSIGNED, VERTICES, INDICES = 5126, 5125, 34962, 34963
 MILLIMETRE = 0.001  # of a metre
-LARGEST = 2**32 - 1  # bytes, the largest size that the format can state
+LARGEST_FILE = 2**32 - 1  # bytes, the largest size that the format can state
 
 
 def write_glb(surface: Surface, file: BinaryIO) -> None:
@@ -40,7 +40,7 @@ def write_glb_parts(parts: Sequence[Part], file: BinaryIO) -> None:
     text = json.dumps(description, separators=(",", ":")).encode()
     text += b" " * (-len(text) % 4)
     file_size = 12 + 8 + len(text) + 8 + sum(sizes)
-    if file_size > LARGEST:
+    if file_size > LARGEST_FILE:
         raise FormatError(
             f"a .glb holds at most 4 GiB and this has {file_size / 2**30:.1f}; write .3mf, or simplify it"
         )
@@ -55,7 +55,7 @@ def _describe(parts: Sequence[Part], sizes: Sequence[int]) -> dict[str, Any]:
     """Return the JSON chunk: two accessors and two buffer views for each part."""
     coloured = [(number, part.colour) for number, part in enumerate(parts) if part.colour is not None]
     material = {number: index for index, (number, _) in enumerate(coloured)}
-    names = [{"name": name} if (name := plain(part.name)) else {} for part in parts]
+    names = [{"name": name} if (name := printable_name(part.name)) else {} for part in parts]
     nodes, meshes, accessors = [], [], []
     for number, part in enumerate(parts):
         vertices = part.surface.vertices.astype("<f4")

@@ -16,14 +16,14 @@ from urllib.parse import unquote
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.errors import FormatError, printable
+from infill.errors import FormatError, escape_unprintable
 from infill.formats.draco import unpack_draco
 from infill.machine import require_memory
 from infill.meshes.polygons import split_fan, split_strips
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
-Item = dict[str, Any]
+JsonObject = dict[str, Any]
 
 MAGIC, JSON_CHUNK, BINARY_CHUNK = b"glTF", 0x4E4F534A, 0x004E4942
 MILLIMETRE = 0.001  # of a metre
@@ -33,16 +33,16 @@ TRIANGLES, STRIP, FAN = 4, 5, 6
 MOST_MODES = 7
 DRACO, INSTANCES = "KHR_draco_mesh_compression", "EXT_mesh_gpu_instancing"
 MESHOPT = ("EXT_meshopt_compression", "KHR_meshopt_compression")
-READ = {"KHR_mesh_quantization", DRACO, INSTANCES}
+READ_EXTENSIONS = {"KHR_mesh_quantization", DRACO, INSTANCES}
 # Extensions on look, sound, motion or meaning of a part, and not on the place of its surface.
-LOOKS = re.compile(
+HARMLESS_EXTENSIONS = re.compile(
     r"KHR_(materials|texture|lights|xmp|animation|techniques|audio|environment)\w*"
     r"|EXT_(texture|lights|materials|structural_metadata|feature_metadata|mesh_features|instance_features)\w*"
     r"|MSFT_(texture|packing)\w*|(ADOBE|NV)_materials\w*|AGI_(articulations|stk_metadata)|CESIUM_primitive_outline"
     r"|FB_geometry_metadata|VRM|VRMC_(vrm|materials_mtoon|springBone\w*)"
 )
-FLATTENED = 1e-9  # the shortest over the longest axis of a transform that leaves a solid no thickness
-PER_CORNER = 100  # bytes of memory that a vertex, or a triangle, takes while it is read
+FLAT_TOLERANCE = 1e-9  # the shortest over the longest axis of a transform that leaves a solid no thickness
+BYTES_PER_CORNER = 100  # bytes of memory that a vertex, or a triangle, takes while it is read
 
 
 def read_glb(path: Path) -> tuple[Floats, Integers]:
@@ -66,7 +66,7 @@ def read_gltf(path: Path) -> tuple[Floats, Integers]:
     return _read_scene(Gltf(path=path, document=_document(path, path.read_bytes()), binary=None))
 
 
-def _chunks(path: Path, data: bytes) -> tuple[Item, bytes | None]:
+def _chunks(path: Path, data: bytes) -> tuple[JsonObject, bytes | None]:
     """Split a binary file into the description and the numbers."""
     if data[:4] != MAGIC or len(data) < 12:
         raise FormatError(f"{path} is broken or not a .glb file (it does not begin with 'glTF'); export the mesh again")
@@ -93,7 +93,7 @@ def _chunks(path: Path, data: bytes) -> tuple[Item, bytes | None]:
     return document, binary
 
 
-def _document(path: Path, data: bytes) -> Item:
+def _document(path: Path, data: bytes) -> JsonObject:
     """Parse the description and check its version."""
     document = json.loads(data.decode("utf-8-sig").rstrip(" \0"))
     if not isinstance(document, dict):
@@ -117,7 +117,7 @@ class Gltf:
     """
 
     path: Path
-    document: Item
+    document: JsonObject
     binary: bytes | None
     buffers: dict[int, bytes] = field(default_factory=dict)
 
@@ -132,22 +132,22 @@ class Gltf:
             self.fail(f"its {name} are no list")
         return entries
 
-    def item(self, name: str, index: object) -> Item:
+    def item(self, name: str, index: object) -> JsonObject:
         """Return an item by its number."""
         entries = self.items(name)
         if type(index) is not int or not 0 <= index < len(entries) or not isinstance(entries[index], dict):
             self.fail(f"it refers to number {_quote(index)} of its {name}, and has {len(entries)}")
-        entry: Item = entries[index]
+        entry: JsonObject = entries[index]
         return entry
 
-    def whole(self, holder: Item, key: str, default: int | None = None) -> int:
+    def whole(self, holder: JsonObject, key: str, default: int | None = None) -> int:
         """Return a whole number of at least 0."""
         value = holder.get(key, default)
         if type(value) is not int or value < 0:
             self.fail(f"{key} is {_quote(value)}, not a whole number")
         return value
 
-    def numbers(self, holder: Item, key: str, count: int, default: list[float]) -> Floats:
+    def numbers(self, holder: JsonObject, key: str, count: int, default: list[float]) -> Floats:
         """Return `count` finite numbers."""
         value = holder.get(key, default)
         is_valid = (
@@ -157,14 +157,14 @@ class Gltf:
             self.fail(f"a node has a {key} that is not {count} numbers: {_quote(value)}")
         return np.array(value, dtype=np.float64)
 
-    def part(self, holder: Item, key: str) -> Item:
+    def part(self, holder: JsonObject, key: str) -> JsonObject:
         """Return an object inside another; empty if it is missing."""
         value = holder.get(key, {})
         if not isinstance(value, dict):
             self.fail(f"{key} is {_quote(value)}, not an object")
         return value
 
-    def extension(self, holder: Item, name: str) -> Item | None:
+    def extension(self, holder: JsonObject, name: str) -> JsonObject | None:
         """Return the data of an extension, or None."""
         extensions = self.part(holder, "extensions")
         return self.part(extensions, name) if name in extensions else None
@@ -220,7 +220,7 @@ class Gltf:
             self.fail(f"buffer view {index} ends {begin + size - len(data)} bytes beyond its buffer")
         return data[begin : begin + size], self.whole(description, "byteStride", 0)
 
-    def _has_fallback(self, description: Item, name: str) -> bool:
+    def _has_fallback(self, description: JsonObject, name: str) -> bool:
         """Tell whether the file holds the same numbers uncompressed too."""
         buffer = self.item("buffers", description.get("buffer"))
         return name not in self.items("extensionsRequired") and self.extension(buffer, name) is None
@@ -244,7 +244,7 @@ class Gltf:
             return np.maximum(values / np.float64(np.iinfo(kind).max), -1.0)
         return values
 
-    def _kind(self, description: Item) -> np.dtype[Any]:
+    def _kind(self, description: JsonObject) -> np.dtype[Any]:
         kind = description.get("componentType")
         if type(kind) is not int or kind not in KINDS:
             self.fail(f"a component type is {_quote(kind)}, not one of {', '.join(map(str, KINDS))}")
@@ -265,7 +265,7 @@ class Gltf:
             return np.empty((0, width), dtype=kind)
         return np.ndarray((count, width), dtype=kind, buffer=data, offset=begin, strides=(stride, kind.itemsize)).copy()
 
-    def _apply_sparse(self, array: NDArray[Any], sparse: Item, index: object) -> NDArray[Any]:
+    def _apply_sparse(self, array: NDArray[Any], sparse: JsonObject, index: object) -> NDArray[Any]:
         """Replace the elements that a sparse accessor lists; return the numbers."""
         count, indices, replacements = (
             self.whole(sparse, "count"),
@@ -287,7 +287,7 @@ class Gltf:
 
 def _quote(value: object) -> str:
     """Return a value as a message shows it."""
-    text = printable(json.dumps(value, ensure_ascii=False, default=str))
+    text = escape_unprintable(json.dumps(value, ensure_ascii=False, default=str))
     return text if len(text) <= 60 else text[:60] + "…"
 
 
@@ -297,7 +297,9 @@ def _quote(value: object) -> str:
 def _read_scene(gltf: Gltf) -> tuple[Floats, Integers]:
     """Check the required extensions; return vertices in mm and triangles of the scene."""
     for name in gltf.items("extensionsRequired"):
-        if not isinstance(name, str) or not (name in READ or name in MESHOPT or LOOKS.fullmatch(name)):
+        if not isinstance(name, str) or not (
+            name in READ_EXTENSIONS or name in MESHOPT or HARMLESS_EXTENSIONS.fullmatch(name)
+        ):
             gltf.fail(f"it requires the extension {_quote(name)}, which is not known here", "export it without that")
     vertices, faces, count = [np.empty((0, 3))], [np.empty((0, 3), dtype=np.int64)], 0
     for points, triangles in _place_meshes(gltf):
@@ -317,7 +319,7 @@ def _place_meshes(gltf: Gltf) -> Iterator[tuple[Floats, Integers]]:
         matrices = _instances(gltf, node)
         for points, triangles, is_mirrored in _primitives(gltf, node.item, places):
             copies = [np.eye(4)] if is_mirrored is not None else matrices
-            memory += len(copies) * PER_CORNER * (len(points) + len(triangles))
+            memory += len(copies) * BYTES_PER_CORNER * (len(points) + len(triangles))
             require_memory(memory, None, f"{gltf.path} places its meshes too often; export the mesh again")
             for matrix in copies:
                 if not np.isfinite(matrix).all():
@@ -326,7 +328,7 @@ def _place_meshes(gltf: Gltf) -> Iterator[tuple[Floats, Integers]]:
                 axes = np.linalg.svd(linear, compute_uv=False)
                 if axes[0] == 0:  # a scale of 0 hides it
                     continue
-                if axes[2] <= FLATTENED * axes[0]:
+                if axes[2] <= FLAT_TOLERANCE * axes[0]:
                     gltf.fail(
                         f"node {index} has a transform that flattens its mesh", "give it a thickness, or leave it out"
                     )
@@ -348,7 +350,7 @@ class Node:
         From its own coordinates to those of the scene.
     """
 
-    item: Item
+    item: JsonObject
     matrix: Floats
 
 
@@ -385,7 +387,7 @@ def _roots(gltf: Gltf) -> list[Any]:
     return [index for index in range(len(gltf.items("nodes"))) if index not in children]
 
 
-def _local(gltf: Gltf, node: Item) -> Floats:
+def _local(gltf: Gltf, node: JsonObject) -> Floats:
     """Return the transform of a node, from its own coordinates to those of its parent."""
     if "matrix" in node:
         matrix = gltf.numbers(node, "matrix", 16, []).reshape(4, 4).T  # column after column
@@ -441,7 +443,9 @@ def _instances(gltf: Gltf, node: Node) -> list[Floats]:
 # --- meshes ----------------------------------------------------------------------------------------------
 
 
-def _primitives(gltf: Gltf, node: Item, places: dict[int, Node]) -> Iterator[tuple[Floats, Integers, bool | None]]:
+def _primitives(
+    gltf: Gltf, node: JsonObject, places: dict[int, Node]
+) -> Iterator[tuple[Floats, Integers, bool | None]]:
     """Yield vertices and triangles of a mesh, and, if bones place it, whether they mirror it."""
     mesh = gltf.item("meshes", node["mesh"])
     primitives = mesh.get("primitives")
@@ -466,7 +470,7 @@ def _primitives(gltf: Gltf, node: Item, places: dict[int, Node]) -> Iterator[tup
             yield (*_move_by_joints(gltf, primitive, points, triangles, bones),)
 
 
-def _corners(gltf: Gltf, primitive: Item, mode: int) -> tuple[Floats, Integers]:
+def _corners(gltf: Gltf, primitive: JsonObject, mode: int) -> tuple[Floats, Integers]:
     """Return the vertices and triangles of a primitive."""
     attributes = gltf.part(primitive, "attributes")
     compression = gltf.extension(primitive, DRACO)
@@ -498,7 +502,7 @@ def _corners(gltf: Gltf, primitive: Item, mode: int) -> tuple[Floats, Integers]:
     return points, corners.reshape(-1, 3)
 
 
-def _morph(gltf: Gltf, primitive: Item, points: Floats, weights: object) -> Floats:
+def _morph(gltf: Gltf, primitive: JsonObject, points: Floats, weights: object) -> Floats:
     """Move vertices by the morph targets, by their weights at rest; return the vertices."""
     targets = primitive.get("targets", [])
     if not isinstance(targets, list) or not isinstance(weights, list):
@@ -534,7 +538,7 @@ def _joint_transforms(gltf: Gltf, index: object, places: dict[int, Node]) -> Flo
 
 
 def _move_by_joints(
-    gltf: Gltf, primitive: Item, points: Floats, triangles: Integers, bones: Floats
+    gltf: Gltf, primitive: JsonObject, points: Floats, triangles: Integers, bones: Floats
 ) -> tuple[Floats, Integers, bool]:
     """Move vertices by the joints; return them, the triangles, and whether the joints mirror them."""
     attributes = gltf.part(primitive, "attributes")

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.files.broken import readable, told_broken
-from infill.files.whole_files import whole_file
+from infill.files.broken import require_readable, wrap_reader_errors
+from infill.files.whole_files import atomic_file
 from infill.formats.gltf import write_glb, write_glb_parts
 from infill.formats.gltf_reader import read_glb, read_gltf
 from infill.formats.obj import read_obj, write_obj
@@ -24,7 +24,7 @@ from infill.formats.ply import read_ply, write_ply
 from infill.formats.stl import read_stl, write_stl, write_stl_ascii
 from infill.formats.threemf import write_3mf, write_3mf_parts
 from infill.formats.threemf_reading import read_3mf
-from infill.meshes.merging import closed_or_merged, surface_of
+from infill.meshes.merging import merge_unless_closed, surface_of
 from infill.surface import Surface
 
 if TYPE_CHECKING:
@@ -60,14 +60,14 @@ def save(mesh: trimesh.Trimesh | Surface, path: str | os.PathLike[str], *, ascii
         If the file cannot be written.
     """
     target = Path(path)
-    write = writer(target, ascii=ascii)
+    write = mesh_writer(target, ascii=ascii)
     surface = surface_of(mesh)
-    with whole_file(target) as file:
+    with atomic_file(target) as file:
         write(surface, file)
     return target
 
 
-def writer(path: Path, *, ascii: bool = False, more: tuple[str, ...] = ()) -> Callable[[Surface, BinaryIO], None]:  # noqa: A002
+def mesh_writer(path: Path, *, ascii: bool = False, more: tuple[str, ...] = ()) -> Callable[[Surface, BinaryIO], None]:  # noqa: A002
     """Return the function that writes the format of `path`, or raise FormatError listing `more` suffixes too."""
     suffix = path.suffix.lower()
     if suffix not in WRITERS:
@@ -82,7 +82,7 @@ def parts_writer(path: Path) -> Callable[[Sequence[Part], BinaryIO], None]:
     """Return the function that writes several meshes into one file; raise FormatError if the format holds one."""
     suffix = path.suffix.lower()
     if suffix not in PART_WRITERS:
-        writer(path)
+        mesh_writer(path)
         raise FormatError(
             f"{path} can hold one mesh and there may be several; use {' or '.join(PART_WRITERS)}, "
             "or {label} in the name for a file each"
@@ -117,9 +117,9 @@ def read_mesh(path: str | os.PathLike[str]) -> Surface:
     -----
     Omissions are logged as warnings too, to the log "infill".
     """
-    source = readable(path, READERS, "a mesh format")
+    source = require_readable(path, READERS, "a mesh format")
     try:
-        with told_broken(source, "is broken", "export the mesh again"):
+        with wrap_reader_errors(source, "is broken", "export the mesh again"):
             vertices, faces, *extra = READERS[source.suffix.lower()](source)
     except OSError as error:
         raise FormatError(f"cannot read {source}: {error.strerror or error}; check the file") from error
@@ -135,7 +135,7 @@ def read_mesh(path: str | os.PathLike[str]) -> Surface:
         )
     if faces.min() < 0 or faces.max() >= len(vertices):
         raise FormatError(f"{source} has triangles with corners that do not exist; export the mesh again")
-    mesh = closed_or_merged(vertices, faces)
+    mesh = merge_unless_closed(vertices, faces)
     notes = tuple(extra[0]) if extra else ()
     for note in notes:
         LOG.warning("%s: %s", source, note)
@@ -154,10 +154,10 @@ PART_WRITERS: dict[str, Callable[[Sequence[Part], BinaryIO], None]] = {
     ".glb": write_glb_parts,
 }
 # Vertices and faces; some readers add notes.
-Read = (
+MeshArrays = (
     tuple[NDArray[np.floating], NDArray[np.integer]] | tuple[NDArray[np.floating], NDArray[np.integer], tuple[str, ...]]
 )
-READERS: dict[str, Callable[[Path], Read]] = {
+READERS: dict[str, Callable[[Path], MeshArrays]] = {
     ".stl": read_stl,
     ".3mf": read_3mf,
     ".obj": read_obj,

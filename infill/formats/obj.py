@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from infill.errors import FormatError
 from infill.files.excerpts import quote_word
 from infill.formats.rows import write_rows
-from infill.formats.text_lines import Lines, are_blank, plain_text, without_breaks, without_comments
+from infill.formats.text_lines import Lines, are_separators, blank_breaks, blank_comments, read_plain_text
 from infill.meshes.polygons import CORNERS, split_polygons
 from infill.surface import Surface
 from infill.version import __version__
@@ -36,12 +36,12 @@ def read_obj(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     FormatError
         For free-form surfaces, a line that cannot be read, and a corner that does not exist.
     """
-    original = plain_text(path)
-    lines = Lines(path=path, original=original, text=without_breaks(without_comments(original)))
+    original = read_plain_text(path)
+    lines = Lines(path=path, original=original, text=blank_breaks(blank_comments(original)))
     if len(lines) == 0:
         raise FormatError(f"{path} holds no vertices; export the mesh again")
     letter1, letter2, letter3 = (lines.keys(place) for place in range(3))
-    has_one_letter, has_two_letters = are_blank(letter2), are_blank(letter3)
+    has_one_letter, has_two_letters = are_separators(letter2), are_separators(letter3)
     is_vertex = (letter1 == ord("v")) & has_one_letter
     is_face = (letter1 == ord("f")) & (has_one_letter | ((letter2 == ord("o")) & has_two_letters))
     is_vertex_attribute = (letter1 == ord("v")) & ((letter2 == ord("n")) | (letter2 == ord("t"))) & has_two_letters

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from infill.errors import FormatError
 from infill.formats.ply import require_corners
-from infill.formats.text_lines import Lines, number_complaint, plain_text, without_comments
+from infill.formats.text_lines import Lines, blank_comments, number_complaint, read_plain_text
 from infill.meshes.polygons import split_polygons
 
 # Texture coordinates, colours, normals, a fourth coordinate, and any number of coordinates, which come next.
@@ -28,8 +28,8 @@ def read_off(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     original = path.read_bytes()
     if re.match(rb"\s*\w*OFF[ \t]+BINARY", original, re.IGNORECASE):
         raise FormatError(f"{path} is a binary OFF file; export it as text, or as .ply")
-    original = plain_text(path)
-    text = without_comments(original)
+    original = read_plain_text(path)
+    text = blank_comments(original)
     keyword = KEYWORD.match(text)
     if keyword and (b"4" in keyword[1] or keyword[1].endswith(b"nOFF")):
         raise FormatError(f"{path} has vertices in more than three dimensions; export it in three")

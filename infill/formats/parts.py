@@ -26,19 +26,19 @@ class Part:
     colour: Colour | None = None
 
 
-def hexadecimal(colour: Colour) -> str:
+def hex_colour(colour: Colour) -> str:
     """Return a colour in the notation of the web.
 
-    >>> hexadecimal((1.0, 0.5, 0.0))
+    >>> hex_colour((1.0, 0.5, 0.0))
     '#FF8000'
     """
     return "#" + "".join(f"{round(255 * channel):02X}" for channel in colour)
 
 
-def plain(name: str) -> str:
+def printable_name(name: str) -> str:
     r"""Return a name without the characters that XML forbids.
 
-    >>> plain("a\x01b\u00a0c")
+    >>> printable_name("a\x01b\u00a0c")
     'ab c'
     """
     return "".join(character for character in " ".join(name.split()) if character.isprintable())

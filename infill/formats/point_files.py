@@ -16,7 +16,7 @@ from numpy.lib import format as npy_format
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.files.broken import readable, told_broken
+from infill.files.broken import require_readable, wrap_reader_errors
 
 AXES = 3
 MOST_COLUMNS = 16  # of a point: a place, a normal, a colour and more; an array with more is a picture
@@ -75,7 +75,7 @@ def read_points_and_normals(path: str | os.PathLike[str]) -> tuple[NDArray[np.fl
 
     Normals are columns named nx, ny and nz, or those after x, y and z if no column has a name, of length 1.
     """
-    source = readable(path, READERS, "a format of points")
+    source = require_readable(path, READERS, "a format of points")
     try:
         points = READERS[source.suffix.lower()](source)
     except OSError as error:
@@ -107,7 +107,7 @@ def _are_normals(columns: NDArray[np.float64]) -> bool:
 
 def _wrap_errors(path: Path) -> AbstractContextManager[None]:
     """Turn an exception of NumPy about a broken file into a FormatError."""
-    return told_broken(path, "is broken or holds no points", "export them again")
+    return wrap_reader_errors(path, "is broken or holds no points", "export them again")
 
 
 # --- text ------------------------------------------------------------------------------------------------

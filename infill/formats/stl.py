@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 
 from infill.errors import FormatError
 from infill.formats.rows import AT_ONCE
-from infill.formats.text_lines import plain_text, wide_encoding
-from infill.kernels.compiling import told_of_compiling
+from infill.formats.text_lines import read_plain_text, wide_encoding
+from infill.kernels.compiling import log_compilation
 from infill.kernels.threads import in_threads, thread_count
 from infill.surface import Surface
 from infill.version import __version__
 
-HEAD = 84
+HEAD_BYTES = 84
 RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 FACET = ("facet normal {0} {0} {0}\n outer loop\n" + 3 * "  vertex {0} {0} {0}\n" + " endloop\nendfacet\n").format(
     "%.9g"
@@ -41,16 +41,16 @@ def read_stl(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer], tup
     """
     data = path.read_bytes()
     notes: tuple[str, ...] = ()
-    count = int.from_bytes(data[80:HEAD], "little")
-    size = HEAD + count * RECORD.itemsize
+    count = int.from_bytes(data[80:HEAD_BYTES], "little")
+    size = HEAD_BYTES + count * RECORD.itemsize
     if count and len(data) >= size and (len(data) == size or not wide_encoding(data)):
         notes = _check_rest(path, count, data[size:])
-        corners = np.frombuffer(data, dtype=RECORD, offset=HEAD, count=count)["corners"]
+        corners = np.frombuffer(data, dtype=RECORD, offset=HEAD_BYTES, count=count)["corners"]
     elif wide_encoding(data) or (
         data.removeprefix(codecs.BOM_UTF8).lstrip()[:5].lower() == b"solid" and b"\0" not in data
     ):
-        corners = _text_corners(path, plain_text(path))
-    elif len(data) == HEAD and not count:
+        corners = _text_corners(path, read_plain_text(path))
+    elif len(data) == HEAD_BYTES and not count:
         corners = np.empty((0, 3, 3), dtype=np.float32)
     else:
         raise FormatError(
@@ -66,8 +66,8 @@ def _check_rest(path: Path, count: int, rest: bytes) -> tuple[str, ...]:
     Some programs add bytes of their own.
     """
     extra, remainder = divmod(len(rest), RECORD.itemsize)
-    announced = int.from_bytes(rest[80:HEAD], "little")
-    if b"facet" in rest or (announced and len(rest) == HEAD + announced * RECORD.itemsize):
+    announced = int.from_bytes(rest[80:HEAD_BYTES], "little")
+    if b"facet" in rest or (announced and len(rest) == HEAD_BYTES + announced * RECORD.itemsize):
         raise FormatError(f"{path} holds a second STL behind its {count} triangles; export each into a file of its own")
     if extra and not remainder:
         raise FormatError(
@@ -135,7 +135,7 @@ def _compiled_facets(surface: Surface) -> Iterator[tuple[NDArray[np.float32], ND
     for low in range(0, len(surface.faces), AT_ONCE):
         faces = np.ascontiguousarray(surface.faces[low : low + AT_ONCE], dtype=np.int32)
         facets = np.empty((len(faces), 12), dtype=np.float32)
-        with told_of_compiling("the writer of STL"):
+        with log_compilation("the writer of STL"):
             in_threads(write_facets, vertices, faces, facets, threads=thread_count())
         yield facets[:, :3], facets[:, 3:].reshape(-1, 3, 3)
 

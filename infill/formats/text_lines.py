@@ -19,10 +19,10 @@ Integers = NDArray[np.int64]
 TAB, NEWLINE, RETURN, BLANK = 9, 10, 13, 32
 COMMENT = re.compile(rb"#[^\n]*")
 CONTINUED = re.compile(rb"\\[ \t]*\n")
-HEAD = 4  # bytes that tell an encoding
+HEAD_BYTES = 4  # bytes that tell an encoding
 
 
-def plain_text(path: Path) -> bytes:
+def read_plain_text(path: Path) -> bytes:
     """Read a text file; return it in an ASCII-compatible encoding, with a line feed after each line.
 
     Raises
@@ -42,24 +42,24 @@ def plain_text(path: Path) -> bytes:
 
 def wide_encoding(data: bytes) -> str:
     """Return the encoding of a text with two or four bytes a character, by its mark or zeros, or ""."""
-    head = data[:HEAD]
+    head = data[:HEAD_BYTES]
     if head.startswith((codecs.BOM_UTF32_LE, codecs.BOM_UTF32_BE)):  # the former begins as UTF-16 does
         return "utf-32"
     if head.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         return "utf-16"
-    if len(head) == HEAD and head[1] == head[3] == 0 < min(head[0], head[2]):
+    if len(head) == HEAD_BYTES and head[1] == head[3] == 0 < min(head[0], head[2]):
         return "utf-16-le"
-    if len(head) == HEAD and head[0] == head[2] == 0 < min(head[1], head[3]):
+    if len(head) == HEAD_BYTES and head[0] == head[2] == 0 < min(head[1], head[3]):
         return "utf-16-be"
     return ""
 
 
-def without_comments(text: bytes) -> bytes:
+def blank_comments(text: bytes) -> bytes:
     """Replace comments, from a # to the end of the line, by blanks of equal length."""
     return COMMENT.sub(_as_blanks, text) if b"#" in text else text
 
 
-def without_breaks(text: bytes) -> bytes:
+def blank_breaks(text: bytes) -> bytes:
     """Replace a backslash at the end of a line, and the line feed after it, by blanks of equal length."""
     return CONTINUED.sub(_as_blanks, text) if b"\\" in text else text
 
@@ -69,7 +69,7 @@ def _as_blanks(match: re.Match[bytes]) -> bytes:
     return b" " * len(match[0])
 
 
-def are_blank(values: NDArray[np.uint8]) -> NDArray[np.bool_]:
+def are_separators(values: NDArray[np.uint8]) -> NDArray[np.bool_]:
     """Return a mask of the bytes that separate words: a blank, a tab, and the ends of lines and pages."""
     blank: NDArray[np.bool_] = (values - np.uint8(TAB) <= np.uint8(RETURN - TAB)) | (values == BLANK)
     return blank
@@ -99,7 +99,7 @@ class Lines:
     @cached_property
     def begins(self) -> Integers:
         """Position of the first byte of each word, (W,)."""
-        blank = are_blank(self.bytes_of)
+        blank = are_separators(self.bytes_of)
         begins = ~blank
         begins[1:] &= blank[:-1]
         return np.flatnonzero(begins)
@@ -129,7 +129,7 @@ class Lines:
         return len(self.words)
 
     def keys(self, place: int) -> NDArray[np.uint8]:
-        """Return a byte of the first word of each line, in lower case; see `are_blank`."""
+        """Return a byte of the first word of each line, in lower case; see `are_separators`."""
         letters = self.bytes_of[np.minimum(self.begins[self.first] + place, len(self.bytes_of) - 1)]
         return np.where((letters >= ord("A")) & (letters <= ord("Z")), letters + 32, letters).astype(np.uint8)
 
@@ -193,7 +193,7 @@ class Lines:
         text = self.bytes_of.copy()
         begins = self.begins[self.first]
         text[begins] = BLANK
-        after = begins[are_blank(text[begins + 2])] + 1
+        after = begins[are_separators(text[begins + 2])] + 1
         text[after[text[after] != NEWLINE]] = BLANK
         return text.tobytes()
 

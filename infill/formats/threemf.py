@@ -13,26 +13,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.formats.parts import Part, hexadecimal, plain
+from infill.formats.parts import Part, hex_colour, printable_name
 from infill.formats.rows import write_rows
-from infill.formats.threemf_package import opened, part_key, parts_of_package, unpacked
+from infill.formats.threemf_package import entries_by_key, open_package, part_key, read_entry
 from infill.surface import Surface
 from infill.version import __version__
 
 CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
-MODEL = "3D/3dmodel.model"
+MODEL_PATH = "3D/3dmodel.model"
 MODEL_RELATION = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
-DECLARED = '<?xml version="1.0" encoding="UTF-8"?>\n'
+XML_DECLARATION = '<?xml version="1.0" encoding="UTF-8"?>\n'
 TYPES = {
     "rels": "application/vnd.openxmlformats-package.relationships+xml",
     "model": "application/vnd.ms-package.3dmanufacturing-3dmodel+xml",
 }
-SETTINGS = "Metadata/phasefill.toml"  # the attached options, which make the model again
+SETTINGS_PATH = "Metadata/phasefill.toml"  # the attached options, which make the model again
 APPLICATION = f"phasefill-{__version__}"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Attached:
+class Attachment:
     """A file in a 3MF beside the model.
 
     Parameters
@@ -52,11 +52,11 @@ class Attached:
     relation: str = ""
 
 
-def attached_settings(path: Path) -> str:
+def read_attached_settings(path: Path) -> str:
     """Return the options in a 3MF that made its content, or raise FormatError if it has none."""
-    with opened(path) as package:
-        if part_key(SETTINGS) in parts_of_package(package):
-            return unpacked(package, SETTINGS).decode()
+    with open_package(path) as package:
+        if part_key(SETTINGS_PATH) in entries_by_key(package):
+            return read_entry(package, SETTINGS_PATH).decode()
     raise FormatError(f"{path} holds no options of ours; give a project that 'infill fill' wrote, or a TOML file")
 
 
@@ -67,14 +67,14 @@ def write_3mf(surface: Surface, file: BinaryIO) -> None:
 
 def write_3mf_parts(parts: Sequence[Part], file: BinaryIO) -> None:
     """Write an object for each part, with name and colour, in millimetres, by the core specification only."""
-    names = [plain(part.name) for part in parts]
+    names = [printable_name(part.name) for part in parts]
     coloured = [number for number, part in enumerate(parts) if part.colour is not None]
 
     def model(into: IO[bytes]) -> None:
         into.write(model_head({"Application": APPLICATION}).encode())
         into.write(_materials([(names[k], parts[k]) for k in coloured], len(parts) + 1).encode())
         for number, part in enumerate(parts):
-            name = f" name={quoted(names[number])}" if names[number] else ""
+            name = f" name={quote_attribute(names[number])}" if names[number] else ""
             material = f' pid="{len(parts) + 1}" pindex="{coloured.index(number)}"' if number in coloured else ""
             into.write(f'<object id="{number + 1}" type="model"{name}{material}>'.encode())
             write_mesh(into, part.surface.vertices, part.surface.faces)
@@ -84,12 +84,12 @@ def write_3mf_parts(parts: Sequence[Part], file: BinaryIO) -> None:
     write_package(file, model)
 
 
-def write_package(file: BinaryIO, model: Callable[[IO[bytes]], None], attached: Sequence[Attached] = ()) -> None:
+def write_package(file: BinaryIO, model: Callable[[IO[bytes]], None], attached: Sequence[Attachment] = ()) -> None:
     """Write a 3MF with a model by a function, and with attached files."""
     media = {**TYPES, **{attachment.name.rpartition(".")[2]: attachment.media for attachment in attached}}
     types = "".join(f' <Default Extension="{suffix}" ContentType="{kind}"/>\n' for suffix, kind in media.items())
     related = [
-        (MODEL, MODEL_RELATION),
+        (MODEL_PATH, MODEL_RELATION),
         *((attachment.name, attachment.relation) for attachment in attached if attachment.relation),
     ]
     relations = "".join(
@@ -100,13 +100,13 @@ def write_package(file: BinaryIO, model: Callable[[IO[bytes]], None], attached: 
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED, compresslevel=4) as package:
         package.writestr(
             _package_entry("[Content_Types].xml"),
-            f'{DECLARED}<Types xmlns="{packaging}/content-types">\n{types}</Types>\n',
+            f'{XML_DECLARATION}<Types xmlns="{packaging}/content-types">\n{types}</Types>\n',
         )
         package.writestr(
             _package_entry("_rels/.rels"),
-            f'{DECLARED}<Relationships xmlns="{packaging}/relationships">\n{relations}</Relationships>\n',
+            f'{XML_DECLARATION}<Relationships xmlns="{packaging}/relationships">\n{relations}</Relationships>\n',
         )
-        with package.open(MODEL, "w", force_zip64=True) as into:
+        with package.open(MODEL_PATH, "w", force_zip64=True) as into:
             model(into)
         for attachment in attached:
             package.writestr(_package_entry(attachment.name), attachment.content)
@@ -123,9 +123,9 @@ def model_head(metadata: Mapping[str, str], namespaces: Mapping[str, str] | None
     """Return the beginning of a model in millimetres, up to its resources."""
     spaces = "".join(f' xmlns:{prefix}="{address}"' for prefix, address in (namespaces or {}).items())
     entries = "".join(
-        f' <metadata name="{name}">{html.escape(plain(text))}</metadata>\n' for name, text in metadata.items()
+        f' <metadata name="{name}">{html.escape(printable_name(text))}</metadata>\n' for name, text in metadata.items()
     )
-    return f'{DECLARED}<model unit="millimeter" xml:lang="en-US" xmlns="{CORE}"{spaces}>\n{entries} <resources>'
+    return f'{XML_DECLARATION}<model unit="millimeter" xml:lang="en-US" xmlns="{CORE}"{spaces}>\n{entries} <resources>'
 
 
 def model_end(built: Iterable[int]) -> str:
@@ -148,14 +148,14 @@ def _materials(coloured: Sequence[tuple[str, Part]], number: int) -> str:
     if not coloured:
         return ""
     bases = "".join(
-        f'<base name={quoted(name or "part")} displaycolor="{hexadecimal(part.colour)}"/>'
+        f'<base name={quote_attribute(name or "part")} displaycolor="{hex_colour(part.colour)}"/>'
         for name, part in coloured
         if part.colour is not None
     )
     return f'<basematerials id="{number}">{bases}</basematerials>\n'
 
 
-def quoted(text: str) -> str:
+def quote_attribute(text: str) -> str:
     """Return a text as the value of an attribute, which preserves line breaks and tabs."""
     escaped = html.escape(text)
     for character in "\n\r\t":

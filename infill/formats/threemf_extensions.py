@@ -76,7 +76,7 @@ def name_of(namespace: str) -> str:
     return next((words for key, words in SHAPES.items() if key in lower), excerpt(namespace, 80))
 
 
-def required(model: Model) -> Iterator[Extension]:
+def required_extensions(model: Model) -> Iterator[Extension]:
     """Yield the extensions that a model requires."""
     for prefix in dict.fromkeys(SEPARATE.split(model.root.get("requiredextensions", "").strip())):
         if prefix:
@@ -96,7 +96,7 @@ def check_required(model: Model, name: str) -> None:
     name : str
         Name of the file, for the message.
     """
-    unknown = [extension for extension in required(model) if not extension.known]
+    unknown = [extension for extension in required_extensions(model) if not extension.known]
     if unknown:
         raise FormatError(
             f"{name} requires the 3MF extension {' and '.join(map(str, unknown))}, which is not read; "

@@ -18,19 +18,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError, InfillError
-from infill.files.broken import told_broken
+from infill.files.broken import wrap_reader_errors
 from infill.files.excerpts import excerpt
 from infill.machine import require_memory
 
-AGAIN = "export the mesh again"
+EXPORT_ADVICE = "export the mesh again"
 LARGEST_RATIO, SMALL = 200, 1 << 20  # unpacked to packed; below this many bytes a package counts as this large
 MOST_BYTES = 4 << 30  # of a package, unpacked: a zip of some megabytes may unpack to terabytes
 LARGEST_TEXT = 100 << 20  # of a file, except models, which are read in pieces, and files that are not read
 PIECEWISE = (".model", ".gcode", ".png", ".jpg", ".jpeg", ".md5", ".stl", ".step", ".stp")
 HEADER = 30  # bytes of a zip before the name of a file in it
 ENCRYPTED = 0x1  # among the flags of a file in a zip
-PIECE = 1 << 24  # bytes that are parsed at a time
-MEMORY = 4  # bytes for each byte of XML: <vertex/> is the shortest of what becomes three numbers
+PIECE_BYTES = 1 << 24  # bytes that are parsed at a time
+MEMORY_PER_BYTE = 4  # bytes for each byte of XML: <vertex/> is the shortest of what becomes three numbers
 MOST_ELEMENTS, DEEPEST = 2_000_000, 100  # besides vertices and triangles
 FARTHEST = 1e15  # in the unit of the file: products of such numbers are finite
 KEYSTORE = "secure/keystore.xml"
@@ -115,13 +115,13 @@ class Model:
 
 
 @contextlib.contextmanager
-def opened(path: Path) -> Iterator[zipfile.ZipFile]:
+def open_package(path: Path) -> Iterator[zipfile.ZipFile]:
     """Open a package; raise FormatError for errors, also those that occur while it is read."""
     try:
         file = path.open("rb")
     except OSError as error:
         raise FormatError(f"cannot read {path}: {error.strerror or error}; check the file") from error
-    with file, told_broken(path, "is not a 3MF file", AGAIN):
+    with file, wrap_reader_errors(path, "is not a 3MF file", EXPORT_ADVICE):
         try:
             with zipfile.ZipFile(file) as package:
                 _check_entries(package, path)
@@ -129,7 +129,7 @@ def opened(path: Path) -> Iterator[zipfile.ZipFile]:
         except InfillError:
             raise
         except OSError as error:  # a place before the beginning of the file
-            raise FormatError(f"{path} is not a 3MF file ({error.strerror or error}); {AGAIN}") from error
+            raise FormatError(f"{path} is not a 3MF file ({error.strerror or error}); {EXPORT_ADVICE}") from error
 
 
 def _check_entries(package: zipfile.ZipFile, path: Path) -> None:
@@ -138,25 +138,28 @@ def _check_entries(package: zipfile.ZipFile, path: Path) -> None:
     packed_size, unpacked_size = path.stat().st_size, sum(entry.file_size for entry in entries)
     if unpacked_size > min(MOST_BYTES, LARGEST_RATIO * max(packed_size, SMALL)):
         raise FormatError(
-            f"{path} would unpack to {unpacked_size / 1e6:,.0f} MB, and it has {packed_size / 1e6:,.1f} MB; {AGAIN}"
+            f"{path} would unpack to {unpacked_size / 1e6:,.0f} MB, and it has {packed_size / 1e6:,.1f} MB; "
+            f"{EXPORT_ADVICE}"
         )
     keys: set[str] = set()
     end = 0
     for entry in entries:
         name = excerpt(entry.filename)
         if (key := part_key(entry.filename)) in keys:  # readers disagree on which of them counts
-            raise FormatError(f"{path} holds {name} twice; {AGAIN}")
+            raise FormatError(f"{path} holds {name} twice; {EXPORT_ADVICE}")
         keys.add(key)
         if entry.flag_bits & ENCRYPTED:
             raise FormatError(f"{path} is encrypted; unpack it with its password and zip it without one")
         if entry.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
             raise FormatError(
-                f"{path} is compressed by method {entry.compress_type}, and 3MF knows only deflate; {AGAIN}"
+                f"{path} is compressed by method {entry.compress_type}, and 3MF knows only deflate; {EXPORT_ADVICE}"
             )
         if entry.file_size > LARGEST_TEXT and not name.lower().endswith(PIECEWISE):
-            raise FormatError(f"{path} holds {name} of {entry.file_size / 1e6:,.0f} MB, too much for settings; {AGAIN}")
+            raise FormatError(
+                f"{path} holds {name} of {entry.file_size / 1e6:,.0f} MB, too much for settings; {EXPORT_ADVICE}"
+            )
         if entry.header_offset < end:
-            raise FormatError(f"{path} holds files that overlap, {name} among them; {AGAIN}")
+            raise FormatError(f"{path} holds files that overlap, {name} among them; {EXPORT_ADVICE}")
         end = entry.header_offset + HEADER + len(entry.orig_filename) + entry.compress_size
 
 
@@ -169,32 +172,32 @@ def part_key(name: str) -> str:
     return unquote(name).replace("\\", "/").lstrip("/").casefold()
 
 
-def parts_of_package(package: zipfile.ZipFile) -> dict[str, zipfile.ZipInfo]:
+def entries_by_key(package: zipfile.ZipFile) -> dict[str, zipfile.ZipInfo]:
     """Return the files of a package by their keys."""
     return {part_key(entry.filename): entry for entry in package.infolist()}
 
 
-def unpacked(package: zipfile.ZipFile, name: str) -> bytes:
-    """Read a file of a package; `opened` has checked its size."""
-    return package.read(parts_of_package(package)[part_key(name)])
+def read_entry(package: zipfile.ZipFile, name: str) -> bytes:
+    """Read a file of a package; `open_package` has checked its size."""
+    return package.read(entries_by_key(package)[part_key(name)])
 
 
 def read_model(package: zipfile.ZipFile, info: zipfile.ZipInfo, path: Path) -> Model:
     """Parse a model of a package; raise FormatError for invalid numbers, ValueError for other text than XML."""
-    require_memory(MEMORY * info.file_size, None, f"{path} is large: simplify the mesh, or split it")
+    require_memory(MEMORY_PER_BYTE * info.file_size, None, f"{path} is large: simplify the mesh, or split it")
     with package.open(info) as file:
-        pieces = iter(lambda: file.read(PIECE), b"")
+        pieces = iter(lambda: file.read(PIECE_BYTES), b"")
         try:
             return _parse(pieces, path)
         except ValueError as error:
-            if not isinstance(error, InfillError) and KEYSTORE in parts_of_package(package):
+            if not isinstance(error, InfillError) and KEYSTORE in entries_by_key(package):
                 raise FormatError(
                     f"{path} has encrypted parts (3MF secure content), which are not read; export it without them"
                 ) from error
             raise
 
 
-def parsed_xml(text: bytes, path: Path | None = None) -> ElementTree.Element:
+def parse_xml(text: bytes, path: Path | None = None) -> ElementTree.Element:
     """Parse a document and return its root, or raise ValueError; document type definitions are forbidden.
 
     The standard parser fetches nothing from outside, and its output is only counted and multiplied.
@@ -302,7 +305,9 @@ class _ModelBuilder:
             numbers.extend((kind(attributes[key1]), kind(attributes[key2]), kind(attributes[key3])))
         except (KeyError, ValueError, OverflowError):
             row_text = ", ".join(excerpt(attributes.get(name, "")) or "nothing" for name in names)
-            raise FormatError(f"{self._path} holds a number that is not one, among {row_text}; {AGAIN}") from None
+            raise FormatError(
+                f"{self._path} holds a number that is not one, among {row_text}; {EXPORT_ADVICE}"
+            ) from None
 
     def end(self, tag: str) -> None:
         """Close an element."""

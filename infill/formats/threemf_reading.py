@@ -14,25 +14,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.files.broken import told_broken
+from infill.files.broken import wrap_reader_errors
 from infill.files.excerpts import excerpt
 from infill.formats.threemf_extensions import check_required, is_harmless, name_of
 from infill.formats.threemf_package import (
-    AGAIN,
+    EXPORT_ADVICE,
     FARTHEST,
     Model,
-    opened,
-    parsed_xml,
+    entries_by_key,
+    open_package,
+    parse_xml,
     part_key,
-    parts_of_package,
+    read_entry,
     read_model,
-    unpacked,
 )
 from infill.formats.threemf_roles import (
     BAMBU_CONFIG,
     NEGATIVE,
     PART,
-    Volume,
+    TriangleRange,
     bambu_parts,
     cura_role,
     is_part_type,
@@ -42,8 +42,8 @@ from infill.formats.threemf_roles import (
     settings_of,
     slic3r_volumes,
 )
-from infill.meshes.merging import closed_or_merged
-from infill.meshes.solids import without
+from infill.meshes.merging import merge_unless_closed
+from infill.meshes.solids import subtract
 from infill.surface import Surface
 
 UNITS = {"micron": 1e-3, "millimeter": 1.0, "centimeter": 10.0, "inch": 25.4, "foot": 304.8, "meter": 1000.0}
@@ -61,7 +61,7 @@ Transform = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Placed:
+class PlacedVolume:
     """A volume in its place in the build.
 
     Parameters
@@ -94,7 +94,7 @@ class _Reading:
 
     @cached_property
     def parts(self) -> dict[str, zipfile.ZipInfo]:
-        return parts_of_package(self.package)
+        return entries_by_key(self.package)
 
     @cached_property
     def main(self) -> str:
@@ -108,7 +108,7 @@ class _Reading:
     def model(self, part: str) -> Model:
         """Return a model, parsed and checked."""
         if part not in self.models:
-            with told_broken(self.path, "is not a 3MF file", AGAIN):
+            with wrap_reader_errors(self.path, "is not a 3MF file", EXPORT_ADVICE):
                 model = read_model(self.package, self.parts[part], self.path)
             check_required(model, str(self.path))
             self.models[part] = model
@@ -123,19 +123,19 @@ class _Reading:
             for element in self.model(part).objects:
                 key = object_key(element.get("id"))
                 if key in objects_of_part:
-                    raise FormatError(f"{self.path} holds two objects {excerpt(key)}; {AGAIN}")
+                    raise FormatError(f"{self.path} holds two objects {excerpt(key)}; {EXPORT_ADVICE}")
                 objects_of_part[key] = element
             self.objects[part] = objects_of_part
         return self.objects[part].get(number)
 
     @cached_property
-    def prusa(self) -> dict[str, list[Volume]]:
+    def prusa(self) -> dict[str, list[TriangleRange]]:
         """Volumes by object in the settings of PrusaSlicer and its relatives."""
-        volumes: dict[str, list[Volume]] = {}
+        volumes: dict[str, list[TriangleRange]] = {}
         for name in sorted(self.parts):
             if PRUSA_CONFIGS.fullmatch(name):
-                with told_broken(self.path, f"has a broken {excerpt(name)}", AGAIN):
-                    volumes = {**prusa_volumes(parsed_xml(self.package.read(self.parts[name]), self.path)), **volumes}
+                with wrap_reader_errors(self.path, f"has a broken {excerpt(name)}", EXPORT_ADVICE):
+                    volumes = {**prusa_volumes(parse_xml(self.package.read(self.parts[name]), self.path)), **volumes}
         return volumes
 
     @cached_property
@@ -143,8 +143,8 @@ class _Reading:
         """Roles of parts by object in the settings of Bambu Studio and OrcaSlicer."""
         if part_key(BAMBU_CONFIG) not in self.parts:
             return {}
-        with told_broken(self.path, f"has a broken {BAMBU_CONFIG}", AGAIN):
-            return bambu_parts(parsed_xml(unpacked(self.package, BAMBU_CONFIG), self.path))
+        with wrap_reader_errors(self.path, f"has a broken {BAMBU_CONFIG}", EXPORT_ADVICE):
+            return bambu_parts(parse_xml(read_entry(self.package, BAMBU_CONFIG), self.path))
 
     def told_role(self, chain: tuple[Key, ...]) -> tuple[str, str]:
         """Return role and name of an object in the build by Bambu Studio and OrcaSlicer.
@@ -163,19 +163,19 @@ class _Reading:
         path = next((value for key, value in element.items() if key.endswith("}path")), None)
         return (part if path is None else part_key(path)), object_key(element.get("objectid"))
 
-    def placed(self, key: Key, outer: Transform, above: tuple[Key, ...] = ()) -> Iterator[Placed]:
+    def placed(self, key: Key, outer: Transform, above: tuple[Key, ...] = ()) -> Iterator[PlacedVolume]:
         """Yield the volumes of an object and of its components, depth first."""
         part, number = key
         self.placements += 1
         element, name = self.find(part, number), f"object {excerpt(number)}"
         if element is None:
-            raise FormatError(f"{self.path} refers to an {name} that it does not hold; {AGAIN}")
+            raise FormatError(f"{self.path} refers to an {name} that it does not hold; {EXPORT_ADVICE}")
         if key in above:
-            raise FormatError(f"{self.path} refers to an {name} that holds itself; {AGAIN}")
+            raise FormatError(f"{self.path} refers to an {name} that holds itself; {EXPORT_ADVICE}")
         if len(above) > MOST_NESTED:
-            raise FormatError(f"{self.path} has objects in objects, more than {MOST_NESTED} deep; {AGAIN}")
+            raise FormatError(f"{self.path} has objects in objects, more than {MOST_NESTED} deep; {EXPORT_ADVICE}")
         if self.placements > MOST_PLACED:
-            raise FormatError(f"{self.path} places its objects more than {MOST_PLACED:,} times; {AGAIN}")
+            raise FormatError(f"{self.path} places its objects more than {MOST_PLACED:,} times; {EXPORT_ADVICE}")
         model, chain = self.model(part), (*above, key)
         model_unit, build_unit = model.root.get("unit"), self.model(self.main).root.get("unit", "millimeter")
         if model_unit is not None and model_unit != build_unit:  # programs disagree on which of them counts
@@ -197,13 +197,13 @@ class _Reading:
 
     def _volumes(
         self, model: Model, item: ElementTree.Element, name: str, chain: tuple[Key, ...], outer: Transform
-    ) -> Iterator[Placed]:
+    ) -> Iterator[PlacedVolume]:
         """Yield the volumes of the mesh of an object."""
         part, number = chain[-1]
         element, mesh = model.mesh_of(item) or (item, None)
         assert mesh is not None
         if mesh.fault:
-            raise FormatError(f"{self.path} has {mesh.fault}; {AGAIN}")
+            raise FormatError(f"{self.path} has {mesh.fault}; {EXPORT_ADVICE}")
         self._count_rows(len(mesh.faces) + len(mesh.vertices))
         role, role_name = self.told_role(chain)
         if role_name and excerpt(role_name):
@@ -219,7 +219,7 @@ class _Reading:
         scope = 0 if role == NEGATIVE or not ranges else self.placements
         if role == NEGATIVE or not ranges:
             if len(faces):
-                yield Placed(surface=Surface(vertices=vertices, faces=faces), role=role, name=name, scope=scope)
+                yield PlacedVolume(surface=Surface(vertices=vertices, faces=faces), role=role, name=name, scope=scope)
             return
         covered = np.zeros(len(faces), dtype=bool)
         for volume in ranges:
@@ -227,7 +227,7 @@ class _Reading:
             if triangle_range is None:
                 raise FormatError(
                     f"{self.path} has a volume of triangles {excerpt(volume.first)} to {excerpt(volume.last)} of "
-                    f"{name}, which has {len(faces):,} from 0 on; {AGAIN}"
+                    f"{name}, which has {len(faces):,} from 0 on; {EXPORT_ADVICE}"
                 )
             covered[slice(*triangle_range)] = True
             self._count_rows(triangle_range[1] - triangle_range[0])
@@ -236,7 +236,7 @@ class _Reading:
             if volume.role in (PART, NEGATIVE):
                 vertex_indices, corners = np.unique(faces[slice(*triangle_range)], return_inverse=True)
                 surface = Surface(vertices=vertices[vertex_indices], faces=corners.reshape(-1, 3))
-                yield Placed(surface=surface, role=volume.role, name=label, scope=scope)
+                yield PlacedVolume(surface=surface, role=volume.role, name=label, scope=scope)
             else:
                 self.note(f"{label} is a {volume.role}, no part: it is left out")
         if not covered.all():
@@ -246,7 +246,9 @@ class _Reading:
         """Count triangles and vertices that are placed, or raise FormatError."""
         self.rows += rows
         if self.rows > MOST_PLACED_ROWS:
-            raise FormatError(f"{self.path} places more than {MOST_PLACED_ROWS:,} triangles and vertices; {AGAIN}")
+            raise FormatError(
+                f"{self.path} places more than {MOST_PLACED_ROWS:,} triangles and vertices; {EXPORT_ADVICE}"
+            )
 
     def _note_extensions(self, model: Model, item: ElementTree.Element, name: str) -> None:
         """Add a note on each extension that describes the shape of an object and is not read."""
@@ -258,7 +260,7 @@ class _Reading:
         if any(key.endswith("}meshresolution") and value == "lowres" for key, value in item.items()):
             self.note(f"{name} has a mesh of low resolution beside its slices, which are left out")
 
-    def without_negatives(self, volumes: Sequence[Placed]) -> Iterator[Surface]:
+    def without_negatives(self, volumes: Sequence[PlacedVolume]) -> Iterator[Surface]:
         """Yield the parts of the build, minus the negative volumes that follow them."""
         negatives = [number for number, volume in enumerate(volumes) if volume.role == NEGATIVE]
         if not negatives:
@@ -281,7 +283,7 @@ class _Reading:
             if not cutters:
                 yield part.surface
                 continue
-            remainder = without(_outward(part.surface), [_outward(volumes[cutter].surface) for cutter in cutters])
+            remainder = subtract(_outward(part.surface), [_outward(volumes[cutter].surface) for cutter in cutters])
             if remainder is None:
                 raise FormatError(
                     f"{self.path} takes the negative {volumes[cutters[0]].name} off {part.name}, and one of them is "
@@ -317,16 +319,16 @@ def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer], tup
     FormatError
         If it is broken, builds nothing, or requires an extension that is not read.
     """
-    with opened(path) as package:
+    with open_package(path) as package:
         reading = _Reading(path=path, package=package)
         main = reading.model(reading.main) if reading.main else None
         if main is None or main.root.find(f"{main.core}build") is None:
-            raise FormatError(f"{path} has nothing to build in it; {AGAIN}")
+            raise FormatError(f"{path} has nothing to build in it; {EXPORT_ADVICE}")
         unit = main.root.get("unit", "millimeter").strip().lower()
         if unit not in UNITS:
-            raise FormatError(f"{path} is in '{excerpt(unit)}', and 3MF knows {', '.join(UNITS)}; {AGAIN}")
+            raise FormatError(f"{path} is in '{excerpt(unit)}', and 3MF knows {', '.join(UNITS)}; {EXPORT_ADVICE}")
         surfaces: list[Surface] = []
-        with told_broken(path, "holds a number that is not one", AGAIN):
+        with wrap_reader_errors(path, "holds a number that is not one", EXPORT_ADVICE):
             for item in main.items:
                 key = reading.reference(item, reading.main)
                 if is_unprinted(item.get("printable")):
@@ -351,15 +353,15 @@ def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer], tup
 
 def _outward(surface: Surface) -> Surface:
     """Return a volume that faces outwards; slicers reverse inverted volumes in the same way."""
-    closed = closed_or_merged(surface.vertices, surface.faces)
+    closed = merge_unless_closed(surface.vertices, surface.faces)
     return closed if closed.volume >= 0 else replace(closed, faces=closed.faces[:, ::-1])
 
 
 def start_part(package: zipfile.ZipFile) -> str:
     """Return the file name of the model that the package declares as its start, or an empty string."""
-    if part_key(RELATIONS) not in parts_of_package(package):
+    if part_key(RELATIONS) not in entries_by_key(package):
         return ""
-    relations = parsed_xml(unpacked(package, RELATIONS))
+    relations = parse_xml(read_entry(package, RELATIONS))
     targets = [relation.get("Target", "") for relation in relations if relation.get("Type", "").endswith("/3dmodel")]
     return part_key(targets[0]) if targets else ""
 

@@ -39,7 +39,7 @@ LONGEST_ID = 18  # digits of a number of an object
 
 
 @dataclass(frozen=True, kw_only=True)
-class Volume:
+class TriangleRange:
     """A range of triangles of a mesh with a role.
 
     Parameters
@@ -58,7 +58,7 @@ class Volume:
     def span(self, count: int) -> tuple[int, int] | None:
         """Return the first triangle and the one behind the last; None if a mesh with `count` triangles lacks them.
 
-        >>> Volume(first="0", last="11", role="part", name="").span(12)
+        >>> TriangleRange(first="0", last="11", role="part", name="").span(12)
         (0, 12)
         """
         first_index, last_index = whole_number(self.first), whole_number(self.last)
@@ -86,7 +86,7 @@ def object_key(text: str | None) -> str:
     return stripped if number < 0 else str(number)
 
 
-def rows_of(element: ElementTree.Element) -> dict[str, str]:
+def metadata_of(element: ElementTree.Element) -> dict[str, str]:
     """Return the entries of a settings file, by key."""
     return {entry.get("key", ""): entry.get("value", "") for entry in element.findall("metadata")}
 
@@ -107,29 +107,29 @@ def prusa_role(volume: ElementTree.Element) -> str:
     return role
 
 
-def prusa_volumes(config: ElementTree.Element) -> dict[str, list[Volume]]:
+def prusa_volumes(config: ElementTree.Element) -> dict[str, list[TriangleRange]]:
     """Return the volumes of objects by object number; raise ValueError if an object occurs twice."""
-    volumes_of: dict[str, list[Volume]] = {}
+    volumes_of: dict[str, list[TriangleRange]] = {}
     for item in config.findall("object"):
         key = object_key(item.get("id"))
         if key in volumes_of:
             raise ValueError(f"it tells of object {key} twice")
         volumes_of[key] = [
-            Volume(
+            TriangleRange(
                 first=volume.get("firstid", ""),
                 last=volume.get("lastid", ""),
                 role=prusa_role(volume),
-                name=rows_of(volume).get("name", ""),
+                name=metadata_of(volume).get("name", ""),
             )
             for volume in item.findall("volume")
         ]
     return volumes_of
 
 
-def slic3r_volumes(mesh: ElementTree.Element) -> list[Volume]:
+def slic3r_volumes(mesh: ElementTree.Element) -> list[TriangleRange]:
     """Return the volumes that Slic3r added to a mesh."""
     return [
-        Volume(
+        TriangleRange(
             first=volume.get("ts", ""),
             last=volume.get("te", ""),
             role=PRUSA_ROLES["ParameterModifier"] if volume.get("modifier") == "1" else PART,
@@ -148,7 +148,7 @@ def bambu_parts(config: ElementTree.Element) -> dict[str, dict[str, tuple[str, s
         object_key(item.get("id")): {
             object_key(part.get("id")): (
                 BAMBU_ROLES.get(part.get("subtype", "normal_part"), PART),
-                rows_of(part).get("name", ""),
+                metadata_of(part).get("name", ""),
             )
             for part in item.findall("part")
         }

@@ -18,20 +18,20 @@ from copy import copy
 from typing import BinaryIO
 
 from infill.errors import FormatError, ParameterError
-from infill.gcode.chunked_io import LONGEST_TEXT, whole_lines
+from infill.gcode.chunked_io import MAX_CHUNK_BYTES, whole_lines
 
-PLATE = re.compile(r"Metadata/plate_([0-9]+)\.gcode")
-SUM = ".md5"
-LARGE = 1 << 30  # bytes; from here on the zip is told that a member may pass 2 GiB
-AGAIN = "copy or slice the file again"
+PLATE_NAME = re.compile(r"Metadata/plate_([0-9]+)\.gcode")
+MD5_SUFFIX = ".md5"
+ZIP64_SIZE = 1 << 30  # bytes; from here on the zip is told that a member may pass 2 GiB
+SLICE_AGAIN = "copy or slice the file again"
 
 
 def is_archive(head: bytes) -> bool:
-    """Return True if a file begins like a zip (four bytes are enough); `plates` finds the G-code in it."""
+    """Return True if a file begins like a zip (four bytes are enough); `list_plates` finds the G-code in it."""
     return head[:4] == b"PK\x03\x04"
 
 
-def plates(file: BinaryIO) -> tuple[int, ...]:
+def list_plates(file: BinaryIO) -> tuple[int, ...]:
     """List the numbers of the plates that have G-code, in order.
 
     Raises
@@ -43,20 +43,20 @@ def plates(file: BinaryIO) -> tuple[int, ...]:
         return tuple(sorted(_find_members(archive)))
 
 
-def plate_pieces(file: BinaryIO, plate: int) -> Iterator[bytes]:
+def read_plate(file: BinaryIO, plate: int) -> Iterator[bytes]:
     """Read the G-code text of one plate in pieces of whole lines.
 
     Raises
     ------
     FormatError
-        As `plates`; or, after the last piece, the stated MD5 does not match the text.
+        As `list_plates`; or, after the last piece, the stated MD5 does not match the text.
     ParameterError
         The archive does not have this plate.
     """
     return whole_lines(_read_text(file, plate))
 
 
-def rewritten_archive(source: BinaryIO, target: BinaryIO, texts: Mapping[int, Iterable[bytes]]) -> None:
+def rewrite_archive(source: BinaryIO, target: BinaryIO, texts: Mapping[int, Iterable[bytes]]) -> None:
     """Copy an archive with new G-code and a new MD5 for some plates; all other members keep their bytes.
 
     Parameters
@@ -65,12 +65,12 @@ def rewritten_archive(source: BinaryIO, target: BinaryIO, texts: Mapping[int, It
         The old file and the new one.
     texts : mapping from plate to iterable of bytes
         The new text of each plate that changes, in pieces of any length, read one by one. It may come from
-        `plate_pieces` of the same file opened a second time.
+        `read_plate` of the same file opened a second time.
 
     Raises
     ------
     FormatError, ParameterError
-        As `plate_pieces`.
+        As `read_plate`.
     """
     with _open_archive(source) as old, zipfile.ZipFile(target, "w") as new:
         members = _find_members(old)
@@ -78,7 +78,7 @@ def rewritten_archive(source: BinaryIO, target: BinaryIO, texts: Mapping[int, It
         for info in old.infolist():
             if info.filename in changed:
                 _write_plate(old, new, info, changed[info.filename])
-            elif info.filename.removesuffix(SUM) not in changed:
+            elif info.filename.removesuffix(MD5_SUFFIX) not in changed:
                 with _open_member(new, info) as writing:
                     writing.writelines(_read_chunks(old, info.filename))
         new.comment = old.comment
@@ -95,7 +95,7 @@ def _write_plate(old: zipfile.ZipFile, new: zipfile.ZipFile, info: zipfile.ZipIn
         new_sum = digest.hexdigest()
         # Some readers want capitals: follow the old file.
         new_sum = new_sum if stated == stated.lower() else new_sum.upper()
-        with _open_member(new, old.getinfo(info.filename + SUM)) as writing:
+        with _open_member(new, old.getinfo(info.filename + MD5_SUFFIX)) as writing:
             writing.write(new_sum.encode())
 
 
@@ -108,18 +108,18 @@ def _read_text(file: BinaryIO, plate: int) -> Iterator[bytes]:
             yield piece
         stated = _stated_md5(archive, name)
     if stated is not None and stated.lower() != digest.hexdigest():
-        raise FormatError(f"{name} is damaged: its MD5 does not fit; {AGAIN}")
+        raise FormatError(f"{name} is damaged: its MD5 does not fit; {SLICE_AGAIN}")
 
 
 def _stated_md5(archive: zipfile.ZipFile, name: str) -> str | None:
     """Read the MD5 that the archive states for a plate, if any."""
-    if name + SUM not in archive.namelist():
+    if name + MD5_SUFFIX not in archive.namelist():
         return None
-    return next(_read_chunks(archive, name + SUM), b"").decode("ascii", "replace").strip()
+    return next(_read_chunks(archive, name + MD5_SUFFIX), b"").decode("ascii", "replace").strip()
 
 
 def _find_members(archive: zipfile.ZipFile) -> dict[int, str]:
-    matches = (PLATE.fullmatch(name) for name in archive.namelist())
+    matches = (PLATE_NAME.fullmatch(name) for name in archive.namelist())
     members = {int(match[1]): match[0] for match in matches if match}
     if not members:
         raise FormatError("the archive holds no G-code (Metadata/plate_1.gcode); slice the plate, then export it again")
@@ -135,7 +135,7 @@ def _get_member(members: Mapping[int, str], plate: int) -> str:
 
 def _open_member(new: zipfile.ZipFile, like: zipfile.ZipInfo) -> BinaryIO:
     # A copy: zipfile changes sizes and offsets in the object it gets.
-    return new.open(copy(like), "w", force_zip64=like.file_size > LARGE)  # type: ignore[return-value]
+    return new.open(copy(like), "w", force_zip64=like.file_size > ZIP64_SIZE)  # type: ignore[return-value]
 
 
 def _open_archive(file: BinaryIO) -> zipfile.ZipFile:
@@ -143,16 +143,16 @@ def _open_archive(file: BinaryIO) -> zipfile.ZipFile:
         archive = zipfile.ZipFile(file)
     names = archive.namelist()
     if any(info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED) for info in archive.infolist()):
-        raise FormatError(f"the archive is not compressed as slicers do it; {AGAIN}")
+        raise FormatError(f"the archive is not compressed as slicers do it; {SLICE_AGAIN}")
     if len(set(names)) < len(names):  # readers disagree on which of them counts
         twice = next(name for number, name in enumerate(names) if name in names[:number])
-        raise FormatError(f"the archive holds {twice!r} twice; {AGAIN}")
+        raise FormatError(f"the archive holds {twice!r} twice; {SLICE_AGAIN}")
     return archive
 
 
 def _read_chunks(archive: zipfile.ZipFile, name: str) -> Iterator[bytes]:
     with _wrap_zip_errors(), archive.open(name) as reading:
-        while piece := reading.read(LONGEST_TEXT):
+        while piece := reading.read(MAX_CHUNK_BYTES):
             yield piece
 
 
@@ -166,4 +166,4 @@ def _wrap_zip_errors() -> Iterator[None]:
     try:
         yield
     except (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, ValueError, OSError) as trouble:
-        raise FormatError(f"the archive cannot be read ({str(trouble) or 'it ends early'}); {AGAIN}") from None
+        raise FormatError(f"the archive cannot be read ({str(trouble) or 'it ends early'}); {SLICE_AGAIN}") from None

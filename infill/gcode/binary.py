@@ -13,9 +13,9 @@ from typing import BinaryIO
 from infill.errors import FormatError, OutputError, ParameterError
 from infill.gcode import heatshrink, meatpack
 from infill.gcode.block_file import (
-    AGAIN,
     HEAD,
     MAGIC,
+    SLICE_AGAIN,
     Block,
     Compression,
     Encoding,
@@ -42,8 +42,8 @@ __all__ = [
     "text_pieces",
 ]
 
-WINDOWS = {Compression.HEATSHRINK_11: 11, Compression.HEATSHRINK_12: 12}
-METADATA = (Kind.FILE_METADATA, Kind.SLICER_METADATA, Kind.PRINTER_METADATA, Kind.PRINT_METADATA)
+WINDOW_BITS = {Compression.HEATSHRINK_11: 11, Compression.HEATSHRINK_12: 12}
+METADATA_KINDS = (Kind.FILE_METADATA, Kind.SLICER_METADATA, Kind.PRINTER_METADATA, Kind.PRINT_METADATA)
 
 
 def decoded(block: Block) -> bytes:
@@ -57,7 +57,7 @@ def decoded(block: Block) -> bytes:
     try:
         data = _decompress(block)
         packed = block.kind == Kind.GCODE and block.encoding != Encoding.NONE
-        return meatpack.unpacked(data) if packed else data
+        return meatpack.unpack_text(data) if packed else data
     except FormatError as told:
         raise FormatError(f"{block.name}: {told}") from None
 
@@ -84,8 +84,8 @@ def encoded(text: bytes, *, like: Block) -> Block:
     data = expected = text
     if like.kind == Kind.GCODE and like.encoding != Encoding.NONE:
         comments = like.encoding == Encoding.MEATPACK_COMMENTS
-        expected = meatpack.normalised(text, comments=comments)
-        data = meatpack.packed(expected, comments=comments)
+        expected = meatpack.normalise_text(text, comments=comments)
+        data = meatpack.pack_text(expected, comments=comments)
     result = replace(like, data=_compress(data, like.compression), size=len(data), number=0)
     try:
         same = decoded(result) == expected
@@ -177,7 +177,7 @@ def rewritten(
             block = edited(block, changes)
         target.write(stored(block))
     if not copied:
-        raise FormatError(f"binary G-code without a block of G-code; {AGAIN}")
+        raise FormatError(f"binary G-code without a block of G-code; {SLICE_AGAIN}")
     return frozenset(present_keys)
 
 
@@ -188,7 +188,7 @@ def _read_texts(file: BinaryIO) -> Iterator[bytes]:
             empty = False
             yield decoded(block)
     if empty:
-        raise FormatError(f"binary G-code without a block of G-code; {AGAIN}")
+        raise FormatError(f"binary G-code without a block of G-code; {SLICE_AGAIN}")
 
 
 def _encode_text(text: str) -> bytes:
@@ -196,10 +196,10 @@ def _encode_text(text: str) -> bytes:
 
 
 def _metadata_text(block: Block) -> bytes:
-    if block.kind not in METADATA:
+    if block.kind not in METADATA_KINDS:
         raise ParameterError(f"{block.name} holds no metadata; take one of metadata")
     if block.encoding != 0:
-        raise FormatError(f"{block.name} has encoding {block.encoding}, and only 0 (INI) is read here; {AGAIN}")
+        raise FormatError(f"{block.name} has encoding {block.encoding}, and only 0 (INI) is read here; {SLICE_AGAIN}")
     return decoded(block)
 
 
@@ -212,11 +212,11 @@ def _decompress(block: Block) -> bytes:
             try:
                 data = inflating.decompress(block.data, block.size + 1)
             except zlib.error as trouble:
-                raise FormatError(f"its data cannot be inflated ({trouble}); {AGAIN}") from None
+                raise FormatError(f"its data cannot be inflated ({trouble}); {SLICE_AGAIN}") from None
             if len(data) != block.size or not inflating.eof:
-                raise FormatError(f"its data does not inflate to the {block.size} bytes that it states; {AGAIN}")
+                raise FormatError(f"its data does not inflate to the {block.size} bytes that it states; {SLICE_AGAIN}")
             return data
-    return heatshrink.decompressed(block.data, size=block.size, window=WINDOWS[block.compression])
+    return heatshrink.decompress_heatshrink(block.data, size=block.size, window=WINDOW_BITS[block.compression])
 
 
 def _compress(data: bytes, compression: Compression) -> bytes:
@@ -225,4 +225,4 @@ def _compress(data: bytes, compression: Compression) -> bytes:
             return data
         case Compression.DEFLATE:
             return zlib.compress(data)
-    return heatshrink.compressed(data, window=WINDOWS[compression])
+    return heatshrink.compress_heatshrink(data, window=WINDOW_BITS[compression])

@@ -21,8 +21,11 @@ from infill.errors import FormatError
 
 MAGIC = b"GCDE"
 HEAD = struct.Struct("<4sIH")
-LARGEST, LARGEST_PACKED = 1 << 28, 1 << 24  # bytes; real blocks are below 1 MB, or all G-code in one plain block
-AGAIN = "copy or slice the file again"
+MAX_BLOCK_BYTES, MAX_PACKED_BYTES = (
+    1 << 28,
+    1 << 24,
+)  # bytes; real blocks are below 1 MB, or all G-code in one plain block
+SLICE_AGAIN = "copy or slice the file again"
 
 
 class Kind(IntEnum):
@@ -89,10 +92,10 @@ class Block:
     @property
     def name(self) -> str:
         """Place and kind of the block, for messages."""
-        return named(self.number, self.kind)
+        return block_name(self.number, self.kind)
 
 
-def named(number: int, kind: Kind) -> str:
+def block_name(number: int, kind: Kind) -> str:
     """Return the place and kind of a block as text, for messages."""
     return f"block {number} ({kind.name.lower().replace('_', ' ').replace('gcode', 'G-code')})"
 
@@ -115,12 +118,12 @@ def blocks(file: BinaryIO) -> Iterator[Block]:
     if not is_binary(head):
         raise FormatError(f"not binary G-code: it starts with {head[:4]!r}, and GCDE is needed")
     if len(head) < HEAD.size:
-        raise FormatError(f"binary G-code is cut off: {len(head)} of the {HEAD.size} bytes of its head; {AGAIN}")
+        raise FormatError(f"binary G-code is cut off: {len(head)} of the {HEAD.size} bytes of its head; {SLICE_AGAIN}")
     _, version, checksum = HEAD.unpack(head)
     if version != 1:
         raise FormatError(f"binary G-code of version {version}, and only 1 is known; export it as plain G-code")
     if checksum not in (0, 1):
-        raise FormatError(f"binary G-code with checksum type {checksum}, and only 0 and 1 are known; {AGAIN}")
+        raise FormatError(f"binary G-code with checksum type {checksum}, and only 0 and 1 are known; {SLICE_AGAIN}")
     number = 0
     while block := _read_block(file, number := number + 1, summed=checksum == 1):
         yield block
@@ -132,13 +135,13 @@ def _read_block(file: BinaryIO, number: int, *, summed: bool) -> Block | None:
         return None
     kind_number, compression_number, size = struct.unpack("<HHI", head.ljust(8, b"\0"))
     if len(head) < 8:
-        raise FormatError(f"block {number} is cut off: {len(head)} of the first 8 bytes; {AGAIN}")
+        raise FormatError(f"block {number} is cut off: {len(head)} of the first 8 bytes; {SLICE_AGAIN}")
     if kind_number not in Kind.__members__.values():
-        raise FormatError(f"block {number} is of kind {kind_number}, and only 0 to 5 are known; {AGAIN}")
+        raise FormatError(f"block {number} is of kind {kind_number}, and only 0 to 5 are known; {SLICE_AGAIN}")
     kind = Kind(kind_number)
-    name = named(number, kind)
+    name = block_name(number, kind)
     if compression_number not in Compression.__members__.values():
-        raise FormatError(f"{name} has compression {compression_number}, and only 0 to 3 are known; {AGAIN}")
+        raise FormatError(f"{name} has compression {compression_number}, and only 0 to 3 are known; {SLICE_AGAIN}")
     compression = Compression(compression_number)
     packed_size = b"" if compression == Compression.NONE else file.read(4)
     parameters = file.read(6 if kind == Kind.THUMBNAIL else 2)
@@ -146,9 +149,15 @@ def _read_block(file: BinaryIO, number: int, *, summed: bool) -> Block | None:
     if kind == Kind.GCODE and encoding not in Encoding.__members__.values():
         raise FormatError(f"{name} has encoding {encoding}, and only 0 to 2 are known; export it as plain G-code")
     length = int.from_bytes(packed_size, "little") if packed_size else size
-    limit = LARGEST if compression == Compression.NONE and (kind != Kind.GCODE or encoding == 0) else LARGEST_PACKED
+    limit = (
+        MAX_BLOCK_BYTES
+        if compression == Compression.NONE and (kind != Kind.GCODE or encoding == 0)
+        else MAX_PACKED_BYTES
+    )
     if max(size, length) > limit:
-        raise FormatError(f"{name} states {max(size, length)} bytes, and {limit} are the most that we read; {AGAIN}")
+        raise FormatError(
+            f"{name} states {max(size, length)} bytes, and {limit} are the most that we read; {SLICE_AGAIN}"
+        )
     data, sum_bytes = file.read(length), file.read(4 * summed)
     expected_sizes = (
         0 if compression == Compression.NONE else 4,
@@ -157,10 +166,10 @@ def _read_block(file: BinaryIO, number: int, *, summed: bool) -> Block | None:
         4 * summed,
     )
     if (sizes := (len(packed_size), len(parameters), len(data), len(sum_bytes))) != expected_sizes:
-        raise FormatError(f"{name} is cut off: {8 + sum(sizes)} of its {8 + sum(expected_sizes)} bytes; {AGAIN}")
+        raise FormatError(f"{name} is cut off: {8 + sum(sizes)} of its {8 + sum(expected_sizes)} bytes; {SLICE_AGAIN}")
     body = head + packed_size + parameters + data
     if summed and zlib.crc32(body) != int.from_bytes(sum_bytes, "little"):
-        raise FormatError(f"{name} is damaged: its checksum does not fit; {AGAIN}")
+        raise FormatError(f"{name} is damaged: its checksum does not fit; {SLICE_AGAIN}")
     return Block(
         kind=kind,
         compression=compression,

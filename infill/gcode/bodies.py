@@ -8,24 +8,24 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.gcode.lines import ARC, MOVE, ODD, Command
+from infill.gcode.lines import ARC, MOVE, ODD, GcodeCommand
 from infill.gcode.numbers import write_words
-from infill.gcode.sections import FILAMENT_UNIT, Marks, Strokes
-from infill.gcode.splicing import Spliced
-from infill.gcode.table import Table, firmware_retraction
+from infill.gcode.sections import FILAMENT_UNIT, InfillStrokes, LineMarks
+from infill.gcode.splicing import SplicedText
+from infill.gcode.table import GcodeTable, firmware_retraction
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
-LEAST_STEP = 1e-6  # mm
-ALIKE = 0.03  # new strokes of one section have equal filament per mm up to this share
+MIN_STEP = 1e-6  # mm
+RATE_VARIATION = 0.03  # new strokes of one section have equal filament per mm up to this share
 # Commands that may be sent at the end of a section as well as in the middle.
-HARMLESS = {"M73", "M117", "M118", "M106", "M107", "M204", "M205", "M900", "M572", "M70", "G10", "G11"}
+HARMLESS_COMMANDS = {"M73", "M117", "M118", "M106", "M107", "M204", "M205", "M900", "M572", "M70", "G10", "G11"}
 HARMLESS_WORDS = {"SET_VELOCITY_LIMIT", "SET_PRESSURE_ADVANCE"}
 
 
 @dataclass(frozen=True, kw_only=True)
-class Body:
+class InfillSection:
     """The lines from the first to the last move of a section, inclusive.
 
     Parameters
@@ -62,9 +62,11 @@ class Body:
     feed_after: float
 
 
-def bodies(table: Table, marks: Marks, infill: Strokes) -> tuple[list[Body], dict[str, list[int]]]:
+def find_sections(
+    table: GcodeTable, marks: LineMarks, infill: InfillStrokes
+) -> tuple[list[InfillSection], dict[str, list[int]]]:
     """Find the sections that can get new paths; return them, and the numbers of the other sections by reason."""
-    editable: list[Body] = []
+    editable: list[InfillSection] = []
     odd: dict[str, list[int]] = {}
     opens, closes = infill.opens, infill.closes
     section = marks.section[opens]
@@ -81,7 +83,7 @@ def bodies(table: Table, marks: Marks, infill: Strokes) -> tuple[list[Body], dic
         feeds, which = np.unique(table.f[opens[stroke_rows]], return_inverse=True)
         last_line = int(closes[stroke_rows[-1]])
         editable.append(
-            Body(
+            InfillSection(
                 section=int(number),
                 first=int(opens[stroke_rows[0]]),
                 last=last_line,
@@ -101,13 +103,13 @@ def bodies(table: Table, marks: Marks, infill: Strokes) -> tuple[list[Body], dic
 
 
 def _refusal_reason(
-    table: Table,
-    marks: Marks,
-    infill: Strokes,
+    table: GcodeTable,
+    marks: LineMarks,
+    infill: InfillStrokes,
     stroke_rows: Places,
     first_line: int,
     last_line: int,
-    commands: dict[int, Command],
+    commands: dict[int, GcodeCommand],
 ) -> str:
     """Name the reason why a section cannot get new paths; "" if it can."""
     inside = slice(first_line, last_line + 1)
@@ -119,9 +121,9 @@ def _refusal_reason(
     if table.numbered[inside].any():
         return "line numbers"
     rate = infill.filament[stroke_rows] / infill.length[stroke_rows]
-    if np.ptp(rate) > ALIKE * rate.mean():
+    if np.ptp(rate) > RATE_VARIATION * rate.mean():
         long = infill.length[stroke_rows] > 2.0
-        if np.ptp(rate[long] if long.any() else rate) > ALIKE * rate.mean():
+        if np.ptp(rate[long] if long.any() else rate) > RATE_VARIATION * rate.mean():
             return "lines of different widths"
     if np.isnan(table.z[first_line]) or np.ptp(table.z[infill.opens[stroke_rows]]) > 0:
         return "lines at different heights"
@@ -140,18 +142,18 @@ def _refusal_reason(
     )
 
 
-def _is_harmless(command: Command) -> bool:
+def _is_harmless(command: GcodeCommand) -> bool:
     """Return True if a command may stand between moves that get new paths."""
-    return command.code in HARMLESS or command.code in HARMLESS_WORDS or _sets_counter(command)
+    return command.code in HARMLESS_COMMANDS or command.code in HARMLESS_WORDS or _sets_counter(command)
 
 
-def _sets_counter(command: Command) -> bool:
+def _sets_counter(command: GcodeCommand) -> bool:
     """Return True if a command only sets the counter of filament."""
     return command.code == "G92" and set(command.words) == {"E"}
 
 
 @dataclass(frozen=True, kw_only=True)
-class Ways:
+class TravelSettings:
     """Travel and retraction of a print.
 
     Parameters
@@ -175,7 +177,7 @@ class Ways:
     firmware: bool = False
 
 
-def ways_of(table: Table, before: Ways | None = None) -> Ways:
+def measure_travel(table: GcodeTable, before: TravelSettings | None = None) -> TravelSettings:
     """Measure the travel and retraction of a table: the most usual amounts and feed rates."""
     moved = table.given[:, 0] | table.given[:, 1]
     still = (table.kind == MOVE) & ~moved
@@ -185,7 +187,7 @@ def ways_of(table: Table, before: Ways | None = None) -> Ways:
     depth = np.maximum.accumulate(np.maximum(total, 0.0)) - total
     rises = np.diff(table.z, prepend=table.before.z)
     up = (table.kind == MOVE) & table.given[:, 2] & ~moved & (depth > 1e-6) & (rises > 0)
-    default = before or Ways()
+    default = before or TravelSettings()
 
     def usual(values: Floats, otherwise: float) -> float:
         values = values[np.isfinite(values) & (values > 0)]
@@ -193,7 +195,7 @@ def ways_of(table: Table, before: Ways | None = None) -> Ways:
 
     # Layers begin with a rise too: a lift comes down afterwards.
     down = (table.kind == MOVE) & table.given[:, 2] & ~moved & (depth > 1e-6) & (rises < 0)
-    return Ways(
+    return TravelSettings(
         travel=usual(table.f[travel], default.travel),
         retraction=usual(np.round(depth[travel & (depth > 0.05)], 5), default.retraction),
         retract_feed=usual(table.f[back], default.retract_feed),
@@ -205,8 +207,13 @@ def ways_of(table: Table, before: Ways | None = None) -> Ways:
     )
 
 
-def composed(
-    table: Table, body: Body, paths: Sequence[Floats], rate: float, ways: Ways, retracts: Sequence[bool]
+def compose_section(
+    table: GcodeTable,
+    body: InfillSection,
+    paths: Sequence[Floats],
+    rate: float,
+    ways: TravelSettings,
+    retracts: Sequence[bool],
 ) -> tuple[bytes, float]:
     """Write the text of a body with new paths; return it, and the filament that the paths take, mm.
 
@@ -260,7 +267,7 @@ def composed(
         copied_rows = 0
         while kept_lines and kept_lines[0][0] * total_length < drawn + along[-1]:  # a line that stood between moves
             share, text = kept_lines.pop(0)
-            row = int(np.searchsorted(along, share * total_length - drawn + LEAST_STEP))
+            row = int(np.searchsorted(along, share * total_length - drawn + MIN_STEP))
             pieces += [rows.text[rows.start[copied_rows] : rows.start[row]], text]
             copied_rows = row
         pieces.append(rows.text[rows.start[copied_rows] :])
@@ -276,7 +283,7 @@ def composed(
     return b"".join(pieces), pushed
 
 
-def exchanged(table: Table, selected: Sequence[Body], texts: Sequence[bytes]) -> Spliced:
+def replace_sections(table: GcodeTable, selected: Sequence[InfillSection], texts: Sequence[bytes]) -> SplicedText:
     """Replace the bodies of some sections in the text of a table; return the new text."""
     pieces: list[bytes] = []
     same = np.ones(len(table), dtype=bool)
@@ -288,10 +295,12 @@ def exchanged(table: Table, selected: Sequence[Body], texts: Sequence[bytes]) ->
         change[body.last + 1] += text.count(b"\n") - (body.last + 1 - body.first)
         copied_lines = body.last + 1
     pieces.append(table.text(copied_lines, len(table)))
-    return Spliced(text=b"".join(pieces), shift=np.cumsum(change), same=same)
+    return SplicedText(text=b"".join(pieces), shift=np.cumsum(change), same=same)
 
 
-def unlawful(new_table: Table, spliced_text: Spliced, selected: Sequence[Body], texts: Sequence[bytes]) -> str:
+def validate_section(
+    new_table: GcodeTable, spliced_text: SplicedText, selected: Sequence[InfillSection], texts: Sequence[bytes]
+) -> str:
     """Describe the first fault of the new lines; "" if there is none.
 
     Parameters
@@ -299,7 +308,7 @@ def unlawful(new_table: Table, spliced_text: Spliced, selected: Sequence[Body], 
     new_table : Table
         The new text as a table.
     selected, texts
-        As for `exchanged`.
+        As for `replace_sections`.
     """
     fresh = np.ones(len(new_table), dtype=bool)
     old = np.flatnonzero(spliced_text.same)
@@ -327,7 +336,9 @@ def unlawful(new_table: Table, spliced_text: Spliced, selected: Sequence[Body], 
     return ""
 
 
-def _retraction_lines(body: Body, ways: Ways, counter: float, relative: bool, ends: bytes) -> tuple[bytes, bytes]:
+def _retraction_lines(
+    body: InfillSection, ways: TravelSettings, counter: float, relative: bool, ends: bytes
+) -> tuple[bytes, bytes]:
     """Return the lines before and after a travel with retraction."""
     if ways.firmware:
         back, forth = b"G10" + ends, b"G11" + ends
@@ -344,7 +355,7 @@ def _retraction_lines(body: Body, ways: Ways, counter: float, relative: bool, en
     return back, forth
 
 
-def _kept_lines(table: Table, body: Body) -> list[tuple[float, bytes]]:
+def _kept_lines(table: GcodeTable, body: InfillSection) -> list[tuple[float, bytes]]:
     """Return the lines of a body other than moves, in order, with the share of the filament before each.
 
     Leave out firmware retractions, since new paths have their own, and lines that set a counter which continues from

@@ -6,7 +6,7 @@ import io
 from collections.abc import Iterable, Iterator
 from typing import BinaryIO, final
 
-LONGEST_TEXT = 65_536  # bytes; libbgcode and PrusaSlicer put as many into a block of binary G-code
+MAX_CHUNK_BYTES = 65_536  # bytes; libbgcode and PrusaSlicer put as many into a block of binary G-code
 
 
 def whole_lines(texts: Iterable[bytes]) -> Iterator[bytes]:
@@ -20,8 +20,8 @@ def whole_lines(texts: Iterable[bytes]) -> Iterator[bytes]:
     rest = bytearray()
     for text in texts:
         rest += text
-        while len(rest) > LONGEST_TEXT:
-            cut = rest.rfind(b"\n", 0, LONGEST_TEXT) + 1 or rest.find(b"\n", LONGEST_TEXT) + 1
+        while len(rest) > MAX_CHUNK_BYTES:
+            cut = rest.rfind(b"\n", 0, MAX_CHUNK_BYTES) + 1 or rest.find(b"\n", MAX_CHUNK_BYTES) + 1
             if not cut:
                 break
             yield bytes(rest[:cut])
@@ -30,15 +30,15 @@ def whole_lines(texts: Iterable[bytes]) -> Iterator[bytes]:
         yield bytes(rest)
 
 
-def as_file(texts: Iterable[bytes]) -> BinaryIO:
+def open_chunks(texts: Iterable[bytes]) -> BinaryIO:
     r"""Return a file that can be read once, from front to back; each text is read when it is needed.
 
     Examples
     --------
-    >>> as_file([b"G28\nG1 ", b"X1\n"]).readlines()
+    >>> open_chunks([b"G28\nG1 ", b"X1\n"]).readlines()
     [b'G28\n', b'G1 X1\n']
     """
-    return io.BufferedReader(_Texts(iter(texts)), LONGEST_TEXT)
+    return io.BufferedReader(_Texts(iter(texts)), MAX_CHUNK_BYTES)
 
 
 @final

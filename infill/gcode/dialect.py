@@ -11,10 +11,10 @@ from collections.abc import Mapping
 from functools import lru_cache
 from typing import Final
 
-OTHER: Final = "other"  # role of a name that no known slicer writes
+OTHER_ROLE: Final = "other"  # role of a name that no known slicer writes
 UNTAGGED: Final = "untagged"  # role of everything before the first tag
 
-LONGEST_TAG: Final = 200  # bytes of a comment that are examined
+MAX_TAG_BYTES: Final = 200  # bytes of a comment that are examined
 TOOL_CODES: Final = ("M108", "M135")  # select a tool by T: Sailfish and MakerWare
 
 # Meaning of a comment by its prefix. The rest of the line is its value.
@@ -50,9 +50,10 @@ TAGS: Final[dict[bytes, str]] = {
     b"; stop printing object": "object end",
 }
 
-BEGINNING: Final = min(map(len, TAGS))  # bytes
+PREFIX_LENGTH: Final = min(map(len, TAGS))  # bytes
 _BY_BEGINNING: Final = {
-    prefix[:BEGINNING]: [each for each in TAGS.items() if each[0].startswith(prefix[:BEGINNING])] for prefix in TAGS
+    prefix[:PREFIX_LENGTH]: [each for each in TAGS.items() if each[0].startswith(prefix[:PREFIX_LENGTH])]
+    for prefix in TAGS
 }
 
 ROLES: Final[dict[str, tuple[bytes, ...]]] = {
@@ -89,7 +90,7 @@ def role_of(name: bytes) -> str:
     >>> role_of(b"Internal infill"), role_of(b"FILL"), role_of(b"Gap infill"), role_of(b"Mill")
     ('sparse infill', 'sparse infill', 'gap fill', 'other')
     """
-    return _ROLE_OF.get(name.strip(), OTHER if name else UNTAGGED)
+    return _ROLE_OF.get(name.strip(), OTHER_ROLE if name else UNTAGGED)
 
 
 def tool_of(code: str, words: Mapping[str, float | None], text: bytes) -> str:
@@ -118,7 +119,7 @@ def tool_of(code: str, words: Mapping[str, float | None], text: bytes) -> str:
 
 
 @lru_cache(maxsize=4096)  # a print has few different ones, ten thousand times
-def tag_of(comment: bytes) -> tuple[str, bytes] | None:
+def parse_tag(comment: bytes) -> tuple[str, bytes] | None:
     r"""Parse a comment line; return its meaning and value, or None for a comment without structure.
 
     Parameters
@@ -131,12 +132,12 @@ def tag_of(comment: bytes) -> tuple[str, bytes] | None:
     tuple of str and bytes, or None
         One of the words of `TAGS`, and the rest of the line, without blanks around it.
 
-    >>> tag_of(b";TYPE:Internal infill\n"), tag_of(b"; FEATURE: Sparse infill"), tag_of(b"; a remark")
+    >>> parse_tag(b";TYPE:Internal infill\n"), parse_tag(b"; FEATURE: Sparse infill"), parse_tag(b"; a remark")
     (('role', b'Internal infill'), ('role', b'Sparse infill'), None)
-    >>> tag_of(b";LAYER_CHANGE\n"), tag_of(b";LAYER:12"), tag_of(b";LAYER_COUNT:99")
+    >>> parse_tag(b";LAYER_CHANGE\n"), parse_tag(b";LAYER:12"), parse_tag(b";LAYER_COUNT:99")
     (('layer', b''), ('layer', b'12'), None)
     """
-    for prefix, meaning in _BY_BEGINNING.get(comment[:BEGINNING], ()):
+    for prefix, meaning in _BY_BEGINNING.get(comment[:PREFIX_LENGTH], ()):
         if comment.startswith(prefix):
             return meaning, comment[len(prefix) :].strip()
     return None

@@ -19,13 +19,13 @@ _BEGINS = (b"M73 ", b"; filament", b"; total", b"; estimated", b"; model", b";TI
 _WORD = re.compile(rb"([PRQSCD])(\d+(?:\.\d+)?)")
 _SPAN = re.compile(rb"(?:(\d+)d ?)?(?:(\d+)h ?)?(?:(\d+)m ?)?(?:(\d+)s)?")
 _TIME = re.compile(rb"\d+[dhms](?: ?\d+[hms])*")
-HALF = 0.5  # s: slicers round to whole seconds before they cut minutes off
-TINY = 1e-9  # rounding error of a sum
+HALF_SECOND = 0.5  # s: slicers round to whole seconds before they cut minutes off
+ROUND_OFF = 1e-9  # rounding error of a sum
 _NUMBER = re.compile(rb"\d+(?:\.\d+)?")
 
 
 @dataclass(frozen=True, kw_only=True)
-class Change:
+class EstimateChange:
     """Time and filament that a print takes now, and their ratio to the old ones.
 
     Parameters
@@ -56,19 +56,19 @@ class Change:
     filament: float = 1.0
     tools: tuple[float, ...] = ()
 
-    def told_by(self, lines: Iterable[bytes]) -> Change:
+    def told_by(self, lines: Iterable[bytes]) -> EstimateChange:
         """Return the change with the silent and preparation times that the old lines of a print state."""
         silent = prepared = longest = 0.0
         for line in lines:
             longest = max(longest, _words_of(line, b"S").get(b"S", 0.0) * 60)
             if line.startswith(b"; estimated printing time (silent"):
-                silent = said_seconds(line) * self.ratio
+                silent = stated_seconds(line) * self.ratio
             elif line.startswith((b"; model printing time", b"; total estimated time")) and b"total estimated" in line:
                 spans = [_parse_duration(match[0]) for match in _TIME.finditer(line)]
                 prepared = max(spans[-1] - spans[0], 0.0) if spans else 0.0
         return replace(self, silent=silent or longest * self.ratio, prepared=prepared)
 
-    def as_told(self, lines: Iterable[bytes], change: Mapping[int, float], area: float = 1.0) -> Change:
+    def as_told(self, lines: Iterable[bytes], change: Mapping[int, float], area: float = 1.0) -> EstimateChange:
         """Return the change with ratios from the filament that the print states by tool, if it does.
 
         Parameters
@@ -90,7 +90,7 @@ class Change:
         return self
 
 
-def estimates(text: bytes) -> Iterator[tuple[int, int]]:
+def find_estimates(text: bytes) -> Iterator[tuple[int, int]]:
     """Find the lines that state time or filament; yield their begin and end, without line ends."""
     for place in _line_begins(text):
         match = _LINE.match(text, place) if text.startswith(_BEGINS, place) else None
@@ -109,7 +109,7 @@ def _line_begins(text: bytes) -> Iterator[int]:
     yield from begins[(head == ord(";")) | (head == ord("M"))].tolist()
 
 
-def told_anew(line: bytes, elapsed: float, change: Change, completed: bytes = b"") -> bytes:
+def update_estimate(line: bytes, elapsed: float, change: EstimateChange, completed: bytes = b"") -> bytes:
     """Return a line that states time or filament, updated for the change.
 
     Parameters
@@ -120,11 +120,11 @@ def told_anew(line: bytes, elapsed: float, change: Change, completed: bytes = b"
     change : Change
         Of the entire print.
     completed : bytes
-        The letters that state completion, see `finished`.
+        The letters that state completion, see `completion_letters`.
 
-    >>> told_anew(b"M73 P50 R30", 600.0, Change(seconds=3000.0))
+    >>> update_estimate(b"M73 P50 R30", 600.0, EstimateChange(seconds=3000.0))
     b'M73 P20 R40'
-    >>> told_anew(b"; estimated printing time (normal mode) = 1h 0m 0s", 0.0, Change(seconds=3510.0))
+    >>> update_estimate(b"; estimated printing time (normal mode) = 1h 0m 0s", 0.0, EstimateChange(seconds=3510.0))
     b'; estimated printing time (normal mode) = 58m 30s'
     """
     if b"ilament" in line[:24]:
@@ -155,13 +155,13 @@ def told_anew(line: bytes, elapsed: float, change: Change, completed: bytes = b"
     return head + sign + _TIME.sub(lambda _: _format_duration(_round_seconds(next(spans))), tail)
 
 
-def finished(lines: Sequence[bytes]) -> list[bytes]:
+def completion_letters(lines: Sequence[bytes]) -> list[bytes]:
     """Find for each line the letters that state completion: the last of each letter in a print.
 
     Leave out a print whose last M73 does not state completion: it continues afterwards. The letter of ;TIME_ELAPSED:
     is T.
 
-    >>> finished([b"M73 P0 R9", b"M73 P99 R0", b"M73 P100 R0", b"M73 Q100 S0"])
+    >>> completion_letters([b"M73 P0 R9", b"M73 P99 R0", b"M73 P100 R0", b"M73 Q100 S0"])
     [b'', b'', b'PR', b'QS']
     """
     letters_by_line = [b""] * len(lines)
@@ -184,13 +184,13 @@ def _words_of(line: bytes, letters: bytes) -> dict[bytes, float]:
     return {match[1]: float(match[2]) for match in words if match[1] in letters}
 
 
-def said_grams(lines: Iterable[bytes]) -> float | None:
+def stated_grams(lines: Iterable[bytes]) -> float | None:
     """Return the grams of filament, of all tools, that the lines of a print state; None if they state none."""
     names = (b"; filament used [g] = ", b"; total filament used [g] = ", b"; total filament weight [g] : ")
     return _stated_filament(lines, names)
 
 
-def said_millimetres(lines: Iterable[bytes]) -> float | None:
+def stated_millimetres(lines: Iterable[bytes]) -> float | None:
     """Return the mm of filament, of all tools, that the lines of a print state; None if they state none."""
     lines = list(lines)
     millimetres = _stated_filament(lines, (b"; filament used [mm] = ", b"; total filament length [mm] : "))
@@ -207,10 +207,10 @@ def _stated_filament(lines: Iterable[bytes], beginnings: Sequence[bytes]) -> flo
     return None
 
 
-def said_seconds(line: bytes) -> float:
+def stated_seconds(line: bytes) -> float:
     """Return the seconds that a line states for the entire print, 0 if it states none.
 
-    >>> said_seconds(b"; estimated printing time (normal mode) = 1h 1m 1s"), said_seconds(b"; a remark")
+    >>> stated_seconds(b"; estimated printing time (normal mode) = 1h 1m 1s"), stated_seconds(b"; a remark")
     (3661.0, 0.0)
     """
     if line.startswith((b";TIME:", b";PRINT.TIME:")):
@@ -231,7 +231,7 @@ def _round_seconds(seconds: float) -> int:
     return max(1, round(seconds))
 
 
-def _format_progress(line: bytes, elapsed: float, change: Change, completed: bytes) -> bytes:
+def _format_progress(line: bytes, elapsed: float, change: EstimateChange, completed: bytes) -> bytes:
     """Return an M73 line: share completed (P, Q), minutes remaining (R, S), minutes to the next stop (C, D)."""
     share_elapsed = min(max(elapsed / change.seconds, 0.0), 1.0)
     total = {b"R": change.seconds + change.prepared, b"S": change.silent or change.seconds}
@@ -243,7 +243,7 @@ def _format_progress(line: bytes, elapsed: float, change: Change, completed: byt
             return letter + _format_truncated(100 * share, decimals)
         if letter in b"CD":
             return letter + _format_truncated(float(match[2]) * change.ratio, decimals)
-        return letter + _format_truncated((total[letter] * (1 - share) + HALF) / 60, decimals)
+        return letter + _format_truncated((total[letter] * (1 - share) + HALF_SECOND) / 60, decimals)
 
     words, mark, remark = line.partition(b";")
     return _WORD.sub(anew, words) + mark + remark
@@ -252,7 +252,7 @@ def _format_progress(line: bytes, elapsed: float, change: Change, completed: byt
 def _format_truncated(value: float, decimals: int) -> bytes:
     """Write a number with excess decimals cut off, as slicers write shares and minutes."""
     unit = 10.0**decimals
-    return b"%.*f" % (decimals, math.floor(value * unit + TINY) / unit)
+    return b"%.*f" % (decimals, math.floor(value * unit + ROUND_OFF) / unit)
 
 
 def _scale_number(number: bytes, factor: float) -> bytes:

@@ -13,8 +13,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Final
 
-from infill.gcode.limits import JERKS, Axes, Limits, Model, commanded, makes_sense
-from infill.gcode.table import DIAMETER, MOST_TOOLS
+from infill.gcode.limits import JERK_MODELS, Axes, Limits, Model, apply_command, is_valid_limit
+from infill.gcode.table import DIAMETER, MAX_TOOLS
 
 KLIPPER: Final = Limits(model="klipper", feedrate=(300.0, 300.0, 5.0, 50.0))
 MARLIN: Final = Limits()  # its factory settings
@@ -29,7 +29,7 @@ CURA: Final = Limits(  # of its definition fdmprinter, which its own estimate us
     retract_acceleration=4000.0,
 )
 # Fields that each model works with; the others are not reported.
-USED: Final[dict[str, tuple[str, ...]]] = {
+FIELDS_BY_MODEL: Final[dict[str, tuple[str, ...]]] = {
     "jerk": ("feedrate", "axis_acceleration", "acceleration", "jerk"),
     "vector-jerk": ("feedrate", "axis_acceleration", "acceleration", "jerk"),
     "junction": ("feedrate", "axis_acceleration", "acceleration", "junction_deviation"),
@@ -73,7 +73,7 @@ _UNIT_OF_TIME: Final = {"d": 86400, "h": 3600, "m": 60, "s": 1}
 
 
 @dataclass(frozen=True, kw_only=True)
-class FoundLimits:
+class FileLimits:
     """Limits and settings of the machine that a file states.
 
     Parameters
@@ -99,7 +99,7 @@ class FoundLimits:
     start : tuple of Limits and mapping
         Limits and sources before any command: Klipper returns to them.
     firmware : str
-        As the argument of `commanded`.
+        As the argument of `apply_command`.
     rule_of_e : str
         As `State.firmware`.
     """
@@ -117,11 +117,11 @@ class FoundLimits:
     firmware: str
     rule_of_e: str = ""
 
-    def after(self, code: str, line: bytes) -> FoundLimits:
+    def after(self, code: str, line: bytes) -> FileLimits:
         """Return the limits in force after a command."""
         if code == "RESET_VELOCITY_LIMIT":
             return replace(self, limits=self.start[0], sources=self.start[1])
-        limits = commanded(self.limits, code, line, feedrate_unit=self.feedrate_unit, firmware=self.firmware)
+        limits = apply_command(self.limits, code, line, feedrate_unit=self.feedrate_unit, firmware=self.firmware)
         if self.fixed:
             limits = replace(limits, **self.fixed)
         named = _SETS.get(code) or [name for name in self.sources if _mentions(line, name)]
@@ -133,9 +133,9 @@ class FoundLimits:
         return replace(self, limits=limits, sources=sources)
 
 
-def found_limits(
+def read_limits(
     head: bytes, tail: bytes, fixed: Mapping[str, Any] | None = None, settings: Mapping[str, str] | None = None
-) -> FoundLimits:
+) -> FileLimits:
     """Read the limits that the beginning and the end of a file state.
 
     Parameters
@@ -165,19 +165,20 @@ def found_limits(
     if settings.get("machine_limits_usage") != "ignore":
         stated = _parse_settings(settings, start)
     model: Model = fixed.get("model") or stated.pop("model", start.model)
-    if "jerk" in fixed and "model" not in fixed and model not in JERKS:
+    if "jerk" in fixed and "model" not in fixed and model not in JERK_MODELS:
         model = "jerk"
     limits = replace(start, **{**stated, "model": model, **fixed})
     sources = {
-        name: "given" if name in fixed else "settings" if name in stated else "assumed" for name in USED[limits.model]
+        name: "given" if name in fixed else "settings" if name in stated else "assumed"
+        for name in FIELDS_BY_MODEL[limits.model]
     }
-    volumetric, diameters = filament_of(head, settings)
-    return FoundLimits(
+    volumetric, diameters = filament_units(head, settings)
+    return FileLimits(
         limits=limits,
         sources=sources,
         start=(limits, sources),
         firmware=flavour if flavour in ("repetier", "smoothie") else "",
-        rule_of_e=rule_of_e(head, settings),
+        rule_of_e=extrusion_rule(head, settings),
         volumetric=volumetric,
         diameters=diameters,
         fixed=fixed,
@@ -188,7 +189,7 @@ def found_limits(
     )
 
 
-def filament_of(head: bytes, settings: Mapping[str, str]) -> tuple[bool, tuple[float, ...]]:
+def filament_units(head: bytes, settings: Mapping[str, str]) -> tuple[bool, tuple[float, ...]]:
     """Return True if E counts mm³ before any command, and the diameters of the filaments by tool, mm.
 
     Parameters
@@ -198,7 +199,7 @@ def filament_of(head: bytes, settings: Mapping[str, str]) -> tuple[bool, tuple[f
     settings : mapping
         Of the slicer.
 
-    >>> filament_of(b";FLAVOR:UltiGCode", {}), filament_of(b"", {"filament_diameter": "2.85,1.75"})
+    >>> filament_units(b";FLAVOR:UltiGCode", {}), filament_units(b"", {"filament_diameter": "2.85,1.75"})
     ((True, (1.75,)), (False, (2.85, 1.75)))
     """
     flavour = _FLAVOUR.search(head)
@@ -208,13 +209,13 @@ def filament_of(head: bytes, settings: Mapping[str, str]) -> tuple[bool, tuple[f
     numbers = [
         _first_number(text) or DIAMETER for text in settings.get("filament_diameter", "").replace(";", ",").split(",")
     ]
-    return volumetric, tuple(numbers[:MOST_TOOLS])
+    return volumetric, tuple(numbers[:MAX_TOOLS])
 
 
-def rule_of_e(head: bytes, settings: Mapping[str, str]) -> str:
+def extrusion_rule(head: bytes, settings: Mapping[str, str]) -> str:
     """Return the firmware whose rule makes E relative, as in `infill.gcode.table.State.firmware`.
 
-    >>> rule_of_e(b"", {"gcode_flavor": "klipper"}), rule_of_e(b"", {"gcode_flavor": "marlin2"})
+    >>> extrusion_rule(b"", {"gcode_flavor": "klipper"}), extrusion_rule(b"", {"gcode_flavor": "marlin2"})
     ('klipper', '')
     """
     flavour = settings.get("gcode_flavor", "")
@@ -273,7 +274,7 @@ def _parse_settings(settings: Mapping[str, str], start: Limits) -> dict[str, Any
                 stated[f"highest_{field}"] = value
     if settings.get("gcode_flavor") == "marlin" and "acceleration" in stated:  # before 2.0 it has none of travel
         stated["travel_acceleration"] = stated["highest_travel_acceleration"] = stated["acceleration"]
-    if "junction_deviation" in stated and start.model in JERKS:
+    if "junction_deviation" in stated and start.model in JERK_MODELS:
         stated["model"] = "junction"
     return stated
 
@@ -290,7 +291,7 @@ def _first_number(text: str | None) -> float | None:
 def _first_limit(text: str | None, field: str) -> float | None:
     """Return the first number of a list, or None if no machine has that limit."""
     number = _first_number(text)
-    return None if number is None or not makes_sense(number, field) else number
+    return None if number is None or not is_valid_limit(number, field) else number
 
 
 def _slicer_estimate(settings: Mapping[str, str], head: bytes, tail: bytes) -> float | None:

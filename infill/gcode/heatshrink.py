@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 
 from infill.errors import FormatError
 
-LITERAL = 9  # bits
-SORTED = 1 << 20  # bytes; two names and a place of 21 bits each fill 63 bits
+LITERAL_BITS = 9  # bits
+SORTED_BYTES = 1 << 20  # bytes; two names and a place of 21 bits each fill 63 bits
 
 
-def decompressed(data: bytes, *, size: int, window: int, lookahead: int = 4) -> bytes:
+def decompress_heatshrink(data: bytes, *, size: int, window: int, lookahead: int = 4) -> bytes:
     """Decompress a Heatshrink stream; return its bytes.
 
     Parameters
@@ -38,7 +38,7 @@ def decompressed(data: bytes, *, size: int, window: int, lookahead: int = 4) -> 
 
     Examples
     --------
-    >>> decompressed(bytes([0xB0, 0x80, 0x01, 0x80]), size=5, window=8, lookahead=7)
+    >>> decompress_heatshrink(bytes([0xB0, 0x80, 0x01, 0x80]), size=5, window=8, lookahead=7)
     b'aaaaa'
     """
     padded = np.frombuffer(data + b"\0\0", np.uint8).astype(np.int32)
@@ -55,7 +55,7 @@ def decompressed(data: bytes, *, size: int, window: int, lookahead: int = 4) -> 
             token = words[position >> 3] >> spare - (position & 7) & mask
             if token & literal:
                 append(token >> literal_shift & 255)
-                position += LITERAL
+                position += LITERAL_BITS
                 made += 1
                 continue
             position += token_bits
@@ -75,7 +75,7 @@ def decompressed(data: bytes, *, size: int, window: int, lookahead: int = 4) -> 
     return bytes(result[1 << window :])
 
 
-def compressed(data: bytes, *, window: int, lookahead: int = 4) -> bytes:
+def compress_heatshrink(data: bytes, *, window: int, lookahead: int = 4) -> bytes:
     """Compress bytes to a Heatshrink stream, with the longest copies that a quick search finds.
 
     Parameters
@@ -87,13 +87,13 @@ def compressed(data: bytes, *, window: int, lookahead: int = 4) -> bytes:
 
     Examples
     --------
-    >>> compressed(b"aaaaa", window=8, lookahead=7).hex()
+    >>> compress_heatshrink(b"aaaaa", window=8, lookahead=7).hex()
     'b0800180'
     """
     if not data:
         return b""
     # Copies never reach from one sorted piece into the previous one; a block of G-code is far shorter than a piece.
-    pieces = [data[start : start + SORTED] for start in range(0, len(data), SORTED)]
+    pieces = [data[start : start + SORTED_BYTES] for start in range(0, len(data), SORTED_BYTES)]
     matches = [_find_matches(piece, farthest=1 << window, longest=1 << lookahead) for piece in pieces]
     lengths, backs = (np.concatenate(columns) for columns in zip(*matches, strict=True))
     steps, places, position, count = lengths.tolist(), [], 0, len(data)
@@ -106,7 +106,7 @@ def compressed(data: bytes, *, window: int, lookahead: int = 4) -> bytes:
     token = np.where(
         copied, (backs[at] - 1) << lookahead | (length - 1), np.frombuffer(data, np.uint8)[at] + np.int64(256)
     )
-    width = np.where(copied, 1 + window + lookahead, LITERAL)
+    width = np.where(copied, 1 + window + lookahead, LITERAL_BITS)
     end = np.cumsum(width)
     start = end - width
     first_byte, shifted = start >> 3, token << (24 - width - (start & 7))

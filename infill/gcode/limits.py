@@ -13,7 +13,7 @@ from typing import Final, Literal, get_args
 from infill.errors import ParameterError, UsageError
 
 Model = Literal["jerk", "vector-jerk", "junction", "klipper"]
-JERKS: Final = ("jerk", "vector-jerk")
+JERK_MODELS: Final = ("jerk", "vector-jerk")
 MODELS: Final[tuple[str, ...]] = get_args(Model)
 Axes = tuple[float, float, float, float]
 INFINITE: Final = float("inf")
@@ -27,8 +27,8 @@ _MAY_BE_ZERO: Final = {
     "square_corner_velocity",
     "minimum_cruise_ratio",
 }
-LEAST, MOST = 1e-3, 1e9  # of a limit in mm/s or mm/s²: other values are mistakes of the file
-LEAST_DEVIATION: Final = 1e-6  # mm
+MIN_LIMIT, MAX_LIMIT = 1e-3, 1e9  # of a limit in mm/s or mm/s²: other values are mistakes of the file
+MIN_DEVIATION: Final = 1e-6  # mm
 _KLIPPER_WORDS: Final = {  # and the field whose bounds each keeps
     "VELOCITY": "feedrate",
     "ACCEL": "acceleration",
@@ -94,35 +94,37 @@ class Limits:
         for limit in fields(self)[1:]:
             limit_value = getattr(self, limit.name)
             for value in limit_value if isinstance(limit_value, tuple) else (limit_value,):
-                if not (makes_sense(value, limit.name) or (value == INFINITE and limit.name != "minimum_cruise_ratio")):
+                if not (
+                    is_valid_limit(value, limit.name) or (value == INFINITE and limit.name != "minimum_cruise_ratio")
+                ):
                     raise ParameterError(f"{limit.name} is {value:g}; give {_describe_valid(limit.name)}")
         for name in ("acceleration", "travel_acceleration", "retract_acceleration"):
             if getattr(self, name) == INFINITE:
                 raise ParameterError(f"{name} is infinite; give a number in mm/s²")
 
 
-def makes_sense(value: float, name: str) -> bool:
+def is_valid_limit(value: float, name: str) -> bool:
     """Return True if a machine may have this limit; name is a field of `Limits`.
 
-    >>> makes_sense(1e-300, "acceleration"), makes_sense(0.0, "jerk"), makes_sense(0.013, "junction_deviation")
+    >>> is_valid_limit(1e-300, "acceleration"), is_valid_limit(0.0, "jerk"), is_valid_limit(0.013, "junction_deviation")
     (False, True, True)
     """
     if name == "minimum_cruise_ratio":
         return 0 <= value < 1
-    lower = LEAST_DEVIATION if name == "junction_deviation" else LEAST
-    return lower <= value <= MOST or (value == 0 and name in _MAY_BE_ZERO)
+    lower = MIN_DEVIATION if name == "junction_deviation" else MIN_LIMIT
+    return lower <= value <= MAX_LIMIT or (value == 0 and name in _MAY_BE_ZERO)
 
 
 def _describe_valid(name: str) -> str:
     """Describe the valid numbers of a limit."""
     if name == "minimum_cruise_ratio":
         return "a number from 0 and below 1"
-    lower = LEAST_DEVIATION if name == "junction_deviation" else LEAST
-    return f"a number from {lower:g} to {MOST:g}{', or 0' if name in _MAY_BE_ZERO else ''}"
+    lower = MIN_DEVIATION if name == "junction_deviation" else MIN_LIMIT
+    return f"a number from {lower:g} to {MAX_LIMIT:g}{', or 0' if name in _MAY_BE_ZERO else ''}"
 
 
 @lru_cache(maxsize=256)  # slicers switch between a few accelerations, ten thousand times
-def commanded(limits: Limits, code: str, line: bytes, *, feedrate_unit: float = 1.0, firmware: str = "") -> Limits:
+def apply_command(limits: Limits, code: str, line: bytes, *, feedrate_unit: float = 1.0, firmware: str = "") -> Limits:
     """Return the limits after a line of G-code; the same object if it sets none.
 
     Parameters
@@ -137,7 +139,7 @@ def commanded(limits: Limits, code: str, line: bytes, *, feedrate_unit: float = 
     firmware : str
         "repetier", whose M203 to M205 set no limits, or "smoothie", whose M205 X is the junction deviation; else "".
 
-    >>> commanded(Limits(), "M204", b"M204 P900 T1500").acceleration
+    >>> apply_command(Limits(), "M204", b"M204 P900 T1500").acceleration
     900.0
     """
     if firmware == "repetier" and code in ("M203", "M204", "M205"):
@@ -171,7 +173,7 @@ def _parse_words(line: bytes) -> dict[str, float]:
 
 def _update_axes(before: Axes, words: dict[str, float], unit: float = 1.0) -> Axes:
     x, y, z, e = (
-        words[axis] * unit if LEAST <= words.get(axis, 0.0) * unit <= MOST else value
+        words[axis] * unit if MIN_LIMIT <= words.get(axis, 0.0) * unit <= MAX_LIMIT else value
         for axis, value in zip("XYZE", before, strict=True)
     )
     return x, y, z, e
@@ -179,7 +181,7 @@ def _update_axes(before: Axes, words: dict[str, float], unit: float = 1.0) -> Ax
 
 def _apply_m204(limits: Limits, words: dict[str, float]) -> Limits:
     """Apply M204: P, R and T, or S for both printing and travel; Klipper takes S, or the lower of P and T."""
-    words = {letter: value for letter, value in words.items() if LEAST <= value <= MOST}
+    words = {letter: value for letter, value in words.items() if MIN_LIMIT <= value <= MAX_LIMIT}
     if limits.model == "klipper":
         value = words.get("S", min(words["P"], words["T"]) if {"P", "T"} <= set(words) else limits.acceleration)
         return replace(limits, acceleration=value, travel_acceleration=value)
@@ -212,11 +214,11 @@ def _apply_m205(limits: Limits, words: dict[str, float]) -> Limits:
 def _lowest_feedrate(before: float, asked: float | None) -> float:
     """Return a lowest feed rate; a negative one means none."""
     asked = before if asked is None else max(asked, 0.0)
-    return asked if makes_sense(asked, "minimum_feedrate") else before
+    return asked if is_valid_limit(asked, "minimum_feedrate") else before
 
 
 def _with_deviation(limits: Limits, deviation: float) -> Limits:
-    sense = makes_sense(deviation, "junction_deviation")
+    sense = is_valid_limit(deviation, "junction_deviation")
     return replace(limits, junction_deviation=deviation) if sense else limits
 
 
@@ -226,7 +228,7 @@ def _apply_velocity_limit(limits: Limits, line: bytes) -> Limits:
     words = {
         name: numbers[name]
         for name, field in _KLIPPER_WORDS.items()
-        if name in numbers and makes_sense(numbers[name], field)
+        if name in numbers and is_valid_limit(numbers[name], field)
     }
     acceleration = words.get("ACCEL", limits.acceleration)
     ratio = words.get("MINIMUM_CRUISE_RATIO", limits.minimum_cruise_ratio)

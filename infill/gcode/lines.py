@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.checks import FARTHEST
-from infill.gcode.numbers import MINUS, MOST_DIGITS, PLUS, POINT, SEMICOLON, SPACE, TAB, read_numbers
+from infill.gcode.numbers import MAX_DIGITS, MINUS, PLUS, POINT, SEMICOLON, SPACE, TAB, read_numbers
 from infill.gcode.unusual_moves import may_move, read_move
 
 Floats = NDArray[np.float64]
@@ -30,7 +30,7 @@ _SORTS = bytes(
 _LINE_NUMBER = re.compile(rb"\s*(?:[Nn]\d+(?![\d.])\s*)?")
 _COMMAND = re.compile(rb"([A-Za-z])(\d{1,6}(?:\.\d{1,3})?)")
 _MOVE = re.compile(rb"\s*(?:[Nn]\d+\s*)?[Gg]\s*0*[0-3](?![\d.])")
-LONGEST_MOVE = 4096  # bytes of a line that is read on its own
+MAX_MOVE_BYTES = 4096  # bytes of a line that is read on its own
 _REMARKS = re.compile(rb"\s*(?:\([^()]*\)\s*)*(?:\*\s*\d+\s*)?")
 _WORD = re.compile(rb"([A-Za-z])[ \t]*([-+]?(?:\d+\.?\d*|\.\d+))?")
 _NAME = re.compile(rb"\bNAME\s*=\s*\"?([^\s\";]+)", re.IGNORECASE)
@@ -39,7 +39,7 @@ _BRACKETS = re.compile(rb"\([^()]*\)")
 
 
 @dataclass(frozen=True, kw_only=True)
-class Command:
+class GcodeCommand:
     """One line other than a move or a comment.
 
     Parameters
@@ -61,7 +61,7 @@ class Command:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Lines:
+class ParsedLines:
     """A batch of lines, each without the effect of the others.
 
     Parameters
@@ -92,7 +92,7 @@ class Lines:
     numbered: NDArray[np.bool_]
     values: Floats
     given: NDArray[np.bool_]
-    commands: tuple[Command, ...]
+    commands: tuple[GcodeCommand, ...]
     unread: NDArray[np.bool_]
     further: dict[int, dict[str, float]]
 
@@ -100,7 +100,7 @@ class Lines:
         return len(self.kind)
 
 
-def lines_of(data: bytes) -> Lines:
+def parse_lines(data: bytes) -> ParsedLines:
     r"""Parse each line of a text.
 
     Parameters
@@ -108,7 +108,7 @@ def lines_of(data: bytes) -> Lines:
     data : bytes
         Lines with their line ends; only the last may lack one.
 
-    >>> lines = lines_of(b"M204 S500\nG1 X1 E.5\n; a comment\n")
+    >>> lines = parse_lines(b"M204 S500\nG1 X1 E.5\n; a comment\n")
     >>> lines.kind.tolist(), lines.values[1, [0, 3]].tolist(), lines.commands[0].words
     ([0, 1, 3], [1.0, 0.5], {'S': 500.0})
     """
@@ -128,7 +128,7 @@ def lines_of(data: bytes) -> Lines:
     if data.count(b"\r") > data.count(b"\r\n"):
         inner = [match.start() for match in _BEHIND_RETURN.finditer(data)]
         unread[np.searchsorted(start, inner, side="right") - 1] = True
-    return Lines(
+    return ParsedLines(
         start=start,
         kind=kind,
         code=code,
@@ -268,7 +268,7 @@ def _read_odd_lines(
     values[lacking], has_word[lacking] = np.nan, False
     for line in np.flatnonzero(kind == ODD).tolist():
         text = data[start[line] : start[line + 1]]
-        move = read_move(text) if len(text) <= LONGEST_MOVE else None
+        move = read_move(text) if len(text) <= MAX_MOVE_BYTES else None
         if move is None:
             unread[line] = _MOVE.match(text) is not None
             continue
@@ -282,7 +282,7 @@ def _read_odd_lines(
     return unread, further
 
 
-def _read_commands(data: bytes, start: NDArray[np.int64], kind: NDArray[np.uint8]) -> Iterator[Command]:
+def _read_commands(data: bytes, start: NDArray[np.int64], kind: NDArray[np.uint8]) -> Iterator[GcodeCommand]:
     for line in np.flatnonzero((kind == OTHER) | (kind == ODD)).tolist():
         text = data[start[line] : min(start[line + 1], start[line] + 4096)]
         number = _LINE_NUMBER.match(text)
@@ -292,18 +292,18 @@ def _read_commands(data: bytes, start: NDArray[np.int64], kind: NDArray[np.uint8
             word = text[place:].split(None, 1)
             code = word[0].decode("latin-1").upper() if word else ""
             label = _NAME.search(word[1]) if code.endswith("_GCODE_STATE") and len(word) > 1 else None
-            yield Command(line=line, code=code, words={}, name=label[1].decode("latin-1") if label else "")
+            yield GcodeCommand(line=line, code=code, words={}, name=label[1].decode("latin-1") if label else "")
             continue
         letter, digits = match[1].decode().upper(), match[2].decode()
         code = letter + (digits if "." in digits else str(int(digits)))
         words = {} if letter == "T" else _parse_numbers(text[match.end() :].split(b";", 1)[0])
-        yield Command(line=line, code=code, words=words)
+        yield GcodeCommand(line=line, code=code, words=words)
 
 
 def _parse_numbers(text: bytes) -> dict[str, float | None]:
     """Return the numbers of a command by letter."""
     text = _BRACKETS.sub(b" ", text) if b"(" in text else text
     return {
-        match[1].decode().upper(): float(match[2]) if match[2] and len(match[2]) <= MOST_DIGITS else None
+        match[1].decode().upper(): float(match[2]) if match[2] and len(match[2]) <= MAX_DIGITS else None
         for match in _WORD.finditer(text)
     }

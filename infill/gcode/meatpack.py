@@ -9,7 +9,7 @@ with G are packed without blanks before them, and the reader puts those blanks b
 documentation (https://github.com/scottmudge/OctoPrint-MeatPack) and from what Prusa's tools write and read.
 
 Packed text loses blank lines, blanks at both ends of a command, comments behind a command, several blanks (or
-none) before a word of a G line, and without `comments` every comment; `normalised` removes these first. Lines that
+none) before a word of a G line, and without `comments` every comment; `normalise_text` removes these first. Lines that
 would still come back changed stand between "off" and "on" unchanged.
 """
 
@@ -31,7 +31,7 @@ PACKED, PLAIN, RESET, QUERY, NO_SPACES, SPACES = 251, 250, 249, 248, 247, 246
 COMMANDS = (PACKED, PLAIN, RESET, QUERY, NO_SPACES, SPACES)
 BEGIN = SIGNAL + bytes([PACKED]) + SIGNAL + bytes([NO_SPACES])
 ALPHABET = b"0123456789.E\nGX"
-WHOLE = 15
+UNPACKED_HALF = 15
 CHARACTERS = np.frombuffer(ALPHABET.replace(b"E", b" ") + b"\0" + ALPHABET + b"\0", np.uint8).reshape(2, 16)
 NEWLINE, BLANK, SEMICOLON, G = b"\n"[0], b" "[0], b";"[0], b"G"[0]
 
@@ -42,8 +42,8 @@ def _table(characters: bytes) -> Flags:
     return table
 
 
-HALVES = np.full(256, WHOLE, np.uint8)
-HALVES[list(ALPHABET)] = np.arange(WHOLE)
+HALVES = np.full(256, UNPACKED_HALF, np.uint8)
+HALVES[list(ALPHABET)] = np.arange(UNPACKED_HALF)
 PADDING = HALVES[NEWLINE] * 17  # two newlines, read as one
 WORDS = _table(b"XYZEFIJRGPWHCAS")  # letters before which readers restore a blank
 DROPPED = _table(b"XYZEFIJR")  # letters that every reader knows: only their blanks are dropped
@@ -52,7 +52,7 @@ ODD = _table(b'"\xff')
 DIGITS = _table(b"0123456789")
 
 
-def unpacked(data: bytes) -> bytes:
+def unpack_text(data: bytes) -> bytes:
     r"""Unpack the text of one packed block.
 
     Raises
@@ -62,7 +62,7 @@ def unpacked(data: bytes) -> bytes:
 
     Examples
     --------
-    >>> unpacked(packed(b"G1 X1.5 Y2\n;TYPE:Internal infill\nM106 S255\n"))
+    >>> unpack_text(pack_text(b"G1 X1.5 Y2\n;TYPE:Internal infill\nM106 S255\n"))
     b'G1 X1.5 Y2\n;TYPE:Internal infill\nM106 S255\n'
     """
     size = len(data)
@@ -72,8 +72,8 @@ def unpacked(data: bytes) -> bytes:
     packing, spaceless, skipped = _read_commands(data)
     low, high = code[:size] & 15, code[:size] >> 4
     line_ends = packing & (low == HALVES[NEWLINE])
-    low_whole = packing & (low == WHOLE)
-    high_whole = packing & (high == WHOLE) & ~line_ends
+    low_whole = packing & (low == UNPACKED_HALF)
+    high_whole = packing & (high == UNPACKED_HALF) & ~line_ends
     steps = 1 + low_whole + high_whole + skipped
     heads = _walk_steps(steps)
     if heads[-1] + steps[heads[-1]] > size:
@@ -99,8 +99,8 @@ def unpacked(data: bytes) -> bytes:
     return _insert_blanks(result, ((result[starts] == G) & ~plain[starts])[line]).tobytes()
 
 
-def packed(text: bytes, *, comments: bool = True) -> bytes:
-    """Pack text that is `normalised` with the same `comments`; the last line ends with a newline.
+def pack_text(text: bytes, *, comments: bool = True) -> bytes:
+    """Pack text that is `normalise_text` with the same `comments`; the last line ends with a newline.
 
     libbgcode loses characters of a block that unpacks to more than twice its size. So a G line whose newline
     comes second in its byte is padded with an empty line, as libbgcode does itself, and blanks are left out only
@@ -134,18 +134,18 @@ def _pack_codes(code: Bytes, plain: Flags, moves: Flags) -> bytes:
     rows[:, :2], rows[:, 2] = SIGNAL[0], np.where(plain, PLAIN, PACKED)
     present[:, :3] = switched[unit, None]
     rows[:, 3], present[:, 3] = np.where(plain, low_characters, high << 4 | low), True
-    rows[:, 4], present[:, 4] = low_characters, ~plain & (low == WHOLE)
-    rows[:, 5], present[:, 5] = high_characters, ~plain & (high == WHOLE)
+    rows[:, 4], present[:, 4] = low_characters, ~plain & (low == UNPACKED_HALF)
+    rows[:, 5], present[:, 5] = high_characters, ~plain & (high == UNPACKED_HALF)
     rows[:, 6], present[:, 6] = PADDING, moves & (low_characters != NEWLINE) & (high_characters == NEWLINE)
     return BEGIN + rows[present].tobytes()
 
 
-def normalised(text: bytes, *, comments: bool = True) -> bytes:
+def normalise_text(text: bytes, *, comments: bool = True) -> bytes:
     r"""Remove everything from a text that packing would lose; return the text that comes back.
 
     Examples
     --------
-    >>> normalised(b"G1X1  Y2 ; a move\n\n; whole\nGRAB  BOX ; as it is\n")
+    >>> normalise_text(b"G1X1  Y2 ; a move\n\n; whole\nGRAB  BOX ; as it is\n")
     b'G1 X1 Y2\n; whole\nGRAB  BOX ; as it is\n'
     """
     if not text:

@@ -15,9 +15,9 @@ Bytes = NDArray[np.uint8]
 Places = NDArray[np.intp]
 Integers = NDArray[np.int64]
 
-MOST_DIGITS = 15  # a float64 holds them exactly
-LONGEST = MOST_DIGITS + 2  # with a sign and a point
-POWERS = 10.0 ** np.arange(LONGEST + 1)
+MAX_DIGITS = 15  # a float64 holds them exactly
+MAX_CHARACTERS = MAX_DIGITS + 2  # with a sign and a point
+POWERS = 10.0 ** np.arange(MAX_CHARACTERS + 1)
 SPACE, TAB, NEWLINE, RETURN, SEMICOLON, OPENING, STAR = b" \t\n\r;(*"
 ZERO, NINE, POINT, MINUS, PLUS = b"09.-+"
 WORD = 8  # bytes
@@ -34,7 +34,7 @@ _OVER_NINE = _repeat_byte(0x80 - 10)  # added to a byte over 9, it sets the high
 
 
 @dataclass(frozen=True, kw_only=True)
-class Rows:
+class TextRows:
     """Lines of text, and their starts: (N + 1,) int, the last entry being the length."""
 
     text: bytes
@@ -71,7 +71,7 @@ def read_numbers(text: Bytes, places: Places) -> tuple[NDArray[np.float64], NDAr
     long = np.flatnonzero(~is_short)
     if len(long):
         digits[long], number[long], decimals[long] = long_numbers(text, at[long])
-    good = _ENDS[text[np.minimum(at + number + (decimals >= 0), end)]] & (number > 0) & (number <= MOST_DIGITS)
+    good = _ENDS[text[np.minimum(at + number + (decimals >= 0), end)]] & (number > 0) & (number <= MAX_DIGITS)
     values = digits / POWERS[np.maximum(decimals, 0)]
     np.negative(values, where=negative, out=values)
     values[~good] = np.nan
@@ -79,7 +79,7 @@ def read_numbers(text: Bytes, places: Places) -> tuple[NDArray[np.float64], NDAr
 
 
 def long_numbers(text: Bytes, at: Places) -> tuple[Integers, Integers, Integers]:
-    """Parse numbers without a sign, of up to `LONGEST` characters, one character after another.
+    """Parse numbers without a sign, of up to `MAX_CHARACTERS` characters, one character after another.
 
     Returns
     -------
@@ -95,7 +95,7 @@ def long_numbers(text: Bytes, at: Places) -> tuple[Integers, Integers, Integers]
     number = np.zeros(len(at), dtype=np.int64)
     decimals = np.full(len(at), -1)
     going = np.ones(len(at), dtype=bool)
-    for step in range(LONGEST):
+    for step in range(MAX_CHARACTERS):
         byte = text[np.minimum(at + step, end)]
         digit = (byte - ZERO <= 9) & going  # bytes below 0 wrap around
         point = (byte == POINT) & going & (decimals < 0)
@@ -159,7 +159,7 @@ _ENDS[[SPACE, TAB, NEWLINE, RETURN, SEMICOLON, OPENING, STAR]] = True
 _ENDS[list(b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz")] = True  # E too: numbers have no exponents here
 
 
-def write_words(columns: list[tuple[bytes, NDArray[np.float64], int]], head: bytes, tail: bytes) -> Rows:
+def write_words(columns: list[tuple[bytes, NDArray[np.float64], int]], head: bytes, tail: bytes) -> TextRows:
     r"""Write rows of text, each `head`, a word for every column, and `tail`.
 
     Parameters
@@ -190,7 +190,7 @@ def write_words(columns: list[tuple[bytes, NDArray[np.float64], int]], head: byt
     wide: Bytes = np.concatenate(parts, axis=1)
     text = wide.tobytes().translate(None, b"\0")
     ends = np.flatnonzero(np.frombuffer(text, dtype=np.uint8) == NEWLINE)
-    return Rows(text=text, start=np.append(0, ends + 1))
+    return TextRows(text=text, start=np.append(0, ends + 1))
 
 
 def _repeat_text(text: bytes, rows: int) -> Bytes:

@@ -9,25 +9,25 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.gcode.dialect import LONGEST_TAG, UNTAGGED, role_of, tag_of, tool_of
-from infill.gcode.limits import makes_sense
+from infill.gcode.dialect import MAX_TAG_BYTES, UNTAGGED, parse_tag, role_of, tool_of
+from infill.gcode.limits import is_valid_limit
 from infill.gcode.lines import BLANK, COMMENT, MOVE
-from infill.gcode.table import NAN, Table
+from infill.gcode.table import NAN, GcodeTable
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
 SPARSE = "sparse infill"
-SKINS = ("solid infill", "top solid infill", "bottom solid infill", "bridge infill", "internal bridge infill")
-ALIKE = 0.02  # two moves extrude alike if their filament per mm differs by less than this share
+SKIN_ROLES = ("solid infill", "top solid infill", "bottom solid infill", "bridge infill", "internal bridge infill")
+RATE_VARIATION = 0.02  # two moves extrude alike if their filament per mm differs by less than this share
 FILAMENT_UNIT = 1e-5  # mm: the last decimal of an E word
 # Commands to the display or the host alone: moves before and after them are still one line of plastic.
-TALK = {"M73", "M117", "M118", "M70"}
+DISPLAY_COMMANDS = {"M73", "M117", "M118", "M70"}
 # Tags that act as remarks where they change nothing: a stroke continues across them.
-QUIET = {"purged", "tool change", "tool change end", "wipe end"}
+REMARK_TAGS = {"purged", "tool change", "tool change end", "wipe end"}
 
 
-class Tags(NamedTuple):
+class TagState(NamedTuple):
     """State set by the tags before a line.
 
     Slicers forget an end, repeat a beginning, or write one where nothing follows. So everything that begins also
@@ -84,7 +84,7 @@ class Tags(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Marks:
+class LineMarks:
     """Feature, layer and section of every line of a table.
 
     Parameters
@@ -124,7 +124,7 @@ class Marks:
     wiping: NDArray[np.bool_]
     names: dict[int, str]
     tagged: NDArray[np.bool_]
-    after: Tags
+    after: TagState
 
     def is_role(self, role: str) -> NDArray[np.bool_]:
         """Return (N,) bool, True for lines of `role`."""
@@ -132,7 +132,7 @@ class Marks:
         return np.asarray(matches)
 
 
-def marked(table: Table, before: Tags) -> Marks:
+def mark_lines(table: GcodeTable, before: TagState) -> LineMarks:
     """Read the tags of a table, starting from the state before it.
 
     Purging into the infill bears the role of the infill. It stands between a tool change and the first tag after it
@@ -147,7 +147,7 @@ def marked(table: Table, before: Tags) -> Marks:
     wipes: list[tuple[int, int]] = []
     changed_tool = wipe = 0  # the line, or the first one if it stands in an earlier table
     # Plain lists: single entries of an array cost several times as much.
-    printed_so_far = np.concatenate([[0], np.cumsum(printing(table))])
+    printed_so_far = np.concatenate([[0], np.cumsum(is_printing(table))])
     printed, start, data = printed_so_far.tolist(), table.start.tolist(), table.data
     commands = {command.line: command for command in table.commands}
 
@@ -167,9 +167,9 @@ def marked(table: Table, before: Tags) -> Marks:
                 state = state._replace(tool=tool, purging=True)
             elif command.code == "M204":
                 value = command.words.get("P") or command.words.get("S") or 0.0
-                state = state._replace(acceleration=value) if makes_sense(value, "acceleration") else state
+                state = state._replace(acceleration=value) if is_valid_limit(value, "acceleration") else state
         else:
-            tag = tag_of(data[start[line] : min(start[line + 1], start[line] + LONGEST_TAG)].lstrip())
+            tag = parse_tag(data[start[line] : min(start[line + 1], start[line] + MAX_TAG_BYTES)].lstrip())
             if tag is None:
                 continue
             if tag[0] == "purged" and state.purging:
@@ -178,7 +178,7 @@ def marked(table: Table, before: Tags) -> Marks:
             if previous_tags.wiping and (tag[0] in ("wipe start", "wipe end") or not state.wiping):
                 wipes.append((wipe, line if tag[0] == "wipe end" else min(line, first_printed(wipe))))
             wipe = line if tag[0] == "wipe start" else wipe
-            tagged[line] = tag[0] not in QUIET or state != previous_tags
+            tagged[line] = tag[0] not in REMARK_TAGS or state != previous_tags
         if state is not previous_tags and state != previous_tags:
             at.append(line)
             history.append(state)
@@ -187,7 +187,7 @@ def marked(table: Table, before: Tags) -> Marks:
     if state.wiping:
         wipes.append((wipe, first_printed(wipe)))
         state = state._replace(wiping=first_printed(wipe) == lines)
-    fields = dict(zip(Tags._fields, zip(*history, strict=True), strict=True))  # all values of each field
+    fields = dict(zip(TagState._fields, zip(*history, strict=True), strict=True))  # all values of each field
     place = {role: number for number, role in enumerate(dict.fromkeys([*fields["role"], "wipe tower"]))}
     roles = tuple(place)
     count = np.diff([*at, lines])
@@ -212,7 +212,7 @@ def marked(table: Table, before: Tags) -> Marks:
     purged &= role == (roles.index(SPARSE) if SPARSE in roles else len(roles))
     role[purged] = roles.index("wipe tower")
     names = {int(section[line]): tags.name for line, tags in zip(at, history, strict=True) if line < lines}
-    return Marks(
+    return LineMarks(
         roles=roles,
         role=role,
         purged=purged,
@@ -229,7 +229,7 @@ def marked(table: Table, before: Tags) -> Marks:
     )
 
 
-def printing(table: Table) -> NDArray[np.bool_]:
+def is_printing(table: GcodeTable) -> NDArray[np.bool_]:
     """Return (N,) bool, True for lines that extrude along a path."""
     prints: NDArray[np.bool_] = (table.extruded > 0) & (table.given[:, 0] | table.given[:, 1])
     return prints
@@ -245,7 +245,7 @@ def _fill_names(names: dict[int, str], section: Places) -> dict[int, str]:
     return filled
 
 
-def _after_printing(tags: Tags) -> Tags:
+def _after_printing(tags: TagState) -> TagState:
     """Return the state after something was printed."""
     on_object = tags.purging and tags.role != "wipe tower" and not tags.changing_tool
     if tags.printed and (tags.purged_on_object or not on_object):
@@ -253,7 +253,7 @@ def _after_printing(tags: Tags) -> Tags:
     return tags._replace(printed=True, purged_on_object=tags.purged_on_object or on_object)
 
 
-def _apply_tag(tags: Tags, meaning: str, value: bytes) -> Tags:
+def _apply_tag(tags: TagState, meaning: str, value: bytes) -> TagState:
     match meaning:
         case "role":
             role = role_of(value)
@@ -281,7 +281,7 @@ def _apply_tag(tags: Tags, meaning: str, value: bytes) -> Tags:
             return tags
 
 
-def _begin_layer(tags: Tags, value: bytes) -> Tags:
+def _begin_layer(tags: TagState, value: bytes) -> TagState:
     """Return the state at a tag of a layer.
 
     A tool change before it whose purging has not ended purged nothing, unless nothing was printed since: then it
@@ -317,7 +317,7 @@ def _parse_length(value: bytes, otherwise: float) -> float:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Strokes:
+class InfillStrokes:
     """The sparse infill of a table: runs of moves of equal filament per mm without a travel between them.
 
     Parameters
@@ -358,7 +358,7 @@ class Strokes:
         return np.delete(self.line, self.first[:-1])
 
 
-def strokes(table: Table, marks: Marks, role: str = SPARSE) -> Strokes:
+def find_strokes(table: GcodeTable, marks: LineMarks, role: str = SPARSE) -> InfillStrokes:
     """Find the strokes of `role`.
 
     A stroke ends where the feed rate or the filament per mm changes, and at every line other than a comment or talk
@@ -372,7 +372,7 @@ def strokes(table: Table, marks: Marks, role: str = SPARSE) -> Strokes:
     drawn &= marks.is_role(role) & ~marks.wiping & ~table.numbered & ~table.unsure & ~_is_unsupported(table)
     passive = ((table.kind == COMMENT) & ~marks.tagged) | (table.kind == BLANK)
     for command in table.commands:
-        passive[command.line] |= command.code in TALK
+        passive[command.line] |= command.code in DISPLAY_COMMANDS
     feed = _shift(table.f, table.before.f)
     with np.errstate(invalid="ignore"):
         passive |= (table.kind == MOVE) & ~table.moves & (table.f == feed)
@@ -382,7 +382,7 @@ def strokes(table: Table, marks: Marks, role: str = SPARSE) -> Strokes:
     unsure = FILAMENT_UNIT / length[rows]
     before_row, after_row = rows[:-1], rows[1:]
     joined = (broken[before_row] == broken[after_row]) & (table.f[before_row] == table.f[after_row])
-    joined &= np.abs(np.diff(rate)) <= ALIKE * rate[:-1] + unsure[:-1] + unsure[1:]
+    joined &= np.abs(np.diff(rate)) <= RATE_VARIATION * rate[:-1] + unsure[:-1] + unsure[1:]
     begins = np.flatnonzero(np.concatenate([[True], ~joined])[: len(rows)])
     number = np.diff(np.append(begins, len(rows)))
     # One additional point for every stroke: its start.
@@ -396,7 +396,7 @@ def strokes(table: Table, marks: Marks, role: str = SPARSE) -> Strokes:
     stroke_start = np.concatenate([[0], np.cumsum(number + 1)])
     sums = (np.add.reduceat(v[rows], begins) if len(rows) else np.empty(0) for v in (table.extruded, length))
     filament, total = sums
-    return Strokes(points=points, first=stroke_start, line=line, filament=filament, length=total)
+    return InfillStrokes(points=points, first=stroke_start, line=line, filament=filament, length=total)
 
 
 def _shift(values: Floats, before: float) -> Floats:
@@ -404,7 +404,7 @@ def _shift(values: Floats, before: float) -> Floats:
     return np.concatenate([[before], values[:-1]])[: len(values)]
 
 
-def _is_unsupported(table: Table) -> NDArray[np.bool_]:
+def _is_unsupported(table: GcodeTable) -> NDArray[np.bool_]:
     """Return True for lines whose moves are relative or in inches."""
     strange = np.zeros(len(table), dtype=bool)
     relative, inches = table.before.relative, table.before.inches

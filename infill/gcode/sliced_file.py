@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import BinaryIO, Literal
 
 from infill.errors import FormatError, ParameterError
-from infill.files.whole_files import scratch
+from infill.files.whole_files import scratch_file
 
 HEAD = 4  # bytes that identify the form
-LOOKED_AT = 1 << 18  # bytes in which line ends are checked
+LINE_END_SAMPLE = 1 << 18  # bytes in which line ends are checked
 Form = Literal["text", "binary", "archive"]
 
 
@@ -120,17 +120,17 @@ class SlicedFile:
 
     @contextlib.contextmanager
     def _plate(self, plate: int, folder: Path | None) -> Iterator[SlicedText]:
-        from infill.gcode.bambu_archive import plate_pieces
+        from infill.gcode.bambu_archive import read_plate
 
         try:
-            with _unpack_to_file(plate_pieces(self.file, plate), folder) as text:
+            with _unpack_to_file(read_plate(self.file, plate), folder) as text:
                 yield SlicedText(text=text)
         except FormatError as error:
             raise FormatError(f"plate {plate}: {error}") from error
 
 
 @contextlib.contextmanager
-def opened(source: Path) -> Iterator[SlicedFile]:
+def open_sliced(source: Path) -> Iterator[SlicedFile]:
     """Open the file of a sliced print, whatever its name.
 
     Raises
@@ -148,9 +148,9 @@ def opened(source: Path) -> Iterator[SlicedFile]:
             form = _detect_form(file.read(HEAD))
             numbers: tuple[int, ...] = ()
             if form == "archive":
-                from infill.gcode.bambu_archive import plates
+                from infill.gcode.bambu_archive import list_plates
 
-                numbers = plates(file)
+                numbers = list_plates(file)
             yield SlicedFile(name=source.name, file=file, form=form, plates=numbers)
     except FormatError as error:
         raise FormatError(f"{source}: {error}") from error
@@ -159,7 +159,7 @@ def opened(source: Path) -> Iterator[SlicedFile]:
 def _check_line_ends(text: BinaryIO) -> None:
     """Raise FormatError for a text whose lines end with CR alone; the text is left at its beginning."""
     text.seek(0)
-    head = text.read(LOOKED_AT)
+    head = text.read(LINE_END_SAMPLE)
     text.seek(0)
     if b"\r" in head and b"\n" not in head:
         raise FormatError(
@@ -180,7 +180,7 @@ def _detect_form(head: bytes) -> Form:
 
 @contextlib.contextmanager
 def _unpack_to_file(pieces: Iterable[bytes], folder: Path | None) -> Iterator[BinaryIO]:
-    with scratch(folder) as text:
+    with scratch_file(folder) as text:
         text.writelines(pieces)
         text.seek(0)
         yield text

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from infill.gcode.lines import MOVE
 from infill.gcode.numbers import write_words
-from infill.gcode.sections import FILAMENT_UNIT, Strokes
-from infill.gcode.table import Table, read
+from infill.gcode.sections import FILAMENT_UNIT, InfillStrokes
+from infill.gcode.table import GcodeTable, read_table
 from infill.paths.corners import UNIT
 
 Floats = NDArray[np.float64]
@@ -26,7 +26,7 @@ RATE_TOLERANCE = 0.005  # of the filament per mm, in addition to rounding
 
 
 @dataclass(frozen=True, kw_only=True)
-class Redrawn:
+class NewPaths:
     """New paths for some strokes.
 
     Parameters
@@ -51,7 +51,7 @@ class Redrawn:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Spliced:
+class SplicedText:
     """Text with new paths for some strokes.
 
     Parameters
@@ -68,7 +68,7 @@ class Spliced:
     same: NDArray[np.bool_]
 
 
-def spliced(table: Table, strokes: Strokes, new: Redrawn) -> Spliced:
+def splice_paths(table: GcodeTable, strokes: InfillStrokes, new: NewPaths) -> SplicedText:
     """Replace strokes of a table by new paths; return the new text."""
     ends = _line_end(table)
     starts = np.zeros(len(new.points), dtype=bool)
@@ -106,14 +106,14 @@ def spliced(table: Table, strokes: Strokes, new: Redrawn) -> Spliced:
         change[last_old + 1] += high - low - old + bool(reset[k])
         copied_lines = last_old + 1
     pieces.append(table.text(copied_lines, len(table)))
-    return Spliced(text=b"".join(pieces), shift=np.cumsum(change), same=same)
+    return SplicedText(text=b"".join(pieces), shift=np.cumsum(change), same=same)
 
 
 def _append_mixed(
     pieces: list[bytes],
-    table: Table,
-    strokes: Strokes,
-    new: Redrawn,
+    table: GcodeTable,
+    strokes: InfillStrokes,
+    new: NewPaths,
     k: int,
     row: Places,
     low: int,
@@ -137,7 +137,7 @@ def _append_mixed(
 
 
 def _filament_words(
-    table: Table, new: Redrawn, row: Places, owner: Places, begin_line: Places
+    table: GcodeTable, new: NewPaths, row: Places, owner: Places, begin_line: Places
 ) -> tuple[Floats, Floats]:
     """Return the counter after each stroke, and the E word of every row."""
     length = np.hypot(*(new.points[row] - new.points[row - 1]).T)
@@ -159,7 +159,7 @@ def _filament_words(
     return words[is_last], words
 
 
-def _line_end(table: Table) -> bytes:
+def _line_end(table: GcodeTable) -> bytes:
     return b"\r\n" if table.data[:4096].count(b"\r\n") > table.data[:4096].count(b"\n") / 2 else b"\n"
 
 
@@ -168,17 +168,19 @@ def _format_shortest(value: float) -> bytes:
     return text.encode() if text not in ("", "-", "-0") else b"0"
 
 
-def unlike(table: Table, strokes: Strokes, new: Redrawn, spliced_text: Spliced) -> str:
+def verify_replay(table: GcodeTable, strokes: InfillStrokes, new: NewPaths, spliced_text: SplicedText) -> str:
     """Replay old and new text from the same state; describe the first forbidden difference, "" if there is none.
 
     Compare every copied line (kind, position, feed rate, filament), the state at the end, and the new moves: each has
     the filament per mm of its stroke, above 0, its feed rate, and no move of z.
     """
-    new_table = read(spliced_text.text, table.before)
-    return differing(table, new_table, spliced_text) or _find_wrong_move(table, strokes, new, spliced_text, new_table)
+    new_table = read_table(spliced_text.text, table.before)
+    return find_difference(table, new_table, spliced_text) or _find_wrong_move(
+        table, strokes, new, spliced_text, new_table
+    )
 
 
-def differing(table: Table, new_table: Table, spliced_text: Spliced) -> str:
+def find_difference(table: GcodeTable, new_table: GcodeTable, spliced_text: SplicedText) -> str:
     """Describe the first difference of the copied lines, or of the state at the end, between old and new text."""
     if len(new_table) != len(table) + int(spliced_text.shift[-1]):
         return "the number of lines"
@@ -212,7 +214,9 @@ def _states_agree(state: object, expected: object) -> bool:
     return True
 
 
-def _find_wrong_move(table: Table, strokes: Strokes, new: Redrawn, spliced_text: Spliced, new_table: Table) -> str:
+def _find_wrong_move(
+    table: GcodeTable, strokes: InfillStrokes, new: NewPaths, spliced_text: SplicedText, new_table: GcodeTable
+) -> str:
     """Describe the first fault of the new moves; "" if there is none."""
     fresh = np.ones(len(new_table), dtype=bool)
     old = np.flatnonzero(spliced_text.same)

@@ -9,8 +9,8 @@ from typing import BinaryIO
 from infill.errors import FormatError
 
 BATCH = 1 << 19  # bytes of text read at a time, up to the next layer
-LONGEST_LINE = 8 << 20  # bytes; slicers stay far below
-LARGEST_LAYER = 64 << 20  # bytes; a larger one is cut between two lines
+MAX_LINE_BYTES = 8 << 20  # bytes; slicers stay far below
+MAX_LAYER_BYTES = 64 << 20  # bytes; a larger one is cut between two lines
 LAYER_TAG = re.compile(rb"^(?:;LAYER_CHANGE|; CHANGE_LAYER|;LAYER:)", re.MULTILINE)
 
 
@@ -37,7 +37,7 @@ def batches(file: BinaryIO, size: int = BATCH) -> Iterator[bytes]:
         if not more:
             break
         cut = _find_last_layer(pending)
-        if cut <= 0 and len(pending) < LARGEST_LAYER:
+        if cut <= 0 and len(pending) < MAX_LAYER_BYTES:
             wanted_bytes = max(size, len(pending))  # twice as much, so that a large layer is searched only a few times
             _check_line(pending)
             continue
@@ -59,10 +59,10 @@ def _find_last_layer(text: bytes) -> int:
 
 def _check_line(text: bytes) -> None:
     begin = 0
-    while len(text) - begin > LONGEST_LINE:  # in steps of as many lines as fit
-        end = text.rfind(b"\n", begin, begin + LONGEST_LINE + 1)
+    while len(text) - begin > MAX_LINE_BYTES:  # in steps of as many lines as fit
+        end = text.rfind(b"\n", begin, begin + MAX_LINE_BYTES + 1)
         if end < 0:
             raise FormatError(
-                f"a line of more than {LONGEST_LINE >> 20} MiB is no G-code; give the file that the slicer wrote"
+                f"a line of more than {MAX_LINE_BYTES >> 20} MiB is no G-code; give the file that the slicer wrote"
             )
         begin = end + 1

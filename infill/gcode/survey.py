@@ -10,17 +10,17 @@ from dataclasses import dataclass, replace
 from typing import BinaryIO
 
 from infill.errors import FormatError
-from infill.gcode.found_limits import filament_of, rule_of_e
-from infill.gcode.stream import LAYER_TAG, LONGEST_LINE
-from infill.gcode.table import State, read
+from infill.gcode.found_limits import extrusion_rule, filament_units
+from infill.gcode.stream import LAYER_TAG, MAX_LINE_BYTES
+from infill.gcode.table import MachineState, read_table
 
 HEAD = 1 << 18  # bytes read for the header and the modes
 TAIL = 1 << 17  # bytes read for the settings
 WINDOW = 1 << 18  # bytes read at each sampled place
-MOST_WINDOW = 16 << 20
-WHOLE = 3  # layers at each place
+MAX_WINDOW = 16 << 20
+LAYERS_PER_WINDOW = 3  # layers at each place
 WINDOWS, MORE_WINDOWS = 6, 16  # places
-SMALL, ALL_WINDOWS = 1 << 19, 24  # bytes: nearly every layer of a smaller file is read
+SMALL_FILE, ALL_WINDOWS = 1 << 19, 24  # bytes: nearly every layer of a smaller file is read
 STAMP = b"; refilled by phasefill"
 _SETTING = re.compile(rb"^; ([a-z][a-z0-9_]*) = (.*?)\r?$", re.MULTILINE)
 _SLICER = re.compile(
@@ -28,7 +28,7 @@ _SLICER = re.compile(
     re.IGNORECASE | re.MULTILINE,
 )
 # First bytes of other kinds of files.
-OTHERS = {
+OTHER_FORMATS = {
     b"PK\x03\x04": "a zip or 3MF file",
     b"\x89PNG": "a picture",
     b"\xff\xd8\xff": "a picture",
@@ -62,7 +62,7 @@ class Survey:
     size: int
     slicer: str
     settings: dict[str, str]
-    begin: State
+    begin: MachineState
     stamped: bool
     resets_filament: bool
     windows: tuple[bytes, ...]
@@ -70,7 +70,7 @@ class Survey:
     @property
     def small(self) -> bool:
         """True if nearly every layer was read."""
-        return self.size <= SMALL
+        return self.size <= SMALL_FILE
 
     @property
     def layers(self) -> float:
@@ -90,7 +90,7 @@ class Survey:
         return None
 
 
-def survey(file: BinaryIO, *, more: bool = False, settings: Mapping[str, str] | None = None) -> Survey:
+def survey_print(file: BinaryIO, *, more: bool = False, settings: Mapping[str, str] | None = None) -> Survey:
     """Sample a print; leave the file at its beginning.
 
     Parameters
@@ -120,10 +120,10 @@ def survey(file: BinaryIO, *, more: bool = False, settings: Mapping[str, str] | 
     slicer = _SLICER.search(head[:8192])
     first_tag = LAYER_TAG.search(head)
     all_settings = {**file_settings, **(settings or {})}
-    volumetric, diameters = filament_of(head, all_settings)
-    unmoved = State(volumetric=volumetric, diameters=diameters, firmware=rule_of_e(head, all_settings))
-    before = read(head[: first_tag.start()] if first_tag else head[: head.rfind(b"\n") + 1], unmoved).after
-    begin = State(
+    volumetric, diameters = filament_units(head, all_settings)
+    unmoved = MachineState(volumetric=volumetric, diameters=diameters, firmware=extrusion_rule(head, all_settings))
+    before = read_table(head[: first_tag.start()] if first_tag else head[: head.rfind(b"\n") + 1], unmoved).after
+    begin = MachineState(
         relative=before.relative,
         relative_e=before.relative_e,
         absolute_e=before.absolute_e,
@@ -135,7 +135,7 @@ def survey(file: BinaryIO, *, more: bool = False, settings: Mapping[str, str] | 
         volumetric=before.volumetric,
         diameters=before.diameters,
     )
-    windows = ALL_WINDOWS if size <= SMALL else MORE_WINDOWS if more else WINDOWS
+    windows = ALL_WINDOWS if size <= SMALL_FILE else MORE_WINDOWS if more else WINDOWS
     samples = tuple(text for text in (_read_window(file, size, (k + 0.5) / windows) for k in range(windows)) if text)
     file.seek(0)
     return Survey(
@@ -149,7 +149,7 @@ def survey(file: BinaryIO, *, more: bool = False, settings: Mapping[str, str] | 
     )
 
 
-def joined(surveys: Sequence[Survey]) -> Survey:
+def merge_surveys(surveys: Sequence[Survey]) -> Survey:
     """Combine the surveys of several prints: the sum of their bytes, and their common settings."""
     base = surveys[0]
     shared = set.intersection(*(set(member.settings.items()) for member in surveys))
@@ -162,12 +162,12 @@ def _check_is_gcode(head: bytes, size: int) -> None:
     """Raise FormatError if a file with this beginning is not G-code text."""
     if not size:
         raise FormatError("the file is empty; give the G-code that a slicer wrote")
-    for magic, name in OTHERS.items():
+    for magic, name in OTHER_FORMATS.items():
         if head.startswith(magic):
             raise FormatError(f"the file is {name}; give the G-code that a slicer wrote, as text")
     if b"\0" in head:
         raise FormatError("the file holds bytes that no text has; give the G-code that a slicer wrote, as text")
-    if b"\n" not in head and size > LONGEST_LINE:
+    if b"\n" not in head and size > MAX_LINE_BYTES:
         raise FormatError("the file has no lines; give the G-code that a slicer wrote")
     if not re.search(rb"^\s*(?:N\d+ ?)?[GgMm]\d", head, re.MULTILINE):
         raise FormatError("the file has no line of G-code in it; give the G-code that a slicer wrote")
@@ -177,10 +177,10 @@ def _read_window(file: BinaryIO, size: int, share: float) -> bytes:
     """Return up to three whole layers around a place; none if there is no layer."""
     file.seek(int(size * share))
     text = file.read(WINDOW)
-    while len(text) < MOST_WINDOW:
+    while len(text) < MAX_WINDOW:
         tags = [match.start() for match in LAYER_TAG.finditer(text)]
-        if len(tags) > WHOLE:
-            return text[tags[0] : tags[WHOLE]]
+        if len(tags) > LAYERS_PER_WINDOW:
+            return text[tags[0] : tags[LAYERS_PER_WINDOW]]
         more = file.read(len(text))
         if not more:
             break

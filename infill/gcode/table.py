@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.gcode.lines import WORDS, Command, Lines, lines_of
+from infill.gcode.lines import WORDS, GcodeCommand, ParsedLines, parse_lines
 from infill.gcode.unusual_moves import EXTRUDERS
 
 Floats = NDArray[np.float64]
@@ -23,11 +23,11 @@ NAN = float("nan")
 AXES = "XYZ"
 INCH = 25.4  # mm
 DIAMETER = 1.75  # mm of filament, where the file does not say
-THICKEST, MOST_TOOLS, MOST_SAVED = 20.0, 64, 16  # mm; more is a mistake of the file
+MAX_DIAMETER, MAX_TOOLS, MAX_SAVED = 20.0, 64, 16  # mm; more is a mistake of the file
 
 
 @dataclass(frozen=True, kw_only=True)
-class State:
+class MachineState:
     """Position and modes of the machine between two lines.
 
     Parameters
@@ -111,7 +111,7 @@ class State:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Table:
+class GcodeTable:
     """A batch of lines, as columns.
 
     Parameters
@@ -179,9 +179,9 @@ class Table:
     unread: NDArray[np.bool_]
     unsure: NDArray[np.bool_]
     further: dict[int, dict[str, float]]
-    commands: tuple[Command, ...]
-    before: State
-    after: State
+    commands: tuple[GcodeCommand, ...]
+    before: MachineState
+    after: MachineState
 
     def __len__(self) -> int:
         return len(self.kind)
@@ -205,7 +205,7 @@ class Table:
         return self.data[self.start[first] : self.start[last]]
 
 
-def read(data: bytes, state: State) -> Table:
+def read_table(data: bytes, state: MachineState) -> GcodeTable:
     r"""Read a batch of whole lines, beginning in `state`.
 
     Parameters
@@ -219,15 +219,15 @@ def read(data: bytes, state: State) -> Table:
     -------
     Table
 
-    >>> table = read(b"M83\nG1 X1 Y2 E.5\nG1 Y3\n", State())
+    >>> table = read_table(b"M83\nG1 X1 Y2 E.5\nG1 Y3\n", MachineState())
     >>> table.kind.tolist(), table.y.tolist(), table.extruded.tolist()
     ([0, 1, 1], [nan, 2.0, 3.0], [0.0, 0.5, 0.0])
     """
-    lines = lines_of(data)
+    lines = parse_lines(data)
     return _replay(data, lines, state)
 
 
-def _replay(data: bytes, lines: Lines, before: State) -> Table:
+def _replay(data: bytes, lines: ParsedLines, before: MachineState) -> GcodeTable:
     """Follow the moves from `before`, stretch by stretch between commands that change their meaning."""
     before_lettered, commands, lines = _convert_extruders(lines, before)
     values, has_word, further, count = lines.values, lines.given, lines.further, len(lines)
@@ -264,7 +264,7 @@ def _replay(data: bytes, lines: Lines, before: State) -> Table:
     unsure, lost = _find_unsure(lines, before.lost)
     after = replace(state, f=float(feed[-1]) if count else before.f, lost=lost)
     after = replace(after, **_retraction_state(before, extruded, commands))
-    return Table(
+    return GcodeTable(
         data=data,
         start=lines.start,
         kind=lines.kind,
@@ -289,7 +289,9 @@ def _replay(data: bytes, lines: Lines, before: State) -> Table:
     )
 
 
-def _convert_extruders(lines: Lines, state: State) -> tuple[State, tuple[Command, ...], Lines]:
+def _convert_extruders(
+    lines: ParsedLines, state: MachineState
+) -> tuple[MachineState, tuple[GcodeCommand, ...], ParsedLines]:
     """Return the state, the commands and the lines, with A and B moved into E where these are the extruders.
 
     A file whose first word of either kind is an E has A and B as axes, which are left out.
@@ -326,7 +328,7 @@ def _convert_extruders(lines: Lines, state: State) -> tuple[State, tuple[Command
     return replace(state, counters=(counters["A"], counters["B"])), tuple(changed), converted
 
 
-def _convert_inches(lines: Lines, before: State) -> tuple[Floats, dict[int, dict[str, float]]]:
+def _convert_inches(lines: ParsedLines, before: MachineState) -> tuple[Floats, dict[int, dict[str, float]]]:
     """Convert the words of lines to mm, where some are in inches."""
     inches = np.zeros(len(lines), dtype=bool)
     since, on = 0, before.inches
@@ -342,7 +344,7 @@ def _convert_inches(lines: Lines, before: State) -> tuple[Floats, dict[int, dict
     return np.where(inches[:, None], lines.values * INCH, lines.values), further
 
 
-def _find_unsure(lines: Lines, lost: str) -> tuple[NDArray[np.bool_], str]:
+def _find_unsure(lines: ParsedLines, lost: str) -> tuple[NDArray[np.bool_], str]:
     """Return the lines before which x or y is unknown since an unreadable move, and the last `State.lost`."""
     count = len(lines)
     unsure = np.zeros(count, dtype=bool)
@@ -360,7 +362,9 @@ def _find_unsure(lines: Lines, lost: str) -> tuple[NDArray[np.bool_], str]:
     return unsure, still
 
 
-def _follow_stretch(lines: slice, values: Floats, where: dict[str, Floats], extruded: Floats, state: State) -> State:
+def _follow_stretch(
+    lines: slice, values: Floats, where: dict[str, Floats], extruded: Floats, state: MachineState
+) -> MachineState:
     """Follow the moves of lines with constant modes; return the state after them."""
     if lines.start >= lines.stop:
         return state
@@ -398,11 +402,11 @@ _MODES = {"G17", "G18", "G19", "G20", "G21", "G28", "G90", "G91", "G92", "M82", 
 _MODES |= {"SAVE_GCODE_STATE", "RESTORE_GCODE_STATE"}
 
 
-def _changes_moves(command: Command) -> bool:
+def _changes_moves(command: GcodeCommand) -> bool:
     return command.code in _MODES or command.code[:1] == "T"
 
 
-def _apply_command(state: State, command: Command) -> State:
+def _apply_command(state: MachineState, command: GcodeCommand) -> MachineState:
     """Return the state after a command that changes the meaning of moves."""
     match command.code:
         case "G20" | "G21":
@@ -414,14 +418,14 @@ def _apply_command(state: State, command: Command) -> State:
         case "G17" | "G18" | "G19":
             return replace(state, plane=int(command.code[1:]))
         case "M200":
-            return filament_counted(state, command.words)
+            return apply_m200(state, command.words)
         case "SAVE_GCODE_STATE" | "M120":
             remaining = tuple(
                 saved_state for saved_state in state.saved if saved_state[0] != command.name or command.code == "M120"
             )
             return replace(
                 state,
-                saved=(*remaining[-MOST_SAVED:], (command.name, state.relative, state.relative_e, state.absolute_e)),
+                saved=(*remaining[-MAX_SAVED:], (command.name, state.relative, state.relative_e, state.absolute_e)),
             )
         case "RESTORE_GCODE_STATE" | "M121":
             return _restore_state(state, command.name, once=command.code == "M121")
@@ -440,7 +444,7 @@ def _apply_command(state: State, command: Command) -> State:
             return state
 
 
-def filament_counted(state: State, words: Mapping[str, float | None]) -> State:
+def apply_m200(state: MachineState, words: Mapping[str, float | None]) -> MachineState:
     """Return the state after M200: D, the diameter of the filament of tool T, 0 for E in mm; S, 1 if E is in mm³.
 
     M200 with limits alone (L) changes nothing.
@@ -450,11 +454,11 @@ def filament_counted(state: State, words: Mapping[str, float | None]) -> State:
     if diameter is not None:
         diameter *= INCH if state.inches else 1.0
         volumetric = diameter > 0
-        if 0 < diameter < THICKEST:
+        if 0 < diameter < MAX_DIAMETER:
             tool = int(words.get("T") or 0) if "T" in words else None
             if tool is None:
                 diameters = (diameter,)
-            elif 0 <= tool < MOST_TOOLS:
+            elif 0 <= tool < MAX_TOOLS:
                 several = [diameters[min(index, len(diameters) - 1)] for index in range(max(tool + 2, len(diameters)))]
                 several[tool] = diameter
                 diameters = tuple(several)
@@ -463,7 +467,7 @@ def filament_counted(state: State, words: Mapping[str, float | None]) -> State:
     return replace(state, volumetric=volumetric, diameters=diameters)
 
 
-def _restore_state(state: State, name: str, *, once: bool) -> State:
+def _restore_state(state: MachineState, name: str, *, once: bool) -> MachineState:
     """Return the state with the modes that were saved under a name, if any were."""
     for place in reversed(range(len(state.saved))):
         if state.saved[place][0] == name:
@@ -473,7 +477,7 @@ def _restore_state(state: State, name: str, *, once: bool) -> State:
     return state
 
 
-def firmware_retraction(command: Command, firmware: str = "") -> bool | None:
+def firmware_retraction(command: GcodeCommand, firmware: str = "") -> bool | None:
     """Return True if a command retracts (G10), False if it primes (G11) by firmware; None for all others.
 
     Marlin's G10 S1 retracts as far as for a change of tools. With any other word, and with S too in RepRapFirmware,
@@ -483,7 +487,7 @@ def firmware_retraction(command: Command, firmware: str = "") -> bool | None:
     ----------
     command : Command
     firmware : str
-        As in `State`.
+        As in `MachineState`.
     """
     if command.code not in ("G10", "G11") or not set(command.words) <= {"S"}:
         return None
@@ -492,8 +496,8 @@ def firmware_retraction(command: Command, firmware: str = "") -> bool | None:
     return command.code == "G10"
 
 
-def _retraction_state(before: State, extruded: Floats, commands: tuple[Command, ...]) -> dict[str, Any]:
-    """Return the retracted filament at the end, and True if it was retracted by firmware, as fields of `State`."""
+def _retraction_state(before: MachineState, extruded: Floats, commands: tuple[GcodeCommand, ...]) -> dict[str, Any]:
+    """Return the retracted filament at the end, and True if firmware retracted it, as fields of `MachineState`."""
     total = np.cumsum(np.append(-before.retracted, extruded))
     retracted = round(float(max(0.0, total.max()) - total[-1]), 9)
     firmware = before.firmware_retracted

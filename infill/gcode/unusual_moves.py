@@ -13,7 +13,7 @@ from typing import Final
 
 from infill.checks import FARTHEST
 
-LARGEST: Final = 1e7  # mm, or mm/min: a larger number is a mistake of the file
+MAX_COORDINATE: Final = 1e7  # mm, or mm/min: a larger number is a mistake of the file
 # Words that RepRapFirmware, Marlin, Klipper and Sailfish accept on a move without changing its path: an endstop (H),
 # a laser (S), pins (P, of straight moves), and axes beyond the third.
 IGNORED: Final = frozenset("HSUVWCD")
@@ -119,7 +119,7 @@ def _read_value(number: bytes | None, letter: str) -> float | None:
     if number is None:
         return None
     parts = [float(part) for part in number.split(b":")]
-    if (len(parts) > 1 and letter != "E") or max(map(abs, parts)) > LARGEST:
+    if (len(parts) > 1 and letter != "E") or max(map(abs, parts)) > MAX_COORDINATE:
         return None
     return sum(parts)
 
@@ -146,7 +146,7 @@ def may_move(code: str, text: bytes) -> bool:
     Parameters
     ----------
     code : str
-        As in `infill.gcode.lines.Command`.
+        As in `infill.gcode.lines.GcodeCommand`.
     text : bytes
         The line.
 

@@ -12,8 +12,8 @@ from numpy.lib import format as npy_format
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.files.broken import SMALLER, checked_volume, told_broken
-from infill.imaging.packed import NOTHING, PADDING
+from infill.files.broken import SMALLER_VOLUME_ADVICE, checked_volume, wrap_reader_errors
+from infill.imaging.packed import BLANK_BYTES, MOST_PADDING
 from infill.machine import require_memory
 from infill.volume import AXES, Volume
 
@@ -22,21 +22,21 @@ PLACE = {"spacing", "spacing_zyx_mm", "origin", "direction", "space"}  # optiona
 
 def read_npy(path: Path) -> Volume:
     """Memory-map an array [x, y, z]."""
-    with told_broken(path):
+    with wrap_reader_errors(path):
         values = npy_format.open_memmap(path, mode="r")
         surplus = path.stat().st_size - values.offset - values.nbytes
-        if surplus > PADDING:
+        if surplus > MOST_PADDING:
             raise FormatError(f"{path} holds {surplus} bytes more than its header announces; save one array in it")
         with path.open("rb") as file:
             file.seek(-surplus, os.SEEK_END)
-            if file.read(surplus).strip(NOTHING):
+            if file.read(surplus).strip(BLANK_BYTES):
                 raise FormatError(f"{path} holds {surplus} bytes more than its header announces; save one array in it")
     return checked_volume(path, values)
 
 
 def read_npz(path: Path, name: str | None = None) -> Volume:
     """Read the only array with three axes, or the named one, with its place in space if the file has one."""
-    with told_broken(path), zipfile.ZipFile(path) as archive:
+    with wrap_reader_errors(path), zipfile.ZipFile(path) as archive:
         members = {member.filename.removesuffix(".npy"): member for member in archive.infolist()}
         volumes = [key for key, member in members.items() if _axes(archive, member) >= AXES and key not in PLACE]
         if name is not None and name not in members:
@@ -86,7 +86,7 @@ def _axes(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> int:
 
 def _read_member(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> NDArray[Any]:
     """Read one array of an archive, and check that nothing follows it."""
-    require_memory(member.file_size, None, SMALLER)
+    require_memory(member.file_size, None, SMALLER_VOLUME_ADVICE)
     with archive.open(member) as file:
         values = np.asarray(npy_format.read_array(file, allow_pickle=False))  # objects could run code
         if file.read(1):  # zipfile compares the checksum at the end

@@ -13,20 +13,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.files.broken import SMALLER
+from infill.files.broken import SMALLER_VOLUME_ADVICE
 from infill.imaging.assumed import warn
-from infill.imaging.packed import NOTHING, cut_off, read_bytes
-from infill.imaging.vtk_images import AT_ONCE, TEXT_BYTES, numbers_in
+from infill.imaging.packed import BLANK_BYTES, cut_off_error, read_bytes
+from infill.imaging.vtk_images import TEXT_BYTES, TEXT_CHUNK, parse_numbers
 from infill.machine import require_memory
 
 MOST_FILES = 100_000
 LONGEST_LINE = 2**20  # bytes
-PATTERN = re.compile(r"([^%]*)%(0?[0-9]{0,2})d([^%]*)")
+NUMBER_PATTERN = re.compile(r"([^%]*)%(0?[0-9]{0,2})d([^%]*)")
 PACKINGS = ("zlib", "gzip", "bzip2")
 
 
 @dataclass(frozen=True, kw_only=True)
-class Part:
+class DataFile:
     """A file that holds cells.
 
     Parameters
@@ -52,7 +52,7 @@ class Part:
     packed_bytes: int | None = None
 
 
-def find_detached(header: Path, name: str) -> Path:
+def find_data_file(header: Path, name: str) -> Path:
     """Find the data file that a header names: beside the header, unless the name has a folder."""
     stripped = name.strip()
     # A name written on Windows may contain folders of that computer.
@@ -62,13 +62,13 @@ def find_detached(header: Path, name: str) -> Path:
     raise FormatError(f"{header} keeps its cells in {stripped[:200]!r}, which is not there; put that file beside it")
 
 
-def number_names(header: Path, pattern: str, low: int, high: int, step: int) -> list[str]:
+def numbered_names(header: Path, pattern: str, low: int, high: int, step: int) -> list[str]:
     """Return the names that a pattern such as `slice%03d.raw` produces for a range of numbers.
 
-    >>> number_names(Path("a.nhdr"), "a%02d.raw", 1, 5, 2)
+    >>> numbered_names(Path("a.nhdr"), "a%02d.raw", 1, 5, 2)
     ['a01.raw', 'a03.raw', 'a05.raw']
     """
-    match = PATTERN.fullmatch(pattern)
+    match = NUMBER_PATTERN.fullmatch(pattern)
     numbers = range(low, high + (1 if step > 0 else -1), step) if step else range(0)
     if match is None or not 0 < len(numbers) <= MOST_FILES:
         raise FormatError(
@@ -78,8 +78,8 @@ def number_names(header: Path, pattern: str, low: int, high: int, step: int) -> 
     return [f"{prefix}{number:{width or '0'}d}{suffix}" for number in numbers]
 
 
-def read_parts(
-    header: Path, parts: Sequence[Part], kind: np.dtype[Any], total: int, low: int, high: int, *, encoding: str
+def read_data_files(
+    header: Path, parts: Sequence[DataFile], kind: np.dtype[Any], total: int, low: int, high: int, *, encoding: str
 ) -> NDArray[Any]:
     """Read cells `low` to `high - 1` of the `total` that a header announces, and check that the files hold them all.
 
@@ -105,7 +105,7 @@ def read_parts(
         raise FormatError(
             f"{header} keeps {total} cells in {len(parts)} files, which cannot be equal shares; check its sizes"
         )
-    require_memory((high - low) * kind.itemsize * (1 if len(parts) == 1 else 2), None, SMALLER)
+    require_memory((high - low) * kind.itemsize * (1 if len(parts) == 1 else 2), None, SMALLER_VOLUME_ADVICE)
     pieces = []
     for number, part in enumerate(parts):
         begin, end = np.clip((low - number * share, high - number * share), 0, share).tolist()
@@ -114,7 +114,7 @@ def read_parts(
 
 
 def _read_part(
-    header: Path, part: Part, kind: np.dtype[Any], total: int, low: int, high: int, encoding: str
+    header: Path, part: DataFile, kind: np.dtype[Any], total: int, low: int, high: int, encoding: str
 ) -> NDArray[Any]:
     """Read cells `low` to `high - 1` of one file."""
     size = kind.itemsize
@@ -134,7 +134,7 @@ def _read_part(
         if part.from_end:
             available = os.fstat(file.fileno()).st_size - file.tell()
             if available < total * size:
-                raise cut_off(source, available, total * size)
+                raise cut_off_error(source, available, total * size)
             if available > total * size:
                 warn(
                     "%s holds %d bytes more than its header announces; the last %d are taken for the cells, since what "
@@ -162,15 +162,15 @@ def _read_part(
 def _read_text(source: str, file: BinaryIO, kind: np.dtype[Any], count: int) -> NDArray[Any]:
     """Read exactly `count` numbers, separated by white space or commas."""
     if os.fstat(file.fileno()).st_size - file.tell() < 2 * count - 1:
-        raise cut_off(source, os.fstat(file.fileno()).st_size - file.tell(), 2 * count - 1, "characters")
-    require_memory(TEXT_BYTES * (min(AT_ONCE, count) + count), None, SMALLER)
+        raise cut_off_error(source, os.fstat(file.fileno()).st_size - file.tell(), 2 * count - 1, "characters")
+    require_memory(TEXT_BYTES * (min(TEXT_CHUNK, count) + count), None, SMALLER_VOLUME_ADVICE)
     pieces: list[NDArray[Any]] = []
     count_read = 0
-    while count_read <= count and (lines := file.readlines(AT_ONCE)):
-        pieces.append(numbers_in(b"".join(lines).replace(b",", b" ").split(), kind))
+    while count_read <= count and (lines := file.readlines(TEXT_CHUNK)):
+        pieces.append(parse_numbers(b"".join(lines).replace(b",", b" ").split(), kind))
         count_read += len(pieces[-1])
     if count_read < count:
-        raise cut_off(source, count_read, count, "numbers")
+        raise cut_off_error(source, count_read, count, "numbers")
     if count_read > count:
         raise FormatError(f"{source} holds more numbers than the {count} that its header announces; check its sizes")
     return np.concatenate(pieces)
@@ -180,9 +180,9 @@ def _read_hex(source: str, file: BinaryIO, count: int) -> bytes:
     """Read bytes written as two digits each, separated by any white space."""
     remaining = os.fstat(file.fileno()).st_size - file.tell()
     if remaining < 2 * count:
-        raise cut_off(source, remaining // 2, count)
-    require_memory(remaining + 2 * count, None, SMALLER)
-    content = bytes.fromhex(file.read().translate(None, NOTHING).decode("ascii", "replace"))
+        raise cut_off_error(source, remaining // 2, count)
+    require_memory(remaining + 2 * count, None, SMALLER_VOLUME_ADVICE)
+    content = bytes.fromhex(file.read().translate(None, BLANK_BYTES).decode("ascii", "replace"))
     if len(content) != count:
         raise FormatError(f"{source} holds {len(content)} bytes, and its header announces {count}; check its sizes")
     return content

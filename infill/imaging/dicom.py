@@ -11,21 +11,21 @@ from typing import Any
 from infill.errors import FormatError
 from infill.files.broken import checked_volume
 from infill.imaging.dicom_files import Frame, Image, is_dicom, read_image, require_pydicom
-from infill.imaging.dicom_frames import FILES, STORED_ORDER, Stack, placed_frames, stacks_of
-from infill.imaging.dicom_pixels import require_grey, values_of
+from infill.imaging.dicom_frames import SOURCE_FILES, STORED_ORDER, Stack, place_frames, split_into_stacks
+from infill.imaging.dicom_pixels import frame_values, require_grey
 from infill.imaging.dicom_segments import segment_layers, segment_volume
-from infill.imaging.frames import chosen
+from infill.imaging.frames import choose_frame
 from infill.imaging.label_tables import Segment
 from infill.volume import Volume
 
 LOG = logging.getLogger("infill")
 MOST_WARNINGS = 5  # of one file
-HEAD = 1024  # bytes that contain the storage class
+HEAD_BYTES = 1024  # bytes that contain the storage class
 STORAGE_CLASS = b"\x02\x00\x02\x00UI"  # tag (0002,0002), little-endian like the rest of that header
 
 
 @dataclass(frozen=True, kw_only=True)
-class Source:
+class DicomSource:
     """The files of one series.
 
     Parameters
@@ -77,15 +77,15 @@ def read_dicom(
         raise FormatError(
             f"{path} is a single slice, {columns} x {rows} x 1 cells; give the folder of all slices, or a volume"
         )
-    volumes = stacks_of(path, frames)
+    volumes = split_into_stacks(path, frames)
     sizes = sorted({len(stack.frames) for stack in volumes.stacks})
     counts = f"{sizes[0]}" if len(sizes) == 1 else f"{sizes[0]} to {sizes[-1]}"
     what = f"holds {len(volumes.stacks)} volumes of {counts} slices, told apart by {volumes.apart}"
-    chosen_index = chosen(path, frame, len(volumes.stacks), what=what)
-    if volumes.apart in (STORED_ORDER, FILES):
+    chosen_index = choose_frame(path, frame, len(volumes.stacks), what=what)
+    if volumes.apart in (STORED_ORDER, SOURCE_FILES):
         warnings = (*warnings, f"{path}: frame {chosen_index} is told from the others by {volumes.apart}")
     stack = volumes.stacks[chosen_index]
-    numbers = values_of(source.images, stack.frames)
+    numbers = frame_values(source.images, stack.frames)
     volume = checked_volume(path, numbers.values.T, **_placement(stack))
     return _with_warnings(volume, (*warnings, *numbers.warnings))
 
@@ -122,14 +122,14 @@ def _placement(stack: Stack) -> dict[str, Any]:
     }
 
 
-def _frames_of_source(source: Source, spacing: tuple[float, ...] | None) -> tuple[list[Frame], tuple[str, ...]]:
+def _frames_of_source(source: DicomSource, spacing: tuple[float, ...] | None) -> tuple[list[Frame], tuple[str, ...]]:
     """Return the frames of all files with their positions, and warnings about assumptions."""
     frames: list[Frame] = []
     warnings: list[str] = []
     is_slices = len(source.images) > 1 and all(image.count == 1 for image in source.images)
     for image in source.images:
         require_grey(image)
-        placed, assumptions = placed_frames(image, spacing)
+        placed, assumptions = place_frames(image, spacing)
         frames += placed
         warnings += assumptions
     if is_slices and any(frame.position is None or frame.axes is None for frame in frames):
@@ -140,14 +140,14 @@ def _frames_of_source(source: Source, spacing: tuple[float, ...] | None) -> tupl
 # --- which files -----------------------------------------------------------------------------------------------
 
 
-def _read_source(path: Path, series: str | None) -> Source:
+def _read_source(path: Path, series: str | None) -> DicomSource:
     """Read the headers of a file, or of one series in a folder."""
     if not path.is_dir():
         require_pydicom(path.suffix or "DICOM")
         image = read_image(path)
         if image is None:
             raise FormatError(f"{path} holds no pixels; give a file of several slices, or the folder of all slices")
-        return Source(path=path, images=(image,))
+        return DicomSource(path=path, images=(image,))
     require_pydicom("a DICOM folder")
     series_images = _series_of_folder(path)
     if not series_images:
@@ -162,7 +162,7 @@ def _read_source(path: Path, series: str | None) -> Source:
     if series is not None and series not in series_images:
         raise FormatError(f"{path} holds no DICOM series {series!r}; it holds {listed}")
     images = series_images[next(iter(series_images)) if series is None else series]
-    return Source(path=path, images=tuple(sorted(images, key=lambda image: (image.order, image.path.name))))
+    return DicomSource(path=path, images=tuple(sorted(images, key=lambda image: (image.order, image.path.name))))
 
 
 def _series_of_folder(folder: Path) -> dict[str, list[Image]]:
@@ -209,7 +209,7 @@ UID_ROOT = "1.2.840.10008."  # of the UIDs that DICOM defines
 def storage_class(path: Path) -> bytes:
     """Return the UID of the kind of a DICOM file, such as CT slices or a report; empty for other files."""
     with path.open("rb") as file:
-        head = file.read(HEAD)
+        head = file.read(HEAD_BYTES)
     tag_position = head.find(STORAGE_CLASS)
     if head[128:132] != b"DICM" or tag_position < 0:
         return b""

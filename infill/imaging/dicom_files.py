@@ -28,7 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.files.broken import SMALLER, one_line, told_broken
+from infill.files.broken import SMALLER_VOLUME_ADVICE, error_text, wrap_reader_errors
 from infill.imaging.label_tables import Colour, Segment
 from infill.machine import available_memory, require_memory
 
@@ -44,9 +44,9 @@ PIXEL_TAGS = {0x7FE00008: "f4", 0x7FE00009: "f8", 0x7FE00010: ""}
 LONG_HEADS = {"OB", "OD", "OF", "OL", "OV", "OW", "UN", "SQ", "UC", "UR", "UT", "SV", "UV"}
 UNDEFINED = 0xFFFFFFFF
 MOST_FRAMES = 2**20  # in one file
-TURN = 1e-3  # tolerance for directions of frames: files keep few digits
-NEAR = 0.01  # mm: likewise for places
-MOST_DEEP = 4  # sequences within those of a frame
+DIRECTION_TOLERANCE = 1e-3  # tolerance for directions of frames: files keep few digits
+PLACE_TOLERANCE = 0.01  # mm: likewise for places
+MOST_NESTED = 4  # sequences within those of a frame
 # Marks that distinguish volumes at the same place, in the order in which they are tried. Those of the first group count
 # even where all frames together would lie in even steps.
 VOLUME_MARKS = (
@@ -88,8 +88,8 @@ OTHER_MARKS = (
 )
 MARKS = frozenset((*VOLUME_MARKS, *OTHER_MARKS))
 VECTORS = ("TimeSlotVector", "PhaseVector", "EnergyWindowVector", "DetectorVector", "RRIntervalVector")
-PROJECTIONS = ("RotationVector", "AngularViewVector")  # views of a camera from around, not slices
-MOMENTS = {0x00181063: "FrameTime", 0x00181065: "FrameTimeVector"}
+PROJECTION_VECTORS = ("RotationVector", "AngularViewVector")  # views of a camera from around, not slices
+FRAME_TIME_TAGS = {0x00181063: "FrameTime", 0x00181065: "FrameTimeVector"}
 # Dimensions that give the position of a frame in its volume.
 IN_SPACE = {
     "ImagePositionPatient",
@@ -282,13 +282,13 @@ def _wrap_pydicom_errors(path: Path) -> Iterator[None]:
 
     try:
         # Its warnings concern elements that do not matter here: those that matter are checked.
-        with warnings.catch_warnings(), told_broken(path, "is broken or cut off", "copy or save it again"):
+        with warnings.catch_warnings(), wrap_reader_errors(path, "is broken or cut off", "copy or save it again"):
             warnings.simplefilter("ignore")
             yield
     except (BytesLengthException, InvalidDicomError, OSError) as error:
         if isinstance(error, OSError) and error.errno is not None:  # of the file system, not of the content
             raise
-        raise FormatError(f"{path} is broken or not DICOM ({one_line(error)}); copy or save it again") from error
+        raise FormatError(f"{path} is broken or not DICOM ({error_text(error)}); copy or save it again") from error
 
 
 def _header(path: Path) -> tuple[Dataset, Pixels | None]:
@@ -357,7 +357,7 @@ def _inflate(path: Path) -> bytes:
     allowed = 2**34 if free is None else free // 4
     unpacked = unpacker.decompress(content[begin:], allowed)
     if len(unpacked) >= allowed:
-        require_memory(5 * allowed, None, SMALLER)
+        require_memory(5 * allowed, None, SMALLER_VOLUME_ADVICE)
     return unpacked
 
 
@@ -375,7 +375,7 @@ def _integer(name: str, value: Any) -> int:  # noqa: ANN401 - what pydicom makes
     try:
         return int(value)
     except (TypeError, ValueError, OverflowError) as error:
-        raise ValueError(f"{name} is {printable(value)!r}") from error
+        raise ValueError(f"{name} is {clean_text(value)!r}") from error
 
 
 def _numbers(header: Dataset | None, name: str, count: int | None = None) -> tuple[float, ...] | None:
@@ -387,9 +387,9 @@ def _numbers(header: Dataset | None, name: str, count: int | None = None) -> tup
     try:
         numbers = tuple(float(word) for word in words)
     except (TypeError, ValueError, OverflowError) as error:
-        raise ValueError(f"{name} is {printable(value)!r}") from error
+        raise ValueError(f"{name} is {clean_text(value)!r}") from error
     if (count is not None and len(numbers) != count) or not all(math.isfinite(number) for number in numbers):
-        raise ValueError(f"{name} is {printable(value)!r}")
+        raise ValueError(f"{name} is {clean_text(value)!r}")
     return numbers
 
 
@@ -417,10 +417,10 @@ def _first_item(header: Dataset | None, name: str) -> Dataset | None:
     return items[0] if items else None
 
 
-def printable(value: object) -> str:
+def clean_text(value: object) -> str:
     r"""Return a text on one line, without control characters, truncated if it is long.
 
-    >>> printable("a\x1b[31m  b")
+    >>> clean_text("a\x1b[31m  b")
     'a[31m b'
     """
     words = " ".join(str(value).split())
@@ -431,7 +431,7 @@ def printable(value: object) -> str:
 def _mark_of(value: Any) -> Mark:  # noqa: ANN401 - what pydicom makes of an element
     """Convert a value to a tuple that can be compared and sorted."""
     words = [value] if isinstance(value, str | int | float) or not hasattr(value, "__iter__") else list(value)
-    return tuple(float(word) if isinstance(word, int | float) else printable(word) for word in words)
+    return tuple(float(word) if isinstance(word, int | float) else clean_text(word) for word in words)
 
 
 # --- the whole header ------------------------------------------------------------------------------------------
@@ -439,23 +439,23 @@ def _mark_of(value: Any) -> Mark:  # noqa: ANN401 - what pydicom makes of an ele
 
 def _image(path: Path, header: Dataset, pixels: Pixels) -> Image:
     """Collect the header of a file with pixels."""
-    storage = printable(header.get("SOPClassUID", ""))
+    storage = clean_text(header.get("SOPClassUID", ""))
     rows, columns = _whole_number(header, "Rows", 0), _whole_number(header, "Columns", 0)
     samples = _whole_number(header, "SamplesPerPixel", 1)
     count = _whole_number(header, "NumberOfFrames", 1)
     if rows < 1 or columns < 1 or count < 1 or samples < 1:
         raise ValueError(f"{count} frames of {columns} x {rows} pixels")
-    photometric = printable(header.get("PhotometricInterpretation", ""))
+    photometric = clean_text(header.get("PhotometricInterpretation", ""))
     image = Image(
         path=path,
         storage=storage,
-        series=printable(header.get("SeriesInstanceUID", "")),
+        series=clean_text(header.get("SeriesInstanceUID", "")),
         count=count,
         photometric=photometric,
         frames=(),
         pixels=pixels,
         order=(
-            printable(header.get("ConcatenationUID", "")),
+            clean_text(header.get("ConcatenationUID", "")),
             _whole_number(header, "InConcatenationNumber", 0),
             _whole_number(header, "InstanceNumber", 0),
         ),
@@ -512,9 +512,9 @@ def _frames(path: Path, header: Dataset, count: int, shape: tuple[int, int]) -> 
         return frames, "does not say where some of its frames lie", False
     pointers = header.get("FrameIncrementPointer")
     pointed = [pointers] if isinstance(pointers, int) else list(pointers or ())
-    if any(tag in MOMENTS for tag in pointed) or _whole_number(header, "NumberOfTemporalPositions", 1) > 1:
+    if any(tag in FRAME_TIME_TAGS for tag in pointed) or _whole_number(header, "NumberOfTemporalPositions", 1) > 1:
         return frames, "holds frames of moments, not of slices", False
-    if any(header.get(name) is not None for name in PROJECTIONS):
+    if any(header.get(name) is not None for name in PROJECTION_VECTORS):
         return frames, "holds frames of directions of a camera, not of slices", False
     mark_sets = {tuple(sorted(frame.marks.items())) for frame in frames}
     return frames, "does not say where its frames lie", len(mark_sets) == 1
@@ -588,7 +588,7 @@ def _collect_marks(item: Dataset, marks: dict[str, Mark], deep: int = 0) -> None
     """Add the marks of a frame, at any depth of its groups."""
     for element in item:
         if element.VR == "SQ":
-            if deep < MOST_DEEP:
+            if deep < MOST_NESTED:
                 for inner in element.value:
                     _collect_marks(inner, marks, deep + 1)
         elif element.keyword in MARKS and element.value not in (None, ""):
@@ -671,7 +671,7 @@ def _offsets(
             return offsets
         # Offsets from the origin instead of from the first frame, which are allowed only for frames across the z axis.
         z_component = axes[0] * axes[4] - axes[1] * axes[3]
-        is_axial = abs(abs(z_component) - 1) < TURN and abs(offsets[0] - position[2]) < NEAR
+        is_axial = abs(abs(z_component) - 1) < DIRECTION_TOLERANCE and abs(offsets[0] - position[2]) < PLACE_TOLERANCE
         return tuple((offset - position[2]) * z_component for offset in offsets) if is_axial else None
     slices = _numbers(header, "SliceVector", count)
     if slices is not None and between:
@@ -729,12 +729,12 @@ def _segments(header: Dataset, storage: str) -> Segments | None:
     """Return the segments of a segmentation; None for other files."""
     if storage not in (SEGMENTATION, LABEL_MAP):
         return None
-    kind = printable(header.get("SegmentationType", "")) or "BINARY"
+    kind = clean_text(header.get("SegmentationType", "")) or "BINARY"
     kind = "LABELMAP" if storage == LABEL_MAP else kind
     segments = []
     for item in _items(header, "SegmentSequence"):
         number = _whole_number(item, "SegmentNumber", 0)
-        name = printable(item.get("SegmentLabel") or item.get("SegmentDescription") or "")
+        name = clean_text(item.get("SegmentLabel") or item.get("SegmentDescription") or "")
         colour = _numbers(item, "RecommendedDisplayCIELabValue", 3)
         segments.append(Segment(value=number, name=name, colour=None if colour is None else _srgb(colour)))
     return Segments(
@@ -767,7 +767,7 @@ def _srgb(lab: tuple[float, ...]) -> Colour:
 # --- pixels ----------------------------------------------------------------------------------------------------
 
 
-def plain_bytes(image: Image) -> memoryview:
+def read_plain_pixels(image: Image) -> memoryview:
     """Read the bytes of frames that are not compressed one by one."""
     pixels = image.pixels
     assert pixels.length is not None

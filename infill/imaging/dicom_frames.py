@@ -15,15 +15,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.imaging.dicom_files import OTHER_MARKS, TURN, VOLUME_MARKS, Frame, Image, Mark
+from infill.imaging.dicom_files import DIRECTION_TOLERANCE, OTHER_MARKS, VOLUME_MARKS, Frame, Image, Mark
 from infill.volume import AXES
 
-UNEVEN = 0.05  # of a step: tolerance of frames against even steps
-ALIKE = 1e-3  # of the size of a pixel: tolerance between frames
+STEP_TOLERANCE = 0.05  # of a step: tolerance of frames against even steps
+PIXEL_TOLERANCE = 1e-3  # of the size of a pixel: tolerance between frames
 MOST_MARKS = 16  # marks that are tried in pairs
-TOLD = 6  # names in a message
+NAMES_SHOWN = 6  # names in a message
 STORED_ORDER = "their order in the file alone"
-FILES = "the files that they come from"
+SOURCE_FILES = "the files that they come from"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -95,7 +95,7 @@ class Plane:
     pixel: tuple[float, float]  # along a row, down a column
 
 
-def placed_frames(image: Image, spacing: tuple[float, ...] | None) -> tuple[tuple[Frame, ...], tuple[str, ...]]:
+def place_frames(image: Image, spacing: tuple[float, ...] | None) -> tuple[tuple[Frame, ...], tuple[str, ...]]:
     """Give every frame of a file a place; return the frames, and warnings about assumptions.
 
     Parameters
@@ -142,7 +142,7 @@ def placed_frames(image: Image, spacing: tuple[float, ...] | None) -> tuple[tupl
     return placed, (f"{path} {image.unplaced}: they are taken as slices {abs(step):g} mm apart in their order{caveat}",)
 
 
-def stacks_of(path: Path, frames: Sequence[Frame]) -> Stacks:
+def split_into_stacks(path: Path, frames: Sequence[Frame]) -> Stacks:
     """Divide frames into volumes.
 
     Raises
@@ -155,7 +155,9 @@ def stacks_of(path: Path, frames: Sequence[Frame]) -> Stacks:
         candidates = [even_stack(group) for group in groups]
         stacks = tuple(stack for stack in candidates if isinstance(stack, Stack))
         if len(stacks) < len(candidates):
-            counts = ", ".join(str(len(group)) for group in groups[:TOLD]) + (", …" if len(groups) > TOLD else "")
+            counts = ", ".join(str(len(group)) for group in groups[:NAMES_SHOWN]) + (
+                ", …" if len(groups) > NAMES_SHOWN else ""
+            )
             raise FormatError(
                 f"{path} holds slices of {len(groups)} orientations, sizes or coordinate systems ({counts}), which "
                 "make no volume; keep those of one volume"
@@ -193,8 +195,8 @@ def _is_alike(frame: Frame, reference: Frame) -> bool:
     if frame.axes is None or reference.axes is None or frame.pixel is None or reference.pixel is None:
         return frame.axes == reference.axes and frame.pixel == reference.pixel
     turned = max(abs(a - b) for a, b in zip(frame.axes, reference.axes, strict=True))
-    return turned <= TURN and all(
-        abs(a - b) <= ALIKE * abs(a) for a, b in zip(frame.pixel, reference.pixel, strict=True)
+    return turned <= DIRECTION_TOLERANCE and all(
+        abs(a - b) <= PIXEL_TOLERANCE * abs(a) for a, b in zip(frame.pixel, reference.pixel, strict=True)
     )
 
 
@@ -222,7 +224,7 @@ def _split_at_places(frames: Sequence[Frame]) -> Stacks | None:
     for frame in frames:
         by_file.setdefault(frame.path, []).append(frame)
     if len(by_file) > 1:
-        return _even_groups([*by_file.values()], FILES)
+        return _even_groups([*by_file.values()], SOURCE_FILES)
     return _even_groups(_group_repetitions(frames), STORED_ORDER)
 
 
@@ -233,7 +235,7 @@ def _split_by_marks(frames: Sequence[Frame], names: tuple[str, ...]) -> Stacks |
         groups.setdefault(tuple(frame.marks.get(name, ()) for name in names), []).append(frame)
     # Numbers before words, which do not compare.
     ordered = sorted(groups, key=lambda key: [[(isinstance(x, str), x) for x in mark] for mark in key])
-    return _even_groups([groups[key] for key in ordered], " and ".join(names[:TOLD]))
+    return _even_groups([groups[key] for key in ordered], " and ".join(names[:NAMES_SHOWN]))
 
 
 def _even_groups(groups: Sequence[Sequence[Frame]], apart: str) -> Stacks | None:
@@ -270,7 +272,9 @@ def _is_same_place(frame: Frame, reference: Frame) -> bool:
     """Tell whether two frames lie at the same place."""
     if frame.position is None or reference.position is None:
         return False
-    return bool(np.linalg.norm(np.subtract(frame.position, reference.position)) <= UNEVEN * max(frame.pixel or (1.0,)))
+    return bool(
+        np.linalg.norm(np.subtract(frame.position, reference.position)) <= STEP_TOLERANCE * max(frame.pixel or (1.0,))
+    )
 
 
 def even_stack(frames: Sequence[Frame]) -> Stack | Uneven:
@@ -300,13 +304,13 @@ def even_stack(frames: Sequence[Frame]) -> Stack | Uneven:
     middle = places.mean(axis=0)
     even = middle + np.outer(count * step, normal)
     deviation = float(np.linalg.norm(places[order] - even, axis=1).max() / step)
-    if not deviation <= UNEVEN:
+    if not deviation <= STEP_TOLERANCE:
         return Uneven(
             off=deviation,
             why=_describe_unevenness(steps, along[order]),
-            doubled=bool((steps < UNEVEN * steps.max()).any()),
+            doubled=bool((steps < STEP_TOLERANCE * steps.max()).any()),
         )
-    step = rounded(_stated_step(frames, step, deviation * step))
+    step = round_length(_stated_step(frames, step, deviation * step))
     centre = middle - (len(frames) - 1) / 2 * step * normal
     return Stack(
         frames=tuple(frames[k] for k in order),
@@ -316,10 +320,10 @@ def even_stack(frames: Sequence[Frame]) -> Stack | Uneven:
     )
 
 
-def rounded(length: float) -> float:
+def round_length(length: float) -> float:
     """Round a length to 12 digits, which removes the errors of sums.
 
-    >>> rounded(3.0000000000000004)
+    >>> round_length(3.0000000000000004)
     3.0
     """
     return float(f"{length:.12g}")
@@ -335,10 +339,10 @@ def _stated_step(frames: Sequence[Frame], step: float, noise: float) -> float:
 def _describe_unevenness(steps: NDArray[np.float64], along: NDArray[np.float64]) -> str:
     """Describe the unevenness of frames in words."""
     smallest, largest = float(steps.min()), float(steps.max())
-    places = 1 + int((steps >= UNEVEN * largest).sum())
+    places = 1 + int((steps >= STEP_TOLERANCE * largest).sum())
     if places <= len(steps):
         return f"{len(steps) + 1} of them lie at {places} places, and nothing tells them apart"
-    if largest - smallest <= UNEVEN * largest:
+    if largest - smallest <= STEP_TOLERANCE * largest:
         return "each is shifted sideways against the one before"
     usual = float(np.median(steps))
     outlier = int(np.abs(steps - usual).argmax())
@@ -354,12 +358,12 @@ def plane_of(frames: Sequence[Frame]) -> Plane | Uneven:
         return Uneven(off=1.0, why="their orientations or sizes differ")
     row, column = np.array([frame.axes for frame in frames]).mean(axis=0).reshape(2, AXES)
     lengths = np.linalg.norm(row), np.linalg.norm(column)
-    if max(abs(lengths[0] - 1), abs(lengths[1] - 1), abs(row @ column)) > TURN:
+    if max(abs(lengths[0] - 1), abs(lengths[1] - 1), abs(row @ column)) > DIRECTION_TOLERANCE:
         return Uneven(off=1.0, why="their rows and columns are not at right angles, or no directions")
     row = row / lengths[0]
     column = column - (column @ row) * row
     column /= np.linalg.norm(column)
-    down, across = (rounded(x) for x in np.mean([frame.pixel for frame in frames if frame.pixel], axis=0))
+    down, across = (round_length(x) for x in np.mean([frame.pixel for frame in frames if frame.pixel], axis=0))
     if down <= 0 or across <= 0:
         return Uneven(off=1.0, why=f"pixels are {across:g} x {down:g} mm")
     return Plane(direction=np.column_stack([row, column, np.cross(row, column)]), pixel=(across, down))

@@ -13,17 +13,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.files.broken import SMALLER
-from infill.imaging.dicom_files import Frame, Image, Pixels, plain_bytes, printable, write_packed_frames
+from infill.files.broken import SMALLER_VOLUME_ADVICE
+from infill.imaging.dicom_files import Frame, Image, Pixels, clean_text, read_plain_pixels, write_packed_frames
 from infill.imaging.medical import unpacked_frames
 from infill.machine import require_memory
 
-WHOLE = (np.uint8, np.int16, np.uint16, np.int32, np.uint32, np.int64)
+INTEGER_TYPES = (np.uint8, np.int16, np.uint16, np.int32, np.uint32, np.int64)
 EXACT_BITS = 16  # of stored numbers that float32 holds exactly, with some to spare for a scale
 
 
 @dataclass(frozen=True, kw_only=True)
-class Numbers:
+class FrameValues:
     """Values of frames.
 
     Parameters
@@ -43,7 +43,7 @@ def require_grey(image: Image) -> None:
         raise FormatError(f"{image.path} holds colours ({image.photometric}); save it as grey values")
 
 
-def stored_numbers(image: Image) -> Numbers:
+def stored_numbers(image: Image) -> FrameValues:
     """Return the stored numbers of all frames, in the order of the file.
 
     Raises
@@ -56,27 +56,27 @@ def stored_numbers(image: Image) -> Numbers:
     pixels, shape = image.pixels, (image.count, *image.frames[0].shape)
     if pixels.length is None:
         return _unpack_together([image])[image.path]
-    require_memory(2 * math.prod(shape) * max(1, pixels.allocated // 8), None, SMALLER)
-    content = np.frombuffer(plain_bytes(image), dtype=np.uint8)
-    return Numbers(values=_numbers_of_bytes(content, pixels, math.prod(shape)).reshape(shape))
+    require_memory(2 * math.prod(shape) * max(1, pixels.allocated // 8), None, SMALLER_VOLUME_ADVICE)
+    content = np.frombuffer(read_plain_pixels(image), dtype=np.uint8)
+    return FrameValues(values=_numbers_of_bytes(content, pixels, math.prod(shape)).reshape(shape))
 
 
-def _unpack_together(images: Sequence[Image]) -> dict[Path, Numbers]:
+def _unpack_together(images: Sequence[Image]) -> dict[Path, FrameValues]:
     """Decompress files with similar frames in one call; return their stored numbers by path."""
     template = images[0]
     path = template.path if len(images) == 1 else template.path.parent
     shape = (sum(image.count for image in images), *template.frames[0].shape)
-    require_memory(2 * math.prod(shape) * max(1, template.pixels.allocated // 8), None, SMALLER)
+    require_memory(2 * math.prod(shape) * max(1, template.pixels.allocated // 8), None, SMALLER_VOLUME_ADVICE)
     with tempfile.TemporaryDirectory(prefix="infill-") as folder:
         plain = Path(folder) / "frames.dcm"
         write_packed_frames(images, plain)
         values, messages = unpacked_frames(plain, path)
     if values.shape != shape:
         raise FormatError(f"{path} holds frames {values.shape} and says {shape}; save it again")
-    warnings = tuple(f"{path}: {printable(line)} (while unpacking)" for line in messages)
+    warnings = tuple(f"{path}: {clean_text(line)} (while unpacking)" for line in messages)
     numbers_of, begin = {}, 0
     for image in images:
-        numbers_of[image.path] = Numbers(values=values[begin : begin + image.count], warnings=warnings)
+        numbers_of[image.path] = FrameValues(values=values[begin : begin + image.count], warnings=warnings)
         begin += image.count
     return numbers_of
 
@@ -101,7 +101,7 @@ def _numbers_of_bytes(content: NDArray[np.uint8], pixels: Pixels, count: int) ->
     return (numbers << (pixels.allocated - 1 - pixels.high)) >> (pixels.allocated - pixels.stored)
 
 
-def values_of(images: Sequence[Image], frames: Sequence[Frame]) -> Numbers:
+def frame_values(images: Sequence[Image], frames: Sequence[Frame]) -> FrameValues:
     """Return the values of frames, in their order: the stored numbers, each scaled by its frame.
 
     Parameters
@@ -120,11 +120,11 @@ def values_of(images: Sequence[Image], frames: Sequence[Frame]) -> Numbers:
     by_path = {image.path: image for image in images if image.path in paths}
     dtype = _smallest_type(by_path, frames)
     rows, columns = frames[0].shape
-    require_memory(len(frames) * rows * columns * dtype.itemsize, None, SMALLER)
+    require_memory(len(frames) * rows * columns * dtype.itemsize, None, SMALLER_VOLUME_ADVICE)
     values = np.empty((len(frames), rows, columns), dtype=dtype)
     padded: list[tuple[int, NDArray[np.bool_]]] = []
     warnings: list[str] = []
-    unpacked: dict[Path, Numbers] = {}
+    unpacked: dict[Path, FrameValues] = {}
     for path in dict.fromkeys(frame.path for frame in frames):
         image = by_path[path]
         if path not in unpacked and image.pixels.length is None:
@@ -142,7 +142,7 @@ def values_of(images: Sequence[Image], frames: Sequence[Frame]) -> Numbers:
                     padded.append((k, mask))
             values[k] = _scale(numbers, image, frame, dtype)
     warnings += _replace_padding(values, padded, frames[0].path)
-    return Numbers(values=values, warnings=tuple(warnings))
+    return FrameValues(values=values, warnings=tuple(warnings))
 
 
 def _is_packed_alike(image: Image, reference: Image) -> bool:
@@ -184,7 +184,7 @@ def _smallest_type(images: dict[Path, Image], frames: Sequence[Frame]) -> np.dty
         bits = image.pixels.stored
         low, high = (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1) if image.pixels.signed else (0, 2**bits - 1)
         ends += [low * int(slope) + int(intercept), high * int(slope) + int(intercept)]
-    for dtype in WHOLE:
+    for dtype in INTEGER_TYPES:
         if np.iinfo(dtype).min <= min(ends) and max(ends) <= np.iinfo(dtype).max:
             return np.dtype(dtype)
     return np.dtype(np.float64)

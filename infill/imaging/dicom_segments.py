@@ -14,20 +14,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.files.broken import SMALLER, checked_volume
+from infill.files.broken import SMALLER_VOLUME_ADVICE, checked_volume
 from infill.imaging.dicom_files import Frame, Image, Segments
-from infill.imaging.dicom_frames import UNEVEN, Plane, Uneven, placed_frames, plane_of, rounded
+from infill.imaging.dicom_frames import STEP_TOLERANCE, Plane, Uneven, place_frames, plane_of, round_length
 from infill.imaging.dicom_pixels import stored_numbers
-from infill.imaging.frames import chosen
+from infill.imaging.frames import choose_frame
 from infill.imaging.label_tables import Segment
 from infill.machine import require_memory
 from infill.volume import AXES, Volume
 
-AROUND = 2  # empty slices on both sides: omitted frames are empty
+EMPTY_MARGIN = 2  # empty slices on both sides: omitted frames are empty
 
 
 @dataclass(frozen=True, kw_only=True)
-class Grid:
+class SliceGrid:
     """Position of the slices of a segmentation.
 
     Parameters
@@ -96,7 +96,7 @@ def segment_volume(path: Path, images: Sequence[Image], frame: int | None) -> tu
     segment_info = _require_segments(images[0])
     numbers = {slice_frame.segment for slice_frame in images[0].frames}
     if len(images) == 1 and segment_info.kind == "FRACTIONAL" and len(numbers) == 1:
-        chosen(path, frame, 1, what="")
+        choose_frame(path, frame, 1, what="")
         grid, warnings = _grid(images[0])
         stored = stored_numbers(images[0])
         shares = np.zeros((grid.count, *images[0].frames[0].shape), dtype=np.float32)
@@ -106,7 +106,7 @@ def segment_volume(path: Path, images: Sequence[Image], frame: int | None) -> tu
         return grid.volume(path, shares, varied=True), (*warnings, *stored.warnings)
     layers, _, warnings = segment_layers(path, images)
     what = f"holds {len(layers)} layers of segments; write all with {{label}} in the name of the output"
-    layer = layers[chosen(path, frame, len(layers), what=what)]
+    layer = layers[choose_frame(path, frame, len(layers), what=what)]
     return checked_volume(path, np.asarray(layer.values), **_placement(layer)), warnings
 
 
@@ -123,13 +123,13 @@ def _require_segments(image: Image) -> Segments:
     return image.segments
 
 
-def _grid(image: Image) -> tuple[Grid, tuple[str, ...]]:
+def _grid(image: Image) -> tuple[SliceGrid, tuple[str, ...]]:
     """Return the grid of the slices of a segmentation, and warnings."""
     if image.photometric not in ("MONOCHROME2", "PALETTE COLOR", "MONOCHROME1", ""):
         raise FormatError(f"{image.path} holds colours ({image.photometric}); save it as a segmentation")
     if image.unplaced:
         raise FormatError(f"{image.path} {image.unplaced}; save it as .seg.nrrd")
-    frames, warnings = placed_frames(image, None)
+    frames, warnings = place_frames(image, None)
     plane = plane_of(frames)
     if isinstance(plane, Uneven) or any(frame.position is None for frame in frames):
         why = plane.why if isinstance(plane, Uneven) else "some have no place"
@@ -139,7 +139,7 @@ def _grid(image: Image) -> tuple[Grid, tuple[str, ...]]:
     order = np.argsort(along, kind="stable")
     steps = np.diff(along[order])
     widest = float(steps.max()) if len(steps) else 0.0
-    gaps = steps[steps > UNEVEN * widest]
+    gaps = steps[steps > STEP_TOLERANCE * widest]
     if len(gaps) == 0:
         raise FormatError(f"{image.path} is a single slice; give the segmentation of all slices")
     stated = frames[0].between
@@ -160,16 +160,16 @@ def _fit_slices(
 ) -> tuple[NDArray[np.int64], NDArray[np.float64], float] | None:
     """Return the slice number of each frame, the centre of slice 0 and the step, mm; None if the fit is bad."""
     gaps = np.rint(steps / step)
-    if (np.abs(steps - gaps * step) > UNEVEN * step * np.maximum(gaps, 1)).any() or not gaps.any():
+    if (np.abs(steps - gaps * step) > STEP_TOLERANCE * step * np.maximum(gaps, 1)).any() or not gaps.any():
         return None
     slice_number = np.empty(len(places), dtype=np.int64)
     slice_number[order] = np.concatenate([[0], np.cumsum(gaps)]).astype(np.int64)
     normal = plane.direction[:, 2]
     centred = slice_number - slice_number.mean()
-    fitted_step = rounded(centred @ (places @ normal) / (centred @ centred))
+    fitted_step = round_length(centred @ (places @ normal) / (centred @ centred))
     start = places.mean(axis=0) - slice_number.mean() * fitted_step * normal
     deviation = np.linalg.norm(start + np.outer(slice_number * fitted_step, normal) - places, axis=1).max()
-    return (slice_number, start, fitted_step) if deviation <= UNEVEN * fitted_step else None
+    return (slice_number, start, fitted_step) if deviation <= STEP_TOLERANCE * fitted_step else None
 
 
 def _warn_if_sparse(image: Image, slices: NDArray[np.int64], step: float) -> tuple[str, ...]:
@@ -189,7 +189,7 @@ def _warn_if_thin(image: Image, frame: Frame, step: float) -> tuple[str, ...]:
     Files omit frames without cells of a segment, so that the even steps of the others may be too long.
     """
     thick = frame.thickness
-    if frame.between or not thick or step <= (1 + UNEVEN) * thick:
+    if frame.between or not thick or step <= (1 + STEP_TOLERANCE) * thick:
         return ()
     return (
         f"{image.path} does not say how far apart slices are: its frames lie {step:g} mm apart and are {thick:g} mm "
@@ -199,14 +199,14 @@ def _warn_if_thin(image: Image, frame: Frame, step: float) -> tuple[str, ...]:
 
 def _padded_grid(
     frames: Sequence[Frame], fit: tuple[NDArray[np.int64], NDArray[np.float64], float], plane: Plane
-) -> Grid:
+) -> SliceGrid:
     """Build the grid, with empty slices on both sides."""
     slices, start, step = fit
     spacing = (*plane.pixel, step)
-    corner = start - plane.direction @ (np.array(spacing) * (0.5, 0.5, 0.5 + AROUND))
-    return Grid(
-        slices=tuple((slices + AROUND).tolist()),
-        count=int(slices.max()) + 1 + 2 * AROUND,
+    corner = start - plane.direction @ (np.array(spacing) * (0.5, 0.5, 0.5 + EMPTY_MARGIN))
+    return SliceGrid(
+        slices=tuple((slices + EMPTY_MARGIN).tolist()),
+        count=int(slices.max()) + 1 + 2 * EMPTY_MARGIN,
         spacing=spacing,
         origin=tuple(corner.tolist()),
         direction=plane.direction,
@@ -214,7 +214,7 @@ def _padded_grid(
     )
 
 
-def _check_single(image: Image, grid: Grid) -> None:
+def _check_single(image: Image, grid: SliceGrid) -> None:
     """Raise FormatError if two frames of one segment lie at one place."""
     seen: set[tuple[int | None, int]] = set()
     for frame, slice_index in zip(image.frames, grid.slices, strict=True):
@@ -225,15 +225,15 @@ def _check_single(image: Image, grid: Grid) -> None:
         seen.add((frame.segment, slice_index))
 
 
-def _allocate(image: Image, grid: Grid, kind: type[np.integer[Any]]) -> NDArray[Any]:
+def _allocate(image: Image, grid: SliceGrid, kind: type[np.integer[Any]]) -> NDArray[Any]:
     """Allocate an array for the slices, or raise MemoryLimitError."""
     shape = (grid.count, *image.frames[0].shape)
     assert len(shape) == AXES
-    require_memory(grid.count * shape[1] * shape[2] * np.dtype(kind).itemsize, None, SMALLER)
+    require_memory(grid.count * shape[1] * shape[2] * np.dtype(kind).itemsize, None, SMALLER_VOLUME_ADVICE)
     return np.zeros(shape, dtype=kind)
 
 
-def _label_map(image: Image, grid: Grid, stored: NDArray[Any]) -> NDArray[Any]:
+def _label_map(image: Image, grid: SliceGrid, stored: NDArray[Any]) -> NDArray[Any]:
     """Return the labels of a label map, with padding as 0."""
     labels = _allocate(image, grid, np.uint8 if image.pixels.allocated <= 8 else np.uint16)
     _check_single(image, grid)
@@ -245,7 +245,7 @@ def _label_map(image: Image, grid: Grid, stored: NDArray[Any]) -> NDArray[Any]:
 
 
 def _stack_segments(
-    image: Image, grid: Grid, stored: NDArray[Any], segment_info: Segments
+    image: Image, grid: SliceGrid, stored: NDArray[Any], segment_info: Segments
 ) -> tuple[list[NDArray[Any]], dict[int, int]]:
     """Return as few arrays of segment numbers as overlaps allow, and the array index of each segment."""
     _check_single(image, grid)

@@ -7,7 +7,7 @@ from pathlib import Path
 from infill.errors import FormatError, ParameterError
 
 
-def chosen(path: Path, frame: int | None, frames: int, *, what: str) -> int:
+def choose_frame(path: Path, frame: int | None, frames: int, *, what: str) -> int:
     """Check the requested frame index, counted from 0, and return it; a single frame needs no choice.
 
     Parameters
@@ -27,7 +27,7 @@ def chosen(path: Path, frame: int | None, frames: int, *, what: str) -> int:
     ParameterError
         If the requested frame does not exist.
 
-    >>> chosen(Path("a.nii"), None, 1, what="")
+    >>> choose_frame(Path("a.nii"), None, 1, what="")
     0
     """
     if frame is None:

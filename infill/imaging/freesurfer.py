@@ -18,9 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.files.broken import SMALLER, checked_volume, told_broken
+from infill.files.broken import SMALLER_VOLUME_ADVICE, checked_volume, wrap_reader_errors
 from infill.imaging.assumed import warn
-from infill.imaging.frames import chosen
+from infill.imaging.frames import choose_frame
 from infill.machine import require_memory
 from infill.volume import AXES, Volume
 
@@ -29,7 +29,7 @@ HEADER_BYTES = 284
 VERSION = 1  # in the low byte; newer files keep the intent of the image in the others
 TYPES = {0: ">u1", 1: ">i4", 3: ">f4", 4: ">i2", 10: ">u2"}
 # Default without a place in the header: cells of 1 mm, the axes towards left, inferior and anterior.
-UNPLACED = (1.0, 1.0, 1.0, -1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0)
+DEFAULT_PLACE = (1.0, 1.0, 1.0, -1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0)
 TO_LPS = np.array([-1.0, -1.0, 1.0])
 
 
@@ -53,13 +53,13 @@ class _MghHeader:
 def read_mgh(path: Path, frame: int | None = None) -> Volume:
     """Read the volume of a file, [x, y, z] in LPS, or one of its frames, counted from 0."""
     packed = path.suffix.lower() != ".mgh"
-    with told_broken(path), _open(path, packed=packed) as file:
+    with wrap_reader_errors(path), _open(path, packed=packed) as file:
         header = _parse_header(path, file.read(HEADER_BYTES))
         what = f"has 4 axes, {' x '.join(map(str, (*header.shape, header.frames)))} cells"
-        frame_index = chosen(path, frame, header.frames, what=what)
+        frame_index = choose_frame(path, frame, header.frames, what=what)
         if not packed and path.stat().st_size < HEADER_BYTES + header.frames * header.frame_bytes:
             _raise_cut_off(path, path.stat().st_size, HEADER_BYTES + header.frames * header.frame_bytes)
-        require_memory(2 * header.frame_bytes, None, SMALLER)
+        require_memory(2 * header.frame_bytes, None, SMALLER_VOLUME_ADVICE)
         file.seek(HEADER_BYTES + frame_index * header.frame_bytes)
         content = _read(file, header.frame_bytes)
         while packed and file.read(2**24):  # to the end, where the checksum is
@@ -101,7 +101,7 @@ def _parse_header(path: Path, head: bytes) -> _MghHeader:
             "unless --spacing gives it",
             path,
         )
-    numbers = np.array(place if placed else UNPLACED, dtype=np.float64)
+    numbers = np.array(place if placed else DEFAULT_PLACE, dtype=np.float64)
     return _MghHeader(
         shape=(nx, ny, nz),
         frames=frames,

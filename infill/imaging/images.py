@@ -14,15 +14,15 @@ from numpy.typing import NDArray
 from infill.errors import FormatError
 from infill.files.broken import checked_volume
 from infill.imaging.assumed import warn
-from infill.imaging.frames import chosen
+from infill.imaging.frames import choose_frame
 from infill.imaging.units import millimetres
 from infill.volume import AXES, Volume
 
 MOST_AXES = 16
-SIZES = "the size of its cells along"
+CELL_SIZE_PHRASE = "the size of its cells along"
 TO_LPS = {"RAS": (-1.0, -1.0, 1.0), "LAS": (1.0, -1.0, 1.0), "LPS": (1.0, 1.0, 1.0)}
 # Reads the cells from one index to before another, in the order of the file.
-ReadCells = Callable[[int, int], NDArray[Any]]
+CellReader = Callable[[int, int], NDArray[Any]]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,7 +72,7 @@ class ImageHeader:
         return tuple(self.sizes[axis] for axis in self.spatial)
 
 
-def read_frame(header: ImageHeader, frame: int | None, read: ReadCells) -> Volume:
+def read_frame(header: ImageHeader, frame: int | None, read: CellReader) -> Volume:
     """Read one volume of an image, counted from 0, or the only one.
 
     Raises
@@ -82,8 +82,8 @@ def read_frame(header: ImageHeader, frame: int | None, read: ReadCells) -> Volum
     ParameterError
         If the requested frame does not exist.
     """
-    what = header.what or f"has {len(header.sizes)} axes, {times(header.sizes)}"
-    frame_index = chosen(header.path, frame, header.frames, what=what)
+    what = header.what or f"has {len(header.sizes)} axes, {describe_sizes(header.sizes)}"
+    frame_index = choose_frame(header.path, frame, header.frames, what=what)
     cells = math.prod(header.shape)
     if sorted(header.spatial) == list(range(AXES)):  # frames lie one after the other
         values = read(frame_index * cells, (frame_index + 1) * cells).reshape(header.sizes[:AXES], order="F")
@@ -91,7 +91,7 @@ def read_frame(header: ImageHeader, frame: int | None, read: ReadCells) -> Volum
     return place_volume(header, _cells_by_frame(header, read(0, header.cells))[..., frame_index])
 
 
-def read_frames(header: ImageHeader, read: ReadCells) -> tuple[Volume, ...]:
+def read_frames(header: ImageHeader, read: CellReader) -> tuple[Volume, ...]:
     """Read all volumes of an image; they may be empty."""
     values = _cells_by_frame(header, read(0, header.cells))
     return tuple(place_volume(header, values[..., frame_index], varied=False) for frame_index in range(header.frames))
@@ -120,12 +120,16 @@ def place_volume(header: ImageHeader, values: NDArray[Any], *, varied: bool = Tr
 def require_sizes(path: Path, sizes: tuple[int, ...]) -> None:
     """Raise FormatError unless an image has at least three axes, all with cells."""
     if not sizes or len(sizes) > MOST_AXES or min(sizes) < 1:
-        raise FormatError(f"{path} has {len(sizes)} axes, {times(sizes[:MOST_AXES])}; save a volume with cells")
+        raise FormatError(
+            f"{path} has {len(sizes)} axes, {describe_sizes(sizes[:MOST_AXES])}; save a volume with cells"
+        )
     if len(sizes) < AXES:
-        raise FormatError(f"{path} is a single slice, {times(sizes)}; give the folder of all slices, or a volume")
+        raise FormatError(
+            f"{path} is a single slice, {describe_sizes(sizes)}; give the folder of all slices, or a volume"
+        )
 
 
-def times(sizes: tuple[int, ...]) -> str:
+def describe_sizes(sizes: tuple[int, ...]) -> str:
     """Describe the numbers of cells along the axes in words."""
     return " x ".join(str(cells) for cells in sizes) + " cells"
 

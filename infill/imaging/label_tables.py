@@ -17,11 +17,11 @@ from pathlib import Path
 
 from infill.errors import FormatError
 
-LARGEST = 10 * 2**20  # bytes of a table, or of the header of an image
-SNAP = re.compile(r'(-?\d+)\s+(\d+)\s+(\d+)\s+(\d+)\s+[\d.]+\s+\d+\s+\d+\s+"([^"]*)"')
-LUT = re.compile(r"(-?\d+)\s+(.*?\S)\s+(\d+)\s+(\d+)\s+(\d+)(?:\s+\d+)?")
-FIELD = re.compile(r"Segment(\d+)_(Name|LabelValue|Layer|Color):=(.*)")
-HIGHEST = 255
+LARGEST_TABLE = 10 * 2**20  # bytes of a table, or of the header of an image
+SNAP_LINE = re.compile(r'(-?\d+)\s+(\d+)\s+(\d+)\s+(\d+)\s+[\d.]+\s+\d+\s+\d+\s+"([^"]*)"')
+LUT_LINE = re.compile(r"(-?\d+)\s+(.*?\S)\s+(\d+)\s+(\d+)\s+(\d+)(?:\s+\d+)?")
+SEGMENT_FIELD = re.compile(r"Segment(\d+)_(Name|LabelValue|Layer|Color):=(.*)")
+HIGHEST_CHANNEL = 255
 NRRD = "NRRD"
 
 Colour = tuple[float, float, float]
@@ -83,15 +83,15 @@ def read_labels(path: str | os.PathLike[str]) -> tuple[Segment, ...]:
 
 def _parse_label(line: str) -> Segment | None:
     """Parse the label on a line; return None if the line has none."""
-    if snap := SNAP.fullmatch(line):
+    if snap := SNAP_LINE.fullmatch(line):
         value, *colour, name = snap.groups()
-    elif lut := LUT.fullmatch(line):
+    elif lut := LUT_LINE.fullmatch(line):
         value, name, *colour = lut.groups()
     else:
         return None
-    if any(int(channel) > HIGHEST for channel in colour):
+    if any(int(channel) > HIGHEST_CHANNEL for channel in colour):
         return None
-    red, green, blue = (int(channel) / HIGHEST for channel in colour)
+    red, green, blue = (int(channel) / HIGHEST_CHANNEL for channel in colour)
     return Segment(value=int(value), name=name.strip(), colour=(red, green, blue))
 
 
@@ -107,7 +107,7 @@ def segments_of_nrrd(path: str | os.PathLike[str]) -> tuple[Segment, ...]:
     fields = [
         (int(match[1]), match[2], match[3].strip())
         for line in _read_nrrd_header(source)
-        if (match := FIELD.fullmatch(line)) is not None
+        if (match := SEGMENT_FIELD.fullmatch(line)) is not None
     ]
     segments = []
     for number, entries in groupby(sorted(fields), key=lambda field: field[0]):
@@ -136,7 +136,7 @@ def _read_nrrd_header(path: Path) -> list[str]:
     """Return the header lines of a NRRD, before the first empty line; an empty list for other files."""
     try:
         with path.open("rb") as file:
-            head = file.read(LARGEST)
+            head = file.read(LARGEST_TABLE)
     except OSError as error:
         raise FormatError(f"cannot read {path}: {error.strerror or error}; check the file") from error
     if not head.startswith(NRRD.encode()):
@@ -151,10 +151,10 @@ def _read_text(path: Path) -> str:
         raise FormatError(f"there is no file {path}; check the name")
     try:
         with path.open("rb") as file:
-            content = file.read(LARGEST + 1)
+            content = file.read(LARGEST_TABLE + 1)
     except OSError as error:
         raise FormatError(f"cannot read {path}: {error.strerror or error}; check the file") from error
-    if len(content) > LARGEST or b"\0" in content:
+    if len(content) > LARGEST_TABLE or b"\0" in content:
         raise FormatError(f"{path} is no table of labels; give a text file with one label a line")
     return _decode(content)
 

@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.files.broken import told_broken
+from infill.files.broken import wrap_reader_errors
 from infill.imaging.assumed import warn
-from infill.imaging.detached import Part, find_detached, number_names, read_parts
-from infill.imaging.images import ImageHeader, ReadCells, read_frame, require_sizes, scale_of
+from infill.imaging.detached import DataFile, find_data_file, numbered_names, read_data_files
+from infill.imaging.images import CellReader, ImageHeader, read_frame, require_sizes, scale_of
 from infill.volume import AXES, Volume
 
 LONGEST_LINE = 2**16  # bytes
@@ -35,9 +35,9 @@ TYPES = {
     "double": "f8",
 }
 # Synonyms; the first one in the header counts.
-MATRIX = ("transformmatrix", "rotation", "orientation")
-ORIGIN = ("offset", "position", "origin")
-DATA = "elementdatafile"
+MATRIX_FIELDS = ("transformmatrix", "rotation", "orientation")
+ORIGIN_FIELDS = ("offset", "position", "origin")
+DATA_FIELD = "elementdatafile"
 LINE = re.compile(r"\s*([^=:]+?)\s*[=:]\s*(.*?)\s*")
 # Axes that run from right to left, anterior to posterior and inferior to superior are those of LPS.
 TOWARDS = {"R": (0, 1), "L": (0, -1), "A": (1, 1), "P": (1, -1), "I": (2, 1), "S": (2, -1)}
@@ -60,7 +60,7 @@ class _MetaFields(dict[str, str]):
 
 def read_meta_image(path: Path, frame: int | None = None) -> Volume:
     """Read the volume of a file, [x, y, z] in LPS, or one of several, counted from 0."""
-    with told_broken(path), np.errstate(all="ignore"):  # infinite places are refused
+    with wrap_reader_errors(path), np.errstate(all="ignore"):  # infinite places are refused
         fields, listed, end = _parse_header(path)
         count = int(fields["ndims"])
         sizes = _integers(fields, "dimsize", count)
@@ -95,7 +95,7 @@ def _parse_header(path: Path) -> tuple[_MetaFields, tuple[str, ...], int]:
             if match is None:
                 raise FormatError(f"{path} has a line in its header that is no field, {text[:40]!r}; save it again")
             fields[match[1].lower()] = match[2]
-            if match[1].lower() == DATA:
+            if match[1].lower() == DATA_FIELD:
                 listed: tuple[str, ...] = ()
                 if match[2].split()[:1] == ["LIST"]:
                     listed = tuple(filter(None, (name_line.decode("utf-8", "replace").strip() for name_line in file)))
@@ -110,8 +110,8 @@ def _parse_header(path: Path) -> tuple[_MetaFields, tuple[str, ...], int]:
 
 def _affine(path: Path, fields: _MetaFields, count: int) -> NDArray[np.float64]:
     """Return the affine in LPS: row i of the matrix in the file is the direction of axis i."""
-    matrix = _agreeing_vector(path, fields, MATRIX, count * count)
-    origin = _agreeing_vector(path, fields, ORIGIN, count)
+    matrix = _agreeing_vector(path, fields, MATRIX_FIELDS, count * count)
+    origin = _agreeing_vector(path, fields, ORIGIN_FIELDS, count)
     sizes, gaps = (_floats(fields, name, count) for name in ("elementspacing", "elementsize"))
     if sizes is None and gaps is None:
         warn("%s does not say the size of its cells; 1 mm is taken, unless --spacing gives it", path)
@@ -182,7 +182,7 @@ def _integers(fields: _MetaFields, name: str, count: int) -> tuple[int, ...]:
 # --- cells -----------------------------------------------------------------------------------------------
 
 
-def _cell_reader(path: Path, fields: _MetaFields, header: ImageHeader, listed: tuple[str, ...], end: int) -> ReadCells:
+def _cell_reader(path: Path, fields: _MetaFields, header: ImageHeader, listed: tuple[str, ...], end: int) -> CellReader:
     """Return the function that reads the cells of a file, after checking the header."""
     name = fields["elementtype"].lower().removeprefix("met_").removesuffix("_array")
     if name not in TYPES:
@@ -209,7 +209,7 @@ def _cell_reader(path: Path, fields: _MetaFields, header: ImageHeader, listed: t
         )
     packed = int(fields.get("compresseddatasize", "0")) if encoding == "zlib" else 0
     parts = [
-        Part(
+        DataFile(
             path=file,
             begin=max(skip, end if is_local else 0),  # counted from the beginning of the file
             from_end=skip == -1,
@@ -217,22 +217,22 @@ def _cell_reader(path: Path, fields: _MetaFields, header: ImageHeader, listed: t
         )
         for file in files
     ]
-    return lambda low, high: read_parts(path, parts, kind, header.cells, low, high, encoding=encoding)
+    return lambda low, high: read_data_files(path, parts, kind, header.cells, low, high, encoding=encoding)
 
 
 def _data_files(path: Path, fields: _MetaFields, header: ImageHeader, listed: tuple[str, ...]) -> list[Path]:
     """Return the files of the cells, in order."""
-    data_file = fields[DATA]
+    data_file = fields[DATA_FIELD]
     words = data_file.split()
     if data_file.lower() == "local":
         return [path]
     if words[:1] == ["LIST"]:
         if not listed:
             raise FormatError(f"{path} lists no files that hold its cells; save it again")
-        return [find_detached(path, name) for name in listed]
+        return [find_data_file(path, name) for name in listed]
     if len(words) > 1 and "%" in words[0]:
         low, high, step = (int(word) for word in (*words[1:4], "1")[:3]) if len(words) > 2 else (int(words[1]), 0, 1)
         if len(words) == 2:
             high = low + header.sizes[-1] - 1
-        return [find_detached(path, name) for name in number_names(path, words[0], low, high, step)]
-    return [find_detached(path, data_file)]
+        return [find_data_file(path, name) for name in numbered_names(path, words[0], low, high, step)]
+    return [find_data_file(path, data_file)]

@@ -20,10 +20,10 @@ def is_template(path: Path) -> bool:
     return NAME in str(path) or NUMBER in str(path)
 
 
-def filled(path: Path, names: Sequence[str], segments: Sequence[Segment]) -> list[Path]:
+def fill_template(path: Path, names: Sequence[str], segments: Sequence[Segment]) -> list[Path]:
     """Return the path of each label, with its name, made safe for every file system, and its number.
 
-    >>> [path.name for path in filled(Path("{number}_{label}.stl"), ["L1/L2"], [Segment(value=4)])]
+    >>> [path.name for path in fill_template(Path("{number}_{label}.stl"), ["L1/L2"], [Segment(value=4)])]
     ['4_L1_L2.stl']
     """
     safe = safe_names(names, [f"label_{segment.value}" for segment in segments])

@@ -20,10 +20,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.files.broken import one_line, told_broken
+from infill.files.broken import error_text, wrap_reader_errors
 from infill.imaging.assumed import warn
 from infill.imaging.images import ImageHeader, read_frame, require_sizes
-from infill.imaging.packed import cut_off, read_bytes
+from infill.imaging.packed import cut_off_error, read_bytes
 from infill.volume import AXES, Volume
 
 LOG = logging.getLogger("infill")
@@ -46,8 +46,8 @@ MILLIMETRES = {1: 1000.0, 2: 1.0, 3: 1e-3}
 LENGTH_BITS = 7  # of the units; the others are those of time
 CODES = range(6)  # of the methods to place a volume: 0 for an unused one
 # Tolerance between two places that are rounded to 32 bits: share of a cell.
-AGREEING = 1e-2
-OFF_UNIT = 1e-4  # by how much the squares of a quaternion's parts may exceed 1
+AGREEMENT_TOLERANCE = 1e-2
+QUATERNION_TOLERANCE = 1e-4  # by how much the squares of a quaternion's parts may exceed 1
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,7 +60,7 @@ class _HeaderLayout:
     fields: dict[str, tuple[str, int]]
 
 
-ONE = _HeaderLayout(
+NIFTI_1 = _HeaderLayout(
     size=348,
     first=352,
     dim="8h",
@@ -79,7 +79,7 @@ ONE = _HeaderLayout(
         "sform": ("12f", 280),
     },
 )
-TWO = _HeaderLayout(
+NIFTI_2 = _HeaderLayout(
     size=540,
     first=544,
     dim="8q",
@@ -98,7 +98,7 @@ TWO = _HeaderLayout(
         "sform": ("12d", 400),
     },
 )
-FORMS = {ONE.size: ONE, TWO.size: TWO}
+LAYOUTS = {NIFTI_1.size: NIFTI_1, NIFTI_2.size: NIFTI_2}
 
 
 class _NiftiHeader:
@@ -119,7 +119,7 @@ class _NiftiHeader:
 
 def read_nifti(path: Path, frame: int | None = None) -> Volume:
     """Read the volume of a file, [x, y, z] in LPS, or one of several, counted from 0."""
-    with told_broken(path), np.errstate(all="ignore"), path.open("rb") as file:  # infinite places are refused
+    with wrap_reader_errors(path), np.errstate(all="ignore"), path.open("rb") as file:  # infinite places are refused
         packed = file.read(2) == MAGIC_OF_GZIP
         file.seek(0)
         header = _parse_header(path, _read_head(path, file, packed=packed))
@@ -149,13 +149,13 @@ def read_nifti(path: Path, frame: int | None = None) -> Volume:
 def _read_head(path: Path, file: BinaryIO, *, packed: bool) -> bytes:
     """Read the first bytes, up to the length of the longest header."""
     if not packed:
-        return file.read(TWO.size)
+        return file.read(NIFTI_2.size)
     try:
         with gzip.GzipFile(fileobj=file) as unpacked:
-            return _read_start(cast(BinaryIO, unpacked), TWO.size)
+            return _read_start(cast(BinaryIO, unpacked), NIFTI_2.size)
     except (OSError, zlib.error) as error:
         raise FormatError(
-            f"{path} is damaged: it does not unpack ({one_line(error)}); copy or save it again"
+            f"{path} is damaged: it does not unpack ({error_text(error)}); copy or save it again"
         ) from error
 
 
@@ -173,11 +173,11 @@ def _read_start(file: BinaryIO, count: int) -> bytes:
 def _parse_header(path: Path, content: bytes) -> _NiftiHeader:
     """Parse the header of either version and byte order."""
     for order in "<>":
-        form = FORMS.get(struct.unpack(f"{order}i", content[:4])[0]) if len(content) >= 4 else None
+        form = LAYOUTS.get(struct.unpack(f"{order}i", content[:4])[0]) if len(content) >= 4 else None
         if form is None:
             continue
         if len(content) < form.size:
-            raise cut_off(str(path), len(content), form.size, "bytes of its header")
+            raise cut_off_error(str(path), len(content), form.size, "bytes of its header")
         header = _NiftiHeader(form, order, content)
         magic = header.one("magic")[:4]
         if magic in (b"ni1\0", b"ni2\0"):
@@ -264,7 +264,10 @@ def _affine(path: Path, header: _NiftiHeader, sizes: tuple[int, ...]) -> NDArray
     by_quaternion = _affine_of_quaternion(path, header, steps) if codes["qform"] else None
     if codes["sform"]:
         _warn_if_sizes_differ(path, by_matrix, steps)
-        if by_quaternion is not None and (distance := _corner_distance(by_matrix, by_quaternion, sizes)) > AGREEING:
+        if (
+            by_quaternion is not None
+            and (distance := _corner_distance(by_matrix, by_quaternion, sizes)) > AGREEMENT_TOLERANCE
+        ):
             warn(
                 "%s states two places, up to %.3g cells apart: by its sform (code %d), which is taken, and by its "
                 "qform (code %d)",
@@ -291,7 +294,7 @@ def _affine_of_quaternion(path: Path, header: _NiftiHeader, steps: NDArray[np.fl
     """Return the affine of the qform; formulas of nifti1.h, "QUATERNION REPRESENTATION OF ROTATION MATRIX"."""
     b, c, d, *offset = (float(number) for number in header.all("quaternion"))
     squared_real = 1 - (b * b + c * c + d * d)
-    if not squared_real > -OFF_UNIT:
+    if not squared_real > -QUATERNION_TOLERANCE:
         raise FormatError(f"{path} has a quaternion that is no rotation ({b:.4g}, {c:.4g}, {d:.4g}); save it again")
     if squared_real < 1e-7:  # a half turn, rounded
         length = math.sqrt(b * b + c * c + d * d)
@@ -313,7 +316,7 @@ def _affine_of_quaternion(path: Path, header: _NiftiHeader, steps: NDArray[np.fl
 def _warn_if_sizes_differ(path: Path, affine: NDArray[np.float64], steps: NDArray[np.float64]) -> None:
     """Warn if the stated cell sizes differ from those of the matrix, which counts."""
     lengths = np.linalg.norm(affine[:, :AXES], axis=0)
-    if not np.allclose(lengths, steps, rtol=AGREEING, atol=0):
+    if not np.allclose(lengths, steps, rtol=AGREEMENT_TOLERANCE, atol=0):
         warn(
             "%s states cells of %s (pixdim) and %s (sform), of which the latter are taken",
             path,

@@ -18,14 +18,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.files.broken import told_broken
+from infill.files.broken import wrap_reader_errors
 from infill.imaging.assumed import warn
-from infill.imaging.detached import Part, find_detached, number_names, read_parts
+from infill.imaging.detached import DataFile, find_data_file, numbered_names, read_data_files
 from infill.imaging.images import (
-    SIZES,
+    CELL_SIZE_PHRASE,
     TO_LPS,
+    CellReader,
     ImageHeader,
-    ReadCells,
     read_frame,
     read_frames,
     require_sizes,
@@ -73,11 +73,11 @@ SPACES = {
     "3d-right-handed": "",
 }
 LEFT_HANDED = "3d-left-handed"
-TIME = "-time"  # a fourth axis of a space
+TIME_SUFFIX = "-time"  # a fourth axis of a space
 # Kinds of axes of space; all others hold several numbers per cell, or times.
-OF_SPACE = {"domain", "space", "none", "???"}
+SPATIAL_KINDS = {"domain", "space", "none", "???"}
 UNKNOWN = {"none", "???"}
-SEGMENTS = (".seg.nrrd", ".seg.nhdr")
+SEGMENTATION_SUFFIXES = (".seg.nrrd", ".seg.nhdr")
 SYNONYMS = {
     "datafile": "data file",
     "lineskip": "line skip",
@@ -88,8 +88,8 @@ SYNONYMS = {
     "blocksize": "block size",
 }
 VECTOR = re.compile(r"none|\(([^()]*)\)", re.IGNORECASE)
-QUOTED = re.compile(r'"((?:\\.|[^"\\])*)"|(\S+)')
-AGREEING = 1e-3  # relative: lengths stated twice are rounded
+QUOTED_WORD = re.compile(r'"((?:\\.|[^"\\])*)"|(\S+)')
+LENGTH_TOLERANCE = 1e-3  # relative: lengths stated twice are rounded
 
 WRITTEN_TYPES = {
     "b1": "uint8",
@@ -126,19 +126,19 @@ class _NrrdFields:
 
 def read_nrrd(path: Path, frame: int | None = None) -> Volume:
     """Read the volume of a file, [x, y, z] with its place in space, or one of several, counted from 0."""
-    with told_broken(path), np.errstate(all="ignore"):  # infinite places are refused
+    with wrap_reader_errors(path), np.errstate(all="ignore"):  # infinite places are refused
         header, read = _open_image(path)
         return read_frame(header, frame, read)
 
 
 def read_layers(path: Path) -> tuple[Volume, ...]:
     """Read all volumes of a file, in order: the layers of a segmentation; they may be empty."""
-    with told_broken(path), np.errstate(all="ignore"):  # infinite places are refused
+    with wrap_reader_errors(path), np.errstate(all="ignore"):  # infinite places are refused
         header, read = _open_image(path)
         return read_frames(header, read)
 
 
-def _open_image(path: Path) -> tuple[ImageHeader, ReadCells]:
+def _open_image(path: Path) -> tuple[ImageHeader, CellReader]:
     """Return the header of a file, and the function that reads its cells."""
     fields = _parse_header(path)
     dimension = int(fields["dimension"])
@@ -194,10 +194,10 @@ def _place_image(path: Path, fields: _NrrdFields, sizes: tuple[int, ...]) -> Ima
     if "complex" in kinds:
         raise FormatError(f"{path} holds complex numbers; save their magnitude or their phase")
     name = fields.get("space").lower()
-    space = SPACES.get(name.removesuffix(TIME), "")
-    if name.removesuffix(TIME) == LEFT_HANDED:
+    space = SPACES.get(name.removesuffix(TIME_SUFFIX), "")
+    if name.removesuffix(TIME_SUFFIX) == LEFT_HANDED:
         raise FormatError(f"{path} lies in a left-handed space, where it would be mirrored; save it in LPS or RAS")
-    if name and name.removesuffix(TIME) not in SPACES:
+    if name and name.removesuffix(TIME_SUFFIX) not in SPACES:
         raise FormatError(f"{path} lies in a space {name[:40]!r}, which is unknown; save it in LPS or RAS")
     directions = _vectors(fields.get("space directions"))
     if directions:
@@ -214,9 +214,11 @@ def _place_image(path: Path, fields: _NrrdFields, sizes: tuple[int, ...]) -> Ima
     flip = np.array(TO_LPS.get(space, (1.0, 1.0, 1.0)))
     frame_axes = [axis for axis in range(len(sizes)) if axis not in spatial]
     numbers = math.prod(sizes[axis] for axis in frame_axes)
-    in_cells = any(axis < max(spatial) or (kinds and kinds[axis] not in {"time", *OF_SPACE}) for axis in frame_axes)
+    in_cells = any(
+        axis < max(spatial) or (kinds and kinds[axis] not in {"time", *SPATIAL_KINDS}) for axis in frame_axes
+    )
     what = f"holds {numbers} numbers per cell" if in_cells else ""
-    if numbers > 1 and path.name.lower().endswith(SEGMENTS):
+    if numbers > 1 and path.name.lower().endswith(SEGMENTATION_SUFFIXES):
         what = f"holds {numbers} layers of segments; write all with {{label}} in the name of the output"
     return ImageHeader(
         path=path,
@@ -267,7 +269,7 @@ def _require_agreeing(path: Path, fields: _NrrdFields, axes: list[int], lengths:
     stated = [float(word) for word in fields.get("spacings").split()]
     for axis, length in zip(axes, lengths, strict=True):
         size = abs(stated[axis]) if axis < len(stated) else math.nan
-        if math.isfinite(size) and not math.isclose(size, length, rel_tol=AGREEING):
+        if math.isfinite(size) and not math.isclose(size, length, rel_tol=LENGTH_TOLERANCE):
             raise FormatError(
                 f"{path} states two sizes of a cell along axis {axis}, {size:.6g} (spacings) and {length:.6g} (space "
                 "directions); delete the wrong one from its header"
@@ -283,12 +285,14 @@ def _affine_of_spacings(
     if units and len(units) != len(sizes):
         raise ValueError(f"{len(units)} units for {len(sizes)} axes")
     centers = fields.get("centers").lower().split()
-    axes = [axis for axis in range(len(sizes)) if not kinds or kinds[axis] in OF_SPACE]
+    axes = [axis for axis in range(len(sizes)) if not kinds or kinds[axis] in SPATIAL_KINDS]
     if len(axes) > AXES:  # the first three axes with a stated size, else the first three of all
         stated = [axis for axis in axes if math.isfinite(spacings[axis]) or math.isfinite(mins[axis])]
         axes = (stated if len(stated) >= AXES else axes)[:AXES]
     affine = np.zeros((AXES, AXES + 1))
-    scales = scales_of(path, [units[axis] if units else "" for axis in axes], SIZES, [f"axis {axis}" for axis in axes])
+    scales = scales_of(
+        path, [units[axis] if units else "" for axis in axes], CELL_SIZE_PHRASE, [f"axis {axis}" for axis in axes]
+    )
     unsized = []
     for column, axis in enumerate(axes):
         at_nodes = axis < len(centers) and centers[axis] == "node"
@@ -338,14 +342,14 @@ def _vectors(text: str) -> list[NDArray[np.float64] | None]:
 
 def _split_words(text: str) -> list[str]:
     """Split a list of words, quoted or not; words without meaning become empty."""
-    words = [match[1] or match[2] or "" for match in QUOTED.finditer(text)]
+    words = [match[1] or match[2] or "" for match in QUOTED_WORD.finditer(text)]
     return ["" if word.strip().lower() in UNKNOWN else word.replace('\\"', '"').strip() for word in words]
 
 
 # --- cells -----------------------------------------------------------------------------------------------
 
 
-def _cell_reader(path: Path, fields: _NrrdFields, header: ImageHeader) -> ReadCells:
+def _cell_reader(path: Path, fields: _NrrdFields, header: ImageHeader) -> CellReader:
     """Return the function that reads the cells of a file, after checking the header."""
     name = fields["type"].lower()
     if name not in KINDS:
@@ -369,9 +373,9 @@ def _cell_reader(path: Path, fields: _NrrdFields, header: ImageHeader) -> ReadCe
     parts = _data_files(path, fields)
     # Compressed data are skipped once unpacked, plain ones before.
     parts_read = [
-        Part(path=file, begin=begin, lines=lines, skip=skipped, from_end=skipped == -1) for file, begin in parts
+        DataFile(path=file, begin=begin, lines=lines, skip=skipped, from_end=skipped == -1) for file, begin in parts
     ]
-    return lambda low, high: read_parts(path, parts_read, kind, header.cells, low, high, encoding=encoding)
+    return lambda low, high: read_data_files(path, parts_read, kind, header.cells, low, high, encoding=encoding)
 
 
 def _data_files(path: Path, fields: _NrrdFields) -> list[tuple[Path, int]]:
@@ -380,11 +384,11 @@ def _data_files(path: Path, fields: _NrrdFields) -> list[tuple[Path, int]]:
     if not words:
         return [(path, fields.end)]
     if words[0] == "LIST":
-        return [(find_detached(path, name), 0) for name in fields.files]
+        return [(find_data_file(path, name), 0) for name in fields.files]
     if "%" in words[0] and len(words) >= 4:
         low, high, step = (int(word) for word in words[1:4])
-        return [(find_detached(path, name), 0) for name in number_names(path, words[0], low, high, step)]
-    return [(find_detached(path, fields["data file"]), 0)]
+        return [(find_data_file(path, name), 0) for name in numbered_names(path, words[0], low, high, step)]
+    return [(find_data_file(path, fields["data file"]), 0)]
 
 
 # --- writing ---------------------------------------------------------------------------------------------

@@ -16,16 +16,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.files.broken import SMALLER, one_line
+from infill.files.broken import SMALLER_VOLUME_ADVICE, error_text
 from infill.imaging.assumed import warn
 from infill.machine import require_memory
 
 CHUNK = 2**20  # bytes read, or unpacked, in one go
-PADDING = 512  # empty bytes that may follow the cells: files are padded to blocks
-LINE_END = 2  # bytes that need no warning
-NOTHING = b"\0 \t\r\n"
+MOST_PADDING = 512  # empty bytes that may follow the cells: files are padded to blocks
+SILENT_PADDING = 2  # bytes that need no warning
+BLANK_BYTES = b"\0 \t\r\n"
 # Most bytes per packed byte: RFC 1951 gives 1032 for deflate; bzip2 packs 45,899,235 zeros into 46.
-RATIOS = {"zlib": 1032, "gzip": 1032, "bzip2": 10**6}
+MOST_RATIOS = {"zlib": 1032, "gzip": 1032, "bzip2": 10**6}
 ZLIB_OR_GZIP = 32 + zlib.MAX_WBITS  # zlib's own way to ask for either, told apart by the first bytes
 GZIP = 16 + zlib.MAX_WBITS
 
@@ -132,21 +132,21 @@ def read_bytes(
     available = max(0, os.fstat(file.fileno()).st_size - begin)
     if not packing:
         if available < total:
-            raise cut_off(source, available, total)
-        require_memory(count, None, SMALLER)
+            raise cut_off_error(source, available, total)
+        require_memory(count, None, SMALLER_VOLUME_ADVICE)
         file.seek(begin + total)
-        _require_nothing(source, file.read(PADDING + 1), available - total)
+        _require_nothing(source, file.read(MOST_PADDING + 1), available - total)
         file.seek(begin + skip)
         return _read_plain(source, file, count)
     if packed_bytes is not None and available < packed_bytes:
-        raise cut_off(source, available, packed_bytes, "packed bytes")
+        raise cut_off_error(source, available, packed_bytes, "packed bytes")
     packed_size = available if packed_bytes is None else packed_bytes
-    if total > RATIOS[packing] * packed_size:
+    if total > MOST_RATIOS[packing] * packed_size:
         raise FormatError(
             f"{source} is cut off, or its sizes are wrong: {packed_size} bytes packed by {packing} cannot hold the "
             f"{total} that its header announces; copy or save it again"
         )
-    require_memory(count, None, SMALLER)
+    require_memory(count, None, SMALLER_VOLUME_ADVICE)
     cells = np.empty(count, dtype=np.uint8)
     target, position = cells.data, 0
     try:
@@ -155,7 +155,7 @@ def read_bytes(
             if start < stop:
                 target[start - skip : stop - skip] = memoryview(piece)[start - position : stop - position]
             position += len(piece)
-            if position > total + PADDING:
+            if position > total + MOST_PADDING:
                 break
             if position > total:
                 _require_nothing(source, piece[total - position :], position - total)
@@ -163,18 +163,18 @@ def read_bytes(
         if isinstance(error, FormatError):
             raise
         raise FormatError(
-            f"{source} is damaged: what is packed in it by {packing} does not unpack ({one_line(error)}); "
+            f"{source} is damaged: what is packed in it by {packing} does not unpack ({error_text(error)}); "
             "copy or save it again"
         ) from error
     except EOFError as error:
-        raise cut_off(source, position, total, f"bytes, unpacked from {packed_size} by {packing}") from error
+        raise cut_off_error(source, position, total, f"bytes, unpacked from {packed_size} by {packing}") from error
     if position > total:
         raise _surplus_error(source, position - total)
     if position < total:
-        raise cut_off(source, position, total, "bytes")
+        raise cut_off_error(source, position, total, "bytes")
     if packed_bytes is not None:
         file.seek(begin + packed_bytes)
-        _require_nothing(source, file.read(PADDING + 1), available - packed_bytes)
+        _require_nothing(source, file.read(MOST_PADDING + 1), available - packed_bytes)
     return cells
 
 
@@ -196,7 +196,7 @@ def _unpack(file: BinaryIO, packing: str, remaining: int) -> Iterator[bytes]:
                 data = data.lstrip(b"\0")
             if not data:
                 return
-            if packing == "zlib" and not data.strip(NOTHING):
+            if packing == "zlib" and not data.strip(BLANK_BYTES):
                 return
             stream = STREAMS[packing]()
         else:
@@ -213,16 +213,16 @@ def _read_plain(source: str, file: BinaryIO, count: int) -> NDArray[np.uint8]:
     while position < count:
         count_read = file.readinto(target[position:])  # type: ignore[attr-defined]
         if not count_read:
-            raise cut_off(source, position, count)  # another program truncated it
+            raise cut_off_error(source, position, count)  # another program truncated it
         position += count_read
     return cells
 
 
 def _require_nothing(source: str, after: bytes, surplus: int) -> None:
     """Raise FormatError if more than padding follows the cells."""
-    if surplus > PADDING or after.strip(NOTHING):
+    if surplus > MOST_PADDING or after.strip(BLANK_BYTES):
         raise _surplus_error(source, surplus)
-    if surplus > LINE_END:
+    if surplus > SILENT_PADDING:
         warn(
             "%s holds %d bytes more than its header announces, with nothing in them; they are left out", source, surplus
         )
@@ -230,10 +230,10 @@ def _require_nothing(source: str, after: bytes, surplus: int) -> None:
 
 def _surplus_error(source: str, count: int) -> FormatError:
     """Return the error for a file with too many bytes."""
-    what = f"{count} bytes more" if count <= PADDING else "more bytes"
+    what = f"{count} bytes more" if count <= MOST_PADDING else "more bytes"
     return FormatError(f"{source} holds {what} than its header announces; check the sizes in it, or save it again")
 
 
-def cut_off(source: str, available: int, needed: int, what: str = "bytes") -> FormatError:
+def cut_off_error(source: str, available: int, needed: int, what: str = "bytes") -> FormatError:
     """Return the error for a file that ends too early."""
     return FormatError(f"{source} is cut off: it holds {available} {what}, of {needed}; copy or save it again")

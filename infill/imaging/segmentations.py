@@ -7,17 +7,17 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from infill.errors import FormatError
-from infill.files.broken import told_unreadable
+from infill.files.broken import wrap_read_errors
 from infill.grid import spacing_of
 from infill.imaging.assumed import keep_warnings
 from infill.imaging.dicom import read_dicom_segments
-from infill.imaging.frames import chosen
+from infill.imaging.frames import choose_frame
 from infill.imaging.label_tables import Segment, segments_of_nrrd
 from infill.imaging.nrrd import read_layers
 from infill.imaging.volume_files import holds_dicom, read_volume
 from infill.volume import AXES, Volume
 
-NRRD = (".nrrd", ".nhdr")
+NRRD_SUFFIXES = (".nrrd", ".nhdr")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,7 +63,7 @@ def read_segmentation(
         if segmentation is not None:
             return _with_spacing(segmentation if frame is None else _select_layer(segmentation, source, frame), spacing)
     segments: tuple[Segment, ...] = ()
-    if source.suffix.lower() in NRRD and source.is_file() and array is None and series is None:
+    if source.suffix.lower() in NRRD_SUFFIXES and source.is_file() and array is None and series is None:
         segments = segments_of_nrrd(source)
     if not segments or frame is not None:
         volume = read_volume(source, array=array, series=series, frame=frame, spacing=spacing)
@@ -82,14 +82,14 @@ def read_segmentation(
 
 def _read_dicom(source: Path, series: str | None) -> Segmentation | None:
     """Read the segments of a DICOM file or folder; return None for other content."""
-    with told_unreadable(source):
+    with wrap_read_errors(source):
         content = read_dicom_segments(source, series=series)
     return None if content is None else Segmentation(layers=content[0], segments=content[1])
 
 
 def _select_layer(segmentation: Segmentation, source: Path, frame: int) -> Segmentation:
     """Return one layer of a segmentation, with its segments."""
-    layer = chosen(source, frame, len(segmentation.layers), what="holds layers of segments")
+    layer = choose_frame(source, frame, len(segmentation.layers), what="holds layers of segments")
     segments = tuple(replace(segment, layer=0) for segment in segmentation.segments if segment.layer == layer)
     return Segmentation(layers=(segmentation.layers[layer],), segments=segments)
 

@@ -15,20 +15,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.files.broken import SMALLER, checked_volume, one_line, told_broken
+from infill.files.broken import SMALLER_VOLUME_ADVICE, checked_volume, error_text, wrap_reader_errors
 from infill.imaging.assumed import LOG, warn
-from infill.imaging.images import SIZES, scales_of
+from infill.imaging.images import CELL_SIZE_PHRASE, scales_of
 from infill.machine import require_memory
 from infill.volume import AXES, Volume
 
-SLICES = {".tif", ".tiff", ".png"}
+SLICE_SUFFIXES = {".tif", ".tiff", ".png"}
 UNCOMPRESSED = 1
 GREY_MODES = {"1", "L", "I", "I;16", "I;16L", "I;16B", "F"}
 # Units of sizes that were not measured: pixels or cells.
-CELLS = {"", "pixel", "pixels", "px", "voxel", "voxels", "unitless", "reference frame", "none", "null", "?"}
+CELL_UNITS = {"", "pixel", "pixels", "px", "voxel", "voxels", "unitless", "reference frame", "none", "null", "?"}
 RESOLUTIONS = {2: "inch", 3: "cm"}
-USUAL_DOTS = {72, 96}  # per inch: defaults of programs without a real size
-DOTS_APART = 0.01  # of an inch's dots
+DEFAULT_DPI = {72, 96}  # per inch: defaults of programs without a real size
+DPI_TOLERANCE = 0.01  # of an inch's dots
 
 
 @contextlib.contextmanager
@@ -62,7 +62,7 @@ def _tiff_pages(path: Path, *, with_spacing: bool = True) -> tuple[NDArray[Any],
     """Read grey pages [(z,) y, x]; return them, and for the first file the cell size along x, y, z."""
     import tifffile
 
-    with _raise_complaints(path), told_broken(path), tifffile.TiffFile(path) as tiff:
+    with _raise_complaints(path), wrap_reader_errors(path), tifffile.TiffFile(path) as tiff:
         series = tiff.series
         if not series:
             raise FormatError(f"{path} holds no pages; save it again")
@@ -76,7 +76,7 @@ def _tiff_pages(path: Path, *, with_spacing: bool = True) -> tuple[NDArray[Any],
             )
         if len(shape) > AXES:
             raise FormatError(f"{path} has {len(shape)} axes ({axes}, shape {shape}); save one stack of it")
-        require_memory(series[0].nbytes, None, SMALLER)
+        require_memory(series[0].nbytes, None, SMALLER_VOLUME_ADVICE)
         _require_whole_pages(path, series[0])
         return series[0].asarray(), _tiff_spacing(path, tiff) if with_spacing else ()
 
@@ -114,14 +114,14 @@ def _tiff_spacing(path: Path, tiff: Any) -> tuple[float, ...]:  # noqa: ANN401 -
             return (1.0,) * AXES
         return _printed_spacing(path, per_cell, stated)
     unit = str(metadata.get("unit", "")).strip()
-    if unit.lower() in CELLS and stated and not _is_default_resolution(per_cell, stated):
+    if unit.lower() in CELL_UNITS and stated and not _is_default_resolution(per_cell, stated):
         unit = stated  # as ImageJ itself does
     units = [unit, *(str(metadata.get(f"{axis}unit", unit)) for axis in "yz")]
     depth = metadata.get("spacing")
     sizes = [*per_cell, None if depth is None else _positive_or_none(depth)]
-    if unit.lower() in CELLS and sizes[:2] in ([None, None], [1.0, 1.0]) and sizes[2] in (None, 1.0):
+    if unit.lower() in CELL_UNITS and sizes[:2] in ([None, None], [1.0, 1.0]) and sizes[2] in (None, 1.0):
         return (1.0,) * AXES  # nothing was measured
-    scales = scales_of(path, units, SIZES, "xyz")
+    scales = scales_of(path, units, CELL_SIZE_PHRASE, "xyz")
     missing = [axis for axis, size in zip("xyz", sizes, strict=True) if size is None]
     if missing and (len(tiff.pages) > 1 or int(metadata.get("images", 1)) > 1 or missing != ["z"]):
         warn(
@@ -144,7 +144,7 @@ def _ome_spacing(path: Path, text: str) -> tuple[float, ...]:
         "" if size is None else pixels.get(f"PhysicalSize{axis}Unit", "µm")
         for axis, size in zip("XYZ", stated, strict=True)
     ]
-    scales = scales_of(path, units, SIZES, "xyz")
+    scales = scales_of(path, units, CELL_SIZE_PHRASE, "xyz")
     sizes = [None if size is None else size * scale for size, scale in zip(stated, scales, strict=True)]
     return _fill_missing_sizes(path, sizes, (pixels.get("SizeZ") or "1") != "1")
 
@@ -158,7 +158,7 @@ def _printed_spacing(path: Path, per_cell: list[float | None], unit: str) -> tup
             path,
         )
         return (1.0,) * AXES
-    scale = scales_of(path, [unit], SIZES, "x")[0]
+    scale = scales_of(path, [unit], CELL_SIZE_PHRASE, "x")[0]
     return _fill_missing_sizes(path, [*(None if size is None else size * scale for size in per_cell), None], True)
 
 
@@ -191,7 +191,7 @@ def _is_default_resolution(per_cell: list[float | None], unit: str) -> bool:
     """Tell whether a resolution is a default of programs without a real size."""
     inches = 1.0 if unit == "inch" else 2.54
     return all(
-        not size or any(abs(inches / size - dots) < DOTS_APART * dots for dots in USUAL_DOTS) for size in per_cell
+        not size or any(abs(inches / size - dots) < DPI_TOLERANCE * dots for dots in DEFAULT_DPI) for size in per_cell
     )
 
 
@@ -213,7 +213,7 @@ def read_slices(folder: Path, names: list[Path]) -> Volume:
         if page.ndim != 2:
             raise FormatError(f"{name} has the shape {page.shape}; a folder of slices holds one grey page per file")
         if pages is None:
-            require_memory(page.nbytes * len(names), None, SMALLER)
+            require_memory(page.nbytes * len(names), None, SMALLER_VOLUME_ADVICE)
             pages, spacing = np.empty((len(names), *page.shape), dtype=page.dtype), sizes
         if page.shape != pages.shape[1:] or page.dtype != pages.dtype:
             raise FormatError(
@@ -230,15 +230,15 @@ def _read_png(path: Path) -> tuple[NDArray[Any], tuple[float, ...]]:
     from PIL import Image
 
     try:
-        with told_broken(path), Image.open(path) as picture:
+        with wrap_reader_errors(path), Image.open(path) as picture:
             if picture.mode not in GREY_MODES:
                 raise FormatError(f"{path} is a picture of mode {picture.mode}; save the slices as grey")
             return np.asarray(picture), (1.0,) * AXES
     except Image.DecompressionBombError as error:
-        raise FormatError(f"{path} is too large a picture ({one_line(error)}); save the stack as .tif") from error
+        raise FormatError(f"{path} is too large a picture ({error_text(error)}); save the stack as .tif") from error
 
 
-def natural(path: Path) -> list[tuple[int, str]]:
+def natural_key(path: Path) -> list[tuple[int, str]]:
     """Return a sort key that puts slice 9 before slice 10."""
     parts = re.split(r"([0-9]+)", path.name.lower())
     return [(int(part), "") if number % 2 else (0, part) for number, part in enumerate(parts)]

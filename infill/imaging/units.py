@@ -7,10 +7,10 @@ import unicodedata
 
 UNITS = {"um": 1e-3, "mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4}  # mm
 # Formats that state their unit and are converted to mm: mm per unit of a usual file. Their unit is never guessed.
-STATED = {".3mf": 1.0, ".glb": 1000.0, ".gltf": 1000.0}
+STATED_UNITS = {".3mf": 1.0, ".glb": 1000.0, ".gltf": 1000.0}
 # Printed parts are 2 mm to 2 m long. A part in metres therefore reads as less than 2, and one in µm as more than 2000.
 SMALLEST, LARGEST = 2.0, 2000.0
-IN_INCHES = 0.5  # 13 to 51 mm, which is likelier than half a metre to two metres
+LARGEST_IN_METRES = 0.5  # 13 to 51 mm, which is likelier than half a metre to two metres
 
 INCH = 25.4
 SYMBOLS = {
@@ -102,4 +102,4 @@ def guess_unit(largest: float) -> str:
         return "µm"
     if largest >= SMALLEST:
         return "mm"
-    return "m" if largest <= IN_INCHES else "in"
+    return "m" if largest <= LARGEST_IN_METRES else "in"

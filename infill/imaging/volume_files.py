@@ -20,8 +20,8 @@ from pathlib import Path
 from typing import BinaryIO
 
 from infill.errors import FormatError, ParameterError
-from infill.files.broken import not_empty, told_unreadable
-from infill.files.whole_files import whole_file
+from infill.files.broken import require_not_empty, wrap_read_errors
+from infill.files.whole_files import atomic_file
 from infill.grid import spacing_of
 from infill.imaging.arrays import read_npy, read_npz, write_npz
 from infill.imaging.assumed import keep_warnings
@@ -30,12 +30,12 @@ from infill.imaging.freesurfer import read_mgh
 from infill.imaging.metaimage import read_meta_image
 from infill.imaging.nifti import read_nifti
 from infill.imaging.nrrd import read_nrrd, write_nrrd
-from infill.imaging.slices import SLICES, natural, read_slices, read_tiff
+from infill.imaging.slices import SLICE_SUFFIXES, natural_key, read_slices, read_tiff
 from infill.imaging.vtk_images import read_vtk
 from infill.imaging.vtk_xml import read_vti
 from infill.volume import AXES, Volume
 
-DICOM = ".dcm"
+DICOM_SUFFIX = ".dcm"
 
 
 def read_volume(
@@ -86,7 +86,7 @@ def read_volume(
         raise ParameterError(f"array is {array!r}, and only an .npz holds named arrays, not {source}; leave it out")
     if series is not None and not source.is_dir():
         raise ParameterError(f"series is {series!r}, and {source} is no folder; give the one that holds the series")
-    if frame is not None and not source.is_dir() and suffix and suffix not in FRAMED:
+    if frame is not None and not source.is_dir() and suffix and suffix not in FRAME_READERS:
         raise _frame_error(frame, source)
     size = None if spacing is None else spacing_of(spacing, AXES)
     with keep_warnings() as assumptions:
@@ -98,7 +98,9 @@ def read_volume(
 
 def _frame_error(frame: int, source: Path) -> ParameterError:
     """Return the error for a frame of a format without frames."""
-    return ParameterError(f"frame is {frame!r}, and only {', '.join(FRAMED)} hold frames, not {source}; leave it out")
+    return ParameterError(
+        f"frame is {frame!r}, and only {', '.join(FRAME_READERS)} hold frames, not {source}; leave it out"
+    )
 
 
 def _read(
@@ -111,34 +113,36 @@ def _read(
     size: tuple[float, ...] | None,
 ) -> Volume:
     """Read a file or a folder by the reader of its suffix."""
-    with told_unreadable(source):
+    with wrap_read_errors(source):
         if source.is_dir():
             return _read_folder(source, series, frame, size)
         if not source.is_file():
             raise FormatError(f"there is no file {source}; check the name")
-        not_empty(source)
+        require_not_empty(source)
         if not suffix:
             endings = ", ".join(READERS)
             raise FormatError(f"cannot tell a volume from {source.name!r}; use one of {endings} or a folder of slices")
-        if suffix == DICOM:
+        if suffix == DICOM_SUFFIX:
             return read_dicom(source, frame, spacing=size)
         if frame is not None:
-            return FRAMED[suffix](source, frame)
+            return FRAME_READERS[suffix](source, frame)
         return read_npz(source, array) if suffix == ".npz" else READERS[suffix](source)
 
 
 def holds_dicom(path: Path, series: str | None = None) -> bool:
     """Tell whether `read_volume` reads a path as DICOM, by the suffix of the file or of the files in the folder."""
     if not path.is_dir():
-        return path.is_file() and path.stat().st_size > 0 and path.suffix.lower() == DICOM
+        return path.is_file() and path.stat().st_size > 0 and path.suffix.lower() == DICOM_SUFFIX
     names = _visible_files(path)
-    slices = any(file.suffix.lower() in SLICES for file in names)
-    return bool(names) and (not slices or series is not None or any(file.suffix.lower() == DICOM for file in names))
+    slices = any(file.suffix.lower() in SLICE_SUFFIXES for file in names)
+    return bool(names) and (
+        not slices or series is not None or any(file.suffix.lower() == DICOM_SUFFIX for file in names)
+    )
 
 
 def _visible_files(folder: Path) -> list[Path]:
     """Return the visible files of a folder, in natural order."""
-    return sorted((file for file in folder.iterdir() if file.is_file() and file.name[0] != "."), key=natural)
+    return sorted((file for file in folder.iterdir() if file.is_file() and file.name[0] != "."), key=natural_key)
 
 
 def _read_folder(folder: Path, series: str | None, frame: int | None, size: tuple[float, ...] | None) -> Volume:
@@ -150,7 +154,7 @@ def _read_folder(folder: Path, series: str | None, frame: int | None, size: tupl
         return read_dicom(folder, frame, series=series, spacing=size)
     if frame is not None:
         raise _frame_error(frame, folder)
-    slices = [file for file in names if file.suffix.lower() in SLICES]
+    slices = [file for file in names if file.suffix.lower() in SLICE_SUFFIXES]
     if len({file.suffix.lower()[:4] for file in slices}) > 1:
         raise FormatError(f"{folder} holds slices as .png and as .tif; keep only those of one scan")
     return read_slices(folder, slices)
@@ -179,7 +183,7 @@ def write_field(volume: Volume, path: str | os.PathLike[str]) -> Path:
     """
     target = Path(path)
     write = field_writer(target)
-    with whole_file(target) as file:
+    with atomic_file(target) as file:
         write(volume, file)
     return target
 
@@ -193,11 +197,11 @@ def field_writer(path: Path) -> Callable[[Volume, BinaryIO], None]:
     return FIELD_WRITERS[suffix]
 
 
-FRAMED: dict[str, Callable[..., Volume]] = {
+FRAME_READERS: dict[str, Callable[..., Volume]] = {
     **dict.fromkeys((".nrrd", ".nhdr"), read_nrrd),
     **dict.fromkeys((".nii", ".nii.gz"), read_nifti),
     **dict.fromkeys((".mha", ".mhd"), read_meta_image),
-    DICOM: read_dicom,
+    DICOM_SUFFIX: read_dicom,
     **dict.fromkeys((".mgz", ".mgh", ".mgh.gz"), read_mgh),
     ".vtk": read_vtk,
     ".vti": read_vti,
@@ -207,6 +211,6 @@ READERS: dict[str, Callable[..., Volume]] = {
     ".npz": read_npz,
     ".tif": read_tiff,
     ".tiff": read_tiff,
-    **FRAMED,  # a frame may be left out
+    **FRAME_READERS,  # a frame may be left out
 }
 FIELD_WRITERS: dict[str, Callable[[Volume, BinaryIO], None]] = {".npz": write_npz, ".nrrd": write_nrrd}

@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.files.broken import SMALLER, checked_volume, told_broken
+from infill.files.broken import SMALLER_VOLUME_ADVICE, checked_volume, wrap_reader_errors
 from infill.imaging.assumed import warn
-from infill.imaging.frames import chosen
+from infill.imaging.frames import choose_frame
 from infill.machine import require_memory
 from infill.volume import AXES, Volume
 
@@ -41,9 +41,9 @@ TYPES = {
 }
 LONGEST_LINE = 4096  # bytes of a line of the header
 LONGEST_NUMBER = 40  # bytes
-AT_ONCE = 2**22  # bytes of text turned into numbers in one go
+TEXT_CHUNK = 2**22  # bytes of text turned into numbers in one go
 TEXT_BYTES = 24  # of memory for each byte of such a piece, and for each number: words, then numbers
-SIZES = {"VECTORS": 3, "NORMALS": 3, "TENSORS": 9}
+NUMBERS_PER_VALUE = {"VECTORS": 3, "NORMALS": 3, "TENSORS": 9}
 BYTES, SHARES = "unsigned_char", "share"  # colours: binary, and as text from 0 to 1
 
 
@@ -95,7 +95,7 @@ class _Array:
 
 def read_vtk(path: Path, frame: int | None = None) -> Volume:
     """Read the first scalars of a legacy file, [x, y, z], or one component of them, counted from 0."""
-    with told_broken(path), path.open("rb") as file:
+    with wrap_reader_errors(path), path.open("rb") as file:
         magic, _, encoding, dataset = (_read_line(file) for _ in range(4))
         if not magic.startswith("# vtk DataFile") or encoding.upper() not in ("ASCII", "BINARY"):
             raise FormatError(f"{path} is no legacy file of VTK; check that it is a .vtk file")
@@ -146,8 +146,8 @@ def _read_image(path: Path, file: IO[bytes], frame: int | None, *, text: bool) -
 
 def _skipped_numbers(path: Path, key: str, words: list[str], cells: int, *, text: bool) -> tuple[int, str]:
     """Return the count and type of the numbers behind a line that is skipped."""
-    if key in SIZES:
-        return SIZES[key] * cells, _word_at(words, 2)
+    if key in NUMBERS_PER_VALUE:
+        return NUMBERS_PER_VALUE[key] * cells, _word_at(words, 2)
     if key == "LOOKUP_TABLE":
         return _count_at(words, 2) * 4, SHARES if text else BYTES
     raise FormatError(f"{path} holds {key[:40]!r} where its scalars should begin; save it again, as an image")
@@ -178,10 +178,12 @@ def _read_array(
 ) -> Volume:
     """Read the array that begins here."""
     shape = lattice.shape(in_cells=array.in_cells)
-    component = chosen(path, frame, array.numbers, what=f"holds {array.numbers} numbers per cell")
+    component = choose_frame(path, frame, array.numbers, what=f"holds {array.numbers} numbers per cell")
     count = array.numbers * math.prod(shape)
     stored = _stored_type(array.kind)
-    require_memory(count * stored.itemsize + (TEXT_BYTES * (AT_ONCE + count) if text else 0), None, SMALLER)
+    require_memory(
+        count * stored.itemsize + (TEXT_BYTES * (TEXT_CHUNK + count) if text else 0), None, SMALLER_VOLUME_ADVICE
+    )
     values = _read_text(file, count, stored) if text else _read_binary(file, count, array.kind)
     if len(values) < count:
         raise FormatError(f"{path} is cut off: it holds {len(values)} numbers of {count}; copy or save it again")
@@ -194,16 +196,16 @@ def _read_text(file: IO[bytes], count: int, kind: np.dtype[np.generic]) -> NDArr
     """Read up to `count` numbers as text."""
     pieces: list[NDArray[Any]] = [np.empty(0, dtype=kind)]
     remaining = count
-    while remaining > 0 and (lines := file.readlines(AT_ONCE)):
-        pieces.append(numbers_in(b"".join(lines).split()[:remaining], kind))
+    while remaining > 0 and (lines := file.readlines(TEXT_CHUNK)):
+        pieces.append(parse_numbers(b"".join(lines).split()[:remaining], kind))
         remaining -= len(pieces[-1])
     return np.concatenate(pieces)
 
 
-def numbers_in(words: list[bytes], kind: np.dtype[np.generic]) -> NDArray[Any]:
+def parse_numbers(words: list[bytes], kind: np.dtype[np.generic]) -> NDArray[Any]:
     """Convert words to numbers of a type; raise ValueError for other words, or beyond the range of the type.
 
-    >>> numbers_in([b"3", b"250"], np.dtype("u1")).tolist()
+    >>> parse_numbers([b"3", b"250"], np.dtype("u1")).tolist()
     [3, 250]
     """
     if not words:

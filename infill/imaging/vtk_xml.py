@@ -19,10 +19,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.files.broken import SMALLER, told_broken
+from infill.files.broken import SMALLER_VOLUME_ADVICE, wrap_reader_errors
 from infill.imaging.assumed import warn
-from infill.imaging.frames import chosen
-from infill.imaging.vtk_images import Lattice, numbers_in
+from infill.imaging.frames import choose_frame
+from infill.imaging.vtk_images import Lattice, parse_numbers
 from infill.machine import require_memory
 from infill.volume import AXES, Volume
 
@@ -51,8 +51,8 @@ class _Coding:
 
 def read_vti(path: Path, frame: int | None = None) -> Volume:
     """Read the scalars of an image, [x, y, z], or one component of them, counted from 0."""
-    with told_broken(path):
-        require_memory(2 * path.stat().st_size, None, SMALLER)
+    with wrap_reader_errors(path):
+        require_memory(2 * path.stat().st_size, None, SMALLER_VOLUME_ADVICE)
         content = path.read_bytes()
         marker = APPENDED.search(content)
         text = content if marker is None else content[: marker.start()] + b"</VTKFile>"
@@ -100,9 +100,9 @@ def _assemble(path: Path, image: ElementTree.Element, coding: _Coding, frame: in
     _, array, in_cells = pieces[0]
     shape, kind = lattice.shape(in_cells=in_cells), _kind(array.get("type", ""))
     numbers = int(array.get("NumberOfComponents", "1"))
-    component = chosen(path, frame, numbers, what=f"holds {numbers} numbers per cell")
+    component = choose_frame(path, frame, numbers, what=f"holds {numbers} numbers per cell")
     cell_bytes = kind.itemsize + (TEXT_BYTES if array.get("format") == "ascii" else kind.itemsize)
-    require_memory(math.prod(shape) * numbers * cell_bytes, None, SMALLER)
+    require_memory(math.prod(shape) * numbers * cell_bytes, None, SMALLER_VOLUME_ADVICE)
     values = np.empty(0)
     covered = 0
     for piece, array, inside in pieces:
@@ -142,7 +142,7 @@ def _array_values(array: ElementTree.Element, coding: _Coding, count: int) -> ND
     kind = _kind(array.get("type", ""))
     form = array.get("format")
     if form == "ascii":
-        values = numbers_in((array.text or "").encode().split(), kind)
+        values = parse_numbers((array.text or "").encode().split(), kind)
     else:
         if form == "appended":
             begin = int(array.get("offset", "-1"))

@@ -16,30 +16,30 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.inspection.changes import Changes, Counts
-from infill.inspection.component_matching import Fate, Overlaps, fate, summed
-from infill.inspection.sign_changes import Flips, all_stay, connected_alike
+from infill.inspection.changes import ConnectionCounts, TopologyChanges
+from infill.inspection.component_matching import ComponentFate, Overlaps, compare_components, sum_overlaps
+from infill.inspection.sign_changes import SignChanges, has_same_connections, has_unchanged_cells
 from infill.isosurfaces.components import (
     Components,
-    cells_of,
-    components,
-    cores,
+    add_thickness,
+    component_cells,
     data_bits,
-    grown,
-    opened,
+    dilate,
+    dilate_cores,
+    erode_to_cores,
+    find_components,
     shared_cells,
     solid_bits,
-    with_thickness,
 )
-from infill.isosurfaces.levels import Levelled
+from infill.isosurfaces.levels import LevelSurface
 from infill.isosurfaces.sparse_marching import euler_number_of_bits
-from infill.kernels.threads import thread_count, together
+from infill.kernels.threads import run_together, thread_count
 from infill.phasefield.sparse import SparseField
 
 LARGE = 100  # cells: a fusion of two components of this size or more is reported
 SMALLEST_PART = 8  # cells: anything smaller that comes off a component is a crumb, not a part of it
 WALL = 16  # cells: a piece of wall more than one cell thick but smaller than this may vanish
-NAMED = 5  # of the lost walls are listed
+MOST_LOST_WALLS = 5  # of the lost walls are listed
 FAINT = -0.9  # a component that needs a level as low as this would be gone at level 0
 ROUNDED = 2  # cells by which edges and corners recede, in addition to the blur of the smoothing
 
@@ -47,7 +47,7 @@ Bits = NDArray[np.uint16]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Lost:
+class LostWallPiece:
     """A piece of wall that was lost.
 
     Parameters
@@ -63,7 +63,7 @@ class Lost:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Verdict:
+class TopologyCheck:
     """The changes of a solid by smoothing.
 
     Parameters
@@ -75,10 +75,10 @@ class Verdict:
         The largest pieces of wall that were lost.
     """
 
-    data: Counts
-    result: Counts
-    changes: Changes
-    lost: tuple[Lost, ...]
+    data: ConnectionCounts
+    result: ConnectionCounts
+    changes: TopologyChanges
+    lost: tuple[LostWallPiece, ...]
 
     @property
     def problems(self) -> tuple[str, ...]:
@@ -110,19 +110,19 @@ class _States:
     voids: Components
     voids_after: Components
     gone: Components
-    data: Counts
-    sturdy: Counts
+    data: ConnectionCounts
+    sturdy: ConnectionCounts
 
 
-def verdict(
-    levelled: Levelled,
+def check_topology(
+    levelled: LevelSurface,
     before: Components,
     *,
     spacing: tuple[float, ...],
     blur: float,
     levels: NDArray[np.float64],
     threads: int | None = None,
-) -> Verdict:
+) -> TopologyCheck:
     """Compare a solid before and after smoothing.
 
     Parameters
@@ -142,7 +142,7 @@ def verdict(
     states = _find_states(levelled, before, ROUNDED + int(np.ceil(blur)), threads)
     result = _count_surface(levelled)
     of_solid, of_walls, of_voids = (
-        compared(earlier, later)
+        match_components(earlier, later)
         for earlier, later in (
             (states.solid, states.solid_after),
             (states.walls, states.solid_after),
@@ -150,7 +150,7 @@ def verdict(
         )
     )
     thick = states.solid.thick
-    changes = Changes(
+    changes = TopologyChanges(
         vanished=int(thick[of_solid.vanished].sum()),
         vanished_thin=int((~thick[of_solid.vanished]).sum()),
         broken=int((states.walls.cells[of_walls.broken] >= WALL).sum()),
@@ -163,64 +163,71 @@ def verdict(
         walls_lost=int((states.gone.cells >= WALL).sum()),
         faint=int((thick & (states.solid.cells >= WALL) & (levels < FAINT)).sum()),
     )
-    largest = np.argsort(-states.gone.cells)[:NAMED]
+    largest = np.argsort(-states.gone.cells)[:MOST_LOST_WALLS]
     lost = tuple(
         _describe_loss(levelled.against, states.gone, int(number), spacing)
         for number in largest
         if states.gone.cells[number] >= WALL
     )
-    return Verdict(data=states.data, result=result, changes=changes, lost=lost)
+    return TopologyCheck(data=states.data, result=result, changes=changes, lost=lost)
 
 
-def verdict_by_flips(
-    levelled: Levelled, before: Components, flips: Flips, *, levels: NDArray[np.float64], threads: int | None = None
-) -> Verdict | None:
-    """Judge as `verdict` does by the cells that changed sign alone; return None if they do not settle it.
+def check_topology_by_signs(
+    levelled: LevelSurface,
+    before: Components,
+    flips: SignChanges,
+    *,
+    levels: NDArray[np.float64],
+    threads: int | None = None,
+) -> TopologyCheck | None:
+    """Judge as `check_topology` does by the cells that changed sign alone; return None if they do not settle it.
 
     Parameters
     ----------
     levelled, before, levels, threads
-        See `verdict`.
+        See `check_topology`.
     flips : Flips
         The cells that changed sign between the data and the surface.
     """
-    if not connected_alike(flips, before, threads=threads):
+    if not has_same_connections(flips, before, threads=threads):
         return None
     result, euler = _count_surface(levelled), flips.euler_number
     cavities = result.cavities
     if len(flips.doubt) or cavities or (before.count, euler) != (result.components, result.euler_number):
-        voids = components(levelled.against, flips.data, void=True)
-        if not all_stay(voids, ~(flips.data ^ flips.result)):
+        voids = find_components(levelled.against, flips.data, void=True)
+        if not has_unchanged_cells(voids, ~(flips.data ^ flips.result)):
             return None
         cavities = voids.count - 1
-    data = Counts.of(components=before.count, cavities=cavities, tunnels=before.count + cavities - euler // 2)
+    data = ConnectionCounts.of(components=before.count, cavities=cavities, tunnels=before.count + cavities - euler // 2)
     faint = 0
     if (levels < FAINT).any():
-        thick = with_thickness(levelled.against, before).thick
+        thick = add_thickness(levelled.against, before).thick
         faint = int((thick & (before.cells >= WALL) & (levels < FAINT)).sum())
-    changes = Changes(vanished_thin=0, walls_lost=0, faint=faint, walls_pierced=max(0, result.tunnels - data.tunnels))
-    return Verdict(data=data, result=result, changes=changes, lost=())
+    changes = TopologyChanges(
+        vanished_thin=0, walls_lost=0, faint=faint, walls_pierced=max(0, result.tunnels - data.tunnels)
+    )
+    return TopologyCheck(data=data, result=result, changes=changes, lost=())
 
 
-def _find_states(levelled: Levelled, before: Components, reach: int, threads: int | None) -> _States:
+def _find_states(levelled: LevelSurface, before: Components, reach: int, threads: int | None) -> _States:
     """Find all components to be compared, in parallel."""
     field = levelled.against
     before_bits, after_bits = (
         data_bits(field, threads=threads),
         solid_bits(field, level=levelled.height, threads=threads),
     )
-    core = cores(field, before_bits, threads=threads)
-    thick = opened(field, core, threads=threads)
-    lost = thick & ~grown(field, after_bits, reach, threads=threads)
-    solid, after, walls, sturdy, voids, sturdy_voids, voids_after, gone = together(
-        lambda: with_thickness(field, before),
-        lambda: components(field, after_bits),
-        lambda: components(field, core),
-        lambda: components(field, thick),
-        lambda: components(field, before_bits, void=True),
-        lambda: components(field, thick, void=True, thickness=True),
-        lambda: components(field, after_bits, void=True),
-        lambda: components(field, lost, whole=False),
+    core = erode_to_cores(field, before_bits, threads=threads)
+    thick = dilate_cores(field, core, threads=threads)
+    lost = thick & ~dilate(field, after_bits, reach, threads=threads)
+    solid, after, walls, sturdy, voids, sturdy_voids, voids_after, gone = run_together(
+        lambda: add_thickness(field, before),
+        lambda: find_components(field, after_bits),
+        lambda: find_components(field, core),
+        lambda: find_components(field, thick),
+        lambda: find_components(field, before_bits, void=True),
+        lambda: find_components(field, thick, void=True, thickness=True),
+        lambda: find_components(field, after_bits, void=True),
+        lambda: find_components(field, lost, whole=False),
         threads=thread_count(threads),
     )
     return _States(
@@ -235,23 +242,25 @@ def _find_states(levelled: Levelled, before: Components, reach: int, threads: in
     )
 
 
-def compared(before: Components, after: Components) -> Fate:
+def match_components(before: Components, after: Components) -> ComponentFate:
     """Match components on the same bricks; solid only one cell thick does not fuse them."""
-    shared: Overlaps = summed(shared_cells(before, after), before=before.count, after=after.count)
+    shared: Overlaps = sum_overlaps(shared_cells(before, after), before=before.count, after=after.count)
     counted = before.thick if len(before.thick) else None
-    return fate(shared, part=SMALLEST_PART, piece=LARGE, counted=counted)
+    return compare_components(shared, part=SMALLEST_PART, piece=LARGE, counted=counted)
 
 
-def _count_connections(solid: Components, void: Components, euler_number: int) -> Counts:
+def _count_connections(solid: Components, void: Components, euler_number: int) -> ConnectionCounts:
     """Count the components, cavities and tunnels of a solid whose void has the outside as its first component."""
     cavities = void.count - 1
-    return Counts.of(components=solid.count, cavities=cavities, tunnels=solid.count + cavities - euler_number // 2)
+    return ConnectionCounts.of(
+        components=solid.count, cavities=cavities, tunnels=solid.count + cavities - euler_number // 2
+    )
 
 
-def _count_surface(levelled: Levelled) -> Counts:
+def _count_surface(levelled: LevelSurface) -> ConnectionCounts:
     """Count the components, cavities and tunnels of the final surface."""
     shells = levelled.shells
-    return Counts(
+    return ConnectionCounts(
         components=shells.components,
         cavities=shells.cavities,
         tunnels=shells.tunnels,
@@ -259,7 +268,7 @@ def _count_surface(levelled: Levelled) -> Counts:
     )
 
 
-def _describe_loss(field: SparseField, pieces: Components, number: int, spacing: tuple[float, ...]) -> Lost:
+def _describe_loss(field: SparseField, pieces: Components, number: int, spacing: tuple[float, ...]) -> LostWallPiece:
     """Describe one of the lost pieces of wall."""
-    cells = cells_of(field, pieces, number)
-    return Lost(voxels=len(cells), at=(cells.mean(axis=0) + 0.5) * spacing)
+    cells = component_cells(field, pieces, number)
+    return LostWallPiece(voxels=len(cells), at=(cells.mean(axis=0) + 0.5) * spacing)

@@ -6,7 +6,7 @@ from dataclasses import asdict, dataclass
 
 
 @dataclass(frozen=True, kw_only=True)
-class Counts:
+class ConnectionCounts:
     """The connections of a solid.
 
     Parameters
@@ -23,10 +23,10 @@ class Counts:
     euler_number: int
 
     @classmethod
-    def of(cls, *, components: int, cavities: int, tunnels: int) -> Counts:
+    def of(cls, *, components: int, cavities: int, tunnels: int) -> ConnectionCounts:
         """Build the counts, with the matching Euler number.
 
-        >>> Counts.of(components=1, cavities=0, tunnels=1).euler_number
+        >>> ConnectionCounts.of(components=1, cavities=0, tunnels=1).euler_number
         0
         """
         euler_number = 2 * (components + cavities - tunnels)
@@ -34,7 +34,7 @@ class Counts:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Changes:
+class TopologyChanges:
     """Changes of the components of solid and void by smoothing.
 
     Parameters

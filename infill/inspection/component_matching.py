@@ -32,7 +32,7 @@ class Overlaps:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Fate:
+class ComponentFate:
     """The fate of each component before, and the origin of each one after.
 
     Parameters
@@ -81,7 +81,7 @@ class Fate:
         return int((self.pieces - 1).clip(0).sum())
 
 
-def overlaps(before: NDArray[np.integer], after: NDArray[np.integer]) -> Overlaps:
+def count_overlaps(before: NDArray[np.integer], after: NDArray[np.integer]) -> Overlaps:
     """Count the shared cells of two labellings of the same shape, numbered from 1; 0 means no component."""
     rows, columns = int(before.max()) + 1, int(after.max()) + 1
     key = (before.astype(np.intp) * columns + after).ravel()
@@ -98,7 +98,7 @@ def overlaps(before: NDArray[np.integer], after: NDArray[np.integer]) -> Overlap
     )
 
 
-def summed(stretches: NDArray[np.integer], *, before: int, after: int) -> Overlaps:
+def sum_overlaps(stretches: NDArray[np.integer], *, before: int, after: int) -> Overlaps:
     """Sum the shared cells of rows (n, 3): component before, component after, cells shared; pairs may recur."""
     key, index = np.unique(stretches[:, 0] * max(after, 1) + stretches[:, 1], return_inverse=True)
     cells = np.bincount(index, weights=stretches[:, 2], minlength=len(key)).astype(np.int64)
@@ -106,7 +106,9 @@ def summed(stretches: NDArray[np.integer], *, before: int, after: int) -> Overla
     return Overlaps(before=before, after=after, one=before_number, other=after_number, cells=cells)
 
 
-def fate(matched: Overlaps, *, part: int = 1, piece: int = 1, counted: NDArray[np.bool_] | None = None) -> Fate:
+def compare_components(
+    matched: Overlaps, *, part: int = 1, piece: int = 1, counted: NDArray[np.bool_] | None = None
+) -> ComponentFate:
     """Compare the components before and after.
 
     Parameters
@@ -122,7 +124,7 @@ def fate(matched: Overlaps, *, part: int = 1, piece: int = 1, counted: NDArray[n
     contributes = matched.cells >= piece
     if counted is not None:
         contributes &= counted[matched.one]
-    return Fate(
+    return ComponentFate(
         kept=np.bincount(matched.one, minlength=matched.before) > 0,
         known=np.bincount(matched.other, minlength=matched.after) > 0,
         parts=np.bincount(matched.one[matched.cells >= part], minlength=matched.before),

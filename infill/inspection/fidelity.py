@@ -14,7 +14,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.meshes.distance import Tree, along_curve
+from infill.meshes.distance import TriangleTree, morton_order
 from infill.meshes.measuring import face_areas
 from infill.surface import Surface
 
@@ -29,13 +29,13 @@ KEPT = 1.25  # cells: a sharp corner recedes this far at most; a point further a
 LOST = 2.0  # cells: a point further away is lost
 PATCH = 4.0  # cells², as large as a face of 2 x 2: if less than this is lost in one place, it is a change
 PITCH = 0.7  # cells between points
-MOST = 80_000  # points on a surface, beside as many vertices
+MOST_SAMPLES = 80_000  # points on a surface, beside as many vertices
 FINEST = 250  # boxes along a side, which group points into places
 GOLDEN = (0.7548776662466927, 0.5698402909980532)  # 1 / p and 1 / p², p³ = p + 1: fills a square evenly
 
 
 @dataclass(frozen=True, kw_only=True)
-class Gap:
+class SurfaceGap:
     """Distances of one surface from another, mm.
 
     Parameters
@@ -58,7 +58,7 @@ class Gap:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Patch:
+class ChangedPatch:
     """A place where one surface lies far from the other.
 
     Parameters
@@ -97,10 +97,10 @@ class Fidelity:
         Whether near distances are exact too, and not only known to be within `KEPT`.
     """
 
-    there: Gap
-    back: Gap
-    added: tuple[Patch, ...]
-    lost: tuple[Patch, ...]
+    there: SurfaceGap
+    back: SurfaceGap
+    added: tuple[ChangedPatch, ...]
+    lost: tuple[ChangedPatch, ...]
     thin: float
     sheet: float
     hidden: float
@@ -134,18 +134,18 @@ class Fidelity:
         return tuple(phrases)
 
 
-def everything(points: Floats, faces: NDArray[np.integer]) -> NDArray[np.integer]:  # noqa: ARG001 - a `Kinds`
+def count_all_points(points: Floats, faces: NDArray[np.integer]) -> NDArray[np.integer]:  # noqa: ARG001 - a `Kinds`
     """Count all points: the simplest of the `Kinds`."""
     return np.full(len(points), COUNTS)
 
 
-def fidelity(
+def measure_fidelity(
     given: Surface,
     result: Surface,
     *,
     cell: float,
     closed: Surface | None = None,
-    kinds: Kinds = everything,
+    kinds: Kinds = count_all_points,
     exact: bool = True,
     threads: int | None = None,
 ) -> Fidelity:
@@ -168,10 +168,10 @@ def fidelity(
         See `infill.kernels.threads.thread_count`.
     """
     enough = 0.0 if exact else KEPT * cell
-    points, _, area = sampled(result, PITCH * cell)
+    points, _, area = sample_surface(result, PITCH * cell)
     distance = _distances(points, given if closed is None else closed, enough, threads)
     there, added = _gap(points, distance, area), _patches(points, distance, area, cell)
-    points, faces, area = sampled(given, PITCH * cell)
+    points, faces, area = sample_surface(given, PITCH * cell)
     distance = _distances(points, result, enough, threads)
     distant = np.flatnonzero(distance > KEPT * cell)
     kind = kinds(points[distant], faces[distant]) if len(distant) else np.empty(0, dtype=np.int64)
@@ -196,13 +196,13 @@ def fidelity(
 
 def _distances(points: Floats, surface: Surface, enough: float, threads: int | None) -> Floats:
     """Measure the distances of points from a surface, in the order of a curve in space: see `Tree.nearest`."""
-    order = along_curve(points)
+    order = morton_order(points)
     distance = np.empty(len(points))
-    distance[order], _ = Tree.of(surface).nearest(points[order], enough=enough, threads=threads)
+    distance[order], _ = TriangleTree.of(surface).nearest(points[order], enough=enough, threads=threads)
     return distance
 
 
-def sampled(surface: Surface, pitch: float) -> tuple[Floats, NDArray[np.int64], Floats]:
+def sample_surface(surface: Surface, pitch: float) -> tuple[Floats, NDArray[np.int64], Floats]:
     """Sample a surface at points spread evenly by area, and at its vertices, which stand for no area.
 
     Parameters
@@ -222,7 +222,7 @@ def sampled(surface: Surface, pitch: float) -> tuple[Floats, NDArray[np.int64], 
     vertices = np.asarray(surface.vertices, dtype=np.float64)
     areas = face_areas(surface)
     total = float(areas.sum())
-    count = int(min(MOST, max(1.0, np.ceil(total / pitch**2)))) if total > 0 else 0
+    count = int(min(MOST_SAMPLES, max(1.0, np.ceil(total / pitch**2)))) if total > 0 else 0
     cumulative = (np.arange(count) + 0.5) * (total / max(count, 1))
     face = np.searchsorted(np.cumsum(areas), cumulative).clip(0, len(areas) - 1)
     u, v = ((np.arange(count) * share) % 1 for share in GOLDEN)
@@ -231,7 +231,7 @@ def sampled(surface: Surface, pitch: float) -> tuple[Floats, NDArray[np.int64], 
     a, b, c = (vertices[surface.faces[face, i]] for i in range(3))
     points = a + u[:, None] * (b - a) + v[:, None] * (c - a)
     vertex_index, corner = np.unique(surface.faces.ravel(), return_index=True)
-    thinned = slice(None, None, max(1, -(-len(vertex_index) // MOST)))
+    thinned = slice(None, None, max(1, -(-len(vertex_index) // MOST_SAMPLES)))
     return (
         np.concatenate([points, vertices[vertex_index[thinned]]]),
         np.concatenate([face, corner[thinned] // 3]).astype(np.int64),
@@ -239,7 +239,7 @@ def sampled(surface: Surface, pitch: float) -> tuple[Floats, NDArray[np.int64], 
     )
 
 
-def _gap(points: Floats, distance: Floats, area: Floats) -> Gap:
+def _gap(points: Floats, distance: Floats, area: Floats) -> SurfaceGap:
     """Summarise the distances."""
     weights = area if area.any() else np.ones_like(area)
     order = np.argsort(distance)
@@ -247,7 +247,7 @@ def _gap(points: Floats, distance: Floats, area: Floats) -> Gap:
     p95 = distance[order[np.searchsorted(cumulative, 0.95 * cumulative[-1]).clip(0, len(order) - 1)]]
     worst = int(distance.argmax())
     x, y, z = points[worst].tolist()
-    return Gap(
+    return SurfaceGap(
         mean=float(np.average(distance, weights=weights)),
         rms=float(np.sqrt(np.average(distance**2, weights=weights))),
         p95=float(p95),
@@ -256,7 +256,7 @@ def _gap(points: Floats, distance: Floats, area: Floats) -> Gap:
     )
 
 
-def _patches(points: Floats, distance: Floats, area: Floats, cell: float) -> tuple[Patch, ...]:
+def _patches(points: Floats, distance: Floats, area: Floats, cell: float) -> tuple[ChangedPatch, ...]:
     """Group the points that lie far away into places; return them, the largest first."""
     from scipy.ndimage import label
 
@@ -277,5 +277,5 @@ def _patches(points: Floats, distance: Floats, area: Floats, cell: float) -> tup
     patches = []
     for group in np.argsort(-size, kind="stable"):
         x, y, z = points[worst[group]].tolist()
-        patches.append(Patch(at=(x, y, z), area=float(size[group]), distance=float(distance[worst[group]])))
+        patches.append(ChangedPatch(at=(x, y, z), area=float(size[group]), distance=float(distance[worst[group]])))
     return tuple(patches)

@@ -14,14 +14,14 @@ from numpy.typing import NDArray
 
 from infill.contours.zero_contours import TIE
 from infill.grid import VOID
-from infill.inspection.changes import Changes, Counts
-from infill.inspection.component_matching import fate, overlaps
+from infill.inspection.changes import ConnectionCounts, TopologyChanges
+from infill.inspection.component_matching import compare_components, count_overlaps
 
 PINHOLE = 3  # cells: in a void with no room for a square of this side, every cell touches a wall
 
 
 @dataclass(frozen=True, kw_only=True)
-class Topology:
+class LayerTopology:
     """Counts of one layer.
 
     Parameters
@@ -41,13 +41,13 @@ class Topology:
         return self.components - self.holes
 
     @property
-    def extruded(self) -> Counts:
+    def extruded(self) -> ConnectionCounts:
         """Connections of the extruded layer: holes become tunnels."""
-        return Counts.of(components=self.components, cavities=0, tunnels=self.holes)
+        return ConnectionCounts.of(components=self.components, cavities=0, tunnels=self.holes)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Regions:
+class LayerRegions:
     """Every cell of a layer, with a shell of void around it, numbered by the component it belongs to.
 
     Parameters
@@ -62,29 +62,29 @@ class Regions:
     void: NDArray[np.integer]
 
     @property
-    def topology(self) -> Topology:
+    def topology(self) -> LayerTopology:
         """Count the components."""
-        return Topology(components=int(self.solid.max()), holes=int(self.void.max()) - 1)
+        return LayerTopology(components=int(self.solid.max()), holes=int(self.void.max()) - 1)
 
 
-def regions(layer: NDArray[np.floating]) -> Regions:
+def label_regions(layer: NDArray[np.floating]) -> LayerRegions:
     """Label the components of solid and of void of a layer (nx, ny)."""
     field = np.pad(layer, 1, constant_values=VOID)
     solid = field > 0
     joined, separated = _saddles(field, solid)
-    return Regions(solid=_label_cells(solid, joined), void=_label_cells(~solid, separated))
+    return LayerRegions(solid=_label_cells(solid, joined), void=_label_cells(~solid, separated))
 
 
-def topology(layer: NDArray[np.floating]) -> Topology:
+def count_layer(layer: NDArray[np.floating]) -> LayerTopology:
     """Count the components and holes of a layer (nx, ny).
 
-    >>> topology(np.pad(-np.ones((2, 2)), 2, constant_values=1.0))
+    >>> count_layer(np.pad(-np.ones((2, 2)), 2, constant_values=1.0))
     Topology(components=1, holes=1)
     """
-    return regions(layer).topology
+    return label_regions(layer).topology
 
 
-def changes(before: Regions, after: Regions, *, line_cells: int = PINHOLE) -> Changes:
+def compare_layers(before: LayerRegions, after: LayerRegions, *, line_cells: int = PINHOLE) -> TopologyChanges:
     """Compare two states of the same layer, component by component.
 
     A pinhole is a void that vanished, or a neck of a void that was cut, with no room for a square of `PINHOLE` cells a
@@ -99,8 +99,8 @@ def changes(before: Regions, after: Regions, *, line_cells: int = PINHOLE) -> Ch
     """
     from scipy import ndimage
 
-    void_overlaps = overlaps(before.void, after.void)
-    solid, voids = fate(overlaps(before.solid, after.solid)), fate(void_overlaps)
+    void_overlaps = count_overlaps(before.void, after.void)
+    solid, voids = compare_components(count_overlaps(before.solid, after.solid)), compare_components(void_overlaps)
     open_void = ndimage.binary_opening(before.void > 0, np.ones((min(PINHOLE, line_cells),) * 2))
     cores = _label_cells(open_void, np.empty((0, 2), dtype=np.intp))
     has_room = np.zeros(void_overlaps.before, dtype=bool)
@@ -108,8 +108,8 @@ def changes(before: Regions, after: Regions, *, line_cells: int = PINHOLE) -> Ch
     cells = np.bincount(before.void.ravel(), minlength=void_overlaps.before + 1)[1:]
     outside = cells[before.void[0, 0] - 1]
     narrow = ~voids.kept & ~has_room
-    cut = fate(overlaps(cores, after.void)).breaks
-    return Changes(
+    cut = compare_components(count_overlaps(cores, after.void)).breaks
+    return TopologyChanges(
         vanished=len(solid.vanished),
         broken=solid.breaks,
         fused=solid.fusions,

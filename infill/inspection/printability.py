@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from infill.errors import FormatError
 from infill.formats.mesh_files import read_mesh
-from infill.imaging.units import STATED, guess_unit
+from infill.imaging.units import STATED_UNITS, guess_unit
 from infill.meshes import solids
-from infill.meshes.intersections import self_intersections
-from infill.meshes.merging import closed_or_merged, merged, surface_of
+from infill.meshes.intersections import count_self_intersections
+from infill.meshes.merging import merge_unless_closed, merge_vertices, surface_of
 from infill.meshes.sealed_voids import count_sealed_voids
 from infill.meshes.shells import vertex_components
 from infill.surface import Edges, Surface
@@ -100,10 +100,10 @@ def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspectio
     if isinstance(mesh, (str, os.PathLike)):
         read = read_mesh(mesh)
         notes = read.notes
-        stated = Path(mesh).suffix.lower() in STATED
+        stated = Path(mesh).suffix.lower() in STATED_UNITS
     else:
         surface_given = surface_of(mesh)
-        read = closed_or_merged(surface_given.vertices, surface_given.faces)
+        read = merge_unless_closed(surface_given.vertices, surface_given.faces)
         notes = surface_given.notes
     collapsed = (read.faces == np.roll(read.faces, 1, axis=1)).any(axis=1)
     if collapsed.all():
@@ -112,14 +112,14 @@ def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspectio
     flat = _zero_area_faces(surface)
     if flat.all():
         raise FormatError("the mesh has no triangle with an area; export it again")
-    merged_surface = merged(surface.vertices, surface.faces[~flat])
+    merged_surface = merge_vertices(surface.vertices, surface.faces[~flat])
     duplicate = len(merged_surface.faces) - len(np.unique(np.sort(merged_surface.faces, axis=1), axis=0))
-    crossings = self_intersections(merged_surface.vertices, merged_surface.faces)
+    crossings = count_self_intersections(merged_surface.vertices, merged_surface.faces)
     open_edges = int((Edges.of(surface.faces).faces != 2).sum())
     names, components = vertex_components(surface.faces, len(surface.vertices))
     outward = _faces_outwards(surface, names[surface.faces[:, 0]])
     sealed = count_sealed_voids(surface) if surface.closed else None
-    status = solids.status(surface, single=True)
+    status = solids.manifold_status(surface, single=True)
     degenerate = int(collapsed.sum() + flat.sum())
     bounds = surface.bounds
     extents = bounds[1] - bounds[0]

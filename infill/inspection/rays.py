@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 
 
-def way_inside(
+def length_inside(
     value: Callable[[Floats], NDArray[np.floating]],
     start: Floats,
     direction: Floats,
@@ -42,18 +42,18 @@ def way_inside(
     Between two positions the value is taken as linear. A ray that is inside at the first is inside from its start.
 
     >>> ball = lambda points: 4 - np.linalg.norm(points, axis=1)
-    >>> way_inside(ball, np.zeros((1, 2)), np.array([[0.6, 0.8]]), np.arange(0, 8, 0.5)).tolist()
+    >>> length_inside(ball, np.zeros((1, 2)), np.array([[0.6, 0.8]]), np.arange(0, 8, 0.5)).tolist()
     [4.0]
     """
     points = start[:, None] + distance[:, None] * direction[:, None]
     values = np.asarray(value(points.reshape(-1, start.shape[1]))).reshape(points.shape[:2])
-    return first_stretch(values, distance, leeway=leeway)
+    return first_solid_length(values, distance, leeway=leeway)
 
 
-def first_stretch(values: NDArray[np.floating], distance: Floats, *, leeway: int = 0) -> Floats:
-    """Measure as `way_inside` does, given the values at all positions along the rays, (N, n).
+def first_solid_length(values: NDArray[np.floating], distance: Floats, *, leeway: int = 0) -> Floats:
+    """Measure as `length_inside` does, given the values at all positions along the rays, (N, n).
 
-    >>> first_stretch(np.array([[1.0, 1.0, -1.0], [-1.0, -1.0, -1.0]]), np.arange(3.0)).tolist()
+    >>> first_solid_length(np.array([[1.0, 1.0, -1.0], [-1.0, -1.0, -1.0]]), np.arange(3.0)).tolist()
     [1.5, 0.0]
     """
     inside = values > 0

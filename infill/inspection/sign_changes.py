@@ -1,11 +1,11 @@
 """Judge changes by the cells that changed sign; solid cannot break, fuse or move away anywhere else.
 
     data  ──▶  bits of solid cells ──┐
-    field ──▶  bits of solid cells ──┴──▶  flips  ──▶  the same connections?    (`connected_alike`)
-                                                  ──▶  both surfaces near?      (`near_each_other`)
+    field ──▶  bits of solid cells ──┴──▶  flips  ──▶  the same connections?    (`has_same_connections`)
+                                                  ──▶  both surfaces near?      (`are_surfaces_near`)
 
-Both answer True only if they are sure. Otherwise everything is compared: `infill.inspection.bricks.verdict` and
-`infill.inspection.fidelity.fidelity`, whose results these two predict.
+Both answer True only if they are sure. Otherwise everything is compared: `infill.inspection.bricks.check_topology` and
+`infill.inspection.fidelity.measure_fidelity`, whose results these two predict.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import GeometryError
-from infill.isosurfaces.components import Components, cores, grown, opened
+from infill.isosurfaces.components import Components, dilate, dilate_cores, erode_to_cores
 from infill.isosurfaces.sparse_marching import (
-    Signs,
+    LevelSigns,
     doubt_and_euler_number,
     euler_number_of_bits,
     extract_level,
@@ -30,27 +30,27 @@ from infill.kernels.components import mark_runs
 from infill.kernels.sparse import BRICK, VOID_BRICK
 from infill.kernels.sparse_marching import FULL, ROWS
 from infill.kernels.threads import in_threads, thread_count
-from infill.meshes.distance import Tree
-from infill.meshes.hausdorff_samples import between
+from infill.meshes.distance import TriangleTree
+from infill.meshes.hausdorff_samples import sample_between_vertices
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
 
 Bits = NDArray[np.uint16]
 Places = NDArray[np.int64]
 
-MANY = 20_000  # cells: if more than this have changed, it is faster to compare everything
+MANY_CHANGES = 20_000  # cells: if more than this have changed, it is faster to compare everything
 SHARE = 0.5  # of all bricks: if more than this have to be examined, it is faster to compare everything
-FEW = 200  # bricks: up to this many are examined in any case
+FEW_BRICKS = 200  # bricks: up to this many are examined in any case
 # Cells: largest distance of the surfaces at samples, and spacing of samples, so that it is at most 1.25 between them.
-NEAR, APART = 1.0, 0.3
-BESIDE = np.array(list(product(range(-1, 1), repeat=3)))  # the cubes around a cell, by their lowest corners
+NEAR, SAMPLE_SPACING = 1.0, 0.3
+CUBES_AROUND = np.array(list(product(range(-1, 1), repeat=3)))  # the cubes around a cell, by their lowest corners
 REACH = 2  # cubes around the changed ones in which the other surface is searched
 WORD = 4  # rows whose bits make a number of 64 bits
 ENDS = np.array(list(product((-REACH - 1, REACH + 1), repeat=3)))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Flips:
+class SignChanges:
     """The cells that changed sign.
 
     Parameters
@@ -78,22 +78,28 @@ class Flips:
 
     @classmethod
     def of(
-        cls, field: SparseField, data: Bits, level: float, *, signs: Signs | None = None, threads: int | None = None
-    ) -> Flips:
+        cls,
+        field: SparseField,
+        data: Bits,
+        level: float,
+        *,
+        signs: LevelSigns | None = None,
+        threads: int | None = None,
+    ) -> SignChanges:
         """Find the cells that changed sign between the data, whose bits are known, and the field.
 
         The `signs` of the field at the level are computed if not given.
         """
         if signs is None:
             bits = rows_above(field, field.values, level, threads=threads)
-            signs = Signs(bits=bits, doubt=doubt_and_euler_number(field, bits, threads=threads)[0])
+            signs = LevelSigns(bits=bits, doubt=doubt_and_euler_number(field, bits, threads=threads)[0])
         before, euler = doubt_and_euler_number(field, data, threads=threads)
         return cls(
             field=field,
             level=level,
             data=data,
             result=signs.bits,
-            places=places_of(field, data ^ signs.bits),
+            places=set_cells(field, data ^ signs.bits),
             doubt=_join_places(before, signs.doubt),
             euler_number=euler_number_of_bits(field, data, threads=threads) if euler is None else euler,
         )
@@ -105,7 +111,7 @@ def _join_places(places_a: NDArray[np.int32], places_b: NDArray[np.int32]) -> Pl
     return np.unique(joined, axis=0) if len(joined) else joined
 
 
-def places_of(field: SparseField, bits: Bits) -> Places:
+def set_cells(field: SparseField, bits: Bits) -> Places:
     """List the cells that are set in kept bricks, (N, 3), on the lattice."""
     words = np.flatnonzero(np.ascontiguousarray(bits).view(np.uint64))  # of four rows each: most are empty
     brick, row = np.divmod(words[:, None] * WORD + np.arange(WORD), ROWS)
@@ -117,7 +123,7 @@ def places_of(field: SparseField, bits: Bits) -> Places:
     return cells
 
 
-def connected_alike(flips: Flips, before: Components, *, threads: int | None = None) -> bool:
+def has_same_connections(flips: SignChanges, before: Components, *, threads: int | None = None) -> bool:
     """Tell whether all components of solid and void are certain to correspond, and no wall was lost.
 
     Parameters
@@ -136,17 +142,17 @@ def connected_alike(flips: Flips, before: Components, *, threads: int | None = N
     whose voids show whether walls were lost.
     """
     field, result = flips.field, flips.result
-    thick = opened(field, cores(field, flips.data, threads=threads), threads=threads)
+    thick = dilate_cores(field, erode_to_cores(field, flips.data, threads=threads), threads=threads)
     for start in (flips.data, thick) if (thick != flips.data).any() else (thick,):
-        places = places_of(field, start ^ result)
-        if len(places) > MANY or kernels.flip_simple(field.slots, start.copy(), places):
+        places = set_cells(field, start ^ result)
+        if len(places) > MANY_CHANGES or kernels.flip_simple(field.slots, start.copy(), places):
             return False
-    if kernels.lonely(field.slots, result, flips.places):
+    if kernels.count_lonely(field.slots, result, flips.places):
         return False
-    return all_stay(before, ~(flips.data ^ result))
+    return has_unchanged_cells(before, ~(flips.data ^ result))
 
 
-def all_stay(labelled: Components, same: Bits) -> bool:
+def has_unchanged_cells(labelled: Components, same: Bits) -> bool:
     """Tell whether every component of solid, or of void, has a cell in `same`, the cells that did not change."""
     marked = np.zeros(labelled.count, dtype=bool)
     mark_runs(labelled.bits, labelled.bricks, labelled.starts, labelled.names, same, marked)
@@ -154,7 +160,7 @@ def all_stay(labelled: Components, same: Bits) -> bool:
     return bool(marked.all())
 
 
-def near_each_other(flips: Flips, *, spacing: tuple[float, ...], threads: int | None = None) -> bool:
+def are_surfaces_near(flips: SignChanges, *, spacing: tuple[float, ...], threads: int | None = None) -> bool:
     """Tell whether both surfaces are certain to be within `infill.inspection.fidelity.KEPT` cells everywhere.
 
     Where all corners of a cube keep their signs, both surfaces cross the same edges and have the same triangles between
@@ -162,13 +168,13 @@ def near_each_other(flips: Flips, *, spacing: tuple[float, ...], threads: int | 
     """
     if not len(flips.places) and not len(flips.doubt):
         return True
-    cubes = (flips.places[:, None] + BESIDE).reshape(-1, 3)
+    cubes = (flips.places[:, None] + CUBES_AROUND).reshape(-1, 3)
     part = _cut_out(flips.field, cubes, flips.doubt)
     cube_bits = None if part is None else _mark_cubes(part, cubes, flips.doubt)
     if part is None or cube_bits is None:
         return False
     count = thread_count(threads)
-    around_bits = grown(part, cube_bits, REACH, threads=count)
+    around_bits = dilate(part, cube_bits, REACH, threads=count)
     try:
         surfaces = [
             extract_level(_field_of_data(part), spacing=spacing, threads=count).surface,
@@ -198,7 +204,7 @@ def _cut_out(field: SparseField, cubes: Places, doubt: Places) -> SparseField | 
         inside = ((place >= 0) & (place < field.slots.shape)).all(axis=1)
         needed[tuple(place[inside].T)] = True
     chosen = needed[tuple(field.where.T)]
-    if chosen.sum() > max(FEW, SHARE * len(chosen)):
+    if chosen.sum() > max(FEW_BRICKS, SHARE * len(chosen)):
         return None
     slots = np.where(needed & (field.slots < 0), field.slots, np.int32(VOID_BRICK))
     where = field.where[chosen]
@@ -231,7 +237,7 @@ def _part_in_cubes(
     """Return the triangles of a surface that lie in cubes with set bits, and their corners."""
     inside = np.zeros(len(surface.faces), dtype=bool)
     arguments = (surface.vertices, surface.faces, np.array(spacing), field.slots, bits, inside)
-    in_threads(kernels.faces_in, *arguments, threads=threads)
+    in_threads(kernels.mark_faces_in, *arguments, threads=threads)
     used, faces = np.unique(surface.faces[inside], return_inverse=True)
     return replace(surface, vertices=surface.vertices[used], faces=faces.reshape(-1, 3))
 
@@ -240,8 +246,12 @@ def _is_near(part: Surface, reference: Surface, cell: float, threads: int) -> bo
     """Tell whether all places on the faces of one surface are near another."""
     if not len(part.faces) or not len(reference.faces):
         return not len(part.faces)
-    tree, limit = Tree.of(reference), NEAR * cell
+    tree, limit = TriangleTree.of(reference), NEAR * cell
     distance, owner = tree.nearest(part.vertices, enough=limit, threads=threads)
     if (distance > limit).any():
         return False
-    return not len(between(tree, part, owner, distance, APART * cell, limit, all_places=False, threads=threads).points)
+    return not len(
+        sample_between_vertices(
+            tree, part, owner, distance, SAMPLE_SPACING * cell, limit, all_places=False, threads=threads
+        ).points
+    )

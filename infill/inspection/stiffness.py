@@ -51,7 +51,7 @@ class Stiffness:
         return float(moduli.min()), float(moduli.max())
 
 
-def stiffness(solid: ArrayLike, poisson: float = 0.3) -> Stiffness:
+def homogenise_stiffness(solid: ArrayLike, poisson: float = 0.3) -> Stiffness:
     """Compute the stiffness of a cell that repeats along x, y and z.
 
     Parameters
@@ -69,7 +69,7 @@ def stiffness(solid: ArrayLike, poisson: float = 0.3) -> Stiffness:
     >>> import numpy as np
     >>> layers = np.zeros((4, 4, 4), dtype=bool)
     >>> layers[:, :, :2] = True
-    >>> stiffness(layers).modulus([(1, 0, 0)]).round(4).tolist()
+    >>> homogenise_stiffness(layers).modulus([(1, 0, 0)]).round(4).tolist()
     [0.5]
     """
     from scipy.sparse import coo_array

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.inspection.rays import first_stretch
-from infill.kernels.rays import follow
+from infill.inspection.rays import first_solid_length
+from infill.kernels.rays import sample_rays
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
 
@@ -59,8 +59,8 @@ def thinnest_walls(
 
     def thinnest_wall(values: NDArray[np.generic], height: float, leeway: int) -> float | None:
         solid = np.empty((len(start), len(distances)))
-        follow(field.slots, values, field.shape, start, inwards, distances, size, height, solid)
-        lengths = first_stretch(solid, distances, leeway=leeway)
+        sample_rays(field.slots, values, field.shape, start, inwards, distances, size, height, solid)
+        lengths = first_solid_length(solid, distances, leeway=leeway)
         lengths = lengths[lengths > 0]
         if len(lengths) == 0:
             return None

@@ -13,7 +13,7 @@ from shapely import MultiLineString
 
 from infill.errors import ParameterError
 from infill.grid import VOID, Grid
-from infill.inspection.rays import way_inside
+from infill.inspection.rays import length_inside
 
 Floats = NDArray[np.float64]
 
@@ -81,7 +81,7 @@ def wall_width(lines: MultiLineString, layer: NDArray[np.floating], grid: Grid, 
     distance = np.arange(0, reach, size / STEPS_PER_CELL)
     value = _sampler(layer, grid)
     # A wall that continues beyond the reach counts as that wide.
-    half_widths = [way_inside(value, places, side * normals, distance).clip(0, distance[-1]) for side in (1, -1)]
+    half_widths = [length_inside(value, places, side * normals, distance).clip(0, distance[-1]) for side in (1, -1)]
     widths = half_widths[0] + half_widths[1]
     p5, p95 = np.percentile(widths, [5, 95])
     return WallWidth(

@@ -21,7 +21,7 @@ EASED = 0.8  # power by which scales that would fold cells are evened out
 DIRECTIONS = 32  # of walls, over half a sphere
 
 
-def stretched(scales: NDArray[np.floating]) -> tuple[Floats, Floats]:
+def fit_conformal_map(scales: NDArray[np.floating]) -> tuple[Floats, Floats]:
     """Compute coordinates in which cells follow scales; return them and the resulting increase of wall.
 
     Parameters
@@ -33,7 +33,7 @@ def stretched(scales: NDArray[np.floating]) -> tuple[Floats, Floats]:
     Returns
     -------
     coordinates : (n + 2, m + 2, k + 2, 3) float64
-        The coefficients of a cubic spline over the nodes and one more on either side, in nodes: `place` evaluates it.
+        The coefficients of a cubic spline over the nodes and one more on either side, in nodes; see `map_points`.
         The node in the middle stays where it is.
     more : (n, m, k) float64
         Factor of the wall in a volume.
@@ -49,7 +49,7 @@ def stretched(scales: NDArray[np.floating]) -> tuple[Floats, Floats]:
             break
         targets = targets**EASED
     middle = (np.array(targets.shape) - 1) / 2
-    return coordinates + (middle - place(coordinates, middle[None])[0]), more
+    return coordinates + (middle - map_points(coordinates, middle[None])[0]), more
 
 
 def _fit_coordinates(targets: Floats) -> tuple[Floats, Floats, Floats]:
@@ -59,13 +59,13 @@ def _fit_coordinates(targets: Floats) -> tuple[Floats, Floats, Floats]:
         if number:
             scales = np.clip(scales * targets / more, targets / MOST, targets * MOST)
         coordinates = _extrapolate(_integrate(scales))
-        slopes = slopes_of(coordinates)
-        more = walls_in(slopes)
+        slopes = spline_slopes(coordinates)
+        more = wall_factor(slopes)
     return coordinates, slopes, more
 
 
-def place(coordinates: Floats, points: Floats) -> Floats:
-    """Map points (N, 3) to coordinates of `stretched`, (N, 3); both in nodes."""
+def map_points(coordinates: Floats, points: Floats) -> Floats:
+    """Map points (N, 3) to coordinates of `fit_conformal_map`, (N, 3); both in nodes."""
     from scipy.ndimage import map_coordinates
 
     along = [map_coordinates(axis, points.T + 1, order=3, prefilter=False) for axis in np.moveaxis(coordinates, -1, 0)]
@@ -101,7 +101,7 @@ def _extrapolate(nodes: Floats) -> Floats:
     return nodes
 
 
-def slopes_of(coordinates: Floats) -> Floats:
+def spline_slopes(coordinates: Floats) -> Floats:
     """Compute the slopes of a spline at its nodes, (n, m, k, 3, 3): of each coordinate, along each axis."""
     values, slopes = (1 / 6, 2 / 3, 1 / 6), (-1 / 2, 0.0, 1 / 2)
     shape = tuple(count - 2 for count in coordinates.shape[:3])
@@ -116,7 +116,7 @@ def slopes_of(coordinates: Floats) -> Floats:
     return derivatives
 
 
-def walls_in(slopes: Floats) -> Floats:
+def wall_factor(slopes: Floats) -> Floats:
     """Compute the factor of the wall in a volume where a pattern is stretched by slopes (..., 3, 3).
 
     Walls are assumed to lie in all directions alike: the mean over normals n of |slopesᵀ n|.

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.meshes.distance import Tree
+from infill.meshes.distance import TriangleTree
 from infill.meshes.measuring import face_areas
 from infill.surface import Surface
 
@@ -46,7 +46,7 @@ def median_width(
     a, b, c = (np.asarray(voids.vertices, dtype=np.float64)[voids.faces[sampled, corner]] for corner in range(3))
     points, across = (a + b + c) / 3, np.cross(b - a, c - a)
     normals = across / np.linalg.norm(across, axis=1, keepdims=True)
-    distance, _ = Tree.of(part).nearest(points, threads=threads)
+    distance, _ = TriangleTree.of(part).nearest(points, threads=threads)
     is_inside = distance > wall + AWAY * width
     points, normals = points[is_inside], normals[is_inside]
     if len(points) < FEWEST:
@@ -63,7 +63,7 @@ def median_width(
     return float(np.median(along)), len(points)
 
 
-def _trees_near(points: Floats, surface: Surface, reach: float) -> Iterator[tuple[NDArray[np.intp], Tree]]:
+def _trees_near(points: Floats, surface: Surface, reach: float) -> Iterator[tuple[NDArray[np.intp], TriangleTree]]:
     """Yield batches of points, (n,), each with a tree of at least the faces within a reach of them, mm.
 
     Batches follow each other along the longest side of the surface, so that trees do not grow with its length.
@@ -76,4 +76,4 @@ def _trees_near(points: Floats, surface: Surface, reach: float) -> Iterator[tupl
         below, above = height < place[batch[0]] - reach, height > place[batch[-1]] + reach
         is_near = ~(below[faces].all(axis=1) | above[faces].all(axis=1))
         if is_near.any():
-            yield batch, Tree.of(replace(surface, faces=faces[is_near]))
+            yield batch, TriangleTree.of(replace(surface, faces=faces[is_near]))

@@ -7,17 +7,17 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from infill.interior.crossing import median_width
-from infill.interior.interior import Space
+from infill.interior.interior import Interior
 from infill.isosurfaces.components import shell_names
 from infill.meshes.measuring import volume_and_area
-from infill.meshes.shells import with_faces
-from infill.meshes.solids import volume_within
-from infill.meshes.split_components import joined
+from infill.meshes.shells import select_faces
+from infill.meshes.solids import shared_volume
+from infill.meshes.split_components import concatenate_surfaces
 from infill.surface import Surface
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Unmade:
+class DeferredVoids:
     """Voids whose surfaces are made later.
 
     Parameters
@@ -29,11 +29,11 @@ class Unmade:
     """
 
     volume: float
-    made: Callable[[float], Hollow]
+    made: Callable[[float], VoidMeshes]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Hollow:
+class VoidMeshes:
     """The voids of a part.
 
     Parameters
@@ -56,7 +56,7 @@ class Hollow:
         Set in place of surfaces until they are made.
     """
 
-    space: Space
+    space: Interior
     cell: float
     width: float
     surfaces: list[Surface]
@@ -65,12 +65,12 @@ class Hollow:
     specks: int
     walls: Surface | None = None
     loose: float = 0.0
-    unmade: Unmade | None = None
+    unmade: DeferredVoids | None = None
 
     @property
     def surface(self) -> Surface:
         """All voids, mm."""
-        return joined(self.surfaces)
+        return concatenate_surfaces(self.surfaces)
 
     @cached_property
     def count(self) -> int:
@@ -89,9 +89,9 @@ class Hollow:
         opening = self.space.opening
         if opening is None:
             return self.surface
-        return joined(
+        return concatenate_surfaces(
             [
-                with_faces(surface, ~opening.opened(surface)[shell_names(surface)[0][surface.faces[:, 0]]])
+                select_faces(surface, ~opening.opened(surface)[shell_names(surface)[0][surface.faces[:, 0]]])
                 for surface in self.surfaces
             ]
         )
@@ -111,7 +111,7 @@ class Hollow:
             return self.loose + sum(opening.volume(surface) for surface in self.surfaces)
         if self.walls is None:
             return sum(volume_and_area(surface)[0] for surface in self.surfaces)
-        return self.loose + sum(volume_within(surface, self.walls) for surface in self.surfaces)
+        return self.loose + sum(shared_volume(surface, self.walls) for surface in self.surfaces)
 
     @cached_property
     def median(self) -> tuple[float | None, int]:

@@ -11,14 +11,14 @@ from numpy.typing import NDArray
 
 from infill.errors import GeometryError
 from infill.grid import Grid
-from infill.interior.layer_stack import WHOLE, Layers, in_slabs
-from infill.interior.opening import ENDS, Open, Opening, flat_sides, lengthened
+from infill.interior.layer_stack import WHOLE, LayerStack, split_into_slabs
+from infill.interior.opening import ENDS, Open, Opening, extend_ends, find_flat_ends
 from infill.machine import require_memory
-from infill.meshes.solids import FINE, status, united
-from infill.meshes.split_components import joined, parted
+from infill.meshes.solids import FINE, manifold_status, unite
+from infill.meshes.split_components import concatenate_surfaces, split_components
 from infill.surface import Surface
 from infill.volume import Volume
-from infill.voxels.from_mesh import Repairs, Voxelised, grid_around, voxelise_reported
+from infill.voxels.from_mesh import MeshRepairs, VoxelisedMesh, grid_around, voxelise_with_report
 from infill.voxels.partial import distances_in_cells
 
 BAND = 2.5  # cells on either side of the wall in which depths are exact
@@ -33,7 +33,7 @@ BYTES_PER_CELL = 18  # a measured peak: depth, one void and its phase, and the b
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Space:
+class Interior:
     """The space inside the walls of a part.
 
     Parameters
@@ -65,18 +65,18 @@ class Space:
         The space of which this is a box, and the first cell of the box in it.
     """
 
-    layers: Layers
+    layers: LayerStack
     size: float
     origin: NDArray[np.float64]
     part: Surface
-    repairs: Repairs
+    repairs: MeshRepairs
     skin: str
     overlap: float
     wall: float
-    walled: Space | None = None
+    walled: Interior | None = None
     through: float = 0.0
     opening: Opening | None = None
-    box_of: tuple[Space, NDArray[np.int64]] | None = None
+    box_of: tuple[Interior, NDArray[np.int64]] | None = None
 
     @property
     def depth(self) -> NDArray[np.float32]:
@@ -132,11 +132,11 @@ class Space:
         return self.depth - np.float32(self.through) if self.through else self.depth
 
     @cached_property
-    def unwalled(self) -> Space:
+    def unwalled(self) -> Interior:
         """The same space, where voids reach through the wall and a little out of the part."""
         through = self.wall / self.size + BEYOND
         depth = self.depth + np.float32(through)
-        return replace(self, layers=Layers.of(depth), wall=0.0, walled=self, through=through)
+        return replace(self, layers=LayerStack.of(depth), wall=0.0, walled=self, through=through)
 
     @cached_property
     def deepest(self) -> NDArray[np.float32]:
@@ -180,7 +180,7 @@ class Space:
         return self.cells * self.size**3
 
 
-def space_inside(
+def compute_interior(
     part: Surface,
     *,
     wall: float,
@@ -191,7 +191,7 @@ def space_inside(
     slabs: bool = False,
     threads: int | None = None,
     max_memory: int | None = None,
-) -> Space:
+) -> Interior:
     """Compute the inside of a part, without a wall, mm, along all of its skin except its open sides.
 
     Beyond these, the inside goes on for `beyond`, mm. `held` is the number of additional bytes for each cell. With
@@ -205,7 +205,7 @@ def space_inside(
         If the grid does not fit into memory.
     """
     extents = np.ptp(part.bounds, axis=0)
-    further = further_for(open_, wall, beyond, voxel)
+    further = added_length(open_, wall, beyond, voxel)
     sides = " x ".join(f"{side:.3g}" for side in extents)
     nowhere = (
         f"wall is {wall:g} mm, and the part, {sides} mm, is nowhere thicker than two of those; "
@@ -214,17 +214,17 @@ def space_inside(
     # Checked first, as measuring may take long; a flat sheet has a separate message.
     if extents.min() > 0 and (extents + further * UP).min() <= 2 * wall:
         raise GeometryError(nowhere)
-    grid = grid_of(part, voxel=voxel, further=further)
+    grid = grid_for_part(part, voxel=voxel, further=further)
     advice = f"the grid has {' x '.join(map(str, grid.shape))} cells; give larger voxels or larger cells"
     require_memory(_memory_bytes(grid.shape, held, slabs=slabs), max_memory, advice)
-    voxelised = voxelise_reported(part, voxel=voxel, margin=MARGIN, max_memory=max_memory)
+    voxelised = voxelise_with_report(part, voxel=voxel, margin=MARGIN, max_memory=max_memory)
     closed_part, skin, overlap = _repair_skin(voxelised)
     longer, cells, opening, repairs = closed_part, voxelised.volume, None, voxelised.repairs
     del voxelised  # so that its cells can be freed once their depths are known
     if open_ is not None:
-        opening, lids = flat_sides(closed_part, open_)
-        longer = lengthened(closed_part, lids, further / len(lids))
-        cells = voxelise_reported(longer, voxel=voxel, margin=MARGIN, max_memory=max_memory).volume
+        opening, lids = find_flat_ends(closed_part, open_)
+        longer = extend_ends(closed_part, lids, further / len(lids))
+        cells = voxelise_with_report(longer, voxel=voxel, margin=MARGIN, max_memory=max_memory).volume
     # Thin gaps between components count too, but not faces inside the solid.
     reach, is_overlapping = wall / voxel + BAND, overlap > LEAST_OVERLAP
 
@@ -235,14 +235,14 @@ def space_inside(
 
     origin = np.array(cells.origin) + voxel / 2
     if slabs and not is_overlapping and cells.values.size > WHOLE:
-        slab_volumes = in_slabs(cells)
+        slab_volumes = split_into_slabs(cells)
         del cells
-        layers = Layers.packed(depths_of(volume) for volume in slab_volumes)
+        layers = LayerStack.packed(depths_of(volume) for volume in slab_volumes)
     else:
-        layers = Layers.of(depths_of(cells))
+        layers = LayerStack.of(depths_of(cells))
     if not any((slab > 0).any() for _, slab in layers.each()):
         raise GeometryError(nowhere)
-    space = Space(
+    space = Interior(
         layers=layers,
         size=voxel,
         origin=origin,
@@ -270,12 +270,12 @@ def _memory_bytes(shape: tuple[int, ...], held: int, *, slabs: bool) -> int:
     return (BYTES_PER_CELL + held) * cells
 
 
-def further_for(open_: Open | None, wall: float, beyond: float, voxel: float) -> float:
+def added_length(open_: Open | None, wall: float, beyond: float, voxel: float) -> float:
     """Return the length, mm, added to a part at its open sides, so that its ends do not matter to the voids."""
     return 0.0 if open_ is None else len(ENDS[open_]) * (wall + beyond + OUT * voxel)
 
 
-def grid_of(part: Surface, *, voxel: float, further: float) -> Grid:
+def grid_for_part(part: Surface, *, voxel: float, further: float) -> Grid:
     """Return roughly the grid that a part is filled on, extended by a length up or down, mm."""
     return grid_around(
         Surface(vertices=np.concatenate([part.bounds, part.bounds[1:] + further * UP]), faces=np.array([[0, 1, 2]])),
@@ -284,7 +284,7 @@ def grid_of(part: Surface, *, voxel: float, further: float) -> Grid:
     )
 
 
-def _repair_skin(voxelised: Voxelised) -> tuple[Surface, str, float]:
+def _repair_skin(voxelised: VoxelisedMesh) -> tuple[Surface, str, float]:
     """Repair the skin; return the part facing outwards, the last repair, and the overlap that remains."""
     mesh, enclosed = voxelised.closed, voxelised.enclosed
     skin = "closed" if voxelised.repairs.holes else "as given"
@@ -292,15 +292,15 @@ def _repair_skin(voxelised: Voxelised) -> tuple[Surface, str, float]:
         faces = np.where(turned[:, None], mesh.faces[:, ::-1], mesh.faces)
         mesh, skin = Surface(vertices=mesh.vertices, faces=faces), "turned" if skin == "as given" else skin
     overlap = float(enclosed.excess.sum() / enclosed.total)
-    verdict = status(mesh)
+    verdict = manifold_status(mesh)
     if mesh.closed and verdict == FINE and overlap <= LEAST_OVERLAP:
         return mesh, skin, 0.0
-    parts = parted(mesh, float(voxelised.volume.cell_size[0])).surfaces
-    if overlap > LEAST_OVERLAP and (union := united(parts)) is not None:
+    parts = split_components(mesh, float(voxelised.volume.cell_size[0])).surfaces
+    if overlap > LEAST_OVERLAP and (union := unite(parts)) is not None:
         # The union counts what parts enclose together once, as the exact volume does.
         mesh, verdict, skin, overlap = union, FINE, "united", abs(1 - enclosed.total / union.volume)
-    elif parts and (apart := joined(list(parts))).closed:
-        mesh, verdict, skin = apart, status(apart), "parted"
+    elif parts and (apart := concatenate_surfaces(list(parts))).closed:
+        mesh, verdict, skin = apart, manifold_status(apart), "parted"
     if verdict != FINE:
         raise GeometryError(
             f"the mesh of {len(mesh.faces):,} triangles is no solid, even with its holes closed ({verdict}, says "

@@ -26,7 +26,7 @@ Field = NDArray[np.float32]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Layers:
+class LayerStack:
     """Numbers at the cells of a grid, layer by layer from the bottom to the top.
 
     Parameters
@@ -44,13 +44,13 @@ class Layers:
     thick: int
 
     @classmethod
-    def of(cls, whole: Field) -> Layers:
+    def of(cls, whole: Field) -> LayerStack:
         """Wrap a field (nx, ny, nz) without copying it."""
         nx, ny, nz = whole.shape
         return cls(shape=(nx, ny, nz), slabs=(whole,), thick=nz)
 
     @classmethod
-    def packed(cls, slabs: Iterable[Field]) -> Layers:
+    def packed(cls, slabs: Iterable[Field]) -> LayerStack:
         """Pack a field that comes in slabs (nx, ny, n) from the bottom, of one thickness except the last."""
         unique: dict[bytes, bytes] = {}
         packed_slabs, thickness = [], []
@@ -120,7 +120,7 @@ def _unpack(packed: bytes, shape: tuple[int, int, int]) -> Field:
     return numbers.view(np.float32)
 
 
-def in_slabs(cells: Volume) -> Iterator[Volume]:
+def split_into_slabs(cells: Volume) -> Iterator[Volume]:
     """Yield a volume of booleans, whose cells have equal sides, in slabs from the bottom.
 
     Only a bit is kept for each cell, so that the volume can be freed if the caller drops it.

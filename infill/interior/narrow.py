@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from infill.meshes.solids import FINE, solid_of, status_of, surface_from
+from infill.meshes.solids import FINE, from_manifold, solid_status, to_manifold
 from infill.surface import Surface
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ CRUMB = 0.01  # mm²: smaller pieces do not count, even where they are alone
 
 
 @dataclass(frozen=True, kw_only=True)
-class Narrow:
+class NarrowShares:
     """Shares of the infill inside the walls that slicers do not print.
 
     Parameters
@@ -71,7 +71,7 @@ class _Section:
     gone: list[manifold3d.CrossSection]
 
 
-def too_narrow(part: Surface, infill: Surface, wall: float, line: float, least: float) -> Narrow | None:
+def estimate_narrow(part: Surface, infill: Surface, wall: float, line: float, least: float) -> NarrowShares | None:
     """Estimate the shares of infill that slicers do not print; return None if manifold3d rejects a surface.
 
     Parameters
@@ -90,11 +90,11 @@ def too_narrow(part: Surface, infill: Surface, wall: float, line: float, least: 
     >>> import trimesh
     >>> plate, block = trimesh.creation.box((40, 2, 10)), trimesh.creation.box((10, 10, 10))
     >>> plate, block = (Surface(vertices=each.vertices, faces=each.faces) for each in (plate, block))
-    >>> [round(too_narrow(part, part, 0.9, 0.45, 0.6).all, 2) for part in (plate, block)]
+    >>> [round(estimate_narrow(part, part, 0.9, 0.45, 0.6).all, 2) for part in (plate, block)]
     [1.0, 0.0]
     """
-    part_body, infill_body = solid_of(part), solid_of(infill)
-    if status_of(part_body) != FINE or status_of(infill_body) != FINE:
+    part_body, infill_body = to_manifold(part), to_manifold(infill)
+    if solid_status(part_body) != FINE or solid_status(infill_body) != FINE:
         return None
     low, high = part.bounds[:, 2]
     areas = np.zeros(3)  # all, in too narrow a room, that and what is too narrow
@@ -103,10 +103,10 @@ def too_narrow(part: Surface, infill: Surface, wall: float, line: float, least: 
         gone = sum(piece.area() for piece in section.gone)
         areas += [section.filled.area(), section.filled.area() - section.roomy.area(), gone]
     total, in_narrow_room, gone = areas.tolist()
-    return Narrow(room=in_narrow_room / total if total else 0.0, all=gone / total if total else 0.0)
+    return NarrowShares(room=in_narrow_room / total if total else 0.0, all=gone / total if total else 0.0)
 
 
-def without_narrow(part: Surface, infill: Surface, wall: float, line: float, least: float) -> Surface:
+def drop_narrow(part: Surface, infill: Surface, wall: float, line: float, least: float) -> Surface:
     """Drop the infill that slicers do not print, layer by layer; the rest may be empty.
 
     Parameters
@@ -121,13 +121,13 @@ def without_narrow(part: Surface, infill: Surface, wall: float, line: float, lea
     >>> block, wall, sliver = (trimesh.creation.box((each, 9, 10)) for each in (10, 1, 0.3))
     >>> body = trimesh.util.concatenate([wall, sliver.apply_translation((2, 0, 0))])
     >>> block, body = (Surface(vertices=each.vertices, faces=each.faces) for each in (block, body))
-    >>> left = without_narrow(block, body, 0.9, 0.45, 0.6)
+    >>> left = drop_narrow(block, body, 0.9, 0.45, 0.6)
     >>> round(body.volume - left.volume, 1)  # 0.3 by 7.42 by 10 mm, and a little in the walls
     22.6
     """
     import manifold3d
 
-    part_body, infill_body = solid_of(part), solid_of(infill)
+    part_body, infill_body = to_manifold(part), to_manifold(infill)
     low, high = part.bounds[:, 2]
     cut: list[manifold3d.Manifold] = []
     areas: list[tuple[manifold3d.CrossSection, int, int]] = []  # with the first and the last layer
@@ -148,7 +148,7 @@ def without_narrow(part: Surface, infill: Surface, wall: float, line: float, lea
     for area, start, stop in areas:
         height = LAYER * (stop + 1 - start) + OVER
         cut.append(area.extrude(height).translate((0.0, 0.0, float(low) + LAYER * start)))
-    return surface_from(infill_body - manifold3d.Manifold.batch_boolean(cut, manifold3d.OpType.Add)) if cut else infill
+    return from_manifold(infill_body - manifold3d.Manifold.batch_boolean(cut, manifold3d.OpType.Add)) if cut else infill
 
 
 def _fits(area: manifold3d.CrossSection, gone: manifold3d.CrossSection, kept: manifold3d.CrossSection) -> bool:

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from infill.errors import GeometryError
 from infill.isosurfaces.components import shell_names
-from infill.meshes.shells import first_of_shells, shell_volumes, with_faces
-from infill.meshes.solids import FINE, in_one_place, solid_of, status, status_of, surface_from
-from infill.meshes.winding import winding
+from infill.meshes.shells import first_vertex_of_shells, select_faces, shell_volumes
+from infill.meshes.solids import FINE, coincident_vertices, from_manifold, manifold_status, solid_status, to_manifold
+from infill.meshes.winding import winding_numbers
 from infill.surface import Surface
 
 Open = Literal["top", "bottom", "both"]
@@ -68,7 +68,7 @@ class Opening:
         is_deep = (highest > self.low + LEAST * size) & (lowest < self.high - LEAST * size)
         if is_deep.all():
             return voids
-        return with_faces(voids, is_deep[shell_names(voids)[0][voids.faces[:, 0]]]) if is_deep.any() else None
+        return select_faces(voids, is_deep[shell_names(voids)[0][voids.faces[:, 0]]]) if is_deep.any() else None
 
     def volume(self, voids: Surface) -> float:
         """Compute the volume that a closed surface encloses between the two heights, mm³.
@@ -90,16 +90,16 @@ class Opening:
         heights = corners[:, :, 2]
         height = heights.mean(axis=1) - heights.mean()
         if math.isfinite(self.low):
-            height = height + mean_above(self.low - heights)
+            height = height + mean_positive_part(self.low - heights)
         if math.isfinite(self.high):
-            height = height - mean_above(heights - self.high)
+            height = height - mean_positive_part(heights - self.high)
         return float(shadow @ height)
 
 
-def mean_above(values: Floats) -> Floats:
+def mean_positive_part(values: Floats) -> Floats:
     """Return the mean over triangles of the positive part of a linear function, from its values at corners (N, 3).
 
-    >>> mean_above(np.array([[1.0, 2, 3], [-1, -2, -3], [-1, -1, 1]])).round(4).tolist()
+    >>> mean_positive_part(np.array([[1.0, 2, 3], [-1, -2, -3], [-1, -1, 1]])).round(4).tolist()
     [2.0, 0.0, 0.0833]
     """
     a, b, c = np.sort(values, axis=1).T
@@ -123,7 +123,7 @@ def _heights(surface: Surface) -> tuple[Floats, Floats]:
     return lowest, highest
 
 
-def flat_sides(part: Surface, name: Open) -> tuple[Opening, list[tuple[NDArray[np.bool_], float]]]:
+def find_flat_ends(part: Surface, name: Open) -> tuple[Opening, list[tuple[NDArray[np.bool_], float]]]:
     """Find the flat ends of a part; return the opening, and for each end its faces and the way out, 1 up or -1 down.
 
     Raises
@@ -150,13 +150,13 @@ def flat_sides(part: Surface, name: Open) -> tuple[Opening, list[tuple[NDArray[n
     return Opening(name=name, low=low, high=high, shell=shell), ends
 
 
-def lengthened(part: Surface, ends: list[tuple[NDArray[np.bool_], float]], far: float) -> Surface:
+def extend_ends(part: Surface, ends: list[tuple[NDArray[np.bool_], float]], far: float) -> Surface:
     """Move the flat sides of a part straight out, mm, and add upright walls behind them.
 
     >>> import trimesh
     >>> box = trimesh.creation.box((2, 3, 4))
     >>> whole = Surface(vertices=box.vertices, faces=box.faces)
-    >>> longer = lengthened(whole, flat_sides(whole, "both")[1], 1.0)
+    >>> longer = extend_ends(whole, find_flat_ends(whole, "both")[1], 1.0)
     >>> longer.closed, round(longer.volume, 9), longer.bounds[:, 2].tolist()
     (True, 36.0, [-3.0, 3.0])
     """
@@ -201,26 +201,26 @@ def cut_open(
     GeometryError
         If manifold3d rejects the voids.
     """
-    manifold, best = solid_of(solid), None
+    manifold, best = to_manifold(solid), None
     for candidate in _cut_variants(manifold, voids, opening, size):
-        if best is None or int(in_one_place(candidate).sum()) < int(in_one_place(best).sum()):
+        if best is None or int(coincident_vertices(candidate).sum()) < int(coincident_vertices(best).sum()):
             best = candidate
-        if best.closed and not in_one_place(best).any():
+        if best.closed and not coincident_vertices(best).any():
             break
     if best is None:
         raise GeometryError("manifold3d does not take the voids as solids; give another cell or smaller voxels")
     return _drop_loose(best, solid, opening, threads)
 
 
-def between(surface: Surface, opening: Opening, size: float) -> Surface:
+def clip_to_opening(surface: Surface, opening: Opening, size: float) -> Surface:
     """Cut a surface off at the open sides of a part; `size` is that of a cell of the grid, mm."""
     for distance in NEAR:
-        trimmed = solid_of(_move_off_planes(surface, opening, distance * size))
+        trimmed = to_manifold(_move_off_planes(surface, opening, distance * size))
         if math.isfinite(opening.low):
             trimmed = trimmed.trim_by_plane((0.0, 0.0, 1.0), opening.low)
         if math.isfinite(opening.high):
             trimmed = trimmed.trim_by_plane((0.0, 0.0, -1.0), -opening.high)
-        if status_of(trimmed) == FINE and not in_one_place(cut := surface_from(trimmed)).any():
+        if solid_status(trimmed) == FINE and not coincident_vertices(cut := from_manifold(trimmed)).any():
             break
     return cut
 
@@ -230,13 +230,16 @@ def _cut_variants(body: object, voids: list[Surface], opening: Opening, size: fl
 
     assert isinstance(body, manifold3d.Manifold)
     for distance in NEAR:
-        solids = [solid_of(_move_off_planes(void, opening, distance * size)) for void in voids]
-        if any(status_of(solid) != FINE for solid in (body, *solids)):
+        solids = [to_manifold(_move_off_planes(void, opening, distance * size)) for void in voids]
+        if any(solid_status(solid) != FINE for solid in (body, *solids)):
             continue
         remainder = reduce(lambda rest, solid: rest - solid, solids, body)
-        if status_of(remainder) == FINE and not remainder.is_empty():
-            yield (candidate := surface_from(remainder))
-            if in_one_place(candidate).any() and status(merged := _merge_in_single_precision(candidate)) == FINE:
+        if solid_status(remainder) == FINE and not remainder.is_empty():
+            yield (candidate := from_manifold(remainder))
+            if (
+                coincident_vertices(candidate).any()
+                and manifold_status(merged := _merge_in_single_precision(candidate)) == FINE
+            ):
                 yield merged
 
 
@@ -245,12 +248,12 @@ def _merge_in_single_precision(surface: Surface) -> Surface:
     _, representative, number = np.unique(
         np.asarray(surface.vertices, dtype=np.float32), axis=0, return_index=True, return_inverse=True
     )
-    twin = in_one_place(surface)
+    twin = coincident_vertices(surface)
     merged_vertex = np.arange(len(surface.vertices))
     merged_vertex[twin] = representative[number.ravel()[twin]]
     faces = merged_vertex[surface.faces]
     is_triangle = (faces != np.roll(faces, 1, axis=1)).all(axis=1)
-    return with_faces(replace(surface, faces=faces), is_triangle)
+    return select_faces(replace(surface, faces=faces), is_triangle)
 
 
 def _move_off_planes(voids: Surface, opening: Opening, distance: float) -> Surface:
@@ -271,12 +274,12 @@ def _drop_loose(cut: Surface, solid: Surface, opening: Opening, threads: int | N
     loose_shells = np.flatnonzero((volume > 0) & ~is_held)
     dropped_volume, rest = 0.0, cut
     for shell in loose_shells:
-        piece = with_faces(cut, names[cut.faces[:, 0]] == shell)
-        rest_names, starts = shell_names(rest)[0], first_of_shells(rest)
-        is_dropped = winding(np.asarray(rest.vertices, dtype=np.float64)[starts], piece, threads=threads) > 0
+        piece = select_faces(cut, names[cut.faces[:, 0]] == shell)
+        rest_names, starts = shell_names(rest)[0], first_vertex_of_shells(rest)
+        is_dropped = winding_numbers(np.asarray(rest.vertices, dtype=np.float64)[starts], piece, threads=threads) > 0
         is_dropped[rest_names[np.flatnonzero((np.asarray(rest.vertices) == piece.vertices[0]).all(axis=1))]] = True
         dropped_volume += float(volume[shell])
-        rest = with_faces(rest, ~is_dropped[rest_names[rest.faces[:, 0]]])
+        rest = select_faces(rest, ~is_dropped[rest_names[rest.faces[:, 0]]])
     return rest, len(loose_shells), dropped_volume
 
 

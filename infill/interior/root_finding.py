@@ -9,7 +9,7 @@ LONGEST = 0.7  # step, in logarithms
 GENTLE, STEEP = 0.2, 5.0  # slopes that a secant may have
 
 
-def root(off: Callable[[float], float], good: float, tries: int) -> float:
+def find_root(off: Callable[[float], float], good: float, tries: int) -> float:
     """Find the factor at which a logarithm is nearly 0; return the best factor that was tried.
 
     Parameters
@@ -25,7 +25,7 @@ def root(off: Callable[[float], float], good: float, tries: int) -> float:
     Steps of a secant in logarithms, from a factor of 1; once the root lies between two factors, steps that would leave
     these, and every step that follows one that gained little, go to the middle.
 
-    >>> round(root(lambda times: math.log(times**1.5 / 3), 1e-6, 20), 4)
+    >>> round(find_root(lambda times: math.log(times**1.5 / 3), 1e-6, 20), 4)
     2.0801
     """
     exponent, attempts = 0.0, list[tuple[float, float]]()

@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 import shapely
 
-from infill.interior.interior import BAND, Space
+from infill.interior.interior import BAND, Interior
 
 LOW = 0.1  # cells: where no cell of a column lies deeper, rounding decides whether one lies inside
 SIMPLER = 0.05  # cells
 MITRE = 5.0  # largest move of a sharp corner, over that of its sides
 
 
-def shadow_of(space: Space) -> shapely.Geometry:
+def silhouette(space: Interior) -> shapely.Geometry:
     """Draw the polygons, mm, of the columns with a cell inside the walls, smooth between the cells.
 
     Where voids reach through the walls, the walls still count.

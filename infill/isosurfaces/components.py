@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from infill.isosurfaces.sparse_marching import rows_above
 from infill.kernels import components as kernels
 from infill.kernels.sparse import BRICK, CELLS, SOLID_BRICK, VOID_BRICK
-from infill.kernels.sparse_marching import ROWS, volumes
+from infill.kernels.sparse_marching import ROWS, face_volumes
 from infill.kernels.threads import in_threads, thread_count
 from infill.meshes.shells import vertex_components
 from infill.phasefield.sparse import SparseField
@@ -51,7 +51,7 @@ class Components:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Shells:
+class SurfaceShells:
     """The connected parts of a surface.
 
     Parameters
@@ -97,17 +97,17 @@ def data_bits(field: SparseField, *, threads: int | None = None) -> NDArray[np.u
     return rows_above(field, field.data, 0.0, threads=threads)
 
 
-def cores(field: SparseField, bits: NDArray[np.uint16], *, threads: int | None = None) -> NDArray[np.uint16]:
+def erode_to_cores(field: SparseField, bits: NDArray[np.uint16], *, threads: int | None = None) -> NDArray[np.uint16]:
     """Erode: mark the lower corners of all solid blocks of 2 x 2 x 2 cells, where solid is thicker than one cell."""
     return _meet_or_spread(field, bits, True, 1, threads)
 
 
-def opened(field: SparseField, core: NDArray[np.uint16], *, threads: int | None = None) -> NDArray[np.uint16]:
+def dilate_cores(field: SparseField, core: NDArray[np.uint16], *, threads: int | None = None) -> NDArray[np.uint16]:
     """Dilate: mark all cells of the 2 x 2 x 2 blocks whose lower corners are given."""
     return _meet_or_spread(field, core, False, -1, threads)
 
 
-def sturdy(
+def open_by_blocks(
     field: SparseField,
     bits: NDArray[np.uint16],
     *,
@@ -125,7 +125,7 @@ def sturdy(
     return marked
 
 
-def grown(
+def dilate(
     field: SparseField, bits: NDArray[np.uint16], cells: int, *, threads: int | None = None
 ) -> NDArray[np.uint16]:
     """Dilate by a number of cells along each axis."""
@@ -134,7 +134,7 @@ def grown(
     return bits
 
 
-def set_at(
+def look_up_cells(
     field: SparseField, bits: NDArray[np.uint16], cells: NDArray[np.integer], *, void: bool = False
 ) -> NDArray[np.bool_]:
     """Look up cells (N, 3) of the grid: True where set. Beyond the grid lies void, not solid."""
@@ -173,7 +173,7 @@ def _meet_or_spread(
     return out
 
 
-def components(
+def find_components(
     field: SparseField, bits: NDArray[np.uint16], *, void: bool = False, whole: bool = True, thickness: bool = False
 ) -> Components:
     """Label the components of solid, whose cells are `bits`, or those of void, the outside first.
@@ -204,16 +204,16 @@ def components(
     count = kernels.name_sets(parent, names)
     cells = np.zeros(count, dtype=np.int64)
     kernels.count_cells(field.where, bits, bricks, starts, field.shape, names, cells)
-    np.add.at(cells, names[alone[single]], sides_within(np.argwhere(single), field.shape).prod(axis=1))
+    np.add.at(cells, names[alone[single]], brick_sides_on_grid(np.argwhere(single), field.shape).prod(axis=1))
     if not void:  # run 0 lies beyond the grid, which is not solid
         cells, names = cells[1:], names - 1
     labelled = Components(
         cells=cells, thick=np.empty(0, dtype=bool), bits=bits, bricks=bricks, starts=starts, alone=alone, names=names
     )
-    return with_thickness(field, labelled, void=void) if thickness else labelled
+    return add_thickness(field, labelled, void=void) if thickness else labelled
 
 
-def with_thickness(field: SparseField, labelled: Components, *, void: bool = False) -> Components:
+def add_thickness(field: SparseField, labelled: Components, *, void: bool = False) -> Components:
     """Add to components whether each is more than one cell thick."""
     thick = np.zeros(labelled.count, dtype=bool)
     kind = VOID_BRICK if void else SOLID_BRICK
@@ -221,12 +221,12 @@ def with_thickness(field: SparseField, labelled: Components, *, void: bool = Fal
     kernels.mark_runs(labelled.bits, labelled.bricks, labelled.starts, labelled.names, core, thick)
     places = np.argwhere(labelled.alone >= 0)
     if not void:  # a solid brick that the grid cuts off may be a sheet there; void continues beyond the grid
-        places = places[(sides_within(places, field.shape) > 1).all(axis=1)]
+        places = places[(brick_sides_on_grid(places, field.shape) > 1).all(axis=1)]
     thick[labelled.names[labelled.alone[tuple(places.T)]]] = True
     return replace(labelled, thick=thick)
 
 
-def sides_within(places: NDArray[np.integer], shape: tuple[int, int, int]) -> NDArray[np.int64]:
+def brick_sides_on_grid(places: NDArray[np.integer], shape: tuple[int, int, int]) -> NDArray[np.int64]:
     """Return the sides, in cells, of the part of whole bricks that lies on the grid: (n, 3)."""
     low = np.maximum(places * BRICK, 1)
     high = np.minimum((places + 1) * BRICK, np.array(shape) + 1)
@@ -245,17 +245,17 @@ def shared_cells(first: Components, second: Components) -> NDArray[np.int64]:
     return np.concatenate([shared, alone])
 
 
-def shells(
+def label_shells(
     surface: Surface,
     rate: NDArray[np.float32],
     *,
     total: tuple[float, float] | None = None,
     threads: int | None = None,
-) -> Shells:
+) -> SurfaceShells:
     """Label and measure the connected parts of a closed surface; `total` is the volume and slope of all, if known."""
     names, count = shell_names(surface)
     if total is not None and count == 1 and names.min() == 0:
-        return Shells(
+        return SurfaceShells(
             names=names,
             volume=np.array(total[:1]),
             slope=np.array(total[1:]),
@@ -268,7 +268,7 @@ def shells(
     )
     used = names if names.min(initial=0) >= 0 else names[names >= 0]
     corners, sides = np.bincount(used, minlength=count), np.bincount(shell, minlength=count)
-    return Shells(names=names, volume=volume, slope=slope, euler=corners - sides // 2)
+    return SurfaceShells(names=names, volume=volume, slope=slope, euler=corners - sides // 2)
 
 
 def shell_names(surface: Surface) -> tuple[NDArray[np.int32], int]:
@@ -280,15 +280,17 @@ def face_sums(
     surface: Surface, rate: NDArray[np.float32], *, threads: int | None = None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return for every face the volume between it and a central point, mm³, and its slope over the level."""
-    face_volumes, change = np.empty(len(surface.faces)), np.empty(len(surface.faces))
+    volumes, change = np.empty(len(surface.faces)), np.empty(len(surface.faces))
     middle = surface.vertices[len(surface.vertices) // 2]
     in_threads(
-        volumes, surface.vertices, rate, surface.faces, middle, face_volumes, change, threads=thread_count(threads)
+        face_volumes, surface.vertices, rate, surface.faces, middle, volumes, change, threads=thread_count(threads)
     )
-    return face_volumes, change
+    return volumes, change
 
 
-def without(values: NDArray[Any], field: SparseField, labelled: Components, small: NDArray[np.bool_]) -> NDArray[Any]:
+def erase_components(
+    values: NDArray[Any], field: SparseField, labelled: Components, small: NDArray[np.bool_]
+) -> NDArray[Any]:
     """Turn the components marked in `small` (b,) void in data (nx, ny, nz); floating-point data become float32."""
     out = values.astype(np.float32) if values.dtype.kind == "f" else values.copy()
     void = False if values.dtype == bool else -1
@@ -300,7 +302,7 @@ def without(values: NDArray[Any], field: SparseField, labelled: Components, smal
     return out
 
 
-def cells_of(field: SparseField, labelled: Components, number: int) -> NDArray[np.int64]:
+def component_cells(field: SparseField, labelled: Components, number: int) -> NDArray[np.int64]:
     """List the cells (n, 3) of a component that lie in kept bricks, counted from the first cell of the grid."""
     bricks, rows = np.nonzero(labelled.bits)
     solid = labelled.bits[bricks, rows, None] >> np.arange(BRICK[2], dtype=np.uint16) & 1

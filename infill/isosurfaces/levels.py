@@ -15,13 +15,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import GeometryError
-from infill.isosurfaces.components import Components, Shells, components, data_bits, shells, sides_within
-from infill.isosurfaces.sparse_marching import Level, Signs, extract_level, measured
+from infill.isosurfaces.components import (
+    Components,
+    SurfaceShells,
+    brick_sides_on_grid,
+    data_bits,
+    find_components,
+    label_shells,
+)
+from infill.isosurfaces.sparse_marching import ExtractedLevel, LevelSigns, extract_level, measure_level
 from infill.kernels import components as components_kernels
 from infill.kernels import sparse_marching as marching_kernels
 from infill.kernels.sparse import BRICK, CELLS, SOLID_BRICK
-from infill.kernels.threads import in_threads, thread_count, together
-from infill.phasefield.profile import STRAIGHT
+from infill.kernels.threads import in_threads, run_together, thread_count
+from infill.phasefield.profile import PLAIN_PROFILE
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
 
@@ -45,7 +52,7 @@ SMALLEST = 8  # cells, 2 x 2 x 2: a smaller component has no separate level
 
 
 @dataclass(frozen=True, kw_only=True)
-class Levelled:
+class LevelSurface:
     """A surface of the right volume, and the levels that give it.
 
     Parameters
@@ -72,7 +79,7 @@ class Levelled:
     against: SparseField
     surface: Surface
     rate: NDArray[np.float32]
-    signs: Signs
+    signs: LevelSigns
     height: float
     common: float
     levels: NDArray[np.float64]
@@ -80,20 +87,20 @@ class Levelled:
     threads: int | None = None
 
     @cached_property
-    def shells(self) -> Shells:
+    def shells(self) -> SurfaceShells:
         """The connected parts of the surface."""
-        return shells(self.surface, self.rate, total=self.total, threads=self.threads)
+        return label_shells(self.surface, self.rate, total=self.total, threads=self.threads)
 
 
-def straightened(
+def straighten_profile(
     field: SparseField, *, out: NDArray[np.float32] | None = None, threads: int | None = None
 ) -> SparseField:
     """Convert a field to a distance from the surface, scaled to [-1, 1]; in `out`, which may be the field's values."""
-    return replace(field, values=STRAIGHT.distance(field.values, out=out, threads=threads))
+    return replace(field, values=PLAIN_PROFILE.distance(field.values, out=out, threads=threads))
 
 
 @dataclass(frozen=True, kw_only=True)
-class Tried:
+class LevelTrial:
     """A surface at some level.
 
     Parameters
@@ -105,13 +112,13 @@ class Tried:
     """
 
     level: float
-    found: Level
+    found: ExtractedLevel
     volume: float
     slope: float
 
 
 @dataclass(frozen=True, kw_only=True)
-class Start:
+class LevelStart:
     """Known volumes with which the search for a level begins.
 
     Parameters
@@ -123,10 +130,10 @@ class Start:
     """
 
     at_zero: tuple[float, float] | None = None
-    first: Tried | None = None
+    first: LevelTrial | None = None
 
 
-def tried(field: SparseField, level: float, *, spacing: tuple[float, ...], threads: int) -> Tried:
+def try_level(field: SparseField, level: float, *, spacing: tuple[float, ...], threads: int) -> LevelTrial:
     """Extract the surface at a level, and measure its volume."""
     extracted = extract_level(field, spacing=spacing, level=level, threads=threads)
     surface = extracted.surface
@@ -136,12 +143,12 @@ def tried(field: SparseField, level: float, *, spacing: tuple[float, ...], threa
         marching_kernels.sum_volumes, surface.vertices, extracted.rate, surface.faces, middle, sums, threads=threads
     )
     sixfold, slope = sums.sum(axis=0).tolist()
-    return Tried(level=level, found=extracted, volume=sixfold / 6, slope=slope / 6)
+    return LevelTrial(level=level, found=extracted, volume=sixfold / 6, slope=slope / 6)
 
 
-def counted(
+def prepare_levels(
     field: SparseField, *, spacing: tuple[float, ...], straighten: bool = True, threads: int | None = None
-) -> tuple[Components, SparseField, Start]:
+) -> tuple[Components, SparseField, LevelStart]:
     """Label the components of the data, straighten the field, and guess a level; return all three.
 
     The components are found in parallel. A field that is straightened has its values overwritten.
@@ -150,46 +157,48 @@ def counted(
     bits = data_bits(field, threads=threads)
 
     def label_components() -> Components:
-        return components(field, bits)
+        return find_components(field, bits)
 
-    def find_start() -> tuple[SparseField, Start]:
-        straight = straightened(field, out=field.values, threads=threads) if straighten else field
-        volume_and_slope = measured(straight, spacing=spacing, level=0.0, threads=threads)
+    def find_start() -> tuple[SparseField, LevelStart]:
+        straight = straighten_profile(field, out=field.values, threads=threads) if straighten else field
+        volume_and_slope = measure_level(straight, spacing=spacing, level=0.0, threads=threads)
         if volume_and_slope is None or volume_and_slope[1] >= 0 or field.data.dtype != np.int8:
-            return straight, Start(at_zero=volume_and_slope)
+            return straight, LevelStart(at_zero=volume_and_slope)
         total = math.prod(spacing) * _count_solid_cells(field, bits)
         try:
-            first_trial = tried(straight, _next_level(0.0, *volume_and_slope, total), spacing=spacing, threads=threads)
+            first_trial = try_level(
+                straight, _next_level(0.0, *volume_and_slope, total), spacing=spacing, threads=threads
+            )
         except GeometryError:  # no solid remains above this level
-            return straight, Start(at_zero=volume_and_slope)
-        return straight, Start(at_zero=volume_and_slope, first=first_trial)
+            return straight, LevelStart(at_zero=volume_and_slope)
+        return straight, LevelStart(at_zero=volume_and_slope, first=first_trial)
 
-    (straight, start), labelled = together(find_start, label_components, threads=threads)
+    (straight, start), labelled = run_together(find_start, label_components, threads=threads)
     return labelled, straight, start
 
 
 def _count_solid_cells(field: SparseField, bits: NDArray[np.uint16]) -> int:
     """Count the solid cells of the grid; in the kept bricks, they are given by `bits`."""
     solid_bricks = np.argwhere(field.slots == SOLID_BRICK)
-    return int(np.bitwise_count(bits).sum()) + int(sides_within(solid_bricks, field.shape).prod(axis=1).sum())
+    return int(np.bitwise_count(bits).sum()) + int(brick_sides_on_grid(solid_bricks, field.shape).prod(axis=1).sum())
 
 
-def volumes_of(
+def component_volumes(
     field: SparseField, data: Components, *, spacing: tuple[float, ...], threads: int | None = None
 ) -> NDArray[np.float64]:
     """Measure the volume of each component of the data at level 0, (b,) mm³."""
     extracted = extract_level(field, spacing=spacing, threads=threads)
-    surface_shells = shells(extracted.surface, extracted.rate, threads=threads)
+    surface_shells = label_shells(extracted.surface, extracted.rate, threads=threads)
     component, _ = _assign_components(surface_shells, extracted.surface, field, data, spacing)
     return _sums(component, surface_shells.volume, data.count)
 
 
-def at_level(
+def surface_at_level(
     field: SparseField, data: Components, *, spacing: tuple[float, ...], level: float, threads: int | None = None
-) -> Levelled:
+) -> LevelSurface:
     """Extract the surface at one level; the paper's is at 0."""
     extracted = extract_level(field, spacing=spacing, level=level, threads=threads)
-    return Levelled(
+    return LevelSurface(
         against=field,
         height=level,
         surface=extracted.surface,
@@ -201,15 +210,15 @@ def at_level(
     )
 
 
-def at_volume(
+def surface_at_volume(
     field: SparseField,
     data: Components,
     *,
     spacing: tuple[float, ...],
     targets: NDArray[np.float64],
-    start: Start | None = None,
+    start: LevelStart | None = None,
     threads: int | None = None,
-) -> Levelled:
+) -> LevelSurface:
     """Extract the surface on which every component has the volume that it has in the data.
 
     Parameters
@@ -221,7 +230,7 @@ def at_volume(
     targets : (b,) float64
         Volume of each component, mm³.
     start : Start, optional
-        Known volumes, from `counted`.
+        Known volumes, from `prepare_levels`.
 
     Raises
     ------
@@ -230,14 +239,14 @@ def at_volume(
     """
     threads = thread_count(threads)
     total = float(targets.sum())
-    start = start or Start()
-    at_zero = start.at_zero or measured(field, spacing=spacing, level=0.0, threads=threads)
+    start = start or LevelStart()
+    at_zero = start.at_zero or measure_level(field, spacing=spacing, level=0.0, threads=threads)
     level = _next_level(0.0, *at_zero, total) if at_zero is not None and at_zero[1] < 0 else 0.0
-    best: Tried | None = None
+    best: LevelTrial | None = None
     for round_number in range(ROUNDS):
         try:
             trial = start.first if round_number == 0 else None
-            trial = trial or tried(field, level, spacing=spacing, threads=threads)
+            trial = trial or try_level(field, level, spacing=spacing, threads=threads)
         except GeometryError:
             level = (level - LIMIT) / 2  # nothing is left above this level
             if level < -LIMIT + 1e-3:
@@ -253,7 +262,7 @@ def at_volume(
             "nothing is left of the solid after smoothing; use finer voxels, fewer steps or more fidelity"
         )
     if data.count == 1:
-        return Levelled(
+        return LevelSurface(
             against=field,
             height=best.level,
             surface=best.found.surface,
@@ -281,18 +290,18 @@ def _level_components(
     targets: NDArray[np.float64],
     common: float,
     threads: int,
-) -> Levelled:
+) -> LevelSurface:
     """Extract the surface on which every sufficiently large component has the right volume."""
     has_level = data.cells >= SMALLEST
     group: NDArray[np.integer] = np.arange(data.count)  # components that fuse share a level from then on
     levels = np.full(data.count, common)
     low, high = np.full(data.count, -1.0), np.full(data.count, 1.0)  # levels known to be below and above the right one
-    best: Levelled | None = None
+    best: LevelSurface | None = None
     smallest_error = math.inf
     for _ in range(ROUNDS):
         shifted = _lower_to_levels(field, data, levels, common, threads)
         extracted = extract_level(shifted, spacing=spacing, threads=threads)
-        surface_shells = shells(extracted.surface, extracted.rate, threads=threads)
+        surface_shells = label_shells(extracted.surface, extracted.rate, threads=threads)
         shell_component, fused = _assign_components(surface_shells, extracted.surface, shifted, data, spacing)
         merged_group = _join_groups(group, fused)
         changed = merged_group != group
@@ -307,7 +316,7 @@ def _level_components(
         heads = has_level & (group == np.arange(data.count))
         if error[heads].sum() < smallest_error:
             smallest_error = float(error[heads].sum())
-            best = Levelled(
+            best = LevelSurface(
                 against=shifted,
                 height=0.0,
                 surface=extracted.surface,
@@ -375,7 +384,7 @@ def _join_groups(group: NDArray[np.integer], new_pairs: NDArray[np.integer]) -> 
     return merged
 
 
-def component_of_shells(levelled: Levelled, data: Components, *, spacing: tuple[float, ...]) -> NDArray[np.int64]:
+def component_of_shells(levelled: LevelSurface, data: Components, *, spacing: tuple[float, ...]) -> NDArray[np.int64]:
     """Return for every shell of a surface the nearest component of the data; -1 for none."""
     return _assign_components(levelled.shells, levelled.surface, levelled.against, data, spacing)[0]
 
@@ -391,7 +400,7 @@ def nearest_components(points: NDArray[np.floating], field: SparseField, data: C
 
 
 def _assign_components(
-    surface_shells: Shells, surface: Surface, field: SparseField, data: Components, spacing: tuple[float, ...]
+    surface_shells: SurfaceShells, surface: Surface, field: SparseField, data: Components, spacing: tuple[float, ...]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return for every shell the component of the data nearest to most of its vertices, -1 for none.
 

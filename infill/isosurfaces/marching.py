@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from infill.contours.zero_contours import nudged
+from infill.contours.zero_contours import nudge_field
 from infill.errors import GeometryError, ParameterError
 from infill.grid import VOID, spacing_of
 from infill.surface import Surface
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import trimesh
 
 
-def extract(
+def extract_dense(
     volume: NDArray[np.floating], *, spacing: tuple[float, ...], origin: tuple[float, ...], level: float = 0.0
 ) -> Surface:
     """Extract the surface of {volume > level}, closed and facing outwards: see `isosurface`."""
@@ -27,7 +27,7 @@ def extract(
     # to (z, x, y) preserves the handedness, and with it the orientation of the faces.
     field = np.full((nz + 2, nx + 2, ny + 2), np.float32(VOID))
     field[1:-1, 1:-1, 1:-1] = np.moveaxis(volume, 2, 0)
-    nudged(field, level)
+    nudge_field(field, level)
     # Gradient ascent: the solid is above the level, and its faces must point outwards.
     vertices, faces, _, _ = marching_cubes(field, 0.0, gradient_direction="ascent")  # type: ignore[no-untyped-call]
     # The centre of the first cell, now at index 1, lies half a cell inside the box.
@@ -86,7 +86,7 @@ def isosurface(
         raise ParameterError("the volume holds NaN; fill or cut those cells first")
     if len(origin) != 3:
         raise ParameterError(f"origin has {len(origin)} numbers; give x, y and z")
-    surface = extract(field, spacing=spacing_of(spacing, 3), origin=origin, level=level)
+    surface = extract_dense(field, spacing=spacing_of(spacing, 3), origin=origin, level=level)
     if not surface.closed:
         raise GeometryError("the surface is not closed; smooth the volume a little, or use finer cells")
     return surface.to_trimesh()

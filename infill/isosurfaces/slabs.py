@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 
 from infill.errors import GeometryError
 from infill.isosurfaces.components import shell_names
-from infill.meshes.shells import in_batches, with_faces
-from infill.meshes.solids import shortened_between
-from infill.meshes.split_components import joined
+from infill.meshes.shells import select_faces, split_into_batches
+from infill.meshes.solids import simplify_open_piece
+from infill.meshes.split_components import concatenate_surfaces
 from infill.surface import Surface
 
 Floats = NDArray[np.float64]
@@ -30,7 +30,7 @@ AT_ONCE = 30_000  # triangles simplified at a time, if they belong to several co
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Piece:
+class SlabPiece:
     """The part of a closed surface between two planes.
 
     Parameters
@@ -52,7 +52,7 @@ class Piece:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Shells:
+class SlabShells:
     """The volumes of the components of a piece.
 
     Parameters
@@ -68,7 +68,7 @@ class Shells:
     high: Integers
 
 
-def piece_between(surface: Surface, low: int, high: int) -> Piece | None:
+def cut_slab_piece(surface: Surface, low: int, high: int) -> SlabPiece | None:
     """Cut out the part of a surface between two layers of cells; return None if it is empty.
 
     Parameters
@@ -77,17 +77,17 @@ def piece_between(surface: Surface, low: int, high: int) -> Piece | None:
         The centre of cell (0, 0, 0) is the origin.
     low, high : int
     """
-    from infill.kernels.measures import within_heights
+    from infill.kernels.measures import mark_within_heights
 
     inside = np.empty(len(surface.faces), dtype=bool)
-    within_heights(surface.vertices, surface.faces, float(low), float(high), inside)  # a face lies in one cube
+    mark_within_heights(surface.vertices, surface.faces, float(low), float(high), inside)  # a face lies in one cube
     if not inside.any():
         return None
-    part = with_faces(surface, inside)
-    return Piece(surface=replace(part, vertices=part.vertices - np.array([0, 0, low])), high=high - low)
+    part = select_faces(surface, inside)
+    return SlabPiece(surface=replace(part, vertices=part.vertices - np.array([0, 0, low])), high=high - low)
 
 
-def shells_of(piece: Piece) -> Shells:
+def measure_slab_shells(piece: SlabPiece) -> SlabShells:
     """Label and measure the components of a piece.
 
     Notes
@@ -99,10 +99,10 @@ def shells_of(piece: Piece) -> Shells:
     names, count = shell_names(piece.surface)
     volumes = np.zeros(count)
     sum_flows(piece.surface.vertices, piece.surface.faces, names, volumes)
-    return Shells(volumes=volumes, low=names[piece.rim(0)], high=names[piece.rim(piece.high)])
+    return SlabShells(volumes=volumes, low=names[piece.rim(0)], high=names[piece.rim(piece.high)])
 
 
-def volumes_of(slabs: Sequence[Shells | None]) -> Floats:
+def sum_shell_volumes(slabs: Sequence[SlabShells | None]) -> Floats:
     """Sum the volumes of the components of a surface, (N,) cells³, over all its pieces, from the bottom up.
 
     Raises
@@ -114,7 +114,9 @@ def volumes_of(slabs: Sequence[Shells | None]) -> Floats:
     from scipy.sparse.csgraph import connected_components
 
     nothing = np.empty(0, dtype=np.int64)
-    filled_slabs = [Shells(volumes=np.empty(0), low=nothing, high=nothing) if slab is None else slab for slab in slabs]
+    filled_slabs = [
+        SlabShells(volumes=np.empty(0), low=nothing, high=nothing) if slab is None else slab for slab in slabs
+    ]
     begins = np.cumsum([0, *(len(slab.volumes) for slab in filled_slabs)])
     below, above = [nothing], [nothing]
     for (lower, upper), (begin, next_begin) in zip(pairwise(filled_slabs), pairwise(begins[:-1]), strict=True):
@@ -129,7 +131,7 @@ def volumes_of(slabs: Sequence[Shells | None]) -> Floats:
     return volumes
 
 
-def stitched(pieces: Iterable[tuple[int, Piece | None]]) -> Surface:
+def stitch_pieces(pieces: Iterable[tuple[int, SlabPiece | None]]) -> Surface:
     """Join pieces of a surface, given from the bottom, each with the height of its lower plane, in cells.
 
     The pieces are read once, one after another.
@@ -168,7 +170,7 @@ def _require_meeting(met: bool) -> None:
         raise GeometryError("two pieces of a surface do not meet in the plane between them; give another voxel")
 
 
-def few_of(piece: Piece, tolerance: float) -> Piece:
+def simplify_piece(piece: SlabPiece, tolerance: float) -> SlabPiece:
     """Simplify a piece within a tolerance, in cells; all vertices on planes stay."""
-    simplified = [shortened_between(batch, tolerance) for batch in in_batches(piece.surface, AT_ONCE)]
-    return replace(piece, surface=joined(simplified))
+    simplified = [simplify_open_piece(batch, tolerance) for batch in split_into_batches(piece.surface, AT_ONCE)]
+    return replace(piece, surface=concatenate_surfaces(simplified))

@@ -1,6 +1,6 @@
 """Extract the closed surface of a field in bricks: marching cubes only where the surface runs.
 
-The result is the surface that `infill.isosurfaces.marching.extract` finds on the full field: the same vertices, to
+The result is the surface that `infill.isosurfaces.marching` finds on the full field: the same vertices, to
 rounding, and the same Euler number. Signs are examined sixteen cells at a time, as bits of one number; only cubes that
 the surface crosses are examined individually. A cube whose signs alone decide its triangles takes them from a table
 that is derived here; scikit-image handles the rest, so that saddles are decided in a single way (Lewiner 2003).
@@ -32,7 +32,7 @@ LARGE = 2000  # bricks: fewer than this make a surface in a few milliseconds
 
 
 @dataclass(frozen=True, kw_only=True)
-class Cubes:
+class CubeTable:
     """Triangles of a cube by the number whose bits are its solid corners.
 
     Parameters
@@ -54,7 +54,7 @@ class Cubes:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Signs:
+class LevelSigns:
     """The cells above a level, and the bricks where their signs do not determine the surface.
 
     Parameters
@@ -70,7 +70,7 @@ class Signs:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Level:
+class ExtractedLevel:
     """A surface and how it responds to its level.
 
     Parameters
@@ -84,7 +84,7 @@ class Level:
 
     surface: Surface
     rate: NDArray[np.float32]
-    signs: Signs
+    signs: LevelSigns
 
 
 def extract_bricks(
@@ -112,7 +112,7 @@ def extract_level(
     origin: tuple[float, ...] = (0.0, 0.0, 0.0),
     level: float = 0.0,
     threads: int | None = None,
-) -> Level:
+) -> ExtractedLevel:
     """Extract the surface as `extract_bricks` does, with the movement of its vertices as the level rises."""
     threads = thread_count(threads)
     cubes = cube_table()
@@ -125,7 +125,16 @@ def extract_level(
     starts = np.empty(masks.shape, dtype=np.int16)
     counts = np.zeros((len(places) + 1, 3), dtype=np.int64)  # vertices, triangles, undecided cubes
     in_threads(
-        kernels.count, field.slots, places, bits, field.shape, cubes.counts, masks, starts, counts[1:], threads=threads
+        kernels.count_output,
+        field.slots,
+        places,
+        bits,
+        field.shape,
+        cubes.counts,
+        masks,
+        starts,
+        counts[1:],
+        threads=threads,
     )
     offsets = np.cumsum(counts, axis=0)
     if offsets[-1, 0] == 0:
@@ -137,7 +146,7 @@ def extract_level(
     edges = np.empty((offsets[-1, 2], len(EDGES)), dtype=np.int32)
     lowest = np.empty((offsets[-1, 2], 3), dtype=np.int32)
     in_threads(
-        kernels.write,
+        kernels.write_surface,
         field.slots,
         places,
         index,
@@ -164,12 +173,12 @@ def extract_level(
         extra, extra_faces = _triangulate_undecided(corners, edges, lowest, len(vertices))
         vertices, faces = np.concatenate([vertices, extra]), np.concatenate([faces, extra_faces])
         rate = np.concatenate([rate, np.zeros((len(extra), 3), dtype=np.float32)])
-    in_threads(kernels.place, vertices, rate, np.array(spacing), np.array(origin), threads=threads)
-    signs = Signs(bits=bits, doubt=places[counts[1:, 2] > 0])
-    return Level(surface=Surface(vertices=vertices, faces=faces), rate=rate, signs=signs)
+    in_threads(kernels.scale_to_mm, vertices, rate, np.array(spacing), np.array(origin), threads=threads)
+    signs = LevelSigns(bits=bits, doubt=places[counts[1:, 2] > 0])
+    return ExtractedLevel(surface=Surface(vertices=vertices, faces=faces), rate=rate, signs=signs)
 
 
-def measured(
+def measure_level(
     field: SparseField, *, spacing: tuple[float, ...], level: float, threads: int | None = None
 ) -> tuple[float, float] | None:
     """Measure the volume inside the surface at a level, mm³, and its slope over the level, without making the surface.
@@ -221,7 +230,7 @@ def _crossed_bricks(field: SparseField, bits: NDArray[np.uint16], threads: int |
     """Return the bricks in which, or on whose upper sides, the surface around the cells in `bits` runs."""
     places = _near_surface(field.slots, field.shape)
     differs = np.empty(len(places), dtype=bool)
-    in_threads(kernels.differing, field.slots, places, bits, field.shape, differs, threads=thread_count(threads))
+    in_threads(kernels.mark_differing, field.slots, places, bits, field.shape, differs, threads=thread_count(threads))
     return places[differs]
 
 
@@ -244,7 +253,7 @@ def _near_surface(slots: NDArray[np.int32], shape: tuple[int, int, int]) -> NDAr
 
 
 @cache
-def cube_table() -> Cubes:
+def cube_table() -> CubeTable:
     """Build the triangles of every cube whose signs decide them, by tracing around its faces."""
     triangles, counts = np.zeros((256, 5, 3), dtype=np.int8), np.zeros(256, dtype=np.int8)
     crossings = np.zeros((256, len(EDGES) + 1), dtype=np.int8)
@@ -288,7 +297,7 @@ def cube_table() -> Cubes:
         counts[signs] = len(traced)
         triangles[signs, : len(traced)] = traced or 0
     edges = np.array(EDGES, dtype=np.int8)
-    return Cubes(triangles=triangles, counts=counts, crossings=crossings, edges=edges)
+    return CubeTable(triangles=triangles, counts=counts, crossings=crossings, edges=edges)
 
 
 @cache
@@ -334,7 +343,7 @@ def _count_per_brick(
     starts = np.empty(masks.shape, dtype=np.int16)
     counts = np.zeros((len(places), 3), dtype=np.int64)
     arguments = (field.slots, places, bits, field.shape, table, masks, starts, counts)
-    in_threads(kernels.count, *arguments, threads=thread_count(threads))
+    in_threads(kernels.count_output, *arguments, threads=thread_count(threads))
     return counts
 
 
@@ -370,7 +379,7 @@ def _triangulate_row(
 ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     """Triangulate a few undecided cubes.
 
-    They are lined up in a row, apart from each other, their axes permuted as in `infill.isosurfaces.marching.extract`.
+    They are lined up in a row, apart from each other, their axes permuted as in `extract_dense`.
     """
     from skimage.measure import marching_cubes
 

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from infill.checks import length, whole
+from infill.checks import check_length, check_whole_number
 from infill.errors import GeometryError, ParameterError
 from infill.grid import VOID, spacing_of
-from infill.isosurfaces.marching import extract
+from infill.isosurfaces.marching import extract_dense
 from infill.surface import Surface
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ def stack(layer: ArrayLike, layers: int) -> NDArray[np.floating]:
     [-1.0, 1.0, 1.0, 1.0, -1.0]
     """
     plane = _check_layer(layer)
-    volume = np.full((*plane.shape, whole("the number of layers", layers, 1) + 2), VOID, dtype=plane.dtype)
+    volume = np.full((*plane.shape, check_whole_number("the number of layers", layers, 1) + 2), VOID, dtype=plane.dtype)
     volume[:, :, 1:-1] = plane[:, :, None]
     return volume
 
@@ -83,13 +83,13 @@ def extrude(
     600.0
     """
     sizes = spacing_of(spacing, 2)
-    surface = extruded(_check_layer(layer), height, sizes, layer_height=layer_height, origin=origin)
+    surface = extrude_surface(_check_layer(layer), height, sizes, layer_height=layer_height, origin=origin)
     if not surface.closed:
         raise GeometryError("the surface is not closed; smooth the layer a little, or use finer cells")
     return surface.to_trimesh()
 
 
-def extruded(
+def extrude_surface(
     layer: NDArray[np.floating],
     height: float,
     spacing: tuple[float, ...],
@@ -98,10 +98,10 @@ def extruded(
     origin: tuple[float, ...] = (0.0, 0.0, 0.0),
 ) -> Surface:
     """Extract the surface of a stacked layer as `extrude` does, without the check that it is closed."""
-    height = length("height", height)
-    layers = layer_count(height, min(spacing) if layer_height is None else length("layer height", layer_height))
+    height = check_length("height", height)
+    layers = layer_count(height, min(spacing) if layer_height is None else check_length("layer height", layer_height))
     thickness = height / layers
-    surface = extract(
+    surface = extract_dense(
         stack(layer, min(layers, 2)), spacing=(*spacing, thickness), origin=(*origin[:2], origin[2] - thickness)
     )
     vertices = surface.vertices

@@ -13,7 +13,7 @@ from infill.kernels.compiling import njit
 
 
 @njit(nogil=True, cache=True, error_model="numpy", inline="always")
-def local(ratio, step, i, j, k):
+def interpolate_ratio(ratio, step, i, j, k):
     """Interpolate the number at a cell linearly, from nodes that are `step` cells apart.
 
     Parameters
@@ -59,7 +59,7 @@ def from_period(depth, threshold, table, turn, start, period, sign, half, ratio,
     half : float
         Of the width of the walls, in cells.
     ratio, step
-        Ratio of the local width of the walls to that one: see `local`.
+        Ratio of the local width of the walls to that one: see `interpolate_ratio`.
     out : (nx, ny, nz) float32
     thread, threads : int
         This call fills every `threads`-th layer, and returns the volume of its void, in cells.
@@ -88,7 +88,9 @@ def from_period(depth, threshold, table, turn, start, period, sign, half, ratio,
                 high = (table[d, b, c] * (1 - z) + table[d, b, f] * z) * (1 - y) + (
                     table[d, e, c] * (1 - z) + table[d, e, f] * z
                 ) * y
-                value = min(sign * (low * (1 - x) + high * x) * period - half * local(ratio, step, i, j, k), deep)
+                value = min(
+                    sign * (low * (1 - x) + high * x) * period - half * interpolate_ratio(ratio, step, i, j, k), deep
+                )
                 out[i, j, k] = value
                 filled += min(1.0, max(0.0, 0.5 + value))
     return filled
@@ -136,7 +138,7 @@ def from_bars(depth, threshold, edges, bar_start, which, turn, start, period, ha
                     along = min(1.0, max(0.0, along))
                     vx, vy, vz = vx - along * ux, vy - along * uy, vz - along * uz
                     nearest = min(nearest, vx * vx + vy * vy + vz * vz)
-                value = min(math.sqrt(nearest) * period - half * local(ratio, step, i, j, k), deep)
+                value = min(math.sqrt(nearest) * period - half * interpolate_ratio(ratio, step, i, j, k), deep)
                 out[i, j, k] = value
                 filled += min(1.0, max(0.0, 0.5 + value))
     return filled
@@ -177,7 +179,7 @@ def from_planes(depth, threshold, slopes, start, apart, bits, half, ratio, step,
                     if (int(slab) ^ (bits >> f)) & 1:
                         to_plane = -to_plane
                     nearest = min(nearest, to_plane)
-                value = min(nearest - half * local(ratio, step, i, j, k), deep)
+                value = min(nearest - half * interpolate_ratio(ratio, step, i, j, k), deep)
                 out[i, j, k] = value
                 filled += min(1.0, max(0.0, 0.5 + value))
     return filled
@@ -227,7 +229,7 @@ def from_polyhedra(
                         to_face = halves[f] - abs(normals[f, 0] * a + normals[f, 1] * b + normals[f, 2] * c)
                         nearest = min(nearest, to_face)
                     inside = max(inside, nearest)
-                value = min(inside - half * local(ratio, step, i, j, k), deep)
+                value = min(inside - half * interpolate_ratio(ratio, step, i, j, k), deep)
                 out[i, j, k] = value
                 filled += min(1.0, max(0.0, 0.5 + value))
     return filled
@@ -253,7 +255,7 @@ def from_plane(depth, plane, half, ratio, step, out, thread, threads):
         for j in range(ny):
             to_lines = plane[i, j]
             for k in range(nz):
-                value = min(to_lines - half * local(ratio, step, i, j, k), depth[i, j, k])
+                value = min(to_lines - half * interpolate_ratio(ratio, step, i, j, k), depth[i, j, k])
                 out[i, j, k] = value
                 filled += min(1.0, max(0.0, 0.5 + value))
     return filled
@@ -376,7 +378,7 @@ def from_cubes(depth, threshold, doubled, turn, start, period, reach, colour, ha
                                         z = at[2] - ((c >> level) << level)
                                         outside = min(outside, max(-x, x - side, -y, y - side, -z, z - side, 0.0))
                     inside = -outside
-                value = min(inside * period - half * local(ratio, step, i, j, k), deep)
+                value = min(inside * period - half * interpolate_ratio(ratio, step, i, j, k), deep)
                 out[i, j, k] = value
                 filled += min(1.0, max(0.0, 0.5 + value))
     return filled

@@ -10,9 +10,17 @@ import math
 import numpy as np
 
 from infill.kernels.compiling import njit
-from infill.kernels.corners import MOST, NONE, corners_of, following, join, linked, preceding
-from infill.kernels.nearness import all_near, handed_on
-from infill.kernels.quadrics import best_place, shape_of, solved, squared_length
+from infill.kernels.corners import (
+    MAX_CORNERS,
+    NO_CORNER,
+    can_collapse,
+    collapse_edge,
+    corners_of,
+    next_corner,
+    previous_corner,
+)
+from infill.kernels.nearness import are_edges_near, reassign_points
+from infill.kernels.quadrics import best_place, normal_and_shape, solve_quadric, squared_length
 
 BUCKETS = 96  # of costs, two for each factor of two
 UNIT = 72  # the bucket of costs of one unit
@@ -22,17 +30,17 @@ TURNED = 0.2  # cosine of the angle by which a triangle may turn
 SHORT = 1e-3  # of squared tolerance and squared length: among collapses of no cost, short edges go first
 NARROW = 1e-6  # of squared lengths: a ring whose faces cancel out has no side on which volume is gained
 # Distance between the sample points of new edges: squared mean edges and squared tolerances.
-APART, WIDE = 0.05, 4.0
-HELD = 1 << 16  # points on the faces around an edge: where there are more, it stays
-ROUND = 0.005  # of the triangles: while at least this share is removed, edges that stayed are tried again
+SAMPLE_SPACING, WIDE = 0.05, 4.0
+MAX_HELD_POINTS = 1 << 16  # points on the faces around an edge: where there are more, it stays
+RETRY_SHARE = 0.005  # of the triangles: while at least this share is removed, edges that stayed are tried again
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def _enqueue(c, bucket, queue, ends):
     """Put an edge at the end of a bucket: `queue` holds the next edge, the previous one and the bucket."""
     tail = ends[bucket, 1]
-    queue[c, 0], queue[c, 1], queue[c, 2] = NONE, tail, bucket
-    if tail == NONE:
+    queue[c, 0], queue[c, 1], queue[c, 2] = NO_CORNER, tail, bucket
+    if tail == NO_CORNER:
         ends[bucket, 0] = c
     else:
         queue[tail, 0] = c
@@ -43,18 +51,18 @@ def _enqueue(c, bucket, queue, ends):
 def _dequeue(c, queue, ends):
     """Remove an edge from its bucket, if it is in one."""
     bucket = queue[c, 2]
-    if bucket == NONE:
+    if bucket == NO_CORNER:
         return
     after, before = queue[c, 0], queue[c, 1]
-    if before == NONE:
+    if before == NO_CORNER:
         ends[bucket, 0] = after
     else:
         queue[before, 0] = after
-    if after == NONE:
+    if after == NO_CORNER:
         ends[bucket, 1] = before
     else:
         queue[after, 1] = before
-    queue[c, 2] = NONE
+    queue[c, 2] = NO_CORNER
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
@@ -62,7 +70,7 @@ def _update_bucket(c, vertices, start, twin, fixed, quadric, bound, edge, queue,
     """Put an edge into the bucket of its cost, or into none if it must not be collapsed; return the bucket."""
     c = min(c, twin[c])
     _dequeue(c, queue, ends)
-    u, v = start[c], start[following(c)]
+    u, v = start[c], start[next_corner(c)]
     if fixed[u] or fixed[v]:
         return BUCKETS
     cost = best_place(vertices[u], vertices[v], quadric[u], quadric[v], s, place)
@@ -85,7 +93,7 @@ def _keep_volume(c, vertices, start, twin, ring, ring_size, end_ring, end_ring_s
     (Lindstrom and Turk 1998). Where that plane is undetermined, or further away than the edge is long, the place
     stays unchanged.
     """
-    u, v = vertices[start[c]], vertices[start[following(c)]]
+    u, v = vertices[start[c]], vertices[start[next_corner(c)]]
     gx, gy, gz, target = 0.0, 0.0, 0.0, 0.0
     for side in range(2):
         for n in range(ring_size if side == 0 else end_ring_size):
@@ -93,7 +101,11 @@ def _keep_volume(c, vertices, start, twin, ring, ring_size, end_ring, end_ring_s
             shared = corner // 3 == c // 3 or corner // 3 == twin[c] // 3
             if shared and side == 1:
                 continue
-            o, a, b = vertices[start[corner]], vertices[start[following(corner)]], vertices[start[preceding(corner)]]
+            o, a, b = (
+                vertices[start[corner]],
+                vertices[start[next_corner(corner)]],
+                vertices[start[previous_corner(corner)]],
+            )
             ax, ay, az = a[0] - u[0], a[1] - u[1], a[2] - u[2]
             bx, by, bz = b[0] - u[0], b[1] - u[1], b[2] - u[2]
             nx, ny, nz = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
@@ -101,7 +113,7 @@ def _keep_volume(c, vertices, start, twin, ring, ring_size, end_ring, end_ring_s
             if not shared:
                 gx, gy, gz = gx + nx, gy + ny, gz + nz
     off = target - (gx * (place[0] - u[0]) + gy * (place[1] - u[1]) + gz * (place[2] - u[2]))
-    dx, dy, dz, is_solved = solved(s, 0.0, 0.0, 0.0, gx, gy, gz)
+    dx, dy, dz, is_solved = solve_quadric(s, 0.0, 0.0, 0.0, gx, gy, gz)
     if not is_solved:
         return
     rise, length = gx * dx + gy * dy + gz * dz, squared_length(u, v)
@@ -119,8 +131,8 @@ def _reshape_faces(c, vertices, start, twin, ring, ring_size, end_ring, end_ring
     for side in range(2):
         for n in range(ring_size if side == 0 else end_ring_size):
             corner = ring[n] if side == 0 else end_ring[n]
-            a, b = vertices[start[following(corner)]], vertices[start[preceding(corner)]]
-            nx, ny, nz, shape = shape_of(vertices[start[corner]], a, b)
+            a, b = vertices[start[next_corner(corner)]], vertices[start[previous_corner(corner)]]
+            nx, ny, nz, shape = normal_and_shape(vertices[start[corner]], a, b)
             sx, sy, sz, worst = sx + nx, sy + ny, sz + nz, min(worst, shape)
     changed = 0
     for side in range(2):
@@ -128,9 +140,9 @@ def _reshape_faces(c, vertices, start, twin, ring, ring_size, end_ring, end_ring
             corner = ring[n] if side == 0 else end_ring[n]
             if corner // 3 == c // 3 or corner // 3 == twin[c] // 3:
                 continue
-            a, b = vertices[start[following(corner)]], vertices[start[preceding(corner)]]
-            ox, oy, oz, shape = shape_of(vertices[start[corner]], a, b)
-            nx, ny, nz, new_shape = shape_of(place, a, b)
+            a, b = vertices[start[next_corner(corner)]], vertices[start[previous_corner(corner)]]
+            ox, oy, oz, shape = normal_and_shape(vertices[start[corner]], a, b)
+            nx, ny, nz, new_shape = normal_and_shape(place, a, b)
             if new_shape < min(SLENDER, worst):
                 return -1
             if shape < THIN:
@@ -158,7 +170,7 @@ def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corne
     leaving : (V,) int32
         One corner of each vertex.
     name : (V,) int32
-        Vertices with the same name lie at one place: see `infill.kernels.corners.part_fans`.
+        Vertices with the same name lie at one place: see `infill.kernels.corners.split_fans`.
     fixed : (V,) bool
         Vertices that stay, with their edges.
     quadric : (V, 11) float64
@@ -177,7 +189,7 @@ def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corne
         Set for each removed vertex to the one that it was collapsed into, which may be removed too.
     """
     faces, bounded = len(start) // 3, len(points) > 0
-    first_point, next_point = np.full(faces, NONE, dtype=np.int32), np.empty(len(points), dtype=np.int32)
+    first_point, next_point = np.full(faces, NO_CORNER, dtype=np.int32), np.empty(len(points), dtype=np.int32)
     for p in range(len(points)):
         f = corner[p] // 3
         next_point[p], first_point[f] = first_point[f], p
@@ -186,28 +198,28 @@ def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corne
         original_corners, was_twin, was_leaving = vertices[start], twin.copy(), leaving.copy()
     edge = 0.0
     for c in range(len(start)):
-        edge += squared_length(vertices[start[c]], vertices[start[following(c)]])
+        edge += squared_length(vertices[start[c]], vertices[start[next_corner(c)]])
     edge /= max(1, len(start))
-    sample_step = min(APART * edge, WIDE * tolerance)
-    queue, ends = np.full((len(start), 3), NONE, dtype=np.int32), np.full((BUCKETS, 2), NONE, dtype=np.int32)
-    marked = np.full(name.max() + 1, NONE, dtype=np.int32)
+    sample_step = min(SAMPLE_SPACING * edge, WIDE * tolerance)
+    queue, ends = np.full((len(start), 3), NO_CORNER, dtype=np.int32), np.full((BUCKETS, 2), NO_CORNER, dtype=np.int32)
+    marked = np.full(name.max() + 1, NO_CORNER, dtype=np.int32)
     s, place = np.empty(11), np.empty(3)
-    ring, end_ring = np.empty(MOST, dtype=np.int32), np.empty(MOST, dtype=np.int32)
-    moved, chosen = np.empty((2 * MOST, 3, 3)), np.empty(2 * MOST + 2, dtype=np.int32)
-    goes, goes_to = np.empty(HELD, dtype=np.int32), np.empty(HELD, dtype=np.int32)
+    ring, end_ring = np.empty(MAX_CORNERS, dtype=np.int32), np.empty(MAX_CORNERS, dtype=np.int32)
+    moved, chosen = np.empty((2 * MAX_CORNERS, 3, 3)), np.empty(2 * MAX_CORNERS + 2, dtype=np.int32)
+    goes, goes_to = np.empty(MAX_HELD_POINTS, dtype=np.int32), np.empty(MAX_HELD_POINTS, dtype=np.int32)
     for c in range(len(start)):
         if c < twin[c]:
             _update_bucket(c, vertices, start, twin, fixed, quadric, bound, edge, queue, ends, s, place)
     remaining, before, lowest, step = faces, faces, 0, 0
     while remaining > fewest:
-        while lowest < BUCKETS and ends[lowest, 0] == NONE:
+        while lowest < BUCKETS and ends[lowest, 0] == NO_CORNER:
             lowest += 1
         if lowest == BUCKETS:
-            if before - remaining < ROUND * remaining:
+            if before - remaining < RETRY_SHARE * remaining:
                 break
             before = remaining
             for e in range(len(start)):
-                if start[e] != NONE and e < twin[e]:
+                if start[e] != NO_CORNER and e < twin[e]:
                     bucket = _update_bucket(
                         e, vertices, start, twin, fixed, quadric, bound, edge, queue, ends, s, place
                     )
@@ -216,14 +228,14 @@ def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corne
         c = ends[lowest, 0]
         _dequeue(c, queue, ends)
         step += 1
-        u, v, d = start[c], start[following(c)], twin[c]
+        u, v, d = start[c], start[next_corner(c)], twin[c]
         ring_size, end_ring_size = corners_of(u, twin, leaving, ring), corners_of(v, twin, leaving, end_ring)
-        if ring_size < 0 or end_ring_size < 0 or not 3 <= ring_size + end_ring_size - 4 <= MOST:
+        if ring_size < 0 or end_ring_size < 0 or not 3 <= ring_size + end_ring_size - 4 <= MAX_CORNERS:
             continue
-        if not linked(c, start, twin, leaving, name, ring, ring_size, end_ring, end_ring_size, marked, step):
+        if not can_collapse(c, start, twin, leaving, name, ring, ring_size, end_ring, end_ring_size, marked, step):
             continue
         best_place(vertices[u], vertices[v], quadric[u], quadric[v], s, place)
-        changed, taken = NONE, 0
+        changed, taken = NO_CORNER, 0
         for attempt in range(3 if bounded else 1):  # where the best place is too far, one of the ends may be near
             if attempt > 0:
                 place[:] = vertices[u] if attempt == 1 else vertices[v]
@@ -231,20 +243,20 @@ def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corne
             changed = _reshape_faces(
                 c, vertices, start, twin, ring, ring_size, end_ring, end_ring_size, place, moved, chosen
             )
-            if changed == NONE or not bounded:
+            if changed == NO_CORNER or not bounded:
                 continue
             chosen[changed], chosen[changed + 1] = c // 3, d // 3
-            taken = handed_on(first_point, next_point, points, tolerance, moved, chosen, changed, goes, goes_to)
+            taken = reassign_points(first_point, next_point, points, tolerance, moved, chosen, changed, goes, goes_to)
             if taken > 0:
                 was = original_corners, was_twin, was_leaving
-                if all_near(place, moved, changed, sample_step, points, tolerance, goes, taken, corner, was):
+                if are_edges_near(place, moved, changed, sample_step, points, tolerance, goes, taken, corner, was):
                     break
-            changed = NONE
-        if changed == NONE:
+            changed = NO_CORNER
+        if changed == NO_CORNER:
             continue
         if bounded:
             for n in range(changed):
-                first_point[chosen[n]] = NONE
+                first_point[chosen[n]] = NO_CORNER
             for n in range(taken):
                 p, f = goes[n], goes_to[n]
                 next_point[p], first_point[f] = first_point[f], p
@@ -252,7 +264,7 @@ def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corne
             _dequeue(min(ring[n], twin[ring[n]]), queue, ends)
         for n in range(end_ring_size):
             _dequeue(min(end_ring[n], twin[end_ring[n]]), queue, ends)
-        join(c, start, twin, leaving, end_ring, end_ring_size)
+        collapse_edge(c, start, twin, leaving, end_ring, end_ring_size)
         quadric[u] = s
         vertices[u] = place
         into[v] = u

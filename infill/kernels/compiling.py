@@ -11,8 +11,8 @@ from contextvars import ContextVar
 from typing import Any
 
 LOG = logging.getLogger("infill")
-TOLD = threading.Event()  # set once compilation was reported in this process
-OURS = threading.Event()  # set if no other thread compiles in this process
+REPORTED = threading.Event()  # set once compilation was reported in this process
+SOLE_COMPILER = threading.Event()  # set if no other thread compiles in this process
 BLAS = "scipy.linalg.cython_blas"
 _WATCHED = ContextVar("watched", default=False)
 
@@ -21,7 +21,7 @@ def njit(**options: Any) -> Callable[[Callable[..., Any]], Any]:  # noqa: ANN401
     """Return numba's decorator; without a writable folder, compiled code is not cached."""
     import numba
 
-    if OURS.is_set() and "numba.np.arraymath" not in sys.modules:
+    if SOLE_COMPILER.is_set() and "numba.np.arraymath" not in sys.modules:
         _load_without_blas()
 
     def compiled(function: Callable[..., Any]) -> Any:  # noqa: ANN401 - a dispatcher of numba's
@@ -49,20 +49,20 @@ def _load_without_blas() -> None:
 
 
 @contextmanager
-def told_of_compiling(what: str) -> Iterator[None]:
+def log_compilation(what: str) -> Iterator[None]:
     """Report to the log "infill" as soon as code inside is compiled rather than loaded from disk.
 
     Report once per process, in the outermost of nested uses; also works as a decorator. `what` follows "compiling".
     """
-    if _WATCHED.get() or TOLD.is_set():
+    if _WATCHED.get() or REPORTED.is_set():
         yield
         return
     from numba.core import event
 
     class Listener(event.Listener):
         def on_start(self, event: object) -> None:  # noqa: ARG002 - any compilation counts
-            if not TOLD.is_set():
-                TOLD.set()
+            if not REPORTED.is_set():
+                REPORTED.set()
                 LOG.warning("compiling %s: up to a minute, and kept for later runs", what)
 
         def on_end(self, event: object) -> None:

@@ -26,11 +26,11 @@ from __future__ import annotations
 import numpy as np
 
 from infill.kernels.compiling import njit
-from infill.kernels.lanes import lowest, ones
+from infill.kernels.lanes import count_ones, lowest_bit
 from infill.kernels.sparse import B0, B1, B2, CELLS, OUTSIDE, VOID_BRICK, place_beside
-from infill.kernels.sparse_marching import FULL, ROWS, within
+from infill.kernels.sparse_marching import FULL, ROWS, grid_cells_of_row
 
-BEYOND = -9  # outside the lattice: neither solid nor void
+OUTSIDE_LATTICE = -9  # outside the lattice: neither solid nor void
 
 
 @njit(cache=True)
@@ -62,7 +62,7 @@ def beginnings(bits):
 def run_length(bits, k):
     """Count the consecutive bits that are set from bit `k` on."""
     gaps = ~(np.int64(bits) >> k)
-    return ones(((gaps & -gaps) - 1) & FULL)
+    return count_ones(((gaps & -gaps) - 1) & FULL)
 
 
 @njit(nogil=True, cache=True)
@@ -74,7 +74,7 @@ def number_runs(bits, bricks, starts):
         inner = 0
         for row in range(ROWS):
             starts[s, row] = inner
-            inner += ones(beginnings(bits[s, row]))
+            inner += count_ones(beginnings(bits[s, row]))
         count += inner
     return count
 
@@ -83,7 +83,7 @@ def number_runs(bits, bricks, starts):
 def run_at(bits, bricks, starts, s, row, k):
     """Return the number of the run that contains cell `k` of a row."""
     upto = np.uint16((2 << k) - 1)
-    return bricks[s] + starts[s, row] + ones(beginnings(bits[s, row]) & upto) - 1
+    return bricks[s] + starts[s, row] + count_ones(beginnings(bits[s, row]) & upto) - 1
 
 
 @njit(cache=True)
@@ -101,7 +101,7 @@ def node_at(alone, slots, p, q, r, row, k, bits, bricks, starts):
 def slot_in(slots, p, q, r):
     """Return the slot of the lattice at a place, BEYOND outside its ends."""
     if p < 0 or q < 0 or r < 0 or p >= slots.shape[0] or q >= slots.shape[1] or r >= slots.shape[2]:
-        return BEYOND
+        return OUTSIDE_LATTICE
     return slots[p, q, r]
 
 
@@ -132,7 +132,7 @@ def join_full(slots, where, bricks, alone, parent, full):
         for side in range(6):
             p, q, r = place_beside(where[s], side)
             slot = slot_in(slots, p, q, r)
-            if slot == BEYOND:
+            if slot == OUTSIDE_LATTICE:
                 continue
             if slot >= 0:
                 if full[slot]:
@@ -186,14 +186,14 @@ def join_runs(slots, where, bits, bricks, starts, alone, parent, diagonal):
                         if alone[a, b, r] >= 0:
                             remaining = np.int64(beginnings(row_bits))
                             while remaining:
-                                k = lowest(remaining)
+                                k = lowest_bit(remaining)
                                 remaining &= remaining - 1
                                 join(parent, run_at(bits, bricks, starts, s, row, k), np.int64(alone[a, b, r]))
                     elif ahead:  # the other brick never looks back at this one
                         theirs = bits[slot, x * B1 + y]
                         remaining = np.int64(beginnings(row_bits & theirs))
                         while remaining:
-                            k = lowest(remaining)
+                            k = lowest_bit(remaining)
                             remaining &= remaining - 1
                             join(
                                 parent,
@@ -208,7 +208,7 @@ def join_runs(slots, where, bits, bricks, starts, alone, parent, diagonal):
                                     own_next, theirs_next = row_bits << np.uint16(1), theirs << np.uint16(1)
                                 remaining = np.int64(row_bits & theirs_next & ~theirs & ~own_next) & FULL
                                 while remaining:
-                                    k = lowest(remaining)
+                                    k = lowest_bit(remaining)
                                     remaining &= remaining - 1
                                     join(
                                         parent,
@@ -248,10 +248,10 @@ def join_beyond(where, bits, bricks, starts, shape, parent):
     """Join every run of void that extends beyond the grid with the outside."""
     for s in range(len(where)):
         for row in range(ROWS):
-            inside = within(where[s, 0], where[s, 1], where[s, 2], row, shape)
+            inside = grid_cells_of_row(where[s, 0], where[s, 1], where[s, 2], row, shape)
             remaining = np.int64(bits[s, row] & ~inside)
             while remaining:
-                k = lowest(remaining)
+                k = lowest_bit(remaining)
                 remaining &= remaining - 1
                 join(parent, np.int64(0), np.int64(run_at(bits, bricks, starts, s, row, k)))
 
@@ -275,10 +275,10 @@ def count_cells(where, bits, bricks, starts, shape, names, cells):
     """Add the cells of every run within the grid to the count of its component."""
     for s in range(len(where)):
         for row in range(ROWS):
-            row_bits = bits[s, row] & within(where[s, 0], where[s, 1], where[s, 2], row, shape)
+            row_bits = bits[s, row] & grid_cells_of_row(where[s, 0], where[s, 1], where[s, 2], row, shape)
             remaining = np.int64(beginnings(row_bits))
             while remaining:
-                k = lowest(remaining)
+                k = lowest_bit(remaining)
                 remaining &= remaining - 1
                 cells[names[run_at(bits, bricks, starts, s, row, k)]] += run_length(row_bits, k)
 
@@ -290,7 +290,7 @@ def mark_runs(bits, bricks, starts, names, chosen, marked):
         for row in range(ROWS):
             remaining = np.int64(beginnings(bits[s, row] & chosen[s, row]))
             while remaining:
-                k = lowest(remaining)
+                k = lowest_bit(remaining)
                 remaining &= remaining - 1
                 marked[names[run_at(bits, bricks, starts, s, row, k)]] = True
 
@@ -301,7 +301,7 @@ def overlaps(bits, bricks, starts, names, other_bits, other_bricks, other_starts
     count = 0
     for s in range(len(bits)):
         for row in range(ROWS):
-            count += ones(beginnings(bits[s, row] & other_bits[s, row]))
+            count += count_ones(beginnings(bits[s, row] & other_bits[s, row]))
     stretches = np.empty((count, 3), dtype=np.int64)
     count = 0
     for s in range(len(bits)):
@@ -309,7 +309,7 @@ def overlaps(bits, bricks, starts, names, other_bits, other_bricks, other_starts
             both = bits[s, row] & other_bits[s, row]
             remaining = np.int64(beginnings(both))
             while remaining:
-                k = lowest(remaining)
+                k = lowest_bit(remaining)
                 remaining &= remaining - 1
                 stretches[count, 0] = names[run_at(bits, bricks, starts, s, row, k)]
                 stretches[count, 1] = other_names[run_at(other_bits, other_bricks, other_starts, s, row, k)]
@@ -423,7 +423,7 @@ def erase(values, where, bits, bricks, starts, names, marked, void):
         for row in range(ROWS):
             remaining = np.int64(bits[s, row])
             while remaining:
-                k = lowest(remaining)
+                k = lowest_bit(remaining)
                 remaining &= remaining - 1
                 if marked[names[run_at(bits, bricks, starts, s, row, k)]]:
                     x, y = where[s, 0] * B0 + row // B1 - 1, where[s, 1] * B1 + row % B1 - 1

@@ -13,24 +13,24 @@ import numpy as np
 
 from infill.kernels.compiling import njit
 
-MOST = 48  # corners at a vertex: collapses that would exceed it are rejected
-NONE = -1
+MAX_CORNERS = 48  # corners at a vertex: collapses that would exceed it are rejected
+NO_CORNER = -1
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def following(corner):
+def next_corner(corner):
     """Return the next corner of the same face."""
     return corner - 2 if corner % 3 == 2 else corner + 1
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def preceding(corner):
+def previous_corner(corner):
     """Return the previous corner of the same face."""
     return corner + 2 if corner % 3 == 0 else corner - 1
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def pair(start, count, twin):
+def pair_edges(start, count, twin):
     """Set the twin of each corner; return True if every edge has exactly one.
 
     Parameters
@@ -51,12 +51,12 @@ def pair(start, count, twin):
         leaving[filled[start[c]]] = c
         filled[start[c]] += 1
     for c in range(len(start)):
-        a, b = start[c], start[following(c)]
+        a, b = start[c], start[next_corner(c)]
         if a == b:
             return False
         match = -1
         for at in range(begin[b], begin[b + 1]):
-            if start[following(leaving[at])] == a:
+            if start[next_corner(leaving[at])] == a:
                 if match >= 0:
                     return False
                 match = leaving[at]
@@ -67,7 +67,7 @@ def pair(start, count, twin):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def part_fans(start, twin, count, name):
+def split_fans(start, twin, count, name):
     """Give each additional fan of faces around a vertex a vertex of its own; return the number of vertices.
 
     Parameters
@@ -94,7 +94,7 @@ def part_fans(start, twin, count, name):
         while not seen[at]:
             seen[at] = True
             start[at] = fan_vertex
-            at = twin[preceding(at)]
+            at = twin[previous_corner(at)]
     return total
 
 
@@ -103,11 +103,11 @@ def corners_of(vertex, twin, leaving, ring):
     """Set the corners of a vertex; return their number, or -1 if there are too many."""
     at, count = leaving[vertex], 0
     while True:
-        if count == MOST:
+        if count == MAX_CORNERS:
             return -1
         ring[count] = at
         count += 1
-        at = twin[preceding(at)]
+        at = twin[previous_corner(at)]
         if at == leaving[vertex]:
             return count
 
@@ -117,35 +117,35 @@ def _has_three(vertex, twin, leaving):
     """Return True if a vertex has at most three faces."""
     at = leaving[vertex]
     for _ in range(3):
-        at = twin[preceding(at)]
+        at = twin[previous_corner(at)]
     return at == leaving[vertex]
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def linked(c, start, twin, leaving, name, ring, ring_size, end_ring, end_ring_size, marked, step):
+def can_collapse(c, start, twin, leaving, name, ring, ring_size, end_ring, end_ring_size, marked, step):
     """Return True if the ends of an edge share only the corners opposite to it as neighbours, and have more faces."""
     for n in range(ring_size):
-        marked[name[start[following(ring[n])]]] = step
+        marked[name[start[next_corner(ring[n])]]] = step
     common = 0
     for n in range(end_ring_size):
-        common += marked[name[start[following(end_ring[n])]]] == step
+        common += marked[name[start[next_corner(end_ring[n])]]] == step
     if common != 2:
         return False
-    opposite, beyond = start[preceding(c)], start[preceding(twin[c])]
+    opposite, beyond = start[previous_corner(c)], start[previous_corner(twin[c])]
     return not _has_three(opposite, twin, leaving) and not _has_three(beyond, twin, leaving)
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def join(c, start, twin, leaving, end_ring, end_ring_size):
+def collapse_edge(c, start, twin, leaving, end_ring, end_ring_size):
     """Collapse an edge in the table: its end becomes its start, two faces go, and their other edges become twins."""
     u, d = start[c], twin[c]
     for n in range(end_ring_size):
         start[end_ring[n]] = u
     for n in range(2):
         at = c if n == 0 else d
-        outer_a, outer_b = twin[following(at)], twin[preceding(at)]
+        outer_a, outer_b = twin[next_corner(at)], twin[previous_corner(at)]
         twin[outer_a], twin[outer_b] = outer_b, outer_a
         leaving[start[outer_a]], leaving[start[outer_b]] = outer_a, outer_b
     for n in range(2):
         f = 3 * ((c if n == 0 else d) // 3)
-        start[f], start[f + 1], start[f + 2] = NONE, NONE, NONE
+        start[f], start[f + 1], start[f + 2] = NO_CORNER, NO_CORNER, NO_CORNER

@@ -14,14 +14,14 @@ import math
 import numpy as np
 
 from infill.kernels.compiling import njit
-from infill.kernels.distances import DEEPEST, nearest_triangle, squared_distance
+from infill.kernels.distances import STACK_SIZE, nearest_triangle, squared_distance
 from infill.kernels.quadrics import squared_length
 
-DEPTH = 18  # largest number of cuts of a triangle
+MAX_CUTS = 18  # largest number of cuts of a triangle
 # Ratio of the length of a piece that is barely near to the distance by which its corners are nearer than necessary.
 # At the square root of three, every place on it is near enough, even if the meshes meet at a right angle.
 SLOPE = 10.0
-LEVEL = 0.866  # cosine of the angle, 30 degrees, up to which neighbouring triangles count as level
+LEVEL_COSINE = 0.866  # cosine of the angle, 30 degrees, up to which neighbouring triangles count as level
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
@@ -41,7 +41,7 @@ def _is_covered(piece, owners, squared, corners, tolerance):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def cover(
+def sample_faces(
     vertices,
     faces,
     nearest,
@@ -84,8 +84,8 @@ def cover(
         Results: the face that each point lies on, the triangle of the other mesh nearest to it, or any within
         `enough`, and the squared distance from that triangle.
     """
-    stack, waiting = np.empty(DEEPEST, dtype=np.int64), np.empty(DEEPEST)
-    room = DEPTH + 2
+    stack, waiting = np.empty(STACK_SIZE, dtype=np.int64), np.empty(STACK_SIZE)
+    room = MAX_CUTS + 2
     pieces, owners, offs = np.empty((room, 3, 3)), np.empty((room, 3), dtype=np.int64), np.empty((room, 3))
     depths = np.empty(room, dtype=np.int64)
     piece, ends, off = np.empty((4, 3)), np.empty(4, dtype=np.int64), np.empty(4)
@@ -101,7 +101,7 @@ def cover(
             stack_size -= 1
             depth = depths[stack_size]
             piece[:3], ends[:3], off[:3] = pieces[stack_size], owners[stack_size], offs[stack_size]
-            if depth == DEPTH or _is_covered(piece, ends, off, corners, tolerance):
+            if depth == MAX_CUTS or _is_covered(piece, ends, off, corners, tolerance):
                 continue
             k, longest = 0, 0.0
             for side in range(3):
@@ -169,7 +169,7 @@ def _are_separated(triangle, second_triangle, normal, reach):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def level_around(corners, normals, low, high, leaf, reach, level, thread, threads):
+def mark_level_faces(corners, normals, low, high, leaf, reach, level, thread, threads):
     """Set True if all triangles within `reach` of every `threads`-th triangle face nearly the same way.
 
     Parameters
@@ -184,7 +184,7 @@ def level_around(corners, normals, low, high, leaf, reach, level, thread, thread
         The result.
     """
     first_leaf = (len(low) - 1) // 2
-    stack = np.empty(DEEPEST, dtype=np.int64)
+    stack = np.empty(STACK_SIZE, dtype=np.int64)
     for f in range(thread, len(corners), threads):
         triangle, normal = corners[f], normals[f]
         level[f] = True
@@ -204,7 +204,7 @@ def level_around(corners, normals, low, high, leaf, reach, level, thread, thread
             begin = (box - first_leaf) * leaf
             for at in range(begin, min(begin + leaf, len(corners))):
                 to = normals[at]
-                if normal[0] * to[0] + normal[1] * to[1] + normal[2] * to[2] >= LEVEL:
+                if normal[0] * to[0] + normal[1] * to[1] + normal[2] * to[2] >= LEVEL_COSINE:
                     continue
                 if _are_separated(triangle, corners[at], normal, reach) or _are_separated(
                     corners[at], triangle, to, reach

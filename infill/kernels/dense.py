@@ -21,7 +21,7 @@ from infill.kernels.compiling import njit
 
 
 @njit(inline="always", cache=True, error_model="numpy")
-def advanced(c, a, b, d, e, g, h, f, numbers):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201
+def advance_cell(c, a, b, d, e, g, h, f, numbers):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201
     """Return the value of one cell after a step, given its own value, its six neighbours' and its datum."""
     w0, w1, w2, decay, rest, hold = numbers
     v = c + (w0 * ((a - c) + (b - c)) + w1 * ((d - c) + (e - c)) + w2 * ((g - c) + (h - c)))
@@ -44,7 +44,7 @@ def sweep(u, f, inside, new, numbers):  # type: ignore[no-untyped-def]  # noqa: 
                     continue
                 c = u[i, j, k]
                 before, after = max(k - 1, 0), min(k + 1, n2 - 1)
-                new[i, j, k] = advanced(
+                new[i, j, k] = advance_cell(
                     c,
                     u[below, j, k] if inside[below, j, k] else c,
                     u[above, j, k] if inside[above, j, k] else c,
@@ -60,11 +60,11 @@ def sweep(u, f, inside, new, numbers):  # type: ignore[no-untyped-def]  # noqa: 
             a, b, d, e = u[below, j], u[above, j], u[i, before_j], u[i, after_j]
             last_k = n2 - 1
             for k in range(1, last_k):
-                out[k] = advanced(
+                out[k] = advance_cell(
                     line[k], a[k], b[k], d[k], e[k], line[k - 1], line[k + 1], np.float32(data[k]), numbers
                 )
             for k in (0, last_k):
                 before, after = max(k - 1, 0), min(k + 1, last_k)
-                out[k] = advanced(
+                out[k] = advance_cell(
                     line[k], a[k], b[k], d[k], e[k], line[before], line[after], np.float32(data[k]), numbers
                 )

@@ -17,9 +17,9 @@ import numpy as np
 
 from infill.kernels.compiling import njit
 
-DEEPEST = 64  # size of the stack of boxes in a tree
+STACK_SIZE = 64  # size of the stack of boxes in a tree
 THICK = 16  # layers of cells along x that one thread fills at a time
-FLAT = 1e-12  # of a squared length: shorter edges are points, and lower triangles are lines
+FLAT_TOLERANCE = 1e-12  # of a squared length: shorter edges are points, and lower triangles are lines
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
@@ -54,7 +54,7 @@ def lower_to_triangles(corners, reach, squared, thread, threads):
             vx, vy, vz = c[0] - a[0], c[1] - a[1], c[2] - a[2]
             normal[0], normal[1], normal[2] = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
             area = math.sqrt(normal[0] ** 2 + normal[1] ** 2 + normal[2] ** 2)
-            flat = area <= FLAT * max(ux * ux + uy * uy + uz * uz, vx * vx + vy * vy + vz * vz)
+            flat = area <= FLAT_TOLERANCE * max(ux * ux + uy * uy + uz * uz, vx * vx + vy * vy + vz * vz)
             if not flat:
                 normal /= area
             for side in range(3):
@@ -268,7 +268,7 @@ def nearest_triangles(points, corners, low, high, leaf, enough, squared, face, t
     ----------
     points : (N, 3) float64
     corners : (F, 3, 3) float64
-        In the order of the tree's leaves: see `infill.meshes.distance.Tree`.
+        In the order of the tree's leaves: see `infill.meshes.distance.TriangleTree`.
     low, high : (2 L - 1, 3) float64
         Boxes of the tree: the children of box n are 2 n + 1 and 2 n + 2, the last L are leaves.
     leaf : int
@@ -278,7 +278,7 @@ def nearest_triangles(points, corners, low, high, leaf, enough, squared, face, t
     squared : (N,) float64, face : (N,) int64
         The results.
     """
-    stack, box_distance = np.empty(DEEPEST, dtype=np.int64), np.empty(DEEPEST)
+    stack, box_distance = np.empty(STACK_SIZE, dtype=np.int64), np.empty(STACK_SIZE)
     nearest = 0  # the result of the previous point is a good guess: successive points are often close together
     for n in range(thread, len(points), threads):
         x, y, z = points[n]
@@ -287,7 +287,7 @@ def nearest_triangles(points, corners, low, high, leaf, enough, squared, face, t
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def wind(points, corners, sign, windings, thread, threads):
+def count_windings(points, corners, sign, windings, thread, threads):
     """Count the windings of triangles (F, 3, 3), with their sign (F,), around every `threads`-th point.
 
     Triangles above a point count, those that face upwards positively: over a closed surface, the sum is its winding

@@ -94,7 +94,7 @@ def flip_simple(slots, bits, places):
 
 
 @njit(nogil=True, cache=True)
-def lonely(slots, bits, places):
+def count_lonely(slots, bits, places):
     """Count the cells (N, 3) of the lattice without a solid cell among the 27 around them."""
     count = 0
     for n in range(len(places)):
@@ -107,7 +107,7 @@ def lonely(slots, bits, places):
 
 
 @njit(nogil=True, cache=True)
-def faces_in(vertices, faces, spacing, slots, bits, is_inside, thread, threads):
+def mark_faces_in(vertices, faces, spacing, slots, bits, is_inside, thread, threads):
     """Mark the triangles in cubes whose `bits` are set, by their lowest corners on the lattice."""
     for f in range(thread, len(faces), threads):
         a, b, c = faces[f]

@@ -1,7 +1,7 @@
 """Sixteen cells at once: compared, copied and set by vector instructions.
 
 Loops over sixteen cells of two arrays are compiled to the same instructions, but ask each time whether the arrays
-overlap. Comparisons return a number of sixteen bits; `ones` and `lowest` work on such numbers.
+overlap. Comparisons return a number of sixteen bits; `count_ones` and `lowest_bit` work on such numbers.
 """
 # mypy: disable-error-code="no-untyped-def, no-untyped-call, call-arg"
 # ruff: noqa: ANN001, ANN201, ANN202, ANN204, ARG001
@@ -24,13 +24,13 @@ NUMBER = ir.IntType(32)
 
 
 @intrinsic
-def above(context, values, at, limit):
+def mask_above(context, values, at, limit):
     """Return a number with bit n set where number `at` + n of sixteen is above the limit."""
     return _build_comparison(">", values)
 
 
 @intrinsic
-def equal(context, values, at, limit):
+def mask_equal(context, values, at, limit):
     """Return a number with bit n set where number `at` + n of sixteen equals the limit."""
     return _build_comparison("==", values)
 
@@ -141,24 +141,24 @@ def _broadcast(builder, value):
 
 
 @intrinsic
-def counted(context, bits):
+def popcount(context, bits):
     """Count the set bits, by the machine instruction for it."""
     return types.int64(types.int64), lambda _, builder, __, arguments: builder.ctpop(arguments[0])
 
 
 @intrinsic
-def trailing(context, bits):
+def count_trailing_zeros(context, bits):
     """Count the bits below the lowest set bit."""
     return types.int64(types.int64), lambda _, builder, __, arguments: builder.cttz(arguments[0], TRUE)
 
 
 @njit(inline="always", cache=True)
-def ones(bits):
+def count_ones(bits):
     """Count the set bits of a non-negative number."""
-    return counted(np.int64(bits))
+    return popcount(np.int64(bits))
 
 
 @njit(inline="always", cache=True)
-def lowest(bits):
+def lowest_bit(bits):
     """Return the position of the lowest set bit."""
-    return trailing(np.int64(bits))
+    return count_trailing_zeros(np.int64(bits))

@@ -9,12 +9,12 @@ import math
 
 import numpy as np
 
-from infill.kernels.cells import local, lower_to_segments
+from infill.kernels.cells import interpolate_ratio, lower_to_segments
 from infill.kernels.compiling import njit
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def beside_lines(segments, layer_start, reach, distances, thread, threads) -> None:
+def distances_to_lines(segments, layer_start, reach, distances, thread, threads) -> None:
     """Write the distance of each point of a layer from the nearest segment of this layer, cut off at `reach`.
 
     Parameters
@@ -50,7 +50,7 @@ def from_layers(depth, threshold, distances, reach, steepest, sign, half, ratio,
     depth, threshold, half, ratio, step, out, thread, threads
         As in `from_period`.
     distances : (nx, ny, nz) float32
-        Along the layer, in cells: see `beside_lines`. If walls have two sides, it is negative on one of them.
+        Along the layer, in cells: see `distances_to_lines`. If walls have two sides, it is negative on one of them.
     reach : float
         Cut-off distance.
     sign : float
@@ -74,7 +74,10 @@ def from_layers(depth, threshold, distances, reach, steepest, sign, half, ratio,
                             change = abs(distances[i, j, next_layer] - distance)
                             if change <= steepest:
                                 slope = max(slope, change)
-                value = min(sign * distance / math.sqrt(1 + slope * slope) - half * local(ratio, step, i, j, k), deep)
+                value = min(
+                    sign * distance / math.sqrt(1 + slope * slope) - half * interpolate_ratio(ratio, step, i, j, k),
+                    deep,
+                )
                 out[i, j, k] = value
                 filled += min(1.0, max(0.0, 0.5 + value))
     return filled

@@ -121,7 +121,7 @@ def sum_flows(vertices, faces, names, sums):
 
 
 @njit(nogil=True, cache=True)
-def within_heights(vertices, faces, low, high, is_within):
+def mark_within_heights(vertices, faces, low, high, is_within):
     """Mark the faces (F,) whose mean of lowest and highest place lies between two heights."""
     for f in range(len(faces)):
         a, b, c = vertices[faces[f, 0], 2], vertices[faces[f, 1], 2], vertices[faces[f, 2], 2]

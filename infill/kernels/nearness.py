@@ -11,12 +11,12 @@ from __future__ import annotations
 import math
 
 from infill.kernels.compiling import njit
-from infill.kernels.corners import NONE, following, preceding
+from infill.kernels.corners import NO_CORNER, next_corner, previous_corner
 from infill.kernels.distances import squared_distance
-from infill.kernels.quadrics import shape_of, squared_length
+from infill.kernels.quadrics import normal_and_shape, squared_length
 
-PARTS = 64  # largest number of samples on an edge
-KEPT = 0.25  # of a squared tolerance: a point within this stays with its triangle
+MAX_SAMPLES = 64  # largest number of samples on an edge
+KEEP_SHARE = 0.25  # of a squared tolerance: a point within this stays with its triangle
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
@@ -39,9 +39,9 @@ def edge_points(vertices, start, twin, height, apart, max_points, points, owner)
         d = twin[c]
         if d < c:
             continue
-        a, b = vertices[start[c]], vertices[start[following(c)]]
-        ox, oy, oz, _ = shape_of(a, b, vertices[start[preceding(c)]])
-        nx, ny, nz, _ = shape_of(b, a, vertices[start[preceding(d)]])
+        a, b = vertices[start[c]], vertices[start[next_corner(c)]]
+        ox, oy, oz, _ = normal_and_shape(a, b, vertices[start[previous_corner(c)]])
+        nx, ny, nz, _ = normal_and_shape(b, a, vertices[start[previous_corner(d)]])
         length_a, length_b = math.sqrt(ox * ox + oy * oy + oz * oz), math.sqrt(nx * nx + ny * ny + nz * nz)
         length = math.sqrt(squared_length(a, b))
         if length == 0 or length_a == 0 or length_b == 0:
@@ -61,7 +61,7 @@ def edge_points(vertices, start, twin, height, apart, max_points, points, owner)
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def handed_on(first_point, next_point, points, tolerance, moved, chosen, changed, goes, goes_to):
+def reassign_points(first_point, next_point, points, tolerance, moved, chosen, changed, goes, goes_to):
     """Find for each point of some faces, two of which will go, the nearest of the remaining faces.
 
     Parameters
@@ -88,19 +88,19 @@ def handed_on(first_point, next_point, points, tolerance, moved, chosen, changed
     count = 0
     for face in range(changed + 2):
         p = first_point[chosen[face]]
-        while p != NONE:
+        while p != NO_CORNER:
             x, y, z = points[p]
-            best, nearest = math.inf, NONE
+            best, nearest = math.inf, NO_CORNER
             if face < changed:
                 best, nearest = squared_distance(x, y, z, moved[face, 0], moved[face, 1], moved[face, 2]), face
-            if best > KEPT * tolerance:
+            if best > KEEP_SHARE * tolerance:
                 for m in range(changed):
                     if m != face:
                         squared = squared_distance(x, y, z, moved[m, 0], moved[m, 1], moved[m, 2])
                         if squared < best:
                             best, nearest = squared, m
             if best > tolerance or count == len(goes):
-                return NONE
+                return NO_CORNER
             goes[count], goes_to[count] = p, chosen[nearest]
             count += 1
             p = next_point[p]
@@ -118,9 +118,9 @@ def _find_near_corner_at(x, y, z, point, bound, corner, was):
         f = 3 * (at // 3)
         if squared_distance(x, y, z, original_corners[f], original_corners[f + 1], original_corners[f + 2]) <= bound:
             return at
-        at = twin[at] if on_edge else twin[preceding(at)]
+        at = twin[at] if on_edge else twin[previous_corner(at)]
         if at == begin:
-            return NONE
+            return NO_CORNER
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
@@ -137,26 +137,26 @@ def _find_near_corner(x, y, z, points, tolerance, goes, count, corner, was):
             best, nearest = squared, p
     at = _find_near_corner_at(x, y, z, nearest, tolerance, corner, was)
     n = 0
-    while at == NONE and n < count:
+    while at == NO_CORNER and n < count:
         at = _find_near_corner_at(x, y, z, goes[n], tolerance, corner, was)
         n += 1
     return at
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def all_near(place, moved, changed, apart, points, tolerance, goes, count, corner, was):
+def are_edges_near(place, moved, changed, apart, points, tolerance, goes, count, corner, was):
     """Return True if the new edges are near the original surface, sampled every `apart`, a squared length.
 
     That suffices: a face between them is flat, and so is the original that lies on it. `was` holds the original
-    corners (3 F, 3), their twins and one corner of each vertex; see `handed_on` for the others.
+    corners (3 F, 3), their twins and one corner of each vertex; see `reassign_points` for the others.
     """
     original_corners = was[0]
     middle = _find_near_corner(place[0], place[1], place[2], points, tolerance, goes, count, corner, was)
-    if middle == NONE:
+    if middle == NO_CORNER:
         return False
     for m in range(changed):
         a, at = moved[m, 1], middle
-        parts = max(2, min(PARTS, math.ceil(math.sqrt(squared_length(place, a) / apart))))
+        parts = max(2, min(MAX_SAMPLES, math.ceil(math.sqrt(squared_length(place, a) / apart))))
         for part in range(1, parts):
             share = part / parts
             x = place[0] + share * (a[0] - place[0])
@@ -168,6 +168,6 @@ def all_near(place, moved, changed, apart, points, tolerance, goes, count, corne
                 > tolerance
             ):
                 at = _find_near_corner(x, y, z, points, tolerance, goes, count, corner, was)
-                if at == NONE:
+                if at == NO_CORNER:
                     return False
     return True

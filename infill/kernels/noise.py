@@ -10,11 +10,11 @@ import numpy as np
 from infill.kernels.compiling import njit
 
 VOTERS = 27  # a cell and its neighbours
-EDGE = 2  # layers at either end of a slab without known neighbours
+OVERLAP_LAYERS = 2  # layers at either end of a slab without known neighbours
 
 
 @njit(nogil=True, cache=True)
-def votes(solid, rows, planes, counts):
+def count_votes(solid, rows, planes, counts):
     """Count the set cells among the 27 around each of `solid`, 0 or 1; cells beyond the edge repeat those at it.
 
     `rows` is work space for a layer, `planes` for all of them: sums along one axis, and along two.
@@ -48,12 +48,12 @@ def count_overruled(slab, room, counts):
     """
     n0, n1, n2 = slab.shape
     planes, majority, again, rows = room[:n0], room[n0 : 2 * n0], room[2 * n0 : 3 * n0], room[3 * n0]
-    votes(slab, rows, planes, majority)
+    count_votes(slab, rows, planes, majority)
     flat = majority.reshape(-1)
     for t in range(len(flat)):
         flat[t] = flat[t] > VOTERS // 2
-    votes(majority, rows, planes, again)
-    begin, end = (EDGE, n0 - EDGE) if n0 > 2 * EDGE else (0, n0)
+    count_votes(majority, rows, planes, again)
+    begin, end = (OVERLAP_LAYERS, n0 - OVERLAP_LAYERS) if n0 > 2 * OVERLAP_LAYERS else (0, n0)
     taken = added = surface = 0
     for i in range(begin, end):
         for j in range(n1):  # row by row: vector code

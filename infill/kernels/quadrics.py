@@ -23,7 +23,7 @@ def squared_length(a, b):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def shape_of(a, b, c):
+def normal_and_shape(a, b, c):
     """Return the normal of a triangle, twice its area long, and its shape: 1 for equal sides, 0 for a line."""
     ux, uy, uz = b[0] - a[0], b[1] - a[1], b[2] - a[2]
     vx, vy, vz = c[0] - a[0], c[1] - a[1], c[2] - a[2]
@@ -47,7 +47,7 @@ def add_planes(vertices, start, quadric):
     """
     for f in range(len(start) // 3):
         a, b, c = vertices[start[3 * f]], vertices[start[3 * f + 1]], vertices[start[3 * f + 2]]
-        nx, ny, nz, _ = shape_of(a, b, c)
+        nx, ny, nz, _ = normal_and_shape(a, b, c)
         twice = math.sqrt(nx * nx + ny * ny + nz * nz)
         if twice == 0:
             continue
@@ -76,7 +76,7 @@ def value_of(q, x, y, z):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def solved(s, mx, my, mz, rx, ry, rz):
+def solve_quadric(s, mx, my, mz, rx, ry, rz):
     """Solve (A + pull) p = r, with A the matrix of a quadric; return the solution, and True if there is one.
 
     With r = pull m - b the solution is the minimum of the quadric, drawn a little towards m: on a plane or along a
@@ -106,7 +106,7 @@ def best_place(u, v, p, q, s, place):
     for k in range(11):
         s[k] = p[k] + q[k]
     mx, my, mz = (u[0] + v[0]) / 2, (u[1] + v[1]) / 2, (u[2] + v[2]) / 2
-    x, y, z, is_solved = solved(s, mx, my, mz, -s[6], -s[7], -s[8])
+    x, y, z, is_solved = solve_quadric(s, mx, my, mz, -s[6], -s[7], -s[8])
     if is_solved and (x - mx) ** 2 + (y - my) ** 2 + (z - mz) ** 2 <= squared_length(u, v):
         place[0], place[1], place[2] = x, y, z
         return value_of(s, x, y, z)

@@ -12,7 +12,7 @@ from infill.kernels.sparse import B0, B1, B2, SOLID_BRICK
 
 
 @njit(nogil=True, cache=True)
-def follow(slots, values, shape, start, direction, distance, size, level, out):
+def sample_rays(slots, values, shape, start, direction, distance, size, level, out):
     """Set out[ray, place] to 1 where `values` of the bricks are above a level, else to -1; beyond the grid is void."""
     n0, n1, n2 = shape
     for ray in range(len(start)):

@@ -40,10 +40,10 @@ from infill.kernels.sparse import (
     WIDE_J,
     at_edge,
     bit,
-    emit,
-    moving,
+    copy_surroundings,
+    movable_rows,
     repeat_edges,
-    surround,
+    update_faces,
 )
 
 SUMS = 3  # w, w r, w r²
@@ -77,13 +77,13 @@ def step(
     for s in range(thread, count, threads):
         edge = at_edge(where[s], shape)
         # What was noted two steps ago, and is about to be replaced, is what is known of the field before the last step.
-        changing = ALL if edge else moving(s, rows, next_rows, beside[s])
+        changing = ALL if edge else movable_rows(s, rows, next_rows, beside[s])
         next_rows[s] = rows[s]
         if changing == NONE:
             next_flat[s] = flat[s]
             continue
         brick, old = phi[s], before[s]
-        surround(brick, faces, flat, beside[s], wide)
+        copy_surroundings(brick, faces, flat, beside[s], wide)
         for i in range(B0):
             for j in range(B1):
                 if not changing & bit(i * B1 + j):
@@ -99,7 +99,7 @@ def step(
                     old[at + k] = c
         if edge:
             repeat_edges(brick, where[s], shape)
-        emit(brick, next_faces[s], next_flat[s], next_rows[s], changing)
+        update_faces(brick, next_faces[s], next_flat[s], next_rows[s], changing)
 
 
 @njit(nogil=True, cache=True)
@@ -185,7 +185,7 @@ def blur(sums, slots, where, out, thread, threads):
 
 
 @njit(inline="always", cache=True)
-def between(cell, size):
+def coarse_cell_before(cell, size):
     """Return the first coarse cell around a cell, counted from one before the brick, and the share of the next one."""
     place = np.float32((cell + 0.5) / size + 0.5)
     cell_before = int(place)
@@ -194,7 +194,7 @@ def between(cell, size):
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def blend(low, high, sums, slots, where, shape, signed, unsigned, tiny, thread, threads):
-    """Move `low` towards `high` as far as the gate permits: see `infill.phasefield.refining.gate`."""
+    """Move `low` towards `high` as far as the gate permits: see `infill.phasefield.refining.blend_by_gate`."""
     _, _, n0, n1, n2 = sums.shape
     size = B0 // n0
     block = np.empty((SUMS, n0 + 2, n1 + 2, n2 + 2), dtype=np.float32)
@@ -203,19 +203,19 @@ def blend(low, high, sums, slots, where, shape, signed, unsigned, tiny, thread, 
     mean = np.empty((SUMS, B2), dtype=np.float32)
     ends, parts = np.empty(B2, dtype=np.int64), np.empty(B2, dtype=np.float32)
     for k in range(B2):
-        ends[k], parts[k] = between(k, size)
+        ends[k], parts[k] = coarse_cell_before(k, size)
     bias, spread = signed**4, unsigned**8
     for s in range(thread, len(low), threads):
         fetch(sums, slots, where[s], 1, block)
         low_brick, high_brick = low[s], high[s]
         for i in range(B0):
-            at, part = between(i, size)
+            at, part = coarse_cell_before(i, size)
             for m in range(SUMS):
                 for j in range(n1 + 2):
                     for k in range(n2 + 2):
                         line[m, j, k] = block[m, at, j, k] + part * (block[m, at + 1, j, k] - block[m, at, j, k])
             for j in range(B1):
-                at, part = between(j, size)
+                at, part = coarse_cell_before(j, size)
                 for m in range(SUMS):
                     for k in range(n2 + 2):
                         row[m, k] = line[m, at, k] + part * (line[m, at + 1, k] - line[m, at, k])
@@ -233,7 +233,7 @@ def blend(low, high, sums, slots, where, shape, signed, unsigned, tiny, thread, 
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def hold(values, data, bound, thread, threads):
+def clamp_to_data(values, data, bound, thread, threads):
     """Keep `values` within a bound of the data, both distances; where those are cut off, on one side only."""
     bound = np.float32(bound)
     for s in range(thread, len(values), threads):

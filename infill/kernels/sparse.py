@@ -27,7 +27,7 @@ How one brick is stepped:
 
 A row of one value (+1 or -1, in the data as well) among rows of that value is a fixed point to the last bit: it is
 skipped, and so is a brick where that holds for all rows. Faces of one value are not copied, as they are never read.
-A brick that is not kept starts to be kept when a flat face next to it has a different value (`wanted`).
+A brick that is not kept starts to be kept when a flat face next to it has a different value (`find_missing_bricks`).
 
     rows        (n, 6) uint64: the rows that are +1 throughout, those that are -1 throughout; of the low face along k,
                 a cell of each row, those that are +1 and those that are -1; the same of the high face. Bit i 8 + j.
@@ -47,8 +47,8 @@ from numba.core import cgutils
 from numba.extending import intrinsic
 
 from infill.kernels.compiling import njit
-from infill.kernels.dense import advanced
-from infill.kernels.lanes import copy, equal, lanes_of, load_lanes, same_lanes, spread, store_lanes
+from infill.kernels.dense import advance_cell
+from infill.kernels.lanes import copy, lanes_of, load_lanes, mask_equal, same_lanes, spread, store_lanes
 
 BRICK = (8, 8, 16)  # cells; the last axis is contiguous
 B0, B1, B2 = BRICK
@@ -84,12 +84,12 @@ def bit(row):
 
 @njit(cache=True)
 def note_rows(brick, moving, rows):
-    """Find the rows in `moving` that are +1 or -1 throughout."""
+    """Find the rows in `movable_rows` that are +1 or -1 throughout."""
     plus, minus = rows[0] & ~moving, rows[1] & ~moving
     for row in range(ROWS):
         if moving & bit(row):
             value = brick[row * B2]
-            if abs(value) == 1 and equal(brick, row * B2, value) == FULL_ROW:
+            if abs(value) == 1 and mask_equal(brick, row * B2, value) == FULL_ROW:
                 if value > 0:
                     plus |= bit(row)
                 else:
@@ -106,8 +106,8 @@ def value_of(plus, minus, part):
 
 
 @njit(cache=True)
-def emit(brick, faces, flat, rows, moving):
-    """Update the notes on the rows in `moving` and on faces that are +1 or -1 throughout; copy the other faces."""
+def update_faces(brick, faces, flat, rows, moving):
+    """Update the notes on the rows in `movable_rows` and on faces of +1 or -1 throughout; copy the other faces."""
     note_rows(brick, moving, rows)
     for up in range(2):
         flat[up] = value_of(rows[0], rows[1], LAST_I if up else FIRST_I)
@@ -129,14 +129,14 @@ def emit(brick, faces, flat, rows, moving):
             plus, minus = NONE, NONE
             for part in range(FACE_K // B2):
                 shift = np.uint64(part * B2)
-                plus |= np.uint64(equal(faces, to + part * B2, np.float32(1))) << shift
-                minus |= np.uint64(equal(faces, to + part * B2, np.float32(-1))) << shift
+                plus |= np.uint64(mask_equal(faces, to + part * B2, np.float32(1))) << shift
+                minus |= np.uint64(mask_equal(faces, to + part * B2, np.float32(-1))) << shift
             rows[2 + 2 * up], rows[3 + 2 * up] = plus, minus
         flat[4 + up] = value_of(rows[2 + 2 * up], rows[3 + 2 * up], ALL)
 
 
 @njit(nogil=True, cache=True)
-def emit_all(bricks, data, copied, faces, flat, rows, next_rows, still, count, thread, threads):
+def update_all_faces(bricks, data, copied, faces, flat, rows, next_rows, still, count, thread, threads):
     """Copy the faces of all bricks, and note which of their rows, and of the rows of their data, have one value.
 
     If `copied`, their values become those of their data.
@@ -146,7 +146,7 @@ def emit_all(bricks, data, copied, faces, flat, rows, next_rows, still, count, t
             brick, datum = bricks[s], data[s]
             for t in range(CELLS):
                 brick[t] = datum[t]
-        emit(bricks[s], faces[s], flat[s], rows[s], ALL)
+        update_faces(bricks[s], faces[s], flat[s], rows[s], ALL)
         next_rows[s] = rows[s]
         note_rows(data[s], ALL, still[s])
 
@@ -175,7 +175,7 @@ def find_neighbours(slots, where, beside, begin, count):
 
 
 @njit(cache=True)
-def wanted(slots, where, beside, flat, count, new_places):
+def find_missing_bricks(slots, where, beside, flat, count, new_places):
     """Set `new_places` to the places next to faces whose value differs from theirs, each once; return their number."""
     place_count = 0
     for s in range(count):
@@ -196,7 +196,7 @@ def wanted(slots, where, beside, flat, count, new_places):
 
 
 @njit(nogil=True, cache=True)
-def fill(phi, data, flat, next_flat, rows, next_rows, still, values, first, count, thread, threads):
+def fill_bricks(phi, data, flat, next_flat, rows, next_rows, still, values, first, count, thread, threads):
     """Set the bricks from `first` on to one value each; flat faces are not written, since they are never read."""
     for s in range(first + thread, count, threads):
         value = values[s - first]
@@ -221,7 +221,7 @@ def rows_beside(neighbour, rows, column):
 
 
 @njit(cache=True)
-def moving(s, rows, still, beside):
+def movable_rows(s, rows, still, beside):
     """Return the rows of a brick that may change: all except still rows of one value among cells of that value."""
     movable = ALL
     for sign in range(2):
@@ -240,8 +240,8 @@ def moving(s, rows, still, beside):
 
 @intrinsic
 def advance_row(context, own, data, at, wide, c, numbers):  # noqa: ARG001
-    """Set sixteen cells of a brick to the result of `advanced`; cell `c` of `wide` is the first of them."""
-    formula = lanes_of(advanced)
+    """Set sixteen cells of a brick to the result of `advance_cell`; cell `c` of `wide` is the first of them."""
+    formula = lanes_of(advance_cell)
 
     def code(context, builder, signature, arguments):  # noqa: ANN202
         own_kind, data_kind, _, wide_kind, *_ = signature.args
@@ -284,13 +284,13 @@ def step(
     for chunk in range(thread * CHUNK, count, threads * CHUNK):
         for s in range(chunk, min(chunk + CHUNK, count)):
             edge = at_edge(where[s], shape)
-            changing = ALL if edge else moving(s, rows, still, beside[s])
+            changing = ALL if edge else movable_rows(s, rows, still, beside[s])
             next_rows[s] = rows[s]
             if changing == NONE:
                 next_flat[s] = flat[s]
                 continue
             brick, data = phi[s], data_bricks[s]
-            surround(brick, faces, flat, beside[s], wide)
+            copy_surroundings(brick, faces, flat, beside[s], wide)
             if domain is not None:  # decided at compile time
                 step_masked(brick, data, wide, domain, where[s], numbers)
                 changing = ALL
@@ -303,17 +303,17 @@ def step(
                         advance_row(brick, data, at, wide, c, numbers)
             if edge:
                 repeat_edges(brick, where[s], shape)
-            emit(brick, next_faces[s], next_flat[s], next_rows[s], changing)
+            update_faces(brick, next_faces[s], next_flat[s], next_rows[s], changing)
 
 
 @njit(cache=True)
-def surround(brick, faces, flat, beside, wide):
+def copy_surroundings(brick, faces, flat, beside, wide):
     """Copy a brick, and the faces of its neighbours around it, to `wide`."""
     for i in range(B0):
         for j in range(B1):
             copy(wide, ORIGIN + i * WIDE_I + j * WIDE_J, brick, (i * B1 + j) * B2)
     for side in range(6):
-        neighbour = seen(beside[side], flat, side)
+        neighbour = brick_or_value(beside[side], flat, side)
         up = side % 2
         if side < 2:
             put, step, line_count = ORIGIN - WIDE_I + (B0 + 1) * WIDE_I * up, WIDE_J, B1
@@ -331,7 +331,7 @@ def surround(brick, faces, flat, beside, wide):
             else:
                 for i in range(B0):
                     for j in range(B1):
-                        wide[put + i * WIDE_I + j * WIDE_J] = beyond(neighbour, brick[edge + (i * B1 + j) * B2])
+                        wide[put + i * WIDE_I + j * WIDE_J] = value_beyond(neighbour, brick[edge + (i * B1 + j) * B2])
             continue
         for n in range(line_count):
             if neighbour >= 0:
@@ -339,11 +339,11 @@ def surround(brick, faces, flat, beside, wide):
             elif neighbour == OUTSIDE:
                 copy(wide, put + n * step, brick, edge + n * next_edge)
             else:
-                spread(wide, put + n * step, beyond(neighbour, np.float32(0)))
+                spread(wide, put + n * step, value_beyond(neighbour, np.float32(0)))
 
 
 @njit(inline="always", cache=True)
-def seen(neighbour, flat, side):
+def brick_or_value(neighbour, flat, side):
     """Return the brick next to a face, or the slot that replaces it if its own face there has one value."""
     if neighbour < 0 or flat[neighbour, side ^ 1] == 0:
         return neighbour
@@ -351,7 +351,7 @@ def seen(neighbour, flat, side):
 
 
 @njit(inline="always", cache=True)
-def beyond(neighbour, face_value):
+def value_beyond(neighbour, face_value):
     """Return the value next to a face without a kept brick; beyond the grid, it is the face's own."""
     if neighbour == OUTSIDE:
         return face_value
@@ -369,7 +369,7 @@ def step_masked(brick, data, wide, domain, where, numbers):
             continue
         at = ORIGIN + i * WIDE_I + j * WIDE_J + k
         c = wide[at]
-        brick[t] = advanced(
+        brick[t] = advance_cell(
             c,
             wide[at - WIDE_I] if domain[max(x - 1, 0), y, z] else c,
             wide[at + WIDE_I] if domain[min(x + 1, n0 - 1), y, z] else c,

@@ -7,15 +7,15 @@ corner they hold, and the edges that begin in their cells.
     c ─── d      a, b, c, d: rows (i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1), seen from their ends
     │     │      cube k: their bits k and k + 1; its corner (x, y, z) has number x + 2 y + 4 z
     a ─── b      crossed edges: a ^ b along i, a ^ c along j, a ^ (a shifted by one) along k
-                 crossed cubes: those whose eight bits are not all equal (`crossed`)
+                 crossed cubes: those whose eight bits are not all equal (`crossed_cubes`)
 
-All sixteen are decided by a few operations; loops then visit only the set bits, from the lowest up (`lowest`).
+All sixteen are decided by a few operations; loops then visit only the set bits, from the lowest up (`lowest_bit`).
 
 Vertices are numbered without a table of edges: those of a brick begin at `offsets`, those of a row and an axis at
 `starts` after that, and within the row an edge is preceded by as many vertices as there are bits set below its own in
 `masks`. So any cube finds the vertices on its twelve edges, including those of its neighbours, without synchronisation.
 
-There are two passes: `count` counts the output of every brick, cumulative sums of that give its place, and `write`
+There are two passes: `count_output` counts the output of every brick, cumulative sums give its place, `write_surface`
 writes. A cube's eight signs choose its triangles from a table of 256 (`infill.isosurfaces.sparse_marching.cube_table`);
 where signs do not decide (`UNDECIDED`: a face with a saddle, or opposite corners), its corner values are returned.
 """
@@ -28,7 +28,7 @@ from __future__ import annotations
 import numpy as np
 
 from infill.kernels.compiling import njit
-from infill.kernels.lanes import above, lowest, ones
+from infill.kernels.lanes import count_ones, lowest_bit, mask_above
 from infill.kernels.sparse import B0, B1, B2, OUTSIDE, SOLID_BRICK
 
 ROWS = B0 * B1
@@ -44,12 +44,12 @@ def bits_above(values, where, level, shape, bits, thread, threads):
     for s in range(thread, len(values), threads):
         brick = values[s]
         for row in range(ROWS):
-            row_bits = above(brick, row * B2, level)
-            bits[s, row] = row_bits & within(where[s, 0], where[s, 1], where[s, 2], row, shape)
+            row_bits = mask_above(brick, row * B2, level)
+            bits[s, row] = row_bits & grid_cells_of_row(where[s, 0], where[s, 1], where[s, 2], row, shape)
 
 
 @njit(inline="always", cache=True)
-def within(p, q, r, row, shape):
+def grid_cells_of_row(p, q, r, row, shape):
     """Return the cells of a row of a brick that lie on the grid, as bits."""
     i, j = p * B0 + row // B1, q * B1 + row % B1
     if i < 1 or j < 1 or i > shape[0] or j > shape[1]:
@@ -89,11 +89,11 @@ def rows_around(slots, p, q, r, bits, shape, rows):
                 if slot >= 0:
                     row_bits = np.uint32(bits[slot, row])
                 elif slot == SOLID_BRICK:
-                    row_bits = np.uint32(within(a, b, r, row, shape))
+                    row_bits = np.uint32(grid_cells_of_row(a, b, r, row, shape))
                 if next_slot >= 0:
                     row_bits |= (np.uint32(bits[next_slot, row]) & np.uint32(1)) << np.uint32(B2)
                 elif next_slot == SOLID_BRICK:
-                    row_bits |= (np.uint32(within(a, b, r + 1, row, shape)) & np.uint32(1)) << np.uint32(B2)
+                    row_bits |= (np.uint32(grid_cells_of_row(a, b, r + 1, row, shape)) & np.uint32(1)) << np.uint32(B2)
                 rows[x + B0 * up, y + B1 * right] = row_bits
                 any_set |= row_bits
                 all_set &= row_bits
@@ -101,7 +101,7 @@ def rows_around(slots, p, q, r, bits, shape, rows):
 
 
 @njit(inline="always", cache=True)
-def crossed(a, b, c, d):
+def crossed_cubes(a, b, c, d):
     """Return the cubes, of 16, with corners of both signs, from their four rows of 17 cells."""
     any_set, all_set = a | b | c | d, a & b & c & d
     one_bit = np.uint32(1)
@@ -121,7 +121,7 @@ def signs_of(a, b, c, d, k):
 
 
 @njit(nogil=True, cache=True)
-def differing(slots, places, bits, shape, differs, thread, threads):
+def mark_differing(slots, places, bits, shape, differs, thread, threads):
     """Mark the bricks in which, or between which and the next ones, any two cells differ."""
     rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
     for n in range(thread, len(places), threads):
@@ -129,7 +129,7 @@ def differing(slots, places, bits, shape, differs, thread, threads):
 
 
 @njit(nogil=True, cache=True)
-def count(slots, places, bits, shape, triangles, masks, starts, counts, thread, threads):
+def count_output(slots, places, bits, shape, triangles, masks, starts, counts, thread, threads):
     """Set the crossed edges of every row along i, j, k, the begin of its vertices, and each brick's output size."""
     rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
     for n in range(thread, len(places), threads):
@@ -144,10 +144,10 @@ def count(slots, places, bits, shape, triangles, masks, starts, counts, thread, 
                 masks[n, row, 2] = np.uint16(a ^ (a >> np.uint32(1)))
                 for axis in range(3):
                     starts[n, row, axis] = vertices
-                    vertices += ones(masks[n, row, axis])
-                remaining = np.int64(crossed(a, b, c, d))
+                    vertices += count_ones(masks[n, row, axis])
+                remaining = np.int64(crossed_cubes(a, b, c, d))
                 while remaining:
-                    triangle_count = triangles[signs_of(a, b, c, d, lowest(remaining))]
+                    triangle_count = triangles[signs_of(a, b, c, d, lowest_bit(remaining))]
                     remaining &= remaining - 1
                     if triangle_count == UNDECIDED:
                         undecided += 1
@@ -173,21 +173,23 @@ def values_around(slots, p, q, r, values, shape, numbers, around):
             if slot >= 0:
                 brick = values[slot]
                 for k in range(B2):
-                    line[k] = apart(brick[at + k] - level, clearance, tie)
+                    line[k] = keep_clear_of_zero(brick[at + k] - level, clearance, tie)
             else:
-                value = apart((np.float32(1) if slot == SOLID_BRICK else np.float32(-1)) - level, clearance, tie)
+                value = keep_clear_of_zero(
+                    (np.float32(1) if slot == SOLID_BRICK else np.float32(-1)) - level, clearance, tie
+                )
                 for k in range(B2):
                     line[k] = value
             value = np.float32(1) if next_slot == SOLID_BRICK else np.float32(-1)
-            line[B2] = apart((values[next_slot, at] if next_slot >= 0 else value) - level, clearance, tie)
+            line[B2] = keep_clear_of_zero((values[next_slot, at] if next_slot >= 0 else value) - level, clearance, tie)
             for k in range(max(low, 0)):
-                line[k] = apart(np.float32(-1) - level, clearance, tie)
+                line[k] = keep_clear_of_zero(np.float32(-1) - level, clearance, tie)
             for k in range(max(high + 1, 0), B2 + 1):
-                line[k] = apart(np.float32(-1) - level, clearance, tie)
+                line[k] = keep_clear_of_zero(np.float32(-1) - level, clearance, tie)
 
 
 @njit(inline="always", cache=True)
-def apart(value, clearance, tie):
+def keep_clear_of_zero(value, clearance, tie):
     """Return a value, moved away from 0 to the allowed distance."""
     above_it, below_it = max(value, clearance) * tie, min(value, -clearance)
     return above_it if value > 0 else below_it
@@ -228,11 +230,11 @@ def vertex_number(i, j, k, axis, begin, behind, crossing):
     """Return the number of the vertex on an edge that begins in a brick or in the first cells after it."""
     if k == B2:
         return behind[i, j, axis]
-    return begin[i, j, axis] + ones(crossing[i, j, axis] & ((1 << k) - 1))
+    return begin[i, j, axis] + count_ones(crossing[i, j, axis] & ((1 << k) - 1))
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def write(
+def write_surface(
     slots,
     places,
     index,
@@ -278,7 +280,7 @@ def write(
                     di, dj, dk = axis == 0, axis == 1, axis == 2
                     remaining = np.int64(masks[n, row, axis])
                     while remaining:
-                        k = lowest(remaining)
+                        k = lowest_bit(remaining)
                         remaining &= remaining - 1
                         value, next_value = np.float64(around[i, j, k]), np.float64(around[i + di, j + dj, k + dk])
                         vertices[v, 0] = p * B0 + i - 1
@@ -288,9 +290,9 @@ def write(
                         rate[v, axis] = 1 / (next_value - value)
                         v += 1
                 a, b, c, d = rows[i, j], rows[i + 1, j], rows[i, j + 1], rows[i + 1, j + 1]
-                remaining = np.int64(crossed(a, b, c, d))
+                remaining = np.int64(crossed_cubes(a, b, c, d))
                 while remaining:
-                    k = lowest(remaining)
+                    k = lowest_bit(remaining)
                     remaining &= remaining - 1
                     signs = signs_of(a, b, c, d, k)
                     if triangle_counts[signs] != UNDECIDED:
@@ -318,7 +320,7 @@ def write(
 
 
 @njit(nogil=True, cache=True)
-def place(vertices, rate, spacing, origin, thread, threads):
+def scale_to_mm(vertices, rate, spacing, origin, thread, threads):
     """Convert cells from the first cell's centre to mm."""
     size = (len(vertices) + threads - 1) // threads  # each thread has its own stretch of memory
     for v in range(thread * size, min(len(vertices), (thread + 1) * size)):
@@ -328,11 +330,11 @@ def place(vertices, rate, spacing, origin, thread, threads):
 
 
 @njit(nogil=True, cache=True)
-def volumes(vertices, rate, faces, middle, volume, change, thread, threads):
+def face_volumes(vertices, rate, faces, middle, volume, change, thread, threads):
     """Set for every face the volume between it and the central point, and its change when the level rises by one."""
     size = (len(faces) + threads - 1) // threads
     for f in range(thread * size, min(len(faces), (thread + 1) * size)):
-        six, more = sixfold(vertices, rate, faces[f], middle)
+        six, more = sixfold_volume(vertices, rate, faces[f], middle)
         volume[f] = six / 6
         change[f] = more / 6
 
@@ -346,14 +348,14 @@ def sum_volumes(vertices, rate, faces, middle, sums, thread, threads):
     for block in range(thread, len(sums), threads):
         volume, slope = 0.0, 0.0
         for f in range(block * BLOCK, min(len(faces), (block + 1) * BLOCK)):
-            face_volume, change = sixfold(vertices, rate, faces[f], middle)
+            face_volume, change = sixfold_volume(vertices, rate, faces[f], middle)
             volume += face_volume
             slope += change
         sums[block, 0], sums[block, 1] = volume, slope
 
 
 @njit(inline="always", cache=True)
-def sixfold(vertices, rate, face, middle):
+def sixfold_volume(vertices, rate, face, middle):
     """Return six times the volume between a face and the central point, and its change when the level rises by one.
 
     The change is that of all faces together: in a closed surface, the contributions of the three products of two
@@ -389,13 +391,13 @@ def measure(
         for i in range(B0):
             for j in range(B1):
                 a, b, c, d = rows[i, j], rows[i + 1, j], rows[i, j + 1], rows[i + 1, j + 1]
-                remaining = np.int64(crossed(a, b, c, d))
+                remaining = np.int64(crossed_cubes(a, b, c, d))
                 if remaining and not seen:
                     values_around(slots, p, q, r, values, shape, numbers, around)
                     seen = True
                 x, y = p * B0 + i - 0.5 - middle[0], q * B1 + j - 0.5 - middle[1]
                 while remaining:
-                    k = lowest(remaining)
+                    k = lowest_bit(remaining)
                     remaining &= remaining - 1
                     signs = signs_of(a, b, c, d, k)
                     if triangle_counts[signs] == UNDECIDED:

@@ -9,14 +9,14 @@ import math
 
 import numpy as np
 
-from infill.kernels.cells import local
+from infill.kernels.cells import interpolate_ratio
 from infill.kernels.compiling import njit
 
-LEAST_SLOPE = 0.05  # of a distance: on the ridge between two walls it has none
+MIN_SLOPE = 0.05  # of a distance: on the ridge between two walls it has none
 
 
 @njit(nogil=True, cache=True, error_model="numpy", inline="always")
-def weights(at, value, slope):
+def spline_weights(at, value, slope):
     """Write the weights of the four nodes around a place between the second and third, and their slopes."""
     value[0] = (1 - at) ** 3 / 6
     value[1] = (3 * at**3 - 6 * at**2 + 4) / 6
@@ -59,10 +59,10 @@ def from_stretched_period(
     filled = 0.0
     for i in range(thread, nx, threads):
         node_i = min(int(i / step), spline.shape[0] - 4)
-        weights(i / step - node_i, xs, xd)
+        spline_weights(i / step - node_i, xs, xd)
         for j in range(ny):
             second = min(int(j / step), spline.shape[1] - 4)
-            weights(j / step - second, ys, yd)
+            spline_weights(j / step - second, ys, yd)
             has_row = False
             for k in range(nz):
                 deep = depth[i, j, k]
@@ -82,7 +82,7 @@ def from_stretched_period(
                                     rows[c, 3 + d] += xd[a] * ys[b] * node
                                     rows[c, 6 + d] += xs[a] * yd[b] * node
                 third = min(int(k / step), inner - 4)
-                weights(k / step - third, zs, zd)
+                spline_weights(k / step - third, zs, zd)
                 for d in range(9):
                     flat[d] = (
                         zs[0] * rows[third, d]
@@ -123,14 +123,14 @@ def from_stretched_period(
                 q = turn[0, 1] * gx + turn[1, 1] * gy + turn[2, 1] * gz
                 r = turn[0, 2] * gx + turn[1, 2] * gy + turn[2, 2] * gz
                 long = math.sqrt(p * p + q * q + r * r)
-                p, q, r = p / max(long, LEAST_SLOPE), q / max(long, LEAST_SLOPE), r / max(long, LEAST_SLOPE)
+                p, q, r = p / max(long, MIN_SLOPE), q / max(long, MIN_SLOPE), r / max(long, MIN_SLOPE)
                 across = math.sqrt(
                     (flat[3] * p + flat[4] * q + flat[5] * r) ** 2
                     + (flat[6] * p + flat[7] * q + flat[8] * r) ** 2
                     + (up[0] * p + up[1] * q + up[2] * r) ** 2
                 )
-                distance = sign * value * period / max(across, LEAST_SLOPE)
-                distance = min(distance - half * local(ratio, step, i, j, k), deep)
+                distance = sign * value * period / max(across, MIN_SLOPE)
+                distance = min(distance - half * interpolate_ratio(ratio, step, i, j, k), deep)
                 out[i, j, k] = distance
                 filled += min(1.0, max(0.0, 0.5 + distance))
     return filled

@@ -9,14 +9,14 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from functools import cache, partial
 from typing import Any, TypeVar
 
-from infill.checks import whole
+from infill.checks import check_whole_number
 from infill.machine import usable_cores
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 
 VARIABLE = "NUMBA_NUM_THREADS"
-MOST = 256  # threads: more cost more than they gain
+MAX_THREADS = 256  # threads: more cost more than they gain
 
 
 def thread_count(requested: int | None = None) -> int:
@@ -26,9 +26,9 @@ def thread_count(requested: int | None = None) -> int:
     3
     """
     if requested is not None:
-        return min(whole("threads", requested, 1), MOST)
+        return min(check_whole_number("threads", requested, 1), MAX_THREADS)
     setting = os.environ.get(VARIABLE, "")
-    return min(int(setting), MOST) if setting.isdecimal() and int(setting) > 0 else usable_cores()
+    return min(int(setting), MAX_THREADS) if setting.isdecimal() and int(setting) > 0 else usable_cores()
 
 
 def in_threads(kernel: Callable[..., Any], *arguments: Any, threads: int) -> list[Any]:  # noqa: ANN401 - hands on
@@ -37,16 +37,16 @@ def in_threads(kernel: Callable[..., Any], *arguments: Any, threads: int) -> lis
     With n threads, each call of the kernel handles every n-th piece of the work. The kernel must release the GIL, and
     no two calls may write to the same place.
     """
-    return together(*(partial(kernel, *arguments, thread, threads) for thread in range(threads)), threads=threads)
+    return run_together(*(partial(kernel, *arguments, thread, threads) for thread in range(threads)), threads=threads)
 
 
-def together(*works: Callable[[], Any], threads: int) -> list[Any]:
+def run_together(*works: Callable[[], Any], threads: int) -> list[Any]:
     """Run several tasks at once, on this thread and `threads` - 1 others, and return their results in order.
 
     A task may share out parts of its own: a part that has not begun yet is done by the thread that waits for it. So
     there are never more threads than allowed, however deeply tasks are nested, and all waiting threads make progress.
 
-    >>> together(lambda: 1, lambda: 2, threads=2)
+    >>> run_together(lambda: 1, lambda: 2, threads=2)
     [1, 2]
     """
     if threads == 1 or len(works) < 2:

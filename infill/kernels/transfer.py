@@ -8,7 +8,7 @@ one cell before the grid, so that there is void (or a repetition of the edge) fo
 
 `fill_states` and `fill_grey_states` classify every brick without copying it: the least and largest value of each
 row of bricks are collected for all k at once, which is vector code, and then cut into sixteens. Only mixed bricks,
-and those next to one of the other phase, are gathered; `spread` copies back, a row of bricks at a time.
+and those next to one of the other phase, are gathered; `scatter` copies back, a row of bricks at a time.
 """
 # mypy: disable-error-code="no-untyped-def, call-arg"
 # ruff: noqa: ANN001, ANN201
@@ -19,7 +19,7 @@ from __future__ import annotations
 import numpy as np
 
 from infill.kernels.compiling import njit
-from infill.kernels.lanes import above, copy, equal, ones
+from infill.kernels.lanes import copy, count_ones, mask_above, mask_equal
 from infill.kernels.lanes import spread as spread_out
 from infill.kernels.sparse import B0, B1, B2, CELLS, FULL_ROW, MIXED, OUTER, SOLID_BRICK
 
@@ -32,7 +32,7 @@ def count_solid(cells, thread, threads):
     solid_count, limit = 0, np.int8(0)
     vector_end = begin + (end - begin) // B2 * B2
     for t in range(begin, vector_end, B2):
-        solid_count += ones(above(cells, t, limit))
+        solid_count += count_ones(mask_above(cells, t, limit))
     for t in range(vector_end, end):
         solid_count += cells[t] > 0
     return solid_count
@@ -126,7 +126,7 @@ def gather(field, where, bricks, count, level, thread, threads):
 
 
 @njit(nogil=True, cache=True)
-def spread(slots, bricks, field, thread, threads):
+def scatter(slots, bricks, field, thread, threads):
     """Write all bricks, kept or not, into the entire field."""
     m0, m1, m2 = slots.shape
     n0, n1, n2 = field.shape
@@ -151,7 +151,7 @@ def spread(slots, bricks, field, thread, threads):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def straighten(bricks, clip, scale, out, thread, threads):
+def artanh_of_values(bricks, clip, scale, out, thread, threads):
     """Set out to artanh of the values, clipped to +-clip, over scale, to 1e-6: as vector code, unlike a log.
 
     artanh v = ln 2 / 2 log2 x, x = (1 + v) / (1 - v). With x = 2^n m and m in [1/sqrt 2, sqrt 2), log2 x is n plus
@@ -167,7 +167,7 @@ def straighten(bricks, clip, scale, out, thread, threads):
         count = 0  # of rows that are not +1 or -1 throughout: often a half
         for row in range(CELLS // B2):
             row_value = brick[row * B2]
-            if abs(row_value) == 1 and equal(brick, row * B2, row_value) == FULL_ROW:
+            if abs(row_value) == 1 and mask_equal(brick, row * B2, row_value) == FULL_ROW:
                 spread_out(line, row * B2, row_value)
             else:
                 copy(value, count * B2, brick, row * B2)

@@ -9,11 +9,11 @@ from typing import Protocol, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.interior.interior import BAND, Space
-from infill.interior.layer_stack import Layers
+from infill.interior.interior import BAND, Interior
+from infill.interior.layer_stack import LayerStack
 from infill.isosurfaces.components import shell_names
-from infill.meshes.shells import shell_volumes, with_faces
-from infill.meshes.winding import winding
+from infill.meshes.shells import select_faces, shell_volumes
+from infill.meshes.winding import winding_numbers
 
 DEEP = np.float32(-1e6)  # cells: where no void is
 Field = NDArray[np.float32]
@@ -22,15 +22,15 @@ Field = NDArray[np.float32]
 class Anchored(Protocol):
     """The voids of a pattern that begins at a point."""
 
-    def count(self, space: Space, *, cell: float, width: float) -> int:
+    def count(self, space: Interior, *, cell: float, width: float) -> int:
         """Count the fields that the voids need."""
         ...
 
-    def sharpest(self, space: Space, *, cell: float, width: float) -> float:
+    def sharpest(self, space: Interior, *, cell: float, width: float) -> float:
         """Return the angle of the sharpest corners of the voids, degrees; few are sharper."""
         ...
 
-    def into(self, out: Field, space: Space, which: int, *, cell: float, width: float) -> float:
+    def into(self, out: Field, space: Interior, which: int, *, cell: float, width: float) -> float:
         """Write one field; return how many cells it fills."""
         ...
 
@@ -40,7 +40,7 @@ class Anchored(Protocol):
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Body:
+class PartBody:
     """A component of a part: where it is, and which cells belong to it.
 
     Parameters
@@ -68,21 +68,21 @@ class Bodies:
         The bodies of the latest space, with their voids.
     """
 
-    known: dict[int, tuple[Space, list[tuple[Body, Space, Anchored]]]] = field(default_factory=dict)
+    known: dict[int, tuple[Interior, list[tuple[PartBody, Interior, Anchored]]]] = field(default_factory=dict)
 
-    def count(self, voids: Anchored, space: Space, *, cell: float, width: float) -> int:
+    def count(self, voids: Anchored, space: Interior, *, cell: float, width: float) -> int:
         """Count the fields of the body that needs the most."""
         drawn = self._draw_bodies(voids, space)
         return max((anchored.count(box_space, cell=cell, width=width) for _, box_space, anchored in drawn), default=0)
 
-    def sharpest(self, voids: Anchored, space: Space, *, cell: float, width: float) -> float:
+    def sharpest(self, voids: Anchored, space: Interior, *, cell: float, width: float) -> float:
         """Return the angle of the sharpest corners in any body, degrees; few are sharper, and it is 90 at most."""
         drawn = self._draw_bodies(voids, space)
         return min(
             (anchored.sharpest(box_space, cell=cell, width=width) for _, box_space, anchored in drawn), default=90.0
         )
 
-    def into(self, voids: Anchored, out: Field, space: Space, which: int, *, cell: float, width: float) -> float:
+    def into(self, voids: Anchored, out: Field, space: Interior, which: int, *, cell: float, width: float) -> float:
         """Write a field of all bodies; return how many cells it fills."""
         np.minimum(space.depth, np.float32(-BAND), out=out)
         filled = 0.0
@@ -93,15 +93,15 @@ class Bodies:
                 np.copyto(out[body.box], in_box, where=body.cells)
         return filled
 
-    def _draw_bodies(self, voids: Anchored, space: Space) -> list[tuple[Body, Space, Anchored]]:
+    def _draw_bodies(self, voids: Anchored, space: Interior) -> list[tuple[PartBody, Interior, Anchored]]:
         if id(space) not in self.known:
             self.known.clear()
             drawn = []
-            for body in bodies_in(space):
+            for body in find_bodies(space):
                 corner = np.array([side.start for side in body.box])
                 box_space = replace(
                     space,
-                    layers=Layers.of(np.where(body.cells, space.depth[body.box], DEEP)),
+                    layers=LayerStack.of(np.where(body.cells, space.depth[body.box], DEEP)),
                     origin=space.origin + space.size * corner,
                     walled=None,
                     box_of=(space, corner),
@@ -111,7 +111,7 @@ class Bodies:
         return self.known[id(space)][1]
 
 
-def bodies_in(space: Space) -> list[Body]:
+def find_bodies(space: Interior) -> list[PartBody]:
     """Find the components of a part that have room inside their walls, by falling volume.
 
     A cell belongs to the component that encloses it, and a cell of the walls to the nearest component.
@@ -128,13 +128,13 @@ def bodies_in(space: Space) -> list[Body]:
         wider = grey_dilation(body_number, size=(3, 3, 3))
         np.copyto(body_number, wider, where=body_number == 0)
     return [
-        Body(middle=middles[number], box=box, cells=body_number[box] == number + 1)
+        PartBody(middle=middles[number], box=box, cells=body_number[box] == number + 1)
         for number, box in enumerate(find_objects(body_number))
         if box is not None
     ]
 
 
-def _find_owners(space: Space, points: NDArray[np.float64]) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+def _find_owners(space: Interior, points: NDArray[np.float64]) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
     """Find the component of a part that encloses each point (N, 3): its number (N,), and all middles, (M, 3) mm."""
     part = space.part
     names, count = shell_names(part)
@@ -142,7 +142,7 @@ def _find_owners(space: Space, points: NDArray[np.float64]) -> tuple[NDArray[np.
     owner, middles = np.zeros(len(points), dtype=np.intp), []
     # The smaller ones last: they may lie in a cavity of a larger one.
     for number, outer in enumerate(sorted(np.flatnonzero(volume > 0).tolist(), key=lambda name: -volume[name])):
-        body = with_faces(part, shell == outer)
-        owner[winding(points, body) > 0] = number
+        body = select_faces(part, shell == outer)
+        owner[winding_numbers(points, body) > 0] = number
         middles.append(np.asarray(body.bounds, dtype=np.float64).mean(axis=0))
     return owner, np.array(middles)

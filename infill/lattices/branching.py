@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.interior.interior import Space
+from infill.interior.interior import Interior
 from infill.lattices.forest import Floats, Forest
 from patterns.lightning import Lightning
 
@@ -23,7 +23,7 @@ SHARE = 1.0  # width of branches over the cell, for a density of 1: a guess
 
 
 @dataclass(frozen=True, kw_only=True)
-class Branches:
+class BranchLines:
     """The branches of a part.
 
     Parameters
@@ -44,7 +44,7 @@ class Branches:
         """False, as branches have ends."""
         return False
 
-    def sides(self, space: Space, cell: float) -> Iterator[NDArray[np.bool_]]:  # noqa: ARG002 - of the protocol
+    def sides(self, space: Interior, cell: float) -> Iterator[NDArray[np.bool_]]:  # noqa: ARG002 - of the protocol
         """See `LineLayers`: none."""
         return iter(())
 
@@ -53,11 +53,11 @@ class Branches:
         """Distance by which tips draw back in a layer, in cells, and its uncertainty."""
         return math.tan(math.radians(self.pattern.overhang)) + SLACK
 
-    def sharpest(self, space: Space, cell: float) -> float:  # noqa: ARG002 - of the protocol
+    def sharpest(self, space: Interior, cell: float) -> float:  # noqa: ARG002 - of the protocol
         """See `Voids`."""
         return 90.0
 
-    def about(self, middle: Floats) -> Branches:
+    def about(self, middle: Floats) -> BranchLines:
         """See `Anchored`."""
         return replace(self, anchor=middle + self.anchor)
 
@@ -65,7 +65,7 @@ class Branches:
         """See `Voids`: a guess that does not depend on the part."""
         return SHARE * density
 
-    def lines(self, space: Space, cell: float) -> list[Floats]:
+    def lines(self, space: Interior, cell: float) -> list[Floats]:
         """See `LineLayers`."""
         step = math.tan(math.radians(self.pattern.overhang))
         walls = _Walls(depth=space.below_walls, step=step, deeper=DEEPER + space.through)
@@ -97,7 +97,7 @@ def _sort_tips(tips: Iterable[tuple[int, Floats]], walls: _Walls, layer: int) ->
     return [(tip, foot) for _, _, foot, tip in rows]
 
 
-def _find_twigs(space: Space, cell: float, turn: Floats, node: Floats) -> list[tuple[int, Floats]]:
+def _find_twigs(space: Interior, cell: float, turn: Floats, node: Floats) -> list[tuple[int, Floats]]:
     """Find the places of twigs, (2,) in cells of the grid, each with the power of 2 of its place in the lattice."""
     nx, ny, _ = space.shape
     corners = np.array([(x, y) for x in (0, nx - 1) for y in (0, ny - 1)])

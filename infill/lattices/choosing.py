@@ -12,20 +12,20 @@ from numpy.typing import NDArray
 
 from infill.errors import ParameterError
 from infill.lattices.bodies import Bodies
-from infill.lattices.branching import Branches
+from infill.lattices.branching import BranchLines
 from infill.lattices.density_fields import SKIN
-from infill.lattices.drawn_voids import Drawn
-from infill.lattices.layer_lines import Changing
-from infill.lattices.layered import Layered
-from infill.lattices.line_sample import follows
-from infill.lattices.request import Request
-from infill.lattices.resolve_pattern import kind_of
+from infill.lattices.drawn_voids import Prismatic
+from infill.lattices.layer_lines import LayerLines
+from infill.lattices.layered import NonPrismatic
+from infill.lattices.line_sample import follows_outline
+from infill.lattices.request import FillSpec
+from infill.lattices.resolve_pattern import resolve_pattern
 from infill.lattices.subdivided import Subdivided
-from infill.lattices.voids import Repeating, Voids
-from infill.options.assignments import Source, assignments, merged, values
+from infill.lattices.voids import Periodic, Voids
+from infill.options.assignments import ParameterSource, merge_parameters, parse_assignments, parse_values
 from patterns.cellular import Unlined
 from patterns.declared import parameters
-from patterns.given import nearest
+from patterns.given import suggest_name
 from patterns.lightning import Lightning
 from patterns.octree import Octree
 from patterns.protocol import Pattern
@@ -35,7 +35,7 @@ SEED = "seed"
 HELD = ("cell", "angle", "phase", "frame")  # parameters of patterns that `fill` has arguments for, or does not use
 
 
-def voids_of(request: Request, bounds: NDArray[np.floating], threads: int | None) -> Voids:
+def choose_voids(request: FillSpec, bounds: NDArray[np.floating], threads: int | None) -> Voids:
     """Make the voids of the requested pattern, in a part with these bounds (2, 3), mm."""
     middle = np.asarray(bounds, dtype=np.float64).mean(axis=0)
     if request.align == "bed":
@@ -47,37 +47,39 @@ def voids_of(request: Request, bounds: NDArray[np.floating], threads: int | None
         [[np.cos(radians), np.sin(radians), 0.0], [-np.sin(radians), np.cos(radians), 0.0], [0.0, 0.0, 1.0]]
     )
     if isinstance(request.kind, Unlined):
-        pattern = cellular_of(request.kind, request)
+        pattern = configure_cellular(request.kind, request)
         if isinstance(pattern, Lightning):
-            branches = Branches(pattern=pattern, turn=turn, anchor=anchor)
-            return Layered(layers=branches, threads=threads, grading=grading, bodies=bodies)
+            branches = BranchLines(pattern=pattern, turn=turn, anchor=anchor)
+            return NonPrismatic(layers=branches, threads=threads, grading=grading, bodies=bodies)
         if isinstance(pattern, (Planes, Octree)):
             turn = np.array(pattern.upright) @ turn
         if isinstance(pattern, Octree):
             return Subdivided(
                 pattern=pattern, turn=turn, anchor=anchor, threads=threads, grading=grading, bodies=bodies
             )
-        return Repeating(pattern=pattern, turn=turn, anchor=anchor, threads=threads, grading=grading, bodies=bodies)
-    lines = pattern_of(request.kind, request)
+        return Periodic(pattern=pattern, turn=turn, anchor=anchor, threads=threads, grading=grading, bodies=bodies)
+    lines = configure_lines(request.kind, request)
     if not lines.prismatic:
-        layer_lines = Changing(pattern=lines, anchor=anchor)
-        return Layered(layers=layer_lines, threads=threads, grading=grading, bodies=bodies)
-    return Drawn(pattern=lines, anchor=anchor, share=request.share, threads=threads, grading=grading, bodies=bodies)
+        layer_lines = LayerLines(pattern=lines, anchor=anchor)
+        return NonPrismatic(layers=layer_lines, threads=threads, grading=grading, bodies=bodies)
+    return Prismatic(pattern=lines, anchor=anchor, share=request.share, threads=threads, grading=grading, bodies=bodies)
 
 
-def own_parameters(pattern: object, assigned: Sequence[str], table: Mapping[str, Any] | None = None) -> dict[str, Any]:
+def read_own_parameters(
+    pattern: object, assigned: Sequence[str], table: Mapping[str, Any] | None = None
+) -> dict[str, Any]:
     """Read the pattern's own parameters from ``name=value`` and a table, or raise ParameterError."""
     if not (assigned or table):
         return {}
-    kind, name = kind_of(pattern)
+    kind, name = resolve_pattern(pattern)
     if not parameters(kind):
         if assigned:
             raise ParameterError(f"--set {assigned[0]}: {name} has no parameters; give --cell or --line-width")
         return dict(table or {})  # refused later
-    own = merged(
+    own = merge_parameters(
         kind,
-        command=assignments(kind, assigned, options=HELD),
-        file=values(kind, table or {}, Source.TABLE),
+        command=parse_assignments(kind, assigned, options=HELD),
+        file=parse_values(kind, table or {}, ParameterSource.TABLE),
     )
     for name in own:
         if name in HELD:
@@ -85,9 +87,9 @@ def own_parameters(pattern: object, assigned: Sequence[str], table: Mapping[str,
     return own
 
 
-def seeded(pattern: object, own: Mapping[str, Any], seed: int) -> dict[str, Any]:
+def add_seed(pattern: object, own: Mapping[str, Any], seed: int) -> dict[str, Any]:
     """Add a seed to the pattern's own parameters, or raise ParameterError if the pattern has no randomness."""
-    kind, name = kind_of(pattern)
+    kind, name = resolve_pattern(pattern)
     if SEED not in parameters(kind):
         raise ParameterError(f"seed is {seed}, and {name} leaves nothing to chance; choose voronoi or voronoi-foam")
     if own.get(SEED, seed) != seed:
@@ -95,14 +97,14 @@ def seeded(pattern: object, own: Mapping[str, Any], seed: int) -> dict[str, Any]
     return {**own, SEED: seed}
 
 
-def cellular_of(kind: Unlined, request: Request) -> Unlined:
+def configure_cellular(kind: Unlined, request: FillSpec) -> Unlined:
     """Make the requested pattern in space, or raise ParameterError."""
     names = list(parameters(kind))
     for name in request.parameters:
         if not names:
             raise ParameterError(f"{request.pattern} has no parameter {name!r}; it has none but cell and line width")
         if name not in names:
-            raise ParameterError(f"{request.pattern} has no parameter {name!r}; {nearest(name, names)}")
+            raise ParameterError(f"{request.pattern} has no parameter {name!r}; {suggest_name(name, names)}")
     if isinstance(kind, Network) and (request.lowest or 1.0) < kind.thinnest:
         raise ParameterError(
             f"density is {request.lowest:.3g}, and the bars of {kind.name} break below {kind.thinnest:g}; give a "
@@ -111,13 +113,13 @@ def cellular_of(kind: Unlined, request: Request) -> Unlined:
     return replace(kind, **request.parameters) if request.parameters else kind
 
 
-def pattern_of(kind: Pattern | type[Pattern], request: Request) -> Pattern:
+def configure_lines(kind: Pattern | type[Pattern], request: FillSpec) -> Pattern:
     """Make the requested pattern of lines, or raise ParameterError."""
     declared = parameters(kind)
     settable = [name for name in declared if name not in HELD]
     for name in request.parameters:
         if name not in settable:
-            raise ParameterError(f"{request.pattern} has no parameter {name!r}; {nearest(name, settable)}")
+            raise ParameterError(f"{request.pattern} has no parameter {name!r}; {suggest_name(name, settable)}")
     if request.angle and "angle" not in declared:
         raise ParameterError(
             f"angle is {request.angle:g} degrees, and {request.pattern} cannot be turned; leave it out"
@@ -126,12 +128,12 @@ def pattern_of(kind: Pattern | type[Pattern], request: Request) -> Pattern:
     rotation = {"angle": math.remainder(own_angle + request.angle, 360.0)} if "angle" in declared else {}
     values = {**request.parameters, **rotation}
     made_pattern: Pattern = kind(**values) if isinstance(kind, type) else replace(kind, **values)  # type: ignore[type-var]
-    if follows(made_pattern):
+    if follows_outline(made_pattern):
         _check_follower(request)
     return made_pattern
 
 
-def _check_follower(request: Request) -> None:
+def _check_follower(request: FillSpec) -> None:
     """Raise ParameterError if a pattern that follows the part is to be shifted, or to be denser at a depth."""
     if any(request.phase):
         shift = ", ".join(f"{step:g}" for step in request.phase)

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from infill.drawings.bitmaps import read_grey
 from infill.errors import FormatError, ParameterError, UsageError
-from infill.files.broken import one_line, readable, told_broken
-from infill.interior.interior import Space
-from infill.options.modules import names_code, object_in
+from infill.files.broken import error_text, require_readable, wrap_reader_errors
+from infill.interior.interior import Interior
+from infill.options.modules import load_object, names_code
 
 Floats = NDArray[np.float64]
 AXES = ("x", "y", "z")
@@ -29,27 +29,27 @@ MOST_CELLS = 2e6  # in which the distance from the skin is measured
 class Field(Protocol):
     """A number at every point."""
 
-    def at(self, points: Floats, space: Space) -> Floats:
+    def at(self, points: Floats, space: Interior) -> Floats:
         """Evaluate the field at points (N, 3), mm, inside the walls of a part: (N,)."""
         ...
 
 
 @dataclass(frozen=True, kw_only=True)
-class Along:
+class AxisField:
     """The coordinate along an axis."""
 
     axis: int
 
-    def at(self, points: Floats, space: Space) -> Floats:  # noqa: ARG002 - of the protocol
+    def at(self, points: Floats, space: Interior) -> Floats:  # noqa: ARG002 - of the protocol
         """See `Field`."""
         return points[:, self.axis]
 
 
 @dataclass(frozen=True, kw_only=True)
-class BelowSkin:
+class SkinDepthField:
     """The distance from the inner side of the walls."""
 
-    def at(self, points: Floats, space: Space) -> Floats:
+    def at(self, points: Floats, space: Interior) -> Floats:
         """See `Field`."""
         from scipy.ndimage import distance_transform_edt, map_coordinates
 
@@ -67,7 +67,7 @@ class BelowSkin:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Scattered:
+class ScatteredField:
     """Numbers at points, linear in between, and the number of the nearest point beyond.
 
     Parameters
@@ -79,7 +79,7 @@ class Scattered:
     points: Floats
     values: Floats
 
-    def at(self, points: Floats, space: Space) -> Floats:  # noqa: ARG002 - of the protocol
+    def at(self, points: Floats, space: Interior) -> Floats:  # noqa: ARG002 - of the protocol
         """See `Field`."""
         from scipy.interpolate import LinearNDInterpolator
         from scipy.spatial import QhullError, cKDTree
@@ -93,7 +93,7 @@ class Scattered:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Boxed:
+class BoxedField:
     """Numbers in equal boxes that make up the box around the part, linear in between.
 
     Parameters
@@ -103,7 +103,7 @@ class Boxed:
 
     values: Floats
 
-    def at(self, points: Floats, space: Space) -> Floats:
+    def at(self, points: Floats, space: Interior) -> Floats:
         """See `Field`."""
         from scipy.ndimage import map_coordinates
 
@@ -114,24 +114,24 @@ class Boxed:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Computed:
+class FunctionField:
     """A function of points (N, 3), mm, that returns a number for each."""
 
     function: Callable[[Floats], Any]
     name: str
 
-    def at(self, points: Floats, space: Space) -> Floats:  # noqa: ARG002 - of the protocol
+    def at(self, points: Floats, space: Interior) -> Floats:  # noqa: ARG002 - of the protocol
         """See `Field`."""
         try:
             numbers = np.asarray(self.function(points), dtype=np.float64)
         except Exception as error:
-            raise ParameterError(f"by is {self.name}, which fails: {one_line(error)}") from error
+            raise ParameterError(f"by is {self.name}, which fails: {error_text(error)}") from error
         if numbers.shape != (len(points),):
             raise UsageError(f"by is {self.name}, which returns {numbers.shape} for {points.shape} points; return (N,)")
         return numbers
 
 
-def field_of(by: object) -> tuple[Field, str]:
+def resolve_field(by: object) -> tuple[Field, str]:
     """Resolve the field that a density follows; return it and its name.
 
     Parameters
@@ -149,26 +149,26 @@ def field_of(by: object) -> tuple[Field, str]:
     """
     if callable(by):
         name = getattr(by, "__name__", type(by).__name__)
-        return Computed(function=by, name=name), name
+        return FunctionField(function=by, name=name), name
     if isinstance(by, np.ndarray):
         return _field_of_array(by, "an array"), f"an array of shape {by.shape}"
     if not isinstance(by, (str, Path)):
         raise UsageError(f"by is {by!r}; give x, y, z, skin, a file, an array or a function")
     text = str(by)
     if text in AXES:
-        return Along(axis=AXES.index(text)), text
+        return AxisField(axis=AXES.index(text)), text
     if text == SKIN:
-        return BelowSkin(), text
+        return SkinDepthField(), text
     path = Path(text)
     suffix = path.suffix.lower()
     if names_code(text):
-        return Computed(function=_load_function(text), name=text), text
+        return FunctionField(function=_load_function(text), name=text), text
     if suffix in PICTURES:
-        grey = read_grey(readable(path, PICTURES, "a picture"))
-        return Boxed(values=grey[::-1].T[:, :, None].astype(np.float64)), text
+        grey = read_grey(require_readable(path, PICTURES, "a picture"))
+        return BoxedField(values=grey[::-1].T[:, :, None].astype(np.float64)), text
     if suffix in (*TABLES, *ARRAYS):
-        source = readable(path, (*TABLES, *ARRAYS), "a field")
-        with told_broken(source, "holds something other than numbers", "write rows of x, y, z and a value"):
+        source = require_readable(path, (*TABLES, *ARRAYS), "a field")
+        with wrap_reader_errors(source, "holds something other than numbers", "write rows of x, y, z and a value"):
             values = np.load(source, allow_pickle=False) if suffix in ARRAYS else _read_table(source)
         return _field_of_array(values, text), text
     raise UsageError(f"by is {text!r}; give x, y, z, skin, a .csv, a .npy, a picture, or module.py:name")
@@ -179,9 +179,9 @@ def _field_of_array(values: NDArray[Any], name: str) -> Field:
     if not values.size or not np.isfinite(values).all():
         raise FormatError(f"by is {name}, which holds nothing, or numbers that are not finite; check it")
     if values.ndim == 3:
-        return Boxed(values=values)
+        return BoxedField(values=values)
     if values.ndim == 2 and values.shape[1] == COLUMNS:
-        return Scattered(points=values[:, :3], values=values[:, 3])
+        return ScatteredField(points=values[:, :3], values=values[:, 3])
     raise FormatError(f"by is {name} of shape {values.shape}; give rows of x, y, z and a value, or three axes")
 
 
@@ -202,7 +202,7 @@ def _read_table(path: Path) -> Floats:
 
 def _load_function(text: str) -> Callable[[Floats], Any]:
     """Load a function by the file and the name in ``module.py:name``."""
-    loaded = object_in(text)
+    loaded = load_object(text)
     if not callable(loaded):
         raise FormatError(f"{text} is no function; check the name")
     return loaded

@@ -12,14 +12,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.drains.drain_places import Needs
-from infill.drains.drain_plan import DrainPlan, Hole, Undrained, plan_drains
+from infill.drains.drain_places import DrainNeeds
+from infill.drains.drain_plan import DrainPlan, Hole, SealedVoid, plan_drains
 from infill.errors import GeometryError
-from infill.interior.hollow import Hollow
+from infill.interior.hollow import VoidMeshes
 from infill.isosurfaces.components import shell_names
-from infill.lattices.request import Request
-from infill.meshes.shells import shell_volumes, with_faces
-from infill.meshes.solids import FINE, in_one_place, solid_of, status_of, surface_from
+from infill.lattices.request import FillSpec
+from infill.meshes.shells import select_faces, shell_volumes
+from infill.meshes.solids import FINE, coincident_vertices, from_manifold, solid_status, to_manifold
 from infill.surface import Surface
 
 if TYPE_CHECKING:
@@ -27,13 +27,13 @@ if TYPE_CHECKING:
 
 SIDES = 32
 TURNS = (0.0, 0.037, 0.071, 0.113)  # radians: rotations of the holes, tried in order, so that no two vertices coincide
-NOWHERE = DrainPlan(holes=())
+NO_DRAINS = DrainPlan(holes=())
 
 Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Drained:
+class DrainedSolid:
     """A solid with its drains.
 
     Parameters
@@ -48,7 +48,7 @@ class Drained:
     """
 
     solid: Surface
-    plan: DrainPlan = NOWHERE
+    plan: DrainPlan = NO_DRAINS
     pieces: int = 0
     failed: bool = False
 
@@ -80,11 +80,11 @@ class Drained:
         }
 
 
-def _as_report(undrained: Undrained) -> dict[str, Any]:
+def _as_report(undrained: SealedVoid) -> dict[str, Any]:
     return {"void": undrained.void, "volume": undrained.volume, "at": undrained.at.tolist(), "fits": undrained.fits}
 
 
-def check_width(request: Request, bounds: NDArray[np.floating]) -> None:
+def check_drain_width(request: FillSpec, bounds: NDArray[np.floating]) -> None:
     """Raise an error if drains are too wide for any place of a part.
 
     Raises
@@ -105,7 +105,7 @@ def check_width(request: Request, bounds: NDArray[np.floating]) -> None:
         )
 
 
-def drain(solid: Surface, hollow: Hollow, request: Request, *, threads: int | None = None) -> Drained:
+def drill_drains(solid: Surface, hollow: VoidMeshes, request: FillSpec, *, threads: int | None = None) -> DrainedSolid:
     """Drill the requested drains; return the solid with its plan.
 
     Parameters
@@ -122,35 +122,35 @@ def drain(solid: Surface, hollow: Hollow, request: Request, *, threads: int | No
         If there cannot be a drain at a requested place.
     """
     if request.drain is None or not hollow.surfaces:
-        return Drained(solid=solid)
+        return DrainedSolid(solid=solid)
     space = hollow.space
-    needs = Needs(diameter=request.drain, wall=request.wall, cell=hollow.cell, threads=threads)
+    needs = DrainNeeds(diameter=request.drain, wall=request.wall, cell=hollow.cell, threads=threads)
     plan = plan_drains(
         space.part, hollow.surface, needs, vent=request.vent, places=request.drain_at, opening=space.opening
     )
     if not plan.holes:
-        return Drained(solid=solid, plan=plan)
+        return DrainedSolid(solid=solid, plan=plan)
     drilled = _drill(solid, plan.holes)
     if drilled is None:
-        return Drained(solid=solid, plan=NOWHERE, failed=True)
+        return DrainedSolid(solid=solid, plan=NO_DRAINS, failed=True)
     united, pieces = _drop_loose(drilled, solid)
-    return Drained(solid=united, plan=plan, pieces=pieces)
+    return DrainedSolid(solid=united, plan=plan, pieces=pieces)
 
 
 def _drill(solid: Surface, holes: tuple[Hole, ...]) -> Surface | None:
     """Drill holes into a solid; return None if manifold3d rejects it."""
     import manifold3d
 
-    manifold, best = solid_of(solid), None
-    if status_of(manifold) != FINE:
+    manifold, best = to_manifold(solid), None
+    if solid_status(manifold) != FINE:
         return None
     for turn in TURNS:
         tools = [_drill_body(hole, turn) for hole in holes]
         cut = manifold - manifold3d.Manifold.batch_boolean(tools, manifold3d.OpType.Add)
-        if status_of(cut) != FINE or cut.is_empty():
+        if solid_status(cut) != FINE or cut.is_empty():
             continue
-        candidate = surface_from(cut)
-        twins = int(in_one_place(candidate).sum())
+        candidate = from_manifold(cut)
+        twins = int(coincident_vertices(candidate).sum())
         if best is None or twins < best[0]:
             best = twins, candidate
         if candidate.closed and not twins:
@@ -184,10 +184,10 @@ def _drop_loose(drilled: Surface, solid: Surface) -> tuple[Surface, int]:
     if int((volume > 0).sum()) <= (outer := int((shell_volumes(solid, solid_names, solid_count) > 0).sum())):
         return drilled, 0
     loose = np.argsort(-volume, kind="stable")[outer : int((volume > 0).sum())]
-    return with_faces(drilled, ~np.isin(names[drilled.faces[:, 0]], loose)), len(loose)
+    return select_faces(drilled, ~np.isin(names[drilled.faces[:, 0]], loose)), len(loose)
 
 
-def told_of_drains(request: Request, drained: Drained, closed: list[tuple[float, list[float]]]) -> Iterator[str]:
+def drain_problems(request: FillSpec, drained: DrainedSolid, closed: list[tuple[float, list[float]]]) -> Iterator[str]:
     """Yield a message for voids that are still closed, and for drains that do not do what they should.
 
     Parameters
@@ -246,7 +246,7 @@ def told_of_drains(request: Request, drained: Drained, closed: list[tuple[float,
         )
 
 
-def _advise(undrained: tuple[Undrained, ...]) -> str:
+def _advise(undrained: tuple[SealedVoid, ...]) -> str:
     """Say how to drain the largest of the voids that are still closed, if any attempt succeeded."""
     if undrained[0].fits is not None:
         return _advise_thinner(undrained, "drain")
@@ -255,7 +255,7 @@ def _advise(undrained: tuple[Undrained, ...]) -> str:
     return "no thinner drain, and none upwards or from a side, has room either; patterns of bars leave fewer voids"
 
 
-def _advise_thinner(undrained: tuple[Undrained, ...], does: str) -> str:
+def _advise_thinner(undrained: tuple[SealedVoid, ...], does: str) -> str:
     """Say which diameter gives the largest void its hole, and how many of the other voids."""
     largest = undrained[0]
     who = "all of them" if largest.together == len(undrained) else f"this and {largest.together - 1} of the others"
@@ -266,13 +266,13 @@ def _xyz(place: list[float]) -> str:
     return ", ".join(f"{coordinate:.4g}" for coordinate in place)
 
 
-def trapped(solid: Surface) -> list[tuple[float, list[float]]]:
+def find_closed_voids(solid: Surface) -> list[tuple[float, list[float]]]:
     """Find the closed voids of a solid: volume, mm³, and lowest point of each, mm, by falling volume.
 
     >>> import trimesh
     >>> outer, inner = trimesh.creation.box((4, 4, 4)), trimesh.creation.box((2, 2, 2))
     >>> both = trimesh.util.concatenate([outer, trimesh.Trimesh(inner.vertices, inner.faces[:, ::-1])])
-    >>> trapped(Surface(vertices=both.vertices, faces=both.faces))
+    >>> find_closed_voids(Surface(vertices=both.vertices, faces=both.faces))
     [(8.0, [-1.0, -1.0, -1.0])]
     """
     names, count = shell_names(solid)

@@ -11,15 +11,23 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from infill.interior.interior import BAND, Space
-from infill.interior.shadow import shadow_of
+from infill.interior.interior import BAND, Interior
+from infill.interior.shadow import silhouette
 from infill.kernels.threads import in_threads, thread_count
 from infill.lattices.bodies import Bodies
-from infill.lattices.fillets import between_lines, sharpest
-from infill.lattices.grading import NONE, Grading
-from infill.lattices.line_sample import WIDER, LineSample, faces_between, follows, segments_of, sized, square
+from infill.lattices.fillets import find_polygon_corners, sharpest_angle
+from infill.lattices.grading import UNIFORM_WIDTH, Grading
+from infill.lattices.line_sample import (
+    WIDER,
+    LineSample,
+    centred_square,
+    faces_between,
+    follows_outline,
+    line_segments,
+    with_cell,
+)
 from infill.lattices.voids import FIELD, local_widths
-from patterns.protocol import Pattern, lines_of
+from patterns.protocol import Pattern, draw_lines
 
 APART = 3.0  # cells of the grid: voids that are nearer to each other get separate fields
 THINNER, WIDER_LINES = 0.8, 1.5  # range of line widths for which fields suffice, over the width they were made for
@@ -27,7 +35,7 @@ ROUND = 16  # segments in a quarter of a circle
 
 
 @dataclass(frozen=True, kw_only=True)
-class Drawn:
+class Prismatic:
     """The voids between the lines of a pattern.
 
     Parameters
@@ -52,26 +60,26 @@ class Drawn:
     threads: int | None = None
     grading: Grading | None = None
     bodies: Bodies | None = None
-    known: dict[tuple[weakref.ref[Space], float], _Faces] = field(default_factory=dict)
+    known: dict[tuple[weakref.ref[Interior], float], _Faces] = field(default_factory=dict)
 
-    def about(self, middle: NDArray[np.float64]) -> Drawn:
+    def about(self, middle: NDArray[np.float64]) -> Prismatic:
         """See `Anchored`."""
         return dataclasses.replace(self, anchor=middle + self.anchor, bodies=None, known={})
 
-    def count(self, space: Space, *, cell: float, width: float) -> int:
+    def count(self, space: Interior, *, cell: float, width: float) -> int:
         """Count the colours that are needed so that neighbours differ."""
         if self.bodies is not None:
             return self.bodies.count(self, space, cell=cell, width=width)
         return len(self._faces(space, cell, width).colours)
 
-    def into(self, out: FIELD, space: Space, which: int, *, cell: float, width: float) -> float:
+    def into(self, out: FIELD, space: Interior, which: int, *, cell: float, width: float) -> float:
         """See `Voids`."""
         if self.bodies is not None:
             return self.bodies.into(self, out, space, which, cell=cell, width=width)
         plane = self.planes(space, cell=cell, width=width)[which]
         return self.lesser(out, space.depth, plane, width / space.size, local_widths(self, space))
 
-    def planes(self, space: Space, *, cell: float, width: float) -> list[NDArray[np.float32]]:
+    def planes(self, space: Interior, *, cell: float, width: float) -> list[NDArray[np.float32]]:
         """Return the depth of the points of a layer between the lines, (nx, ny) in cells, for each field."""
         return self._faces(space, cell, width).colours
 
@@ -81,7 +89,7 @@ class Drawn:
         depth: FIELD,
         plane: NDArray[np.float32],
         width: float,
-        ratio: tuple[NDArray[np.float32], float] = NONE,
+        ratio: tuple[NDArray[np.float32], float] = UNIFORM_WIDTH,
     ) -> float:
         """Write the lesser of the depth and the distance into a void; return the number of cells it fills.
 
@@ -106,7 +114,7 @@ class Drawn:
         """A sample of such lines far from any skin."""
         return LineSample(pattern=self.pattern)
 
-    def sharpest(self, space: Space, *, cell: float, width: float) -> float:
+    def sharpest(self, space: Interior, *, cell: float, width: float) -> float:
         """See `Voids`: of the lines in this space."""
         if self.bodies is not None:
             return self.bodies.sharpest(self, space, cell=cell, width=width)
@@ -117,9 +125,9 @@ class Drawn:
         return self.sample.widths(density)
 
     def _lines(self, region: shapely.Polygon, cell: float) -> shapely.MultiLineString:
-        return lines_of(sized(self.pattern, cell), region)
+        return draw_lines(with_cell(self.pattern, cell), region)
 
-    def _faces(self, space: Space, cell: float, width: float) -> _Faces:
+    def _faces(self, space: Interior, cell: float, width: float) -> _Faces:
         """Return the faces between the lines, cached for lines of similar width."""
         widest, thinnest = self._width_range(space)
         reach, key = widest * width / 2 / space.size + 2 * BAND, (weakref.ref(space), cell)
@@ -129,26 +137,26 @@ class Drawn:
             self.known[key] = self._make_faces(space, cell, width, WIDER_LINES * reach)
         return self.known[key]
 
-    def _width_range(self, space: Space) -> tuple[float, float]:
+    def _width_range(self, space: Interior) -> tuple[float, float]:
         """Return the largest and the smallest factor of the line width."""
         ratio, _ = local_widths(self, space)
         return float(ratio.max()), float(ratio.min())
 
-    def _room(self, space: Space, cell: float) -> shapely.Geometry:
+    def _room(self, space: Interior, cell: float) -> shapely.Geometry:
         """Return the region to draw in for lines that follow it; lines half a cell inside leave room at the wall."""
-        room = shapely.transform(shadow_of(space), lambda points: points - self.anchor[:2])
+        room = shapely.transform(silhouette(space), lambda points: points - self.anchor[:2])
         return shapely.buffer(room, (self.share - 1) / 2 * cell, quad_segs=ROUND)
 
-    def _make_faces(self, space: Space, cell: float, width: float, reach: float) -> _Faces:
+    def _make_faces(self, space: Interior, cell: float, width: float, reach: float) -> _Faces:
         lower, upper = (np.array([side.min() - 1, side.max() + 1]) for side in np.nonzero(space.deepest > -BAND))
         low = space.origin[:2] + np.array([lower[0], upper[0]]) * space.size - self.anchor[:2]
         high = space.origin[:2] + np.array([lower[1], upper[1]]) * space.size - self.anchor[:2]
         box = shapely.box(*low, *high)
         region = box.buffer(cell, join_style="mitre")
-        if follows(self.pattern):
+        if follows_outline(self.pattern):
             room = self._room(space, cell)
         else:
-            room = square(WIDER * float(np.linalg.norm(np.abs([low, high]).max(axis=0))))
+            room = centred_square(WIDER * float(np.linalg.norm(np.abs([low, high]).max(axis=0))))
         lines = shapely.intersection(self._lines(room, cell), region)
         polygons = faces_between(lines, region, cell=cell)
         polygons = polygons[shapely.intersects(polygons, box)]
@@ -165,10 +173,10 @@ class Drawn:
                 shapely.get_parts(shapely.boundary(polygons[colour])), start, space.size, reach, (nx, ny)
             )
             planes.append(np.where(inside, distance, -to_border))
-        corners, angles = between_lines(polygons)
+        corners, angles = find_polygon_corners(polygons)
         at = np.round((corners - start) / space.size).astype(np.int64)
         with_room = space.deepest[tuple(np.clip(at, 0, (nx - 1, ny - 1)).T)] > 0  # there is none at the rim of the grid
-        return _Faces(colours=planes, sharpest=sharpest(angles[with_room]), reach=reach, width=width)
+        return _Faces(colours=planes, sharpest=sharpest_angle(angles[with_room]), reach=reach, width=width)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -203,7 +211,7 @@ def _distance_to_lines(
     from infill.kernels.cells import lower_to_segments
 
     squared = np.full(shape, np.float32(reach**2))
-    lower_to_segments(segments_of(lines, start, size), reach, squared)
+    lower_to_segments(line_segments(lines, start, size), reach, squared)
     return np.sqrt(squared)
 
 

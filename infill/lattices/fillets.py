@@ -24,16 +24,16 @@ EQUAL = 1e-6  # of a cell: ends of bars that are nearer than this coincide
 Floats = NDArray[np.float64]
 
 
-def tip(degrees: float) -> float:
+def tip_curvature(degrees: float) -> float:
     """Return the curvature of the tip of a corner of a void, times sqrt(2 t), clamped to 45 and 90 degrees.
 
-    >>> tip(90), tip(120), round(tip(60) / tip(90), 2)
+    >>> tip_curvature(90), tip_curvature(120), round(tip_curvature(60) / tip_curvature(90), 2)
     (0.7386, 0.7386, 1.58)
     """
     return float(np.interp(degrees, DEGREES, TIPS))
 
 
-def times_for(radius: float, degrees: float, bar: float | None = None, *, cell: float = 0.0) -> float:
+def rounding_time(radius: float, degrees: float, bar: float | None = None, *, cell: float = 0.0) -> float:
     """Return the time in which curvature rounds corners to a radius.
 
     Parameters
@@ -52,41 +52,44 @@ def times_for(radius: float, degrees: float, bar: float | None = None, *, cell: 
     float
         In squares of the unit of the lengths.
 
-    >>> round(times_for(1.0, 90.0), 4), times_for(1.0, 60.0) > 2.4 * times_for(1.0, 90.0)
+    >>> round(rounding_time(1.0, 90.0), 4), rounding_time(1.0, 60.0) > 2.4 * rounding_time(1.0, 90.0)
     (0.2728, True)
-    >>> times_for(1.0, 60.0, bar=1.0) == times_for(1.0, 90.0), times_for(1.0, 15.0) == times_for(1.0, 45.0)
-    (True, True)
+    >>> rounding_time(1.0, 60.0, bar=1.0) == rounding_time(1.0, 90.0)
+    True
+    >>> rounding_time(1.0, 15.0) == rounding_time(1.0, 45.0)
+    True
     """
     degrees = min(max(degrees, DEGREES[0]), 90.0)
     enlarged = 1 + COARSE * min(1.0, (CELLS * cell / radius) ** 2) if radius >= BLUNT * cell > 0 else 1.0
-    right = (tip(90.0) * radius * enlarged) ** 2 / 2
-    sharp = (tip(degrees) * radius * (enlarged + GRID * (90.0 - degrees))) ** 2 / 2
+    right = (tip_curvature(90.0) * radius * enlarged) ** 2 / 2
+    sharp = (tip_curvature(degrees) * radius * (enlarged + GRID * (90.0 - degrees))) ** 2 / 2
     if bar is None:
         return sharp
     # The square of the radius of a cylinder falls by twice the time.
     return max(right, min(sharp, (1 - (1 - THINNER) ** 2) * (bar / 2) ** 2 / 2))
 
 
-def sharpest(angles: Floats) -> float:
+def sharpest_angle(angles: Floats) -> float:
     """Return the sharpest angle but for a few outliers, degrees; at most a right angle, as at the walls of the part."""
     return min(90.0, float(np.quantile(angles, FEW))) if len(angles) else 90.0
 
 
-def between_walls(pattern: Cellular) -> float:
+def corner_angle_between_walls(pattern: Cellular) -> float:
     """Return the angle of the sharpest corners of voids in a pattern in space, degrees.
 
     >>> from patterns.cellular import CELLULAR
-    >>> [round(between_walls(CELLULAR[name]), 1) for name in ("cubic", "quarter-cubic", "octet", "kelvin", "gyroid")]
+    >>> names = "cubic", "quarter-cubic", "octet", "kelvin", "gyroid"
+    >>> [round(corner_angle_between_walls(CELLULAR[name]), 1) for name in names]
     [90.0, 70.5, 60.0, 90.0, 90.0]
     """
     if isinstance(pattern, Planes):
         normals = pattern.families()[0]
         unit = normals / np.linalg.norm(normals, axis=1, keepdims=True)
         i, j = np.triu_indices(len(unit), 1)
-        return sharpest(np.degrees(np.arccos(np.clip(np.abs((unit[i] * unit[j]).sum(axis=1)), 0, 1))))
+        return sharpest_angle(np.degrees(np.arccos(np.clip(np.abs((unit[i] * unit[j]).sum(axis=1)), 0, 1))))
     if not isinstance(pattern, Bars):
         return 90.0  # without corners of their own
-    return sharpest(_angles_between_bars(pattern))
+    return sharpest_angle(_angles_between_bars(pattern))
 
 
 def _angles_between_bars(pattern: Bars) -> Floats:
@@ -105,10 +108,10 @@ def _angles_between_bars(pattern: Bars) -> Floats:
     return angles[angles > 1.0]  # the same bar, from two periods
 
 
-def between_lines(polygons: NDArray[np.object_]) -> tuple[Floats, Floats]:
+def find_polygon_corners(polygons: NDArray[np.object_]) -> tuple[Floats, Floats]:
     """Find the corners of polygons and of their holes: places, (N, 2), and inside angles, degrees.
 
-    >>> places, angles = between_lines(np.array([shapely.box(0, 0, 2, 1)]))
+    >>> places, angles = find_polygon_corners(np.array([shapely.box(0, 0, 2, 1)]))
     >>> places.tolist(), angles.round(6).tolist()
     ([[2.0, 0.0], [2.0, 1.0], [0.0, 1.0], [0.0, 0.0]], [90.0, 90.0, 90.0, 90.0])
     """

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import GeometryError
-from infill.interior.conformal_map import slopes_of, stretched
-from infill.interior.interior import Space
+from infill.interior.conformal_map import fit_conformal_map, spline_slopes
+from infill.interior.interior import Interior
 from infill.lattices.density_fields import Field
 
 Varies = Literal["width", "cell"]
@@ -22,7 +22,7 @@ SAMPLES = 20_000  # cells at which a field is evaluated, to find its lowest and 
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Local:
+class LocalWidths:
     """Widths of walls over the line width, at nodes of a grid of their own.
 
     Parameters
@@ -37,7 +37,7 @@ class Local:
     within : (n, m, k) bool
         True for nodes inside the walls.
     spline : (n + 2, m + 2, k + 2, 3) float64 or None
-        Places of the nodes in a pattern whose cells follow the field: see `stretched`. None if all cells are alike.
+        Places of the nodes in a pattern whose cells follow the field: see `fit_conformal_map`. None if cells are alike.
     """
 
     ratio: NDArray[np.float32]
@@ -58,10 +58,10 @@ class Local:
         """The smallest and the largest cell inside, over the nominal cell: sides of cubes of their volume."""
         if self.spline is None:
             return 1.0, 1.0
-        sides = np.abs(np.linalg.det(slopes_of(self.spline)[self.within])) ** (-1 / 3)
+        sides = np.abs(np.linalg.det(spline_slopes(self.spline)[self.within])) ** (-1 / 3)
         return float(sides.min()), float(sides.max())
 
-    def in_box(self, corner: NDArray[np.int64], shape: tuple[int, ...]) -> Local:
+    def in_box(self, corner: NDArray[np.int64], shape: tuple[int, ...]) -> LocalWidths:
         """Return the same at nodes that begin at a cell, for a box of a shape."""
         from scipy.ndimage import map_coordinates
 
@@ -93,7 +93,7 @@ class Grading:
     by: Field
     name: str
     varies: Varies = "width"
-    known: dict[tuple[object, ...], Local] = field(default_factory=dict)
+    known: dict[tuple[object, ...], LocalWidths] = field(default_factory=dict)
 
     @property
     def middle(self) -> float:
@@ -110,7 +110,7 @@ class Grading:
         """Rough size of the cells over the nominal cell where it is densest."""
         return self.middle / max(self.first, self.last) if self.varies == "cell" else 1.0
 
-    def over(self, space: Space, widths: Callable[[float], float]) -> Local:
+    def over(self, space: Interior, widths: Callable[[float], float]) -> LocalWidths:
         """Return the widths of walls in a space; `widths` gives the width for a density, in cells of the pattern."""
         if space.box_of is not None:
             parent, corner = space.box_of
@@ -122,7 +122,7 @@ class Grading:
             self.known[key] = self._evaluate(space, widths)
         return self.known[key]
 
-    def _evaluate(self, space: Space, widths: Callable[[float], float]) -> Local:
+    def _evaluate(self, space: Interior, widths: Callable[[float], float]) -> LocalWidths:
         shape = np.array(space.depth.shape)
         step = max(1.0, float((shape.max() - 1) / NODES))
         counts = np.ceil((shape - 1) / step).astype(int) + 1
@@ -150,9 +150,9 @@ class Grading:
         ratio, spline = np.interp(shares, table, wide).reshape(counts), None
         if self.varies == "cell":
             # Doubling the width adds as much wall as halving the cells; widths make up for what cells cannot follow.
-            spline, more = stretched(ratio)
+            spline, more = fit_conformal_map(ratio)
             ratio = ratio / more
-        return Local(
+        return LocalWidths(
             ratio=ratio.astype(np.float32),
             step=step,
             mean=self.first + (self.last - self.first) * float(np.nanmean((drawn - low) / (high - low))),
@@ -167,14 +167,14 @@ class Grading:
         self.known[key] = replace(local, ratio=(local.ratio * factors(local.shares)).astype(np.float32))
 
 
-def _inside(space: Space, points: NDArray[np.float64]) -> NDArray[np.bool_]:
+def _inside(space: Interior, points: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Test which points, in cells, lie inside the walls; all are, if none are because the part is too thin."""
     at = tuple(np.minimum(points.round().astype(int), np.array(space.depth.shape) - 1).T)
     inside = (space.depth[at] > 0) & (space.shares[at[2]] >= 0.5)
     return inside if inside.any() else np.ones(len(points), dtype=bool)
 
 
-def _sample_cells(space: Space) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _sample_cells(space: Interior) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Draw random cells inside the walls, (N, 3); return also the outermost along each axis and the deepest."""
     cells = np.argwhere(space.within)
     if not len(cells):
@@ -185,4 +185,4 @@ def _sample_cells(space: Space) -> tuple[NDArray[np.float64], NDArray[np.float64
     return drawn.astype(np.float64), np.concatenate([outermost, deepest]).astype(np.float64)
 
 
-NONE = (np.ones((1, 1, 1), dtype=np.float32), 1.0)  # walls of one width everywhere, as kernels take it
+UNIFORM_WIDTH = (np.ones((1, 1, 1), dtype=np.float32), 1.0)  # walls of one width everywhere, as kernels take it

@@ -10,23 +10,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import GeometryError
-from infill.interior.hollow import Hollow
+from infill.interior.hollow import VoidMeshes
 from infill.interior.inside import SHARE
-from infill.interior.interior import Space, space_inside
-from infill.interior.root_finding import root
-from infill.lattices.drawn_voids import Drawn
+from infill.interior.interior import Interior, compute_interior
+from infill.interior.root_finding import find_root
+from infill.lattices.drawn_voids import Prismatic
 from infill.lattices.grading import Grading
 from infill.lattices.local_density import densities_by_share
-from infill.lattices.request import Request, Size, barred
-from infill.lattices.sizing import coarsest_for, goes_by_slabs, larger, sizes_for, voxel_for
-from infill.lattices.slabwise import cells_filled, unmade
-from infill.lattices.surfacing import smoothing_for, surfaces_of, useful
-from infill.lattices.voids import Repeating, Voids
+from infill.lattices.request import FillSpec, Size, has_bars
+from infill.lattices.sizing import choose_sizes, choose_voxel, coarsest_voxel, enlarge, goes_by_slabs
+from infill.lattices.slabwise import count_filled_cells, defer_voids
+from infill.lattices.surfacing import choose_smoothing, drop_small_and_floating, make_surfaces
+from infill.lattices.voids import Periodic, Voids
 from infill.machine import require_memory
-from infill.meshes.shells import in_batches
-from infill.meshes.simplification import simplified
-from infill.meshes.solids import shortened
-from infill.meshes.split_components import joined
+from infill.meshes.shells import split_into_batches
+from infill.meshes.simplification import simplify_surface
+from infill.meshes.solids import simplify_solid
+from infill.meshes.split_components import concatenate_surfaces
 from infill.result import Clock
 from infill.surface import Surface
 from patterns.unit_cells import Network
@@ -50,15 +50,15 @@ LEAST_THICK = 1.5  # cells of the grid in the thickness of what lies inside the 
 FLAT = 0.01  # cells: the triangles of a void smaller than a cube of this side coincide
 
 
-def hollowed(
+def make_void_meshes(
     part: Surface,
-    request: Request,
+    request: FillSpec,
     voids: Voids,
     *,
     clock: Clock,
     threads: int | None = None,
     max_memory: int | None = None,
-) -> Hollow:
+) -> VoidMeshes:
     """Make the voids that a pattern leaves in a part, on a grid as fine as their triangles allow.
 
     If there are still too many triangles, and neither cell nor line width was requested, both are enlarged.
@@ -72,13 +72,13 @@ def hollowed(
     """
     extents = np.ptp(part.bounds, axis=0)
     with clock.stage("density", 0.0):
-        sizes, varied = sizes_for(request, voids, extents), request.varied
-    voxel = voxel_for(request, voids, extents, *sizes)
+        sizes, varied = choose_sizes(request, voids, extents), request.varied
+    voxel = choose_voxel(request, voids, extents, *sizes)
     is_last = False
     for attempt in range(REFITS + 1):
         progress, is_last = 0.2 * attempt, is_last or attempt == REFITS
         with clock.stage("depth", progress):
-            space = space_inside(
+            space = compute_interior(
                 part,
                 wall=request.wall,
                 voxel=voxel,
@@ -92,12 +92,12 @@ def hollowed(
         room = request.room(len(space.part.faces))
         with clock.stage("density", progress + 0.05):
             sizes, varied = _fit_sizes(space, voids, request, sizes, varied)
-            triangles = _estimate_triangles(space, voids, sizes) if isinstance(voids, Repeating) else 0
+            triangles = _estimate_triangles(space, voids, sizes) if isinstance(voids, Periodic) else 0
         if is_last or triangles <= FAR_TOO_MANY * room:
             with clock.stage("voids", progress + 0.1):
                 hollow = _fit_density(space, voids, request, sizes, varied, threads)
             with clock.stage("simplify", progress + 0.18):
-                hollow = few_triangles(hollow, request.tolerance)
+                hollow = simplify_voids(hollow, request.tolerance)
             triangles = hollow.triangles
             if is_last or triangles <= room:
                 with clock.stage("voids", progress + 0.19):
@@ -123,47 +123,47 @@ def hollowed(
 
 
 def _match_width(
-    hollow: Hollow, width: float, voids: Voids, request: Request, varied: tuple[Size, ...], threads: int | None
-) -> Hollow:
+    hollow: VoidMeshes, width: float, voids: Voids, request: FillSpec, varied: tuple[Size, ...], threads: int | None
+) -> VoidMeshes:
     """Redraw voids until walls between them have the requested width, mm, unless the density fixes the width."""
     space = hollow.space
-    if "width" in varied[:1] or voids.grading is not None or not even(voids):
+    if "width" in varied[:1] or voids.grading is not None or not has_uniform_width(voids):
         return hollow
-    if not smoothing_for(space, voids, request, (hollow.cell, width)).steps:
+    if not choose_smoothing(space, voids, request, (hollow.cell, width)).steps:
         return hollow
     for _ in range(REDRAWN):
         median, seen = hollow.median
         if median is None or seen < SURE or abs(median / width - 1) <= WIDTH_CLOSE:
             break
         sizes = (hollow.cell, hollow.width * width / median)
-        redrawn = few_triangles(_fit_density(space, voids, request, sizes, varied, threads), request.tolerance)
+        redrawn = simplify_voids(_fit_density(space, voids, request, sizes, varied, threads), request.tolerance)
         if not redrawn.surfaces or abs(redrawn.density - (request.density or redrawn.density)) > FARTHER_OFF:
             break
         hollow = redrawn
     return hollow
 
 
-def even(voids: Voids) -> bool:
+def has_uniform_width(voids: Voids) -> bool:
     """Tell whether walls or bars have the same width everywhere, as all have except those of a network."""
-    return not (isinstance(voids, Repeating) and isinstance(voids.pattern, Network))
+    return not (isinstance(voids, Periodic) and isinstance(voids.pattern, Network))
 
 
 def _coarsen(
-    request: Request,
+    request: FillSpec,
     voids: Voids,
     sizes: tuple[float, float],
     voxel: float,
     excess: float,
 ) -> tuple[tuple[float, float], float]:
     """Return sizes and voxel that leave a fraction of the triangles, as far as limits allow."""
-    target, coarsest = voxel * max(1.1, FEWER * excess**0.5), coarsest_for(request, voids, *sizes)
+    target, coarsest = voxel * max(1.1, FEWER * excess**0.5), coarsest_voxel(request, voids, *sizes)
     if target > coarsest and request.cell is None and request.line_width is None:
-        sizes = larger(request, sizes, min(MOST_LARGER, max(1.2, target / coarsest)))
-        coarsest = coarsest_for(request, voids, *sizes)
+        sizes = enlarge(request, sizes, min(MOST_LARGER, max(1.2, target / coarsest)))
+        coarsest = coarsest_voxel(request, voids, *sizes)
     return sizes, min(target, coarsest)
 
 
-def few_triangles(hollow: Hollow, tolerance: float) -> Hollow:
+def simplify_voids(hollow: VoidMeshes, tolerance: float) -> VoidMeshes:
     """Simplify the voids: drop triangles that flat places do not need, and voids that this flattens."""
     budget, at_once = tolerance, AT_ONCE
     if hollow.unmade is not None:
@@ -173,12 +173,14 @@ def few_triangles(hollow: Hollow, tolerance: float) -> Hollow:
     surfaces, results = hollow.surfaces[::-1], []
     hollow = replace(hollow, surfaces=[], tolerance=tolerance)
     while surfaces:  # popped, so that memory is freed as soon as possible
-        simple = joined([shortened(batch, SHARE * budget) for batch in in_batches(surfaces.pop(), at_once)])
-        results.append(useful(simple, (FLAT * hollow.space.size) ** 3)[0])
+        simple = concatenate_surfaces(
+            [simplify_solid(batch, SHARE * budget) for batch in split_into_batches(surfaces.pop(), at_once)]
+        )
+        results.append(drop_small_and_floating(simple, (FLAT * hollow.space.size) ** 3)[0])
     return replace(hollow, surfaces=[surface for surface in results if surface is not None])
 
 
-def _estimate_triangles(space: Space, voids: Voids, sizes: tuple[float, float]) -> float:
+def _estimate_triangles(space: Interior, voids: Voids, sizes: tuple[float, float]) -> float:
     """Estimate the number of triangles of the voids before they are simplified."""
     cell, width = sizes
     out = np.empty_like(space.depth)
@@ -189,10 +191,10 @@ def _estimate_triangles(space: Space, voids: Voids, sizes: tuple[float, float]) 
     return TRIANGLES_A_CELL * crossed
 
 
-def share_of_cells(space: Space, voids: Voids, cell: float, width: float) -> float:
+def solid_share(space: Interior, voids: Voids, cell: float, width: float) -> float:
     """Return the solid share of the space inside the walls, as the pattern is drawn, before it is smoothed."""
-    if space.layers.in_slabs and isinstance(voids, Drawn):
-        return max(1 - cells_filled(space, voids, cell=cell, width=width) / space.cells, LEAST)
+    if space.layers.in_slabs and isinstance(voids, Prismatic):
+        return max(1 - count_filled_cells(space, voids, cell=cell, width=width) / space.cells, LEAST)
     out = np.empty_like(space.depth)
     count = voids.count(space, cell=cell, width=width)
     filled = 0.0
@@ -202,7 +204,7 @@ def share_of_cells(space: Space, voids: Voids, cell: float, width: float) -> flo
     return max(1 - filled / space.cells, LEAST)
 
 
-def wanted(request: Request, space: Space, voids: Voids) -> float | None:
+def requested_density(request: FillSpec, space: Interior, voids: Voids) -> float | None:
     """Return the density requested inside the walls, on average; None if cell and line width fix it."""
     if request.grading is None:
         return request.density
@@ -210,7 +212,7 @@ def wanted(request: Request, space: Space, voids: Voids) -> float | None:
 
 
 def _fit_sizes(
-    space: Space, voids: Voids, request: Request, sizes: tuple[float, float], varied: tuple[Size, ...]
+    space: Interior, voids: Voids, request: FillSpec, sizes: tuple[float, float], varied: tuple[Size, ...]
 ) -> tuple[tuple[float, float], tuple[Size, ...]]:
     """Find cell and width, mm, that leave the requested density before smoothing; return what may vary too.
 
@@ -219,13 +221,13 @@ def _fit_sizes(
     """
     if not varied:
         return sizes, varied
-    density = wanted(request, space, voids) or LEAST
+    density = requested_density(request, space, voids) or LEAST
 
     def off(at: float, sizes: tuple[float, float], vary: Size) -> float:
-        return math.log(share_of_cells(space, voids, *_scale_sizes(sizes, at, vary)) / density)
+        return math.log(solid_share(space, voids, *_scale_sizes(sizes, at, vary)) / density)
 
     def fit(sizes: tuple[float, float], vary: Size) -> tuple[float, float]:
-        times = root(lambda at: off(at, sizes, vary), CLOSE / 4 / density, TRIES)
+        times = find_root(lambda at: off(at, sizes, vary), CLOSE / 4 / density, TRIES)
         return _scale_sizes(sizes, times, vary)
 
     if request.cell is None and request.line_width is None and sizes[0] > (most := space.across):
@@ -238,13 +240,13 @@ def _fit_sizes(
 
 
 def _fit_density(
-    space: Space,
+    space: Interior,
     voids: Voids,
-    request: Request,
+    request: FillSpec,
     sizes: tuple[float, float],
     varied: tuple[Size, ...],
     threads: int | None,
-) -> Hollow:
+) -> VoidMeshes:
     """Make voids whose meshes leave the requested density, as smoothing and the grid fill corners of voids."""
     hollow = _make_surfaces(space, voids, request, sizes, threads)
     if voids.grading is not None:
@@ -252,7 +254,7 @@ def _fit_density(
     for vary in varied:
         start = (hollow.cell, hollow.width)
 
-        def make(times: float, start: tuple[float, float] = start, vary: Size = vary) -> Hollow:
+        def make(times: float, start: tuple[float, float] = start, vary: Size = vary) -> VoidMeshes:
             return _make_surfaces(space, voids, request, _scale_sizes(start, times, vary), threads)
 
         hollow = _closest_to_density(hollow, make, request.density or LEAST)
@@ -260,18 +262,18 @@ def _fit_density(
 
 
 def _make_surfaces(
-    space: Space, voids: Voids, request: Request, sizes: tuple[float, float], threads: int | None
-) -> Hollow:
+    space: Interior, voids: Voids, request: FillSpec, sizes: tuple[float, float], threads: int | None
+) -> VoidMeshes:
     """Make the surfaces of the voids; if they are made slab by slab, compute only their volume for now."""
-    if space.layers.in_slabs and isinstance(voids, Drawn):
-        return unmade(space, voids, request, sizes, threads=threads)
-    return surfaces_of(space, voids, request, sizes, threads=threads)
+    if space.layers.in_slabs and isinstance(voids, Prismatic):
+        return defer_voids(space, voids, request, sizes, threads=threads)
+    return make_surfaces(space, voids, request, sizes, threads=threads)
 
 
-def _closest_to_density(best: Hollow, make: Callable[[float], Hollow], density: float) -> Hollow:
+def _closest_to_density(best: VoidMeshes, make: Callable[[float], VoidMeshes], density: float) -> VoidMeshes:
     """Return the candidate closest to a density, of the current voids and those that are made; two are kept at most."""
 
-    def off(hollow: Hollow) -> float:
+    def off(hollow: VoidMeshes) -> float:
         return math.log(max(hollow.density, LEAST) / density)
 
     def evaluate(times: float) -> float:
@@ -280,14 +282,16 @@ def _closest_to_density(best: Hollow, make: Callable[[float], Hollow], density: 
         best = min(best, candidate, key=lambda hollow: abs(off(hollow)))
         return off(candidate)
 
-    root(evaluate, CLOSE / density, ROUNDS)
+    find_root(evaluate, CLOSE / density, ROUNDS)
     return best
 
 
-def _fit_grading(hollow: Hollow, voids: Voids, grading: Grading, request: Request, threads: int | None) -> Hollow:
+def _fit_grading(
+    hollow: VoidMeshes, voids: Voids, grading: Grading, request: FillSpec, threads: int | None
+) -> VoidMeshes:
     """Make voids whose meshes leave the density requested at every place."""
     space, sizes = hollow.space, (hollow.cell, hollow.width)
-    power = 2 if barred(request.kind) else 1
+    power = 2 if has_bars(request.kind) else 1
     for _ in range(GRADING_ROUNDS):
         local = grading.over(space, voids.widths)
         requested, measured = densities_by_share(space, hollow.surface, local, GRADING_STEPS, mean=hollow.density)
@@ -313,19 +317,19 @@ def _scale_sizes(sizes: tuple[float, float], times: float, vary: Size) -> tuple[
     return (cell, width * times) if vary == "width" else (cell / times, width)
 
 
-def _simplify_to_fit(hollow: Hollow, room: int, *, threads: int | None, max_memory: int | None) -> Hollow:
+def _simplify_to_fit(hollow: VoidMeshes, room: int, *, threads: int | None, max_memory: int | None) -> VoidMeshes:
     """Simplify the voids until few enough triangles remain, even beyond the requested tolerance."""
     tolerance = max(hollow.tolerance, FINEST * hollow.space.size)
     for _ in range(DOUBLINGS):
         tolerance *= 2
-        simplified_hollow = few_triangles(hollow, tolerance)
+        simplified_hollow = simplify_voids(hollow, tolerance)
         if simplified_hollow.triangles <= room:
             return simplified_hollow
     needed = COLLAPSE_BYTES * max(len(surface.faces) for surface in simplified_hollow.surfaces)
     require_memory(needed, max_memory, f"the voids have {hollow.triangles:,} triangles; give larger cells or voxels")
     share = room / simplified_hollow.triangles
     fewest = [
-        simplified(surface, triangles=max(4, int(share * len(surface.faces))), threads=threads)
+        simplify_surface(surface, triangles=max(4, int(share * len(surface.faces))), threads=threads)
         for surface in simplified_hollow.surfaces
     ]
     return replace(hollow, surfaces=fewest, tolerance=math.inf)

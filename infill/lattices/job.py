@@ -13,22 +13,22 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from infill.interior.hollow import Hollow
-from infill.interior.inside import SHARE, inner_side
-from infill.interior.interior import Space
-from infill.interior.opening import between, cut_open
-from infill.lattices.choosing import voids_of
-from infill.lattices.drain_holes import Drained, check_width, drain
-from infill.lattices.hollowing import hollowed
-from infill.lattices.projected import Projected, projected
-from infill.lattices.quality_checks import measured, problems
-from infill.lattices.request import TOLERANCE, Request, checked
-from infill.lattices.sizing import on_grid_of
+from infill.interior.hollow import VoidMeshes
+from infill.interior.inside import SHARE, extract_inner_side
+from infill.interior.interior import Interior
+from infill.interior.opening import clip_to_opening, cut_open
+from infill.lattices.choosing import choose_voids
+from infill.lattices.drain_holes import DrainedSolid, check_drain_width, drill_drains
+from infill.lattices.hollowing import make_void_meshes
+from infill.lattices.projected import ProjectInfill, make_project_infill
+from infill.lattices.quality_checks import find_problems, measure_solid
+from infill.lattices.request import TOLERANCE, FillSpec, check_request
+from infill.lattices.sizing import resolve_voxel
 from infill.lattices.stages import FillStages
 from infill.lattices.voids import Voids
-from infill.meshes.measuring import with_measures
+from infill.meshes.measuring import measure_surface
 from infill.meshes.merging import surface_of
-from infill.meshes.split_components import joined
+from infill.meshes.split_components import concatenate_surfaces
 from infill.result import Clock, Progress, Result
 from infill.surface import Surface
 from infill.version import __version__
@@ -161,7 +161,7 @@ def fill(
     >>> result.surface.closed, abs(result.report["density"] - 0.3) < 0.005
     (True, True)
     """
-    request = checked(
+    request = check_request(
         pattern=pattern,
         own=parameters,
         density=density,
@@ -185,27 +185,27 @@ def fill(
         voxel=voxel,
         max_triangles=max_triangles,
     )
-    return filled(surface_of(part), request, threads=threads, max_memory=max_memory, progress=progress)
+    return fill_request(surface_of(part), request, threads=threads, max_memory=max_memory, progress=progress)
 
 
-def filled(
+def fill_request(
     part: Surface,
-    request: Request,
+    request: FillSpec,
     *,
     threads: int | None = None,
     max_memory: int | None = None,
     progress: Progress | None = None,
 ) -> Result[FillStages, FillReport]:
     """Fill a part as a request says: see `fill`."""
-    check_width(request, part.bounds)
-    clock, request = Clock(progress), on_grid_of(request, part.bounds)
+    check_drain_width(request, part.bounds)
+    clock, request = Clock(progress), resolve_voxel(request, part.bounds)
     project = None
     if request.form == "project":
-        project = projected(part, request, clock=clock, threads=threads, max_memory=max_memory)
+        project = make_project_infill(part, request, clock=clock, threads=threads, max_memory=max_memory)
         voids, hollow = project.voids, project.hollow
     else:
-        voids = voids_of(request, part.bounds, threads)
-        hollow = hollowed(part, request, voids, clock=clock, threads=threads, max_memory=max_memory)
+        voids = choose_voids(request, part.bounds, threads)
+        hollow = make_void_meshes(part, request, voids, clock=clock, threads=threads, max_memory=max_memory)
     with clock.stage("check", 0.9):
         result, report, hollow = _assemble(part, hollow, voids, request, threads, project)
     report["seconds"] = {"shift": 0.0, **clock.seconds, "total": sum(clock.seconds.values())}
@@ -216,12 +216,12 @@ def filled(
 
 def _assemble(
     part: Surface,
-    hollow: Hollow,
+    hollow: VoidMeshes,
     pattern: Voids,
-    request: Request,
+    request: FillSpec,
     threads: int | None,
-    project: Projected | None,
-) -> tuple[Surface, dict[str, Any], Hollow]:
+    project: ProjectInfill | None,
+) -> tuple[Surface, dict[str, Any], VoidMeshes]:
     """Return the requested surface, the report, and the voids, with counts of the pieces that were left out."""
     space = hollow.space
     if project is not None:
@@ -229,16 +229,18 @@ def _assemble(
     else:
         outer = space.part if request.form == "solid" else _inner_surface(space, request, threads)
         if space.opening is None:
-            solid = joined([outer, *(replace(surface, faces=surface.faces[:, ::-1]) for surface in hollow.surfaces)])
+            solid = concatenate_surfaces(
+                [outer, *(replace(surface, faces=surface.faces[:, ::-1]) for surface in hollow.surfaces)]
+            )
         else:
             solid, pieces, loose = cut_open(outer, hollow.surfaces, space.opening, space.size, threads=threads)
             hollow = replace(hollow, islands=hollow.islands + pieces, loose=loose)
-    drained = Drained(solid=solid)
+    drained = DrainedSolid(solid=solid)
     if request.drain is not None:
-        drained = drain(solid, hollow, request, threads=threads)
+        drained = drill_drains(solid, hollow, request, threads=threads)
         hollow = replace(hollow, islands=hollow.islands + drained.pieces)
-    solid = with_measures(drained.solid, threads=threads)
-    facts = measured(solid, outer, hollow, pattern, request, drained, threads=threads)
+    solid = measure_surface(drained.solid, threads=threads)
+    facts = measure_solid(solid, outer, hollow, pattern, request, drained, threads=threads)
     narrow = None if project is None else project.narrow
     bounds = solid.bounds
     report = {
@@ -252,7 +254,7 @@ def _assemble(
         "bounds": bounds.tolist(),
         "volume": solid.volume,
         "density": hollow.density,
-        "problems": list(problems(request, hollow, facts, drained, narrow)),
+        "problems": list(find_problems(request, hollow, facts, drained, narrow)),
         "request": request.facts(),
         "grid": {
             "shape": list(space.shape),
@@ -301,8 +303,8 @@ def _assemble(
     return solid, report, hollow
 
 
-def _inner_surface(space: Space, request: Request, threads: int | None) -> Surface:
+def _inner_surface(space: Interior, request: FillSpec, threads: int | None) -> Surface:
     """Return the surface of the space inside the walls, extended into them by the overlap."""
     tolerance = min(SHARE * request.tolerance, request.overlap / 2)
-    inner = inner_side(space, overlap=request.overlap, tolerance=tolerance, threads=threads)
-    return inner if space.opening is None else between(inner, space.opening, space.size)
+    inner = extract_inner_side(space, overlap=request.overlap, tolerance=tolerance, threads=threads)
+    return inner if space.opening is None else clip_to_opening(inner, space.opening, space.size)

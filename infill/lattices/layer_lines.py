@@ -10,10 +10,10 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from infill.interior.interior import BAND, Space
-from infill.lattices.fillets import sharpest
-from infill.lattices.line_sample import SAMPLE, LineSample, corners, segments_of, sized, square
-from patterns.protocol import LEVEL_SET, LevelSet, Pattern, gives, lines_of
+from infill.interior.interior import BAND, Interior
+from infill.lattices.fillets import sharpest_angle
+from infill.lattices.line_sample import SAMPLE, LineSample, centred_square, corner_angles, line_segments, with_cell
+from patterns.protocol import LEVEL_SET, LevelSet, Pattern, draw_lines, gives
 
 LOOKED_AT = 8  # heights at which corners are looked at
 STEEPEST = 1.75  # slope of a wall, 60 degrees: lines that move by more from layer to layer belong to another wall
@@ -22,7 +22,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Changing:
+class LayerLines:
     """The lines of a pattern in every layer of a space.
 
     Parameters
@@ -51,25 +51,25 @@ class Changing:
         """See `LineLayers`."""
         return STEEPEST
 
-    def sharpest(self, space: Space, cell: float) -> float:
+    def sharpest(self, space: Interior, cell: float) -> float:
         """See `Voids`: corners of a few cells at several heights inside the walls."""
-        pattern, heights = sized(self.pattern, cell), self._heights(space)[(space.depth > 0).any(axis=(0, 1))]
-        region = square(SAMPLE / 2 * cell)
+        pattern, heights = with_cell(self.pattern, cell), self._heights(space)[(space.depth > 0).any(axis=(0, 1))]
+        region = centred_square(SAMPLE / 2 * cell)
         sampled = np.linspace(heights[0], heights[-1], min(LOOKED_AT, len(heights)))
-        angles = [corners(lines_of(pattern, region, float(z)), region, cell=cell) for z in sampled]
-        return sharpest(np.concatenate(angles))
+        angles = [corner_angles(draw_lines(pattern, region, float(z)), region, cell=cell) for z in sampled]
+        return sharpest_angle(np.concatenate(angles))
 
     def widths(self, density: float) -> float:
         """See `Voids`: those of one height."""
         return self.sample.widths(density)
 
-    def about(self, middle: Floats) -> Changing:
+    def about(self, middle: Floats) -> LayerLines:
         """See `Anchored`."""
         return replace(self, anchor=middle + self.anchor)
 
-    def lines(self, space: Space, cell: float) -> list[Floats]:
+    def lines(self, space: Interior, cell: float) -> list[Floats]:
         """See `LineLayers`."""
-        pattern, start = sized(self.pattern, cell), space.origin[:2] - self.anchor[:2]
+        pattern, start = with_cell(self.pattern, cell), space.origin[:2] - self.anchor[:2]
         depth, segments = space.depth, []
         for layer, z in enumerate(self._heights(space)):
             used = np.argwhere(depth[:, :, layer] > -BAND)
@@ -77,13 +77,13 @@ class Changing:
                 segments.append(np.empty((0, 2, 2)))
                 continue
             low, high = (start + space.size * end for end in (used.min(axis=0), used.max(axis=0)))
-            lines = lines_of(pattern, shapely.box(*(low - cell), *(high + cell)), float(z))
-            segments.append(segments_of(shapely.get_parts(lines), start, space.size))
+            lines = draw_lines(pattern, shapely.box(*(low - cell), *(high + cell)), float(z))
+            segments.append(line_segments(shapely.get_parts(lines), start, space.size))
         return segments
 
-    def sides(self, space: Space, cell: float) -> Iterator[NDArray[np.bool_]]:
+    def sides(self, space: Interior, cell: float) -> Iterator[NDArray[np.bool_]]:
         """See `LineLayers`."""
-        pattern = sized(self.pattern, cell)
+        pattern = with_cell(self.pattern, cell)
         if not isinstance(pattern, LevelSet):
             return
         nx, ny, _ = space.shape
@@ -92,7 +92,7 @@ class Changing:
         for z in self._heights(space):
             yield pattern.level_set(across, along, np.full_like(across, z)) > 0
 
-    def _heights(self, space: Space) -> Floats:
+    def _heights(self, space: Interior) -> Floats:
         """Return the heights of the middles of layers in the pattern, mm."""
         heights: Floats = space.origin[2] - self.anchor[2] + space.size * np.arange(space.shape[2])
         return heights

@@ -12,7 +12,7 @@ from typing import Protocol, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.interior.interior import BAND, Space
+from infill.interior.interior import BAND, Interior
 from infill.kernels.threads import in_threads, thread_count
 from infill.lattices.bodies import Bodies
 from infill.lattices.grading import Grading
@@ -23,14 +23,14 @@ WIDER_LINES = 1.5  # range of line widths for which distances suffice, over the 
 Floats = NDArray[np.float64]
 
 
-class LineLayers(Protocol):
+class LinesByLayer(Protocol):
     """Lines in every layer of a space."""
 
-    def lines(self, space: Space, cell: float) -> list[Floats]:
+    def lines(self, space: Interior, cell: float) -> list[Floats]:
         """Return the lines in each layer, for cells of a size, mm: (S, 2, 2), in cells from the first centre."""
         ...
 
-    def sides(self, space: Space, cell: float) -> Iterator[NDArray[np.bool_]]:
+    def sides(self, space: Interior, cell: float) -> Iterator[NDArray[np.bool_]]:
         """Yield a mask of the cells (nx, ny) on one side of the lines for each layer; nothing without sides."""
         ...
 
@@ -48,7 +48,7 @@ class LineLayers(Protocol):
         """Largest distance of a line from that of the layer above, in cells."""
         ...
 
-    def sharpest(self, space: Space, cell: float) -> float:
+    def sharpest(self, space: Interior, cell: float) -> float:
         """See `Voids`."""
         ...
 
@@ -61,13 +61,13 @@ class LineLayers(Protocol):
 class _Distances:
     """Distances of cells from lines along their layer, up to a limit, in cells: negative on one of two sides."""
 
-    space: Space  # kept alive, so that its id stays its own
+    space: Interior  # kept alive, so that its id stays its own
     away: FIELD
     reach: float
 
 
 @dataclass(frozen=True, kw_only=True)
-class Layered:
+class NonPrismatic:
     """The voids beside walls along lines that change from layer to layer.
 
     Parameters
@@ -81,7 +81,7 @@ class Layered:
         Distances, for a space and a cell.
     """
 
-    layers: LineLayers
+    layers: LinesByLayer
     threads: int | None = None
     grading: Grading | None = None
     bodies: Bodies | None = None
@@ -92,23 +92,23 @@ class Layered:
         """True if one void lies around all walls, so that cells of the grid must resolve the walls."""
         return not self.layers.two_sided
 
-    def sharpest(self, space: Space, *, cell: float, width: float) -> float:
+    def sharpest(self, space: Interior, *, cell: float, width: float) -> float:
         """See `Voids`."""
         if self.bodies is not None:
             return self.bodies.sharpest(self, space, cell=cell, width=width)
         return self.layers.sharpest(space, cell)
 
-    def about(self, middle: Floats) -> Layered:
+    def about(self, middle: Floats) -> NonPrismatic:
         """See `Anchored`."""
         return replace(self, layers=self.layers.about(middle), bodies=None, known={})
 
-    def count(self, space: Space, *, cell: float, width: float) -> int:
+    def count(self, space: Interior, *, cell: float, width: float) -> int:
         """Count the fields: one for each side, or one around all walls."""
         if self.bodies is not None:
             return self.bodies.count(self, space, cell=cell, width=width)
         return 1 if self.around else 2
 
-    def into(self, out: FIELD, space: Space, which: int, *, cell: float, width: float) -> float:
+    def into(self, out: FIELD, space: Interior, which: int, *, cell: float, width: float) -> float:
         """See `Voids`."""
         from infill.kernels.layered import from_layers
 
@@ -137,9 +137,9 @@ class Layered:
         """See `Voids`."""
         return self.layers.widths(density)
 
-    def _distances(self, space: Space, cell: float, half: float) -> _Distances:
+    def _distances(self, space: Interior, cell: float, half: float) -> _Distances:
         """Return distances that suffice for walls whose widest half is this wide, in cells."""
-        from infill.kernels.layered import beside_lines
+        from infill.kernels.layered import distances_to_lines
 
         # Along a layer, cells within the band of a leaning wall are further away by its slope.
         reach = (half + 2 * BAND) * float(np.hypot(1.0, self.layers.steepest))
@@ -151,7 +151,7 @@ class Layered:
             away = np.empty(space.shape, dtype=np.float32)
             reach *= WIDER_LINES
             segments = np.concatenate([np.empty((0, 2, 2)), *lines])
-            in_threads(beside_lines, segments, offsets, reach, away, threads=thread_count(self.threads))
+            in_threads(distances_to_lines, segments, offsets, reach, away, threads=thread_count(self.threads))
             for layer, side in enumerate(self.layers.sides(space, cell)):
                 away[:, :, layer] *= np.where(side, np.float32(1), np.float32(-1))
             self.known[key] = _Distances(space=space, away=away, reach=reach)

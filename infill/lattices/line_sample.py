@@ -11,10 +11,10 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from infill.interior.root_finding import root
-from infill.lattices.fillets import between_lines, sharpest
+from infill.interior.root_finding import find_root
+from infill.lattices.fillets import find_polygon_corners, sharpest_angle
 from patterns.errors import PatternError
-from patterns.protocol import Pattern, lines_of
+from patterns.protocol import Pattern, draw_lines
 
 SAMPLE = 12.0  # cells of the pattern along a side of the square in which density is measured
 SNAP = 1e-6  # of a cell: lines that are nearer than this meet
@@ -46,7 +46,7 @@ class LineSample:
     def sharpest(self) -> float:
         """See `Voids`."""
         region, lines = self._lines_in_square
-        return sharpest(corners(lines, region))
+        return sharpest_angle(corner_angles(lines, region))
 
     def widths(self, density: float) -> float:
         """See `Voids`."""
@@ -57,21 +57,21 @@ class LineSample:
             return math.log(shapely.intersection(walls, region).area / (density * region.area))
 
         # Lines a cell apart in one direction would be as wide as the density; most run in two.
-        return self.apart * density / 2 * root(off, NEAR, TRIES)
+        return self.apart * density / 2 * find_root(off, NEAR, TRIES)
 
     @cached_property
     def _lines_in_square(self) -> tuple[shapely.Polygon, shapely.Geometry]:
         """A few cells of a pattern whose cell is 1, and the lines in them."""
         side = SAMPLE / 2
-        region = square(side)
-        wider = region if follows(self.pattern) else square(WIDER * side * 2**0.5)
-        lines = shapely.intersection(lines_of(sized(self.pattern, 1.0), wider), region)
+        region = centred_square(side)
+        wider = region if follows_outline(self.pattern) else centred_square(WIDER * side * 2**0.5)
+        lines = shapely.intersection(draw_lines(with_cell(self.pattern, 1.0), wider), region)
         if not lines.length:
             raise PatternError(f"the pattern {self.pattern.name} has no lines; draw some")
         return region, lines
 
 
-def sized(pattern: Pattern, cell: float) -> Pattern:
+def with_cell(pattern: Pattern, cell: float) -> Pattern:
     """Set the cell of a pattern, mm, and drop its frame."""
     overrides: dict[str, Any] = {"cell": cell} if hasattr(pattern, "cell") else {}
     if hasattr(pattern, "frame"):
@@ -79,20 +79,20 @@ def sized(pattern: Pattern, cell: float) -> Pattern:
     return dataclasses.replace(pattern, **overrides)  # type: ignore[type-var]
 
 
-def follows(pattern: Pattern) -> bool:
+def follows_outline(pattern: Pattern) -> bool:
     """Tell whether the lines of a pattern follow the outline of their region; a plug-in need not declare it."""
     return getattr(pattern, "follows", False)
 
 
-def square(half: float) -> shapely.Polygon:
+def centred_square(half: float) -> shapely.Polygon:
     """Return the square about (0, 0) with a half side."""
     return shapely.box(-half, -half, half, half)
 
 
-def segments_of(lines: NDArray[np.object_], start: NDArray[np.float64], size: float) -> NDArray[np.float64]:
+def line_segments(lines: NDArray[np.object_], start: NDArray[np.float64], size: float) -> NDArray[np.float64]:
     """Return the segments (S, 2, 2) of lines, mm, in cells of a size from where the first one lies.
 
-    >>> segments_of(shapely.linestrings([[(1, 1), (3, 1), (3, 5)]]), np.array([1.0, 1.0]), 2.0).tolist()
+    >>> line_segments(shapely.linestrings([[(1, 1), (3, 1), (3, 5)]]), np.array([1.0, 1.0]), 2.0).tolist()
     [[[0.0, 0.0], [1.0, 0.0]], [[1.0, 0.0], [1.0, 2.0]]]
     """
     points, line = shapely.get_coordinates(lines, return_index=True)
@@ -101,7 +101,7 @@ def segments_of(lines: NDArray[np.object_], start: NDArray[np.float64], size: fl
     return np.stack([points[within_line], points[within_line + 1]], axis=1)
 
 
-def corners(lines: shapely.Geometry, region: shapely.Polygon, *, cell: float = 1.0) -> NDArray[np.float64]:
+def corner_angles(lines: shapely.Geometry, region: shapely.Polygon, *, cell: float = 1.0) -> NDArray[np.float64]:
     """Return the angles between lines inside a region, where they meet or bend, degrees.
 
     Parameters
@@ -110,10 +110,10 @@ def corners(lines: shapely.Geometry, region: shapely.Polygon, *, cell: float = 1
     cell : float
         Of the pattern, in the unit of the lines.
 
-    >>> corners(shapely.LineString([(-1 / 3, 0), (0, 0), (0, 1 / 3)]), square(1 / 3)).round(6).tolist()
+    >>> corner_angles(shapely.LineString([(-1 / 3, 0), (0, 0), (0, 1 / 3)]), centred_square(1 / 3)).round(6).tolist()
     [90.0]
     """
-    places, angles = between_lines(faces_between(lines, region, cell=cell))
+    places, angles = find_polygon_corners(faces_between(lines, region, cell=cell))
     off_border = shapely.distance(shapely.points(places), region.boundary) > 2 * SNAP * cell
     inside: NDArray[np.float64] = angles[off_border]
     return inside
@@ -131,7 +131,7 @@ def faces_between(lines: shapely.Geometry, region: shapely.Polygon, *, cell: flo
         Of the pattern, in the unit of the lines.
 
     >>> upright, level = shapely.LineString([(0, -1), (0, 1)]), shapely.LineString([(1e-9, 0), (1, 0)])
-    >>> [face.area for face in faces_between(shapely.MultiLineString([upright, level]), square(1.0))]
+    >>> [face.area for face in faces_between(shapely.MultiLineString([upright, level]), centred_square(1.0))]
     [1.0, 2.0, 1.0]
     """
     noded = shapely.union_all([lines, region.boundary], grid_size=SNAP * cell)

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.interior.interior import Space
-from infill.lattices.grading import Local
+from infill.interior.interior import Interior
+from infill.lattices.grading import LocalWidths
 from infill.surface import Surface
-from infill.voxels.scanlines import crossings, filled
+from infill.voxels.scanlines import fill_rows, intersect_rows
 
 SAMPLES = 200_000
 SHIFTS = (  # of a cell: along every axis, the middles of its four quarters
@@ -20,7 +20,9 @@ SHIFTS = (  # of a cell: along every axis, the middles of its four quarters
 Floats = NDArray[np.float64]
 
 
-def densities_by_share(space: Space, voids: Surface, local: Local, count: int, *, mean: float) -> tuple[Floats, Floats]:
+def densities_by_share(
+    space: Interior, voids: Surface, local: LocalWidths, count: int, *, mean: float
+) -> tuple[Floats, Floats]:
     """Return requested and measured densities, averaged over equal numbers of random cells: (count,) each.
 
     Whether a place is solid is tested on the meshes of the voids, on grids that are shifted by parts of a cell:
@@ -32,7 +34,7 @@ def densities_by_share(space: Space, voids: Surface, local: Local, count: int, *
     cells = candidates[np.random.default_rng(0).integers(len(candidates), size=SAMPLES)]
     places, solid = cells.astype(np.float64), np.empty(SAMPLES, dtype=bool)
     for shift, indices in zip(SHIFTS, np.array_split(np.arange(SAMPLES), len(SHIFTS)), strict=True):
-        void = filled(crossings(corners - shift, voids.faces, depth.shape), depth.shape)
+        void = fill_rows(intersect_rows(corners - shift, voids.faces, depth.shape), depth.shape)
         solid[indices] = ~void[tuple(cells[indices].T)]
         places[indices] += shift
     inside = _interpolate(depth, places) > 0

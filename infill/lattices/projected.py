@@ -13,15 +13,15 @@ from dataclasses import dataclass, replace
 from itertools import chain
 
 from infill.errors import GeometryError, ParameterError
-from infill.interior.hollow import Hollow
-from infill.interior.inside import SHARE, inner_side
-from infill.interior.interior import Space
-from infill.interior.narrow import NARROW, Narrow, too_narrow, without_narrow
-from infill.lattices.choosing import voids_of
-from infill.lattices.hollowing import hollowed
-from infill.lattices.request import LINE_WIDTH, Request
+from infill.interior.hollow import VoidMeshes
+from infill.interior.inside import SHARE, extract_inner_side
+from infill.interior.interior import Interior
+from infill.interior.narrow import NARROW, NarrowShares, drop_narrow, estimate_narrow
+from infill.lattices.choosing import choose_voids
+from infill.lattices.hollowing import make_void_meshes
+from infill.lattices.request import LINE_WIDTH, FillSpec
 from infill.lattices.voids import Voids
-from infill.meshes.solids import shortened, volume_within, without
+from infill.meshes.solids import shared_volume, simplify_solid, subtract
 from infill.result import Clock
 from infill.surface import Surface
 
@@ -48,7 +48,7 @@ SHIFTS = (  # of a cell, evenly spread from the start: the beginning of Halton's
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Projected:
+class ProjectInfill:
     """The infill of a project.
 
     Parameters
@@ -64,10 +64,10 @@ class Projected:
     """
 
     infill: Surface
-    hollow: Hollow
+    hollow: VoidMeshes
     voids: Voids
     phase: tuple[float, float, float]
-    narrow: Narrow | None
+    narrow: NarrowShares | None
 
     @property
     def lost(self) -> float:
@@ -75,9 +75,9 @@ class Projected:
         return 1.0 if self.narrow is None else self.narrow.all
 
 
-def projected(
-    part: Surface, request: Request, *, clock: Clock, threads: int | None = None, max_memory: int | None = None
-) -> Projected:
+def make_project_infill(
+    part: Surface, request: FillSpec, *, clock: Clock, threads: int | None = None, max_memory: int | None = None
+) -> ProjectInfill:
     """Make the infill of a project for a part, mm.
 
     Raises
@@ -88,12 +88,14 @@ def projected(
         If memory will not suffice.
     """
 
-    def place(request: Request, clock: Clock) -> Projected:
-        voids = voids_of(request, part.bounds, threads)
-        hollow = hollowed(part, request, voids, clock=clock, threads=threads, max_memory=max_memory)
+    def place(request: FillSpec, clock: Clock) -> ProjectInfill:
+        voids = choose_voids(request, part.bounds, threads)
+        hollow = make_void_meshes(part, request, voids, clock=clock, threads=threads, max_memory=max_memory)
         infill = _subtract_voids(hollow.space, hollow.surfaces, request, threads)
-        narrow = too_narrow(hollow.space.part, infill, request.wall, LINE_WIDTH, _narrowest_printed(hollow, request))
-        return Projected(infill=infill, hollow=hollow, voids=voids, phase=request.phase, narrow=narrow)
+        narrow = estimate_narrow(
+            hollow.space.part, infill, request.wall, LINE_WIDTH, _narrowest_printed(hollow, request)
+        )
+        return ProjectInfill(infill=infill, hollow=hollow, voids=voids, phase=request.phase, narrow=narrow)
 
     project = place(request, clock)
     if _can_shift(project, request):
@@ -105,7 +107,7 @@ def projected(
     return _drop_unprintable(project, request) if project.narrow is not None and project.narrow.all > limit else project
 
 
-def _can_shift(project: Projected, request: Request) -> bool:
+def _can_shift(project: ProjectInfill, request: FillSpec) -> bool:
     """Tell whether shifting a pattern may help: its place was not requested, and more is lost than the lack of room."""
     narrow, size = project.narrow, math.prod(project.hollow.space.shape)
     is_placed = any(request.phase) or request.align == "bed" or request.grading is not None
@@ -113,8 +115,8 @@ def _can_shift(project: Projected, request: Request) -> bool:
 
 
 def _try_shifts(
-    project: Projected, request: Request, place: Callable[[Request, Clock], Projected], clock: Clock
-) -> Iterator[Projected]:
+    project: ProjectInfill, request: FillSpec, place: Callable[[FillSpec, Clock], ProjectInfill], clock: Clock
+) -> Iterator[ProjectInfill]:
     """Yield the infill with the pattern in other places."""
     cell = project.hollow.cell
     for attempt, (x, y, z) in enumerate(SHIFTS):
@@ -128,38 +130,38 @@ def _try_shifts(
             break
 
 
-def _drop_unprintable(project: Projected, request: Request) -> Projected:
+def _drop_unprintable(project: ProjectInfill, request: FillSpec) -> ProjectInfill:
     """Drop infill that slicers do not print, unless nothing would remain."""
     hollow = project.hollow
     part, walls = hollow.space.part, hollow.walls
-    printable = without_narrow(part, project.infill, request.wall, LINE_WIDTH, _narrowest_printed(hollow, request))
+    printable = drop_narrow(part, project.infill, request.wall, LINE_WIDTH, _narrowest_printed(hollow, request))
     if walls is None or printable is project.infill:
         return project
-    remaining = volume_within(printable, walls)
+    remaining = shared_volume(printable, walls)
     if not remaining > 0:  # nan too
         return project
-    dropped = volume_within(project.infill, walls) - remaining
-    return replace(project, infill=shortened(printable, SHORT), hollow=replace(hollow, loose=dropped))
+    dropped = shared_volume(project.infill, walls) - remaining
+    return replace(project, infill=simplify_solid(printable, SHORT), hollow=replace(hollow, loose=dropped))
 
 
-def _narrowest_printed(hollow: Hollow, request: Request) -> float:
+def _narrowest_printed(hollow: VoidMeshes, request: FillSpec) -> float:
     """Return the width of the narrowest infill that slicers print, mm."""
     narrowest = LEAST_WIDTH * hollow.width * request.thinnest
     return min(max(narrowest, LEAST_LINE * LINE_WIDTH), LEAST_LINES * LINE_WIDTH)
 
 
-def _subtract_voids(space: Space, voids: list[Surface], request: Request, threads: int | None) -> Surface:
+def _subtract_voids(space: Interior, voids: list[Surface], request: FillSpec, threads: int | None) -> Surface:
     """Subtract the voids from the part, or from most of it if manifold3d rejects that; return the surface.
 
     Where voids meet the skin, they leave edges so short that both ends are one point in single precision, as in files:
     such edges are collapsed.
     """
-    infill = without(space.part, voids)
+    infill = subtract(space.part, voids)
     if infill is None:
-        inside = inner_side(
+        inside = extract_inner_side(
             space, overlap=INTO_WALL * request.wall, tolerance=SHARE * request.tolerance, threads=threads
         )
-        infill = without(inside, voids)
+        infill = subtract(inside, voids)
     if infill is None or not len(infill.faces):
         raise GeometryError("manifold3d does not take the voids as solids; give another cell or smaller voxels")
-    return shortened(infill, SHORT)
+    return simplify_solid(infill, SHORT)

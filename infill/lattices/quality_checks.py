@@ -9,20 +9,20 @@ from itertools import chain
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.interior.hollow import Hollow
+from infill.interior.hollow import VoidMeshes
 from infill.interior.interior import LEAST_OVERLAP
-from infill.interior.narrow import NARROW, Narrow
+from infill.interior.narrow import NARROW, NarrowShares
 from infill.interior.opening import Opening
 from infill.isosurfaces.components import shell_names
-from infill.lattices.drain_holes import Drained, told_of_drains, trapped
-from infill.lattices.hollowing import even, share_of_cells, wanted
+from infill.lattices.drain_holes import DrainedSolid, drain_problems, find_closed_voids
+from infill.lattices.hollowing import has_uniform_width, requested_density, solid_share
 from infill.lattices.local_density import densities_by_share
-from infill.lattices.request import GAP, LINE_WIDTH, Request
+from infill.lattices.request import GAP, LINE_WIDTH, FillSpec
 from infill.lattices.voids import Voids
-from infill.meshes.distance import Tree
-from infill.meshes.shells import first_of_shells, in_batches
-from infill.meshes.solids import FINE, in_one_place, status
-from infill.meshes.winding import winding
+from infill.meshes.distance import TriangleTree
+from infill.meshes.shells import first_vertex_of_shells, split_into_batches
+from infill.meshes.solids import FINE, coincident_vertices, manifold_status
+from infill.meshes.winding import winding_numbers
 from infill.surface import Surface
 
 OFF = 0.005  # of the density: larger errors are reported
@@ -37,7 +37,7 @@ AT_ONCE = 50_000  # triangles or points in a batch
 LEAST_WALL = 0.9  # of the requested wall
 
 
-def least_wall(
+def measure_least_wall(
     part: Surface, voids: list[Surface], threads: int | None, opening: Opening | None = None
 ) -> tuple[float, list[float]]:
     """Measure the least distance of the voids from the skin, mm, at corners and centres of triangles; return its place.
@@ -46,7 +46,7 @@ def least_wall(
     """
     if opening is not None:
         part = opening.shell
-    tree, least, place = Tree.of(part), np.inf, np.full(3, np.nan)
+    tree, least, place = TriangleTree.of(part), np.inf, np.full(3, np.nan)
     for points in chain.from_iterable(map(_point_batches, voids)):
         if opening is not None:
             points = points[opening.inside(points[:, 2])]
@@ -65,20 +65,20 @@ def _point_batches(surface: Surface) -> Iterator[NDArray[np.float64]]:
         yield corners[faces[begin : begin + AT_ONCE]].mean(axis=1)
 
 
-def outside(part: Surface, voids: list[Surface], threads: int | None, middle: float | None = None) -> int:
+def count_outside(part: Surface, voids: list[Surface], threads: int | None, middle: float | None = None) -> int:
     """Count the voids outside the part, as no void crosses its skin.
 
     Where a part is open, the points nearest to a height in its middle, mm, decide.
     """
     points = [_point_of_shells(surface, middle) for surface in voids]
-    return int((winding(np.concatenate(points).astype(np.float64), part, threads=threads) <= 0).sum())
+    return int((winding_numbers(np.concatenate(points).astype(np.float64), part, threads=threads) <= 0).sum())
 
 
 def _point_of_shells(surface: Surface, middle: float | None) -> NDArray[np.float64]:
     """Return a point of every component, (N, 3): its first vertex, or the point of its edges nearest to a height."""
     vertices = np.asarray(surface.vertices, dtype=np.float64)
     if middle is None:
-        return vertices[first_of_shells(surface)]
+        return vertices[first_vertex_of_shells(surface)]
     names, count = shell_names(surface)
     edges = np.concatenate([surface.faces[:, [i, (i + 1) % 3]] for i in range(3)])
     start, end = vertices[edges[:, 0]], vertices[edges[:, 1]]
@@ -92,7 +92,7 @@ def _point_of_shells(surface: Surface, middle: float | None) -> NDArray[np.float
 
 
 @dataclass(frozen=True, kw_only=True)
-class Measured:
+class SolidMeasures:
     """Measurements of the final solid.
 
     Parameters
@@ -104,7 +104,7 @@ class Measured:
     astray : int
         Voids outside of the part.
     closed : list of (float, list of float)
-        Voids without a drain: see `trapped`.
+        Voids without a drain: see `find_closed_voids`.
     crowded : int
         Vertices that coincide with another one in single precision, not counting those of the skin.
     verdict : str
@@ -136,45 +136,45 @@ class Measured:
     widths: list[float] | None = None
 
 
-def measured(
+def measure_solid(
     solid: Surface,
     outer: Surface,
-    hollow: Hollow,
+    hollow: VoidMeshes,
     voids: Voids,
-    request: Request,
-    drained: Drained,
+    request: FillSpec,
+    drained: DrainedSolid,
     *,
     threads: int | None,
-) -> Measured:
+) -> SolidMeasures:
     """Measure a solid with an outer surface, voids and drains."""
     least: float | None = None
     place: list[float] | None = None
-    astray, crowded = 0, int(in_one_place(solid).sum())
+    astray, crowded = 0, int(coincident_vertices(solid).sum())
     if request.form != "project":
         part, opening = hollow.space.part, hollow.space.opening
         middle = None if opening is None else float(part.bounds[:, 2].mean())
-        least, place = least_wall(part, hollow.surfaces, threads, opening)
+        least, place = measure_least_wall(part, hollow.surfaces, threads, opening)
         for hole in drained.plan.holes:
             if hole.clearance < least:
                 least, place = hole.clearance, hole.near.tolist()
-        astray = outside(part, hollow.surfaces, threads, middle)
-        crowded -= int(in_one_place(outer).sum())
-    return Measured(
+        astray = count_outside(part, hollow.surfaces, threads, middle)
+        crowded -= int(coincident_vertices(outer).sum())
+    return SolidMeasures(
         least=least,
         at=place,
         astray=astray,
-        closed=trapped(solid) if request.form == "solid" else [],
+        closed=find_closed_voids(solid) if request.form == "solid" else [],
         crowded=max(0, crowded),
         verdict=_verdict(solid),
-        width=(hollow.median[0] if even(voids) else None) or hollow.width,
-        drawn=share_of_cells(hollow.space, voids, hollow.cell, hollow.width),
-        wanted=wanted(request, hollow.space, voids),
-        graded=[] if voids.grading is None else steps(hollow, voids),
+        width=(hollow.median[0] if has_uniform_width(voids) else None) or hollow.width,
+        drawn=solid_share(hollow.space, voids, hollow.cell, hollow.width),
+        wanted=requested_density(request, hollow.space, voids),
+        graded=[] if voids.grading is None else density_steps(hollow, voids),
         **_ranges(hollow, voids),
     )
 
 
-def _ranges(hollow: Hollow, voids: Voids) -> dict[str, list[float]]:
+def _ranges(hollow: VoidMeshes, voids: Voids) -> dict[str, list[float]]:
     """Return the range of cell sizes, and of widths of walls, where the density changes."""
     if voids.grading is None:
         return {}
@@ -187,10 +187,12 @@ def _ranges(hollow: Hollow, voids: Voids) -> dict[str, list[float]]:
 
 def _verdict(solid: Surface) -> str:
     """Return the verdict of manifold3d on a solid: fine if all of its components are, some of which at a time."""
-    return next((verdict for verdict in map(status, in_batches(solid, AT_ONCE)) if verdict != FINE), FINE)
+    return next(
+        (verdict for verdict in map(manifold_status, split_into_batches(solid, AT_ONCE)) if verdict != FINE), FINE
+    )
 
 
-def steps(hollow: Hollow, voids: Voids) -> list[dict[str, float]]:
+def density_steps(hollow: VoidMeshes, voids: Voids) -> list[dict[str, float]]:
     """Group places by requested density; return the requested and the measured density of each group, rising."""
     if voids.grading is None:
         return []
@@ -200,13 +202,13 @@ def steps(hollow: Hollow, voids: Voids) -> list[dict[str, float]]:
     return [{"wanted": target, "density": density} for target, density in pairs]
 
 
-def near(width: float, requested: float) -> bool:
+def is_width_ok(width: float, requested: float) -> bool:
     """Tell whether walls or bars are as wide as requested, or nearly."""
     return abs(width / requested - 1) <= OFF_WIDTH
 
 
-def problems(
-    request: Request, hollow: Hollow, facts: Measured, drained: Drained, lost: Narrow | None = None
+def find_problems(
+    request: FillSpec, hollow: VoidMeshes, facts: SolidMeasures, drained: DrainedSolid, lost: NarrowShares | None = None
 ) -> Iterator[str]:
     """Yield a message for everything that differs from the request, and for every change to the part."""
     overlap, moved, opening = hollow.space.overlap, hollow.tolerance, hollow.space.opening
@@ -231,7 +233,7 @@ def problems(
             f"of the infill, {facts.drawn:.1%} as drawn, {share:.1%} is left: walls or bars are too thin for the grid, "
             "or were smoothed away; give smaller voxels, a smaller smooth radius or wider lines"
         )
-    if request.line_width is not None and request.grading is None and not near(facts.width, request.line_width):
+    if request.line_width is not None and request.grading is None and not is_width_ok(facts.width, request.line_width):
         yield f"walls or bars inside are {facts.width:.3g} mm wide, and {request.line_width:g} mm was asked for"
     if request.form == "project" and facts.width < THINNEST:
         yield (
@@ -270,7 +272,7 @@ def problems(
         yield "the part has edges with more than two faces, and so has the result"
     if overlap > LEAST_OVERLAP:
         yield f"the part overlaps itself in {overlap:.2%} of its volume, and voids there may stay solid"
-    yield from told_of_drains(request, drained, facts.closed)
+    yield from drain_problems(request, drained, facts.closed)
     if facts.crowded:
         yield f"{facts.crowded} vertices are in one place in single precision: an STL of it is not closed"
     if facts.verdict != FINE:

@@ -9,12 +9,12 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 
-from infill.checks import length, positive, whole, within
+from infill.checks import check_length, check_positive, check_range, check_whole_number
 from infill.errors import GeometryError, UsageError
 from infill.interior.opening import Open
-from infill.lattices.density_fields import field_of
+from infill.lattices.density_fields import resolve_field
 from infill.lattices.grading import Grading, Varies
-from infill.lattices.resolve_pattern import Kind, kind_of
+from infill.lattices.resolve_pattern import Kind, resolve_pattern
 from patterns.lightning import Lightning
 from patterns.unit_cells import Bars, Network, Surfaces
 
@@ -36,7 +36,7 @@ ROUNDED = 2.0  # radii from an edge: rounding has no visible effect further away
 
 
 @dataclass(frozen=True, kw_only=True)
-class Request:
+class FillSpec:
     """A request for `fill`, checked.
 
     Parameters
@@ -120,12 +120,12 @@ class Request:
     def gaps_in(self, width: float) -> bool:
         """Tell whether slicers leave gaps in walls of a width, mm, that is the same everywhere."""
         even = self.grading is None or self.grading.varies == "cell"
-        return self.form == "project" and even and not barred(self.kind) and GAP[0] < width < GAP[1]
+        return self.form == "project" and even and not has_bars(self.kind) and GAP[0] < width < GAP[1]
 
     @property
     def default_width(self) -> float:
         """Width of walls inside, mm; where the density changes, of its middle, so that the thinnest are this wide."""
-        sliced = SLICED_BAR if barred(self.kind) else SLICED_WIDTH
+        sliced = SLICED_BAR if has_bars(self.kind) else SLICED_WIDTH
         return (sliced if self.form == "project" else LINE_WIDTH) / self.thinnest
 
     @property
@@ -142,7 +142,7 @@ class Request:
         if self.grading is None:
             return 1.0
         # The density of walls grows as their width, that of bars as its square.
-        return math.sqrt(self.grading.thinnest) if barred(self.kind) else self.grading.thinnest
+        return math.sqrt(self.grading.thinnest) if has_bars(self.kind) else self.grading.thinnest
 
     def radius(self, thickness: float) -> float:
         """Return the radius of fillets, mm, in a part whose inside has a thickness, mm."""
@@ -164,11 +164,11 @@ class Request:
         if self.density is None:
             return ()
         if self.grading is not None:
-            thick = self.cell is not None or (self.line_width is None and barred(self.kind))
+            thick = self.cell is not None or (self.line_width is None and has_bars(self.kind))
             return ("width",) if thick else ("cell",)
         if self.cell is not None or self.line_width is not None:
             return ("cell",) if self.cell is None else ("width",)
-        return ("width",) if thickened(self.kind) and not self.lined else ("cell", "width")
+        return ("width",) if varies_by_width(self.kind) and not self.lined else ("cell", "width")
 
     def room(self, taken: int) -> int:
         """Return the number of triangles that voids may have beside those of the part.
@@ -216,17 +216,17 @@ class Request:
         }
 
 
-def barred(kind: Kind) -> bool:
+def has_bars(kind: Kind) -> bool:
     """Tell whether a pattern is made of bars; their thickness follows from the density."""
     return isinstance(kind, (Network, Bars))
 
 
-def thickened(kind: Kind) -> bool:
+def varies_by_width(kind: Kind) -> bool:
     """Tell whether a pattern reaches a density by the width of its walls, as bars and branches below roofs do."""
-    return barred(kind) or isinstance(kind, Lightning)
+    return has_bars(kind) or isinstance(kind, Lightning)
 
 
-def checked(
+def check_request(
     *,
     pattern: object,
     own: Mapping[str, Any],
@@ -250,7 +250,7 @@ def checked(
     grade: str | None = None,
     vent: bool = False,
     drain_at: Sequence[Sequence[float]] = (),
-) -> Request:
+) -> FillSpec:
     """Check that numbers are in range; return a request in which sizes that follow from others are open."""
     if density is not None and cell is not None and line_width is not None:
         raise UsageError("density, cell and line_width are all given; give two of them, and the third follows")
@@ -275,13 +275,13 @@ def checked(
         )
     if len(phase) not in (2, 3):
         raise UsageError(f"phase has {len(phase)} numbers; give two or three, mm")
-    shift = [within("phase", step, -FURTHEST, FURTHEST, "mm") for step in phase]
-    kind, name = kind_of(pattern)
+    shift = [check_range("phase", step, -FURTHEST, FURTHEST, "mm") for step in phase]
+    kind, name = resolve_pattern(pattern)
     grading = None
     if isinstance(density, (tuple, list)):
         if isinstance(kind, Lightning):
             raise UsageError(f"density is to change from place to place, and branches of {name} follow roofs; give one")
-        grading = graded(density, by, grade or "width")
+        grading = check_grading(density, by, grade or "width")
         density = grading.middle
         if grading.varies == "cell":
             _check_cells_follow(kind, name, align)
@@ -289,9 +289,9 @@ def checked(
         option = "by" if by is not None else "grade"
         raise UsageError(f"{option} is given with one density; give two, such as 15%:40%, or leave it out")
     elif density is not None:
-        density = within("density", density, LOWEST, HIGHEST)
+        density = check_range("density", density, LOWEST, HIGHEST)
     elif (cell is None or line_width is None) and not isinstance(kind, Lightning):
-        density = DENSITY if cell is None or barred(kind) else None
+        density = DENSITY if cell is None or has_bars(kind) else None
         if density is None:
             line_width = SLICED_WIDTH if form == "project" else LINE_WIDTH
     if density is not None and line_width is not None and isinstance(kind, Lightning):
@@ -299,26 +299,26 @@ def checked(
             f"density and line_width are both given, and {name} has as many branches as the roofs need; leave one of "
             "them out, or give cell and line_width"
         )
-    wall = (SLICED_WALL if form == "project" else WALL) if wall is None else length("wall", wall)
-    return Request(
+    wall = (SLICED_WALL if form == "project" else WALL) if wall is None else check_length("wall", wall)
+    return FillSpec(
         pattern=name,
         kind=kind,
         parameters=own,
         density=density,
-        cell=None if cell is None else length("cell", cell),
-        line_width=None if line_width is None else length("line_width", line_width),
+        cell=None if cell is None else check_length("cell", cell),
+        line_width=None if line_width is None else check_length("line_width", line_width),
         wall=wall,
-        overlap=min(OVERLAP, wall / 2) if overlap is None else within("overlap", overlap, 0.0, 0.9 * wall, "mm"),
-        angle=within("angle", angle, -360.0, 360.0, "degrees"),
+        overlap=min(OVERLAP, wall / 2) if overlap is None else check_range("overlap", overlap, 0.0, 0.9 * wall, "mm"),
+        angle=check_range("angle", angle, -360.0, 360.0, "degrees"),
         phase=(shift[0], shift[1], shift[2] if len(shift) == 3 else 0.0),
         align=align,  # type: ignore[arg-type]
         form=form,  # type: ignore[arg-type]
-        drain=None if drain is None else length("drain", drain),
-        smooth_radius=None if smooth_radius is None else within("smooth_radius", smooth_radius, 0.0, 100.0, "mm"),
-        tolerance=within("tolerance", tolerance, 0.0, 100.0, "mm"),
-        resolution=None if resolution is None else whole("resolution", resolution, 1),
-        voxel=None if voxel is None else positive("voxel", voxel, "mm"),
-        max_triangles=None if max_triangles is None else whole("max_triangles", max_triangles, 4),
+        drain=None if drain is None else check_length("drain", drain),
+        smooth_radius=None if smooth_radius is None else check_range("smooth_radius", smooth_radius, 0.0, 100.0, "mm"),
+        tolerance=check_range("tolerance", tolerance, 0.0, 100.0, "mm"),
+        resolution=None if resolution is None else check_whole_number("resolution", resolution, 1),
+        voxel=None if voxel is None else check_positive("voxel", voxel, "mm"),
+        max_triangles=None if max_triangles is None else check_whole_number("max_triangles", max_triangles, 4),
         grading=grading,
         open_=open_,  # type: ignore[arg-type]
         vent=vent,
@@ -330,7 +330,7 @@ def _check_place(place: Sequence[float]) -> tuple[float, float, float]:
     """Check a place of a drain."""
     if isinstance(place, (str, bytes)) or not isinstance(place, (Sequence, np.ndarray)) or len(place) != 3:
         raise UsageError(f"drain_at has a place {place!r}; give three numbers x, y, z in mm for each")
-    x, y, z = (within("drain_at", coordinate, -FURTHEST, FURTHEST, "mm") for coordinate in place)
+    x, y, z = (check_range("drain_at", coordinate, -FURTHEST, FURTHEST, "mm") for coordinate in place)
     return x, y, z
 
 
@@ -345,12 +345,12 @@ def _check_cells_follow(kind: Kind, name: str, align: str) -> None:
         raise UsageError("grade is 'cell', and cells that follow a field cannot begin anew in every body; align 'part'")
 
 
-def graded(densities: Sequence[float], by: object, grade: str = "width") -> Grading:
+def check_grading(densities: Sequence[float], by: object, grade: str = "width") -> Grading:
     """Check two densities, where a field is lowest and where it is highest, and the field."""
     if grade not in get_args(Varies):
         raise UsageError(f"grade is {grade!r}; choose from {', '.join(get_args(Varies))}")
     if len(densities) != 2:
         raise UsageError(f"density has {len(densities)} numbers; give one, or two such as 15%:40%")
-    low, high = (within("density", density, LOWEST, HIGHEST) for density in densities)
-    field, name = field_of("z" if by is None else by)
+    low, high = (check_range("density", density, LOWEST, HIGHEST) for density in densities)
+    field, name = resolve_field("z" if by is None else by)
     return Grading(first=low, last=high, by=field, name=name, varies=grade)  # type: ignore[arg-type]

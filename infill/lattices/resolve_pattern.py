@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from infill.errors import ParameterError
-from infill.options.modules import names_code, object_in
+from infill.options.modules import load_object, names_code
 from patterns import PATTERNS
-from patterns.cellular import CELLULAR, InSpace, no_such
+from patterns.cellular import CELLULAR, InSpace, unknown_pattern_error
 from patterns.protocol import Pattern, gives
 from patterns.unit_cells import Surfaces
 
@@ -23,7 +23,7 @@ SAMPLES = 16  # points along a cell at which a function is tested
 Kind = InSpace | Pattern | type[Pattern]
 
 
-def kind_of(pattern: object) -> tuple[Kind, str]:
+def resolve_pattern(pattern: object) -> tuple[Kind, str]:
     """Resolve a pattern or class of patterns; return it and its name.
 
     Parameters
@@ -49,18 +49,18 @@ def kind_of(pattern: object) -> tuple[Kind, str]:
     if name in CELLULAR:
         return CELLULAR[name], name
     if names_code(name):
-        return _pattern_from_object(object_in(name), name)
+        return _pattern_from_object(load_object(name), name)
     if Path(name).suffix.lower() in DRAWINGS:
         return _pattern_from_drawing(name), name
     if name not in PATTERNS:
-        raise no_such(name, [*CELLULAR, *PATTERNS])
+        raise unknown_pattern_error(name, [*CELLULAR, *PATTERNS])
     return PATTERNS[name], name
 
 
 def _pattern_from_drawing(name: str) -> Tiled:
-    from infill.lattices.tiled import tiled
+    from infill.lattices.tiled import read_tiled
 
-    return tiled(name)
+    return read_tiled(name)
 
 
 def _pattern_from_object(given: Any, name: str) -> tuple[Kind, str]:  # noqa: ANN401 - whatever a user gives

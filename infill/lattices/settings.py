@@ -19,20 +19,20 @@ from pathlib import Path
 from typing import Any
 
 from infill.errors import UsageError
-from infill.lattices.choosing import own_parameters, seeded
-from infill.lattices.request import TOLERANCE, Request, checked
-from infill.options.assignments import table_of
+from infill.lattices.choosing import add_seed, read_own_parameters
+from infill.lattices.request import TOLERANCE, FillSpec, check_request
+from infill.options.assignments import pop_table
 from infill.options.keyword_options import (
     Reader,
     parse_flag,
     parse_number,
     parse_numbers,
+    parse_options,
     parse_share,
     parse_whole,
     parse_word,
-    parsed,
 )
-from infill.options.toml import options_text, read_toml
+from infill.options.toml import read_toml, write_options
 from infill.options.trust import check_trusted
 
 THIRDS = ("density", "line_width", "cell")  # two of them determine the third; the first is dropped first
@@ -51,14 +51,14 @@ class FillSettings:
         The slicer that a project is for.
     """
 
-    request: Request
+    request: FillSpec
     units: str | None
     slicer: str | None
 
     def to_toml(self) -> str:
         """Write all settings as a TOML document that `resolve` reads back."""
         options = {**self.request.facts(), "units": self.units, "for": self.slicer}
-        return options_text(options, "infill fill PART --config THIS_FILE -o OUT")
+        return write_options(options, "infill fill PART --config THIS_FILE -o OUT")
 
 
 def resolve(
@@ -84,12 +84,12 @@ def resolve(
     FormatError
         If the file is missing or not TOML, or asks for what it is not trusted with.
     """
-    typed = parsed("fill", READERS, {name: value for name, value in flags.items() if value is not None})
+    typed = parse_options("fill", READERS, {name: value for name, value in flags.items() if value is not None})
     read = read_toml(config, example='pattern = "gyroid"') if config else {}
     if config:
         check_trusted({name: value for name, value in read.items() if name not in typed}, config, trust=trust)
-    table = dict(table_of(read))
-    filed = parsed("fill", READERS, read)
+    table = dict(pop_table(read))
+    filed = parse_options("fill", READERS, read)
     if typed.get("pattern", filed.get("pattern")) != filed.get("pattern"):
         table = {}  # the parameters of another pattern
     if "densities" in filed:
@@ -119,13 +119,15 @@ def resolve(
         raise UsageError("as is 'project', and for is missing; say which slicer it is for, such as --for prusaslicer")
     pattern = options.pop("pattern", "gyroid")
     seed = options.pop("seed", None)
-    own_values = own_parameters(pattern, assigned, table)
+    own_values = read_own_parameters(pattern, assigned, table)
     if seed is not None:
-        own_values = seeded(pattern, own_values, seed)
+        own_values = add_seed(pattern, own_values, seed)
     open_ = options.pop("open", None)
     values = {**DEFAULTS, **options}
     return FillSettings(
-        request=checked(pattern=pattern, own=own_values, form=form, open_=open_, **values), units=units, slicer=slicer
+        request=check_request(pattern=pattern, own=own_values, form=form, open_=open_, **values),
+        units=units,
+        slicer=slicer,
     )
 
 

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import GeometryError
-from infill.lattices.drawn_voids import Drawn
-from infill.lattices.layered import Layered
-from infill.lattices.request import GAP, Request, barred
+from infill.lattices.drawn_voids import Prismatic
+from infill.lattices.layered import NonPrismatic
+from infill.lattices.request import GAP, FillSpec, has_bars
 from infill.lattices.voids import Voids
 
 BAR_CELL, BRANCHES_CELL = 8.0, 5.0  # mm: bars get their thickness from the density; twigs are this far apart
@@ -27,7 +27,7 @@ FEWEST, MOST, MOST_IN_SLABS = 1e6, 25e6, 1e8
 COARSEST_LINES = 0.3  # mm: corners between lines are rounded on cells no larger than this
 
 
-def sizes_for(request: Request, voids: Voids, extents: NDArray[np.floating]) -> tuple[float, float]:
+def choose_sizes(request: FillSpec, voids: Voids, extents: NDArray[np.floating]) -> tuple[float, float]:
     """Return cell and width, mm: as requested, or as the density requires far from any skin.
 
     In a part too large for a grid as fine as they need, both are enlarged, unless one of them was requested.
@@ -35,12 +35,12 @@ def sizes_for(request: Request, voids: Voids, extents: NDArray[np.floating]) -> 
     cell, width = _nominal_sizes(request, voids)
     if request.cell is None and request.line_width is None:
         finest = _finest_voxel(extents, slabs=goes_by_slabs(request, voids))
-        times = SLACK * finest / coarsest_for(replace(request, wall=math.inf), voids, cell, width)
-        return larger(request, (cell, width), times)
+        times = SLACK * finest / coarsest_voxel(replace(request, wall=math.inf), voids, cell, width)
+        return enlarge(request, (cell, width), times)
     return cell, width
 
 
-def larger(request: Request, sizes: tuple[float, float], times: float) -> tuple[float, float]:
+def enlarge(request: FillSpec, sizes: tuple[float, float], times: float) -> tuple[float, float]:
     """Enlarge cell and width, mm, by a factor if it is more than 1.
 
     In a project, walls never get a width that slicers fill with two lines and a gap between them.
@@ -51,37 +51,37 @@ def larger(request: Request, sizes: tuple[float, float], times: float) -> tuple[
     return sizes[0] * times, width * times
 
 
-def _nominal_sizes(request: Request, voids: Voids) -> tuple[float, float]:
+def _nominal_sizes(request: FillSpec, voids: Voids) -> tuple[float, float]:
     if request.density is None:
         return request.cell or BRANCHES_CELL, request.line_width or request.default_width
     share = voids.widths(request.density)
     if request.line_width is None and request.cell is not None:
         return request.cell, share * request.cell
     if request.line_width is None and "cell" not in request.varied and not request.lined:
-        cell = BAR_CELL if barred(request.kind) else BRANCHES_CELL
+        cell = BAR_CELL if has_bars(request.kind) else BRANCHES_CELL
         return cell, share * cell
     width = request.default_width if request.line_width is None else request.line_width
     return width / share, width
 
 
-def on_grid_of(request: Request, bounds: NDArray[np.floating]) -> Request:
+def resolve_voxel(request: FillSpec, bounds: NDArray[np.floating]) -> FillSpec:
     """Replace the resolution of a request by the side of its cells, mm, for a part within bounds (2, 3), mm."""
     if request.resolution is None:
         return request
     return replace(request, voxel=float(np.ptp(bounds, axis=0).max()) / request.resolution)
 
 
-def voxel_for(request: Request, voids: Voids, extents: NDArray[np.floating], cell: float, width: float) -> float:
+def choose_voxel(request: FillSpec, voids: Voids, extents: NDArray[np.floating], cell: float, width: float) -> float:
     """Return the side of the cells of the grid, mm."""
     if request.voxel is not None:
         return request.voxel
     width *= request.thinnest
     size = request.wall / ACROSS
-    if isinstance(voids, Drawn):
+    if isinstance(voids, Prismatic):
         size = min(size, voids.sample.apart * cell / FINE_LINES, COARSEST_LINES)
-    elif barred(request.kind):
+    elif has_bars(request.kind):
         size = min(size, cell / FINE_BARS, width / ACROSS_BAR)
-    elif isinstance(voids, Layered) and voids.around:
+    elif isinstance(voids, NonPrismatic) and voids.around:
         size = min(size, width / ACROSS_BAR)
     else:
         size = min(size, voids.widths(FIFTH) * cell * request.smallest / FINE)
@@ -93,7 +93,7 @@ def voxel_for(request: Request, voids: Voids, extents: NDArray[np.floating], cel
             f"wall is {request.wall:g} mm, and the part {extents.max():.4g} mm long: a grid as fine as such a wall "
             f"needs has more than {MOST:,.0f} cells; give a wall of {LEAST_ACROSS * size:.2g} mm, or the right unit"
         )
-    if size > (most := coarsest_for(request, voids, cell, width / request.thinnest)):
+    if size > (most := coarsest_voxel(request, voids, cell, width / request.thinnest)):
         raise GeometryError(
             f"cell is {cell:.3g} mm, and the part {extents.max():.4g} mm long: a grid as fine as such cells need has "
             f"more than {MOST:,.0f} cells; give a cell of {math.ceil(cell * size / most)} mm, or a lower density"
@@ -115,22 +115,22 @@ def _finest_voxel(extents: NDArray[np.floating], *, slabs: bool) -> float:
     return max(math.cbrt(_box_volume(low) / MOST), math.cbrt(_box_volume(extents) / MOST_IN_SLABS))
 
 
-def coarsest_for(request: Request, voids: Voids, cell: float, width: float) -> float:
+def coarsest_voxel(request: FillSpec, voids: Voids, cell: float, width: float) -> float:
     """Return the largest side of the cells of a grid that still resolves the pattern, mm."""
     if request.voxel is not None:
         return request.voxel
     width *= request.thinnest
     size = request.wall / LEAST_ACROSS
-    if isinstance(voids, Drawn):
+    if isinstance(voids, Prismatic):
         return min(size, voids.sample.apart * cell / LEAST_FINE_LINES)
-    if barred(request.kind):
+    if has_bars(request.kind):
         return min(size, cell / LEAST_FINE_BARS, width / LEAST_ACROSS_BAR)
-    if isinstance(voids, Layered) and voids.around:
+    if isinstance(voids, NonPrismatic) and voids.around:
         return min(size, width / LEAST_ACROSS_BAR)
     return min(size, voids.widths(FIFTH) * cell * request.smallest / LEAST_FINE)
 
 
-def goes_by_slabs(request: Request, voids: Voids) -> bool:
+def goes_by_slabs(request: FillSpec, voids: Voids) -> bool:
     """Tell whether voids may be made slab by slab: upright, of one width, closed, in a part taken as one."""
-    upright = isinstance(voids, Drawn) and voids.grading is None and voids.bodies is None
+    upright = isinstance(voids, Prismatic) and voids.grading is None and voids.bodies is None
     return upright and request.form == "solid" and request.open_ is None

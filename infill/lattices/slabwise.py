@@ -13,22 +13,29 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.interior.hollow import Hollow, Unmade
+from infill.interior.hollow import DeferredVoids, VoidMeshes
 from infill.interior.inside import SHARE
-from infill.interior.interior import Space
+from infill.interior.interior import Interior
 from infill.isosurfaces.components import shell_names
-from infill.isosurfaces.slabs import Piece, few_of, piece_between, shells_of, stitched, volumes_of
+from infill.isosurfaces.slabs import (
+    SlabPiece,
+    cut_slab_piece,
+    measure_slab_shells,
+    simplify_piece,
+    stitch_pieces,
+    sum_shell_volumes,
+)
 from infill.isosurfaces.sparse_marching import extract_bricks
-from infill.lattices.drawn_voids import Drawn
-from infill.lattices.request import Request
-from infill.lattices.surfacing import SPECK, outside_of, smoothed_void, smoothing_for, useful
-from infill.meshes.shells import with_faces
+from infill.lattices.drawn_voids import Prismatic
+from infill.lattices.request import FillSpec
+from infill.lattices.surfacing import SPECK, choose_smoothing, drop_inside_pieces, drop_small_and_floating, smooth_void
+from infill.meshes.shells import select_faces
 from infill.surface import Surface
 
 Outcome = TypeVar("Outcome")
 
 
-def cells_filled(space: Space, voids: Drawn, *, cell: float, width: float) -> float:
+def count_filled_cells(space: Interior, voids: Prismatic, *, cell: float, width: float) -> float:
     """Count the cells that voids fill before they are smoothed, parts of cells counted as such."""
     planes = voids.planes(space, cell=cell, width=width)
     filled_by_slab: dict[tuple[object, ...], float] = {}
@@ -42,18 +49,20 @@ def cells_filled(space: Space, voids: Drawn, *, cell: float, width: float) -> fl
     return filled
 
 
-def unmade(space: Space, voids: Drawn, request: Request, sizes: tuple[float, float], *, threads: int | None) -> Hollow:
+def defer_voids(
+    space: Interior, voids: Prismatic, request: FillSpec, sizes: tuple[float, float], *, threads: int | None
+) -> VoidMeshes:
     """Defer the making of voids: compute only their volume, and keep the function that makes their surfaces."""
     least, volume = SPECK**3, 0.0
-    for slabs in _map_pieces(space, voids, request, sizes, shells_of, threads):
-        volumes = volumes_of([shells for _, shells in slabs])
+    for slabs in _map_pieces(space, voids, request, sizes, measure_slab_shells, threads):
+        volumes = sum_shell_volumes([shells for _, shells in slabs])
         volume += float(volumes[volumes >= least].sum()) * space.size**3
 
-    def make(tolerance: float) -> Hollow:
+    def make(tolerance: float) -> VoidMeshes:
         return surfaces_by_slabs(space, voids, request, sizes, tolerance=tolerance, threads=threads)
 
     cell, width = sizes
-    return Hollow(
+    return VoidMeshes(
         space=space,
         cell=cell,
         width=width,
@@ -61,19 +70,19 @@ def unmade(space: Space, voids: Drawn, request: Request, sizes: tuple[float, flo
         tolerance=0.0,
         islands=0,
         specks=0,
-        unmade=Unmade(volume=volume, made=make),
+        unmade=DeferredVoids(volume=volume, made=make),
     )
 
 
 def surfaces_by_slabs(
-    space: Space,
-    voids: Drawn,
-    request: Request,
+    space: Interior,
+    voids: Prismatic,
+    request: FillSpec,
     sizes: tuple[float, float],
     *,
     tolerance: float,
     threads: int | None,
-) -> Hollow:
+) -> VoidMeshes:
     """Make the surfaces of the voids; those of a slab are simplified before the next slab is made.
 
     Parameters
@@ -85,11 +94,11 @@ def surfaces_by_slabs(
     counts = np.zeros(2, dtype=np.int64)  # of pieces of solid that hang free, and of voids that are too small
     lost: list[Surface] = []
 
-    def simplify(piece: Piece) -> _CleanPiece:
+    def simplify(piece: SlabPiece) -> _CleanPiece:
         cleaned = _clean_piece(piece)
         if cleaned.piece is None or tolerance == 0:
             return cleaned
-        return replace(cleaned, piece=few_of(cleaned.piece, SHARE * tolerance / space.size))
+        return replace(cleaned, piece=simplify_piece(cleaned.piece, SHARE * tolerance / space.size))
 
     surfaces = []
     fields = _map_pieces(space, voids, request, sizes, simplify, threads)
@@ -98,33 +107,35 @@ def surfaces_by_slabs(
         counts += np.sum([cleaned.counts for _, cleaned in slabs if cleaned is not None] or [(0, 0)], axis=0)
         if all(cleaned is None or cleaned.piece is None for _, cleaned in slabs):
             continue
-        void_surface, islands, specks, loose = useful(
-            _scale_in_place(stitched(_pop_pieces(slabs)), space), (SPECK * space.size) ** 3
+        void_surface, islands, specks, loose = drop_small_and_floating(
+            _scale_in_place(stitch_pieces(_pop_pieces(slabs)), space), (SPECK * space.size) ** 3
         )
         counts += (islands, specks)
         lost.extend(loose)
         if void_surface is not None:
             surfaces.append(void_surface)
     islands, specks = counts.tolist()
-    return Hollow(
+    return VoidMeshes(
         space=space,
         cell=cell,
         width=width,
-        surfaces=[void for void in (outside_of(surface, lost, threads) for surface in surfaces) if void is not None],
+        surfaces=[
+            void for void in (drop_inside_pieces(surface, lost, threads) for surface in surfaces) if void is not None
+        ],
         tolerance=0.0,
         islands=islands,
         specks=specks,
     )
 
 
-def _pop_pieces(slabs: list[tuple[int, _CleanPiece | None]]) -> Iterator[tuple[int, Piece | None]]:
+def _pop_pieces(slabs: list[tuple[int, _CleanPiece | None]]) -> Iterator[tuple[int, SlabPiece | None]]:
     """Yield the pieces in slabs, from the bottom, and empty the list."""
     while slabs:
         low, cleaned = slabs.pop(0)
         yield low, None if cleaned is None else cleaned.piece
 
 
-def _scale_in_place(surface: Surface, space: Space) -> Surface:
+def _scale_in_place(surface: Surface, space: Interior) -> Surface:
     """Convert a surface from cells to mm; its vertices are overwritten."""
     vertices = surface.vertices
     vertices *= space.size
@@ -136,47 +147,47 @@ def _scale_in_place(surface: Surface, space: Space) -> Surface:
 class _CleanPiece:
     """The useful part of a piece, if any; the number of floating bits of solid, and of voids that are too small."""
 
-    piece: Piece | None
+    piece: SlabPiece | None
     counts: tuple[int, int]
 
 
-def _clean_piece(piece: Piece) -> _CleanPiece:
+def _clean_piece(piece: SlabPiece) -> _CleanPiece:
     """Drop shells of a piece that are too small and lie entirely inside the piece."""
     names, _ = shell_names(piece.surface)
-    shells = shells_of(piece)
+    shells = measure_slab_shells(piece)
     small = np.abs(shells.volumes) < SPECK**3
     small[shells.low] = small[shells.high] = False
     if not small.any():
         return _CleanPiece(piece=piece, counts=(0, 0))
     is_kept, solid = ~small[names[piece.surface.faces[:, 0]]], shells.volumes < 0
     return _CleanPiece(
-        piece=replace(piece, surface=with_faces(piece.surface, is_kept)) if is_kept.any() else None,
+        piece=replace(piece, surface=select_faces(piece.surface, is_kept)) if is_kept.any() else None,
         counts=(int((small & solid).sum()), int((small & ~solid).sum())),
     )
 
 
 def _map_pieces(
-    space: Space,
-    voids: Drawn,
-    request: Request,
+    space: Interior,
+    voids: Prismatic,
+    request: FillSpec,
     sizes: tuple[float, float],
-    function: Callable[[Piece], Outcome | None],
+    function: Callable[[SlabPiece], Outcome | None],
     threads: int | None,
 ) -> list[list[tuple[int, Outcome | None]]]:
     """Apply a function to each piece; return the results with the first layer of each slab, a list for each field."""
     (cell, width), layers = sizes, space.layers
-    smoothing = smoothing_for(space, voids, request, sizes)
+    smoothing = choose_smoothing(space, voids, request, sizes)
     planes = voids.planes(space, cell=cell, width=width)
     beside = smoothing.steps + 1
 
     def process(depth: NDArray[np.float32], plane: NDArray[np.float32], low: int, high: int) -> Outcome | None:
         distance = np.empty_like(depth)
         voids.lesser(distance, depth, plane, width / space.size)
-        field = smoothed_void(distance, depth, smoothing, threads=threads)
+        field = smooth_void(distance, depth, smoothing, threads=threads)
         if field is None:
             return None
         surface = extract_bricks(field, spacing=(1.0,) * 3, origin=(-0.5,) * 3, threads=threads)
-        piece = piece_between(surface, low, high)
+        piece = cut_slab_piece(surface, low, high)
         return None if piece is None else function(piece)
 
     results_by_slab: dict[tuple[object, ...], list[Outcome | None]] = {}

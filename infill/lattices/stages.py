@@ -40,6 +40,6 @@ class FillStages:
 
     def picture(self, surface: Surface, report: Mapping[str, Any]) -> Image.Image:  # noqa: ARG002 - of all stages
         """Draw cuts that show the inside: in a project, of the infill, as the part is whole."""
-        from infill.pictures.cuts import cuts
+        from infill.pictures.cuts import draw_cuts
 
-        return cuts(self.shown, report, part=self.part, given=self.cuts)
+        return draw_cuts(self.shown, report, part=self.part, given=self.cuts)

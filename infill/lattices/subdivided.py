@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.interior.interior import BAND, Space
-from infill.interior.root_finding import root
+from infill.interior.interior import BAND, Interior
+from infill.interior.root_finding import find_root
 from infill.kernels.threads import in_threads, thread_count
 from infill.lattices.bodies import Bodies
 from infill.lattices.grading import Grading
 from infill.lattices.voids import FIELD, local_widths
-from patterns.octree import Octree, doubled
+from patterns.octree import Octree, cube_levels
 
 if TYPE_CHECKING:
     from scipy.spatial import cKDTree
@@ -28,7 +28,7 @@ ONCE = 1 << 20  # cells of the grid in a batch
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Tree:
+class CubeTree:
     """Cubes in the space of a part.
 
     Parameters
@@ -43,7 +43,7 @@ class Tree:
         Of cubes that lie in the part: see `infill.kernels.cells.from_cubes`.
     """
 
-    space: Space
+    space: Interior
     doubled: NDArray[np.uint8]
     first: NDArray[np.int64]
     colours: tuple[int, ...]
@@ -81,10 +81,10 @@ class Subdivided:
     threads: int | None = None
     grading: Grading | None = None
     bodies: Bodies | None = None
-    known: dict[tuple[int, float], Tree] = field(default_factory=dict)
-    skins: dict[int, tuple[Space, cKDTree]] = field(default_factory=dict)
+    known: dict[tuple[int, float], CubeTree] = field(default_factory=dict)
+    skins: dict[int, tuple[Interior, cKDTree]] = field(default_factory=dict)
 
-    def sharpest(self, space: Space, *, cell: float, width: float) -> float:  # noqa: ARG002 - of the protocol
+    def sharpest(self, space: Interior, *, cell: float, width: float) -> float:  # noqa: ARG002 - of the protocol
         """See `Voids`."""
         return 90.0
 
@@ -92,13 +92,13 @@ class Subdivided:
         """See `Anchored`."""
         return replace(self, anchor=middle + self.anchor, bodies=None, known={}, skins={})
 
-    def count(self, space: Space, *, cell: float, width: float) -> int:
+    def count(self, space: Interior, *, cell: float, width: float) -> int:
         """Count the colours."""
         if self.bodies is not None:
             return self.bodies.count(self, space, cell=cell, width=width)
         return len(self.tree(space, cell).colours)
 
-    def into(self, out: FIELD, space: Space, which: int, *, cell: float, width: float) -> float:
+    def into(self, out: FIELD, space: Interior, which: int, *, cell: float, width: float) -> float:
         """See `Voids`."""
         from infill.kernels.cells import from_cubes
 
@@ -131,9 +131,9 @@ class Subdivided:
             voids = np.maximum(1 - times * density / 3 / sides, 0) ** 3
             return float(np.log((1 - shares @ voids) / density))
 
-        return density / 3 * root(off, NEAR, TRIES)
+        return density / 3 * find_root(off, NEAR, TRIES)
 
-    def tree(self, space: Space, cell: float) -> Tree:
+    def tree(self, space: Interior, cell: float) -> CubeTree:
         """Return the cubes in a space; the smallest have sides of a cell, mm."""
         key = id(space), cell
         if key not in self.known:
@@ -141,12 +141,12 @@ class Subdivided:
             self.known[key] = self._build_tree(space, cell)
         return self.known[key]
 
-    def _start(self, space: Space, cell: float) -> NDArray[np.float64]:
+    def _start(self, space: Interior, cell: float) -> NDArray[np.float64]:
         """Return the place of the first cell of the grid in the pattern, in sides of the smallest cubes."""
         start: NDArray[np.float64] = self.turn @ (space.origin - self.anchor) / cell + self.pattern.middle
         return start
 
-    def _build_tree(self, space: Space, cell: float) -> Tree:
+    def _build_tree(self, space: Interior, cell: float) -> CubeTree:
         from infill.kernels.cells import colours_of_cubes
 
         start, step, period = self._start(space, cell), self.turn * space.size / cell, self.pattern.cells
@@ -162,14 +162,14 @@ class Subdivided:
             reaches = np.where(_are_inside(depth, cells), reach, DIAGONAL * reach)
             distances, _ = tree.query(cells, distance_upper_bound=DIAGONAL * reach, workers=thread_count(self.threads))
             is_whole.append((distances >= reaches).reshape(counts // side))
-        cubes = doubled(is_whole)
+        cubes = cube_levels(is_whole)
         seen = in_threads(
             colours_of_cubes, space.depth, cubes, step, start - lowest, threads=thread_count(self.threads)
         )
         colours = tuple(np.flatnonzero(np.any(seen, axis=0)).tolist())
-        return Tree(space=space, doubled=cubes, first=lowest, colours=colours)
+        return CubeTree(space=space, doubled=cubes, first=lowest, colours=colours)
 
-    def _skin(self, space: Space) -> cKDTree:
+    def _skin(self, space: Interior) -> cKDTree:
         """Find the cells of a grid where the pattern follows the inner side of a wall, as a search tree of places.
 
         They are the cells just outside it, or just inside it below a roof, where depths rise downwards by `FLAT` or

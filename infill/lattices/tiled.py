@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from infill.drawing import Picture
 from infill.drawings.drawing_files import read_drawing
-from infill.paths.tiles.tiling import tile_of, traced
+from infill.paths.tiles.tiling import repeating_box, trace_picture
 from patterns.linework import clip, turn
 from patterns.protocol import Pattern
 from patterns.shared import angle_parameter, cell_parameter
@@ -63,7 +63,7 @@ class Tiled(Pattern):
         return self.cell
 
 
-def tiled(path: str | os.PathLike[str]) -> Tiled:
+def read_tiled(path: str | os.PathLike[str]) -> Tiled:
     """Read a drawing as a pattern.
 
     Parameters
@@ -78,9 +78,9 @@ def tiled(path: str | os.PathLike[str]) -> Tiled:
     """
     picture_or_drawing = read_drawing(path)
     drawing = (
-        traced(picture_or_drawing, Path(path))
+        trace_picture(picture_or_drawing, Path(path))
         if isinstance(picture_or_drawing, Picture)
-        else replace(picture_or_drawing, page=tile_of(picture_or_drawing))
+        else replace(picture_or_drawing, page=repeating_box(picture_or_drawing))
     )
     assert drawing.page is not None
     x0, y0, x1, y1 = drawing.page

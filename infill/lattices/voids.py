@@ -12,13 +12,13 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.interior.interior import BAND, Space
+from infill.interior.interior import BAND, Interior
 from infill.kernels.threads import in_threads, thread_count
 from infill.lattices.bodies import Bodies
-from infill.lattices.fillets import between_walls
-from infill.lattices.grading import NONE, Grading
+from infill.lattices.fillets import corner_angle_between_walls
+from infill.lattices.grading import UNIFORM_WIDTH, Grading
 from patterns.polyhedra import Polyhedra
-from patterns.unit_cells import Bars, Binned, Cellular, Network, Planes, Surfaces
+from patterns.unit_cells import Bars, BinnedEdges, Cellular, Network, Planes, Surfaces
 
 WIDE = 1000.0  # cells, in which planes at odd angles to each other lie in all relative positions
 NODES = 48  # of the table of a period, along each axis
@@ -28,11 +28,11 @@ FIELD = NDArray[np.float32]
 class Voids(Protocol):
     """The voids of a pattern."""
 
-    def count(self, space: Space, *, cell: float, width: float) -> int:
+    def count(self, space: Interior, *, cell: float, width: float) -> int:
         """Count the fields that the voids need."""
         ...
 
-    def into(self, out: FIELD, space: Space, which: int, *, cell: float, width: float) -> float:
+    def into(self, out: FIELD, space: Interior, which: int, *, cell: float, width: float) -> float:
         """Write the lesser of the depth in the void and below the wall; return the number of cells it fills."""
         ...
 
@@ -40,7 +40,7 @@ class Voids(Protocol):
         """Return the width of walls or bars, in cells of the pattern, that gives a density far from any skin."""
         ...
 
-    def sharpest(self, space: Space, *, cell: float, width: float) -> float:
+    def sharpest(self, space: Interior, *, cell: float, width: float) -> float:
         """Return the angle of the sharpest corners of voids, degrees, where walls of the pattern meet."""
         ...
 
@@ -51,7 +51,7 @@ class Voids(Protocol):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Repeating:
+class Periodic:
     """The voids beside walls or bars that repeat along x, y and z.
 
     Parameters
@@ -74,21 +74,21 @@ class Repeating:
     grading: Grading | None = None
     bodies: Bodies | None = None
 
-    def sharpest(self, space: Space, *, cell: float, width: float) -> float:  # noqa: ARG002 - of the protocol
+    def sharpest(self, space: Interior, *, cell: float, width: float) -> float:  # noqa: ARG002 - of the protocol
         """See `Voids`: the same for all cells."""
         return _sharpest_angle(self.pattern)
 
-    def about(self, middle: NDArray[np.float64]) -> Repeating:
+    def about(self, middle: NDArray[np.float64]) -> Periodic:
         """See `Anchored`."""
         return replace(self, anchor=middle + self.anchor, bodies=None)
 
-    def count(self, space: Space, *, cell: float, width: float) -> int:  # noqa: ARG002 - of the protocol
+    def count(self, space: Interior, *, cell: float, width: float) -> int:  # noqa: ARG002 - of the protocol
         """Count the fields: two beside a surface, one for each class of closed cells, one around bars."""
         if isinstance(self.pattern, (Planes, Polyhedra)):
             return self.pattern.classes
         return 1 if self.pattern.bars else 2
 
-    def into(self, out: FIELD, space: Space, which: int, *, cell: float, width: float) -> float:
+    def into(self, out: FIELD, space: Interior, which: int, *, cell: float, width: float) -> float:
         """See `Voids`."""
         from infill.kernels.cells import from_bars, from_period, from_planes, from_polyhedra
 
@@ -183,15 +183,15 @@ class Repeating:
         return float(2 * np.quantile(_sample_distances(self.pattern), density))
 
 
-def local_widths(voids: Voids, space: Space) -> tuple[NDArray[np.float32], float]:
+def local_widths(voids: Voids, space: Interior) -> tuple[NDArray[np.float32], float]:
     """Return the factors of the width of walls, and the step of their nodes, as kernels take them."""
     if voids.grading is None:
-        return NONE
+        return UNIFORM_WIDTH
     local = voids.grading.over(space, voids.widths)
     return local.ratio, local.step
 
 
-def _spline(voids: Voids, space: Space) -> NDArray[np.float64] | None:
+def _spline(voids: Voids, space: Interior) -> NDArray[np.float64] | None:
     """Return the places of cells of the grid in a pattern whose cells follow a field; None without such a field."""
     return None if voids.grading is None else voids.grading.over(space, voids.widths).spline
 
@@ -206,11 +206,11 @@ def period_table(pattern: Surfaces | Network) -> NDArray[np.float32]:
 
 @cache
 def _sharpest_angle(pattern: Cellular) -> float:
-    return between_walls(pattern)
+    return corner_angle_between_walls(pattern)
 
 
 @cache
-def _bin_bars(pattern: Bars) -> Binned:
+def _bin_bars(pattern: Bars) -> BinnedEdges:
     return pattern.around_cell()
 
 
@@ -230,7 +230,7 @@ def _sample_distances(pattern: Cellular) -> NDArray[np.floating]:
         deep, distances = np.full((NODES,) * 3, np.float32(np.inf)), np.empty((NODES,) * 3, dtype=np.float32)
         all_middles, step = middles.reshape(-1, 3), box / NODES
         from_polyhedra(
-            deep, 0.0, np.diag(step), step / 2, *pattern.faces(), box, all_middles, 0.0, *NONE, distances, 0, 1
+            deep, 0.0, np.diag(step), step / 2, *pattern.faces(), box, all_middles, 0.0, *UNIFORM_WIDTH, distances, 0, 1
         )
         return distances.ravel()
     if not isinstance(pattern, Bars):
@@ -239,5 +239,7 @@ def _sample_distances(pattern: Cellular) -> NDArray[np.floating]:
 
     nodes = NODES * pattern.cells
     deep, distances = np.full((nodes,) * 3, np.float32(np.inf)), np.empty((nodes,) * 3, dtype=np.float32)
-    from_bars(deep, 0.0, *_bin_bars(pattern), np.eye(3), np.full(3, 0.5), float(nodes), 0.0, *NONE, distances, 0, 1)
+    from_bars(
+        deep, 0.0, *_bin_bars(pattern), np.eye(3), np.full(3, 0.5), float(nodes), 0.0, *UNIFORM_WIDTH, distances, 0, 1
+    )
     return distances.ravel() / NODES

@@ -15,16 +15,16 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 import shapely
 
-from infill.contours.prisms import prism
-from infill.contours.straightening import straightened
-from infill.contours.zero_contours import contours
+from infill.contours.prisms import extrude_contours
+from infill.contours.straightening import simplify_contours
+from infill.contours.zero_contours import trace_contours
 from infill.errors import GeometryError
-from infill.inspection.changes import Changes
-from infill.inspection.layers import Regions, changes, regions, solid_area
+from infill.inspection.changes import TopologyChanges
+from infill.inspection.layers import LayerRegions, compare_layers, label_regions, solid_area
 from infill.inspection.width import WallWidth, wall_width
-from infill.isosurfaces.stacking import extruded
+from infill.isosurfaces.stacking import extrude_surface
 from infill.making.forecast import exact_width
-from infill.making.request import DEFAULT_CELLS, Block, StampMethod, SurfaceMethod, plan
+from infill.making.request import DEFAULT_CELLS, Block, StampMethod, SurfaceMethod, plan_block
 from infill.making.stages import MakeStages
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.methods import smooth
@@ -33,7 +33,7 @@ from infill.result import Clock, Progress, Result
 from infill.voxels.stamping import stamp as stamp_points
 from infill.voxels.stamping import stamp_lines
 from patterns import Pattern
-from patterns.linework import bodies, sample
+from patterns.linework import body_numbers, sample_points
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -42,9 +42,9 @@ if TYPE_CHECKING:
     from infill.report_keys import MakeReport
     from infill.surface import Surface
 
-THINNEST = 0.6  # of the requested width, at the 5th percentile; below this, a wall counts as lost
-OFF = 0.05  # of the requested width; beyond this, the report has the width of the exact stamp
-MOST_PINHOLES = 0.02  # of the void in holes; acute angles alone do not explain more than this
+MIN_WIDTH_SHARE = 0.6  # of the requested width, at the 5th percentile; below this, a wall counts as lost
+WIDTH_TOLERANCE = 0.05  # of the requested width; beyond this, the report has the width of the exact stamp
+MAX_PINHOLE_SHARE = 0.02  # of the void in holes; acute angles alone do not explain more than this
 POINTS_PER_CELL = 2  # neighbouring stamps overlap
 ADVICE = "use more cells per line, fewer steps or more fidelity (or --allow-broken, to have it anyway)"
 
@@ -127,7 +127,7 @@ def make(
     """
     clock = Clock(progress)
     with clock.stage("points", 0.0):
-        block = plan(
+        block = plan_block(
             pattern,
             size=size,
             height=height,
@@ -149,8 +149,8 @@ def make(
     with clock.stage("smooth", 0.2):
         smoothed = smooth(data, block.smoothing, spacing=block.grid.spacing)
     with clock.stage("check", 0.3):
-        before, after = regions(data), regions(smoothed)
-        differences = changes(before, after, line_cells=block.cells)
+        before, after = label_regions(data), label_regions(smoothed)
+        differences = compare_layers(before, after, line_cells=block.cells)
         area = solid_area(data)
         volume_change = solid_area(smoothed) / area - 1
         width = wall_width(block.lines, smoothed, block.grid, requested=block.line_width)
@@ -195,15 +195,15 @@ def _make_surface(block: Block, smoothed: NDArray[np.floating]) -> Surface:
     """Make the requested surface, "prism" or "grid"."""
     spacing = tuple(block.grid.cell_size.tolist())
     if block.surface == "grid":
-        return extruded(smoothed, block.height, spacing, origin=block.origin)
-    contour = contours(smoothed, spacing, origin=block.origin)
-    return prism(straightened(contour, block.tolerance), block.height)
+        return extrude_surface(smoothed, block.height, spacing, origin=block.origin)
+    contour = trace_contours(smoothed, spacing, origin=block.origin)
+    return extrude_contours(simplify_contours(contour, block.tolerance), block.height)
 
 
 def _exact_stamp_width(block: Block, width: WallWidth, cells: int | None) -> float | None:
     """Return the wall width of the exact stamp, on a sample; None unless walls are off and it is nearer."""
     error = abs(width.mean - block.line_width)
-    if block.stamp == "exact" or not error > OFF * block.line_width:
+    if block.stamp == "exact" or not error > WIDTH_TOLERANCE * block.line_width:
         return None
     exact_mean = exact_width(
         block.lines,
@@ -219,17 +219,17 @@ def _points(block: Block) -> NDArray[np.float64]:
     """Return points along the lines: from the pattern if it overrides `points`, else from the cached lines."""
     spacing = min(block.grid.cell_size) / POINTS_PER_CELL
     has_points = type(block.pattern).points is not Pattern.points
-    return block.pattern.points(block.region, spacing) if has_points else sample(block.lines, spacing)
+    return block.pattern.points(block.region, spacing) if has_points else sample_points(block.lines, spacing)
 
 
-def _count_fused_lines(lines: MultiLineString, before: Regions, line_width: float) -> int:
+def _count_fused_lines(lines: MultiLineString, before: LayerRegions, line_width: float) -> int:
     """Count bodies of lines that the stamp fused; those up to three line widths long do not count."""
-    number = bodies(lines)
+    number = body_numbers(lines)
     length = np.bincount(number, weights=shapely.length(np.array(lines.geoms, dtype=object)))
     return max(0, int((length > 3 * line_width).sum()) - before.topology.components)
 
 
-def _problems(tally: Changes, width: WallWidth, fused_lines: int) -> Iterator[str]:
+def _problems(tally: TopologyChanges, width: WallWidth, fused_lines: int) -> Iterator[str]:
     """Describe the problems of the walls, one phrase each."""
     if fused_lines:
         yield f"{fused_lines} separate line(s) of the pattern run together at this line width: use larger cells"
@@ -242,14 +242,14 @@ def _problems(tally: Changes, width: WallWidth, fused_lines: int) -> Iterator[st
     ):
         if count:
             yield f"{count} {event} in smoothing"
-    if tally.pinhole_share and tally.pinhole_share > MOST_PINHOLES:
+    if tally.pinhole_share and tally.pinhole_share > MAX_PINHOLE_SHARE:
         yield (
             f"{tally.pinholes} hole(s) narrower than a line, {tally.pinhole_share:.0%} of all void, closed in "
             "smoothing: use larger cells or a thinner line"
         )
-    if width.p5 < THINNEST * width.requested:
+    if width.p5 < MIN_WIDTH_SHARE * width.requested:
         yield (
-            f"the walls are {width.p5:.3g} mm thin at the 5th percentile, under {THINNEST:.0%} of the "
+            f"the walls are {width.p5:.3g} mm thin at the 5th percentile, under {MIN_WIDTH_SHARE:.0%} of the "
             f"{width.requested:g} mm asked for"
         )
 

@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 import shapely
 
-from infill.contours.straightening import straightened
+from infill.contours.straightening import simplify_contours
 from infill.contours.strips import CORNERS
-from infill.contours.zero_contours import contours
+from infill.contours.zero_contours import trace_contours
 from infill.grid import Grid
 from infill.inspection.width import wall_width
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.methods import smooth
 from infill.voxels.stamping import stamp as stamp_points
 from infill.voxels.stamping import stamp_lines
-from patterns.linework import sample
+from patterns.linework import sample_points
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -29,10 +29,10 @@ WINDOWS = 24
 MARGIN = 16  # cells at its edges that are computed but not counted: there the lines are cut off
 MOST_STEPS = 200  # of a forecast: walls are round by then, and hardly lose more corners
 GOLDEN = (5**0.5 - 1) / 2
-ACROSS = 45.0  # line widths: side of the sample on which walls are measured
+SAMPLE_SIDE = 45.0  # line widths: side of the sample on which walls are measured
 
 
-def layer_of(
+def smoothed_layer(
     lines: MultiLineString,
     grid: Grid,
     *,
@@ -53,12 +53,12 @@ def layer_of(
     if stamp == "exact":
         data = stamp_lines(lines, grid, width=width)
     else:
-        points = sample(lines, min(grid.cell_size) / 2)
+        points = sample_points(lines, min(grid.cell_size) / 2)
         data = stamp_points(points, grid, block=cells, outside="clip")
     return smooth(data, smoothing, spacing=grid.spacing)
 
 
-def expected_corners(
+def estimate_corners(
     lines: MultiLineString,
     grid: Grid,
     *,
@@ -76,12 +76,14 @@ def expected_corners(
     corner_count = length = 0.0
     short_smoothing = replace(smoothing, steps=min(smoothing.steps, MOST_STEPS))
     for window in _windows(grid):
-        layer = layer_of(
+        layer = smoothed_layer(
             _lines_near(lines, window, width), window, stamp=stamp, cells=cells, width=width, smoothing=short_smoothing
         )
         if not (layer > 0).any():
             continue
-        rings = straightened(contours(layer, tuple(window.cell_size.tolist()), origin=window.origin), tolerance)
+        rings = simplify_contours(
+            trace_contours(layer, tuple(window.cell_size.tolist()), origin=window.origin), tolerance
+        )
         inner = _box(window, 0 if window is grid else MARGIN)
         corner_count += shapely.contains_xy(inner, rings.points).sum() if window is not grid else len(rings.points)
         length += shapely.length(shapely.intersection(lines, inner))
@@ -102,13 +104,13 @@ def exact_width(lines: MultiLineString, grid: Grid, *, cells: int, width: float,
     spacing = width / cells
     extents = np.array(grid.extents)
     middle = np.array(grid.origin) + extents / 2
-    counts = np.maximum(np.round(np.minimum(extents, ACROSS * width) / spacing), 2 * cells).astype(int)
+    counts = np.maximum(np.round(np.minimum(extents, SAMPLE_SIDE * width) / spacing), 2 * cells).astype(int)
     window = Grid(shape=tuple(counts.tolist()), spacing=spacing, origin=tuple((middle - counts * spacing / 2).tolist()))
     nearby_lines = _lines_near(lines, window, width)
     inside = _as_lines(shapely.intersection(nearby_lines, _box(window, cells)))
     if inside.is_empty:
         return None
-    layer = layer_of(nearby_lines, window, stamp="exact", cells=cells, width=width, smoothing=smoothing)
+    layer = smoothed_layer(nearby_lines, window, stamp="exact", cells=cells, width=width, smoothing=smoothing)
     mean = wall_width(inside, layer, window, requested=width).mean
     return mean if mean > 0 else None  # neither NaN nor 0
 

@@ -10,22 +10,24 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import shapely
 
-from infill.checks import length, whole, within
+from infill.checks import check_length, check_range, check_whole_number
 from infill.errors import ParameterError, UsageError
 from infill.grid import Grid
 from infill.isosurfaces.stacking import layer_count
 from infill.machine import require_memory
 from infill.phasefield.allen_cahn import Smoothing
 from patterns import PATTERNS, Pattern, PatternError, lacking, parameter_values
-from patterns.protocol import lines_of
+from patterns.protocol import draw_lines
 
 if TYPE_CHECKING:
     from shapely import MultiLineString, Polygon
 
 StampMethod = Literal["block", "exact"]
 SurfaceMethod = Literal["prism", "grid"]
-TOLERANCE = 0.002  # mm: far below the precision of a printer, with less than half the triangles of the full contour
-COARSEST = 0.1  # of the line width: the tolerance at which both sides of a wall could take a fifth of it
+DEFAULT_TOLERANCE = (
+    0.002  # mm: far below the precision of a printer, with less than half the triangles of the full contour
+)
+MAX_TOLERANCE_SHARE = 0.1  # of the line width: the tolerance at which both sides of a wall could take a fifth of it
 DEFAULT_CELLS = {"block": 3, "exact": 5}
 LINES_PER_CELL = 3  # smallest cell of a pattern in line widths: walls, and a gap as wide as two of them
 
@@ -81,7 +83,7 @@ class Block:
     @cached_property
     def lines(self) -> MultiLineString:
         """The centre lines of the walls, mm."""
-        lines = lines_of(self.pattern, self.region)
+        lines = draw_lines(self.pattern, self.region)
         if lines.is_empty:
             raise PatternError(f"no line of {self.pattern.name} lies in the block; use smaller cells or a larger block")
         return lines
@@ -97,9 +99,9 @@ class Block:
         if self.surface == "grid":
             cells = float(shapely.length(self.lines)) * self.line_width / float(self.grid.cell_size.prod())
             return round(CAP_TRIANGLES_PER_CELL * cells + SIDE_TRIANGLES_PER_CORNER * self._corners)
-        from infill.making.forecast import expected_corners
+        from infill.making.forecast import estimate_corners
 
-        corners = expected_corners(
+        corners = estimate_corners(
             self.lines,
             self.grid,
             stamp=self.stamp,
@@ -191,7 +193,7 @@ class Block:
         return f"the grid has {cells} cells: take fewer cells per line, wider lines or a smaller block"
 
 
-def plan(
+def plan_block(
     pattern: Pattern | str,
     *,
     size: float | tuple[float, float],
@@ -205,15 +207,19 @@ def plan(
     tolerance: float | None = None,
 ) -> Block:
     """Check a request and return it with its grid; the parameters are the same as for `infill.make`."""
-    ready_pattern = pattern_of(pattern, parameters)
+    ready_pattern = instantiate_pattern(pattern, parameters)
     sides = list(size) if isinstance(size, Iterable) else [size, size]
     if len(sides) != 2:
         raise ParameterError(f"size has {len(sides)} numbers; give x and y in mm, or one number for a square")
-    width, depth, height = length("size x", sides[0]), length("size y", sides[1]), length("height", height)
-    line_width = length("line_width", line_width)
+    width, depth, height = (
+        check_length("size x", sides[0]),
+        check_length("size y", sides[1]),
+        check_length("height", height),
+    )
+    line_width = check_length("line_width", line_width)
     if stamp not in get_args(StampMethod):
         raise UsageError(f"stamp is {stamp!r}; choose block or exact")
-    across = whole("cells", DEFAULT_CELLS[stamp] if cells is None else cells, 1)
+    across = check_whole_number("cells", DEFAULT_CELLS[stamp] if cells is None else cells, 1)
     if stamp == "block" and across % 2 == 0:
         raise ParameterError(
             f"cells is {across}, and a block of {across} × {across} cells has no middle cell; use an odd number, "
@@ -259,21 +265,24 @@ def _resolve_surface(
     if surface is not None and surface not in get_args(SurfaceMethod):
         raise UsageError(f"surface is {surface!r}; choose prism or grid")
     if tolerance is None:
-        return ("grid", 0.0) if surface == "grid" else ("prism", min(TOLERANCE, COARSEST * line_width))
-    within("tolerance", tolerance, 0.0, math.inf, "mm")
+        return (
+            ("grid", 0.0) if surface == "grid" else ("prism", min(DEFAULT_TOLERANCE, MAX_TOLERANCE_SHARE * line_width))
+        )
+    check_range("tolerance", tolerance, 0.0, math.inf, "mm")
     if surface == "grid" and tolerance > 0:
         raise UsageError(
             f"surface and tolerance exclude each other: grid is the isosurface as it is, and not {tolerance:g} mm "
             "off; leave the tolerance out, or take prism"
         )
-    if tolerance > COARSEST * line_width:
+    if tolerance > MAX_TOLERANCE_SHARE * line_width:
         raise ParameterError(
-            f"tolerance is {tolerance:g} mm; it must be at most a tenth of the line width, {COARSEST * line_width:g} mm"
+            f"tolerance is {tolerance:g} mm; it must be at most a tenth of the line width, "
+            f"{MAX_TOLERANCE_SHARE * line_width:g} mm"
         )
     return surface or ("prism" if tolerance > 0 else "grid"), float(tolerance)
 
 
-def pattern_of(pattern: Pattern | str, parameters: dict[str, Any]) -> Pattern:
+def instantiate_pattern(pattern: Pattern | str, parameters: dict[str, Any]) -> Pattern:
     """Return the pattern that a name and its parameters describe, or the pattern itself."""
     if not isinstance(pattern, str):
         if isinstance(pattern, type) or lacking(pattern):

@@ -20,9 +20,9 @@ from typing import TYPE_CHECKING, Any
 
 from infill.errors import ParameterError, UsageError
 from infill.files.excerpts import quote_value
-from infill.options.assignments import SET, gathered, table_of
-from infill.options.keyword_options import LONGEST_WORD, within_floats
-from infill.options.toml import read_toml, toml_rows
+from infill.options.assignments import SET, collect_parameters, pop_table
+from infill.options.keyword_options import LONGEST_WORD, check_fits_float
+from infill.options.toml import read_toml, write_rows
 from patterns import PATTERNS, Pattern, parameter_values
 
 if TYPE_CHECKING:
@@ -93,9 +93,9 @@ class MakeSettings:
 
     def plan(self) -> Block:
         """Check the settings; return the block with its grid and its cost."""
-        from infill.making.request import plan
+        from infill.making.request import plan_block
 
-        return plan(**self._request(), parameters={})
+        return plan_block(**self._request(), parameters={})
 
     def make(
         self, *, allow_broken: bool = False, max_memory: int | None = None, progress: Progress | None = None
@@ -112,10 +112,10 @@ class MakeSettings:
         pattern_values = parameter_values(self.build_pattern())
         lines = [
             "# infill make --config THIS_FILE -o OUT",
-            *toml_rows(plain),
+            *write_rows(plain),
             "",
             f"[{SET}]",
-            *toml_rows(pattern_values),
+            *write_rows(pattern_values),
             "",
         ]
         return "\n".join(lines)
@@ -142,7 +142,7 @@ def resolve(flags: Mapping[str, Any], config: Path | None = None, assigned: Sequ
         If the file is missing or not TOML.
     """
     file_values = read_toml(config, example="size = [60, 40]") if config else {}
-    table = table_of(file_values)
+    table = pop_table(file_values)
     flag_values = {name: value for name, value in flags.items() if value is not None}
     values = file_values | flag_values
     if "pattern" not in values:
@@ -153,7 +153,7 @@ def resolve(flags: Mapping[str, Any], config: Path | None = None, assigned: Sequ
     common = {
         setting.name: setting.default for setting in dataclasses.fields(MakeSettings) if setting.name != "parameters"
     }
-    parameters_given = gathered(
+    parameters_given = collect_parameters(
         pattern_class, common, flags=flag_values, assigned=assigned, filed=file_values, table=table
     )
     typed = {name: _check_type(name, value, common[name]) for name, value in values.items() if name in common}
@@ -187,7 +187,7 @@ def _check_type(name: str, value: Any, default: Any) -> Any:  # noqa: ANN401 - c
         expected, fits = "a number", _is_number(value)
     if not fits:
         raise UsageError(f"{name} is {quote_value(value)}; it must be {expected}")
-    return within_floats(name, value) if expected == "a number" else value
+    return check_fits_float(name, value) if expected == "a number" else value
 
 
 def _is_number(value: object) -> bool:

@@ -40,9 +40,9 @@ class MakeStages:
 
     def picture(self, surface: Surface, report: Mapping[str, Any]) -> Image.Image:
         """Return points, stamp, field and mesh side by side."""
-        from infill.pictures.four_stages import four_stages
+        from infill.pictures.four_stages import draw_four_stages
 
-        return four_stages(
+        return draw_four_stages(
             points=self.points,
             grid=self.grid,
             stamp=self.stamp,

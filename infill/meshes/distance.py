@@ -13,11 +13,11 @@ from infill.surface import Surface
 Floats = NDArray[np.float64]
 
 LEAF = 4  # triangles in a leaf of the tree
-BITS, PLACES = 10, 34  # of each coordinate, for the order of the leaves, and of the place of a triangle
+BITS, INDEX_BITS = 10, 34  # of each coordinate, for the order of the leaves, and of the place of a triangle
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Tree:
+class TriangleTree:
     """The triangles of a surface in the leaves of a complete binary tree, in the order of a space-filling curve.
 
     Parameters
@@ -36,7 +36,7 @@ class Tree:
     order: NDArray[np.int64]
 
     @classmethod
-    def of(cls, surface: Surface) -> Tree:
+    def of(cls, surface: Surface) -> TriangleTree:
         """Build the tree of a surface with at least one triangle.
 
         Notes
@@ -48,7 +48,7 @@ class Tree:
         centroids += vertices[faces[:, 1]]
         centroids += vertices[faces[:, 2]]
         centroids /= 3
-        order = along_curve(centroids)
+        order = morton_order(centroids)
         del centroids  # freed at once: an array as long as the faces adds to the peak of memory
         corners = vertices[faces[order]]
         leaves = 1 << max(0, int(np.ceil(np.log2(-(-len(corners) // LEAF)))))
@@ -111,19 +111,19 @@ def distances(points: NDArray[np.floating], surface: Surface, *, threads: int | 
     >>> distances(np.ones((1, 3)), square).round(6).tolist()
     [1.154701]
     """
-    return Tree.of(surface).nearest(points, threads=threads)[0]
+    return TriangleTree.of(surface).nearest(points, threads=threads)[0]
 
 
-def along_curve(points: Floats) -> NDArray[np.int64]:
+def morton_order(points: Floats) -> NDArray[np.int64]:
     """Return the order of points (N, 3) along the curve of Morton (1966), where neighbours are mostly close in space.
 
-    >>> along_curve(np.array([[0.0, 0, 0], [9, 9, 9], [0, 0, 1]])).tolist()
+    >>> morton_order(np.array([[0.0, 0, 0], [9, 9, 9], [0, 0, 1]])).tolist()
     [0, 2, 1]
     """
     indices = np.arange(len(points), dtype=np.uint64)
     # Sorting numbers is several times as fast as sorting indices by them; indices of equal numbers stay in order.
-    codes = np.sort(_morton_codes(points) << np.uint64(PLACES) | indices)
-    return (codes & np.uint64((1 << PLACES) - 1)).astype(np.int64)
+    codes = np.sort(_morton_codes(points) << np.uint64(INDEX_BITS) | indices)
+    return (codes & np.uint64((1 << INDEX_BITS) - 1)).astype(np.int64)
 
 
 def _morton_codes(points: Floats) -> NDArray[np.uint64]:

@@ -9,29 +9,29 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.kernels.threads import thread_count, together
-from infill.meshes.distance import Tree, along_curve
-from infill.meshes.project_back import crossings, mended
+from infill.kernels.threads import run_together, thread_count
+from infill.meshes.distance import TriangleTree, morton_order
+from infill.meshes.project_back import crossing_corners, project_back
 from infill.surface import Surface
 
 Floats = NDArray[np.float64]
 Corners = NDArray[np.int32]
 
-BENDS = 0.25  # of the tolerance: edges that rise higher above their neighbours get sample points of their own
-APART = 8.0  # tolerances between these points
-MOST = 16  # of them on an edge
-FIRST = 0.1  # of the tolerance, as a mean: edges collapse up to here without any distance being measured
-FEW = 64  # triangles: a target of no more than these lets the bound alone say where to stop, in every patch
+RIDGE_HEIGHT = 0.25  # of the tolerance: edges that rise higher above their neighbours get sample points of their own
+SAMPLE_SPACING = 8.0  # tolerances between these points
+MOST_EDGE_SAMPLES = 16  # of them on an edge
+BLIND_SHARE = 0.1  # of the tolerance, as a mean: edges collapse up to here without any distance being measured
+FEW_TRIANGLES = 64  # triangles: a target of no more than these lets the bound alone say where to stop, in every patch
 PATCH = 30_000  # triangles, whose data fit into the second cache of a processor
 ATTEMPTS = 12
-AROUND, DOUBLED = (
+BLOCKED_RADIUS, DOUBLED = (
     1.5,
     4,
 )  # sides of triangles: radius that stays fixed around a place that fails; attempts until it doubles
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Table:
+class CornerTable:
     """A closed mesh by its corners: corner 3 f + k is also the edge of face f from its k-th corner to the next.
 
     Parameters
@@ -61,15 +61,15 @@ class Table:
     centre: Floats
 
     @classmethod
-    def of(cls, surface: Surface) -> Table | None:
+    def of(cls, surface: Surface) -> CornerTable | None:
         """Build the table of a surface; return None if not every edge is shared by exactly two triangles."""
-        from infill.kernels.corners import pair, part_fans
+        from infill.kernels.corners import pair_edges, split_fans
 
         start = np.array(surface.faces, dtype=np.int32).ravel()
         twin, name = np.empty(len(start), dtype=np.int32), np.empty(len(start), dtype=np.int32)
-        if not pair(start, len(surface.vertices), twin):
+        if not pair_edges(start, len(surface.vertices), twin):
             return None
-        count = part_fans(start, twin, len(surface.vertices), name)
+        count = split_fans(start, twin, len(surface.vertices), name)
         name = name[:count]
         leaving = np.full(count, -1, dtype=np.int32)
         leaving[start] = np.arange(len(start), dtype=np.int32)
@@ -87,7 +87,7 @@ class Table:
 
     def without_edges(
         self, bound: float, triangles: int, *, near: float | None = None, threads: int | None = None
-    ) -> Table:
+    ) -> CornerTable:
         """Collapse edges, cheapest first; return the smaller table.
 
         Parameters
@@ -107,7 +107,7 @@ class Table:
 
         table, quadric = self, np.zeros((len(self.vertices), 11))
         add_planes(self.vertices, self.start, quadric)
-        if near is None and triangles <= FEW and math.isfinite(bound):
+        if near is None and triangles <= FEW_TRIANGLES and math.isfinite(bound):
             table, quadric = _collapse_within_patches(table, quadric, bound, threads)
         points, corner = (np.empty((0, 3)), np.empty(0, dtype=np.int32)) if near is None else table.watched(near)
         vertices, start, twin = table.vertices.copy(), table.start.copy(), table.twin.copy()
@@ -131,7 +131,7 @@ class Table:
 
     def left(
         self, vertices: Floats, start: Corners, twin: Corners, targets: Corners
-    ) -> tuple[Table, NDArray[np.bool_]]:
+    ) -> tuple[CornerTable, NDArray[np.bool_]]:
         """Drop the faces and vertices that are gone; return the table, and a mask of the vertices that stay.
 
         Parameters
@@ -163,9 +163,9 @@ class Table:
         )
         return fewer, used_vertices
 
-    def unfolded(self, original: Table, restored: NDArray[np.bool_]) -> Table | None:
+    def unfolded(self, original: CornerTable, restored: NDArray[np.bool_]) -> CornerTable | None:
         """Restore some vertices (V,) and the faces around them; return None if the table would no longer be closed."""
-        from infill.kernels.corners import pair, part_fans
+        from infill.kernels.corners import pair_edges, split_fans
 
         back = restored[self.into]
         rank = np.cumsum(~restored, dtype=np.int32) - 1
@@ -176,7 +176,7 @@ class Table:
         start = np.ascontiguousarray(faces[proper]).ravel()
         twin, name = np.empty(len(start), dtype=np.int32), np.empty(len(start), dtype=np.int32)
         count = kept_count + int(back.sum())
-        as_closed = pair(start, count, twin) and part_fans(start, twin, count, name) == count
+        as_closed = pair_edges(start, count, twin) and split_fans(start, twin, count, name) == count
         if not as_closed or len(start) // 3 - 2 * count != len(original.start) // 3 - 2 * len(original.vertices):
             return None
         leaving = np.empty(count, dtype=np.int32)
@@ -207,14 +207,23 @@ class Table:
         """Return the points that have to stay near, vertices first, and the corner or edge on which each lies."""
         from infill.kernels.nearness import edge_points
 
-        arguments = (self.vertices, self.start, self.twin, BENDS * tolerance, APART * tolerance, MOST)
+        arguments = (
+            self.vertices,
+            self.start,
+            self.twin,
+            RIDGE_HEIGHT * tolerance,
+            SAMPLE_SPACING * tolerance,
+            MOST_EDGE_SAMPLES,
+        )
         count = edge_points(*arguments, np.empty((0, 3)), np.empty(0, dtype=np.int32))
         points, edges = np.empty((count, 3)), np.empty(count, dtype=np.int32)
         edge_points(*arguments, points, edges)
         return np.concatenate([self.vertices, points]), np.concatenate([self.leaving, edges])
 
 
-def _collapse_within_patches(table: Table, quadric: Floats, bound: float, threads: int | None) -> tuple[Table, Floats]:
+def _collapse_within_patches(
+    table: CornerTable, quadric: Floats, bound: float, threads: int | None
+) -> tuple[CornerTable, Floats]:
     """Collapse edges within patches of the table; return it and the quadrics (V, 11) of its remaining vertices.
 
     A patch fits into the cache of a processor, and patches are worked on at the same time. Vertices where patches meet
@@ -225,7 +234,7 @@ def _collapse_within_patches(table: Table, quadric: Floats, bound: float, thread
     patches = count // PATCH
     if patches < 2:
         return table, quadric
-    order = along_curve(table.vertices[table.start.reshape(-1, 3)].mean(axis=1))
+    order = morton_order(table.vertices[table.start.reshape(-1, 3)].mean(axis=1))
     patch = np.empty(count, dtype=np.int32)
     patch[order] = np.arange(count) * patches // count
     corner_patch = np.repeat(patch, 3)
@@ -244,13 +253,13 @@ def _collapse_within_patches(table: Table, quadric: Floats, bound: float, thread
         tasks.append(
             partial(_collapse_patch, pinned, faces, patch, local, bound, vertices, start, twin, quadric, collapsed_into)
         )
-    together(*tasks, threads=thread_count(threads))
+    run_together(*tasks, threads=thread_count(threads))
     fewer, used = table.left(vertices, start, twin, collapsed_into)
     return fewer, quadric[used]
 
 
 def _collapse_patch(
-    table: Table,
+    table: CornerTable,
     faces: NDArray[np.int64],
     patch: NDArray[np.int32],
     local: NDArray[np.int32],
@@ -302,7 +311,7 @@ def _collapse_patch(
     twin[corners] = np.where(local_twin >= 0, corners[local_twin], twin[corners])
 
 
-def collapsed(
+def collapse_edges(
     surface: Surface, *, tolerance: float | None = None, triangles: int = 4, threads: int | None = None
 ) -> Surface | None:
     """Collapse edges, cheapest first; return None if not every edge is shared by two triangles.
@@ -326,26 +335,28 @@ def collapsed(
     becomes a sliver, if all points of the original surface on the triangles concerned stay within the tolerance of
     them, handed on from triangle to triangle as Klein et al. (1996) do, and if the new edges stay within the tolerance
     of the surface around these points. Where the surface still goes too far between the points, it gets another vertex:
-    see `mended`. Where that does not help, or triangles pass through each other, the vertices that were collapsed
+    see `project_back`. Where that does not help, or triangles pass through each other, the vertices that were collapsed
     around the place come back. Before all this, small triangles collapse as far as their planes allow, by a tenth of
     the tolerance, without any distance being measured.
     """
     from scipy.spatial import cKDTree
 
-    table = Table.of(surface)
+    table = CornerTable.of(surface)
     if table is None:
         return None
     if tolerance is None:
         return table.without_edges(math.inf, triangles).placed_in(surface)
-    tree, aim, samples, fewer = Tree.of(surface), triangles, None, table
+    tree, aim, samples, fewer = TriangleTree.of(surface), triangles, None, table
     for attempt in range(ATTEMPTS):
         if fewer is table:
-            fewer = table.without_edges((FIRST * tolerance) ** 2, triangles, threads=threads)
+            fewer = table.without_edges((BLIND_SHARE * tolerance) ** 2, triangles, threads=threads)
             fewer = fewer.without_edges(tolerance**2, aim, near=tolerance)
         candidate = fewer.placed_in(surface)
-        places, excess = crossings(candidate), 0
+        places, excess = crossing_corners(candidate), 0
         if not len(places) or attempt == ATTEMPTS - 1:  # the slowest check comes last
-            candidate, places, samples = mended(candidate, surface, tree, tolerance, known=samples, threads=threads)
+            candidate, places, samples = project_back(
+                candidate, surface, tree, tolerance, known=samples, threads=threads
+            )
             excess = len(candidate.faces) - triangles
             if not len(places) and (excess <= 0 or 3 * aim < len(fewer.start)):
                 return candidate
@@ -353,7 +364,7 @@ def collapsed(
         if not len(places):
             fewer = table
             continue
-        reach = AROUND * 2 ** (attempt // DOUBLED) * float(np.sqrt(surface.area / len(surface.faces)))
+        reach = BLOCKED_RADIUS * 2 ** (attempt // DOUBLED) * float(np.sqrt(surface.area / len(surface.faces)))
         distance, _ = cKDTree(places - table.centre).query(table.vertices, distance_upper_bound=reach)
         blocked = np.isfinite(distance)
         table = replace(table, fixed=table.fixed | blocked)

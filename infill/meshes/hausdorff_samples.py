@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.kernels.threads import in_threads, thread_count
-from infill.meshes.distance import LEAF, Tree
+from infill.meshes.distance import LEAF, TriangleTree
 from infill.surface import Surface
 
 Floats = NDArray[np.float64]
-Whole = NDArray[np.int64]
+Integers = NDArray[np.int64]
 
 FINER, WIDE = 0.2, 2.0  # sides of the original's triangles, and tolerances: spacing of samples on edges
 # In sides of the original's triangles: largest spacing of samples on the original, and on the result, whose triangles
@@ -25,7 +25,7 @@ ROOM = 1 << 18  # samples that the arrays hold at a time
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Watched:
+class HausdorffSamples:
     """Samples of the original surface, and their distances from the result.
 
     Parameters
@@ -43,40 +43,42 @@ class Watched:
 
     found: Surface
     points: Floats
-    owner: Whole
+    owner: Integers
     away: Floats
-    unsure: Whole
+    unsure: Integers
 
-    def again(self, result: Surface, tolerance: float, threads: int | None) -> Watched:
+    def again(self, result: Surface, tolerance: float, threads: int | None) -> HausdorffSamples:
         """Measure the samples near changed faces of `result` once more; return all samples."""
         changed = np.zeros(len(result.faces), dtype=bool)
         changed[self.unsure] = True
         stale = np.flatnonzero(changed[self.owner])
         owner, away = self.owner.copy(), self.away.copy()
         # Most samples are near the changed faces: those alone make a small tree.
-        changed_tree = Tree.of(replace(result, faces=result.faces[self.unsure]))
+        changed_tree = TriangleTree.of(replace(result, faces=result.faces[self.unsure]))
         away[stale], part_face = changed_tree.nearest(self.points[stale], enough=tolerance, threads=threads)
         owner[stale] = self.unsure[part_face]
         stale = stale[away[stale] > tolerance]
         if len(stale):
-            away[stale], owner[stale] = Tree.of(result).nearest(self.points[stale], threads=threads)
+            away[stale], owner[stale] = TriangleTree.of(result).nearest(self.points[stale], threads=threads)
         return replace(self, found=result, owner=owner, away=away)
 
     def handed_to(
         self, result: Surface, original: Surface, side: float, tolerance: float, threads: int | None = None
-    ) -> Watched:
+    ) -> HausdorffSamples:
         """Move the samples to another surface that shares many faces; measure those near the other faces once more."""
-        same_face = same_faces(result, self.found)
+        same_face = match_faces(result, self.found)
         same_face[np.isin(same_face, self.unsure)] = -1
         new_face = np.full(len(self.found.faces), -1)
         new_face[same_face[same_face >= 0]] = np.flatnonzero(same_face >= 0)
-        owner, distance, tree = new_face[self.owner], self.away.copy(), Tree.of(result)
+        owner, distance, tree = new_face[self.owner], self.away.copy(), TriangleTree.of(result)
         lost = owner < 0
         distance[lost], owner[lost] = tree.nearest(self.points[lost], enough=tolerance, threads=threads)
         count = len(original.vertices)
         open_part = replace(original, faces=original.faces[lost[:count][original.faces].any(axis=1)])
-        added = between(tree, open_part, owner[:count], distance[:count], GIVEN * side, tolerance, threads=threads)
-        return Watched(
+        added = sample_between_vertices(
+            tree, open_part, owner[:count], distance[:count], GIVEN * side, tolerance, threads=threads
+        )
+        return HausdorffSamples(
             found=result,
             points=np.concatenate([self.points, added.points]),
             owner=np.concatenate([owner, added.owner]),
@@ -85,12 +87,12 @@ class Watched:
         )
 
 
-def same_faces(surface: Surface, reference: Surface) -> Whole:
+def match_faces(surface: Surface, reference: Surface) -> Integers:
     """Find for each face of a surface the face of another with the same corners: (F,), -1 for none.
 
     >>> square = Surface(vertices=np.eye(3), faces=np.array([[0, 1, 2]]))
     >>> turned = Surface(vertices=np.eye(3)[[2, 0, 1]], faces=np.array([[1, 2, 0], [0, 2, 1]]))
-    >>> same_faces(turned, square).tolist()
+    >>> match_faces(turned, square).tolist()
     [0, 0]
     """
     _, name = np.unique(np.concatenate([surface.vertices, reference.vertices]), axis=0, return_inverse=True)
@@ -104,9 +106,9 @@ def same_faces(surface: Surface, reference: Surface) -> Whole:
     return face_of_key[key[: len(surface.faces)]]
 
 
-def watched(
-    tree: Tree, result: Surface, original: Surface, side: float, tolerance: float, *, threads: int | None = None
-) -> Watched:
+def sample_original(
+    tree: TriangleTree, result: Surface, original: Surface, side: float, tolerance: float, *, threads: int | None = None
+) -> HausdorffSamples:
     """Sample the original surface: its vertices first, then points between those near different faces.
 
     Parameters
@@ -122,8 +124,8 @@ def watched(
     """
     vertices = np.asarray(original.vertices, dtype=np.float64)
     distance, owner = tree.nearest(vertices, enough=tolerance, threads=threads)
-    between_samples = between(tree, original, owner, distance, GIVEN * side, tolerance, threads=threads)
-    return Watched(
+    between_samples = sample_between_vertices(tree, original, owner, distance, GIVEN * side, tolerance, threads=threads)
+    return HausdorffSamples(
         found=result,
         points=np.concatenate([vertices, between_samples.points]),
         owner=np.concatenate([owner, between_samples.owner]),
@@ -133,7 +135,7 @@ def watched(
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Places:
+class FaceSamples:
     """Samples on the faces of one surface, and their distances from another.
 
     Parameters
@@ -148,22 +150,22 @@ class Places:
     """
 
     points: Floats
-    face: Whole
-    owner: Whole
+    face: Integers
+    owner: Integers
     away: Floats
 
 
-def between(
-    tree: Tree,
+def sample_between_vertices(
+    tree: TriangleTree,
     surface: Surface,
-    owner: Whole,
+    owner: Integers,
     distance: Floats,
     apart: float,
     tolerance: float,
     *,
     all_places: bool = True,
     threads: int | None = None,
-) -> Places:
+) -> FaceSamples:
     """Sample a surface between its vertices: see `infill.kernels.covering`.
 
     Parameters
@@ -181,7 +183,7 @@ def between(
     threads : int, optional
         See `infill.kernels.threads.thread_count`.
     """
-    from infill.kernels.covering import cover
+    from infill.kernels.covering import sample_faces
 
     threads = thread_count(threads)
     place = np.empty(len(tree.order), dtype=np.int64)
@@ -195,16 +197,16 @@ def between(
     while (begin < len(surface.faces)).any():
         buffers = _sample_arrays(threads, capacity)
         previous = begin.copy()
-        counts = in_threads(cover, *source, *target, *sizes, threshold, begin, *buffers, threads=threads)
+        counts = in_threads(sample_faces, *source, *target, *sizes, threshold, begin, *buffers, threads=threads)
         parts += [tuple(column[n, : counts[n]].copy() for column in buffers) for n in range(threads)]
         if ((begin == previous) & (previous < len(surface.faces))).any():  # the samples of one face do not fit
             capacity *= 2
     points, face, triangle, squared = (np.concatenate(array) for array in zip(*parts, strict=True))
-    return Places(points=points, face=face.astype(np.int64), owner=tree.order[triangle], away=np.sqrt(squared))
+    return FaceSamples(points=points, face=face.astype(np.int64), owner=tree.order[triangle], away=np.sqrt(squared))
 
 
-def _sample_arrays(threads: int, capacity: int) -> tuple[Floats, NDArray[np.int32], Whole, Floats]:
-    """Allocate the arrays that `infill.kernels.covering.cover` fills."""
+def _sample_arrays(threads: int, capacity: int) -> tuple[Floats, NDArray[np.int32], Integers, Floats]:
+    """Allocate the arrays that `infill.kernels.covering.sample_faces` fills."""
     shape = threads, capacity
     return np.empty((*shape, 3)), np.empty(shape, dtype=np.int32), np.empty(shape, dtype=np.int64), np.empty(shape)
 
@@ -232,29 +234,29 @@ def level_faces(surface: Surface, tolerance: float, *, threads: int | None = Non
     >>> level_faces(Surface(vertices=roof, faces=faces[:2]), 0.1).tolist()
     [True, True]
     """
-    from infill.kernels.covering import level_around
+    from infill.kernels.covering import mark_level_faces
 
-    tree, level = Tree.of(surface), np.empty(len(surface.faces), dtype=bool)
+    tree, level = TriangleTree.of(surface), np.empty(len(surface.faces), dtype=bool)
     doubled_normals = np.cross(tree.corners[:, 1] - tree.corners[:, 0], tree.corners[:, 2] - tree.corners[:, 0])
     length = np.linalg.norm(doubled_normals, axis=1, keepdims=True)
     normals = np.divide(doubled_normals, length, out=np.zeros_like(doubled_normals), where=length > 0)
     arguments = tree.corners, normals, tree.low, tree.high, LEAF, CLEAR * tolerance
-    in_threads(level_around, *arguments, level, threads=thread_count(threads))
+    in_threads(mark_level_faces, *arguments, level, threads=thread_count(threads))
     by_face = np.empty_like(level)
     by_face[tree.order] = level
     return by_face
 
 
-def looked_at(
-    tree: Tree,
+def find_strays(
+    tree: TriangleTree,
     result: Surface,
-    faces: Whole,
+    faces: Integers,
     side: float,
     tolerance: float,
     *,
     sure: NDArray[np.bool_] | None = None,
     threads: int | None = None,
-) -> Places:
+) -> FaceSamples:
     """Sample some faces of a result; return the samples that lie too far from the original.
 
     A face is flat between its edges, so that few samples are enough there; along the edges they are close together.
@@ -267,11 +269,13 @@ def looked_at(
     distance[used], owner[used] = tree.nearest(vertices[used], enough=tolerance, threads=threads)
     unsure = np.arange(len(faces)) if sure is None else np.flatnonzero(~sure)
     apart, unsure_part = FOUND[tolerance > LARGE * side] * side, replace(part, faces=part.faces[unsure])
-    interior = between(tree, unsure_part, owner, distance, apart, tolerance, all_places=False, threads=threads)
+    interior = sample_between_vertices(
+        tree, unsure_part, owner, distance, apart, tolerance, all_places=False, threads=threads
+    )
     points, face = _sample_edges(part, min(FINER * side, WIDE * tolerance), all_faces=len(faces) == len(result.faces))
     edge_away, nearest = tree.nearest(points, enough=tolerance, threads=threads)
     far_edge_points, far_vertices = np.flatnonzero(edge_away > tolerance), np.flatnonzero(distance[used] > tolerance)
-    return Places(
+    return FaceSamples(
         points=np.concatenate([vertices[used[far_vertices]], interior.points, points[far_edge_points]]),
         face=faces[np.concatenate([corner_index[far_vertices] // 3, unsure[interior.face], face[far_edge_points]])],
         owner=np.concatenate([owner[used[far_vertices]], interior.owner, nearest[far_edge_points]]),
@@ -279,7 +283,7 @@ def looked_at(
     )
 
 
-def _sample_edges(part: Surface, apart: float, *, all_faces: bool) -> tuple[Floats, Whole]:
+def _sample_edges(part: Surface, apart: float, *, all_faces: bool) -> tuple[Floats, Integers]:
     """Sample the edges of a surface, each edge once if `all_faces`; return points (N, 3), mm, and a face at each."""
     vertices = np.asarray(part.vertices, dtype=np.float64)
     ends = part.faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)

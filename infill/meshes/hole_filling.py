@@ -25,7 +25,7 @@ def open_edges(faces: Integers) -> Integers:
     return np.repeat(directed, np.abs(edges.surplus), axis=0)
 
 
-def agreeing(faces: Integers) -> Integers:
+def orient_faces(faces: Integers) -> Integers:
     """Reverse faces so that neighbours across an edge of two faces have one orientation; return all faces.
 
     Parameters
@@ -61,7 +61,7 @@ def agreeing(faces: Integers) -> Integers:
     return np.where(reverse[:, None], faces[:, ::-1], faces)
 
 
-def welded(vertices: Floats, faces: Integers) -> Integers:
+def weld_boundary(vertices: Floats, faces: Integers) -> Integers:
     """Merge corners on open edges that are closer than `WELD`, which closes cracks; return the faces."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
@@ -76,10 +76,10 @@ def welded(vertices: Floats, faces: Integers) -> Integers:
     return number[faces]
 
 
-def loops(edges: Integers) -> list[list[int]]:
+def split_loops(edges: Integers) -> list[list[int]]:
     """Split directed edges into loops that visit no vertex twice; every vertex must have as many edges in as out.
 
-    >>> loops(np.array([[0, 1], [1, 2], [2, 0]]))
+    >>> split_loops(np.array([[0, 1], [1, 2], [2, 0]]))
     [[0, 1, 2]]
     """
     ahead: dict[int, list[int]] = defaultdict(list)
@@ -102,7 +102,7 @@ def loops(edges: Integers) -> list[list[int]]:
     return cycles
 
 
-def capped(vertices: Floats, faces: Integers) -> tuple[Floats, Integers, int]:
+def fill_holes(vertices: Floats, faces: Integers) -> tuple[Floats, Integers, int]:
     """Put a cap on every hole; return vertices, faces and the number of holes.
 
     Parameters
@@ -121,13 +121,13 @@ def capped(vertices: Floats, faces: Integers) -> tuple[Floats, Integers, int]:
     Notes
     -----
     First, cracks are closed and faces whose orientation disagrees with their neighbours' are reversed: see
-    `welded` and `agreeing`. A cap is a fan from the centre of the hole's rim. Where a triangle occurs
+    `weld_boundary` and `orient_faces`. A cap is a fan from the centre of the hole's rim. Where a triangle occurs
     twice, its three edges are a "hole" whose cap cancels it.
     """
     if len(open_edges(faces)) == 0:
         return vertices, faces, 0
-    faces = agreeing(welded(vertices, faces))
-    rims = loops(open_edges(faces))
+    faces = orient_faces(weld_boundary(vertices, faces))
+    rims = split_loops(open_edges(faces))
     apexes: list[Floats] = []
     caps = []
     for loop in rims:
@@ -148,14 +148,14 @@ def capped(vertices: Floats, faces: Integers) -> tuple[Floats, Integers, int]:
     return np.concatenate([vertices, np.reshape(apexes, (-1, 3))]), np.concatenate([faces, cap_faces]), len(rims)
 
 
-def components(vertices: Floats, faces: Integers) -> tuple[Integers, Floats]:
+def component_volumes(vertices: Floats, faces: Integers) -> tuple[Integers, Floats]:
     """Return the component of every face, by shared vertices, and the signed volume of each component.
 
     Parameters
     ----------
     vertices : (V, 3) float64
     faces : (F, 3) int
-        Closed as a sum: see `capped`.
+        Closed as a sum: see `fill_holes`.
 
     Returns
     -------

@@ -7,19 +7,19 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.ragged import spread
+from infill.ragged import expand_rows
 
 PAIRS_AT_ONCE = 1_000_000
 ENTRIES_PER_TRIANGLE = 8  # cells that a triangle may occupy on average before the cells are made larger
 GROWTH = 1.5
 
 
-def self_intersections(vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> int:
-    """Count the pairs of triangles that pass through each other: see `intersecting`."""
-    return len(intersecting(vertices, faces))
+def count_self_intersections(vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> int:
+    """Count the pairs of triangles that pass through each other: see `intersecting_pairs`."""
+    return len(intersecting_pairs(vertices, faces))
 
 
-def intersecting(vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> NDArray[np.int64]:
+def intersecting_pairs(vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> NDArray[np.int64]:
     """Return the pairs of triangles that pass through each other, (N, 2).
 
     Parameters
@@ -62,7 +62,7 @@ def _candidate_pairs(
         if counts.sum() <= ENTRIES_PER_TRIANGLE * len(low):
             break
         size = size * GROWTH
-    triangle, step = next(spread(counts))
+    triangle, step = next(expand_rows(counts))
     depth_z, depth_y = cells_across[triangle, 2], cells_across[triangle, 1]
     cell = low_cell[triangle] + np.stack(
         [step // (depth_z * depth_y), step // depth_z % depth_y, step % depth_z], axis=-1
@@ -74,7 +74,7 @@ def _candidate_pairs(
     # An entry pairs with all later entries in the same cell.
     ends = np.searchsorted(key, key, side="right")
     later_entries = ends - np.arange(len(key)) - 1
-    for entry, place in spread(later_entries, PAIRS_AT_ONCE):
+    for entry, place in expand_rows(later_entries, PAIRS_AT_ONCE):
         first_triangle, second_triangle = triangle[entry], triangle[entry + 1 + place]
         for axis in range(3):
             # Two boxes may share many cells: the pair belongs to the lowest one.

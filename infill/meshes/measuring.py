@@ -9,10 +9,10 @@ from infill.kernels.threads import in_threads, thread_count
 from infill.surface import Surface
 
 AT_A_TIME = 2**16  # faces
-FEW = 2**29  # vertices, whose numbers and two bits more fit into 32
+MOST_INT32_VERTICES = 2**29  # vertices, whose numbers and two bits more fit into 32
 
 
-def with_measures(surface: Surface, *, threads: int | None = None) -> Surface:
+def measure_surface(surface: Surface, *, threads: int | None = None) -> Surface:
     """Measure a surface; return it with closedness, volume and area known.
 
     The specification is what `Surface` computes by itself: `closed` is the same, volume and area agree to rounding,
@@ -62,7 +62,7 @@ def _is_closed(surface: Surface, threads: int) -> bool:
     faces, count = surface.faces, len(surface.vertices)
     if not len(faces):
         return False
-    index_type = np.int32 if count < FEW else np.int64
+    index_type = np.int32 if count < MOST_INT32_VERTICES else np.int64
     edge_start = np.zeros(count + 1, dtype=index_type)
     if not begin_edges(faces, edge_start):
         return False

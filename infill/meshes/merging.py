@@ -29,14 +29,14 @@ def surface_of(mesh: trimesh.Trimesh | Surface) -> Surface:
     return mesh if isinstance(mesh, Surface) else Surface(vertices=vertices, faces=faces)
 
 
-def closed_or_merged(vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> Surface:
+def merge_unless_closed(vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> Surface:
     """Drop unused vertices; merge equal vertices unless the mesh is closed already."""
     used, index = np.unique(faces, return_inverse=True)
     surface = Surface(vertices=np.asarray(vertices, dtype=np.float64)[used], faces=index.reshape(faces.shape))
-    return surface if surface.closed else merged(surface.vertices, surface.faces)
+    return surface if surface.closed else merge_vertices(surface.vertices, surface.faces)
 
 
-def merged(vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> Surface:
+def merge_vertices(vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> Surface:
     """Merge equal vertices of a mesh."""
     points = vertices + 0.0  # no -0, which equals 0 but has different bits
     order = np.lexsort(points.T)

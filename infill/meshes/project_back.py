@@ -7,33 +7,35 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.meshes.distance import Tree
-from infill.meshes.hausdorff_samples import Watched, level_faces, looked_at, watched
-from infill.meshes.intersections import intersecting
+from infill.meshes.distance import TriangleTree
+from infill.meshes.hausdorff_samples import HausdorffSamples, find_strays, level_faces, sample_original
+from infill.meshes.intersections import intersecting_pairs
 from infill.surface import Surface
 
 Floats = NDArray[np.float64]
-Whole = NDArray[np.int64]
+Integers = NDArray[np.int64]
 
 ROUNDS = 12
-MANY = 256  # faces: up to this many, finding the level ones takes longer than sampling all
-BESIDE = 0.15  # of a triangle: a place nearer to an edge than this is mended on the edge
-CLOSE = 0.05, 0.005  # of a triangle: a place nearer to a corner is mended there; in the first rounds, and later
-FIRST = 3  # rounds: a corner that is moved back and forth by its triangles never comes to rest
+MANY_FACES = 256  # faces: up to this many, finding the level ones takes longer than sampling all
+NEAR_EDGE = 0.15  # of a triangle: a place nearer to an edge than this is mended on the edge
+NEAR_CORNER = 0.05, 0.005  # of a triangle: a place nearer to a corner is mended there; in the first rounds, and later
+FIRST_ROUNDS = 3  # rounds: a corner that is moved back and forth by its triangles never comes to rest
 # Of the tolerance: the depth up to which crossing triangles are moved apart, and the gap left between them.
 SHALLOW, GAP = 1.0, 0.02
-LEFT = 0.9  # of the tolerance: distance at which a mended place is left, so that little else bends; less in each round
+TARGET_SHARE = (
+    0.9  # of the tolerance: distance at which a mended place is left, so that little else bends; less in each round
+)
 
 
-def mended(
+def project_back(
     candidate: Surface,
     original: Surface,
-    tree: Tree,
+    tree: TriangleTree,
     tolerance: float,
     *,
-    known: Watched | None = None,
+    known: HausdorffSamples | None = None,
     threads: int | None = None,
-) -> tuple[Surface, Floats, Watched]:
+) -> tuple[Surface, Floats, HausdorffSamples]:
     """Bend a surface until it lies near another, adding vertices; return it, the places that failed, and the samples.
 
     Its triangles do not pass through each other, except at the places that failed.
@@ -58,7 +60,7 @@ def mended(
     """
     side = float(np.sqrt(2 * original.area / max(len(original.faces), 1)))
     if known is None:
-        samples = watched(Tree.of(candidate), candidate, original, side, tolerance, threads=threads)
+        samples = sample_original(TriangleTree.of(candidate), candidate, original, side, tolerance, threads=threads)
     else:
         samples = known.handed_to(candidate, original, side, tolerance, threads)
     assumed_near = np.zeros(len(candidate.faces), dtype=bool)  # faces with everything around them level
@@ -68,15 +70,17 @@ def mended(
         changed, owner, points = samples.unsure, samples.owner, samples.points
         missed = np.flatnonzero(samples.away > tolerance)
         assumed_near = np.concatenate([assumed_near, np.zeros(len(candidate.faces) - len(assumed_near), dtype=bool)])
-        assumed_near[changed] = len(changed) > MANY and level_faces(candidate, tolerance, threads=threads)[changed]
-        strays = looked_at(tree, candidate, changed, side, tolerance, sure=assumed_near[changed], threads=threads)
+        assumed_near[changed] = (
+            len(changed) > MANY_FACES and level_faces(candidate, tolerance, threads=threads)[changed]
+        )
+        strays = find_strays(tree, candidate, changed, side, tolerance, sure=assumed_near[changed], threads=threads)
         if n > 0 and not len(missed) and not len(strays.points) and assumed_near.any():
             bent = np.flatnonzero(assumed_near & ~level_faces(candidate, tolerance, threads=threads))
             assumed_near[bent] = False
-            strays = looked_at(tree, candidate, bent, side, tolerance, threads=threads)
+            strays = find_strays(tree, candidate, bent, side, tolerance, threads=threads)
         if not len(missed) and not len(strays.points):
             samples = replace(samples, unsure=np.empty(0, dtype=np.int64))
-            crossing = intersecting(np.asarray(candidate.vertices), candidate.faces)
+            crossing = intersecting_pairs(np.asarray(candidate.vertices), candidate.faces)
             if not len(crossing):
                 return candidate, np.empty((0, 3)), samples
             failed = _corners(candidate, crossing)
@@ -89,16 +93,18 @@ def mended(
         targets = np.concatenate([points[missed], _project_to_faces(original, strays.owner, strays.points)])
         sources = np.concatenate([_project_to_faces(candidate, owner[missed], points[missed]), strays.points])
         distance = np.concatenate([samples.away[missed], strays.away])
-        targets = sources + (1 - LEFT ** (n + 1) * tolerance / distance)[:, None] * (targets - sources)
+        targets = sources + (1 - TARGET_SHARE ** (n + 1) * tolerance / distance)[:, None] * (targets - sources)
         worst = np.argsort(-distance, kind="stable")
         worst = worst[np.unique(faces[worst], return_index=True)[1]]
         failed = sources[worst]
-        candidate, changed = _bend_to_targets(candidate, faces[worst], failed, targets[worst], CLOSE[n >= FIRST])
+        candidate, changed = _bend_to_targets(
+            candidate, faces[worst], failed, targets[worst], NEAR_CORNER[n >= FIRST_ROUNDS]
+        )
         samples = replace(samples, unsure=changed)
     return candidate, failed, replace(samples, found=candidate)
 
 
-def _project_to_faces(surface: Surface, faces: Whole, places: Floats) -> Floats:
+def _project_to_faces(surface: Surface, faces: Integers, places: Floats) -> Floats:
     """Project each place onto its face; return the nearest points."""
     import trimesh.triangles
 
@@ -109,14 +115,14 @@ def _project_to_faces(surface: Surface, faces: Whole, places: Floats) -> Floats:
 
 
 def _bend_to_targets(
-    surface: Surface, face: Whole, sources: Floats, targets: Floats, close: float
-) -> tuple[Surface, Whole]:
+    surface: Surface, face: Integers, sources: Floats, targets: Floats, close: float
+) -> tuple[Surface, Integers]:
     """Turn a place on each of some faces into a vertex and move it; return the surface and the faces that changed."""
-    from infill.kernels.corners import pair
+    from infill.kernels.corners import pair_edges
 
     start = np.array(surface.faces, dtype=np.int32).ravel()
     twin = np.empty(len(start), dtype=np.int32)
-    pair(start, len(surface.vertices), twin)
+    pair_edges(start, len(surface.vertices), twin)
     vertices, faces = [np.asarray(surface.vertices, dtype=np.float64)], surface.faces.copy()
     moved, count, new_faces = vertices[0].copy(), len(surface.vertices), []
     touched = np.zeros(len(faces), dtype=bool)
@@ -124,7 +130,7 @@ def _bend_to_targets(
     order = np.argsort(start, kind="stable")
     fan_start = np.searchsorted(start[order], np.arange(count + 1))
     for index, share, target in zip(face.tolist(), shares, targets, strict=True):
-        small_shares = np.flatnonzero(share < BESIDE)
+        small_shares = np.flatnonzero(share < NEAR_EDGE)
         if share.max() > 1 - close:
             vertex = surface.faces[index, int(share.argmax())]
             fan_faces = order[fan_start[vertex] : fan_start[vertex + 1]] // 3  # of all fans, where several meet
@@ -155,7 +161,7 @@ def _bend_to_targets(
     return replace(surface, vertices=np.concatenate(vertices), faces=np.concatenate([faces, appended])), changed
 
 
-def _push_apart(surface: Surface, pairs: Whole, tolerance: float) -> tuple[Surface, Whole]:
+def _push_apart(surface: Surface, pairs: Integers, tolerance: float) -> tuple[Surface, Integers]:
     """Push crossing triangles apart; return the surface and the faces that changed.
 
     Of each pair (N, 2), one corner goes to the other side of the other triangle's plane: of the corners alone on their
@@ -180,12 +186,12 @@ def _push_apart(surface: Surface, pairs: Whole, tolerance: float) -> tuple[Surfa
     return replace(surface, vertices=vertices), np.flatnonzero(np.isin(surface.faces, moved).any(axis=1))
 
 
-def crossings(surface: Surface) -> Floats:
+def crossing_corners(surface: Surface) -> Floats:
     """Return the corners (N, 3) of the triangles that pass through each other, mm."""
-    return _corners(surface, intersecting(np.asarray(surface.vertices), surface.faces))
+    return _corners(surface, intersecting_pairs(np.asarray(surface.vertices), surface.faces))
 
 
-def _corners(surface: Surface, faces: Whole) -> Floats:
+def _corners(surface: Surface, faces: Integers) -> Floats:
     """Return the corners (N, 3) of some faces, mm."""
     corners: Floats = np.asarray(surface.vertices, dtype=np.float64)[surface.faces[np.unique(faces)]].reshape(-1, 3)
     return corners

@@ -58,7 +58,7 @@ def count_sealed_voids(surface: Surface) -> int:
 def _winding_of_others(vertices: Floats, faces: Integers, shell: NDArray[np.integer], chosen: Integers) -> Integers:
     """Count the windings of all other shells around the centroids of some faces, (N,).
 
-    Triangles above a point count, as in `infill.kernels.distances.wind`: where an edge passes exactly over a point, one
+    Triangles above a point count, as in `count_windings` of the kernels: where an edge passes exactly over a point, one
     of its two triangles counts.
     """
     import shapely

@@ -43,7 +43,7 @@ def vertex_components(faces: Integers, vertices: int, *, compiled: bool = False)
     return np.where(used, number[names] - 1, np.int32(-1)), int(number[-1]) if count else 0
 
 
-def first_of_shells(surface: Surface) -> NDArray[np.int64]:
+def first_vertex_of_shells(surface: Surface) -> NDArray[np.int64]:
     """Return the first vertex of every component, (N,), in their order."""
     names, _ = vertex_components(surface.faces, len(surface.vertices), compiled=True)
     shells, first_vertex = np.unique(names, return_index=True)
@@ -68,7 +68,7 @@ def shell_volumes(surface: Surface, names: Names, count: int) -> NDArray[np.floa
     return sums / 6
 
 
-def with_faces(surface: Surface, chosen: NDArray[np.bool_]) -> Surface:
+def select_faces(surface: Surface, chosen: NDArray[np.bool_]) -> Surface:
     """Keep some of the faces, and the vertices that they use, both in their order."""
     faces = surface.faces[chosen]
     used = np.zeros(len(surface.vertices), dtype=bool)
@@ -77,7 +77,7 @@ def with_faces(surface: Surface, chosen: NDArray[np.bool_]) -> Surface:
     return replace(surface, vertices=surface.vertices[used], faces=number.astype(faces.dtype, copy=False)[faces])
 
 
-def in_batches(surface: Surface, limit: int) -> Iterator[Surface]:
+def split_into_batches(surface: Surface, limit: int) -> Iterator[Surface]:
     """Yield a surface as several of at most `limit` faces, or of a single larger component; all in order."""
     if len(surface.faces) <= limit:
         yield surface
@@ -86,7 +86,7 @@ def in_batches(surface: Surface, limit: int) -> Iterator[Surface]:
     shell = names[surface.faces[:, 0]]
     batch = np.cumsum(np.bincount(shell, minlength=count)) // limit
     for number in np.unique(batch):
-        yield with_faces(surface, batch[shell] == number)
+        yield select_faces(surface, batch[shell] == number)
 
 
 def _label_by_scipy(faces: Integers, vertices: int) -> tuple[Names, int, NDArray[np.bool_]]:

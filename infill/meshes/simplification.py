@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from infill.checks import positive, whole
+from infill.checks import check_positive, check_whole_number
 from infill.errors import GeometryError
-from infill.meshes.edge_collapse import collapsed
+from infill.meshes.edge_collapse import collapse_edges
 from infill.surface import Surface
 
 FEWEST = 4
@@ -16,7 +16,7 @@ SAFE = 0.87  # of the tolerance: between samples, distances are up to a seventh 
 SHIFT = 0.1  # of the mean edge: farthest that vertices may move to keep the volume
 
 
-def simplified(
+def simplify_surface(
     surface: Surface, *, tolerance: float | None = None, triangles: int | None = None, threads: int | None = None
 ) -> Surface:
     """Simplify a surface to fewer triangles.
@@ -40,9 +40,9 @@ def simplified(
     --------
     infill.meshes.edge_collapse.collapsed : The method.
     """
-    leeway_mm = None if tolerance is None else positive("tolerance", tolerance, "mm")
-    limit = FEWEST if triangles is None else whole("max_triangles", triangles, FEWEST)
-    result = collapsed(
+    leeway_mm = None if tolerance is None else check_positive("tolerance", tolerance, "mm")
+    limit = FEWEST if triangles is None else check_whole_number("max_triangles", triangles, FEWEST)
+    result = collapse_edges(
         surface, tolerance=None if leeway_mm is None else SAFE * leeway_mm, triangles=limit, threads=threads
     )
     if result is None:
@@ -58,14 +58,14 @@ def simplified(
     return result
 
 
-def with_volume(surface: Surface, volume: float) -> Surface:
+def restore_volume(surface: Surface, volume: float) -> Surface:
     """Move all vertices equally far along their normals, so that the surface has a volume, mm³.
 
     If the vertices would have to move further than a tenth of the mean edge, the surface is returned unchanged.
 
     >>> points = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
     >>> solid = Surface(vertices=points, faces=np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]))
-    >>> round(with_volume(solid, 0.167).volume, 3)
+    >>> round(restore_volume(solid, 0.167).volume, 3)
     0.167
     """
     points = np.asarray(surface.vertices, dtype=np.float64)

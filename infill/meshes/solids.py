@@ -12,22 +12,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.meshes.hole_filling import open_edges
-from infill.meshes.shells import with_faces
+from infill.meshes.shells import select_faces
 from infill.surface import Surface
 
 if TYPE_CHECKING:
     import manifold3d
 
 FINE = "NoError"
-LONE = np.arange(3, dtype=np.uint32)[None]  # triangle
+LONE_TRIANGLE = np.arange(3, dtype=np.uint32)[None]  # triangle
 Place = tuple[float, ...]
 # Of the tolerance, tried in turn: where an edge would have four faces, manifold3d makes two edges in one place.
 SHARES = (1.0, 0.93, 0.85, 0.75, 0.6)
-ASIDE = 0.1  # of a tolerance: distance by which such edges are moved apart
-MOVED = 0.4  # of a tolerance: passed to manifold3d, which measures each step from the one before
+TWIN_SHIFT = 0.1  # of a tolerance: distance by which such edges are moved apart
+MANIFOLD_SHARE = 0.4  # of a tolerance: passed to manifold3d, which measures each step from the one before
 
 
-def solid_of(surface: Surface, *, single: bool = False) -> manifold3d.Manifold:
+def to_manifold(surface: Surface, *, single: bool = False) -> manifold3d.Manifold:
     """Hand a surface to manifold3d, in single or double precision; return its solid, whose status may report an error.
 
     Open surfaces are not handed over: manifold3d 3.5 ends the process with a segmentation fault on some of them, those
@@ -36,7 +36,9 @@ def solid_of(surface: Surface, *, single: bool = False) -> manifold3d.Manifold:
     import manifold3d
 
     if surface.edges is None or surface.edges.surplus.any():
-        return manifold3d.Manifold(manifold3d.Mesh(vert_properties=np.eye(3, dtype=np.float32), tri_verts=LONE))
+        return manifold3d.Manifold(
+            manifold3d.Mesh(vert_properties=np.eye(3, dtype=np.float32), tri_verts=LONE_TRIANGLE)
+        )
     if single:
         return manifold3d.Manifold(
             manifold3d.Mesh(
@@ -52,46 +54,46 @@ def solid_of(surface: Surface, *, single: bool = False) -> manifold3d.Manifold:
     )
 
 
-def status(surface: Surface, *, single: bool = False) -> str:
+def manifold_status(surface: Surface, *, single: bool = False) -> str:
     """Return the verdict of manifold3d: "NoError" if it accepts the surface as a solid."""
-    return str(solid_of(surface, single=single).status().name)
+    return str(to_manifold(surface, single=single).status().name)
 
 
-def surface_from(solid: manifold3d.Manifold) -> Surface:
+def from_manifold(solid: manifold3d.Manifold) -> Surface:
     """Convert a solid of manifold3d to plain arrays."""
     mesh = solid.to_mesh64()
     return Surface(vertices=np.array(mesh.vert_properties)[:, :3], faces=np.array(mesh.tri_verts).astype(np.int64))
 
 
-def shortened(surface: Surface, tolerance: float) -> Surface:
+def simplify_solid(surface: Surface, tolerance: float) -> Surface:
     """Simplify a surface with manifold3d; the result uses some of its vertices and stays within a tolerance, mm.
 
-    It takes a hundredth of the time and memory of `infill.meshes.simplification.simplified`, and leaves more
+    It takes a hundredth of the time and memory of `infill.meshes.simplification.simplify_surface`, and leaves more
     triangles. A surface that manifold3d rejects is returned unchanged.
 
     >>> import trimesh
     >>> ball = trimesh.creation.icosphere(5)
-    >>> few = shortened(Surface(vertices=ball.vertices, faces=ball.faces), 0.05)
+    >>> few = simplify_solid(Surface(vertices=ball.vertices, faces=ball.faces), 0.05)
     >>> len(few.faces) < len(ball.faces) / 4, few.closed
     (True, True)
     """
-    solid = solid_of(surface)
-    if status_of(solid) != FINE:
+    solid = to_manifold(surface)
+    if solid_status(solid) != FINE:
         return surface
     for share in (*SHARES, 0.0):
         simplified = surface
         if share:
-            simplified = surface_from(solid.simplify(share * MOVED * tolerance))
+            simplified = from_manifold(solid.simplify(share * MANIFOLD_SHARE * tolerance))
             simplified = replace(simplified, faces=simplified.faces.astype(surface.faces.dtype), space=surface.space)
-        if (twins := in_one_place(simplified)).any():
-            simplified = _move_inwards(simplified, twins, ASIDE * tolerance)
-        if simplified.closed and not in_one_place(simplified).any():
+        if (twins := coincident_vertices(simplified)).any():
+            simplified = _move_inwards(simplified, twins, TWIN_SHIFT * tolerance)
+        if simplified.closed and not coincident_vertices(simplified).any():
             return simplified
     return surface
 
 
-def shortened_between(surface: Surface, tolerance: float) -> Surface:
-    """Simplify a surface with open edges as `shortened` does; all open edges stay unchanged.
+def simplify_open_piece(surface: Surface, tolerance: float) -> Surface:
+    """Simplify a surface with open edges as `simplify_solid` does; all open edges stay unchanged.
 
     Parameters
     ----------
@@ -110,7 +112,7 @@ def shortened_between(surface: Surface, tolerance: float) -> Surface:
     >>> import trimesh
     >>> ball = trimesh.creation.icosphere(5)
     >>> half = Surface(vertices=ball.vertices, faces=ball.faces[ball.triangles_center[:, 2] > 0])
-    >>> few = shortened_between(half, 0.02)
+    >>> few = simplify_open_piece(half, 0.02)
     >>> len(few.faces) < len(half.faces) / 3, len(open_edges(few.faces)) == len(open_edges(half.faces))
     (True, True)
     """
@@ -118,7 +120,7 @@ def shortened_between(surface: Surface, tolerance: float) -> Surface:
 
     edges = open_edges(surface.faces)
     if not len(edges):
-        return shortened(surface, tolerance)
+        return simplify_solid(surface, tolerance)
     vertex_count, face_count = len(surface.vertices), len(surface.faces)
     loop, loops = _label_loops(edges)
     (_, _, low), (_, _, high) = surface.bounds
@@ -135,21 +137,21 @@ def shortened_between(surface: Surface, tolerance: float) -> Surface:
             face_id=planes,
         )
     )
-    if status_of(solid) != FINE:
+    if solid_status(solid) != FINE:
         return surface
     for share in SHARES:
-        mesh = solid.simplify(share * MOVED * tolerance).to_mesh64()
+        mesh = solid.simplify(share * MANIFOLD_SHARE * tolerance).to_mesh64()
         faces = np.array(mesh.tri_verts).astype(np.int32)[np.array(mesh.face_id) == 0]
-        simplified = with_faces(
+        simplified = select_faces(
             Surface(vertices=np.array(mesh.vert_properties)[:, :3], faces=faces, space=surface.space),
             np.ones(len(faces), dtype=bool),
         )
         on_rim = np.zeros(len(simplified.vertices), dtype=bool)
         on_rim[(rim_edges := open_edges(simplified.faces)).ravel()] = True
-        if (twins := in_one_place(simplified) & ~on_rim).any():
-            simplified = _move_inwards(simplified, twins, ASIDE * tolerance)
+        if (twins := coincident_vertices(simplified) & ~on_rim).any():
+            simplified = _move_inwards(simplified, twins, TWIN_SHIFT * tolerance)
         closed_rim = _with_rim(simplified, rim_edges, vertices[edges])
-        if closed_rim is not None and not in_one_place(closed_rim).any():
+        if closed_rim is not None and not coincident_vertices(closed_rim).any():
             return closed_rim
     return surface
 
@@ -212,11 +214,11 @@ def _label_loops(edges: NDArray[np.integer]) -> tuple[NDArray[np.int32], int]:
     return names[ends[:, 0]], int(count)
 
 
-def in_one_place(surface: Surface) -> NDArray[np.bool_]:
+def coincident_vertices(surface: Surface) -> NDArray[np.bool_]:
     """Mark the vertices (V,) that coincide with another one in single precision, as most files store them.
 
     >>> corners = np.array([[0.0, 0, 0], [1, 0, 0], [1 + 1e-9, 0, 0]])
-    >>> in_one_place(Surface(vertices=corners, faces=np.array([[0, 1, 2]]))).tolist()
+    >>> coincident_vertices(Surface(vertices=corners, faces=np.array([[0, 1, 2]]))).tolist()
     [False, True, True]
     """
     points = np.asarray(surface.vertices, dtype=np.float32)
@@ -242,51 +244,51 @@ def _move_inwards(surface: Surface, chosen: NDArray[np.bool_], distance: float) 
     return replace(surface, vertices=vertices)
 
 
-def status_of(solid: manifold3d.Manifold) -> str:
+def solid_status(solid: manifold3d.Manifold) -> str:
     """Return the status that manifold3d reports for a solid: "NoError" if it is valid."""
     return str(solid.status().name)
 
 
-def without(surface: Surface, others: Iterable[Surface]) -> Surface | None:
+def subtract(surface: Surface, others: Iterable[Surface]) -> Surface | None:
     """Subtract solids from a closed surface; return None if manifold3d rejects one of them.
 
     >>> import trimesh
     >>> boxes = [trimesh.creation.box((2, 2, 2)), trimesh.creation.box((2, 2, 2)).apply_translation((1, 1, 1))]
     >>> box, corner = (Surface(vertices=mesh.vertices, faces=mesh.faces) for mesh in boxes)
-    >>> round(without(box, [corner]).volume, 6)
+    >>> round(subtract(box, [corner]).volume, 6)
     7.0
     """
-    solids = [solid_of(operand) for operand in (surface, *others)]
-    if any(status_of(solid) != FINE for solid in solids):
+    solids = [to_manifold(operand) for operand in (surface, *others)]
+    if any(solid_status(solid) != FINE for solid in solids):
         return None
-    return surface_from(reduce(lambda difference, subtrahend: difference - subtrahend, solids))
+    return from_manifold(reduce(lambda difference, subtrahend: difference - subtrahend, solids))
 
 
-def volume_within(surface: Surface, second: Surface) -> float:
+def shared_volume(surface: Surface, second: Surface) -> float:
     """Return the volume that two closed surfaces both enclose; nan if manifold3d rejects one of them.
 
     >>> import trimesh
     >>> boxes = [trimesh.creation.box((2, 2, 2)), trimesh.creation.box((2, 2, 2)).apply_translation((1, 1, 1))]
-    >>> round(volume_within(*(Surface(vertices=mesh.vertices, faces=mesh.faces) for mesh in boxes)), 6)
+    >>> round(shared_volume(*(Surface(vertices=mesh.vertices, faces=mesh.faces) for mesh in boxes)), 6)
     1.0
     """
-    first_solid, second_solid = solid_of(surface), solid_of(second)
-    if status_of(first_solid) != FINE or status_of(second_solid) != FINE:
+    first_solid, second_solid = to_manifold(surface), to_manifold(second)
+    if solid_status(first_solid) != FINE or solid_status(second_solid) != FINE:
         return float("nan")
     return float((first_solid ^ second_solid).volume())
 
 
-def united(surfaces: Iterable[Surface]) -> Surface | None:
+def unite(surfaces: Iterable[Surface]) -> Surface | None:
     """Unite closed surfaces; return None if manifold3d rejects one of them.
 
     >>> import trimesh
     >>> boxes = [trimesh.creation.box((2, 2, 2)), trimesh.creation.box((2, 2, 2)).apply_translation((1, 1, 1))]
-    >>> both = united([Surface(vertices=mesh.vertices, faces=mesh.faces) for mesh in boxes])
+    >>> both = unite([Surface(vertices=mesh.vertices, faces=mesh.faces) for mesh in boxes])
     >>> both.closed, round(both.volume, 6)
     (True, 15.0)
     """
-    solids = [solid_of(surface) for surface in surfaces]
-    if not solids or any(status_of(solid) != FINE for solid in solids):
+    solids = [to_manifold(surface) for surface in surfaces]
+    if not solids or any(solid_status(solid) != FINE for solid in solids):
         return None
     union_solid = reduce(lambda union, operand: union + operand, solids)
-    return surface_from(union_solid) if status_of(union_solid) == FINE and not union_solid.is_empty() else None
+    return from_manifold(union_solid) if solid_status(union_solid) == FINE and not union_solid.is_empty() else None

@@ -8,9 +8,9 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.meshes.hole_filling import agreeing, capped, components, open_edges, welded
-from infill.meshes.merging import closed_or_merged
-from infill.meshes.winding import winding
+from infill.meshes.hole_filling import component_volumes, fill_holes, open_edges, orient_faces, weld_boundary
+from infill.meshes.merging import merge_unless_closed
+from infill.meshes.winding import winding_numbers
 from infill.surface import Surface
 
 Floats = NDArray[np.float64]
@@ -21,7 +21,7 @@ EQUAL = 1e-6  # radians: faces around an edge closer than this lie on each other
 
 
 @dataclass(frozen=True, kw_only=True)
-class Parts:
+class ComponentParts:
     """The components of a mesh.
 
     Parameters
@@ -36,7 +36,7 @@ class Parts:
     sheets: int
 
 
-def parted(surface: Surface, cell: float) -> Parts:
+def split_components(surface: Surface, cell: float) -> ComponentParts:
     """Split a mesh into its components, each with its cavities.
 
     Parameters
@@ -55,13 +55,13 @@ def parted(surface: Surface, cell: float) -> Parts:
     >>> corners = np.array([[0.0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4]])
     >>> faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
     >>> both = Surface(vertices=np.concatenate([corners, corners + 1]), faces=np.concatenate([faces, faces + 4]))
-    >>> [len(part.faces) for part in parted(both, 0.1).surfaces]
+    >>> [len(part.faces) for part in split_components(both, 0.1).surfaces]
     [4, 4]
     """
-    surface = closed_or_merged(surface.vertices, surface.faces)
+    surface = merge_unless_closed(surface.vertices, surface.faces)
     faces: Integers = surface.faces
     if len(open_edges(faces)):
-        faces = agreeing(welded(np.asarray(surface.vertices, dtype=np.float64) / cell, faces))
+        faces = orient_faces(weld_boundary(np.asarray(surface.vertices, dtype=np.float64) / cell, faces))
     names, count = edge_components(np.asarray(surface.vertices, dtype=np.float64), faces)
     order = np.argsort(names, kind="stable")
     bounds = np.searchsorted(names[order], np.arange(count + 1))
@@ -73,13 +73,15 @@ def parted(surface: Surface, cell: float) -> Parts:
     owners = _owners(holders, volumes[solid])
     part_volumes = np.bincount(owners, weights=volumes[solid], minlength=len(solid))
     part_order = [i for i in np.argsort(-np.abs(part_volumes), kind="stable").tolist() if owners[i] == i]
-    return Parts(
-        surfaces=tuple(joined([open_parts[solid[j]] for j in np.flatnonzero(owners == i)]) for i in part_order),
+    return ComponentParts(
+        surfaces=tuple(
+            concatenate_surfaces([open_parts[solid[j]] for j in np.flatnonzero(owners == i)]) for i in part_order
+        ),
         sheets=count - len(solid),
     )
 
 
-def joined(surfaces: list[Surface]) -> Surface:
+def concatenate_surfaces(surfaces: list[Surface]) -> Surface:
     """Concatenate several surfaces into one; nothing is merged."""
     if len(surfaces) == 1:
         return surfaces[0]
@@ -166,13 +168,13 @@ def _used_part(surface: Surface, faces: Integers) -> Surface:
 
 def _close_part(surface: Surface, cell: float) -> Surface:
     """Put caps on the holes of a component."""
-    vertices, faces, _ = capped(np.asarray(surface.vertices, dtype=np.float64) / cell, surface.faces)
+    vertices, faces, _ = fill_holes(np.asarray(surface.vertices, dtype=np.float64) / cell, surface.faces)
     return Surface(vertices=vertices * cell, faces=faces)
 
 
 def _signed_volume(surface: Surface) -> float:
     """Return the signed volume, 0 for a sheet."""
-    return float(components(np.asarray(surface.vertices), surface.faces)[1].sum())
+    return float(component_volumes(np.asarray(surface.vertices), surface.faces)[1].sum())
 
 
 def _larger_around(closed: list[Surface], volumes: Floats) -> list[list[int]]:
@@ -185,7 +187,7 @@ def _larger_around(closed: list[Surface], volumes: Floats) -> list[list[int]]:
         larger = (np.abs(volumes) > abs(volumes[i])) & (low <= low[i]).all(axis=1) & (high >= high[i]).all(axis=1)
         sampled = np.linspace(0, len(surface.faces) - 1, SAMPLES).astype(np.int64)
         points = surface.vertices[surface.faces[sampled]].mean(axis=1)
-        holders.append([j for j in np.flatnonzero(larger).tolist() if (winding(points, closed[j]) != 0).all()])
+        holders.append([j for j in np.flatnonzero(larger).tolist() if (winding_numbers(points, closed[j]) != 0).all()])
     return holders
 
 

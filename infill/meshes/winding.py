@@ -10,10 +10,10 @@ from infill.surface import Surface
 
 Floats = NDArray[np.float64]
 
-LOOKED = 500_000_000  # most triangles examined to tell which points are hidden: half a second
+MOST_TRIANGLE_TESTS = 500_000_000  # most triangles examined to tell which points are hidden: half a second
 
 
-def winding(
+def winding_numbers(
     points: NDArray[np.floating],
     surface: Surface,
     *,
@@ -34,10 +34,10 @@ def winding(
 
     >>> corners = np.array([[0.0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4]])
     >>> solid = Surface(vertices=corners, faces=np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]))
-    >>> winding(np.array([[1.0, 0.5, 0.7], [3, 3, 3]]), solid).tolist()
+    >>> winding_numbers(np.array([[1.0, 0.5, 0.7], [3, 3, 3]]), solid).tolist()
     [1, 0]
     """
-    from infill.kernels.distances import wind
+    from infill.kernels.distances import count_windings
 
     windings = np.zeros(len(points), dtype=np.int64)
     if len(points) == 0:
@@ -45,11 +45,11 @@ def winding(
     corners = np.ascontiguousarray(np.asarray(surface.vertices, dtype=np.float64)[surface.faces])
     queries = np.ascontiguousarray(points, dtype=np.float64)
     sign = np.ones(len(corners), dtype=np.int64) if sign is None else sign
-    in_threads(wind, queries, corners, sign, windings, threads=thread_count(threads))
+    in_threads(count_windings, queries, corners, sign, windings, threads=thread_count(threads))
     return windings
 
 
-def bounds_solid(
+def is_solid_boundary(
     points: Floats, faces: NDArray[np.integer], surface: Surface, aside: float, *, threads: int | None = None
 ) -> NDArray[np.bool_]:
     """Mark the points (N, 3) on faces (N,) of a surface that have solid on one side only.
@@ -74,10 +74,10 @@ def bounds_solid(
     a, b, c = (np.asarray(surface.vertices, dtype=np.float64)[surface.faces[faces, i]] for i in range(3))
     normal = np.cross(b - a, c - a)
     length = np.linalg.norm(normal, axis=1, keepdims=True)
-    stride = -(-2 * len(points) * len(surface.faces) // LOOKED)
+    stride = -(-2 * len(points) * len(surface.faces) // MOST_TRIANGLE_TESTS)
     offset = aside * np.divide(normal, length, out=np.zeros_like(normal), where=length > 0)
     outer_solid, inner_solid = (
-        winding((points + sign * offset)[::stride], surface, threads=threads) != 0 for sign in (1, -1)
+        winding_numbers((points + sign * offset)[::stride], surface, threads=threads) != 0 for sign in (1, -1)
     )
     bounding: NDArray[np.bool_] = np.repeat(outer_solid != inner_solid, stride)[: len(points)]
     return bounding

@@ -13,14 +13,14 @@ from typing import Any
 
 from infill.errors import ParameterError, UsageError
 from infill.files.excerpts import excerpt, quote_value
-from patterns.declared import Named, parameters
+from patterns.declared import HasName, parameters
 from patterns.errors import PatternError, PatternUsageError
-from patterns.given import assigned, nearest, value_of
+from patterns.given import check_named_value, parse_assignment, suggest_name
 
 SET = "set"
 
 
-class Source(Enum):
+class ParameterSource(Enum):
     """Ways to give a parameter by name."""
 
     FLAG = "a flag"
@@ -29,7 +29,7 @@ class Source(Enum):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Given:
+class ParameterValue:
     """The value of a parameter, and its source.
 
     Parameters
@@ -46,7 +46,7 @@ class Given:
     said: str
 
 
-def table_of(filed: dict[str, Any]) -> Mapping[str, Any]:
+def pop_table(filed: dict[str, Any]) -> Mapping[str, Any]:
     """Remove the table of parameters from the contents of a config file, and return it."""
     table = filed.pop(SET, {})
     if not isinstance(table, dict):
@@ -56,8 +56,8 @@ def table_of(filed: dict[str, Any]) -> Mapping[str, Any]:
     return table
 
 
-def gathered(
-    kind: Named,
+def collect_parameters(
+    kind: HasName,
     options: Collection[str],
     *,
     flags: Mapping[str, Any],
@@ -89,27 +89,32 @@ def gathered(
         if name not in options and name not in declared:
             word = name.replace("_", "-")
             raise ParameterError(
-                f"{kind.name} has no option {quote_value(word)}; {nearest(name, [*declared, *options])}"
+                f"{kind.name} has no option {quote_value(word)}; {suggest_name(name, [*declared, *options])}"
             )
     flagged, top = ({name: value for name, value in source.items() if name not in options} for source in (flags, filed))
-    return merged(
+    return merge_parameters(
         kind,
-        command=[*values(kind, flagged, Source.FLAG), *assignments(kind, assigned, options=options)],
-        file=[*values(kind, top, Source.TOP), *values(kind, table, Source.TABLE)],
+        command=[
+            *parse_values(kind, flagged, ParameterSource.FLAG),
+            *parse_assignments(kind, assigned, options=options),
+        ],
+        file=[*parse_values(kind, top, ParameterSource.TOP), *parse_values(kind, table, ParameterSource.TABLE)],
     )
 
 
-def values(kind: Named, named: Mapping[str, Any], source: Source) -> Iterator[Given]:
+def parse_values(kind: HasName, named: Mapping[str, Any], source: ParameterSource) -> Iterator[ParameterValue]:
     """Yield parameters given as plain values; dashes and underscores in names are equivalent."""
     declared = parameters(kind)
     for word, value in named.items():
         name = word.replace("-", "_")
         if name not in declared:
-            raise ParameterError(f"{kind.name} has no parameter {quote_value(word)}; {nearest(name, declared)}")
-        yield Given(name=name, value=value_of(kind, name, value), said=_format_typed(name, value, source))
+            raise ParameterError(f"{kind.name} has no parameter {quote_value(word)}; {suggest_name(name, declared)}")
+        yield ParameterValue(
+            name=name, value=check_named_value(kind, name, value), said=_format_typed(name, value, source)
+        )
 
 
-def assignments(kind: Named, texts: Sequence[str], *, options: Iterable[str] = ()) -> Iterator[Given]:
+def parse_assignments(kind: HasName, texts: Sequence[str], *, options: Iterable[str] = ()) -> Iterator[ParameterValue]:
     """Yield parameters from ``name=value``, or raise ParameterError with a message that begins with the typed text.
 
     Parameters
@@ -123,7 +128,7 @@ def assignments(kind: Named, texts: Sequence[str], *, options: Iterable[str] = (
     for text in texts:
         typed_text = f"--set {' '.join(text.splitlines())}"
         try:
-            name, value = assigned(kind, text)
+            name, value = parse_assignment(kind, text)
         except PatternError as error:
             word = text.partition("=")[0].strip().replace("-", "_")
             if word in flags and word not in parameters(kind):
@@ -132,10 +137,12 @@ def assignments(kind: Named, texts: Sequence[str], *, options: Iterable[str] = (
                 ) from None
             error_class = UsageError if isinstance(error, PatternUsageError) else ParameterError
             raise error_class(f"{typed_text}: {error}") from error
-        yield Given(name=name, value=value, said=typed_text)
+        yield ParameterValue(name=name, value=value, said=typed_text)
 
 
-def merged(kind: Named, *, command: Iterable[Given], file: Iterable[Given]) -> dict[str, Any]:
+def merge_parameters(
+    kind: HasName, *, command: Iterable[ParameterValue], file: Iterable[ParameterValue]
+) -> dict[str, Any]:
     """Merge parameters by name; the command line wins over the file.
 
     A parameter that replaces another (`replaces`) drops that one if only the file gives it; giving both in one source
@@ -156,9 +163,9 @@ def merged(kind: Named, *, command: Iterable[Given], file: Iterable[Given]) -> d
     return {name: both[name].value for name in parameters(kind) if name in both}
 
 
-def _index_by_name(entries: Iterable[Given]) -> dict[str, Given]:
+def _index_by_name(entries: Iterable[ParameterValue]) -> dict[str, ParameterValue]:
     """Index parameters by name, or raise ParameterError if one of them has two values."""
-    by_name: dict[str, Given] = {}
+    by_name: dict[str, ParameterValue] = {}
     for parameter in entries:
         earlier = by_name.setdefault(parameter.name, parameter)
         if earlier.value != parameter.value:
@@ -166,13 +173,13 @@ def _index_by_name(entries: Iterable[Given]) -> dict[str, Given]:
     return by_name
 
 
-def _has_value(by_name: Mapping[str, Given], name: str) -> bool:
+def _has_value(by_name: Mapping[str, ParameterValue], name: str) -> bool:
     return name in by_name and by_name[name].value is not None
 
 
-def _format_typed(name: str, value: object, source: Source) -> str:
+def _format_typed(name: str, value: object, source: ParameterSource) -> str:
     """Format a parameter as it was typed."""
-    if source is not Source.FLAG:
+    if source is not ParameterSource.FLAG:
         return f"{name} = {excerpt(str(value))} in {source.value}"
     word = name.replace("_", "-")
     if isinstance(value, bool):

@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 from infill.errors import ParameterError, UsageError
 from infill.files.excerpts import quote_value
-from patterns.given import nearest
+from patterns.given import suggest_name
 
 LONGEST_WORD = 1000  # signs of a name, also of a file
 LARGEST_WHOLE = 2**53  # as floating-point numbers count without gaps
@@ -54,10 +54,10 @@ def parse_number(name: str, value: object) -> float:
     """Check a number, or raise UsageError."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise UsageError(f"{name} is {quote_value(value)}; it must be a number")
-    return within_floats(name, value)
+    return check_fits_float(name, value)
 
 
-def within_floats(name: str, value: float) -> float:
+def check_fits_float(name: str, value: float) -> float:
     """Check that a floating-point number can hold a number, or raise ParameterError."""
     try:
         float(value)
@@ -122,7 +122,7 @@ def parse_level(name: str, value: object) -> Literal["volume"] | float:
         raise UsageError(f"{name} is {quote_value(value)}; give volume, or a number between -1 and 1") from None
 
 
-def parsed(command: str, readers: Mapping[str, Reader], options: Mapping[str, object]) -> dict[str, Any]:
+def parse_options(command: str, readers: Mapping[str, Reader], options: Mapping[str, object]) -> dict[str, Any]:
     """Parse the options of a command by name, each with its reader.
 
     Raises
@@ -133,5 +133,5 @@ def parsed(command: str, readers: Mapping[str, Reader], options: Mapping[str, ob
     for name in options:
         if name not in readers:
             word = name.replace("_", "-")
-            raise ParameterError(f"{command} has no option {quote_value(word)}; {nearest(name, readers)}")
+            raise ParameterError(f"{command} has no option {quote_value(word)}; {suggest_name(name, readers)}")
     return {name: readers[name](name, value) for name, value in options.items()}

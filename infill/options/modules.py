@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib.util
 
 from infill.errors import FormatError
-from infill.files.broken import readable, told_broken
+from infill.files.broken import require_readable, wrap_reader_errors
 
 MARK = ".py:"
 
@@ -19,7 +19,7 @@ def names_code(text: str) -> bool:
     return MARK in text
 
 
-def object_in(text: str) -> object:
+def load_object(text: str) -> object:
     """Run a file and return its object for ``module.py:name``.
 
     Raises
@@ -28,12 +28,12 @@ def object_in(text: str) -> object:
         If the file is missing, it fails, or it has no object of this name.
     """
     file, _, name = text.rpartition(":")
-    path = readable(file, [".py"], "a module")
+    path = require_readable(file, [".py"], "a module")
     spec = importlib.util.spec_from_file_location(path.stem, path)
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
-    with told_broken(path, "cannot be loaded", "run it by itself first"):
+    with wrap_reader_errors(path, "cannot be loaded", "run it by itself first"):
         spec.loader.exec_module(module)
     if not hasattr(module, name):
         raise FormatError(f"{path} has nothing called {name!r}; check the name")

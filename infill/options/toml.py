@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from infill.errors import FormatError, ParameterError
-from infill.files.broken import one_line
+from infill.files.broken import error_text
 
 OPTIONS = {"form": "as"}  # names of options that reports call otherwise
 
@@ -42,22 +42,22 @@ def read_toml(path: Path, *, example: str) -> dict[str, Any]:
             f"{path} is not TOML: lists lie too deep in one another; write lines such as {example}"
         ) from (error)
     except ValueError as error:  # not TOML, no text, or a number of thousands of digits
-        raise FormatError(f"{path} is not TOML: {one_line(error)}; write lines such as {example}") from error
+        raise FormatError(f"{path} is not TOML: {error_text(error)}; write lines such as {example}") from error
     return {name.replace("-", "_"): value for name, value in content.items()}
 
 
 def _read_text(path: Path) -> str:
     if path.suffix.lower() != ".3mf":
         return path.read_text(encoding="utf-8")
-    from infill.formats.threemf import attached_settings
+    from infill.formats.threemf import read_attached_settings
 
-    return attached_settings(path)
+    return read_attached_settings(path)
 
 
-def options_text(request: Mapping[str, Any], head: str) -> str:
+def write_options(request: Mapping[str, Any], head: str) -> str:
     """Write the request in a report as a config file that makes it again.
 
-    >>> print(options_text({"cell": 5.0, "form": "solid", "parameters": {"waves": 3}}, "again"))
+    >>> print(write_options({"cell": 5.0, "form": "solid", "parameters": {"waves": 3}}, "again"))
     # again
     cell = 5.0
     as = "solid"
@@ -67,14 +67,14 @@ def options_text(request: Mapping[str, Any], head: str) -> str:
     <BLANKLINE>
     """
     plain = {OPTIONS.get(name, name): value for name, value in request.items() if name != "parameters"}
-    parameter_rows = toml_rows(request.get("parameters") or {})
-    return "\n".join([f"# {head}", *toml_rows(plain), *(["", "[set]", *parameter_rows] if parameter_rows else []), ""])
+    parameter_rows = write_rows(request.get("parameters") or {})
+    return "\n".join([f"# {head}", *write_rows(plain), *(["", "[set]", *parameter_rows] if parameter_rows else []), ""])
 
 
-def toml_rows(values: Mapping[str, Any]) -> list[str]:
+def write_rows(values: Mapping[str, Any]) -> list[str]:
     """Write one line of TOML for each value that is not None.
 
-    >>> toml_rows({"cell": 5.0, "size": (60, 40), "frame": True, "waves": None})
+    >>> write_rows({"cell": 5.0, "size": (60, 40), "frame": True, "waves": None})
     ['cell = 5.0', 'size = [60, 40]', 'frame = true']
     """
     return [f"{name} = {_format_value(value)}" for name, value in values.items() if value is not None]

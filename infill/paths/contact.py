@@ -18,7 +18,7 @@ Places = NDArray[np.intp]
 LEAST_POINTS, MOST_POINTS = 1000, 5000  # sampled points in a layer: with fewer, shares would be inaccurate
 STEP = 0.4  # mm, of the pieces that paths are cut into; distances to pieces are exact
 TOUCHING = 1.05  # line widths between two centre lines whose beads touch
-OWN = 4.0  # line widths along a path within which it is its own neighbour
+SELF_STRETCH = 4.0  # line widths along a path within which it is its own neighbour
 # Within 1.05 line widths of 0.45 mm lie 5 pieces of the path itself, and fewer of any other path; the search takes
 # more where beads are wider, or chords shorter.
 NEIGHBOURS = 12
@@ -75,7 +75,7 @@ class Samples:
     half: Floats
 
 
-def merged(a: Samples, b: Samples) -> Samples:
+def concatenate_samples(a: Samples, b: Samples) -> Samples:
     """Concatenate samples; the paths of the second follow those of the first in number."""
     count = int(a.path.max()) + 1 if len(a.path) else 0
     return Samples(
@@ -87,10 +87,10 @@ def merged(a: Samples, b: Samples) -> Samples:
     )
 
 
-def sampled(points: Floats, offsets: Places, step: float = STEP) -> Samples:
+def sample_paths(points: Floats, offsets: Places, step: float = STEP) -> Samples:
     """Cut every segment into equal pieces, at most `step` long; return their middles.
 
-    >>> sampled(np.array([[0.0, 0.0], [0.4, 0.0]]), np.array([0, 2]), 0.2).points[:, 0].round(3).tolist()
+    >>> sample_paths(np.array([[0.0, 0.0], [0.4, 0.0]]), np.array([0, 2]), 0.2).points[:, 0].round(3).tolist()
     [0.1, 0.3]
     """
     # Axis by axis: NumPy is slow along the short axis of an array.
@@ -120,7 +120,7 @@ def sampled(points: Floats, offsets: Places, step: float = STEP) -> Samples:
     )
 
 
-def contact(infill: Samples, below: Samples, line_width: float) -> Contact:
+def layer_contact(infill: Samples, below: Samples, line_width: float) -> Contact:
     """Measure one layer.
 
     Parameters
@@ -166,11 +166,11 @@ def _nearest(points: Floats, samples: Samples, candidates: Places) -> tuple[Floa
     """
     exists = candidates < len(samples.points)
     candidates = np.where(exists, candidates, 0)
-    along, apart = projected(points, samples.points, samples.half, candidates)
+    along, apart = project_to_pieces(points, samples.points, samples.half, candidates)
     return np.where(exists, apart, np.inf), samples.along[candidates] + along * samples.weight[candidates] / 2
 
 
-def projected(points: Floats, middle: Floats, half: Floats, which: Places) -> tuple[Floats, Floats]:
+def project_to_pieces(points: Floats, middle: Floats, half: Floats, which: Places) -> tuple[Floats, Floats]:
     """Project points onto pieces of paths; return the nearest places and the distances.
 
     Parameters
@@ -187,7 +187,7 @@ def projected(points: Floats, middle: Floats, half: Floats, which: Places) -> tu
         From -1, the beginning of the piece, to 1, its end.
     apart : (N, k) float64, mm
 
-    >>> projected(np.array([[3.0, 4.0]]), np.zeros((1, 2)), np.array([[2.0, 0.0]]), np.array([[0]]))[0].tolist()
+    >>> project_to_pieces(np.array([[3.0, 4.0]]), np.zeros((1, 2)), np.array([[2.0, 0.0]]), np.array([[0]]))[0].tolist()
     [[1.0]]
     """
     # Axis by axis: NumPy is slow along the short axis of an array.
@@ -211,7 +211,7 @@ def _beside(points: Floats, path: Places, along: Floats, infill: Samples, reach:
         distance, place = _nearest(points[pending], infill, candidates)
         has_more = candidates[:, -1] < total
         is_same_path = infill.path[np.minimum(candidates, total - 1)] == path[pending, None]
-        is_close = np.abs(place - along[pending, None]) <= OWN * reach / TOUCHING
+        is_close = np.abs(place - along[pending, None]) <= SELF_STRETCH * reach / TOUCHING
         touches[pending] = ((distance <= reach) & ~(is_same_path & is_close)).any(axis=1)
         if count == total:
             break

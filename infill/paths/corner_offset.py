@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.checks import FARTHEST
-from infill.paths.contact import OWN, TOUCHING, sampled
-from infill.paths.corners import turns
-from infill.paths.neighbours import BESIDE, Walls, walls_of
+from infill.paths.contact import SELF_STRETCH, TOUCHING, sample_paths
+from infill.paths.corners import corner_turns
+from infill.paths.neighbours import BESIDE, BeadIndex, index_beads
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
@@ -37,7 +37,7 @@ PARALLEL = 0.98  # cosine between legs that run side by side
 
 
 @dataclass(frozen=True, kw_only=True)
-class Room:
+class CornerFreedom:
     """Limits of the outward moves of corners.
 
     Parameters
@@ -65,15 +65,15 @@ class Room:
     leg: Floats
 
 
-def room_of(
+def corner_freedom(
     points: Floats,
     offsets: Places,
     corner: Places,
     layer: Places,
-    walls: Walls,
+    walls: BeadIndex,
     *,
     line_width: float,
-) -> Room:
+) -> CornerFreedom:
     """Find the corners that may move outwards, and how far.
 
     Parameters
@@ -89,7 +89,7 @@ def room_of(
         Those beads.
     line_width : float, mm
     """
-    turn, before, after, lengths = turns(points, corner)
+    turn, before, after, lengths = corner_turns(points, corner)
     leg = lengths.min(axis=0)
     wide = (turn < HAIRPIN) & (leg > 0)
     if not (np.abs(points) < FARTHEST).all():
@@ -98,10 +98,12 @@ def room_of(
     free, along = _beside_others(points, offsets, corner, (before, after), layer, line_width)
     loose = np.flatnonzero((along == 0) & (free > 0))
     free[loose] = np.minimum(free[loose], _off_walls(points, corner[loose], layer, walls, line_width))
-    return Room(corner=corner, free=free, along=along, turn=turn, before=before, after=after, leg=leg)
+    return CornerFreedom(corner=corner, free=free, along=along, turn=turn, before=before, after=after, leg=leg)
 
 
-def widened(points: Floats, room: Room, *, deviation: float | Floats, radius: float) -> tuple[Floats, Floats]:
+def offset_corners(
+    points: Floats, room: CornerFreedom, *, deviation: float | Floats, radius: float
+) -> tuple[Floats, Floats]:
     """Move corners outwards; return the paths and the distance that arcs may then lie from these corners, mm.
 
     Parameters
@@ -141,19 +143,19 @@ def _beside_others(
 ) -> tuple[Floats, Places]:
     """Compute the move, mm, of each corner before it meets other lines of the infill, and its leg.
 
-    See `Room`.
+    See `CornerFreedom`.
     """
     count = len(corner)
     if not count:
         return np.empty(0), np.empty(0, dtype=np.intp)
-    distance, neighbours = walls_of(points, layer).nearest(
+    distance, neighbours = index_beads(points, layer).nearest(
         points[corner], layer[corner], SEEN * line_width, range(2, NEIGHBOURS + 2)
     )
     row, place = np.nonzero(np.isfinite(distance))
     distance, neighbour = distance[row, place], neighbours[row, place]
     path = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
     travelled = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
-    is_same_stretch = np.abs(travelled[neighbour] - travelled[corner[row]]) <= OWN * line_width
+    is_same_stretch = np.abs(travelled[neighbour] - travelled[corner[row]]) <= SELF_STRETCH * line_width
     is_same_stretch &= path[neighbour] == path[corner[row]]
     # Otherwise, other lines may hide behind the corner's own path.
     is_complete = np.bincount(row[is_same_stretch], minlength=count) < NEIGHBOURS
@@ -178,7 +180,7 @@ def _beside_others(
     return free, along
 
 
-def _off_walls(points: Floats, corner: Places, layer: Places, walls: Walls, line_width: float) -> Floats:
+def _off_walls(points: Floats, corner: Places, layer: Places, walls: BeadIndex, line_width: float) -> Floats:
     """Compute how far each corner may move before one of its legs comes to lie beside a wall, mm.
 
     A leg moves with both of its ends, and less the further from them: half of the room is for each.
@@ -186,7 +188,7 @@ def _off_walls(points: Floats, corner: Places, layer: Places, walls: Walls, line
     free = np.full(len(corner), ROOM * line_width / 2)
     for step in (-1, 1):
         ends = np.stack([points[corner], points[corner + step]], axis=1)
-        samples = sampled(ends.reshape(-1, 2), np.arange(len(corner) + 1) * 2, LEG_STEP)
+        samples = sample_paths(ends.reshape(-1, 2), np.arange(len(corner) + 1) * 2, LEG_STEP)
         length = np.hypot(*(ends[:, 1] - ends[:, 0]).T)[samples.path]
         distance = walls.near(samples.points, layer[corner][samples.path], (BESIDE + ROOM) * line_width)
         room = np.maximum(distance - BESIDE * line_width, 0.0) / 2

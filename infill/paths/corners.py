@@ -52,7 +52,7 @@ class Machine:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Rounded:
+class RoundedPaths:
     """Paths with their corners rounded.
 
     Parameters
@@ -72,7 +72,7 @@ class Rounded:
     radius: Floats
 
 
-def rounded(
+def round_corners(
     points: Floats,
     offsets: Places,
     *,
@@ -80,7 +80,7 @@ def rounded(
     radius: float = math.inf,
     machine: Machine | None = None,
     unit: float = 0.0,
-) -> Rounded:
+) -> RoundedPaths:
     """Round the corners of open paths; ends stay where they are.
 
     Parameters
@@ -103,7 +103,7 @@ def rounded(
     Rounded
 
     >>> corner = np.array([[0.0, 0.0], [10.0, 0.0], [10.0, 10.0]])
-    >>> result = rounded(corner, np.array([0, 3]), radius=2.0)
+    >>> result = round_corners(corner, np.array([0, 3]), radius=2.0)
     >>> float(result.radius[1]), len(result.points)
     (2.0, 11)
     """
@@ -113,7 +113,7 @@ def rounded(
     inner[offsets[:-1][offsets[:-1] < count]] = False
     inner[offsets[1:] - 1] = False
     corners = np.flatnonzero(inner)
-    turn, before, after, lengths = turns(points, corners)
+    turn, before, after, lengths = corner_turns(points, corners)
     half = turn / 2
     half_tangent = np.maximum(np.tan(half), 1e-12)
     full_setback = np.minimum(radius * half_tangent, _take(deviation, corners) / np.maximum(np.tan(turn / 4), 1e-12))
@@ -133,7 +133,7 @@ def _take(value: float | Floats, index: Places) -> Floats | float:
     return value[index] if isinstance(value, np.ndarray) else value
 
 
-def turns(points: Floats, index: Places) -> tuple[Floats, Floats, Floats, Floats]:
+def corner_turns(points: Floats, index: Places) -> tuple[Floats, Floats, Floats, Floats]:
     """Compute the turn at each inner point, the directions of its two legs, and their lengths (2, n)."""
     before, after = points[index] - points[index - 1], points[index + 1] - points[index]
     lengths = np.stack([np.hypot(*before.T), np.hypot(*after.T)])
@@ -180,7 +180,7 @@ def _insert_arcs(
     chords: Places,
     radii: Floats,
     unit: float,
-) -> Rounded:
+) -> RoundedPaths:
     """Replace corners by their arcs."""
     count = len(points)
     number = np.ones(count, dtype=np.intp)  # of new points for each old one
@@ -212,4 +212,4 @@ def _insert_arcs(
     both_fixed = fixed[close] & fixed[close - 1]
     keep[np.where(fixed[close], close - 1, close)[~both_fixed]] = False
     final = np.concatenate([[0], np.cumsum(keep)])
-    return Rounded(points=new[keep], first=final[start[offsets]], source=source[keep], radius=radii)
+    return RoundedPaths(points=new[keep], first=final[start[offsets]], source=source[keep], radius=radii)

@@ -11,28 +11,28 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from infill.checks import positive
+from infill.checks import check_positive
 from infill.errors import ParameterError
 from infill.paths.clipping import clip
 from infill.paths.families.protocol import TOUCH, Family, Path, RegionFamily
 from infill.paths.joining import join
-from infill.paths.layer_below import Ground
-from infill.paths.ordering import order
+from infill.paths.layer_below import LayerBelow
+from infill.paths.ordering import order_paths
 from infill.paths.outlines import Outline, outline_of
 
 if TYPE_CHECKING:
     from shapely import MultiPolygon, Polygon
 
 ANCHOR, ANCHOR_MAX = 2.5, 12.0  # mm, as slicers have them
-CLOSE = 0.005  # of the requested length: accurate enough
+LENGTH_TOLERANCE = 0.005  # of the requested length: accurate enough
 SECANTS = 6
-MORE = 10  # further steps, if no secant step is accurate enough
-AROUND = 1.012  # ratio of the cells that are tried around the best one
+EXTRA_STEPS = 10  # further steps, if no secant step is accurate enough
+CELL_RATIO = 1.012  # ratio of the cells that are tried around the best one
 FINEST = 1.002  # ratio of two cells below which a jump between them is not divided further
 
 
 @dataclass(frozen=True, kw_only=True)
-class Solved:
+class CellSolution:
     """A cell, the length of line that it gives, mm, and its relative error against the requested length."""
 
     cell: float
@@ -52,7 +52,7 @@ def cover(
     anchor: float = ANCHOR,
     anchor_max: float = ANCHOR_MAX,
     start: tuple[float, float] | None = None,
-    ground: Ground | None = None,
+    ground: LayerBelow | None = None,
 ) -> list[Path]:
     """Return centre lines of a family inside a region, joined along its outline and in the order of printing.
 
@@ -89,7 +89,7 @@ def cover(
     outline = region if isinstance(region, Outline) else outline_of(region)
     check_cell(cell, line_width)
     paths = _draw_joined(outline, family, cell, line_width, z, layer, radius, anchor, anchor_max, ground)
-    return order(paths, start)
+    return order_paths(paths, start)
 
 
 def solve_cell(
@@ -102,7 +102,7 @@ def solve_cell(
     anchor: float = ANCHOR,
     anchor_max: float = ANCHOR_MAX,
     measure: Callable[[Sequence[Path], float], float] | None = None,
-) -> Solved:
+) -> CellSolution:
     """Solve for the cell at which a family's paths in some regions have a total length.
 
     Secant steps in the logarithms of cell and length stay inside the current bracket. In small regions the length
@@ -125,7 +125,7 @@ def solve_cell(
     ParameterError
         If `length` is not above 0, or beads would have to overlap.
     """
-    target = positive("length", length, "mm")
+    target = check_positive("length", length, "mm")
     outlines = {id(key): key if isinstance(key, Outline) else outline_of(key) for key, _, _ in regions}
     places = Counter((id(key), *((0.0, 0) if family.prismatic else (z, layer))) for key, z, layer in regions)
     smallest = TOUCH * line_width
@@ -147,10 +147,10 @@ def solve_cell(
         ratio, max(smallest, family.cell_for(target * smallest / area, line_width)), smallest
     ):
         trials.append((share, cell))
-        if abs(share - 1) <= CLOSE:
+        if abs(share - 1) <= LENGTH_TOLERANCE:
             break
     share, cell = min(trials, key=lambda pair: abs(math.log(pair[0])) if pair[0] > 0 else math.inf)
-    return Solved(cell=cell, length=share * target, error=share - 1)
+    return CellSolution(cell=cell, length=share * target, error=share - 1)
 
 
 def total_length(paths: Sequence[Path]) -> float:
@@ -184,7 +184,7 @@ def _search_cells(ratio: Callable[[float], float], start: float, smallest: float
             cell = math.sqrt(low * high) if high < math.inf else 2 * low
     nearest = min(trials, key=lambda pair: abs(pair[1] - 1))[0]
     attempts = 0
-    for _ in range(MORE):
+    for _ in range(EXTRA_STEPS):
         trials.sort()
         sides = [
             math.sqrt(fine * coarse)
@@ -195,7 +195,7 @@ def _search_cells(ratio: Callable[[float], float], start: float, smallest: float
             cell = min(sides, key=lambda cell: abs(math.log(cell / nearest)))
         else:
             attempts += 1
-            cell = max(smallest, nearest * AROUND ** ((attempts + 1) // 2 * (-1) ** attempts))
+            cell = max(smallest, nearest * CELL_RATIO ** ((attempts + 1) // 2 * (-1) ** attempts))
         trials.append((cell, ratio(cell)))
         yield trials[-1]
 
@@ -210,7 +210,7 @@ def _draw_joined(
     radius: float,
     anchor: float,
     anchor_max: float,
-    ground: Ground | None = None,
+    ground: LayerBelow | None = None,
 ) -> list[Path]:
     """Draw the paths of a family in a region, in any order."""
     if isinstance(family, RegionFamily):
@@ -222,6 +222,6 @@ def _draw_joined(
 
 def check_cell(cell: float, line_width: float) -> None:
     """Raise ParameterError if a cell is too small for beads."""
-    smallest = TOUCH * positive("line width", line_width, "mm")
-    if positive("cell", cell, "mm") < smallest * (1 - 1e-9):
+    smallest = TOUCH * check_positive("line width", line_width, "mm")
+    if check_positive("cell", cell, "mm") < smallest * (1 - 1e-9):
         raise ParameterError(f"cell is {cell:g} mm; beads of {line_width:g} mm need at least {smallest:g} mm")

@@ -30,7 +30,7 @@ MOST_MISSED = 1.5 * COARSEST  # mm between an old point of a curve and the new c
 
 
 @dataclass(frozen=True, kw_only=True)
-class Recut:
+class RecutPaths:
     """Paths of which some points are new.
 
     Parameters
@@ -50,7 +50,7 @@ class Recut:
     curved: NDArray[np.bool_]
 
 
-def recut(points: Floats, offsets: Places, machine: Machine, bulge: float | Floats = MOST_BULGE) -> Recut:
+def recut_curves(points: Floats, offsets: Places, machine: Machine, bulge: float | Floats = MOST_BULGE) -> RecutPaths:
     """Cut the curves among some paths into the chords that a machine needs.
 
     Parameters
@@ -89,7 +89,7 @@ def recut(points: Floats, offsets: Places, machine: Machine, bulge: float | Floa
     low = _bound_bulges(length[bent], np.abs(leaving), np.abs(arriving)) < np.minimum(limit[bent], limit[bent + 1])
     bent, leaving, arriving = bent[low], leaving[low], arriving[low]
     if not len(bent):
-        return Recut(points=points, first=offsets, source=np.arange(count), curved=np.zeros(count, dtype=bool))
+        return RecutPaths(points=points, first=offsets, source=np.arange(count), curved=np.zeros(count, dtype=bool))
     start, end = heading[bent] + leaving, heading[bent] + arriving
     handle = length[bent] / 3
     control = np.stack(
@@ -154,7 +154,7 @@ def _chord_density(control: Floats, bent: Places, machine: Machine) -> Floats:
 
 def _resample_runs(
     points: Floats, offsets: Places, bent: Places, control: Floats, number: Floats, opens: Places
-) -> tuple[Recut, Places]:
+) -> tuple[RecutPaths, Places]:
     """Replace the points inside runs of curved legs by new ones.
 
     Return also the curved legs whose first point, an old one, the new chords miss: this occurs where a curve is
@@ -193,7 +193,7 @@ def _resample_runs(
     order = np.lexsort((np.concatenate([np.zeros(len(old)), place + 1]), source))
     merged_points = np.concatenate([points[old], new])[order]
     source = source[order]
-    result = Recut(
+    result = RecutPaths(
         points=merged_points,
         first=np.searchsorted(source, offsets),
         source=source,

@@ -12,8 +12,8 @@ from infill.paths.families.protocol import TOUCH, Path
 from infill.paths.outlines import Floats, Numbers, Outline
 
 CLEAR = 0.95  # of the distance of touching beads: beads overlap by at most 5 %
-NEXT = 3.5  # line widths along a path within which it may come near itself: joins with corners of 30° and more
-NEXT_OF_ANCHOR = 2.0  # an anchor has another way to go, or none
+EXEMPT_LENGTH = 3.5  # line widths along a path within which it may come near itself: joins with corners of 30° and more
+EXEMPT_LENGTH_OF_ANCHOR = 2.0  # an anchor has another way to go, or none
 STEPS = 4  # samples of the outline per line width
 
 
@@ -47,7 +47,7 @@ class Gaps:
     backwards: Floats
 
 
-def gaps_of(pieces: Pieces, outline: Outline, line_width: float) -> Gaps:
+def find_gaps(pieces: Pieces, outline: Outline, line_width: float) -> Gaps:
     """Find the gaps of all rings, and how far each is clear of paths."""
     ends = np.flatnonzero(pieces.ring.ravel() >= 0)
     ring, place = pieces.ring.ravel()[ends], pieces.place.ravel()[ends]
@@ -90,7 +90,7 @@ def _measure_clearance(
     forwards, backwards, is_clear = length.copy(), length.copy(), np.ones(len(length), dtype=bool)
     if not len(length):
         return forwards, backwards, is_clear
-    reach, exempt = CLEAR * TOUCH * line_width, NEXT * line_width
+    reach, exempt = CLEAR * TOUCH * line_width, EXEMPT_LENGTH * line_width
     step = line_width / STEPS
     count = np.maximum(1, np.ceil(length / step).astype(np.intp))
     gap = np.repeat(np.arange(len(length)), count)
@@ -126,9 +126,9 @@ def _measure_clearance(
     sample = np.concatenate([sample, tight])
     by_begin, by_end = (np.concatenate([walk, np.full(len(tight), np.inf)]) for walk in walks)
     gap_of = gap[sample]
-    blocked = by_begin > NEXT_OF_ANCHOR * line_width
+    blocked = by_begin > EXEMPT_LENGTH_OF_ANCHOR * line_width
     np.minimum.at(forwards, gap_of[blocked], (within[sample] - step)[blocked])
-    blocked = by_end > NEXT_OF_ANCHOR * line_width
+    blocked = by_end > EXEMPT_LENGTH_OF_ANCHOR * line_width
     np.minimum.at(backwards, gap_of[blocked], (length[gap_of] - within[sample] - step)[blocked])
     is_clear[gap_of[np.minimum(by_begin, by_end) > exempt]] = False
     return forwards.clip(min=0), backwards.clip(min=0), is_clear

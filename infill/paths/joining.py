@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 
 from infill.paths.clipping import Pieces
 from infill.paths.families.protocol import TOUCH, Path
-from infill.paths.gaps import CLEAR, Gaps, gaps_of
-from infill.paths.layer_below import Ground
+from infill.paths.gaps import CLEAR, Gaps, find_gaps
+from infill.paths.layer_below import LayerBelow
 from infill.paths.outlines import Outline
-from infill.paths.pairing import walked_gaps
+from infill.paths.pairing import choose_gaps
 
 SHORTEST = 2.0  # line widths; a path shorter than this is a dot
 
@@ -30,7 +30,7 @@ def join(
     line_width: float,
     anchor: float,
     anchor_max: float,
-    ground: Ground | None = None,
+    ground: LayerBelow | None = None,
 ) -> list[Path]:
     """Join paths along the outline.
 
@@ -53,10 +53,10 @@ def join(
     list of (N, 2) float64, mm
         Joining closes a path only where its ends would overlap. Paths shorter than two line widths are dropped.
     """
-    gaps = gaps_of(pieces, outline, line_width)
+    gaps = find_gaps(pieces, outline, line_width)
     apart = TOUCH * line_width
     is_supported = None if ground is None else _supported_gaps(gaps, outline, ground)
-    walked = walked_gaps(gaps, len(pieces.paths), most=anchor_max, overlapping=CLEAR * apart, held=is_supported)
+    walked = choose_gaps(gaps, len(pieces.paths), most=anchor_max, overlapping=CLEAR * apart, held=is_supported)
     link: dict[int, tuple[int, Path]] = {}
     for gap in np.flatnonzero(walked).tolist():
         begin, end, place = int(gaps.begin[gap]), int(gaps.end[gap]), float(gaps.place[gap])
@@ -71,7 +71,7 @@ def join(
     return [_assemble_path(chain, pieces.paths, link, anchors) for chain in long_chains]
 
 
-def _supported_gaps(gaps: Gaps, outline: Outline, ground: Ground) -> NDArray[np.bool_]:
+def _supported_gaps(gaps: Gaps, outline: Outline, ground: LayerBelow) -> NDArray[np.bool_]:
     """Tell which gaps have a supported middle."""
     middles = [
         outline.points_at(ring, np.array([place + length / 2]))[0]
@@ -111,7 +111,7 @@ def _anchors(
     outline: Outline,
     anchor: float,
     apart: float,
-    ground: Ground | None,
+    ground: LayerBelow | None,
 ) -> dict[int, Path]:
     """Choose the anchors of free ends, by end, from the end on.
 

@@ -8,15 +8,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.paths.contact import sampled
-from infill.paths.neighbours import Walls, foot, walls_of
-from infill.ragged import packed
+from infill.paths.contact import sample_paths
+from infill.paths.neighbours import BeadIndex, index_beads, project_to_beads
+from infill.ragged import concatenate_rows
 
 Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Ground:
+class LayerBelow:
     """Beads of the layer below.
 
     Parameters
@@ -27,8 +27,8 @@ class Ground:
         Half width of a bead: points within it lie on the bead.
     """
 
-    lines: Walls
-    others: Walls
+    lines: BeadIndex
+    others: BeadIndex
     reach: float
 
     def holds(self, points: Floats) -> NDArray[np.bool_]:
@@ -37,12 +37,12 @@ class Ground:
             return np.zeros(0, dtype=np.bool_)
         return self._on(self.lines, points) | self._on(self.others, points)
 
-    def _on(self, beads: Walls, points: Floats) -> NDArray[np.bool_]:
-        is_supported: NDArray[np.bool_] = foot(points, beads)[1] <= self.reach
+    def _on(self, beads: BeadIndex, points: Floats) -> NDArray[np.bool_]:
+        is_supported: NDArray[np.bool_] = project_to_beads(points, beads)[1] <= self.reach
         return is_supported
 
 
-def ground_of(paths: Sequence[Floats], others: Walls, line_width: float) -> Ground:
+def index_layer_below(paths: Sequence[Floats], others: BeadIndex, line_width: float) -> LayerBelow:
     """Index the beads of a layer, to support the next one.
 
     Parameters
@@ -53,9 +53,9 @@ def ground_of(paths: Sequence[Floats], others: Walls, line_width: float) -> Grou
         Its other beads, as a single layer.
     line_width : float, mm
 
-    >>> ground = ground_of([np.array([[0.0, 0.0], [10.0, 0.0]])], walls_of(np.array([[5.0, 2.0]])), 0.45)
+    >>> ground = index_layer_below([np.array([[0.0, 0.0], [10.0, 0.0]])], index_beads(np.array([[5.0, 2.0]])), 0.45)
     >>> ground.holds(np.array([[5.0, 0.2], [5.0, 0.3], [5.0, 1.9]])).tolist()
     [True, False, True]
     """
-    samples = sampled(*packed(list(paths), like=(2,)))
-    return Ground(lines=walls_of(samples.points, half=samples.half), others=others, reach=line_width / 2)
+    samples = sample_paths(*concatenate_rows(list(paths), like=(2,)))
+    return LayerBelow(lines=index_beads(samples.points, half=samples.half), others=others, reach=line_width / 2)

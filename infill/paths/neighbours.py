@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from infill.checks import FARTHEST
 from infill.paths.contact import STEP as FINE
-from infill.paths.contact import Samples, projected, sampled
+from infill.paths.contact import Samples, project_to_pieces, sample_paths
 
 if TYPE_CHECKING:
     from scipy.spatial import cKDTree
@@ -23,16 +23,16 @@ STEP = 0.2  # mm between points on other beads
 BESIDE = 1.3  # line widths between the centre lines of a corner and of a bead that it lies beside
 # Line widths that a corner beside a bead may move away from it. At a third, a grid touches walls along 13 % less of its
 # length, at a twelfth 2 to 6 %; `touch` leaves the slicer's own infill more.
-ANCHORED = 1 / 12
-TOWARDS = 0.015  # mm that it may move towards it
+AWAY_LIMIT = 1 / 12
+TOWARDS_LIMIT = 0.015  # mm that it may move towards it
 LARGEST_DISTANCE = 5.0  # mm, of a search
 NEAREST = 3  # candidate pieces of beads around a point
-FEW = 500  # points: with fewer, a rough filter before the search gains nothing
+LEAST_FILTERED = 500  # points: with fewer, a rough filter before the search gains nothing
 MOST_SQUARES = 1 << 24  # of a plane of squares: a byte each
 
 
 @dataclass(frozen=True, kw_only=True)
-class Beads:
+class BeadMoves:
     """The moves of a table that extrude and are not among the strokes of its infill.
 
     Parameters
@@ -48,19 +48,19 @@ class Beads:
     layer: Places
     skin: NDArray[np.bool_]
 
-    def walls(self, layers: Places) -> Walls:
+    def walls(self, layers: Places) -> BeadIndex:
         """Index the beads of some layers for searches."""
         chosen = np.flatnonzero(np.isin(self.layer, layers))
-        points = sampled(self.ends[chosen].reshape(-1, 2), np.arange(len(chosen) + 1) * 2, STEP)
-        return walls_of(points.points, self.layer[chosen][points.path])
+        points = sample_paths(self.ends[chosen].reshape(-1, 2), np.arange(len(chosen) + 1) * 2, STEP)
+        return index_beads(points.points, self.layer[chosen][points.path])
 
-    def around(self, number: int, step: float) -> Around:
+    def around(self, number: int, step: float) -> LayerBeads:
         """Return points on the beads of a layer, at most `step` apart, mm."""
         samples = self.samples_of(number, step)
         low, high = np.searchsorted(self.layer, [number, number + 1])
         ends = self.ends[low:high].reshape(-1, 2)  # which stick out where lines turn
         skin = self.skin[low:high]
-        return Around(
+        return LayerBeads(
             points=np.concatenate([samples.points, ends]),
             skin=np.append(skin[samples.path], np.repeat(skin, 2)),
             half=np.concatenate([samples.half, np.zeros(ends.shape)]),
@@ -74,11 +74,11 @@ class Beads:
     def samples_of(self, number: int, step: float = FINE) -> Samples:
         """Return samples of the beads of a layer, at most `step` apart, mm."""
         ends = self.ends_of(number)
-        return sampled(ends.reshape(-1, 2), np.arange(len(ends) + 1) * 2, step)
+        return sample_paths(ends.reshape(-1, 2), np.arange(len(ends) + 1) * 2, step)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Around:
+class LayerBeads:
     """Points on the other beads of a layer.
 
     Parameters
@@ -95,23 +95,23 @@ class Around:
     half: Floats | None = None
 
     @cached_property
-    def all(self) -> Walls:
+    def all(self) -> BeadIndex:
         """All of them, indexed as layer 0."""
-        return walls_of(self.points, half=self.half)
+        return index_beads(self.points, half=self.half)
 
     @cached_property
-    def walls(self) -> Walls:
+    def walls(self) -> BeadIndex:
         """Those that are not skins."""
-        return walls_of(self.points[~self.skin], half=None if self.half is None else self.half[~self.skin])
+        return index_beads(self.points[~self.skin], half=None if self.half is None else self.half[~self.skin])
 
     @cached_property
-    def skins(self) -> Walls:
+    def skins(self) -> BeadIndex:
         """The skins."""
-        return walls_of(self.points[self.skin], half=None if self.half is None else self.half[self.skin])
+        return index_beads(self.points[self.skin], half=None if self.half is None else self.half[self.skin])
 
 
 @dataclass(frozen=True, kw_only=True)
-class Walls:
+class BeadIndex:
     """Points on the other beads of some layers, laid side by side, so that one search serves all layers.
 
     Parameters
@@ -163,7 +163,11 @@ class Walls:
                 is_candidate &= points[:, axis] < self.high[axis] + distance
         candidates = np.flatnonzero(is_candidate)
         shifted = _shift_to_layer(points[candidates], slot[candidates], self.pitch)
-        inside = _near_walls(shifted, self.points, distance) if len(candidates) > FEW else np.arange(len(candidates))
+        inside = (
+            _near_walls(shifted, self.points, distance)
+            if len(candidates) > LEAST_FILTERED
+            else np.arange(len(candidates))
+        )
         result[candidates[inside]] = self.tree.query(shifted[inside], distance_upper_bound=distance)[0]
         return result
 
@@ -190,7 +194,7 @@ class Walls:
         return distances, number
 
 
-def foot(points: Floats, walls: Walls) -> tuple[Floats, Floats]:
+def project_to_beads(points: Floats, walls: BeadIndex) -> tuple[Floats, Floats]:
     """Project points to the beads of a single layer; return the places, (N, 2), and the distances, (N,), mm.
 
     Candidates are the `NEAREST` pieces with the nearest middles: where beads come together, another one may be
@@ -206,13 +210,13 @@ def foot(points: Floats, walls: Walls) -> tuple[Floats, Floats]:
         return points, np.full(len(points), np.inf)
     _, candidates = walls.tree.query(points, k=min(NEAREST, len(walls.points)))
     candidates = candidates.reshape(len(points), -1)
-    along, apart = projected(points, walls.points, walls.half, candidates)
+    along, apart = project_to_pieces(points, walls.points, walls.half, candidates)
     rows, choice = np.arange(len(points)), apart.argmin(axis=1)
     piece = candidates[rows, choice]
     return walls.points[piece] + along[rows, choice][:, None] * walls.half[piece], apart[rows, choice]
 
 
-def walls_of(points: Floats, layer: Places | None = None, half: Floats | None = None) -> Walls:
+def index_beads(points: Floats, layer: Places | None = None, half: Floats | None = None) -> BeadIndex:
     """Index points on other beads for searches.
 
     Parameters
@@ -231,7 +235,9 @@ def walls_of(points: Floats, layer: Places | None = None, half: Floats | None = 
     low = np.array([points[:, axis].min(initial=FARTHEST) for axis in (0, 1)])
     high = np.array([points[:, axis].max(initial=-FARTHEST) for axis in (0, 1)])
     pitch = float(high[0] - low[0]) + 4 * LARGEST_DISTANCE
-    return Walls(points=_shift_to_layer(points, slot, pitch), layers=layers, pitch=pitch, low=low, high=high, half=half)
+    return BeadIndex(
+        points=_shift_to_layer(points, slot, pitch), layers=layers, pitch=pitch, low=low, high=high, half=half
+    )
 
 
 def _shift_to_layer(points: Floats, slot: Places, pitch: float) -> Floats:
@@ -263,11 +269,11 @@ def _near_walls(points: Floats, walls: Floats, distance: float) -> Places:
     return np.flatnonzero(taken[squares_of])
 
 
-def bounded_deviation(
+def deviation_beside_beads(
     points: Floats,
     corners: Places,
     distance: Floats,
-    walls: Walls,
+    walls: BeadIndex,
     layer: Places,
     *,
     deviation: float,
@@ -289,11 +295,11 @@ def bounded_deviation(
     layer : (C,) int
     deviation, line_width : float, mm
     """
-    away_limit = min(deviation, ANCHORED * line_width)
+    away_limit = min(deviation, AWAY_LIMIT * line_width)
     new_distance = walls.near(
         points[corners] + _inward_direction(points, corners) * away_limit, layer, BESIDE * line_width
     )
-    return np.where(new_distance < distance - TOWARDS, min(deviation, TOWARDS), away_limit)
+    return np.where(new_distance < distance - TOWARDS_LIMIT, min(deviation, TOWARDS_LIMIT), away_limit)
 
 
 def _inward_direction(points: Floats, corners: Places) -> Floats:

@@ -12,7 +12,7 @@ from infill.paths.families.protocol import Path
 ENTRIES = 12  # places at which a closed path may be entered, for the comparison with other paths
 
 
-def order(paths: Sequence[Path], start: tuple[float, float] | None = None) -> list[Path]:
+def order_paths(paths: Sequence[Path], start: tuple[float, float] | None = None) -> list[Path]:
     """Order paths for short travel; open ones may be reversed, closed ones may begin at another corner.
 
     Parameters
@@ -23,7 +23,7 @@ def order(paths: Sequence[Path], start: tuple[float, float] | None = None) -> li
         Position of the nozzle, mm. Default: the begin of the first path.
 
     >>> a, b = np.array([[0.0, 0.0], [1.0, 0.0]]), np.array([[5.0, 0.0], [1.0, 1.0]])
-    >>> [path.tolist() for path in order([a, b])]
+    >>> [path.tolist() for path in order_paths([a, b])]
     [[[0.0, 0.0], [1.0, 0.0]], [[1.0, 1.0], [5.0, 0.0]]]
     """
     if not paths:
@@ -78,10 +78,10 @@ class _RemainingPoints:
         self._tree = cKDTree(self._points[self._number])
 
 
-def travel(paths: Sequence[Path], start: tuple[float, float] | None = None) -> float:
+def travel_length(paths: Sequence[Path], start: tuple[float, float] | None = None) -> float:
     """Return the travel between paths, mm, and from `start` to the first, if given.
 
-    >>> travel([np.array([[0.0, 0.0], [1.0, 0.0]]), np.array([[1.0, 1.0], [5.0, 0.0]])])
+    >>> travel_length([np.array([[0.0, 0.0], [1.0, 0.0]]), np.array([[1.0, 1.0], [5.0, 0.0]])])
     1.0
     """
     if not paths:

@@ -19,10 +19,10 @@ from infill.paths.gaps import Gaps
 
 Chosen = NDArray[np.bool_]
 
-ALIKE = 0.02  # mm: gaps that differ by less count as equally long
+EQUAL_LENGTH = 0.02  # mm: gaps that differ by less count as equally long
 
 
-def walked_gaps(gaps: Gaps, paths: int, *, most: float, overlapping: float, held: Chosen | None = None) -> Chosen:
+def choose_gaps(gaps: Gaps, paths: int, *, most: float, overlapping: float, held: Chosen | None = None) -> Chosen:
     """Choose the gaps to walk, (G,) bool.
 
     Parameters
@@ -46,7 +46,7 @@ def walked_gaps(gaps: Gaps, paths: int, *, most: float, overlapping: float, held
     later = np.zeros(len(possible), dtype=bool) if held is None else ~held
     # Equally long gaps keep their order along the ring: on either side of a row of equal paths, all of one side come
     # first.
-    length = np.rint(np.where(may_close, gaps.across, gaps.length) / ALIKE)
+    length = np.rint(np.where(may_close, gaps.across, gaps.length) / EQUAL_LENGTH)
     order = order[np.lexsort((length[order], (later & ~may_close)[order], ~may_close[order]))]
     begins, ends = gaps.begin.tolist(), gaps.end.tolist()
     for gap in order.tolist():

@@ -9,12 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.paths.corner_offset import Room, room_of, widened
-from infill.paths.corners import UNIT, Machine, Rounded, rounded
-from infill.paths.curves import MOST_BULGE, Recut, recut
-from infill.paths.neighbours import BESIDE, TOWARDS, Walls, bounded_deviation
-from infill.paths.touch import deviations_that_keep_touch
-from infill.ragged import packed, parted
+from infill.paths.corner_offset import CornerFreedom, corner_freedom, offset_corners
+from infill.paths.corners import UNIT, Machine, RoundedPaths, round_corners
+from infill.paths.curves import MOST_BULGE, RecutPaths, recut_curves
+from infill.paths.neighbours import BESIDE, TOWARDS_LIMIT, BeadIndex, deviation_beside_beads
+from infill.paths.touch import touch_preserving_deviations
+from infill.ragged import concatenate_rows, split_rows
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
@@ -49,7 +49,7 @@ class Rounding:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Corners:
+class PathCorners:
     """Paths with recut curves, and their remaining corners with all that limits them.
 
     Parameters
@@ -74,25 +74,25 @@ class Corners:
         Limit of the move at each point of `curves`, whatever the rounding.
     """
 
-    curves: Recut
+    curves: RecutPaths
     old: int
     machine: Machine
     inner: Places
     beside: Places
     near: Floats
     layer: Places
-    walls: Walls
+    walls: BeadIndex
     line_width: float
-    room: Room | None = None
+    room: CornerFreedom | None = None
     limit: Floats | None = None
 
-    def rounded(self, rounding: Rounding) -> Rounded:
+    def rounded(self, rounding: Rounding) -> RoundedPaths:
         """Return the paths with round corners."""
         points, offsets = self.curves.points, self.curves.first
         deviation = np.zeros(len(points))
         limit = np.full(len(points), np.inf) if self.limit is None else self.limit
         deviation[self.inner] = np.minimum(rounding.deviation, limit[self.inner])
-        deviation[self.beside] = bounded_deviation(
+        deviation[self.beside] = deviation_beside_beads(
             points,
             self.beside,
             self.near,
@@ -104,22 +104,24 @@ class Corners:
         deviation[self.beside] = np.minimum(deviation[self.beside], limit[self.beside])
         if self.room is not None:
             room_limit = np.minimum(rounding.deviation, limit[self.room.corner])
-            points, room_deviation = widened(points, self.room, deviation=room_limit, radius=rounding.radius)
+            points, room_deviation = offset_corners(points, self.room, deviation=room_limit, radius=rounding.radius)
             deviation[self.room.corner] = room_deviation
-        result = rounded(points, offsets, deviation=deviation, radius=rounding.radius, machine=self.machine, unit=UNIT)
+        result = round_corners(
+            points, offsets, deviation=deviation, radius=rounding.radius, machine=self.machine, unit=UNIT
+        )
         radius = np.full(self.old, np.inf)
         corners = np.flatnonzero(~self.curves.curved)
         radius[self.curves.source[corners]] = result.radius[corners]
-        return Rounded(
+        return RoundedPaths(
             points=result.points, first=result.first, source=self.curves.source[result.source], radius=radius
         )
 
 
-def corners_of(
+def find_corners(
     points: Floats,
     offsets: Places,
     *,
-    walls: Walls,
+    walls: BeadIndex,
     layer: Places,
     acceleration: Floats,
     speed: Floats,
@@ -129,7 +131,7 @@ def corners_of(
     wide: bool = False,
     limit: Floats | None = None,
     keep_touch: bool = False,
-) -> Corners:
+) -> PathCorners:
     """Recut the curves of some paths, and find their corners.
 
     Parameters
@@ -162,10 +164,10 @@ def corners_of(
 
     layer_of = np.repeat(layer, np.diff(offsets))
     distance = walls.near(points, layer_of, BESIDE * line_width)
-    bulge = np.where(np.isfinite(distance), TOWARDS, MOST_BULGE)
+    bulge = np.where(np.isfinite(distance), TOWARDS_LIMIT, MOST_BULGE)
     if hard is not None:
         bulge[hard] = 0.0
-    curves = recut(points, offsets, machine(offsets), bulge)
+    curves = recut_curves(points, offsets, machine(offsets), bulge)
     inner = ~curves.curved
     inner[curves.first[:-1]] = inner[curves.first[1:] - 1] = False
     corners = np.flatnonzero(inner)
@@ -177,11 +179,11 @@ def corners_of(
     point_limit = None if limit is None else np.repeat(limit, np.diff(curves.first))
     if keep_touch:
         point_limit = np.full(len(curves.points), np.inf) if point_limit is None else point_limit
-        touch = deviations_that_keep_touch(curves.points, curves.first, corners, layers, walls, line_width=line_width)
+        touch = touch_preserving_deviations(curves.points, curves.first, corners, layers, walls, line_width=line_width)
         point_limit[corners] = np.minimum(point_limit[corners], touch)
     if wide:
-        room = room_of(curves.points, curves.first, corners[~is_beside], layers, walls, line_width=line_width)
-    return Corners(
+        room = corner_freedom(curves.points, curves.first, corners[~is_beside], layers, walls, line_width=line_width)
+    return PathCorners(
         curves=curves,
         old=len(points),
         machine=machine(curves.first),
@@ -196,10 +198,10 @@ def corners_of(
     )
 
 
-def rounded_paths(
+def round_paths(
     paths: Sequence[Floats],
     *,
-    walls: Walls,
+    walls: BeadIndex,
     acceleration: float,
     speed: float,
     rounding: Rounding,
@@ -210,8 +212,8 @@ def rounded_paths(
     """Round the corners of paths of layer 0; return the paths and the radii of their arcs, mm."""
     if not len(paths):
         return [], np.empty(0)
-    points, offsets = packed(paths)
-    corners = corners_of(
+    points, offsets = concatenate_rows(paths)
+    corners = find_corners(
         points,
         offsets,
         walls=walls,
@@ -224,4 +226,4 @@ def rounded_paths(
         wide=wide,
     )
     result = corners.rounded(rounding)
-    return parted(result.points, result.first), result.radius
+    return split_rows(result.points, result.first), result.radius

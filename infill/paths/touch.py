@@ -12,8 +12,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.paths.corners import turns
-from infill.paths.neighbours import Walls
+from infill.paths.corners import corner_turns
+from infill.paths.neighbours import BeadIndex
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
@@ -24,8 +24,8 @@ STEP = 0.5  # mm between places at which the distance from walls is measured; li
 SEEN = 1.5  # mm, the largest distance that is measured: more than REACH and a step
 
 
-def deviations_that_keep_touch(
-    points: Floats, offsets: Places, corner: Places, layer: Places, walls: Walls, *, line_width: float
+def touch_preserving_deviations(
+    points: Floats, offsets: Places, corner: Places, layer: Places, walls: BeadIndex, *, line_width: float
 ) -> Floats:
     """Compute the move, mm, that costs each corner little touch with walls, (C,); infinite where nothing touches.
 
@@ -41,7 +41,7 @@ def deviations_that_keep_touch(
     walls : Walls
     line_width : float, mm
     """
-    turn = turns(points, corner)[0]
+    turn = corner_turns(points, corner)[0]
     reach = REACH * line_width
     before, begins, ends, distance = _measure_touch(points, offsets, layer, walls, reach)
     reached = np.minimum(ends[corner - 1], begins[corner])  # along a leg, before it comes to touch
@@ -54,7 +54,7 @@ def deviations_that_keep_touch(
 
 
 def _measure_touch(
-    points: Floats, offsets: Places, layer: Places, walls: Walls, reach: float
+    points: Floats, offsets: Places, layer: Places, walls: BeadIndex, reach: float
 ) -> tuple[Floats, Floats, Floats, Floats]:
     """Measure how much of each leg lies within `reach` of walls, where, and the distance of walls from its beginning.
 

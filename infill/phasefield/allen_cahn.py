@@ -16,12 +16,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from infill.checks import positive, whole, within
+from infill.checks import check_positive, check_range, check_whole_number
 from infill.errors import ParameterError
 from infill.grid import spacing_of
 
 # Within these ranges no kernel divides 0 by 0, not even in 32 bits.
-RANGES = {"fidelity": (0.0, 1e6), "interface": (0.25, 1e3), "alpha": (1e-4, 1.0)}
+PARAMETER_RANGES = {"fidelity": (0.0, 1e6), "interface": (0.25, 1e3), "alpha": (1e-4, 1.0)}
 STEEPNESS = math.atanh(0.9)  # the interface is measured from the surface to phi = 0.9
 
 
@@ -60,14 +60,14 @@ class Smoothing:
 
     def __post_init__(self) -> None:
         """Check the ranges that do not depend on the data, and convert to plain numbers."""
-        object.__setattr__(self, "steps", whole("steps", self.steps, 0))
-        for name, (low, high) in RANGES.items():
-            object.__setattr__(self, name, within(name, getattr(self, name), low, high))
+        object.__setattr__(self, "steps", check_whole_number("steps", self.steps, 0))
+        for name, (low, high) in PARAMETER_RANGES.items():
+            object.__setattr__(self, name, check_range(name, getattr(self, name), low, high))
 
     @classmethod
     def paper(cls, lam: float = 100, h: float = 0.01, m: float = 2, alpha: float = 1 / 7, steps: int = 10) -> Smoothing:
         """Return the same smoothing from the paper's lambda, cell size h and interface width m."""
-        return cls(steps=steps, fidelity=lam * positive("h", h) ** 2, interface=m, alpha=alpha)
+        return cls(steps=steps, fidelity=lam * check_positive("h", h) ** 2, interface=m, alpha=alpha)
 
     @property
     def decay(self) -> float:
@@ -103,7 +103,7 @@ class Smoothing:
         return tuple(self.alpha * share for share in shares)
 
 
-def phase_field(data: ArrayLike, name: str = "the data") -> NDArray[np.generic]:
+def as_phase_field(data: ArrayLike, name: str = "the data") -> NDArray[np.generic]:
     """Return `data` as an array of numbers in [-1, 1]; False and True become -1 and +1, 0 and 1 stay as they are.
 
     Raises
@@ -168,23 +168,23 @@ def laplacian(
     return change
 
 
-def diffused(
+def diffuse(
     phi: NDArray[np.float64], weights: tuple[float, ...], mask: NDArray[np.bool_] | None = None
 ) -> NDArray[np.float64]:
     """Return phi after phi_t = Laplace(phi) for one time step, explicitly (7, 11)."""
     return phi + laplacian(phi, weights, mask)
 
 
-def reacted(phi: NDArray[np.float64], decay: float) -> NDArray[np.float64]:
+def react(phi: NDArray[np.float64], decay: float) -> NDArray[np.float64]:
     """Return phi after phi_t = -F'(phi) / eps^2 for one time step, exactly, with E = `decay` (8, 12).
 
-    >>> reacted(np.array([-1.0, -0.5, 0, 0.5, 1]), decay=0.8).round(3).tolist()
+    >>> react(np.array([-1.0, -0.5, 0, 0.5, 1]), decay=0.8).round(3).tolist()
     [-1.0, -0.542, 0.0, 0.542, 1.0]
     """
     return phi / np.sqrt(decay + phi**2 * (1 - decay))
 
 
-def held(phi: NDArray[np.float64], f: NDArray[np.float64], pull: float) -> NDArray[np.float64]:
+def apply_fidelity(phi: NDArray[np.float64], f: NDArray[np.float64], pull: float) -> NDArray[np.float64]:
     """Return phi after phi_t = lam (f - phi) for one time step, implicitly, with lam dt = `pull` (10, 14).
 
     Alone, n such steps leave (1 + lam dt)^-n of the difference from the data.
@@ -200,7 +200,7 @@ def step(
     mask: NDArray[np.bool_] | None = None,
 ) -> NDArray[np.float64]:
     """Return phi after one time step: diffusion (7, 11), reaction (8, 12), fidelity (10, 14)."""
-    return held(reacted(diffused(phi, weights, mask), smoothing.decay), f, smoothing.pull)
+    return apply_fidelity(react(diffuse(phi, weights, mask), smoothing.decay), f, smoothing.pull)
 
 
 def smooth_reference(

@@ -3,7 +3,7 @@
 Every formula is arranged so that phi = f = +-1 among equal neighbours is a fixed point to the last bit:
 
     v = phi + sum of w (differences)            zero where neighbours are equal
-    v = v / sqrt(E + (1 - E) v v)               divides by 1 where v = +-1: see `parts_of_one`
+    v = v / sqrt(E + (1 - E) v v)               divides by 1 where v = +-1: see `split_one`
     phi = v + p / (1 + p) (f - v)               adds zero where v = f
 
 A kernel may therefore leave such cells out (`infill.phasefield.sparse`) with a result identical to the last bit.
@@ -23,7 +23,7 @@ from infill.phasefield.allen_cahn import Smoothing
 
 Field = NDArray[np.float32]
 Data = NDArray[np.float32] | NDArray[np.int8]
-Numbers = tuple[np.float32, np.float32, np.float32, np.float32, np.float32, np.float32]
+StepCoefficients = tuple[np.float32, np.float32, np.float32, np.float32, np.float32, np.float32]
 
 
 def smooth_dense(
@@ -35,7 +35,7 @@ def smooth_dense(
     mask: NDArray[np.bool_] | None = None,
 ) -> Field:
     """Smooth like `smooth_reference`, to 2e-5, on up to three axes, with every cell in every step."""
-    coefficients = numbers_of(smoothing, spacing, f.ndim)
+    coefficients = step_coefficients(smoothing, spacing, f.ndim)
     is_integer = np.issubdtype(f.dtype, np.integer)
     data = on_three_axes(f).astype(np.int8 if is_integer else np.float32, copy=False)
     old = on_three_axes(f if initial is None else initial).astype(np.float32)
@@ -52,18 +52,18 @@ def on_three_axes(field: NDArray[Any]) -> NDArray[Any]:
     return np.ascontiguousarray(field.reshape((1,) * (3 - field.ndim) + field.shape))
 
 
-def numbers_of(smoothing: Smoothing, spacing: float | tuple[float, ...], dimensions: int) -> Numbers:
+def step_coefficients(smoothing: Smoothing, spacing: float | tuple[float, ...], dimensions: int) -> StepCoefficients:
     """Return the weights of the three axes, E, 1 - E and p / (1 + p)."""
     weights = smoothing.weights(spacing_of(spacing, dimensions))
     w0, w1, w2 = (np.float32(weight) for weight in (0.0,) * (3 - dimensions) + weights)
     hold = np.float32(smoothing.pull / (1 + smoothing.pull))
-    return (w0, w1, w2, *parts_of_one(smoothing.decay), hold)
+    return (w0, w1, w2, *split_one(smoothing.decay), hold)
 
 
-def parts_of_one(decay: float) -> tuple[np.float32, np.float32]:
+def split_one(decay: float) -> tuple[np.float32, np.float32]:
     """Return E and 1 - E in float32 such that their sum is 1 to the last bit.
 
-    >>> decay, rest = parts_of_one(0.7337)
+    >>> decay, rest = split_one(0.7337)
     >>> bool(decay + rest == 1)
     True
     """

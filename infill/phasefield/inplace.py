@@ -25,8 +25,8 @@ from infill.phasefield.allen_cahn import Smoothing
 
 Flat = NDArray[np.float32]
 
-BLOCK = 180000  # cells handled at once: enough that threads seldom wait for the GIL
-AT_ONCE = 8  # steps that a thread does alone: fewer barriers in exchange for a wider halo
+CELLS_PER_BLOCK = 180000  # cells handled at once: enough that threads seldom wait for the GIL
+STEPS_AT_ONCE = 8  # steps that a thread does alone: fewer barriers in exchange for a wider halo
 
 
 def smooth_inplace(
@@ -103,10 +103,13 @@ def _run_steps(
     cells. Then all threads synchronise.
     """
     first_cell, end_cell = margin, len(u) - margin
-    threads = max(1, min(threads, (end_cell - first_cell) // (BLOCK // 2)))
+    threads = max(1, min(threads, (end_cell - first_cell) // (CELLS_PER_BLOCK // 2)))
     cuts = np.linspace(first_cell, end_cell, threads + 1).astype(int).tolist()
-    at_once = steps if threads == 1 else max(1, min(AT_ONCE, (cuts[1] - cuts[0]) // (8 * margin)))
-    buffers = [(np.empty(BLOCK, dtype=np.float32), np.empty(BLOCK, dtype=np.float32)) for _ in range(threads)]
+    at_once = steps if threads == 1 else max(1, min(STEPS_AT_ONCE, (cuts[1] - cuts[0]) // (8 * margin)))
+    buffers = [
+        (np.empty(CELLS_PER_BLOCK, dtype=np.float32), np.empty(CELLS_PER_BLOCK, dtype=np.float32))
+        for _ in range(threads)
+    ]
 
     def sweep(source_field: Flat, result: Flat, count: int, part: int, _: int) -> None:
         part_first, part_end = cuts[part], cuts[part + 1]
@@ -115,8 +118,8 @@ def _run_steps(
         source = source_field[base : high + margin].copy()
         target = source.copy()
         for _ in range(count):
-            for at in range(low, high, BLOCK):
-                advance(source, target, base, at, min(at + BLOCK, high), buffers[part])
+            for at in range(low, high, CELLS_PER_BLOCK):
+                advance(source, target, base, at, min(at + CELLS_PER_BLOCK, high), buffers[part])
             source, target = target, source
         result[part_first:part_end] = source[part_first - base : part_end - base]
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from infill.errors import ParameterError, UsageError
-from infill.phasefield.allen_cahn import Smoothing, phase_field, smooth_reference
+from infill.phasefield.allen_cahn import Smoothing, as_phase_field, smooth_reference
 from infill.phasefield.inplace import smooth_inplace
 
 Method = Literal["auto", "numpy", "inplace", "dense", "sparse"]
@@ -92,8 +92,8 @@ def smooth(
         raise UsageError(f"method is {method!r}; choose from auto, {', '.join(KERNELS)}")
     if method in COMPILED and np.ndim(f) > COMPILED_AXES:
         raise ParameterError(f"method {method!r} takes up to {COMPILED_AXES} axes, not {np.ndim(f)}; choose inplace")
-    field = phase_field(f)
-    start = None if initial is None else phase_field(initial, "the initial field")
+    field = as_phase_field(f)
+    start = None if initial is None else as_phase_field(initial, "the initial field")
     domain = None if mask is None else np.asarray(mask)
     for name, array in (("the initial field", start), ("the mask", domain)):
         if array is not None and array.shape != field.shape:
@@ -103,9 +103,9 @@ def smooth(
     chosen = _choose_kernel(np.asarray(f), smoothing) if method == "auto" else method
     if chosen not in COMPILED:
         return KERNELS[chosen](field, smoothing, spacing=spacing, initial=start, mask=domain)
-    from infill.kernels.compiling import told_of_compiling
+    from infill.kernels.compiling import log_compilation
 
-    with told_of_compiling(f"the {chosen} kernel"):
+    with log_compilation(f"the {chosen} kernel"):
         return KERNELS[chosen](field, smoothing, spacing=spacing, initial=start, mask=domain)
 
 

@@ -20,7 +20,7 @@ from infill.kernels.threads import in_threads, thread_count
 
 Field = NDArray[np.float32]
 
-AT_ONCE = 1 << 15  # cells, which stay in the cache of a processor from one step to the next
+CELLS_AT_ONCE = 1 << 15  # cells, which stay in the cache of a processor from one step to the next
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class Profile:
     steepest : float
         The value of phi beyond which the distance is cut off.
 
-    >>> round(STRAIGHT.phase_level(STRAIGHT.distance_level(0.5)), 12)
+    >>> round(PLAIN_PROFILE.phase_level(PLAIN_PROFILE.distance_level(0.5)), 12)
     0.5
     """
 
@@ -71,17 +71,17 @@ class Profile:
         threads : int, optional
             See `infill.kernels.threads.thread_count`.
 
-        >>> REFINED.phase(np.array([-2, 0, 2]), unit=2).tolist()
+        >>> REFINED_PROFILE.phase(np.array([-2, 0, 2]), unit=2).tolist()
         [-1.0, 0.0, 1.0]
         """
         flat_distance = np.asarray(distance).reshape(-1)
         flat_phase = np.empty(flat_distance.shape, dtype=np.float32) if out is None else out.reshape(-1)
 
         def fill(thread: int, threads: int) -> None:
-            for begin in range(thread * AT_ONCE, len(flat_distance), threads * AT_ONCE):
+            for begin in range(thread * CELLS_AT_ONCE, len(flat_distance), threads * CELLS_AT_ONCE):
                 scaled, phi = (
-                    (flat_distance[begin : begin + AT_ONCE] / unit).astype(np.float32),
-                    flat_phase[begin : begin + AT_ONCE],
+                    (flat_distance[begin : begin + CELLS_AT_ONCE] / unit).astype(np.float32),
+                    flat_phase[begin : begin + CELLS_AT_ONCE],
                 )
                 np.sign(scaled, out=phi)
                 unsaturated = np.abs(scaled) < 1  # few cells of a grid
@@ -98,7 +98,7 @@ class Profile:
 
         out = np.empty_like(values) if out is None else out
         in_threads(
-            transfer.straighten,
+            transfer.artanh_of_values,
             values.reshape(-1, CELLS),
             np.float32(self.steepest),
             np.float32(self.scale),
@@ -108,5 +108,5 @@ class Profile:
         return out
 
 
-STRAIGHT = Profile(0.9999)  # for plain smoothing: nearly all of the interface
-REFINED = Profile(0.995)  # for refinement, whose gates compare distances: anything further away is simply +-1
+PLAIN_PROFILE = Profile(0.9999)  # for plain smoothing: nearly all of the interface
+REFINED_PROFILE = Profile(0.995)  # for refinement, whose gates compare distances: anything further away is simply +-1

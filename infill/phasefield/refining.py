@@ -13,7 +13,7 @@ shrinkage - and still damps the short ones, the staircase:
     P_0 of steps (5, 10)    P_1 of steps (15, 25, 35)    P_2 of steps (35, 65)
 
 P_0 is the mildest and keeps thin walls, P_1 is in the middle and keeps edges, and P_2 is strong, for smooth surfaces.
-Each is turned into a distance from the surface, and two gates choose between them: see `gate`.
+Each is turned into a distance from the surface, and two gates choose between them: see `blend_by_gate`.
 
 What to expect, in cells rms from the true surface, after plain smoothing to the volume and after refinement: a box of
 120 x 84 x 60 with edges of radius 8: 0.165, 0.031; a sphere of radius 80: 0.029, 0.021, but one of radius 26: 0.030,
@@ -23,7 +23,7 @@ after 30 steps. Noise in the surface is removed as in plain smoothing; specks th
 Exact data (a mesh's own distances, not a staircase) are a fourth field, milder than all others. A third gate leads to
 them where smoothing would move the surface to one side; its limits grow with the noise that the data have. And nowhere
 may the surface leave them by more than a quarter of a cell, or three times their noise: so a wall that is thicker than
-twice that is never lost, and flat faces keep their place. See `Exact`.
+twice that is never lost, and flat faces keep their place. See `ExactDataLimits`.
 
 This is the package's own extension of the scheme of Wang et al., Computer-Aided Design 120 (2020) 102804.
 """
@@ -41,13 +41,13 @@ from infill.grid import spacing_of
 from infill.kernels import refining as kernels
 from infill.kernels.sparse import BRICK, CELLS
 from infill.kernels.threads import in_threads, thread_count
-from infill.phasefield.allen_cahn import STEEPNESS, Smoothing, diffused, reacted
-from infill.phasefield.dense import Field, Numbers, numbers_of, on_three_axes
-from infill.phasefield.profile import REFINED
+from infill.phasefield.allen_cahn import STEEPNESS, Smoothing, diffuse, react
+from infill.phasefield.dense import Field, StepCoefficients, on_three_axes, step_coefficients
+from infill.phasefield.profile import REFINED_PROFILE
 from infill.phasefield.schedule import Schedule
-from infill.phasefield.sparse import MORE, Bricks, SparseField, states_of
+from infill.phasefield.sparse import LATER_GROWTH, Bricks, SparseField, brick_states
 
-TINY = 1e-6  # of a weight, added where no surface is near and the means are 0
+TINY_WEIGHT = 1e-6  # of a weight, added where no surface is near and the means are 0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -76,17 +76,17 @@ class Gate:
 #   ball of radius 10           1.2,  1.6               0.19, 0.34        too strong, the middle one is right
 #   edge of 90°                 0.47, 1.25              0.12, 0.52        the middle one, and a little of the mild
 #   wall 3 cells thick          3.7,  3.8               2.2,  2.4         gone in both: the mild one
-OUTER = Gate(size=4, signed=0.05, unsigned=0.2)  # from the strong to the middle filter
-INNER = Gate(size=2, signed=0.3, unsigned=0.7)  # from there to the mild one
+OUTER_GATE = Gate(size=4, signed=0.05, unsigned=0.2)  # from the strong to the middle filter
+INNER_GATE = Gate(size=2, signed=0.3, unsigned=0.7)  # from there to the mild one
 
 
 NOISE_SIZE = 2  # cells: noise is what alternates over this distance
-NEAR = 0.3  # of the largest weight: cells above it are near enough to the surface to measure noise
-QUIET = 0.25  # quantile of the variance in those cells: edges are not noise, and may fill the rest
+MIN_WEIGHT_SHARE = 0.3  # of the largest weight: cells above it are near enough to the surface to measure noise
+QUIET_QUANTILE = 0.25  # quantile of the variance in those cells: edges are not noise, and may fill the rest
 
 
 @dataclass(frozen=True, kw_only=True)
-class Exact:
+class ExactDataLimits:
     """Limits by which exact data hold the surface.
 
     Parameters
@@ -112,21 +112,23 @@ class Exact:
         return max(0.25, 3 * self.noise)
 
 
-def noise_of(weight: NDArray[np.floating], mean: NDArray[np.floating], square: NDArray[np.floating]) -> float:
+def estimate_noise(weight: NDArray[np.floating], mean: NDArray[np.floating], square: NDArray[np.floating]) -> float:
     """Estimate the noise of exact data, cells: the deviation of P_0 from their surface in quiet places.
 
     Parameters
     ----------
     weight, mean, square : float
-        <w>, <w r> and <w r²> of `gate`, with r the change by P_0, cells. Where an edge or an entire wall recedes, r has
-        one sign: this is not noise, and is subtracted.
+        <w>, <w r> and <w r²> of `blend_by_gate`, with r the change by P_0, cells. Where an edge or a wall recedes, r
+        has one sign: this is not noise, and is subtracted.
     """
-    near_surface = weight > NEAR * max(float(weight.max(initial=0.0)), TINY)
+    near_surface = weight > MIN_WEIGHT_SHARE * max(float(weight.max(initial=0.0)), TINY_WEIGHT)
     if not near_surface.any():
         return 0.0
     local_mean = mean[near_surface] / weight[near_surface]
     return float(
-        np.sqrt(np.quantile(np.maximum(square[near_surface] / weight[near_surface] - local_mean**2, 0.0), QUIET))
+        np.sqrt(
+            np.quantile(np.maximum(square[near_surface] / weight[near_surface] - local_mean**2, 0.0), QUIET_QUANTILE)
+        )
     )
 
 
@@ -151,7 +153,7 @@ def refine_bricks(
     spacing : float or one per axis, mm
         Averages are taken over cells, and distances measured in units of the shortest cell side.
     exact : bool
-        The data are distances from the surface themselves, put on the profile of the equation: `on_profile`.
+        The data are distances from the surface themselves, put on the profile of the equation: `phase_from_distance`.
     threads : int, optional
         See `infill.kernels.threads.thread_count`.
     progress : callable, optional
@@ -175,10 +177,10 @@ def refine_bricks(
     times the memory of `infill.phasefield.sparse.smooth_bricks`.
     """
     threads = thread_count(threads)
-    mild, middle, strong = filtered_bricks(f, smoothing, spacing=spacing, threads=threads, progress=progress)
-    result = replace(strong, values=REFINED.distance(strong.values, threads=threads))
-    unit = cut_off(smoothing.interface)
-    for milder, limits in ((middle, OUTER), (mild, INNER)):
+    mild, middle, strong = filter_bricks(f, smoothing, spacing=spacing, threads=threads, progress=progress)
+    result = replace(strong, values=REFINED_PROFILE.distance(strong.values, threads=threads))
+    unit = cut_off_distance(smoothing.interface)
+    for milder, limits in ((middle, OUTER_GATE), (mild, INNER_GATE)):
         _blend_by_gate(result, milder.values, limits, unit, threads)
     if exact:
         _hold_to_data(result, mild.values, unit, threads)
@@ -186,34 +188,36 @@ def refine_bricks(
 
 
 def _hold_to_data(result: SparseField, mild: Field, unit: float, threads: int) -> None:
-    """Hold the result to exact data within the limits of `Exact`, in place; `mild` is P_0."""
+    """Hold the result to exact data within the limits of `ExactDataLimits`, in place; `mild` is P_0."""
     data = np.asarray(result.data, dtype=np.float32)
-    distance, mild_distance = (REFINED.distance(field, threads=threads).reshape(-1, CELLS) for field in (data, mild))
+    distance, mild_distance = (
+        REFINED_PROFILE.distance(field, threads=threads).reshape(-1, CELLS) for field in (data, mild)
+    )
     noise = _gate_averages(result, mild_distance, distance, data, NOISE_SIZE, unit, threads)
-    exact = Exact(noise=noise_of(noise[:, 0], noise[:, 1], noise[:, 2]))
+    exact = ExactDataLimits(noise=estimate_noise(noise[:, 0], noise[:, 1], noise[:, 2]))
     _blend_by_gate(result, data, exact.gate, unit, threads)
-    in_threads(kernels.hold, result.values.reshape(-1, CELLS), distance, exact.bound / unit, threads=threads)
+    in_threads(kernels.clamp_to_data, result.values.reshape(-1, CELLS), distance, exact.bound / unit, threads=threads)
 
 
-def on_profile(
+def phase_from_distance(
     distance: NDArray[np.floating], interface: float, *, out: Field | None = None, threads: int | None = None
 ) -> Field:
     """Convert distances in cells to the phase field whose surface does not move: +-1 beyond the cut-off.
 
     The field is written to `out`, if given, which may be the distances.
 
-    >>> on_profile(np.array([-9, 0, 2, 9]), 2.0).round(2).tolist()
+    >>> phase_from_distance(np.array([-9, 0, 2, 9]), 2.0).round(2).tolist()
     [-1.0, 0.0, 0.8999999761581421, 1.0]
     """
-    return REFINED.phase(distance, unit=cut_off(interface), out=out, threads=threads)
+    return REFINED_PROFILE.phase(distance, unit=cut_off_distance(interface), out=out, threads=threads)
 
 
-def cut_off(interface: float) -> float:
+def cut_off_distance(interface: float) -> float:
     """Return the cut-off distance from the surface, cells."""
-    return REFINED.scale * interface / STEEPNESS
+    return REFINED_PROFILE.scale * interface / STEEPNESS
 
 
-def filtered_bricks(
+def filter_bricks(
     f: NDArray[np.generic],
     smoothing: Smoothing,
     *,
@@ -224,8 +228,8 @@ def filtered_bricks(
     """Return P_0, P_1 and P_2, which share all arrays except their values; for parameters, see `refine_bricks`."""
     threads = thread_count(threads)
     schedule = Schedule.of(smoothing.steps)
-    numbers = numbers_of(smoothing, spacing, f.ndim)
-    data, state = states_of(on_three_axes(f), threads)
+    numbers = step_coefficients(smoothing, spacing, f.ndim)
+    data, state = brick_states(on_three_axes(f), threads)
     bricks = Bricks.around(state, data, threads)
     bricks.gather(data, data)
     previous, known_count = bricks.phi[: bricks.count].copy(), bricks.count
@@ -294,14 +298,14 @@ class _WeightedSum:
 def _extend_to_new_bricks(previous: Field, known_count: int, bricks: Bricks) -> Field:
     """Extend the last but one field to the new bricks, in which it equals the data."""
     if len(previous) < bricks.count:
-        larger = np.empty((bricks.room(MORE), CELLS), dtype=np.float32)
+        larger = np.empty((bricks.room(LATER_GROWTH), CELLS), dtype=np.float32)
         larger[:known_count] = previous[:known_count]
         previous = larger
     previous[known_count : bricks.count] = bricks.held[known_count : bricks.count]
     return previous
 
 
-def _step(bricks: Bricks, previous: Field, numbers: Numbers, momentum: float) -> None:
+def _step(bricks: Bricks, previous: Field, numbers: StepCoefficients, momentum: float) -> None:
     """Do one step in place; `previous` receives the old field."""
     in_threads(
         kernels.step,
@@ -327,7 +331,7 @@ def _step(bricks: Bricks, previous: Field, numbers: Numbers, momentum: float) ->
 def _gate_averages(
     bricks: SparseField, below: Field, above: Field, phase: Field, size: int, unit: float, threads: int
 ) -> NDArray[np.float32]:
-    """Return <w>, <w r> and <w r²> of `gate` on coarse cells; `phase` is the milder field, of distance `above`."""
+    """Return <w>, <w r> and <w r²> of `blend_by_gate` on coarse cells; `phase` is the field at distance `above`."""
     sums = np.empty((len(bricks.values), kernels.SUMS, *(count // size for count in BRICK)), dtype=np.float32)
     in_threads(kernels.collect, below, above, phase.reshape(-1, CELLS), np.float32(unit), size, sums, threads=threads)
     blurred = np.empty_like(sums)
@@ -336,8 +340,8 @@ def _gate_averages(
 
 
 def _blend_by_gate(result: SparseField, phase: Field, gate_limits: Gate, unit: float, threads: int) -> None:
-    """Blend two fields by `gate`, in place, with averages from coarse cells; `phase` is the milder one."""
-    below, above = result.values.reshape(-1, CELLS), REFINED.distance(phase, threads=threads).reshape(-1, CELLS)
+    """Blend two fields by `blend_by_gate`, in place, with averages from coarse cells; `phase` is the milder one."""
+    below, above = result.values.reshape(-1, CELLS), REFINED_PROFILE.distance(phase, threads=threads).reshape(-1, CELLS)
     blurred = _gate_averages(result, below, above, phase, gate_limits.size, unit, threads)
     in_threads(
         kernels.blend,
@@ -349,28 +353,28 @@ def _blend_by_gate(result: SparseField, phase: Field, gate_limits: Gate, unit: f
         result.shape,
         np.float32(gate_limits.signed),
         np.float32(gate_limits.unsigned),
-        np.float32(TINY),
+        np.float32(TINY_WEIGHT),
         threads=threads,
     )
 
 
-def filtered_reference(
+def filter_reference(
     f: NDArray[np.generic], smoothing: Smoothing, *, spacing: float | tuple[float, ...] = 1.0
 ) -> tuple[NDArray[np.float64], ...]:
-    """Return P_0, P_1 and P_2 in float64: the reference that `filtered_bricks` is tested against."""
+    """Return P_0, P_1 and P_2 in float64: the reference that `filter_bricks` is tested against."""
     schedule = Schedule.of(smoothing.steps)
     phi = f.astype(np.float64)
     weights, decay = smoothing.weights(spacing_of(spacing, phi.ndim)), smoothing.decay
     previous, totals = phi, [np.zeros_like(phi) for _ in schedule.weights]
     for k in range(schedule.last):
-        v = diffused(phi, weights) + schedule.momentum(k) * (phi - previous)
-        previous, phi = phi, reacted(v, decay)
+        v = diffuse(phi, weights) + schedule.momentum(k) * (phi - previous)
+        previous, phi = phi, react(v, decay)
         for total, shares in zip(totals, schedule.weights, strict=True):
             total += shares.get(k + 1, 0.0) * phi
     return tuple(totals)
 
 
-def gate(
+def blend_by_gate(
     low: NDArray[np.float64], high: NDArray[np.float64], weight: NDArray[np.float64], limits: Gate
 ) -> NDArray[np.float64]:
     """Return low + g r, r = high - low, with g near 1 where the milder field `high` is right.
@@ -390,8 +394,8 @@ def gate(
     """
     r = high - low
 
-    total_weight, mean, square = averages(r, weight, limits.size)
-    total_weight = total_weight + TINY
+    total_weight, mean, square = gaussian_averages(r, weight, limits.size)
+    total_weight = total_weight + TINY_WEIGHT
     signed_power, unsigned_power = (mean / total_weight) ** 4, (square / total_weight) ** 4
     share = np.maximum(
         signed_power / (signed_power + limits.signed**4), unsigned_power / (unsigned_power + limits.unsigned**8)
@@ -400,8 +404,10 @@ def gate(
     return blended
 
 
-def averages(r: NDArray[np.float64], weight: NDArray[np.float64], size: int) -> tuple[NDArray[np.float64], ...]:
-    """Return <w>, <w r> and <w r²>, averages over a Gaussian of `size` cells: see `gate`."""
+def gaussian_averages(
+    r: NDArray[np.float64], weight: NDArray[np.float64], size: int
+) -> tuple[NDArray[np.float64], ...]:
+    """Return <w>, <w r> and <w r²>, averages over a Gaussian of `size` cells: see `blend_by_gate`."""
     from scipy.ndimage import gaussian_filter
 
     return tuple(
@@ -413,18 +419,21 @@ def refine_reference(
     f: NDArray[Any], smoothing: Smoothing, *, spacing: float | tuple[float, ...] = 1.0, exact: bool = False
 ) -> NDArray[np.float64]:
     """Return the refined distance in float64, +-1 far away: the specification of `refine_bricks`."""
-    fields = [np.clip(field, -1, 1) for field in filtered_reference(f, smoothing, spacing=spacing)]
-    unit = cut_off(smoothing.interface)
+    fields = [np.clip(field, -1, 1) for field in filter_reference(f, smoothing, spacing=spacing)]
+    unit = cut_off_distance(smoothing.interface)
     mild, middle, strong = (
-        np.arctanh(np.clip(field, -REFINED.steepest, REFINED.steepest)) * (unit / REFINED.scale) for field in fields
+        np.arctanh(np.clip(field, -REFINED_PROFILE.steepest, REFINED_PROFILE.steepest)) * (unit / REFINED_PROFILE.scale)
+        for field in fields
     )
-    blended = gate(strong, middle, 1 - fields[1] ** 2, OUTER)
-    blended = gate(blended, mild, 1 - fields[0] ** 2, INNER)
+    blended = blend_by_gate(strong, middle, 1 - fields[1] ** 2, OUTER_GATE)
+    blended = blend_by_gate(blended, mild, 1 - fields[0] ** 2, INNER_GATE)
     if exact:
         f = f.astype(np.float64)
-        data = np.arctanh(np.clip(f, -REFINED.steepest, REFINED.steepest)) * (unit / REFINED.scale)
-        exact_limits = Exact(noise=noise_of(*averages(data - mild, 1 - f**2, NOISE_SIZE)))
-        blended = gate(blended, data, 1 - f**2, exact_limits.gate)
+        data = np.arctanh(np.clip(f, -REFINED_PROFILE.steepest, REFINED_PROFILE.steepest)) * (
+            unit / REFINED_PROFILE.scale
+        )
+        exact_limits = ExactDataLimits(noise=estimate_noise(*gaussian_averages(data - mild, 1 - f**2, NOISE_SIZE)))
+        blended = blend_by_gate(blended, data, 1 - f**2, exact_limits.gate)
         blended = np.where(f < 1, np.minimum(blended, data + exact_limits.bound), blended)
         blended = np.where(f > -1, np.maximum(blended, data - exact_limits.bound), blended)
     return blended / unit

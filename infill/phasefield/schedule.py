@@ -15,10 +15,10 @@ from infill.errors import ParameterError
 # The steps at which a snapshot is taken, in quarters of `Smoothing.steps`, and which of them go into the mild, the
 # middle and the strong filter: two snapshots cancel x, three cancel x² as well. Filters share snapshots, and all of
 # them share one run.
-QUARTERS = (1, 2, 3, 5, 7, 13)
+SNAPSHOT_QUARTERS = (1, 2, 3, 5, 7, 13)
 FILTERS = ((0, 1), (2, 3, 4), (4, 5))
 MOMENTUM = 0.5  # after half of `Smoothing.steps`: for long waves, a step then counts 1 / (1 - 1/2), twice as much
-FEWEST = 4  # steps: with fewer, two of the six would coincide
+MIN_STEPS = 4  # steps: with fewer, two of the six would coincide
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,9 +51,9 @@ class Schedule:
         >>> [round(weight, 4) for weight in schedule.weights[0].values()]
         [2.0, -1.0]
         """
-        if steps < FEWEST:
-            raise ParameterError(f"refining was given {steps} steps; it takes at least {FEWEST}, and 20 as a rule")
-        snapshots = [int(steps * quarters / 4 + 0.5) for quarters in QUARTERS]
+        if steps < MIN_STEPS:
+            raise ParameterError(f"refining was given {steps} steps; it takes at least {MIN_STEPS}, and 20 as a rule")
+        snapshots = [int(steps * quarters / 4 + 0.5) for quarters in SNAPSHOT_QUARTERS]
         shares = _leading_coefficients(snapshots[-1], snapshots[1], max(len(indices) for indices in FILTERS))
         return cls(
             plain=snapshots[1],

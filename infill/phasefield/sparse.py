@@ -20,16 +20,16 @@ from numpy.typing import NDArray
 
 from infill.kernels import sparse as kernels
 from infill.kernels import transfer as transfer_kernels
-from infill.kernels.compiling import told_of_compiling
+from infill.kernels.compiling import log_compilation
 from infill.kernels.sparse import BRICK, CELLS, FACES, MASKS, MIXED, OUTER, OUTSIDE, SOLID_BRICK, VOID_BRICK
 from infill.kernels.threads import in_threads, thread_count
 from infill.phasefield.allen_cahn import Smoothing
-from infill.phasefield.dense import Data, Field, Numbers, numbers_of, on_three_axes
+from infill.phasefield.dense import Data, Field, StepCoefficients, on_three_axes, step_coefficients
 
 # Room to reserve for bricks, relative to those there are: at first enough for one more layer on both sides of the
 # surface, which 8 steps cannot cross; later half as much again, so that all copies together are at most three times
 # the last one. It never exceeds the lattice: memory that was used before is not free of cost.
-ROOM, MORE = 3.0, 1.5
+FIRST_GROWTH, LATER_GROWTH = 3.0, 1.5
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,7 +67,7 @@ class SparseField:
         """Return the whole field, (n0, n1, n2) float32."""
         count = thread_count(threads)
         dense = np.empty(self.shape, dtype=np.float32)
-        in_threads(transfer_kernels.spread, self.slots, self.values.reshape(-1, CELLS), dense, threads=count)
+        in_threads(transfer_kernels.scatter, self.slots, self.values.reshape(-1, CELLS), dense, threads=count)
         return dense
 
 
@@ -86,7 +86,7 @@ def smooth_sparse(
     return smooth_bricks(f, smoothing, spacing=spacing, initial=initial, mask=mask).to_dense().reshape(f.shape)
 
 
-@told_of_compiling("the bricks' kernels")
+@log_compilation("the bricks' kernels")
 def smooth_bricks(
     f: NDArray[np.generic],
     smoothing: Smoothing,
@@ -111,12 +111,12 @@ def smooth_bricks(
         Called before each step with the share of steps done.
     """
     threads = thread_count(threads)
-    coefficients = numbers_of(smoothing, spacing, f.ndim)
-    data, state = states_of(on_three_axes(f), threads)
+    coefficients = step_coefficients(smoothing, spacing, f.ndim)
+    data, state = brick_states(on_three_axes(f), threads)
     start = data
     if initial is not None:
         start = on_three_axes(initial).astype(np.float32)
-        state = np.where(state == states_of(start, threads)[1], state, MIXED)
+        state = np.where(state == brick_states(start, threads)[1], state, MIXED)
     domain = None if mask is None else on_three_axes(mask)
     bricks = Bricks.around(state, data, threads)
     bricks.gather(start, data)
@@ -135,7 +135,7 @@ def smooth_bricks(
     )
 
 
-def states_of(field: NDArray[np.generic], threads: int) -> tuple[Data, NDArray[np.int8]]:
+def brick_states(field: NDArray[np.generic], threads: int) -> tuple[Data, NDArray[np.int8]]:
     """Return the field in the type of the kernels, and the state of every brick: +1, -1, `MIXED` or `OUTER`."""
     if field.dtype == bool:
         data: Data = field.view(np.int8)
@@ -151,7 +151,7 @@ def states_of(field: NDArray[np.generic], threads: int) -> tuple[Data, NDArray[n
     if data.dtype == np.int8:
         in_threads(transfer_kernels.fill_states, data, state, zeros, threads=threads)
         if zeros.any() and field.dtype != bool:  # integers between void and solid are grey
-            return states_of(data.astype(np.float32), threads)
+            return brick_states(data.astype(np.float32), threads)
     else:
         in_threads(transfer_kernels.fill_grey_states, data, state, threads=threads)
     return data, state
@@ -170,7 +170,7 @@ class Bricks:
         self.rows, self.next_rows = (np.empty((0, MASKS), dtype=np.uint64) for _ in range(2))
         self.still = np.empty((0, 2), dtype=np.uint64)  # the rows of the data that are +1, and -1, throughout
         self.beside = np.empty((0, 6), dtype=np.int32)
-        self._grow(ROOM)
+        self._grow(FIRST_GROWTH)
         kernels.find_neighbours(self.slots, self.where, self.beside, 0, self.count)
 
     @classmethod
@@ -198,7 +198,7 @@ class Bricks:
         if start is not data:
             self._gather_into(start, self.phi)
         in_threads(
-            kernels.emit_all,
+            kernels.update_all_faces,
             self.phi,
             self.held,
             start is data,
@@ -218,18 +218,20 @@ class Bricks:
     def activate(self) -> None:
         """Add the bricks next to faces of a different value."""
         candidates = np.empty((6 * self.count, 3), dtype=np.int32)
-        places = candidates[: kernels.wanted(self.slots, self.where, self.beside, self.flat, self.count, candidates)]
+        places = candidates[
+            : kernels.find_missing_bricks(self.slots, self.where, self.beside, self.flat, self.count, candidates)
+        ]
         if len(places) == 0:
             return
         old_count, self.count = self.count, self.count + len(places)
         if self.count > len(self.phi):
-            self._grow(MORE)
+            self._grow(LATER_GROWTH)
         self.where[old_count : self.count] = places
         values = np.where(self.slots[tuple(places.T)] == SOLID_BRICK, 1, -1).astype(np.int8)
         self.slots[tuple(places.T)] = np.arange(old_count, self.count)
         kernels.find_neighbours(self.slots, self.where, self.beside, old_count, self.count)
         in_threads(
-            kernels.fill,
+            kernels.fill_bricks,
             self.phi,
             self.held,
             self.flat,
@@ -243,7 +245,7 @@ class Bricks:
             threads=self.threads,
         )
 
-    def step(self, numbers: Numbers, domain: NDArray[np.bool_] | None) -> None:
+    def step(self, numbers: StepCoefficients, domain: NDArray[np.bool_] | None) -> None:
         """Do one step, in place."""
         in_threads(
             kernels.step,

@@ -12,23 +12,23 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from infill.inspection.fidelity import sampled
-from infill.meshes.distance import Tree
-from infill.meshes.winding import bounds_solid
+from infill.inspection.fidelity import sample_surface
+from infill.meshes.distance import TriangleTree
+from infill.meshes.winding import is_solid_boundary
 from infill.pictures.render import AZIMUTH, ELEVATION, Colour, Floats, Window, directions, render
-from infill.pictures.sheet import BACKGROUND, PANEL, sheet
+from infill.pictures.sheet import BACKGROUND, PANEL, arrange_panels
 from infill.surface import Surface
 
-FAR = 1.5  # voxels: points further away are marked
-PITCH = 0.7  # voxels between the sample points of the area
-ASIDE = 1e-4  # of the far distance: offset at which solid beside a face is searched
+FAR_VOXELS = 1.5  # voxels: points further away are marked
+SAMPLE_PITCH = 0.7  # voxels between the sample points of the area
+PROBE_OFFSET = 1e-4  # of the far distance: offset at which solid beside a face is searched
 PLAIN: Colour = (214, 206, 192)
 LOST: Colour = (214, 39, 40)
 ADDED: Colour = (31, 119, 220)
 MARGIN = 1.06  # of the frame
-ENOUGH = 0.6  # of the maximum over all views
-SEEN = 8  # quarters of a pixel: smaller marks are invisible
-SMALL = 64  # pixels along a side of the pictures that select the view
+VIEW_SHARE = 0.6  # of the maximum over all views
+MIN_VISIBLE = 8  # quarters of a pixel: smaller marks are invisible
+TRIAL_PIXELS = 64  # pixels along a side of the pictures that select the view
 
 # From above at four corners, the usual one first, then from below, and horizontally from the sides.
 VIEWS = (
@@ -39,7 +39,7 @@ VIEWS = (
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Marked:
+class MarkedSurface:
     """A surface, with its points marked that lie far from another.
 
     Parameters
@@ -54,11 +54,11 @@ class Marked:
     other: Surface
     far: float
     colour: Colour
-    _tree: Tree = field(init=False, repr=False)
+    _tree: TriangleTree = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         """Sort the triangles of the other surface."""
-        object.__setattr__(self, "_tree", Tree.of(self.other))
+        object.__setattr__(self, "_tree", TriangleTree.of(self.other))
 
     def is_far(self, points: Floats) -> NDArray[np.bool_]:
         """Return True for points (N, 3) that lie far from the other surface."""
@@ -70,12 +70,12 @@ class Marked:
 
         Points hidden inside the solid do not count as far.
         """
-        points, faces, area = sampled(self.surface, PITCH / FAR * self.far)
+        points, faces, area = sample_surface(self.surface, SAMPLE_PITCH / FAR_VOXELS * self.far)
         spread = area > 0
         points, faces, area = points[spread], faces[spread], area[spread]
         is_far_point = self.is_far(points)
-        is_far_point[is_far_point] = bounds_solid(
-            points[is_far_point], faces[is_far_point], self.surface, ASIDE * self.far
+        is_far_point[is_far_point] = is_solid_boundary(
+            points[is_far_point], faces[is_far_point], self.surface, PROBE_OFFSET * self.far
         )
         return points, is_far_point, area
 
@@ -91,13 +91,13 @@ class Marked:
         right, up, eye = directions(*view)
         flat = np.stack([points @ right, points @ up], axis=1)
         low, side = flat.min(axis=0), max(float(np.linalg.norm(np.ptp(points, axis=0))), 1e-12)
-        place = ((flat - low) / side * (SMALL - 1)).astype(np.int64) @ (SMALL, 1)
+        place = ((flat - low) / side * (TRIAL_PIXELS - 1)).astype(np.int64) @ (TRIAL_PIXELS, 1)
         nearest = np.lexsort((points @ eye, place))
         front = nearest[np.flatnonzero(np.diff(place[nearest], append=-1))]
         return int(is_far_point[front].sum())
 
 
-def before_and_after(
+def draw_before_and_after(
     given: Surface, result: Surface, *, cell: float, report: Mapping[str, Any], captions: tuple[str, str]
 ) -> Image.Image:
     """Draw both surfaces side by side, with lost parts in red and added parts in blue.
@@ -106,7 +106,7 @@ def before_and_after(
     ----------
     given, result : Surface, mm
     cell : float, mm
-        Points further than `FAR` of these from the other surface are marked.
+        Points further than `FAR_VOXELS` of these from the other surface are marked.
     report : mapping
         See docs/report.md.
     captions : (str, str)
@@ -114,8 +114,8 @@ def before_and_after(
     """
     if given.volume < 0:  # inside out
         given = replace(given, faces=given.faces[:, ::-1])
-    lost = Marked(surface=given, other=result, far=FAR * cell, colour=LOST)
-    added = Marked(surface=result, other=given, far=FAR * cell, colour=ADDED)
+    lost = MarkedSurface(surface=given, other=result, far=FAR_VOXELS * cell, colour=LOST)
+    added = MarkedSurface(surface=result, other=given, far=FAR_VOXELS * cell, colour=ADDED)
     view = _choose_view(lost, added)
     window = _square_window((given, result), view)
     pictures = [_draw_marked(marked, view, window) for marked in (lost, added)]
@@ -128,11 +128,11 @@ def before_and_after(
         else (None, f"nothing {word}")
         for marked, word, (_, shown) in zip((lost, added), ("lost", "added"), pictures, strict=True)
     ]
-    ends = f"{facts}; marked if more than {FAR * cell:.3g} mm ({FAR:g} voxels) apart"
-    return sheet(panels, ends, [(None, f"{report['verdict']['word']}:"), *legend])
+    ends = f"{facts}; marked if more than {FAR_VOXELS * cell:.3g} mm ({FAR_VOXELS:g} voxels) apart"
+    return arrange_panels(panels, ends, [(None, f"{report['verdict']['word']}:"), *legend])
 
 
-def _draw_marked(marked: Marked, view: tuple[float, float], window: Window) -> tuple[Image.Image, bool]:
+def _draw_marked(marked: MarkedSurface, view: tuple[float, float], window: Window) -> tuple[Image.Image, bool]:
     """Render a surface from one side; return the picture, and True if a mark is visible."""
     hits = 0
 
@@ -152,10 +152,10 @@ def _draw_marked(marked: Marked, view: tuple[float, float], window: Window) -> t
         window=window,
         paint=paint,
     )
-    return Image.fromarray(pixels), hits >= SEEN
+    return Image.fromarray(pixels), hits >= MIN_VISIBLE
 
 
-def _choose_view(lost: Marked, added: Marked) -> tuple[float, float]:
+def _choose_view(lost: MarkedSurface, added: MarkedSurface) -> tuple[float, float]:
     """Return the first view that shows lost parts, or else added parts, about as well as the best view.
 
     Without either, return the usual view.
@@ -165,7 +165,7 @@ def _choose_view(lost: Marked, added: Marked) -> tuple[float, float]:
             continue
         counts = [marked.shown(view) for view in VIEWS]
         if any(counts):
-            return VIEWS[int(np.argmax(np.array(counts) >= ENOUGH * max(counts)))]
+            return VIEWS[int(np.argmax(np.array(counts) >= VIEW_SHARE * max(counts)))]
     return VIEWS[0]
 
 

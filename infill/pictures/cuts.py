@@ -11,23 +11,23 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from infill.meshes.solids import FINE, solid_of, status_of, surface_from
+from infill.meshes.solids import FINE, from_manifold, solid_status, to_manifold
 from infill.pictures.render import AZIMUTH, ELEVATION, Colour, Floats, render
 from infill.pictures.sections import Cut, choose_cuts
-from infill.pictures.sheet import BACKGROUND, PANEL, sheet
+from infill.pictures.sheet import BACKGROUND, PANEL, arrange_panels
 from infill.surface import Surface
 
 CUT: Colour = (240, 160, 60)
 BEHIND: Colour = (196, 200, 206)
 ABOVE = math.radians(55)  # the elevation of the view of a level cut
 THUMBNAIL = 256  # pixels
-ON = 1e-6  # of the size: points this close to the plane of a cut belong to the cut
-BEYOND = (-1.0, 1.0, -1.0)  # the visible side of a cut across x, y and z
+PLANE_TOLERANCE = 1e-6  # of the size: points this close to the plane of a cut belong to the cut
+VISIBLE_SIDE = (-1.0, 1.0, -1.0)  # the visible side of a cut across x, y and z
 # Azimuth and elevation of each view.
-EYES = ((AZIMUTH + math.pi / 2, ELEVATION), (AZIMUTH, ELEVATION), (AZIMUTH, ABOVE))
+VIEWS = ((AZIMUTH + math.pi / 2, ELEVATION), (AZIMUTH, ELEVATION), (AZIMUTH, ABOVE))
 
 
-def cuts(
+def draw_cuts(
     surface: Surface, report: Mapping[str, Any], *, part: Surface | None = None, given: Sequence[Cut] = ()
 ) -> Image.Image:
     """Draw a closed surface without its front half, and without its upper half.
@@ -46,10 +46,10 @@ def cuts(
     size = " x ".join(f"{length:.4g}" for length in report["extents"])
     request, voids = report["request"], report["voids"]
     facts = f"{size} mm, {request['pattern']}, {report['density']:.1%} solid inside walls of {request['wall']:g} mm"
-    return sheet(panels, facts, [(CUT, "cut"), (BEHIND, f"behind it; {voids['count']:,} void(s)")])
+    return arrange_panels(panels, facts, [(CUT, "cut"), (BEHIND, f"behind it; {voids['count']:,} void(s)")])
 
 
-def thumbnail(surface: Surface, side: int = THUMBNAIL) -> bytes:
+def render_thumbnail(surface: Surface, side: int = THUMBNAIL) -> bytes:
     """Render a small PNG of a closed surface without its front half."""
     with io.BytesIO() as file:
         _draw_half(surface, choose_cuts(surface)[0], side).save(file, format="PNG")
@@ -58,17 +58,17 @@ def thumbnail(surface: Surface, side: int = THUMBNAIL) -> bytes:
 
 def _draw_half(surface: Surface, cut: Cut, side: int = PANEL) -> Image.Image:
     """Draw the part behind, or below, a cut."""
-    solid, axis = solid_of(surface), cut.axis
-    if status_of(solid) == FINE:
+    solid, axis = to_manifold(surface), cut.axis
+    if solid_status(solid) == FINE:
         normal = [0.0, 0.0, 0.0]
-        normal[axis] = BEYOND[axis]
-        surface = surface_from(solid.trim_by_plane(normal, normal[axis] * cut.at))
-    tolerance = ON * float(np.ptp(surface.bounds, axis=0).max())
+        normal[axis] = VISIBLE_SIDE[axis]
+        surface = from_manifold(solid.trim_by_plane(normal, normal[axis] * cut.at))
+    tolerance = PLANE_TOLERANCE * float(np.ptp(surface.bounds, axis=0).max())
 
     def paint(points: Floats) -> NDArray[np.number]:
         return np.where((np.abs(points[:, axis] - cut.at) < tolerance)[:, None], np.array(CUT), np.array(BEHIND))
 
-    azimuth, elevation = EYES[axis]
+    azimuth, elevation = VIEWS[axis]
     pixels = render(
         surface,
         width=side,

@@ -9,8 +9,8 @@ import shapely
 from numpy.typing import NDArray
 
 from patterns import Pattern
-from patterns.linework import sample
-from patterns.protocol import lines_of
+from patterns.linework import sample_points
+from patterns.protocol import draw_lines
 
 SIZE = 60.0  # mm: the default block of make
 LINE_WIDTH = 0.45  # mm: the default line width of make
@@ -26,7 +26,7 @@ DOT_BITS = np.array([[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]])
 def default_lines(pattern: Pattern) -> shapely.MultiLineString:
     """Return the lines of a pattern at height 0 in the default block, centred on (0, 0), mm."""
     half = (SIZE - LINE_WIDTH) / 2
-    return lines_of(pattern, shapely.box(-half, -half, half, half))
+    return draw_lines(pattern, shapely.box(-half, -half, half, half))
 
 
 def write_drawing(pattern: Pattern, file: BinaryIO) -> None:
@@ -42,7 +42,7 @@ def write_drawing(pattern: Pattern, file: BinaryIO) -> None:
     picture.resize((PIXELS, PIXELS), Image.Resampling.BOX).save(file, format="PNG", optimize=True)
 
 
-def text_drawing(pattern: Pattern, *, braille: bool = True) -> str:
+def draw_text(pattern: Pattern, *, braille: bool = True) -> str:
     """Draw the lines of a pattern as a square of text: braille dots, or larger, a # for each cell with a line."""
     columns = BRAILLE_COLUMNS if braille else PLAIN_COLUMNS
     rows = columns // 2  # a character is about twice as high as wide
@@ -56,7 +56,7 @@ def text_drawing(pattern: Pattern, *, braille: bool = True) -> str:
 
 def _dots(lines: shapely.MultiLineString, shape: tuple[int, int]) -> NDArray[np.bool_]:
     """Return True for dots [x from the left, y from the top] on a line."""
-    points = sample(lines, SIZE / max(shape) / 2)
+    points = sample_points(lines, SIZE / max(shape) / 2)
     place = ((points * (1, -1) / SIZE + 0.5) * shape).astype(int).clip(0, np.array(shape) - 1)
     dots = np.zeros(shape, dtype=bool)
     dots[tuple(place.T)] = True

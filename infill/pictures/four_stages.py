@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
 from infill.grid import VOID, Grid
-from infill.pictures.sheet import INK, PANEL, mesh_panel, sheet
+from infill.pictures.sheet import INK, PANEL, arrange_panels, draw_mesh_panel
 from infill.surface import Surface
 
 SOLID_COLOUR, VOID_COLOUR, CONTOUR = (240, 160, 60), (246, 246, 246), (190, 30, 30)
 
 
-def four_stages(
+def draw_four_stages(
     *,
     points: NDArray[np.float64],
     grid: Grid,
@@ -44,7 +44,7 @@ def four_stages(
         f"points: {len(points):,}": _draw_points(points, grid),
         f"stamp: {' x '.join(map(str, grid.shape))} cells": _draw_field(stamp),
         f"smoothed: {request['steps']} steps": _draw_contours(smoothed),
-        f"mesh: {report['triangles']:,} triangles": mesh_panel(surface),
+        f"mesh: {report['triangles']:,} triangles": draw_mesh_panel(surface),
     }
     size = " x ".join(f"{length:g}" for length in (*request["size"], request["height"]))
     mean = "not measured" if width["mean"] is None else f"{width['mean']:.3f} ({width['p5']:.3f} to {width['p95']:.3f})"
@@ -52,7 +52,7 @@ def four_stages(
         f"{request['pattern']}, {size} mm, density {report['density']:.1%}, "
         f"walls {mean} of {request['line_width']:g} mm"
     )
-    return sheet(panels, facts)
+    return arrange_panels(panels, facts)
 
 
 def _panel_size(shape: tuple[int, ...]) -> tuple[int, int]:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.ragged import spread
+from infill.ragged import expand_rows
 from infill.surface import Surface
 
 Pixels = NDArray[np.uint8]
@@ -181,7 +181,7 @@ def _rasterise(
     high = np.floor(corners.max(axis=1) - 0.5).astype(np.int64).clip(-1, limit - 1)
     across = (high - low + 1).clip(0)
     counts = across[:, 0] * across[:, 1]
-    for face, place in spread(counts, FRAGMENTS_AT_ONCE):
+    for face, place in expand_rows(counts, FRAGMENTS_AT_ONCE):
         row, column = np.divmod(place, across[face, 0])
         column, row = column + low[face, 0], row + low[face, 1]
         x, y = column + np.float32(0.5), row + np.float32(0.5)

@@ -12,19 +12,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import ParameterError, UsageError
-from infill.meshes.solids import FINE, solid_of, status_of
+from infill.meshes.solids import FINE, solid_status, to_manifold
 from infill.surface import Surface
 
 if TYPE_CHECKING:
     import manifold3d
 
 AXES = "xyz"
-TYPED = r"\s*([xyz])\s*=\s*([+-]?(?:\d+\.?\d*(?:e[+-]?\d+)?|\.\d+|nan|inf))\s*(?:mm)?\s*"
+CUT_PATTERN = r"\s*([xyz])\s*=\s*([+-]?(?:\d+\.?\d*(?:e[+-]?\d+)?|\.\d+|nan|inf))\s*(?:mm)?\s*"
 MIDDLE, PLANES = (0.3, 0.7), 25  # of a side: planes are tried in this range, and their number
-AS_GOOD = 0.95  # of the best: of such planes, one in the middle of a run is taken
-USUAL = 0.9  # of a cut across x: a cut across y that shows this much is taken, as it is seen from the front
+NEAR_BEST = 0.95  # of the best: of such planes, one in the middle of a run is taken
+FRONT_SHARE = 0.9  # of a cut across x: a cut across y that shows this much is taken, as it is seen from the front
 # The plane of a cut lies this far, of a side, from a round number, where faces of parts and walls often lie.
-ASIDE = 1e-4
+PLANE_OFFSET = 1e-4
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,7 +55,7 @@ def parse_cut(text: str) -> Cut:
     >>> parse_cut("z=10")
     Cut(axis=2, at=10.0)
     """
-    match = re.fullmatch(TYPED, text.lower())
+    match = re.fullmatch(CUT_PATTERN, text.lower())
     if not match:
         raise UsageError(f"cut is {text!r}; give x, y or z and a place in mm, such as z=10")
     if not math.isfinite(float(match[2])):
@@ -90,9 +90,9 @@ def choose_cuts(surface: Surface, part: Surface | None = None, given: Sequence[C
     A section is rated by the squared area of its voids, times the root of their additional outline: a plane along a
     wall gets nothing, one that grazes walls little, and one between two walls that meets none not the most.
     """
-    solid = solid_of(surface)
-    outer = None if part is None else solid_of(part)
-    if status_of(solid) != FINE or (outer is not None and status_of(outer) != FINE):
+    solid = to_manifold(surface)
+    outer = None if part is None else to_manifold(part)
+    if solid_status(solid) != FINE or (outer is not None and solid_status(outer) != FINE):
         middle = surface.bounds.mean(axis=0).tolist()
         upright, level = Cut(axis=1, at=middle[1]), Cut(axis=2, at=middle[2])
         return [*_upright_cuts(given, [upright]), *_level_cuts(given, [level])]
@@ -100,7 +100,7 @@ def choose_cuts(surface: Surface, part: Surface | None = None, given: Sequence[C
     if not any(cut.axis < 2 for cut in given):
         across_y, shown = _find_best_cut(surface, solid, outer, 1)
         across_x, more = _find_best_cut(surface, solid, outer, 0)
-        chosen.insert(0, across_y if shown >= USUAL * more else across_x)
+        chosen.insert(0, across_y if shown >= FRONT_SHARE * more else across_x)
     if not any(cut.axis == 2 for cut in given):
         chosen.append(_find_best_cut(surface, solid, outer, 2)[0])
     return chosen
@@ -119,11 +119,11 @@ def _find_best_cut(
 ) -> tuple[Cut, float]:
     """Return the cut across an axis with the best rating, and the rating."""
     low, high = (float(value) for value in surface.bounds[:, axis])
-    shares = np.linspace(*MIDDLE, PLANES) + ASIDE
+    shares = np.linspace(*MIDDLE, PLANES) + PLANE_OFFSET
     places = low + shares * (high - low)
     turned = [_turn_up(value, axis) for value in (solid, outer) if value is not None]
     shown = np.array([_rate_section(turned, place) for place in places.tolist()])
-    good = np.flatnonzero(shown >= AS_GOOD * shown.max())
+    good = np.flatnonzero(shown >= NEAR_BEST * shown.max())
     # Halfway between two walls: beside a wall, another one would be right behind the cut.
     runs = np.split(good, np.flatnonzero(np.diff(good) > 1) + 1)
     middles = [int(run[len(run) // 2]) for run in runs]

@@ -18,7 +18,7 @@ INK: Colour = (40, 40, 40)
 Legend = Sequence[tuple[Colour | None, str]]
 
 
-def sheet(panels: Mapping[str, Image.Image], facts: str, legend: Legend = ()) -> Image.Image:
+def arrange_panels(panels: Mapping[str, Image.Image], facts: str, legend: Legend = ()) -> Image.Image:
     """Arrange panels by their captions, with a line of facts, and a legend of colours.
 
     Parameters
@@ -47,6 +47,6 @@ def sheet(panels: Mapping[str, Image.Image], facts: str, legend: Legend = ()) ->
     return picture
 
 
-def mesh_panel(surface: Surface) -> Image.Image:
+def draw_mesh_panel(surface: Surface) -> Image.Image:
     """Draw a mesh as one panel."""
     return Image.fromarray(render(surface, width=PANEL, height=PANEL, background=BACKGROUND))

@@ -18,10 +18,10 @@ PAPER, INK, TRAVEL = (255, 255, 255), (40, 40, 40), (205, 205, 205)
 STOPS: Final = np.array([(38, 56, 150), (20, 140, 180), (90, 180, 70), (240, 160, 40), (190, 30, 40)], dtype=float)
 
 
-def colours(speed: NDArray[np.floating], top: float) -> NDArray[np.uint8]:
+def speed_colours(speed: NDArray[np.floating], top: float) -> NDArray[np.uint8]:
     """Return a colour for every speed, from blue at 0 to red at `top`, (N, 3).
 
-    >>> colours(np.array([0.0, 80.0]), 80.0).tolist()
+    >>> speed_colours(np.array([0.0, 80.0]), 80.0).tolist()
     [[38, 56, 150], [190, 30, 40]]
     """
     place = np.clip(np.asarray(speed) / top, 0, 1) * (len(STOPS) - 1)
@@ -60,7 +60,7 @@ def _draw_panel(layer: LayerSpeeds, low: NDArray[np.floating], extent: float, to
     draw = ImageDraw.Draw(picture)
     ends = np.column_stack([layer.start[:, :2] - low, layer.end[:, :2] - low]) * scale + SUPERSAMPLING
     ends[:, 1::2] = size - ends[:, 1::2]
-    shades = np.where(layer.draws[:, None], colours(layer.speed, top), np.array(TRAVEL, dtype=np.uint8))
+    shades = np.where(layer.draws[:, None], speed_colours(layer.speed, top), np.array(TRAVEL, dtype=np.uint8))
     for line, shade, draws in zip(ends.tolist(), shades.tolist(), layer.draws.tolist(), strict=True):
         draw.line(line, fill=tuple(shade), width=2 * SUPERSAMPLING if draws else 1)
     return picture.resize((PANEL, PANEL), Image.Resampling.BOX)
@@ -71,7 +71,7 @@ def _draw_scale(
 ) -> None:
     """Draw the scale of colours below the panels."""
     row = sheet.height - BAR
-    shades = np.broadcast_to(colours(np.linspace(0, top, PANEL // 2), top), (10, PANEL // 2, 3))
+    shades = np.broadcast_to(speed_colours(np.linspace(0, top, PANEL // 2), top), (10, PANEL // 2, 3))
     sheet.paste(Image.fromarray(np.ascontiguousarray(shades)), (MARGIN, row))
     draw.text((MARGIN, row + 14), "0", fill=INK, font=font)
     draw.text((MARGIN + PANEL // 2, row + 14), f"{top:.0f} mm/s", fill=INK, font=font, anchor="ra")

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from infill.gcode.limits import Limits
 
 Floats = NDArray[np.float64]
-SLOWEST = 0.01  # mm/s: replaces a feed rate of zero
-UNSAID = 25.0  # mm/s: that of Marlin and Klipper before a file states one
+MIN_FEEDRATE = 0.01  # mm/s: replaces a feed rate of zero
+DEFAULT_FEEDRATE = 25.0  # mm/s: that of Marlin and Klipper before a file states one
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,7 +41,7 @@ class Moves:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Bounded:
+class BoundedMoves:
     """Moves within the limits of the machine.
 
     Parameters
@@ -68,13 +68,13 @@ class Bounded:
         return 2 * self.acceleration * self.distance
 
 
-def values(limits: Sequence[Limits], name: str, setting: NDArray[np.intp]) -> Floats:
+def limit_values(limits: Sequence[Limits], name: str, setting: NDArray[np.intp]) -> Floats:
     """Return one of the limits for every move, (N,) or (N, 4); (1,) or (1, 4) if it is constant."""
     table = np.array([getattr(setting_limits, name) for setting_limits in limits], dtype=np.float64)
     return table[:1] if (table == table[:1]).all() else table[setting]
 
 
-def bounded(moves: Moves, limits: Sequence[Limits]) -> Bounded:
+def bound_moves(moves: Moves, limits: Sequence[Limits]) -> BoundedMoves:
     """Limit moves to the speed and acceleration of the path and of every axis."""
     delta = moves.delta
     travelled = np.sqrt(np.einsum("ij,ij->i", delta[:, :3], delta[:, :3]))
@@ -84,10 +84,10 @@ def bounded(moves: Moves, limits: Sequence[Limits]) -> Bounded:
     direction = delta / distance[:, None]
 
     def limit(name: str) -> Floats:
-        return values(limits, name, moves.setting)
+        return limit_values(limits, name, moves.setting)
 
     lowest = np.where(pushed == 0, limit("minimum_travel_feedrate"), limit("minimum_feedrate"))
-    speed = np.maximum(np.maximum(np.nan_to_num(moves.feedrate, nan=UNSAID), lowest), SLOWEST)
+    speed = np.maximum(np.maximum(np.nan_to_num(moves.feedrate, nan=DEFAULT_FEEDRATE), lowest), MIN_FEEDRATE)
     acceleration = np.where(pushed == 0, limit("travel_acceleration"), limit("acceleration"))
     acceleration = np.where(turning_only, limit("retract_acceleration"), acceleration)
     share = np.abs(direction)
@@ -98,7 +98,7 @@ def bounded(moves: Moves, limits: Sequence[Limits]) -> Bounded:
         speed = np.where(turning_only, speed, np.minimum(speed, limit("feedrate")[:, :2].min(axis=1)))
     speed = _limit_by_axes(speed, limit("feedrate"), share)
     acceleration = _limit_by_axes(acceleration, limit("axis_acceleration"), share)
-    return Bounded(
+    return BoundedMoves(
         distance=distance, direction=direction, turning_only=turning_only, speed=speed, acceleration=acceleration
     )
 

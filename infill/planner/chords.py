@@ -5,19 +5,22 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.gcode.table import Table
+from infill.gcode.table import GcodeTable
 from infill.planner.bounds import Floats
 
-LONGEST = 1.0  # mm: the default of Marlin (MM_PER_ARC_SEGMENT) and of Klipper (gcode_arcs)
-SHORTEST = 0.1  # mm
-CIRCLE = 72  # chords at least, if they do not get too short
-MOST_OF_ARC, MOST = 1 << 14, 1 << 22  # chords of an arc, and of all at once: more of them mean that the file is wrong
-COARSE = 0.26  # of the diameter: the sine of 15 degrees; even the smallest arcs are cut finer
+MAX_CHORD = 1.0  # mm: the default of Marlin (MM_PER_ARC_SEGMENT) and of Klipper (gcode_arcs)
+MIN_CHORD = 0.1  # mm
+CHORDS_PER_CIRCLE = 72  # chords at least, if they do not get too short
+MAX_CHORDS_PER_ARC, MAX_CHORDS = (
+    1 << 14,
+    1 << 22,
+)  # chords of an arc, and of all at once: more of them mean that the file is wrong
+COARSE_RATIO = 0.26  # of the diameter: the sine of 15 degrees; even the smallest arcs are cut finer
 PLANES = {17: [0, 1, 2], 18: [2, 0, 1], 19: [1, 2, 0]}  # the axes of the plane and the one across it
 
 
 def arc_chords(
-    table: Table, arcs: NDArray[np.intp], start: Floats, end: Floats
+    table: GcodeTable, arcs: NDArray[np.intp], start: Floats, end: Floats
 ) -> tuple[NDArray[np.intp], Floats, Floats]:
     """Cut arcs of a table into chords, in any plane, by their centre or by their radius.
 
@@ -31,7 +34,7 @@ def arc_chords(
 
     Returns
     -------
-    arc, first : as by `chords`
+    arc, first : as by `cut_chords`
     way : (M, 3) float64
         From the begin to the end of each chord, stretched to the length of its arc, mm.
     """
@@ -49,7 +52,7 @@ def arc_chords(
         centre = begin[:, :2] + offset[selected][:, axes[:2]]
         by_radius = ~np.isnan(radius[selected])
         centre[by_radius] = _centres_by_radius(begin, finish, radius[selected], clockwise[selected])[by_radius]
-        which, first, chord_end = chords(begin, finish, centre, clockwise[selected], np.floor(turns[selected]))
+        which, first, chord_end = cut_chords(begin, finish, centre, clockwise[selected], np.floor(turns[selected]))
         back = np.argsort(axes)
         way = (chord_end - first) * _arc_ratio(chord_end - first, np.hypot(*(begin[:, :2] - centre).T)[which])[:, None]
         parts.append((selected[which], first[:, back], way[:, back]))
@@ -61,7 +64,7 @@ def arc_chords(
 def _arc_ratio(chord_vector: Floats, radius: Floats) -> Floats:
     """Return the ratio of arc to chord length; 1 for chords that are large compared with their circle."""
     half = np.hypot(*chord_vector[:, :2].T) / np.maximum(2 * radius, 1e-300)
-    fine = (half > 1e-9) & (half < COARSE)
+    fine = (half > 1e-9) & (half < COARSE_RATIO)
     half = np.where(fine, half, 0.5)
     return np.where(fine, np.arcsin(half) / half, 1.0)
 
@@ -76,7 +79,7 @@ def _centres_by_radius(start: Floats, end: Floats, radius: Floats, clockwise: ND
     return np.asarray(start[:, :2] + way / 2 + right * (side * height)[:, None])
 
 
-def chords(
+def cut_chords(
     start: Floats, end: Floats, centre: Floats, clockwise: NDArray[np.bool_], turns: Floats | None = None
 ) -> tuple[NDArray[np.intp], Floats, Floats]:
     """Cut arcs into chords.
@@ -99,7 +102,7 @@ def chords(
     first, last : (M, 3) float64
         Its ends; those of an arc are exactly `start` and `end`.
 
-    >>> arc, first, last = chords(np.zeros((1, 3)), np.array([[2.0, 0, 0]]), np.array([[1.0, 0]]), np.array([True]))
+    >>> arc, first, last = cut_chords(np.zeros((1, 3)), np.array([[2.0, 0, 0]]), np.array([[1.0, 0]]), np.array([True]))
     >>> len(arc), last[len(arc) // 2 - 1].round(3).tolist()
     (32, [1.0, 1.0, 0.0])
     """
@@ -112,9 +115,9 @@ def chords(
     if turns is not None:
         turn = turn + np.where(clockwise, -2 * np.pi, 2 * np.pi) * np.maximum(turns - 1, 0)
     length = np.abs(turn) * radius
-    fine = np.minimum(np.abs(turn) * CIRCLE / (2 * np.pi), length / SHORTEST)
-    wanted_count = np.clip(np.ceil(np.maximum(length / LONGEST, fine) - 1e-9), 1, MOST_OF_ARC)
-    count = np.maximum(wanted_count * min(1.0, MOST / max(wanted_count.sum(), 1.0)), 1).astype(np.intp)
+    fine = np.minimum(np.abs(turn) * CHORDS_PER_CIRCLE / (2 * np.pi), length / MIN_CHORD)
+    wanted_count = np.clip(np.ceil(np.maximum(length / MAX_CHORD, fine) - 1e-9), 1, MAX_CHORDS_PER_ARC)
+    count = np.maximum(wanted_count * min(1.0, MAX_CHORDS / max(wanted_count.sum(), 1.0)), 1).astype(np.intp)
     arc = np.repeat(np.arange(len(count)), count)
     number = np.arange(len(arc)) - np.repeat(np.cumsum(count) - count, count)
 

@@ -15,7 +15,7 @@ from infill.planner.bounds import Floats
 ROUNDING = 1e-9  # of a profile: its sums are exact to 1e-14, and places in a file to 1e-12
 
 
-def humps(eased: Floats, reach: Floats) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+def hump_slopes(eased: Floats, reach: Floats) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """Find the moves that only speed up in the slower profile, and those that only slow down; return both masks.
 
     Parameters
@@ -30,20 +30,20 @@ def humps(eased: Floats, reach: Floats) -> tuple[NDArray[np.bool_], NDArray[np.b
     return change >= full_change, -change >= full_change
 
 
-def tops(eased: Floats, reach: Floats, cruise: Floats) -> Floats:
+def hump_tops(eased: Floats, reach: Floats, cruise: Floats) -> Floats:
     """Return the top of the hump of each move, (N,).
 
     Parameters
     ----------
-    eased, reach : as for `humps`
+    eased, reach : as for `hump_slopes`
     cruise : (N,) float64
         The moves' own limits.
 
     >>> joints = np.array([0.0, 50.0, 100.0, 50.0, 0.0])
-    >>> tops(joints, np.full(4, 50.0), np.full(4, 900.0)).tolist()
+    >>> hump_tops(joints, np.full(4, 50.0), np.full(4, 900.0)).tolist()
     [100.0, 100.0, 100.0, 100.0]
     """
-    rising, falling = humps(eased, reach)
+    rising, falling = hump_slopes(eased, reach)
     falling &= ~rising
     own_top = np.minimum(cruise, (eased[:-1] + eased[1:] + reach) / 2)
     number = np.arange(len(own_top))

@@ -14,21 +14,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.gcode.limits import Limits
-from infill.planner.bounds import Bounded, Floats, Moves, values
+from infill.planner.bounds import BoundedMoves, Floats, Moves, limit_values
 
 Limit = Callable[[str], Floats]
 SMALL_SEGMENT = 1.0  # mm: below it Marlin takes the corner for part of an arc,
 SMALL_TURN = np.pi / 4  # where it turns less than this
 
 
-def joint_limits(moves: Moves, bounds: Bounded, limits: Sequence[Limits]) -> Floats:
+def joint_limits(moves: Moves, bounds: BoundedMoves, limits: Sequence[Limits]) -> Floats:
     """Return the square of the highest speed before, between and after moves, (N + 1,), mm²/s².
 
     The machine starts and ends at rest. The speeds of the moves themselves limit the joints as well.
     """
 
     def limit(name: str) -> Floats:
-        return values(limits, name, moves.setting)
+        return limit_values(limits, name, moves.setting)
 
     inside, at_rest = _MODELS[limits[0].model]
     cruise, rest = bounds.speed**2, at_rest(bounds, limit) ** 2
@@ -57,7 +57,7 @@ def _half_turns(direction: Floats) -> tuple[Floats, Floats]:
     )
 
 
-def _square_corner(bounds: Bounded, limit: Limit) -> Floats:
+def _square_corner(bounds: BoundedMoves, limit: Limit) -> Floats:
     """Klipper's rule.
 
     With s = cos(phi / 2), the circle that leaves the corner by the deviation J allows v² = a J s / (1 - s), where J
@@ -77,7 +77,7 @@ def _square_corner(bounds: Bounded, limit: Limit) -> Floats:
     return joints
 
 
-def _junction_deviation(bounds: Bounded, limit: Limit) -> Floats:
+def _junction_deviation(bounds: BoundedMoves, limit: Limit) -> Floats:
     """Marlin's rule, in four dimensions.
 
     v² = a J s / (1 - s) with s = cos(phi / 2), where a is what the axes allow towards the inside of the corner; where
@@ -98,7 +98,7 @@ def _junction_deviation(bounds: Bounded, limit: Limit) -> Floats:
     return np.asarray(np.fmin(np.fmin(circle, arc), np.inf))
 
 
-def _jerk(bounds: Bounded, limit: Limit) -> Floats:
+def _jerk(bounds: BoundedMoves, limit: Limit) -> Floats:
     """Classic jerk: the velocity of no axis may jump by more than its jerk; a reversal counts its larger side.
 
     The speed of the joint is the lower one of both moves, scaled down until every axis agrees; or that of a start
@@ -118,14 +118,14 @@ def _jerk(bounds: Bounded, limit: Limit) -> Floats:
     return np.asarray(np.where(both, np.minimum(rest[1:], slower), joint) ** 2)
 
 
-def _rest_speed(bounds: Bounded, limit: Limit) -> NDArray[np.float64]:
+def _rest_speed(bounds: BoundedMoves, limit: Limit) -> NDArray[np.float64]:
     """Return the speed at which the machine may stop or start at once: the smallest jerk of all axes involved."""
     jerk = limit("jerk")
     meets = np.abs(bounds.direction) * bounds.speed[:, None] > jerk
     return np.asarray(np.minimum(bounds.speed, np.where(meets, jerk, np.inf).min(axis=1)))
 
 
-def _vector_jerk(bounds: Bounded, limit: Limit) -> Floats:
+def _vector_jerk(bounds: BoundedMoves, limit: Limit) -> Floats:
     """Old classic jerk: x and y jump together, as a vector, and every move counts with its own speed."""
     jump = np.abs(np.diff(bounds.direction * bounds.speed[:, None], axis=0))
     jump[:, 0] = np.hypot(jump[:, 0], jump[:, 1])
@@ -134,7 +134,7 @@ def _vector_jerk(bounds: Bounded, limit: Limit) -> Floats:
     return np.asarray(np.minimum(bounds.speed[:-1], bounds.speed[1:] * factor) ** 2)
 
 
-def _vector_rest_speed(bounds: Bounded, limit: Limit) -> Floats:
+def _vector_rest_speed(bounds: BoundedMoves, limit: Limit) -> Floats:
     """Return half the jerk of x and y, or less where half that of z or e is smaller."""
     half = limit("jerk") / 2
     meets = np.abs(bounds.direction) * bounds.speed[:, None] > half
@@ -142,12 +142,12 @@ def _vector_rest_speed(bounds: Bounded, limit: Limit) -> Floats:
     return np.asarray(np.minimum(bounds.speed, np.where(meets, half, np.inf).min(axis=1)))
 
 
-def _zero_speed(bounds: Bounded, limit: Limit) -> Floats:  # noqa: ARG001 - no limit matters
+def _zero_speed(bounds: BoundedMoves, limit: Limit) -> Floats:  # noqa: ARG001 - no limit matters
     return np.zeros(len(bounds.speed))
 
 
 # Highest speeds at joints, and at a start from rest or an end, by model.
-_MODELS: Final[dict[str, tuple[Callable[[Bounded, Limit], Floats], Callable[[Bounded, Limit], Floats]]]] = {
+_MODELS: Final[dict[str, tuple[Callable[[BoundedMoves, Limit], Floats], Callable[[BoundedMoves, Limit], Floats]]]] = {
     "jerk": (_jerk, _rest_speed),
     "vector-jerk": (_vector_jerk, _vector_rest_speed),
     "junction": (_junction_deviation, _zero_speed),

@@ -12,15 +12,15 @@ from numpy.typing import NDArray
 
 from infill.errors import ParameterError
 from infill.gcode.dialect import role_of
-from infill.gcode.sliced_file import opened
+from infill.gcode.sliced_file import open_sliced
 from infill.gcode.stream import LAYER_TAG, batches
-from infill.planner.lookahead import Plan
-from infill.planner.printing_time import given_limits, timeline_of
-from infill.planner.struct_of_arrays import chained, part
+from infill.planner.lookahead import MotionPlan
+from infill.planner.printing_time import collect_limits, open_timeline
+from infill.planner.struct_of_arrays import concatenate_rows, slice_rows
 from infill.planner.timeline import Steps
 
 Floats = NDArray[np.float64]
-PIECE: Final = 0.4  # mm
+PIECE_LENGTH: Final = 0.4  # mm
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,21 +72,21 @@ def layer_speeds(
         If the file does not have this layer or plate.
     """
     batches_of_pieces = []
-    with opened(Path(path)) as file, timeline_of(file, file.part(plate), given_limits(**given)) as timeline:
+    with open_sliced(Path(path)) as file, open_timeline(file, file.part(plate), collect_limits(**given)) as timeline:
         for steps, plan in timeline:
             begin, end = np.searchsorted(steps.layer, (layer, layer + 1))  # layers only ever rise
             rows = slice(int(begin), int(end))
-            batches_of_pieces.append(_cut_pieces(part(steps, rows), part(plan, rows), timeline.features))
-    pieces = chained(batches_of_pieces)
+            batches_of_pieces.append(_cut_pieces(slice_rows(steps, rows), slice_rows(plan, rows), timeline.features))
+    pieces = concatenate_rows(batches_of_pieces)
     if not len(pieces.speed):
         raise ParameterError(f"layer is {layer}; {Path(path).name} has moves in layers 1 to {timeline.layers}")
     return pieces
 
 
-def _cut_pieces(steps: Steps, plan: Plan, features: list[bytes]) -> LayerSpeeds:
+def _cut_pieces(steps: Steps, plan: MotionPlan, features: list[bytes]) -> LayerSpeeds:
     delta, start = steps.moves.delta[:, :3], steps.start
     distance = np.linalg.norm(delta, axis=1)
-    count = np.where(plan.peak > np.minimum(plan.entry, plan.exit), np.ceil(distance / PIECE), 1).astype(np.intp)
+    count = np.where(plan.peak > np.minimum(plan.entry, plan.exit), np.ceil(distance / PIECE_LENGTH), 1).astype(np.intp)
     count[(distance == 0) | np.isnan(start[:, :2]).any(axis=1)] = 0
     move = np.repeat(np.arange(len(count)), count)
     number = np.arange(len(move)) - np.repeat(np.cumsum(count) - count, count)
@@ -100,7 +100,7 @@ def _cut_pieces(steps: Steps, plan: Plan, features: list[bytes]) -> LayerSpeeds:
     )
 
 
-def _speed_at(plan: Plan, distance: Floats, move: NDArray[np.intp], share: Floats) -> Floats:
+def _speed_at(plan: MotionPlan, distance: Floats, move: NDArray[np.intp], share: Floats) -> Floats:
     """Return the speed at a share of the distance of a move.
 
     The times of a trapezoid, t = d / p + ((p - e)² + (p - x)²) / (2 a p) with entry e, peak p, exit x, give the
@@ -118,5 +118,5 @@ def _speed_at(plan: Plan, distance: Floats, move: NDArray[np.intp], share: Float
 
 def middle_layer(path: str | os.PathLike[str], plate: int | None = None) -> int:
     """Return the number of the middle layer of a print, counted from 1; for an archive, of one plate."""
-    with opened(Path(path)) as file, file.text(file.part(plate)) as sliced_text:
+    with open_sliced(Path(path)) as file, file.text(file.part(plate)) as sliced_text:
         return max(1, sum(len(LAYER_TAG.findall(text)) for text in batches(sliced_text.text)) // 2)

@@ -21,16 +21,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.gcode.limits import Limits
-from infill.planner.bounds import Bounded, Floats, Moves, bounded, values
-from infill.planner.cruising import ROUNDING, humps, tops
+from infill.planner.bounds import BoundedMoves, Floats, Moves, bound_moves, limit_values
+from infill.planner.cruising import ROUNDING, hump_slopes, hump_tops
 from infill.planner.junctions import joint_limits
-from infill.planner.struct_of_arrays import chained, part
+from infill.planner.struct_of_arrays import concatenate_rows, slice_rows
 
-PIECE = 1 << 16  # moves planned at once
+MOVES_AT_ONCE = 1 << 16  # moves planned at once
 
 
 @dataclass(frozen=True, kw_only=True)
-class Plan:
+class MotionPlan:
     """Times and speeds of moves.
 
     Parameters
@@ -49,7 +49,7 @@ class Plan:
         return len(self.seconds)
 
 
-NOTHING = Plan(seconds=np.empty(0), entry=np.empty(0), peak=np.empty(0), exit=np.empty(0))
+EMPTY_PLAN = MotionPlan(seconds=np.empty(0), entry=np.empty(0), peak=np.empty(0), exit=np.empty(0))
 
 
 def look_ahead(joints: Floats, reach: Floats) -> Floats:
@@ -70,7 +70,7 @@ def look_ahead(joints: Floats, reach: Floats) -> Floats:
     return np.asarray(np.minimum(forward, backward))
 
 
-def plan(moves: Moves, limits: Sequence[Limits]) -> Plan:
+def plan_moves(moves: Moves, limits: Sequence[Limits]) -> MotionPlan:
     """Plan moves from rest to rest.
 
     Parameters
@@ -85,16 +85,18 @@ def plan(moves: Moves, limits: Sequence[Limits]) -> Plan:
     """
     plans, entry, begin, end = [], None, 0, 0
     while begin < len(moves):
-        end = min(end + PIECE, len(moves))
-        settled, settled_plan, entry = settle(part(moves, slice(begin, end)), limits, entry, ends=end == len(moves))
+        end = min(end + MOVES_AT_ONCE, len(moves))
+        settled, settled_plan, entry = plan_settled(
+            slice_rows(moves, slice(begin, end)), limits, entry, ends=end == len(moves)
+        )
         plans.append(settled_plan)
         begin += settled
-    return chained(plans) if plans else NOTHING
+    return concatenate_rows(plans) if plans else EMPTY_PLAN
 
 
-def settle(
+def plan_settled(
     moves: Moves, limits: Sequence[Limits], entry: float | None, *, ends: bool
-) -> tuple[int, Plan, float | None]:
+) -> tuple[int, MotionPlan, float | None]:
     """Plan the moves at the front whose plan does not depend on later moves.
 
     Parameters
@@ -116,8 +118,8 @@ def settle(
         Square of the speed after them.
     """
     if not len(moves):
-        return 0, NOTHING, entry
-    bounds = bounded(moves, limits)
+        return 0, EMPTY_PLAN, entry
+    bounds = bound_moves(moves, limits)
     joints = joint_limits(moves, bounds, limits)
     if entry is not None:
         joints[0] = entry
@@ -126,7 +128,7 @@ def settle(
     reach = bounds.reach
     squares, cruise = look_ahead(joints, reach), bounds.speed**2
     is_settled = squares <= _stopping_squares(reach)
-    ratio = values(limits, "minimum_cruise_ratio", moves.setting)
+    ratio = limit_values(limits, "minimum_cruise_ratio", moves.setting)
     if limits[0].model == "klipper" and (ratio.any() or not ends):  # moves that follow may have one, in the same hump
         squares, cruise, between = _cut_humps(bounds, joints, squares, reach * (1 - ratio))
         is_settled &= between
@@ -136,15 +138,15 @@ def settle(
 
 
 def _cut_humps(
-    bounds: Bounded, joints: Floats, squares: Floats, reach: Floats
+    bounds: BoundedMoves, joints: Floats, squares: Floats, reach: Floats
 ) -> tuple[Floats, Floats, NDArray[np.bool_]]:
     """Return profile, limits of the moves, and joints between humps, with the humps of a slower profile cut off."""
     slower = look_ahead(joints, reach)
-    rising, falling = humps(slower, reach)
+    rising, falling = hump_slopes(slower, reach)
     between = (slower <= _stopping_squares(reach)) & (slower >= joints * (1 - ROUNDING))
     between[1:] &= ~rising  # each hump must be complete
     between[:-1] &= ~falling
-    top = tops(slower, reach, bounds.speed**2)
+    top = hump_tops(slower, reach, bounds.speed**2)
     squares = squares.copy()
     np.minimum(squares[:-1], top, out=squares[:-1])
     np.minimum(squares[1:], top, out=squares[1:])
@@ -156,7 +158,7 @@ def _stopping_squares(reach: Floats) -> Floats:
     return np.append(np.cumsum(reach[::-1])[::-1], 0.0)
 
 
-def _trapezoids(bounds: Bounded, squares: Floats, cruise: Floats, count: int) -> Plan:
+def _trapezoids(bounds: BoundedMoves, squares: Floats, cruise: Floats, count: int) -> MotionPlan:
     """Return times and speeds of the first moves: acceleration, constant speed, deceleration."""
     distance, acceleration = bounds.distance[:count], bounds.acceleration[:count]
     before, after = squares[:count], squares[1 : count + 1]
@@ -165,4 +167,4 @@ def _trapezoids(bounds: Bounded, squares: Floats, cruise: Floats, count: int) ->
     cruising = np.maximum(distance - (2 * peak - before - after) / (2 * acceleration), 0.0)
     entry, top, leaving = np.sqrt(before), np.sqrt(peak), np.sqrt(after)
     seconds = (2 * top - entry - leaving) / acceleration + cruising / top
-    return Plan(seconds=seconds, entry=entry, peak=top, exit=leaving)
+    return MotionPlan(seconds=seconds, entry=entry, peak=top, exit=leaving)

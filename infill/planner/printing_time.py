@@ -12,10 +12,10 @@ from typing import Any, BinaryIO
 
 from infill.errors import FormatError, UsageError
 from infill.gcode.dialect import role_of
-from infill.gcode.found_limits import USED, FoundLimits
+from infill.gcode.found_limits import FIELDS_BY_MODEL, FileLimits
 from infill.gcode.limits import Limits, Model
-from infill.gcode.sliced_file import SlicedFile, SlicedText, opened
-from infill.planner.strokes import Strokes
+from infill.gcode.sliced_file import SlicedFile, SlicedText, open_sliced
+from infill.planner.strokes import FeatureSums
 from infill.planner.timeline import Timeline
 
 
@@ -175,7 +175,7 @@ def motion(
     ParameterError
         If a limit is out of range, or the file does not have this plate.
     """
-    fixed = given_limits(
+    fixed = collect_limits(
         model=model,
         acceleration=acceleration,
         jerk=jerk,
@@ -183,10 +183,10 @@ def motion(
         square_corner_velocity=square_corner_velocity,
         minimum_cruise_ratio=minimum_cruise_ratio,
     )
-    strokes = Strokes()
-    with opened(Path(path)) as file:
+    strokes = FeatureSums()
+    with open_sliced(Path(path)) as file:
         plate = file.part(plate)
-        with timeline_of(file, plate, fixed) as timeline:
+        with open_timeline(file, plate, fixed) as timeline:
             for steps, plan in timeline:
                 strokes.add(steps, plan)
     strokes.finish(timeline.pause, timeline.retractions)
@@ -218,7 +218,7 @@ def motion(
 
 
 @contextlib.contextmanager
-def timeline_of(file: SlicedFile, plate: int | None, fixed: Mapping[str, Any]) -> Iterator[Timeline]:
+def open_timeline(file: SlicedFile, plate: int | None, fixed: Mapping[str, Any]) -> Iterator[Timeline]:
     """Open the moves of a print, with the settings that its file has outside the text.
 
     Parameters
@@ -227,17 +227,17 @@ def timeline_of(file: SlicedFile, plate: int | None, fixed: Mapping[str, Any]) -
     plate : int or None
         One of its `parts`.
     fixed : mapping
-        As `given_limits` returns it.
+        As `collect_limits` returns it.
     """
     with file.text(plate) as sliced_text:
-        yield timeline_of_text(sliced_text, fixed=fixed)
+        yield make_timeline(sliced_text, fixed=fixed)
 
 
-def timeline_of_text(
+def make_timeline(
     sliced_text: SlicedText,
     text: BinaryIO | None = None,
     fixed: Mapping[str, Any] | None = None,
-    found: FoundLimits | None = None,
+    found: FileLimits | None = None,
 ) -> Timeline:
     """Return the moves of a print, or of another text in its place, with its settings from outside the text.
 
@@ -246,7 +246,7 @@ def timeline_of_text(
     sliced_text : SlicedText
     text : binary file, optional
     fixed : mapping, optional
-        As `given_limits` returns it.
+        As `collect_limits` returns it.
     found : FoundLimits, optional
         The limits of the file, if already read.
     """
@@ -258,10 +258,10 @@ def timeline_of_text(
     return timeline
 
 
-def given_limits(**given: Any) -> dict[str, Any]:  # noqa: ANN401
+def collect_limits(**given: Any) -> dict[str, Any]:  # noqa: ANN401
     """Collect the fields of `Limits` that the arguments of `motion` set.
 
-    >>> given_limits(square_corner_velocity=8)
+    >>> collect_limits(square_corner_velocity=8)
     {'square_corner_velocity': 8, 'model': 'klipper'}
     """
     fixed = {name: value for name, value in given.items() if value is not None}
@@ -281,7 +281,7 @@ def given_limits(**given: Any) -> dict[str, Any]:  # noqa: ANN401
     return fixed
 
 
-def _sum_feature(number: int, name: bytes, strokes: Strokes) -> FeatureMotion:
+def _sum_feature(number: int, name: bytes, strokes: FeatureSums) -> FeatureMotion:
     row = {
         column: float(strokes.total(column)[number]) if number < len(strokes.sums) else 0.0
         for column in ("seconds", "drawing", "filament", "length", "travel", "turning", "short")
@@ -306,9 +306,9 @@ def _sum_feature(number: int, name: bytes, strokes: Strokes) -> FeatureMotion:
     )
 
 
-def _used_limits(file_limits: FoundLimits) -> dict[str, Any]:
+def _used_limits(file_limits: FileLimits) -> dict[str, Any]:
     """Return the limits of the model, as plain numbers."""
     limits = file_limits.limits
-    values = {name: getattr(limits, name) for name in USED[limits.model]}
+    values = {name: getattr(limits, name) for name in FIELDS_BY_MODEL[limits.model]}
     plain = {name: list(value) if isinstance(value, tuple) else value for name, value in values.items()}
     return {"model": limits.model, **plain, "travel_acceleration": limits.travel_acceleration}

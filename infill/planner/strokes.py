@@ -8,12 +8,12 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.planner.lookahead import Plan
+from infill.planner.lookahead import MotionPlan
 from infill.planner.timeline import Steps
 
 Floats = NDArray[np.float64]
-SHARP: Final = np.radians(30)  # a turn that counts
-SHORT: Final = 0.1  # mm: a segment that counts as short; its flow is rounded by the file's digits
+SHARP_TURN: Final = np.radians(30)  # a turn that counts
+SHORT_SEGMENT: Final = 0.1  # mm: a segment that counts as short; its flow is rounded by the file's digits
 # Lengths are counted in bins of 1.2 %, 200 a decade, from 1 µm to 1 m.
 DECADE: Final = 200
 LOWEST, HIGHEST = -3, 3
@@ -34,7 +34,7 @@ SUMS: Final = (
 
 
 @dataclass(kw_only=True)
-class Strokes:
+class FeatureSums:
     """Sums over the moves so far, one row per feature.
 
     Parameters
@@ -55,7 +55,7 @@ class Strokes:
     last: Floats = field(default_factory=lambda: np.zeros(5))  # direction, feature, whether it drew
     drew_back: bool = False
 
-    def add(self, steps: Steps, plan: Plan) -> None:
+    def add(self, steps: Steps, plan: MotionPlan) -> None:
         """Add moves that follow the previous ones."""
         if not len(steps):
             return
@@ -86,17 +86,17 @@ class Strokes:
             "filament": pushed,
             "length": length,
             "segments": np.ones(len(at)),
-            "short": length < SHORT,
+            "short": length < SHORT_SEGMENT,
             "paths": ~joined,
             "retractions": steps.retractions[draws],
-            "turns": turn > SHARP,
+            "turns": turn > SHARP_TURN,
             "turning": turn,
         }
         for name, values in columns.items():
             self._sum(name, at, values)
         place = np.clip((np.log10(length) - LOWEST) * DECADE, 0, BINS - 1).astype(np.intp)
         self.lengths += np.bincount(at * BINS + place, minlength=self.lengths.size).reshape(self.lengths.shape)
-        certain = length >= SHORT
+        certain = length >= SHORT_SEGMENT
         np.maximum.at(self.flow, at[certain], (pushed * steps.section[draws] / length * plan.peak[draws])[certain])
         if len(at):
             self.last[:3] = direction[-1]

@@ -11,19 +11,19 @@ import numpy as np
 Columns = TypeVar("Columns")
 
 
-def part(columns: Columns, rows: slice) -> Columns:
+def slice_rows(columns: Columns, rows: slice) -> Columns:
     """Return a slice of the rows."""
     return type(columns)(**{name: _slice_value(value, rows) for name, value in _field_values(columns)})
 
 
-def chained(several: Sequence[Columns]) -> Columns:
+def concatenate_rows(several: Sequence[Columns]) -> Columns:
     """Concatenate the rows of one or more dataclasses."""
     if len(several) == 1:
         return several[0]
     columns = {name: [getattr(item, name) for item in several] for name, _ in _field_values(several[0])}
     return type(several[0])(
         **{
-            name: np.concatenate(values) if isinstance(values[0], np.ndarray) else chained(values)
+            name: np.concatenate(values) if isinstance(values[0], np.ndarray) else concatenate_rows(values)
             for name, values in columns.items()
         }
     )
@@ -34,4 +34,4 @@ def _field_values(columns: Any) -> list[tuple[str, Any]]:  # noqa: ANN401 - what
 
 
 def _slice_value(value: Any, rows: slice) -> Any:  # noqa: ANN401
-    return value[rows] if isinstance(value, np.ndarray) else part(value, rows)
+    return value[rows] if isinstance(value, np.ndarray) else slice_rows(value, rows)

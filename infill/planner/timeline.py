@@ -13,24 +13,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.gcode.dialect import LONGEST_TAG, TAGS, tag_of
-from infill.gcode.found_limits import FoundLimits, found_limits
+from infill.gcode.dialect import MAX_TAG_BYTES, TAGS, parse_tag
+from infill.gcode.found_limits import FileLimits, read_limits
 from infill.gcode.limits import LIMITING_CODES, Limits
-from infill.gcode.lines import ARC, COMMENT, MOVE, ODD, Command
-from infill.gcode.table import State, Table, firmware_retraction, read
+from infill.gcode.lines import ARC, COMMENT, MOVE, ODD, GcodeCommand
+from infill.gcode.table import GcodeTable, MachineState, firmware_retraction, read_table
 from infill.gcode.unusual_moves import is_macro
 from infill.planner.bounds import Floats, Moves
 from infill.planner.chords import arc_chords
-from infill.planner.lookahead import NOTHING, Plan, settle
-from infill.planner.struct_of_arrays import chained, part
+from infill.planner.lookahead import EMPTY_PLAN, MotionPlan, plan_settled
+from infill.planner.struct_of_arrays import concatenate_rows, slice_rows
 
 BATCH: Final = 1 << 22  # bytes
 ENDS: Final = 1 << 18  # bytes at the beginning and the end that may hold settings
-WORD: Final = 4  # bytes that distinguish a tag from most other comments
-TELLING: Final = sorted({int.from_bytes(tag[:WORD], "little") for tag in TAGS if TAGS[tag] in ("role", "layer")})
-SHOWN: Final = 60  # bytes of a line that is not understood
-MOST_MACROS: Final = 100  # names that are stored
-MOST_SHARE: Final = 1000.0  # per cent, of M220 and M221
+TAG_BYTES: Final = 4  # bytes that distinguish a tag from most other comments
+TAG_PREFIXES: Final = sorted(
+    {int.from_bytes(tag[:TAG_BYTES], "little") for tag in TAGS if TAGS[tag] in ("role", "layer")}
+)
+MAX_SHOWN_BYTES: Final = 60  # bytes of a line that is not understood
+MAX_MACROS: Final = 100  # names that are stored
+MAX_PERCENT: Final = 1000.0  # per cent, of M220 and M221
 STOPS: Final = frozenset({"G4", "G10", "G11", "G28", "G29", "M0", "M1", "M109", "M190", "M400", "M600", "M601"})
 
 
@@ -71,7 +73,7 @@ class Steps:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Unread:
+class UnreadLines:
     """Lines that may move or extrude, and are not planned.
 
     Parameters
@@ -140,14 +142,14 @@ class Timeline:
         file: BinaryIO,
         fixed: Mapping[str, Any] | None = None,
         settings: Mapping[str, str] | None = None,
-        found: FoundLimits | None = None,
+        found: FileLimits | None = None,
     ) -> None:
         self._file = file
         self.features: list[bytes] = [b""]
         self.layers = 0
         self.pause = 0.0  # seconds of dwelling since the last move
         self.retractions = 0  # by firmware since the last move
-        self.unread = Unread()
+        self.unread = UnreadLines()
         self.macros: dict[str, None] = {}  # in the order of the file
         self._stopped = self._drawn_back = False
         self.moved = False  # a move was read
@@ -157,25 +159,25 @@ class Timeline:
         self._lines = self._bytes = 0  # read so far
         self._speed = self._stored_speed = 1.0
         self._flow: dict[int | None, float] = {None: 1.0}  # by tool
-        self.found = found or found_limits(*_read_ends(file), fixed, settings)
-        self.state = State(
+        self.found = found or read_limits(*_read_ends(file), fixed, settings)
+        self.state = MachineState(
             volumetric=self.found.volumetric, diameters=self.found.diameters, firmware=self.found.rule_of_e
         )
         self._limits: list[Limits] = [self.found.limits]
 
-    def __iter__(self) -> Iterator[tuple[Steps, Plan]]:
+    def __iter__(self) -> Iterator[tuple[Steps, MotionPlan]]:
         """Read the file from the beginning and yield moves with their plan."""
         for table in self.tables():
             yield self.follow(table)
         yield self.rest()
 
-    def tables(self) -> Iterator[Table]:
+    def tables(self) -> Iterator[GcodeTable]:
         """Read the file from the beginning; each table must be followed before the next is read."""
         self._file.seek(0)
         for data in _read_batches(self._file):
-            yield read(data, self.state)
+            yield read_table(data, self.state)
 
-    def follow(self, table: Table) -> tuple[Steps, Plan]:
+    def follow(self, table: GcodeTable) -> tuple[Steps, MotionPlan]:
         """Take the next lines of the file, for callers who read it themselves, and plan the moves that are settled."""
         self.state = table.after
         orders = self._apply_commands(table)
@@ -184,14 +186,14 @@ class Timeline:
         self._lines += len(table)
         self._bytes += len(table.data)
         if not len(steps):
-            return steps, NOTHING
+            return steps, EMPTY_PLAN
         self.moved = True
-        waiting = chained([self._waiting, steps]) if self._waiting is not None else steps
-        settled, plan, self._entry = settle(waiting.moves, self._limits, self._entry, ends=False)
-        self._waiting = part(waiting, slice(settled, None))
-        return part(waiting, slice(settled)), plan
+        waiting = concatenate_rows([self._waiting, steps]) if self._waiting is not None else steps
+        settled, plan, self._entry = plan_settled(waiting.moves, self._limits, self._entry, ends=False)
+        self._waiting = slice_rows(waiting, slice(settled, None))
+        return slice_rows(waiting, slice(settled)), plan
 
-    def rest(self) -> tuple[Steps, Plan]:
+    def rest(self) -> tuple[Steps, MotionPlan]:
         """Plan the remaining moves at the end of the file.
 
         Raises
@@ -201,7 +203,7 @@ class Timeline:
         """
         if self._waiting is None:
             raise FormatError(self.trouble or "the file has no moves; give a file of G-code that a slicer wrote")
-        _, plan, _ = settle(self._waiting.moves, self._limits, self._entry, ends=True)
+        _, plan, _ = plan_settled(self._waiting.moves, self._limits, self._entry, ends=True)
         return self._waiting, plan
 
     @property
@@ -214,7 +216,7 @@ class Timeline:
             f"{self.unread.first}, {self.unread.text!r}; slice it for Marlin or Klipper"
         )
 
-    def _apply_commands(self, table: Table) -> _Orders:
+    def _apply_commands(self, table: GcodeTable) -> _Orders:
         """Apply the commands of a table; return their requests by line."""
         setting = np.full(len(table), self._number(self.found.limits), dtype=np.intp)
         stop, pause = np.zeros(len(table), dtype=bool), np.zeros(len(table))
@@ -241,7 +243,7 @@ class Timeline:
                     speed[line:] = self._apply_m220(command)
                 case "M221":
                     share = command.words.get("S")
-                    if share is not None and 0 < share < MOST_SHARE:
+                    if share is not None and 0 < share < MAX_PERCENT:
                         of = command.words.get("T", command.words.get("D"))
                         self._flow[None if of is None else int(of)] = share / 100
                     flow[line:] = self._flow_of(tool)
@@ -249,19 +251,19 @@ class Timeline:
                     tool = int(code[1:])
                     flow[line:] = self._flow_of(tool)
                 case _ if is_macro(code):
-                    if len(self.macros) < MOST_MACROS:
+                    if len(self.macros) < MAX_MACROS:
                         self.macros[code] = None
             if code == "M101" and not table.after.letters and not table.unread[line]:
                 unread.append(line)
         self._count(table, unread)
         return _Orders(setting=setting, stop=stop, pause=pause, retractions=retractions, speed=speed, flow=flow)
 
-    def _apply_m220(self, command: Command) -> float:
+    def _apply_m220(self, command: GcodeCommand) -> float:
         """Apply M220: S, per cent of all feed rates; B saves the factor, R restores it; return the factor."""
         if "B" in command.words:
             self._stored_speed = self._speed
         share = command.words.get("S")
-        if share is not None and 0 < share < MOST_SHARE:
+        if share is not None and 0 < share < MAX_PERCENT:
             self._speed = share / 100
         if "R" in command.words:
             self._speed = self._stored_speed
@@ -270,7 +272,7 @@ class Timeline:
     def _flow_of(self, tool: int) -> float:
         return self._flow.get(tool, self._flow[None])
 
-    def _count(self, table: Table, unread: list[int]) -> None:
+    def _count(self, table: GcodeTable, unread: list[int]) -> None:
         """Count lines that may move and are not planned."""
         if not unread:
             return
@@ -278,19 +280,19 @@ class Timeline:
         if not self.unread.lines:
             line = min(unread)
             first_line = self._lines + line + 1
-            text = table.text(line, line + 1)[:SHOWN].decode("utf-8", "replace").strip()
-        self.unread = Unread(lines=self.unread.lines + len(unread), first=first_line, text=text)
+            text = table.text(line, line + 1)[:MAX_SHOWN_BYTES].decode("utf-8", "replace").strip()
+        self.unread = UnreadLines(lines=self.unread.lines + len(unread), first=first_line, text=text)
 
     def _number(self, limits: Limits) -> int:
         if limits not in self._limits:
             self._limits.append(limits)
         return self._limits.index(limits)
 
-    def _read_tags(self, table: Table, feature: int) -> tuple[NDArray[np.intp], NDArray[np.intp], int]:
+    def _read_tags(self, table: GcodeTable, feature: int) -> tuple[NDArray[np.intp], NDArray[np.intp], int]:
         """Return feature and layer of every line, and the last feature."""
         lines, features, layers = [0], [feature], [self.layers]
-        for line in _find_comments(table, TELLING):
-            tag = tag_of(table.text(line, line + 1)[:LONGEST_TAG])
+        for line in _find_comments(table, TAG_PREFIXES):
+            tag = parse_tag(table.text(line, line + 1)[:MAX_TAG_BYTES])
             if tag is None:
                 continue
             if tag[0] == "role":
@@ -307,7 +309,7 @@ class Timeline:
         count = np.diff([*lines, len(table)])
         return np.repeat(features, count), np.repeat(layers, count), feature
 
-    def _moves(self, table: Table, orders: _Orders, feature: NDArray[np.intp], layer: NDArray[np.intp]) -> Steps:
+    def _moves(self, table: GcodeTable, orders: _Orders, feature: NDArray[np.intp], layer: NDArray[np.intp]) -> Steps:
         """Return the lines that move an axis; stops and pauses go to the next move."""
         place = np.column_stack([table.x, table.y, table.z])
         before = np.vstack([[table.before.x, table.before.y, table.before.z], place[:-1]])
@@ -359,13 +361,13 @@ class Timeline:
         )
 
 
-def _find_comments(table: Table, beginnings: Sequence[int]) -> list[int]:
+def _find_comments(table: GcodeTable, beginnings: Sequence[int]) -> list[int]:
     """Return the comments that begin with one of several words of four bytes."""
     lines = np.flatnonzero(table.kind == COMMENT)
     text = np.frombuffer(table.data, dtype=np.uint8)
-    lines = lines[table.start[lines] + WORD <= len(text)]
+    lines = lines[table.start[lines] + TAG_BYTES <= len(text)]
     begin = table.start[lines]
-    words = sum(text[begin + byte].astype(np.int64) << (8 * byte) for byte in range(WORD))
+    words = sum(text[begin + byte].astype(np.int64) << (8 * byte) for byte in range(TAG_BYTES))
     return [int(line) for line in lines[np.isin(words, beginnings)]]
 
 

@@ -11,8 +11,16 @@ from collections.abc import Mapping
 from functools import partial
 from typing import IO, BinaryIO
 
-from infill.formats.parts import plain
-from infill.formats.threemf import DECLARED, Attached, model_end, model_head, quoted, write_mesh, write_package
+from infill.formats.parts import printable_name
+from infill.formats.threemf import (
+    XML_DECLARATION,
+    Attachment,
+    model_end,
+    model_head,
+    quote_attribute,
+    write_mesh,
+    write_package,
+)
 from infill.projects.project import INFILL, PART, Project
 
 NAMESPACE = "http://schemas.bambulab.com/package/2021"
@@ -44,15 +52,15 @@ def write(project: Project, file: BinaryIO, *, application: str = BAMBU) -> None
             write_mesh(stream, surface.vertices, surface.faces)
             stream.write(b"</object>\n")
         components = "".join(f'<component objectid="{number}"/>' for number in (PART_ID, INFILL_ID))
-        name = quoted(plain(project.title))
+        name = quote_attribute(printable_name(project.title))
         stream.write(
             f'<object id="{WHOLE_ID}" type="model" name={name}><components>{components}</components></object>'.encode()
         )
         stream.write(model_end([WHOLE_ID]).encode())
 
-    settings = Attached(name=CONFIG, content=_settings_config(project).encode(), media="application/xml")
+    settings = Attachment(name=CONFIG, content=_settings_config(project).encode(), media="application/xml")
     version = application.rpartition("-")[2]
-    info = Attached(name=INFO, content=_info(version).encode(), media="application/xml")
+    info = Attachment(name=INFO, content=_info(version).encode(), media="application/xml")
     write_package(file, model, [*project.attached, settings, info])
 
 
@@ -60,10 +68,10 @@ write_orcaslicer = partial(write, application=ORCA)
 
 
 def _settings_config(project: Project) -> str:
-    title = plain(project.title)
+    title = printable_name(project.title)
     return "".join(
         [
-            DECLARED,
+            XML_DECLARATION,
             f'<config>\n <object id="{WHOLE_ID}">\n',
             _row("name", title),
             _row("extruder", "1"),
@@ -95,7 +103,7 @@ def _part(number: int, name: str, kind: str, settings: Mapping[str, str]) -> str
 def _info(version: str) -> str:
     client = {"X-BBL-Client-Type": "slicer", "X-BBL-Client-Version": version}
     items = "".join(f'  <header_item key="{key}" value="{value}"/>\n' for key, value in client.items())
-    return f"{DECLARED}<config>\n <header>\n{items} </header>\n</config>\n"
+    return f"{XML_DECLARATION}<config>\n <header>\n{items} </header>\n</config>\n"
 
 
 def _row(key: str, value: str) -> str:

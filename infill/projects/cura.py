@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import IO, BinaryIO
 
-from infill.formats.parts import plain
-from infill.formats.threemf import model_end, model_head, quoted, write_mesh, write_package
+from infill.formats.parts import printable_name
+from infill.formats.threemf import model_end, model_head, quote_attribute, write_mesh, write_package
 from infill.projects.project import INFILL, PART, Project
 
 NAMESPACE = "http://software.ultimaker.com/xml/cura/3mf/2015/10"
@@ -34,7 +34,7 @@ def write(project: Project, file: BinaryIO) -> None:
             stream.write(f'<object id="{number}" type="model" name="{name}">{_group(settings)}'.encode())
             write_mesh(stream, surface.vertices, surface.faces)
             stream.write(b"</object>\n")
-        name = quoted(plain(project.title))
+        name = quote_attribute(printable_name(project.title))
         components = '<component objectid="1"/><component objectid="2"/>'
         stream.write(f'<object id="3" type="model" name={name}><components>{components}</components></object>'.encode())
         stream.write(model_end([3]).encode())

@@ -10,7 +10,7 @@ from typing import Any
 
 from infill.errors import UsageError
 from infill.projects import bambustudio, cura, prusaslicer
-from infill.projects.findings import Finding, Kind, PrintedVolume, as_problem, as_warning
+from infill.projects.findings import Finding, PrintedVolume, Severity, as_problem, as_warning
 from infill.projects.project import NAMES, SLICERS, Slicer
 from infill.projects.reading import RELATIONS, Package, read_package
 from infill.projects.rules_bambustudio import volumes_for_bambustudio
@@ -80,12 +80,14 @@ def check_project(path: str | os.PathLike[str], slicer: Slicer) -> Diagnosis:
     volumes: list[PrintedVolume] = []
     for result in _examine(package, slicer):
         (volumes if isinstance(result, PrintedVolume) else findings).append(result)  # type: ignore[arg-type]
-    texts = {kind: tuple(dict.fromkeys(finding.text for finding in findings if finding.kind is kind)) for kind in Kind}
+    texts = {
+        kind: tuple(dict.fromkeys(finding.text for finding in findings if finding.kind is kind)) for kind in Severity
+    }
     return Diagnosis(
         slicer=slicer,
-        fine=not texts[Kind.PROBLEM],
-        problems=texts[Kind.PROBLEM],
-        warnings=texts[Kind.WARNING],
+        fine=not texts[Severity.PROBLEM],
+        problems=texts[Severity.PROBLEM],
+        warnings=texts[Severity.WARNING],
         application=package.metadata.get("Application", ""),
         unit=package.unit,
         volumes=tuple(volumes),

@@ -47,7 +47,7 @@ WALL_KEYS = {
 }
 
 
-class Kind(Enum):
+class Severity(Enum):
     """The severity of a finding."""
 
     PROBLEM = "problem"
@@ -58,7 +58,7 @@ class Kind(Enum):
 class Finding:
     """A sentence, and its severity."""
 
-    kind: Kind
+    kind: Severity
     text: str
 
 
@@ -110,15 +110,17 @@ class PrintedVolume:
 
 def as_problem(text: str) -> Finding:
     """Wrap a text as a problem: the slicer loses or refuses something."""
-    return Finding(kind=Kind.PROBLEM, text=excerpt(text, LONGEST))
+    return Finding(kind=Severity.PROBLEM, text=excerpt(text, LONGEST))
 
 
 def as_warning(text: str) -> Finding:
     """Wrap a text as a warning: the slicer does something surprising."""
-    return Finding(kind=Kind.WARNING, text=excerpt(text, LONGEST))
+    return Finding(kind=Severity.WARNING, text=excerpt(text, LONGEST))
 
 
-def of_filling(name: str, settings: Mapping[str, str], density: str, known: set[str], slicer: str) -> Iterator[Finding]:
+def check_fill_settings(
+    name: str, settings: Mapping[str, str], density: str, known: set[str], slicer: str
+) -> Iterator[Finding]:
     """Yield findings about the density of a volume, and about names of settings that the slicer does not know."""
     value = settings.get(density)
     if value is not None:
@@ -178,7 +180,7 @@ def check_shells(
             )
 
 
-def in_order(volumes: list[PrintedVolume]) -> Iterator[Finding]:
+def check_order(volumes: list[PrintedVolume]) -> Iterator[Finding]:
     """Yield the modifiers that come before the part that they are to change."""
     last_part = max((number for number, volume in enumerate(volumes) if volume.prints), default=-1)
     for volume in volumes[: max(last_part, 0)]:
@@ -192,7 +194,7 @@ def in_order(volumes: list[PrintedVolume]) -> Iterator[Finding]:
             )
 
 
-def with_walls(volumes: list[PrintedVolume], keys: set[str]) -> Iterator[Finding]:
+def check_modifier_walls(volumes: list[PrintedVolume], keys: set[str]) -> Iterator[Finding]:
     """Yield the modifiers that get their own walls."""
     for volume in volumes:
         if volume.role == "modifier" and (wall_keys := sorted(keys & set(volume.settings))):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from infill.formats.threemf import APPLICATION, SETTINGS, Attached
+from infill.formats.threemf import APPLICATION, SETTINGS_PATH, Attachment
 from infill.surface import Surface
 
 Slicer = Literal["prusaslicer", "orcaslicer", "bambustudio", "cura", "plain"]
@@ -51,17 +51,17 @@ class Project:
         return {"Title": self.title, "Application": APPLICATION, "Description": f"filled by {APPLICATION}"}
 
     @property
-    def attached(self) -> list[Attached]:
+    def attached(self) -> list[Attachment]:
         """Files that go into the package of every slicer."""
         files = []
         if self.thumbnail is not None:
             files.append(
-                Attached(name=THUMBNAIL, content=self.thumbnail, media="image/png", relation=THUMBNAIL_RELATION)
+                Attachment(name=THUMBNAIL, content=self.thumbnail, media="image/png", relation=THUMBNAIL_RELATION)
             )
         if self.settings:
             files.append(
-                Attached(
-                    name=SETTINGS,
+                Attachment(
+                    name=SETTINGS_PATH,
                     content=self.settings.encode(),
                     media="application/toml",
                     relation=SETTINGS_RELATION,

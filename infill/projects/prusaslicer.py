@@ -12,8 +12,16 @@ from typing import IO, BinaryIO
 
 import numpy as np
 
-from infill.formats.parts import plain
-from infill.formats.threemf import DECLARED, Attached, model_end, model_head, quoted, write_mesh, write_package
+from infill.formats.parts import printable_name
+from infill.formats.threemf import (
+    XML_DECLARATION,
+    Attachment,
+    model_end,
+    model_head,
+    quote_attribute,
+    write_mesh,
+    write_package,
+)
 from infill.projects.project import INFILL, PART, Project
 
 NAMESPACE = "http://schemas.slic3r.org/3mf/2017/06"
@@ -35,7 +43,7 @@ def write(project: Project, file: BinaryIO) -> None:
         # Without its version, the slicer takes the file for another program's, and moves only the first volume.
         metadata = {**project.metadata, "slic3rpe:Version3mf": "1"}
         into.write(model_head(metadata, {"slic3rpe": NAMESPACE}).encode())
-        into.write(f'<object id="1" type="model" name={quoted(plain(project.title))}>'.encode())
+        into.write(f'<object id="1" type="model" name={quote_attribute(printable_name(project.title))}>'.encode())
         write_mesh(
             into,
             np.concatenate([part.vertices, infill.vertices]),
@@ -44,7 +52,7 @@ def write(project: Project, file: BinaryIO) -> None:
         into.write(b"</object>")
         into.write(model_end([1]).encode())
 
-    config = Attached(name=CONFIG, content=_volumes_config(project).encode(), media="application/xml")
+    config = Attachment(name=CONFIG, content=_volumes_config(project).encode(), media="application/xml")
     write_package(file, model, [*project.attached, config])
 
 
@@ -54,9 +62,9 @@ def _volumes_config(project: Project) -> str:
     infill_end = part_end + len(project.infill.faces)
     return "".join(
         [
-            DECLARED,
+            XML_DECLARATION,
             '<config>\n <object id="1" instances_count="1">\n',
-            _row("object", "name", plain(project.title)),
+            _row("object", "name", printable_name(project.title)),
             _volume(0, part_end - 1, PART, "ModelPart", PART_SETTINGS),
             _volume(part_end, infill_end - 1, INFILL, "ParameterModifier", {"modifier": "1", **INFILL_SETTINGS}),
             " </object>\n</config>\n",

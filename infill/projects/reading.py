@@ -8,22 +8,31 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from infill.errors import FormatError
-from infill.files.broken import readable, told_broken
+from infill.files.broken import require_readable, wrap_reader_errors
 from infill.files.excerpts import excerpt
-from infill.formats.threemf_extensions import Extension, is_harmless, name_of, required
+from infill.formats.threemf_extensions import Extension, is_harmless, name_of, required_extensions
 from infill.formats.threemf_package import (
     Model,
-    opened,
-    parsed_xml,
+    entries_by_key,
+    open_package,
+    parse_xml,
     part_key,
-    parts_of_package,
     read_model,
 )
 from infill.formats.threemf_reading import IDENTITY, MODEL, RELATIONS, start_part
-from infill.formats.threemf_roles import is_part_type, is_unprinted, object_key, rows_of, settings_of
+from infill.formats.threemf_roles import is_part_type, is_unprinted, metadata_of, object_key, settings_of
 from infill.surface import Surface
 
-__all__ = ["RELATIONS", "Body", "Item", "Leaf", "Package", "key_of", "read_package", "rows_of"]
+__all__ = [
+    "RELATIONS",
+    "BuildItem",
+    "MeshObject",
+    "Package",
+    "PackageObject",
+    "metadata_of",
+    "object_key_in",
+    "read_package",
+]
 
 AGAIN = "write the file again"
 MOST_NESTED = 20  # depth of components
@@ -31,7 +40,7 @@ MOST_PLACED, MOST_TRIANGLES = 20_000, 20_000_000  # objects and triangles that a
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Body:
+class PackageObject:
     """An object of a model.
 
     Parameters
@@ -65,7 +74,7 @@ class Body:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Item:
+class BuildItem:
     """An item to build.
 
     Parameters
@@ -89,7 +98,7 @@ class Item:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Leaf:
+class MeshObject:
     """An object with a mesh, and the objects around it.
 
     Parameters
@@ -101,11 +110,11 @@ class Leaf:
     """
 
     key: str
-    body: Body
-    above: tuple[Body, ...]
+    body: PackageObject
+    above: tuple[PackageObject, ...]
 
     @property
-    def other(self) -> Body | None:
+    def other(self) -> PackageObject | None:
         """The first object down to it that is not a part; None if all are."""
         return next((body for body in (*self.above, self.body) if not body.is_part), None)
 
@@ -116,7 +125,7 @@ class Leaf:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Tree:
+class ObjectTree:
     """The components of an object that is built.
 
     Parameters
@@ -132,7 +141,7 @@ class Tree:
         Number of objects visited.
     """
 
-    leaves: tuple[Leaf, ...]
+    leaves: tuple[MeshObject, ...]
     missing: tuple[str, ...]
     deepest: int
     whole: bool
@@ -171,10 +180,10 @@ class Package:
     extensions: tuple[Extension, ...]
     metadata: Mapping[str, str]
     prefix: str
-    bodies: Mapping[str, Body]
+    bodies: Mapping[str, PackageObject]
     twice: tuple[str, ...]
-    items: tuple[Item, ...]
-    trees: dict[str, Tree] = field(default_factory=dict, repr=False)  # a cache
+    items: tuple[BuildItem, ...]
+    trees: dict[str, ObjectTree] = field(default_factory=dict, repr=False)  # a cache
 
     def has(self, name: str) -> bool:
         """Tell whether a file has this name, in capitals or small letters."""
@@ -184,17 +193,17 @@ class Package:
         """Parse a settings file; return its root, or None without such a file. Raise FormatError if it is broken."""
         if part_key(name) not in self.texts:
             return None
-        with told_broken(self.path, f"has a broken {name}", AGAIN):
-            return parsed_xml(self.texts[part_key(name)], self.path)
+        with wrap_reader_errors(self.path, f"has a broken {name}", AGAIN):
+            return parse_xml(self.texts[part_key(name)], self.path)
 
-    def tree(self, key: str) -> Tree:
+    def tree(self, key: str) -> ObjectTree:
         """Find the components of an object; all objects together are limited."""
         if key not in self.trees:
             self.trees[key] = self._build_tree(key, sum(tree.visits for tree in self.trees.values()))
         return self.trees[key]
 
-    def _build_tree(self, key: str, before: int) -> Tree:
-        leaves: list[Leaf] = []
+    def _build_tree(self, key: str, before: int) -> ObjectTree:
+        leaves: list[MeshObject] = []
         missing: dict[str, None] = {}
         visits, triangles, deepest = before, 0, 0
 
@@ -210,22 +219,22 @@ class Package:
                 return
             if body.mesh is not None:
                 triangles += len(body.mesh.faces)
-                leaves.append(Leaf(key=key, body=body, above=tuple(self.bodies[ancestor] for ancestor in above)))
+                leaves.append(MeshObject(key=key, body=body, above=tuple(self.bodies[ancestor] for ancestor in above)))
             for component in body.components:
                 visit(component, (*above, key))
 
         visit(key, ())
         is_whole = visits <= MOST_PLACED and triangles <= MOST_TRIANGLES
-        return Tree(
+        return ObjectTree(
             leaves=tuple(leaves), missing=tuple(missing), deepest=deepest, whole=is_whole, visits=visits - before
         )
 
 
 def read_package(path: Path) -> Package:
     """Read a 3MF, or raise FormatError."""
-    source = readable(path, [".3mf"], "a project")
-    with opened(source) as package:
-        parts = parts_of_package(package)
+    source = require_readable(path, [".3mf"], "a project")
+    with open_package(source) as package:
+        parts = entries_by_key(package)
         main = start_part(package)
         main = main if main in parts else part_key(MODEL)
         if main not in parts:
@@ -236,11 +245,11 @@ def read_package(path: Path) -> Package:
     model = models[main]
     if (built := sum(1 for _ in model.items)) > MOST_PLACED:
         raise FormatError(f"{source} builds {built:,} objects, more than {MOST_PLACED:,}; build fewer")
-    bodies: dict[str, Body] = {}
+    bodies: dict[str, PackageObject] = {}
     twice = []
     for name, part_model in models.items():
         for element in part_model.objects:
-            key = key_of("" if name == main else f"/{name}", element.get("id"))
+            key = object_key_in("" if name == main else f"/{name}", element.get("id"))
             if key in bodies:
                 twice.append(key)
             bodies[key] = _read_body(part_model, element, name, main, source)
@@ -249,7 +258,7 @@ def read_package(path: Path) -> Package:
         names=frozenset(parts),
         texts=texts,
         unit=model.root.get("unit", "millimeter"),
-        extensions=tuple(required(model)),
+        extensions=tuple(required_extensions(model)),
         metadata={excerpt(row.get("name", "")): excerpt(row.text or "") for row in model.below(model.root, "metadata")},
         prefix=next((prefix for prefix, uri in model.spaces.items() if prefix and f"{{{uri}}}" == model.core), "")
         if "" not in model.spaces
@@ -257,7 +266,7 @@ def read_package(path: Path) -> Package:
         bodies=bodies,
         twice=tuple(dict.fromkeys(twice)),
         items=tuple(
-            Item(
+            BuildItem(
                 key=_key_of_reference(item, main, main),
                 stays=item.get("transform", IDENTITY).split() == IDENTITY.split(),
                 printable=item.get("printable", ""),
@@ -267,7 +276,7 @@ def read_package(path: Path) -> Package:
     )
 
 
-def key_of(part: str, number: str | None) -> str:
+def object_key_in(part: str, number: str | None) -> str:
     """Return the key of an object in the package: its number, and its file if that is not the main one."""
     plain = excerpt(object_key(number))
     return f"{plain} of {excerpt(part)}" if part else plain
@@ -277,10 +286,10 @@ def _key_of_reference(element: ElementTree.Element, part: str, main: str) -> str
     """Return the key of the object that a component or an item refers to, perhaps in another file."""
     path = next((value for name, value in element.items() if name.endswith("}path")), None)
     part = part if path is None else part_key(path)
-    return key_of("" if part == main else f"/{part}", element.get("objectid"))
+    return object_key_in("" if part == main else f"/{part}", element.get("objectid"))
 
 
-def _read_body(model: Model, element: ElementTree.Element, part: str, main: str, path: Path) -> Body:
+def _read_body(model: Model, element: ElementTree.Element, part: str, main: str, path: Path) -> PackageObject:
     read_mesh = model.mesh_of(element)
     mesh = None
     foreign = list(model.foreign(element))
@@ -289,7 +298,7 @@ def _read_body(model: Model, element: ElementTree.Element, part: str, main: str,
         if read_mesh[1].fault:
             raise FormatError(f"{path} has {read_mesh[1].fault}; {AGAIN}")
         mesh = Surface(vertices=read_mesh[1].vertices, faces=read_mesh[1].faces)
-    return Body(
+    return PackageObject(
         number=excerpt(object_key(element.get("id"))),
         name=excerpt(element.get("name", "")),
         kind=excerpt(element.get("type", "")),

@@ -13,13 +13,13 @@ from infill.projects.findings import (
     PrintedVolume,
     as_problem,
     as_warning,
+    check_fill_settings,
+    check_modifier_walls,
+    check_order,
     check_shells,
-    in_order,
-    of_filling,
-    with_walls,
 )
 from infill.projects.project import NAMES
-from infill.projects.reading import Body, Package, Tree, rows_of
+from infill.projects.reading import ObjectTree, Package, PackageObject, metadata_of
 
 READ_TYPES = ("model", "other")  # of objects: the second is how modifiers are marked for other programs
 RESERVED = {
@@ -90,13 +90,12 @@ def volumes_for_bambustudio(package: Package, slicer: str) -> Iterator[PrintedVo
 
 
 def _read_object(
-    tree: Tree, body: Body, configured: ElementTree.Element | None, slicer: str
+    tree: ObjectTree, body: PackageObject, configured: ElementTree.Element | None, slicer: str
 ) -> Iterator[PrintedVolume | Finding]:
     """Yield the parts of an object."""
     who = NAMES[slicer]
-    common = (
-        {} if configured is None else {key: value for key, value in rows_of(configured).items() if key not in RESERVED}
-    )
+    rows = {} if configured is None else metadata_of(configured)
+    common = {key: value for key, value in rows.items() if key not in RESERVED}
     parts = {} if configured is None else {object_key(row.get("id")): row for row in configured.findall("part")}
     ids = {leaf.body.number for leaf in tree.leaves}
     for number in parts:
@@ -112,16 +111,16 @@ def _read_object(
             continue
         number = member.number
         part = parts.get(number)
-        rows = {} if part is None else rows_of(part)
+        rows = {} if part is None else metadata_of(part)
         name = rows.get("name", "") or member.name or f"part {number}"
         kind = "normal_part" if part is None else part.get("subtype", "normal_part")
         if kind not in BAMBU_ROLES:
             yield as_problem(f"{name} is a {kind!r}; {who} knows {', '.join(BAMBU_ROLES)}")
         settings = {key: value for key, value in rows.items() if key not in RESERVED}
         volumes.append(PrintedVolume.of(name, member.mesh, BAMBU_ROLES.get(kind, kind), settings))
-        yield from of_filling(name, settings, "sparse_infill_density", KEYS, who)
+        yield from check_fill_settings(name, settings, "sparse_infill_density", KEYS, who)
     yield from volumes
-    yield from in_order(volumes)
+    yield from check_order(volumes)
     shell_keys = ("sparse_infill_density", "minimum_sparse_infill_area")
     yield from check_shells(volumes, common, shell_keys, who, slicer)
-    yield from with_walls(volumes, WALL_KEYS["Bambu"])
+    yield from check_modifier_walls(volumes, WALL_KEYS["Bambu"])

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from infill.formats.threemf_roles import CURA_ROLES
 from infill.projects.cura import NAMESPACE
 from infill.projects.findings import Finding, PrintedVolume, as_problem, as_warning
-from infill.projects.reading import Body, Package
+from infill.projects.reading import Package, PackageObject
 
 INSIDE = f"{{{NAMESPACE}}}"
 NONE_OF = ("top_layers", "bottom_layers")
@@ -31,7 +31,7 @@ KEYS = {
 
 def volumes_for_cura(package: Package) -> Iterator[PrintedVolume | Finding]:
     """Yield the volumes that Cura makes of a file, and the problems and warnings."""
-    volumes: list[tuple[Body, PrintedVolume]] = []
+    volumes: list[tuple[PackageObject, PrintedVolume]] = []
     for item in package.items:
         for leaf in package.tree(item.key).leaves if item.prints else ():
             member = leaf.body
@@ -51,11 +51,11 @@ def volumes_for_cura(package: Package) -> Iterator[PrintedVolume | Finding]:
         yield as_warning("its objects are not in one group: moving one leaves the others where they are")
     for modifier in modifiers:
         for part in parts:
-            if float_of(part.settings.get("infill_sparse_density", "")) != 0.0:
+            if parse_float(part.settings.get("infill_sparse_density", "")) != 0.0:
                 yield as_warning(f"{part.name} has infill of its own around {modifier.name}: its density is not 0")
 
 
-def _check_volume(body: Body, volume: PrintedVolume) -> Iterator[Finding]:
+def _check_volume(body: PackageObject, volume: PrintedVolume) -> Iterator[Finding]:
     """Yield findings about the settings of a volume."""
     for key, value in volume.settings.items():
         if key not in KEYS:
@@ -72,21 +72,21 @@ def _check_volume(body: Body, volume: PrintedVolume) -> Iterator[Finding]:
                 f"{key} of {volume.name} is in no namespace of Cura's, xmlns:cura={NAMESPACE!r}: it is lost"
             )
     if volume.role == "modifier":
-        if float_of(volume.settings.get("infill_mesh_order", "")) < 1:
+        if parse_float(volume.settings.get("infill_mesh_order", "")) < 1:
             yield as_problem(f"{volume.name} has no infill_mesh_order of at least 1: it is cut off by the part")
-        if float_of(volume.settings.get("wall_line_count", "")) == 0.0:
+        if parse_float(volume.settings.get("wall_line_count", "")) == 0.0:
             yield as_warning(
                 f"{volume.name} has no line along its sides: Cura may extrude half as much again in thin walls"
             )
         for key in NONE_OF:
-            if float_of(volume.settings.get(key, "")) != 0.0:
+            if parse_float(volume.settings.get(key, "")) != 0.0:
                 yield as_warning(f"{volume.name} does not say {key} 0: skins are made on all of it")
 
 
-def float_of(text: str) -> float:
+def parse_float(text: str) -> float:
     """Parse a number; return -1 for other texts.
 
-    >>> float_of("3"), float_of("three")
+    >>> parse_float("3"), parse_float("three")
     (3.0, -1.0)
     """
     try:

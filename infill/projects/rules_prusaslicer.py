@@ -13,13 +13,13 @@ from infill.projects.findings import (
     PrintedVolume,
     as_problem,
     as_warning,
+    check_fill_settings,
+    check_modifier_walls,
+    check_order,
     check_shells,
-    in_order,
-    of_filling,
-    with_walls,
 )
 from infill.projects.prusaslicer import CONFIG
-from infill.projects.reading import Body, Package, rows_of
+from infill.projects.reading import Package, PackageObject, metadata_of
 from infill.surface import Surface
 
 VERSION = "slic3rpe:Version3mf"
@@ -143,7 +143,7 @@ def volumes_for_prusaslicer(package: Package) -> Iterator[PrintedVolume | Findin
                 )
 
 
-def is_read(body: Body) -> bool:
+def is_read(body: PackageObject) -> bool:
     """Tell whether PrusaSlicer reads an object of this type; it ignores others."""
     return body.kind in ("", "model")
 
@@ -193,7 +193,7 @@ def _check_opening(package: Package) -> Iterator[Finding]:
 
 
 def _read_object(
-    body: Body, mesh: Surface, configured: ElementTree.Element | None
+    body: PackageObject, mesh: Surface, configured: ElementTree.Element | None
 ) -> Iterator[PrintedVolume | Finding]:
     """Yield the volumes of an object."""
     object_name = body.name or f"object {body.number}"
@@ -203,10 +203,10 @@ def _read_object(
     volumes: list[PrintedVolume] = []
     covered = 0
     yield from _check_rows(configured, "object")
-    common = {key: value for key, value in rows_of(configured).items() if key not in RESERVED}
+    common = {key: value for key, value in metadata_of(configured).items() if key not in RESERVED}
     for element in configured.findall("volume"):
         low, high = (whole_number(element.get(name)) for name in ("firstid", "lastid"))
-        rows = rows_of(element)
+        rows = metadata_of(element)
         name = rows.get("name", "") or f"volume {len(volumes) + 1}"
         yield from _check_rows(element, "volume")
         if not 0 <= low <= high < len(mesh.faces):
@@ -224,17 +224,17 @@ def _read_object(
         settings = {key: value for key, value in rows.items() if key not in RESERVED}
         part = replace(mesh, faces=mesh.faces[low : high + 1])
         volumes.append(PrintedVolume.of(name, part, prusa_role(element), settings))
-        yield from of_filling(name, settings, "fill_density", KEYS, "PrusaSlicer")
+        yield from check_fill_settings(name, settings, "fill_density", KEYS, "PrusaSlicer")
         yield from _check_full_density(name, {**common, **settings})
     yield from volumes
     if covered < len(mesh.faces):
         yield as_problem(
             f"{len(mesh.faces) - covered:,} triangles of {object_name} are in no volume: they are left out"
         )
-    yield from in_order(volumes)
+    yield from check_order(volumes)
     shell_keys = ("fill_density", "solid_infill_below_area")
     yield from check_shells(volumes, common, shell_keys, "PrusaSlicer", "prusaslicer")
-    yield from with_walls(volumes, WALL_KEYS["PrusaSlicer"])
+    yield from check_modifier_walls(volumes, WALL_KEYS["PrusaSlicer"])
 
 
 def _check_full_density(name: str, settings: Mapping[str, str]) -> Iterator[Finding]:

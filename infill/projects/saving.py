@@ -8,21 +8,21 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from infill.errors import FormatError, UsageError
-from infill.files.whole_files import whole_file
-from infill.options.toml import options_text
+from infill.files.whole_files import atomic_file
+from infill.options.toml import write_options
 from infill.projects import bambustudio, cura, plain, prusaslicer
 from infill.projects.project import INFILL, PART, SLICERS, Project, Slicer
 from infill.result import Result
 
 
-def project_writer(slicer: str) -> Callable[[Project, BinaryIO], None]:
+def writer_for(slicer: str) -> Callable[[Project, BinaryIO], None]:
     """Look up the function that writes projects for a slicer, or raise UsageError."""
     if slicer not in SLICERS:
         raise UsageError(f"slicer is {slicer!r}; choose from {', '.join(SLICERS)}")
     return WRITERS[slicer]
 
 
-def project_of(result: Result[Any, Any], *, slicer: str, title: str, units: str | None = None) -> Project:
+def make_project(result: Result[Any, Any], *, slicer: str, title: str, units: str | None = None) -> Project:
     """Turn a filled part into a project, with a picture and the options that make it again.
 
     Raises
@@ -32,15 +32,15 @@ def project_of(result: Result[Any, Any], *, slicer: str, title: str, units: str 
     """
     if set(result.surfaces) != {PART, INFILL}:
         raise UsageError(f"this holds {' and '.join(result.surfaces)}, no part and infill; fill it as a project")
-    from infill.pictures.cuts import thumbnail
+    from infill.pictures.cuts import render_thumbnail
 
     options = {**result.report["request"], "units": units, "for": slicer}
     return Project(
         part=result.surfaces[PART],
         infill=result.surfaces[INFILL],
         title=title,
-        thumbnail=thumbnail(result.surfaces[INFILL]),
-        settings=options_text(options, "infill fill PART --config THIS_FILE -o OUT.3mf"),
+        thumbnail=render_thumbnail(result.surfaces[INFILL]),
+        settings=write_options(options, "infill fill PART --config THIS_FILE -o OUT.3mf"),
     )
 
 
@@ -73,10 +73,10 @@ def save_project(
     OutputError
         If the file cannot be written.
     """
-    write, target = project_writer(slicer), Path(path)
+    write, target = writer_for(slicer), Path(path)
     check_suffix(target)
-    project = project_of(result, slicer=slicer, title=target.stem if title is None else title)
-    with whole_file(target) as file:
+    project = make_project(result, slicer=slicer, title=target.stem if title is None else title)
+    with atomic_file(target) as file:
         write(project, file)
     return target
 

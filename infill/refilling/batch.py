@@ -10,11 +10,20 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.gcode.sections import SKINS, SPARSE, Marks, Strokes, Tags, marked, printing, strokes
+from infill.gcode.sections import (
+    SKIN_ROLES,
+    SPARSE,
+    InfillStrokes,
+    LineMarks,
+    TagState,
+    find_strokes,
+    is_printing,
+    mark_lines,
+)
 from infill.gcode.stream import batches
-from infill.gcode.table import State, Table, read
-from infill.paths.neighbours import Beads
-from infill.refilling.measuring import Drawing
+from infill.gcode.table import GcodeTable, MachineState, read_table
+from infill.paths.neighbours import BeadMoves
+from infill.refilling.measuring import LayerPaths
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
@@ -35,9 +44,9 @@ class Batch:
         M strokes of sparse infill.
     """
 
-    table: Table
-    marks: Marks
-    infill: Strokes
+    table: GcodeTable
+    marks: LineMarks
+    infill: InfillStrokes
 
     @cached_property
     def layer(self) -> Places:
@@ -61,7 +70,7 @@ class Batch:
 
     def _printing_sections(self, lines: NDArray[np.bool_]) -> Places:
         """Return the sections in which some lines print."""
-        return np.unique(self.marks.section[lines & printing(self.table)])
+        return np.unique(self.marks.section[lines & is_printing(self.table)])
 
     @cached_property
     def speed(self) -> Floats:
@@ -69,14 +78,14 @@ class Batch:
         return np.maximum(self.table.f[self.infill.opens] / 60, LEAST_SPEED)
 
     @cached_property
-    def drawing(self) -> Drawing:
+    def drawing(self) -> LayerPaths:
         """The infill."""
-        return Drawing(points=self.infill.points, first=self.infill.first, layer=self.layer)
+        return LayerPaths(points=self.infill.points, first=self.infill.first, layer=self.layer)
 
     @cached_property
-    def others(self) -> Beads:
+    def others(self) -> BeadMoves:
         """All beads except the infill."""
-        return beads(self.table, self.marks, self.infill)
+        return other_beads(self.table, self.marks, self.infill)
 
     @cached_property
     def line_width(self) -> float:
@@ -90,22 +99,22 @@ class Batch:
         return np.where(np.isnan(commanded), otherwise, commanded)
 
 
-def batch_of(table: Table, tags: Tags) -> Batch:
+def mark_batch(table: GcodeTable, tags: TagState) -> Batch:
     """Mark the lines of a table and find its infill; `tags` are those before it."""
-    marks = marked(table, tags)
-    return Batch(table=table, marks=marks, infill=strokes(table, marks))
+    marks = mark_lines(table, tags)
+    return Batch(table=table, marks=marks, infill=find_strokes(table, marks))
 
 
-def read_batches(file: BinaryIO, begin: State | None = None) -> Iterator[Batch]:
+def read_batches(file: BinaryIO, begin: MachineState | None = None) -> Iterator[Batch]:
     """Yield a print in batches, from the position of the file to its end; `begin` is the state before."""
-    state, tags = begin or State(), Tags()
+    state, tags = begin or MachineState(), TagState()
     for text in batches(file):
-        batch = batch_of(read(text, state), tags)
+        batch = mark_batch(read_table(text, state), tags)
         yield batch
         state, tags = batch.table.after, batch.marks.after
 
 
-def beads(table: Table, marks: Marks, infill: Strokes) -> Beads:
+def other_beads(table: GcodeTable, marks: LineMarks, infill: InfillStrokes) -> BeadMoves:
     """Return the beads that are not among the strokes of infill."""
     prints = (table.extruded > 0) & (table.given[:, 0] | table.given[:, 1])
     prints[infill.moves] = False
@@ -115,5 +124,5 @@ def beads(table: Table, marks: Marks, infill: Strokes) -> Beads:
     y = np.where(previous >= 0, table.y[previous], table.before.y)
     ends = np.stack([x, y, table.x[line], table.y[line]], axis=1).reshape(-1, 2, 2)
     finite = np.isfinite(ends).all(axis=(1, 2))
-    skin = np.isin(marks.role, [place for place, role in enumerate(marks.roles) if role in SKINS])
-    return Beads(ends=ends[finite], layer=marks.layer[line][finite], skin=skin[line][finite])
+    skin = np.isin(marks.role, [place for place, role in enumerate(marks.roles) if role in SKIN_ROLES])
+    return BeadMoves(ends=ends[finite], layer=marks.layer[line][finite], skin=skin[line][finite])

@@ -12,36 +12,36 @@ from pathlib import Path
 from typing import BinaryIO
 
 from infill.errors import FormatError
-from infill.files.whole_files import told
-from infill.gcode.estimates import estimates
+from infill.files.whole_files import wrap_os_errors
+from infill.gcode.estimates import find_estimates
 from infill.gcode.survey import Survey
 from infill.kernels.threads import in_order, thread_count
 from infill.refilling.batch import Batch, read_batches
-from infill.refilling.layers import Refilled, measured_contact, refilled
-from infill.refilling.planning import Plan
-from infill.refilling.repath import Memory
+from infill.refilling.layers import RefilledBatch, measure_batch, refill_batch
+from infill.refilling.planning import RefillPlan
+from infill.refilling.repath import LayerMemory
 from infill.refilling.request import AUTO, KEEP, Progress
-from infill.refilling.rules import Rules
-from infill.refilling.stats import Tally
+from infill.refilling.rules import RefillRules
+from infill.refilling.stats import RefillStats
 from infill.refilling.support import LEAST_SHARE, kept_length, kept_shares, smaller_deviation
 from infill.refilling.timing import PrintClock
 
-SHOWN = 1 << 22  # bytes between two reports of progress
-AGAIN = 3  # times that a print is redrawn with smaller moves of corners
-EVENED = 6  # times that a small print is redrawn at another cell
-EVEN = 0.005  # relative tolerance of the filament of all infill
+PROGRESS_BYTES = 1 << 22  # bytes between two reports of progress
+MOST_REDRAWS = 3  # times that a print is redrawn with smaller moves of corners
+MOST_CELL_TRIES = 6  # times that a small print is redrawn at another cell
+FILAMENT_TOLERANCE = 0.005  # relative tolerance of the filament of all infill
 MOST_THREADS = 4  # more threads would only take memory: a single one reads for all of them
 
 
-def drafted(
+def draft_print(
     file: BinaryIO,
     draft: BinaryIO,
     print_survey: Survey,
-    rules: Rules,
-    plan: Plan | None,
+    rules: RefillRules,
+    plan: RefillPlan | None,
     progress: Progress | None,
     clock: PrintClock | None = None,
-) -> tuple[Tally, Rules]:
+) -> tuple[RefillStats, RefillRules]:
     """Write the new text to a draft; return the statistics and the final rules.
 
     Parameters
@@ -63,14 +63,14 @@ def drafted(
         If the draft cannot be written.
     """
 
-    def draw(rules: Rules, plan: Plan | None, clock: PrintClock | None = None) -> Tally:
+    def draw(rules: RefillRules, plan: RefillPlan | None, clock: PrintClock | None = None) -> RefillStats:
         return _draw(file, draft, print_survey, rules, plan, progress, clock)
 
     tally = draw(rules, plan, clock)
     if plan is not None and plan.density is None and not plan.fixed and print_survey.small:
         tally = _match_filament(tally, plan, lambda new_plan: draw(rules, new_plan))
     previous = 0.0
-    for _ in range(AGAIN if rules.request.pattern == KEEP and rules.request.smooth_radius == AUTO else 0):
+    for _ in range(MOST_REDRAWS if rules.request.pattern == KEEP and rules.request.smooth_radius == AUTO else 0):
         length = kept_length(tally.infill.length, tally.infill_after.length)
         share = min(*kept_shares(tally.before, tally.after), length)
         smaller = smaller_deviation(rules.rounding.deviation, share, previous)
@@ -85,13 +85,13 @@ def drafted(
     return tally, rules
 
 
-def _match_filament(tally: Tally, plan: Plan, redraw: Callable[[Plan], Tally]) -> Tally:
+def _match_filament(tally: RefillStats, plan: RefillPlan, redraw: Callable[[RefillPlan], RefillStats]) -> RefillStats:
     """Redraw a small print at other cells until its infill takes the old amount of filament; else at the best cell.
 
     In a large print, later layers make up for the excess or shortage of earlier ones.
     """
 
-    def filament_error(tally_of_draft: Tally) -> float:
+    def filament_error(tally_of_draft: RefillStats) -> float:
         return (
             tally_of_draft.infill_after.filament / tally_of_draft.infill.filament - 1
             if tally_of_draft.infill.filament
@@ -100,9 +100,9 @@ def _match_filament(tally: Tally, plan: Plan, redraw: Callable[[Plan], Tally]) -
 
     best, smallest_error, current = plan, abs(filament_error(tally)), plan
     errors: dict[float, float] = {}  # relative error of the filament, by cell
-    for _ in range(EVENED):
+    for _ in range(MOST_CELL_TRIES):
         error = errors[current.cell] = filament_error(tally)
-        if abs(error) <= EVEN:
+        if abs(error) <= FILAMENT_TOLERANCE:
             return tally
         # The filament jumps with the cell: try between two cells that take too much and too little, if both exist.
         opposite = [cell for cell, cell_error in errors.items() if cell_error * error < 0]
@@ -118,40 +118,40 @@ def _draw(
     file: BinaryIO,
     draft: BinaryIO,
     print_survey: Survey,
-    rules: Rules,
-    plan: Plan | None,
+    rules: RefillRules,
+    plan: RefillPlan | None,
     progress: Progress | None,
     clock: PrintClock | None,
-) -> Tally:
+) -> RefillStats:
     """Write the new text to a draft."""
     file.seek(0)
     draft.seek(0)
     draft.truncate()
-    tally, memory, below, tags = Tally(), Memory(), None, None
+    tally, memory, below, tags = RefillStats(), LayerMemory(), None, None
     begin = None if clock is None else clock.begin
     bytes_read = shown = 0
 
-    def refill_next(batch: Batch) -> Refilled:
-        return refilled(batch, rules, plan, memory)
+    def refill_next(batch: Batch) -> RefilledBatch:
+        return refill_batch(batch, rules, plan, memory)
 
     # New paths continue those of the layer below, so that batches come one after another.
     threads = min(thread_count(), MOST_THREADS) if plan is None else 1
-    with told(Path("a temporary file")):
+    with wrap_os_errors(Path("a temporary file")):
         for batch, new in in_order(refill_next, read_batches(file, begin), threads=threads):
             if clock is not None:
                 clock.add(batch.table)
-            before, after, below = measured_contact(batch, new, below, rules.stride)
+            before, after, below = measure_batch(batch, new, below, rules.stride)
             tally.add(new.tally)
             tally.before += before
             tally.after += after
-            for begin_byte, end_byte in estimates(new.text):
+            for begin_byte, end_byte in find_estimates(new.text):
                 tally.lines.append((draft.tell() + begin_byte, new.text[begin_byte:end_byte]))
             draft.write(new.text)
             tags = batch.marks.after
             bytes_read += len(batch.table.data)
             if progress is not None and bytes_read >= shown:
                 progress("drawing infill", bytes_read / max(print_survey.size, 1))
-                shown = bytes_read + SHOWN
+                shown = bytes_read + PROGRESS_BYTES
         draft.flush()
     if tags is None or not tags.layer:
         raise FormatError(

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from infill.paths.corners import UNIT
 from infill.paths.covering import cover, total_length
 from infill.paths.families.protocol import TOUCH
-from infill.paths.layer_below import Ground
-from infill.paths.neighbours import Walls
-from infill.paths.rounding import rounded_paths
-from infill.refilling.planning import Plan
+from infill.paths.layer_below import LayerBelow
+from infill.paths.neighbours import BeadIndex
+from infill.paths.rounding import round_paths
+from infill.refilling.planning import RefillPlan
 
 if TYPE_CHECKING:
     from shapely import Polygon
@@ -23,17 +23,19 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Paths = list[Floats]
 
-INSIDE = 0.01  # mm that a path may leave its region
-AGAIN = 3  # rounds of rounding until all paths stay inside
-REACHED = 1.5  # mm from the place where a path leaves its region to the corners that cause it
-OFF = 0.08  # relative error of the length in an area, more than beads can make up for, before it gets its own cell
-FAR_OFF = 0.25  # the same before a column changes its cell, so that its layers no longer lie on one another
+REGION_TOLERANCE = 0.01  # mm that a path may leave its region
+ROUNDING_TRIES = 3  # rounds of rounding until all paths stay inside
+SHARP_RADIUS = 1.5  # mm from the place where a path leaves its region to the corners that cause it
+LENGTH_TOLERANCE = (
+    0.08  # relative error of the length in an area, more than beads can make up for, before it gets its own cell
+)
+COLUMN_TOLERANCE = 0.25  # the same before a column changes its cell, so that its layers no longer lie on one another
 TRIES = 4
-NEAR = 0.02  # relative error of the length that ends the search
-SMALL = 300.0  # mm of lines, below which the search always scans cells around too: the length jumps there
+SEARCH_TOLERANCE = 0.02  # relative error of the length that ends the search
+SMALL_LENGTH = 300.0  # mm of lines, below which the search always scans cells around too: the length jumps there
 SPREAD, SCANNED = 0.35, 30
 LEAST_LENGTH = 5.0  # mm: areas with less keep the cell of their column
-NEWEST = 0.2  # weight of the last layer in the density of a column
+NEWEST_WEIGHT = 0.2  # weight of the last layer in the density of a column
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,7 +64,7 @@ class Column:
         return self.density * float(self.area.area)
 
 
-def column(area: Polygon, length: float, plan: Plan, below: Sequence[Column]) -> Column:
+def continue_column(area: Polygon, length: float, plan: RefillPlan, below: Sequence[Column]) -> Column:
     """Continue the column below an area, or begin a new one.
 
     Parameters
@@ -86,11 +88,13 @@ def column(area: Polygon, length: float, plan: Plan, below: Sequence[Column]) ->
                 best, largest_overlap = candidate, overlap
     if best is None:
         return Column(area=area, cell=plan.cell, density=density, fresh=True)
-    return Column(area=area, cell=best.cell, density=(1 - NEWEST) * best.density + NEWEST * density, fresh=False)
+    return Column(
+        area=area, cell=best.cell, density=(1 - NEWEST_WEIGHT) * best.density + NEWEST_WEIGHT * density, fresh=False
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
-class Place:
+class AreaSetting:
     """Plan, neighbours and motion for the paths of an area.
 
     Parameters
@@ -106,17 +110,17 @@ class Place:
         The layer below, if paths should lie on it.
     """
 
-    plan: Plan
-    walls: Walls
+    plan: RefillPlan
+    walls: BeadIndex
     z: float
     layer: int
     speed: float
     acceleration: float
-    ground: Ground | None = None
+    ground: LayerBelow | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
-class Fitted:
+class FittedPaths:
     """Paths in an area.
 
     Parameters
@@ -137,7 +141,7 @@ class Fitted:
         return total_length(self.paths)
 
 
-def fitted(stack: Column, place: Place) -> Fitted:
+def fit_paths(stack: Column, place: AreaSetting) -> FittedPaths:
     """Draw paths in the area of a column, at its cell or at one that gives them the target length.
 
     The length jumps with the cell in small areas: the closest of a few is the result. A requested cell stays.
@@ -148,11 +152,14 @@ def fitted(stack: Column, place: Place) -> Fitted:
     if place.plan.fixed or not place.plan.family.prismatic or target <= LEAST_LENGTH:
         return best
     error = best.length / target - 1
-    if abs(error) <= (OFF if stack.fresh else FAR_OFF):
+    if abs(error) <= (LENGTH_TOLERANCE if stack.fresh else COLUMN_TOLERANCE):
         return best
-    nearby_cells, cell = _nearby_cells(stack, place.plan) if target < SMALL or stack.fresh else np.empty(0), stack.cell
+    nearby_cells, cell = (
+        _nearby_cells(stack, place.plan) if target < SMALL_LENGTH or stack.fresh else np.empty(0),
+        stack.cell,
+    )
     for attempt in range(TRIES + len(nearby_cells)):
-        if attempt >= TRIES and target >= SMALL and abs(best.length / target - 1) <= OFF:
+        if attempt >= TRIES and target >= SMALL_LENGTH and abs(best.length / target - 1) <= LENGTH_TOLERANCE:
             break
         cell = cell * float(np.clip(1 + error, 0.6, 1.6)) if attempt < TRIES else float(nearby_cells[attempt - TRIES])
         cell = max(cell, TOUCH * place.plan.line_width)
@@ -160,12 +167,12 @@ def fitted(stack: Column, place: Place) -> Fitted:
         error = candidate.length / target - 1
         if abs(error) < abs(best.length / target - 1):
             best = candidate
-        if abs(error) < NEAR:
+        if abs(error) < SEARCH_TOLERANCE:
             break
     return best
 
 
-def _nearby_cells(stack: Column, plan: Plan) -> Floats:
+def _nearby_cells(stack: Column, plan: RefillPlan) -> Floats:
     """Return cells around that of a column, mm; for a column with a free cell, those around that of the plan first."""
     steps = np.exp(np.linspace(-SPREAD, SPREAD, SCANNED))
     nearest = steps[np.argsort(np.abs(np.log(steps)), kind="stable")]
@@ -174,7 +181,7 @@ def _nearby_cells(stack: Column, plan: Plan) -> Floats:
     return np.concatenate([plan.cell * nearest, stack.cell * nearest])
 
 
-def _cover_smoothly(area: Polygon, cell: float, place: Place) -> Fitted:
+def _cover_smoothly(area: Polygon, cell: float, place: AreaSetting) -> FittedPaths:
     """Cover an area with rounded paths; where one would leave it, its corners stay sharp."""
     import shapely
 
@@ -191,13 +198,13 @@ def _cover_smoothly(area: Polygon, cell: float, place: Place) -> Fitted:
     )
     strands = [path for path in strands if len(path) > 1]
     if not strands:
-        return Fitted(paths=[], radii=np.empty(0), cell=cell)
-    tolerance_area = shapely.buffer(area, INSIDE)
+        return FittedPaths(paths=[], radii=np.empty(0), cell=cell)
+    tolerance_area = shapely.buffer(area, REGION_TOLERANCE)
     shapely.prepare(tolerance_area)
     corners = shapely.points(np.concatenate(strands))
     hard = np.zeros(len(corners), dtype=bool)
-    for _ in range(AGAIN):
-        smooth_paths, radii = rounded_paths(
+    for _ in range(ROUNDING_TRIES):
+        smooth_paths, radii = round_paths(
             strands,
             walls=place.walls,
             acceleration=place.acceleration,
@@ -211,9 +218,11 @@ def _cover_smoothly(area: Polygon, cell: float, place: Place) -> Fitted:
         inside = shapely.covers(tolerance_area, lines)
         if inside.all():
             break
-        hard |= shapely.dwithin(corners, shapely.union_all(shapely.difference(lines[~inside], tolerance_area)), REACHED)
+        hard |= shapely.dwithin(
+            corners, shapely.union_all(shapely.difference(lines[~inside], tolerance_area)), SHARP_RADIUS
+        )
     plain = [np.rint(path / UNIT) * UNIT for path in strands]
     paths = [
         smooth if fits else sharp for smooth, sharp, fits in zip(smooth_paths, plain, inside.tolist(), strict=True)
     ]
-    return Fitted(paths=paths, radii=radii, cell=cell)
+    return FittedPaths(paths=paths, radii=radii, cell=cell)

@@ -19,17 +19,24 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from infill.files.whole_files import check_target, scratch, whole_file
-from infill.gcode.estimates import Change, finished, said_grams, said_millimetres, said_seconds, told_anew
-from infill.gcode.sliced_file import SlicedText, opened
-from infill.refilling.prints import copy_mode, pieces, retold, write_print
+from infill.files.whole_files import atomic_file, check_target, scratch_file
+from infill.gcode.estimates import (
+    EstimateChange,
+    completion_letters,
+    stated_grams,
+    stated_millimetres,
+    stated_seconds,
+    update_estimate,
+)
+from infill.gcode.sliced_file import SlicedText, open_sliced
+from infill.refilling.prints import copy_mode, read_pieces, update_metadata, write_print
 from infill.refilling.request import AUTO, KEEP, Progress, Request
 from infill.version import __version__
 
 if TYPE_CHECKING:
     from infill.gcode.survey import Survey
-    from infill.refilling.rules import Rules
-    from infill.refilling.stats import Tally, Whole
+    from infill.refilling.rules import RefillRules
+    from infill.refilling.stats import PrintAmounts, RefillStats
     from infill.refilling.timing import PrintTime
 
 HEAD = 1 << 16  # bytes in which the header ends
@@ -135,10 +142,10 @@ def refill(
     if not dry_run:
         check_target(target, overwrite=overwrite or output is None)
     folder = None if dry_run else target.parent
-    with opened(source) as sliced, contextlib.ExitStack() as drafts:
+    with open_sliced(source) as sliced, contextlib.ExitStack() as drafts:
         drafted: dict[int | None, _Draft] = {}
         for number, plate in enumerate(sliced.parts):
-            draft = drafts.enter_context(scratch(folder))
+            draft = drafts.enter_context(scratch_file(folder))
             plate_progress = _scale_progress(progress, number, len(sliced.parts))
             with sliced.text(plate, folder) as text:
                 drafted[plate] = _refill_text(text, draft, request, plate_progress)
@@ -152,13 +159,13 @@ def refill(
             return RefillResult(report=report, path=None)
         if not changed:  # a copy
             if not _is_same_file(source, target):
-                with whole_file(target) as file, source.open("rb") as old:
+                with atomic_file(target) as file, source.open("rb") as old:
                     copy_mode(source, file)
                     shutil.copyfileobj(old, file)
             return RefillResult(report=report, path=target)
         if progress is not None:
             progress("writing", 0.95)
-        with whole_file(target) as file:
+        with atomic_file(target) as file:
             copy_mode(source, file)
             metadata = {name: value for part_draft in changed.values() for name, value in part_draft.metadata.items()}
             write_print(sliced, file, {name: part_draft.text() for name, part_draft in changed.items()}, metadata)
@@ -208,9 +215,9 @@ class _Draft:
 
     found: Survey
     draft: BinaryIO
-    tally: Tally | None = None
-    rules: Rules | None = None
-    remedy: Tally | None = None
+    tally: RefillStats | None = None
+    rules: RefillRules | None = None
+    remedy: RefillStats | None = None
     edits: tuple[tuple[int, int, bytes], ...] = ()
     metadata: dict[str, str] = field(default_factory=dict)
 
@@ -218,72 +225,72 @@ class _Draft:
         """Yield the draft with its edits, in pieces."""
         position = 0
         for edit_place, length, text in self.edits:
-            yield from pieces(self.draft, position, edit_place)
+            yield from read_pieces(self.draft, position, edit_place)
             yield text
             position = edit_place + length
-        yield from pieces(self.draft, position, self.draft.seek(0, os.SEEK_END))
+        yield from read_pieces(self.draft, position, self.draft.seek(0, os.SEEK_END))
 
 
 def _joint_report(request: Request, parts: Sequence[_Draft], plates: Sequence[int] = ()) -> dict[str, Any]:
     """Report on all prints of a file; those that were refilled before count only if all of them were."""
-    from infill.gcode.survey import joined
-    from infill.refilling.report import report_of_refill
-    from infill.refilling.stats import Tally
+    from infill.gcode.survey import merge_surveys
+    from infill.refilling.report import refill_report
+    from infill.refilling.stats import RefillStats
 
-    joint_survey = joined([part.found for part in parts])
+    joint_survey = merge_surveys([part.found for part in parts])
     tallies = [part.tally for part in parts if part.tally is not None]
     rules = max((part.rules for part in parts if part.rules), key=lambda rules: rules.rounding.deviation, default=None)
-    total = Tally()
+    total = RefillStats()
     for tally in tallies:
         total.add(tally)
     total_or_none = total if tallies else None
-    remedied = Tally()
+    remedied = RefillStats()
     for part in parts:
         if part.tally is not None:
             remedied.add(part.remedy or part.tally)
     remedy = remedied if any(part.remedy is not None for part in parts) else None
-    return report_of_refill(
+    return refill_report(
         request, joint_survey, total_or_none, already=joint_survey.stamped, rules=rules, plates=plates, remedy=remedy
     )
 
 
 def _refill_text(sliced: SlicedText, draft: BinaryIO, request: Request, progress: Progress | None) -> _Draft:
     """Write the new text to a draft."""
-    from infill.gcode.survey import survey
-    from infill.refilling.drafting import drafted
+    from infill.gcode.survey import survey_print
+    from infill.refilling.drafting import draft_print
     from infill.refilling.placement import family_of
-    from infill.refilling.planning import planned
+    from infill.refilling.planning import plan_refill
     from infill.refilling.report import loses_filament
-    from infill.refilling.rules import rules_of
-    from infill.refilling.support import largest_deviation, samples
+    from infill.refilling.rules import derive_rules
+    from infill.refilling.support import largest_deviation, sample_batches
     from infill.refilling.timing import PrintClock
 
     family = None if request.pattern == KEEP else family_of(request.pattern, request.parameters)
-    print_survey = survey(sliced.text, more=family is not None and not family.prismatic, settings=sliced.settings)
+    print_survey = survey_print(sliced.text, more=family is not None and not family.prismatic, settings=sliced.settings)
     print_survey = replace(print_survey, slicer=print_survey.slicer or sliced.slicer)
     if print_survey.stamped:
         return _Draft(found=print_survey, draft=draft)
     if progress is not None:
         progress("looking at layers", 0.0)
-    batches = samples(print_survey)
-    rules = rules_of(request, print_survey, batches)
+    batches = sample_batches(print_survey)
+    rules = derive_rules(request, print_survey, batches)
     plan = None
     if family is not None:
         share = None if isinstance(request.density, str | None) else float(request.density)
-        plan = planned(
+        plan = plan_refill(
             family, batches, rules.rounding, density=share, acceleration=rules.acceleration, cell=request.cell
         )
         rules = rules if plan is not None else rules.rounded_by(0.0)
     elif request.smooth_radius == AUTO and batches:
         rules = rules.rounded_by(largest_deviation(batches, rules.rounding, rules.acceleration))
     clock = PrintClock(sliced)
-    tally, rules = drafted(sliced.text, draft, print_survey, rules, plan, progress, clock)
+    tally, rules = draft_print(sliced.text, draft, print_survey, rules, plan, progress, clock)
     remedy = None
     if request.pattern == KEEP and loses_filament(tally) and request.smooth_radius != AUTO:
         by_itself = replace(rules, request=replace(request, smooth_radius=AUTO)).with_radius(math.inf)
         by_itself = by_itself.rounded_by(largest_deviation(batches, by_itself.rounding, rules.acceleration))
         with tempfile.TemporaryFile() as trial:
-            remedy, _ = drafted(sliced.text, trial, print_survey, by_itself, None, progress)
+            remedy, _ = draft_print(sliced.text, trial, print_survey, by_itself, None, progress)
     if print_survey.begin.volumetric:
         for stats in [tally] if remedy is None else [tally, remedy]:
             stats.count_millimetres([math.pi / 4 * diameter**2 for diameter in print_survey.begin.diameters])
@@ -292,7 +299,7 @@ def _refill_text(sliced: SlicedText, draft: BinaryIO, request: Request, progress
     after = PrintClock(sliced, draft, places, like=clock).read() if tally.replaced else before
     change, edits = _update_estimates(sliced, print_survey, tally, before, after)
     edits = [*edits, _stamp_edit(draft, tally)] if tally.replaced else []
-    metadata = retold(sliced.metadata, change)
+    metadata = update_metadata(sliced.metadata, change)
     return _Draft(
         found=print_survey,
         draft=draft,
@@ -305,12 +312,12 @@ def _refill_text(sliced: SlicedText, draft: BinaryIO, request: Request, progress
 
 
 def _update_estimates(
-    sliced: SlicedText, print_survey: Survey, tally: Tally, before: PrintTime, after: PrintTime
-) -> tuple[Change, list[tuple[int, int, bytes]]]:
+    sliced: SlicedText, print_survey: Survey, tally: RefillStats, before: PrintTime, after: PrintTime
+) -> tuple[EstimateChange, list[tuple[int, int, bytes]]]:
     """Add the totals of the print to the tally; return their change, and the edits of the lines that state them."""
     lines = [line for _, line in tally.lines]
     outside = [b"; %s = %s" % item for item in sliced.metadata]
-    change = Change(
+    change = EstimateChange(
         seconds=after.seconds,
         first_layer=after.first_layer,
         ratio=after.seconds / before.seconds if before.seconds else 1.0,
@@ -321,35 +328,35 @@ def _update_estimates(
     change = change.told_by([*lines, *outside]).as_told(lines, tally.change)
     new_lines = lines
     if tally.replaced:
-        times = zip(lines, after.elapsed.tolist(), finished(lines), strict=True)
-        new_lines = [told_anew(line, elapsed, change, is_finished) for line, elapsed, is_finished in times]
-    new_outside = [told_anew(line, 0.0, change) for line in outside] if tally.replaced else outside
+        times = zip(lines, after.elapsed.tolist(), completion_letters(lines), strict=True)
+        new_lines = [update_estimate(line, elapsed, change, is_finished) for line, elapsed, is_finished in times]
+    new_outside = [update_estimate(line, 0.0, change) for line in outside] if tally.replaced else outside
     used = sum(tally.filament.values())
     tally.print_before = _print_amounts(before, [*lines, *outside], used, print_survey)
     tally.print_after = _print_amounts(
         after, [*new_lines, *new_outside], used + sum(tally.change.values()), print_survey
     )
     tally.slicer_seconds = max(
-        (said_seconds(line) for line in (*lines, *outside) if b"silent" not in line), default=0.0
+        (stated_seconds(line) for line in (*lines, *outside) if b"silent" not in line), default=0.0
     )
     tally.unread, tally.first_unread = before.unread, before.first_unread
     edits = [(place, len(line), text) for (place, line), text in zip(tally.lines, new_lines, strict=True)]
     return change, edits
 
 
-def _print_amounts(time: PrintTime, lines: Sequence[bytes], used: float, print_survey: Survey) -> Whole:
+def _print_amounts(time: PrintTime, lines: Sequence[bytes], used: float, print_survey: Survey) -> PrintAmounts:
     """Sum up a print: the filament that its lines state, or else the counted amount."""
-    from infill.refilling.stats import Whole
+    from infill.refilling.stats import PrintAmounts
 
-    filament = said_millimetres(lines)
+    filament = stated_millimetres(lines)
     filament = used if filament is None else filament
-    grams, density = said_grams(lines), print_survey.number("filament_density")
+    grams, density = stated_grams(lines), print_survey.number("filament_density")
     if grams is None and density:
         grams = filament * math.pi / 4 * print_survey.begin.diameter**2 / 1000 * density
-    return Whole(seconds=time.seconds, infill_seconds=time.infill, filament=filament, grams=grams)
+    return PrintAmounts(seconds=time.seconds, infill_seconds=time.infill, filament=filament, grams=grams)
 
 
-def _stamp_edit(draft: BinaryIO, tally: Tally) -> tuple[int, int, bytes]:
+def _stamp_edit(draft: BinaryIO, tally: RefillStats) -> tuple[int, int, bytes]:
     """Return the edit that inserts the stamp: after the header block, or after a first line that is a comment."""
     from infill.gcode.survey import STAMP
 

@@ -8,20 +8,20 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.gcode.bodies import Body, composed, exchanged, unlawful, ways_of
-from infill.gcode.splicing import differing, spliced, unlike
-from infill.gcode.table import Table, read
+from infill.gcode.bodies import InfillSection, compose_section, measure_travel, replace_sections, validate_section
+from infill.gcode.splicing import find_difference, splice_paths, verify_replay
+from infill.gcode.table import GcodeTable, read_table
 from infill.paths.contact import Contact
 from infill.paths.covering import total_length
-from infill.ragged import packed, parted
+from infill.ragged import concatenate_rows, split_rows
 from infill.refilling.batch import LEAST_SPEED, Batch
-from infill.refilling.measuring import Below, Drawing, measured
-from infill.refilling.planning import Plan
-from infill.refilling.repath import NO_REGION, Fresh, Memory, fresh_sections, outside, retractions
+from infill.refilling.measuring import LayerPaths, SampledLayer, measure_layers
+from infill.refilling.planning import RefillPlan
+from infill.refilling.repath import NO_REGION, LayerMemory, NewSection, choose_retractions, draw_sections, leaves_region
 from infill.refilling.request import KEEP
-from infill.refilling.rules import Rules, short_layers, unchanged
-from infill.refilling.smooth_in_place import lengths, redrawn, same_filament, stroke_corners
-from infill.refilling.stats import Amounts, Tally
+from infill.refilling.rules import RefillRules, short_layers, unchangeable_strokes
+from infill.refilling.smooth_in_place import path_lengths, redraw_strokes, stroke_corners, widened_filament
+from infill.refilling.stats import InfillAmounts, RefillStats
 from infill.refilling.timing import path_seconds
 
 Floats = NDArray[np.float64]
@@ -34,7 +34,7 @@ SLOWER = 1.01  # a stroke that takes longer than this share of its old time keep
 
 
 @dataclass(frozen=True, kw_only=True)
-class Refilled:
+class RefilledBatch:
     """A batch after its refill.
 
     Parameters
@@ -47,11 +47,11 @@ class Refilled:
     """
 
     text: bytes
-    tally: Tally
-    infill: Drawing
+    tally: RefillStats
+    infill: LayerPaths
 
 
-def refilled(batch: Batch, rules: Rules, plan: Plan | None, memory: Memory) -> Refilled:
+def refill_batch(batch: Batch, rules: RefillRules, plan: RefillPlan | None, memory: LayerMemory) -> RefilledBatch:
     """Refill a batch.
 
     Parameters
@@ -65,11 +65,11 @@ def refilled(batch: Batch, rules: Rules, plan: Plan | None, memory: Memory) -> R
     """
     table, marks = batch.table, batch.marks
     tools = _tools(table)
-    tally = Tally(layers=marks.layers)
+    tally = RefillStats(layers=marks.layers)
     tally.use(tools, table.extruded)
     tally.sections = len(batch.sections)
     if plan is not None:
-        memory.ways = ways_of(table, memory.ways)
+        memory.ways = measure_travel(table, memory.ways)
     if not len(batch.infill):
         _count_reasons(tally, batch, {})
         return _keep_batch(batch, tally, np.empty(0))
@@ -80,9 +80,9 @@ def refilled(batch: Batch, rules: Rules, plan: Plan | None, memory: Memory) -> R
     return _round_strokes(batch, rules, tally, old_seconds, tools)
 
 
-def measured_contact(
-    batch: Batch, refilled_batch: Refilled, last: Below | None, stride: int
-) -> tuple[Contact, Contact, Below | None]:
+def measure_batch(
+    batch: Batch, refilled_batch: RefilledBatch, last: SampledLayer | None, stride: int
+) -> tuple[Contact, Contact, SampledLayer | None]:
     """Measure the contact of the infill of a batch, before and after; return also the state for the next batch.
 
     Parameters
@@ -94,7 +94,7 @@ def measured_contact(
     stride : int
         Sampling stride, in layers.
     """
-    return measured(
+    return measure_layers(
         batch.drawing,
         refilled_batch.infill,
         batch.others,
@@ -105,17 +105,19 @@ def measured_contact(
     )
 
 
-def _round_strokes(batch: Batch, rules: Rules, tally: Tally, before: Floats, tools: Places) -> Refilled:
+def _round_strokes(
+    batch: Batch, rules: RefillRules, tally: RefillStats, before: Floats, tools: Places
+) -> RefilledBatch:
     """Round the slicer's paths of a batch."""
     infill, acceleration = batch.infill, batch.acceleration(rules.acceleration)
     rounded_paths = stroke_corners(batch, rules.rounding.corner, acceleration=rules.acceleration).rounded(
         rules.rounding
     )
     after = path_seconds(rounded_paths.points, rounded_paths.first, batch.speed, acceleration, rules.limits)
-    reasons = {**unchanged(batch, rules), "no faster": after > before * SLOWER}
-    redrawn_strokes = redrawn(infill, rounded_paths, ~_union(reasons, len(infill)), rules.rounding)
-    new_text = spliced(batch.table, infill, redrawn_strokes)
-    fault = unlike(batch.table, infill, redrawn_strokes, new_text)
+    reasons = {**unchangeable_strokes(batch, rules), "no faster": after > before * SLOWER}
+    redrawn_strokes = redraw_strokes(infill, rounded_paths, ~_union(reasons, len(infill)), rules.rounding)
+    new_text = splice_paths(batch.table, infill, redrawn_strokes)
+    fault = verify_replay(batch.table, infill, redrawn_strokes, new_text)
     if fault:
         _count_reasons(tally, batch, {f"a check failed: {fault}": batch.section})
         return _keep_batch(batch, tally, before)
@@ -125,39 +127,52 @@ def _round_strokes(batch: Batch, rules: Rules, tally: Tally, before: Floats, too
     if rules.request.pattern != KEEP:  # a new pattern that fits nowhere
         kept_sections[NO_REGION] = batch.section
     _count_reasons(tally, batch, kept_sections, batch.section[changed])
-    length = lengths(rounded_paths.points, rounded_paths.first)
+    length = path_lengths(rounded_paths.points, rounded_paths.first)
     _count(
         tally,
         batch,
         before,
         changed,
-        Amounts(
+        InfillAmounts(
             seconds=float(after[changed].sum()),
             length=float(length[changed].sum()),
             filament=float(redrawn_strokes.filament.sum()),
         ),
     )
-    tally.widened += float((same_filament(infill, redrawn_strokes) - redrawn_strokes.filament).sum())
+    tally.widened += float((widened_filament(infill, redrawn_strokes) - redrawn_strokes.filament).sum())
     tally.save(
         tools[infill.opens[redrawn_strokes.which]], infill.filament[redrawn_strokes.which], redrawn_strokes.filament
     )
     tally.round(rounded_paths.radius[np.repeat(changed, np.diff(infill.first))])
-    old_paths, new_paths = parted(infill.points, infill.first), parted(rounded_paths.points, rounded_paths.first)
-    points, first = packed([new_paths[k] if changed[k] else old_paths[k] for k in range(len(infill))], like=(2,))
-    return Refilled(text=new_text.text, tally=tally, infill=Drawing(points=points, first=first, layer=batch.layer))
+    old_paths, new_paths = (
+        split_rows(infill.points, infill.first),
+        split_rows(rounded_paths.points, rounded_paths.first),
+    )
+    points, first = concatenate_rows(
+        [new_paths[k] if changed[k] else old_paths[k] for k in range(len(infill))], like=(2,)
+    )
+    return RefilledBatch(
+        text=new_text.text, tally=tally, infill=LayerPaths(points=points, first=first, layer=batch.layer)
+    )
 
 
 def _replace_sections(
-    batch: Batch, rules: Rules, plan: Plan, memory: Memory, tally: Tally, before: Floats, tools: Places
-) -> Refilled:
+    batch: Batch,
+    rules: RefillRules,
+    plan: RefillPlan,
+    memory: LayerMemory,
+    tally: RefillStats,
+    before: Floats,
+    tools: Places,
+) -> RefilledBatch:
     """Replace the paths of a batch by new ones."""
     table, infill = batch.table, batch.infill
-    candidates, unfit = fresh_sections(batch, plan, memory, rules.acceleration)
-    reasons = unchanged(batch, rules)
+    candidates, unfit = draw_sections(batch, plan, memory, rules.acceleration)
+    reasons = unchangeable_strokes(batch, rules)
     fixed = _union(reasons, len(infill))
     kept_sections = {reason: batch.section[strokes] for reason, strokes in reasons.items()} | unfit
     allowed = [section for section in candidates if not fixed[section.body.strokes].any()]
-    fresh = _slow_down(batch, rules, [section for section in allowed if not outside(section)])
+    fresh = _slow_down(batch, rules, [section for section in allowed if not leaves_region(section)])
     drawn = np.array([section.body.section for section in fresh], dtype=np.intp)
     kept_sections["a path would leave its region"] = np.setdiff1d([section.body.section for section in allowed], drawn)
     if not fresh:
@@ -165,12 +180,14 @@ def _replace_sections(
         return _keep_batch(batch, tally, before)
     texts, filament = [], []
     for section in fresh:
-        text, pushed = composed(table, section.body, section.paths, section.rate, memory.ways, retractions(section))
+        text, pushed = compose_section(
+            table, section.body, section.paths, section.rate, memory.ways, choose_retractions(section)
+        )
         texts.append(text)
         filament.append(pushed)
-    new_text = exchanged(table, [section.body for section in fresh], texts)
-    new_table = read(new_text.text, table.before)
-    fault = differing(table, new_table, new_text) or unlawful(
+    new_text = replace_sections(table, [section.body for section in fresh], texts)
+    new_table = read_table(new_text.text, table.before)
+    fault = find_difference(table, new_table, new_text) or validate_section(
         new_table, new_text, [section.body for section in fresh], texts
     )
     if fault:
@@ -186,7 +203,7 @@ def _replace_sections(
         batch,
         before,
         changed,
-        Amounts(
+        InfillAmounts(
             seconds=sum(_new_seconds(section, rules) for section in fresh),
             length=sum(total_length(section.paths) for section in fresh),
             filament=sum(filament),
@@ -194,15 +211,17 @@ def _replace_sections(
     )
     opens = np.array([section.body.first for section in fresh])
     tally.save(tools[opens], np.array([section.body.filament for section in fresh]), np.array(filament))
-    old_paths, unchanged_strokes = parted(infill.points, infill.first), np.flatnonzero(~changed).tolist()
+    old_paths, unchanged_strokes = split_rows(infill.points, infill.first), np.flatnonzero(~changed).tolist()
     paths = [old_paths[k] for k in unchanged_strokes] + [path for section in fresh for path in section.paths]
     layer = [batch.layer[unchanged_strokes], *(np.full(len(section.paths), section.body.layer) for section in fresh)]
-    points, first = packed(paths, like=(2,))
-    drawing = Drawing(points=points, first=first, layer=np.concatenate(layer))
-    return Refilled(text=new_text.text, tally=tally, infill=drawing)
+    points, first = concatenate_rows(paths, like=(2,))
+    drawing = LayerPaths(points=points, first=first, layer=np.concatenate(layer))
+    return RefilledBatch(text=new_text.text, tally=tally, infill=drawing)
 
 
-def _count_reasons(tally: Tally, batch: Batch, reasons: Mapping[str, Places], changed: Places | None = None) -> None:
+def _count_reasons(
+    tally: RefillStats, batch: Batch, reasons: Mapping[str, Places], changed: Places | None = None
+) -> None:
     """Count every section of a batch once: as replaced, or as kept for its first reason.
 
     Parameters
@@ -224,18 +243,18 @@ def _count_reasons(tally: Tally, batch: Batch, reasons: Mapping[str, Places], ch
         remaining = np.setdiff1d(remaining, sections)
 
 
-def _keep_batch(batch: Batch, tally: Tally, before: Floats) -> Refilled:
+def _keep_batch(batch: Batch, tally: RefillStats, before: Floats) -> RefilledBatch:
     """Return a batch unchanged."""
-    _count(tally, batch, before, np.zeros(len(batch.infill), dtype=bool), Amounts())
-    return Refilled(text=batch.table.data, tally=tally, infill=batch.drawing)
+    _count(tally, batch, before, np.zeros(len(batch.infill), dtype=bool), InfillAmounts())
+    return RefilledBatch(text=batch.table.data, tally=tally, infill=batch.drawing)
 
 
-def _count(tally: Tally, batch: Batch, before: Floats, changed: Flags, new: Amounts) -> None:
+def _count(tally: RefillStats, batch: Batch, before: Floats, changed: Flags, new: InfillAmounts) -> None:
     """Count the infill of a batch before the refill, and after it, with `new` in place of the changed strokes."""
     infill = batch.infill
 
-    def amounts(chosen: Flags) -> Amounts:
-        return Amounts(
+    def amounts(chosen: Flags) -> InfillAmounts:
+        return InfillAmounts(
             seconds=float(before[chosen].sum()),
             length=float(infill.length[chosen].sum()),
             filament=float(infill.filament[chosen].sum()),
@@ -246,15 +265,15 @@ def _count(tally: Tally, batch: Batch, before: Floats, changed: Flags, new: Amou
     tally.widened = tally.infill_after.filament
 
 
-def _new_seconds(fresh: Fresh, rules: Rules) -> float:
+def _new_seconds(fresh: NewSection, rules: RefillRules) -> float:
     """Return the time of new paths, s."""
-    points, first = packed(fresh.paths, like=(2,))
+    points, first = concatenate_rows(fresh.paths, like=(2,))
     speed, acceleration = max(fresh.body.feed / 60, LEAST_SPEED), fresh.acceleration
     number = len(fresh.paths)
     return float(path_seconds(points, first, np.full(number, speed), np.full(number, acceleration), rules.limits).sum())
 
 
-def _slow_down(batch: Batch, rules: Rules, fresh: list[Fresh]) -> list[Fresh]:
+def _slow_down(batch: Batch, rules: RefillRules, fresh: list[NewSection]) -> list[NewSection]:
     """Slow down new paths that would take less time than the old ones, in layers as short as cooling allows.
 
     Travel counts on both sides, at the feed rates of the section and without acceleration, as slicers count it.
@@ -273,13 +292,13 @@ def _slow_down(batch: Batch, rules: Rules, fresh: list[Fresh]) -> list[Fresh]:
     return slowed
 
 
-def _lead_line(table: Table, body: Body) -> int:
+def _lead_line(table: GcodeTable, body: InfillSection) -> int:
     """Return the line after which a section begins, with its travel: the last printing one, or the one before."""
     printing = np.flatnonzero(table.extruded[: body.first] > 0)
     return int(printing[-1]) if len(printing) else max(body.first - 1, 0)
 
 
-def _section_seconds(table: Table, body: Body) -> float:
+def _section_seconds(table: GcodeTable, body: InfillSection) -> float:
     """Return the time of the old moves of a section, with the travel to it and in it and its retractions, s."""
     lines = slice(_lead_line(table, body), body.last + 1)
     distance = np.hypot(np.diff(table.x[lines]), np.diff(table.y[lines]))
@@ -287,7 +306,7 @@ def _section_seconds(table: Table, body: Body) -> float:
     return float(np.nan_to_num(60 * distance / table.f[lines][1:]).sum())
 
 
-def _travel_seconds(table: Table, fresh: Fresh) -> float:
+def _travel_seconds(table: GcodeTable, fresh: NewSection) -> float:
     """Return the time of travel to, between and from new paths, at the highest feed rate of their section, s."""
     body = fresh.body
     lead = _lead_line(table, body)
@@ -305,7 +324,7 @@ def _union(reasons: dict[str, Flags], strokes: int) -> Flags:
     return union
 
 
-def _tools(table: Table) -> Places:
+def _tools(table: GcodeTable) -> Places:
     """Return the tool in use on every line."""
     tools = np.full(len(table), table.before.tool)
     for command in table.commands:

@@ -8,19 +8,19 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.paths.contact import MOST_POINTS, STEP, Contact, Samples, contact, merged, sampled
-from infill.paths.neighbours import Beads
-from infill.ragged import picked
+from infill.paths.contact import MOST_POINTS, STEP, Contact, Samples, concatenate_samples, layer_contact, sample_paths
+from infill.paths.neighbours import BeadMoves
+from infill.ragged import select_rows
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
-MEASURED = 16  # layers of a print, about; more of small layers, so that the number of points is about the same
-MOST_MEASURED = 128
+TARGET_LAYERS = 16  # layers of a print, about; more of small layers, so that the number of points is about the same
+MOST_LAYERS = 128
 LARGE = MOST_POINTS * STEP  # mm of infill in a layer: larger layers are sampled
 
 
-def stride_of(layers: float, length: float) -> int:
+def sampling_stride(layers: float, length: float) -> int:
     """Return the sampling stride, in layers, of a print.
 
     Parameters
@@ -30,15 +30,15 @@ def stride_of(layers: float, length: float) -> int:
     length : float
         mm of infill in a typical layer.
 
-    >>> stride_of(320, 5000.0), stride_of(320, 500.0), stride_of(320, 0.0)
+    >>> sampling_stride(320, 5000.0), sampling_stride(320, 500.0), sampling_stride(320, 0.0)
     (20, 5, 2)
     """
-    number = min(MEASURED * max(1.0, LARGE / max(length, 1e-9)), MOST_MEASURED)
+    number = min(TARGET_LAYERS * max(1.0, LARGE / max(length, 1e-9)), MOST_LAYERS)
     return max(1, round(layers / number))
 
 
 @dataclass(frozen=True, kw_only=True)
-class Drawing:
+class LayerPaths:
     """Paths of some layers.
 
     Parameters
@@ -54,12 +54,12 @@ class Drawing:
 
     def of(self, number: int) -> Samples:
         """Return samples of the paths of one layer."""
-        places, first = picked(self.first, np.flatnonzero(self.layer == number))
-        return sampled(self.points[places], first)
+        places, first = select_rows(self.first, np.flatnonzero(self.layer == number))
+        return sample_paths(self.points[places], first)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Below:
+class SampledLayer:
     """A drawn layer that supports the next one.
 
     Parameters
@@ -74,9 +74,16 @@ class Below:
     after: Samples
 
 
-def measured(
-    old: Drawing, new: Drawing, others: Beads, layers: Places, *, line_width: float, stride: int, last: Below | None
-) -> tuple[Contact, Contact, Below | None]:
+def measure_layers(
+    old: LayerPaths,
+    new: LayerPaths,
+    others: BeadMoves,
+    layers: Places,
+    *,
+    line_width: float,
+    stride: int,
+    last: SampledLayer | None,
+) -> tuple[Contact, Contact, SampledLayer | None]:
     """Measure every `stride`-th layer of a batch, old and new.
 
     Parameters
@@ -104,10 +111,12 @@ def measured(
     def layer_samples(number: int) -> tuple[Samples, Samples]:
         return old.of(number), new.of(number)
 
-    def below(number: int) -> Below:
+    def below(number: int) -> SampledLayer:
         walls = others.samples_of(number)
         old_samples, new_samples = layer_samples(number)
-        return Below(number=number, before=merged(old_samples, walls), after=merged(new_samples, walls))
+        return SampledLayer(
+            number=number, before=concatenate_samples(old_samples, walls), after=concatenate_samples(new_samples, walls)
+        )
 
     layer_set = set(layers.tolist())
     for number in np.unique(old.layer).tolist():
@@ -120,7 +129,7 @@ def measured(
         else:
             continue
         old_samples, new_samples = layer_samples(number)
-        before += contact(old_samples, lower.before, line_width)
-        after += contact(new_samples, lower.after, line_width)
+        before += layer_contact(old_samples, lower.before, line_width)
+        after += layer_contact(new_samples, lower.after, line_width)
     final = int(layers[-1]) if len(layers) else 0
     return before, after, below(final) if len(layers) and (final + 1) % stride == 0 else None

@@ -11,7 +11,7 @@ from infill.files.excerpts import excerpt
 from patterns.declared import check_parameters, parameter
 from patterns.declared import parameters as declared
 from patterns.errors import PatternError
-from patterns.given import nearest
+from patterns.given import suggest_name
 from patterns.shared import angle_parameter, phase_parameter, seed_parameter
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Plain:
+class PatternParameters:
     """A pattern without parameters: the slicer's own.
 
     Parameters
@@ -40,7 +40,7 @@ class Plain:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Sized(Plain):
+class SizedParameters(PatternParameters):
     """A pattern that follows the region: only the size of its cells can be set."""
 
     cell: float | None = parameter(
@@ -49,7 +49,7 @@ class Sized(Plain):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Placed(Sized):
+class PlacedParameters(SizedParameters):
     """A pattern that covers the bed, wherever the parts stand on it."""
 
     angle: float = angle_parameter()
@@ -59,13 +59,13 @@ class Placed(Sized):
         """Return a family with these parameters."""
         if not self.angle and not any(self.phase):
             return family
-        from infill.paths.families.turned import Turned
+        from infill.paths.families.turned import TurnedFamily
 
-        return Turned(family=family, angle=self.angle, phase=self.phase)
+        return TurnedFamily(family=family, angle=self.angle, phase=self.phase)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Flat(Placed):
+class HoneycombParameters(PlacedParameters):
     """A honeycomb."""
 
     flats: float = parameter(1.0, "length of the walls that touch, over that of the others", unit="", low=0.25, high=4)
@@ -79,7 +79,7 @@ class Flat(Placed):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Scattered(Placed):
+class VoronoiParameters(PlacedParameters):
     """Cells about points at random."""
 
     seed: int = seed_parameter()
@@ -93,7 +93,7 @@ class Scattered(Placed):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Centred(Sized):
+class CentredParameters(SizedParameters):
     """Outlines or turns about a point."""
 
     angle: float = angle_parameter()
@@ -114,23 +114,23 @@ class Centred(Sized):
         return replace(family, angle=self.angle, middle=self.middle)
 
 
-KINDS: Mapping[str, type[Plain]] = {
-    "keep": Plain,
-    "concentric": Sized,
-    "concentric-heart": Centred,
-    "archimedean-chords": Centred,
-    "octagram-spiral": Centred,
-    "voronoi": Scattered,
-    "honeycomb": Flat,
+KINDS: Mapping[str, type[PatternParameters]] = {
+    "keep": PatternParameters,
+    "concentric": SizedParameters,
+    "concentric-heart": CentredParameters,
+    "archimedean-chords": CentredParameters,
+    "octagram-spiral": CentredParameters,
+    "voronoi": VoronoiParameters,
+    "honeycomb": HoneycombParameters,
 }
 
 
-def unplaced(pattern: str) -> Plain:
+def default_parameters(pattern: str) -> PatternParameters:
     """Return the parameters of a pattern, by its name, or of a drawing, by its path, with their defaults."""
-    return KINDS.get(pattern, Placed)(name=excerpt(PurePath(pattern).name))
+    return KINDS.get(pattern, PlacedParameters)(name=excerpt(PurePath(pattern).name))
 
 
-def placement(pattern: str, parameters: Mapping[str, Any]) -> Plain:
+def pattern_parameters(pattern: str, parameters: Mapping[str, Any]) -> PatternParameters:
     """Return the checked parameters of a pattern.
 
     Raises
@@ -138,11 +138,11 @@ def placement(pattern: str, parameters: Mapping[str, Any]) -> Plain:
     PatternError
         If one is unknown or out of range.
     """
-    kind = unplaced(pattern)
+    kind = default_parameters(pattern)
     names = declared(kind)
     for name in parameters:
         if name not in names:
-            raise PatternError(f"{kind.name} has no parameter {name!r}; {nearest(name, names)}")
+            raise PatternError(f"{kind.name} has no parameter {name!r}; {suggest_name(name, names)}")
     return replace(kind, **parameters)
 
 
@@ -160,7 +160,7 @@ def family_of(pattern: str, parameters: Mapping[str, Any]) -> Family:
     if pattern in FAMILIES:
         family = FAMILIES[pattern]
     else:
-        from infill.drawings.tile_files import drawn
+        from infill.drawings.tile_files import read_tile_family
 
-        family = drawn(pattern)
-    return placement(pattern, parameters).placed(family)
+        family = read_tile_family(pattern)
+    return pattern_parameters(pattern, parameters).placed(family)

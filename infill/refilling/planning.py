@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.paths.contact import sampled
+from infill.paths.contact import sample_paths
 from infill.paths.covering import check_cell, solve_cell, total_length
 from infill.paths.families.heart import ConcentricHeart
 from infill.paths.families.protocol import TOUCH, Family
 from infill.paths.families.spirals import Spirals
-from infill.paths.neighbours import walls_of
-from infill.paths.rounding import Rounding, rounded_paths
-from infill.ragged import picked
+from infill.paths.neighbours import index_beads
+from infill.paths.rounding import Rounding, round_paths
+from infill.ragged import select_rows
 from infill.refilling.batch import Batch
-from infill.refilling.regions import INFILL_STEP, STEP, Region, region_of
-from infill.refilling.support import filled
+from infill.refilling.regions import INFILL_STEP, STEP, Region, find_region
+from infill.refilling.support import layers_with_infill
 
 if TYPE_CHECKING:
     from shapely import MultiPolygon
@@ -32,7 +32,7 @@ USUAL_HEIGHT = 0.2  # mm of a layer, where no tag gives it
 
 
 @dataclass(frozen=True, kw_only=True)
-class Plan:
+class RefillPlan:
     """Pattern for the regions, with its cell and rounding.
 
     Parameters
@@ -54,7 +54,7 @@ class Plan:
     density: float | None
     fixed: bool = False
 
-    def with_cell(self, cell: float) -> Plan:
+    def with_cell(self, cell: float) -> RefillPlan:
         """Return the plan with another cell, mm, or the smallest that beads fit into."""
         return replace(self, cell=max(cell, TOUCH * self.line_width))
 
@@ -68,7 +68,7 @@ class Plan:
         return replace(self.rounding, radius=min(self.radius, self.family.largest_radius(cell, self.line_width)))
 
 
-def planned(
+def plan_refill(
     family: Family,
     batches: Sequence[Batch],
     rounding: Rounding,
@@ -76,7 +76,7 @@ def planned(
     density: float | None,
     acceleration: float,
     cell: float | None = None,
-) -> Plan | None:
+) -> RefillPlan | None:
     """Choose the cell so that the sampled layers take the requested filament; None without infill.
 
     Parameters
@@ -100,7 +100,7 @@ def planned(
     area = shapely.MultiPolygon()
     for batch in batches:
         width = batch.line_width
-        for number in filled(batch):
+        for number in layers_with_infill(batch):
             strokes = np.flatnonzero(batch.layer == number)
             opens = batch.infill.opens[strokes]
             fingerprint = float(batch.table.z[opens[0]]), batch.infill.points[batch.infill.first[strokes[0]]].tobytes()
@@ -108,10 +108,10 @@ def planned(
                 continue
             visited.add(fingerprint)
             layer_beads = batch.others.around(number, STEP)
-            places, offsets = picked(batch.infill.first, strokes)
-            infill_points = sampled(batch.infill.points[places], offsets, INFILL_STEP).points
+            places, offsets = select_rows(batch.infill.first, strokes)
+            infill_points = sample_paths(batch.infill.points[places], offsets, INFILL_STEP).points
             previous = region
-            region = region_of(layer_beads, infill_points, previous)
+            region = find_region(layer_beads, infill_points, previous)
             if not region.polygons:
                 continue
             if region is not previous:
@@ -126,7 +126,7 @@ def planned(
         boxes = np.array([area.bounds for area, _, _ in regions])
         low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
         family = replace(family, middle=tuple(((low + high) / 2).tolist()))
-    plan = Plan(
+    plan = RefillPlan(
         family=family,
         cell=1.0,
         line_width=width,
@@ -137,10 +137,10 @@ def planned(
         check_cell(cell, width)
         return replace(plan, cell=cell, fixed=True)
     # Of all layers at once: where they differ, a few more corners stay sharp.
-    everywhere = walls_of(np.concatenate(walls))
+    everywhere = index_beads(np.concatenate(walls))
 
     def measure(paths: Sequence[Floats], cell: float) -> float:
-        smooth_paths, _ = rounded_paths(
+        smooth_paths, _ = round_paths(
             [path for path in paths if len(path) > 1],
             walls=everywhere,
             acceleration=acceleration,

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from infill.errors import GeometryError
-from infill.gcode.estimates import Change, estimates, told_anew
+from infill.gcode.estimates import EstimateChange, find_estimates, update_estimate
 from infill.gcode.sliced_file import SlicedFile
 
 AT_ONCE = 1 << 20  # bytes
@@ -32,9 +32,9 @@ def write_print(
     """
     sliced.file.seek(0)
     if sliced.form == "archive":
-        from infill.gcode.bambu_archive import rewritten_archive
+        from infill.gcode.bambu_archive import rewrite_archive
 
-        rewritten_archive(sliced.file, file, {plate: text for plate, text in texts.items() if plate is not None})
+        rewrite_archive(sliced.file, file, {plate: text for plate, text in texts.items() if plate is not None})
     elif sliced.form == "binary":
         from infill.gcode.binary import rewritten
 
@@ -43,7 +43,7 @@ def write_print(
         file.writelines(texts[None])
 
 
-def retold(metadata: Iterable[tuple[bytes, bytes]], change: Change) -> dict[str, str]:
+def update_metadata(metadata: Iterable[tuple[bytes, bytes]], change: EstimateChange) -> dict[str, str]:
     """Update the metadata that state time or filament; return the new values by name.
 
     Parameters
@@ -54,13 +54,13 @@ def retold(metadata: Iterable[tuple[bytes, bytes]], change: Change) -> dict[str,
     updated = {}
     for name, value in metadata:
         line = b"; %s = %s" % (name, value)
-        if any(estimates(line)):
-            new = told_anew(line, 0.0, change).partition(b" = ")[2]
+        if any(find_estimates(line)):
+            new = update_estimate(line, 0.0, change).partition(b" = ")[2]
             updated[name.decode("utf-8", "surrogateescape")] = new.decode("utf-8", "surrogateescape")
     return updated
 
 
-def pieces(draft: BinaryIO, begin: int, end: int) -> Iterator[bytes]:
+def read_pieces(draft: BinaryIO, begin: int, end: int) -> Iterator[bytes]:
     """Yield the bytes of a file between two places, in pieces."""
     draft.seek(begin)
     while begin < end:

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.paths.neighbours import Around, Walls, foot
+from infill.paths.neighbours import BeadIndex, LayerBeads, project_to_beads
 
 if TYPE_CHECKING:
     from shapely import MultiPolygon, Polygon
@@ -35,7 +35,7 @@ SHARE_BESIDE, SHARE_BESIDE_SKINS = 0.1, 0.2  # of the points beside them that ma
 SKINS_FARTHER = 0.05  # mm: largest difference between the distances from skins and from walls
 LEAST_DISTANCE, USUAL_DISTANCE = 0.15, 0.36  # mm
 AROUND = 0.1  # mm
-SOME = 3  # stride of the points on infill that are tested to recognise a region
+CHECK_STRIDE = 3  # stride of the points on infill that are tested to recognise a region
 SAME_WITHIN = 0.02  # mm
 OUTLINE_STEP = 0.5  # mm
 NEARER = 0.005  # mm that an outline may come nearer to other beads, to have fewer points
@@ -44,9 +44,9 @@ MOST_OFF = 0.12  # mm: largest error of a contour between nodes
 LEAST_INFILL = 4  # points on infill in an area that the slicer fills
 FEWEST = 10  # points beside other beads that tell a distance
 POLYGON = 3  # type number in Shapely
-STRAIGHTENED = 0.5  # mm: dents in an outline that are narrower than twice this are filled
+DENT_RADIUS = 0.5  # mm: dents in an outline that are narrower than twice this are filled
 ARM = 0.3  # mm²: an arm as large as this stays, however narrow
-CROSSED = 1e-4  # mm between the points of the grid on which outlines are divided that cross themselves
+CROSSING_GRID = 1e-4  # mm between the points of the grid on which outlines are divided that cross themselves
 MOST_NODES = 20_000_000  # of a grid: a square of 900 mm; larger regions are not searched
 
 
@@ -84,7 +84,7 @@ class Region:
         return grown
 
 
-def region_of(around: Around, infill: Floats, before: Region | None = None) -> Region:
+def find_region(around: LayerBeads, infill: Floats, before: Region | None = None) -> Region:
     """Find the region of a layer.
 
     Parameters
@@ -122,7 +122,9 @@ def _kept_distance(distances: Floats, share: float, usual: float) -> float:
     return float(np.quantile(close_distances, share))
 
 
-def _is_same_region(region: Region, around: Around, infill: Floats, wall_distance: float, skin_distance: float) -> bool:
+def _is_same_region(
+    region: Region, around: LayerBeads, infill: Floats, wall_distance: float, skin_distance: float
+) -> bool:
     """Tell whether the region of the previous layer is that of this one too."""
     import shapely
 
@@ -134,19 +136,19 @@ def _is_same_region(region: Region, around: Around, infill: Floats, wall_distanc
     beside_skins = around.skins.near(region.outline, 0, REACH) - region.skin_distance
     excess = np.minimum(beside_walls, beside_skins)
     # At corners, an outline keeps further away.
-    if excess.min() < -SAME_WITHIN / 2 or excess.max() > STRAIGHTENED:
+    if excess.min() < -SAME_WITHIN / 2 or excess.max() > DENT_RADIUS:
         return False
     if abs(float(np.median(excess))) > SAME_WITHIN / 2:
         return False
     # A hole that begins in this layer may be far from every outline.
     if shapely.contains_xy(region.around, around.points[:, 0], around.points[:, 1]).any():
         return False
-    checked_points = infill[::SOME]
+    checked_points = infill[::CHECK_STRIDE]
     inside = shapely.contains_xy(region.around, checked_points[:, 0], checked_points[:, 1])
     return bool(inside.mean() > 0.99)
 
 
-def _free_area(kinds: Sequence[tuple[Walls, float]], grid: Floats) -> Polygon | MultiPolygon:
+def _free_area(kinds: Sequence[tuple[BeadIndex, float]], grid: Floats) -> Polygon | MultiPolygon:
     """Find the area farther from other beads than their distance, within a grid of nodes, (X, Y, 2), mm."""
     import shapely
     from skimage.measure import find_contours
@@ -165,7 +167,7 @@ def _free_area(kinds: Sequence[tuple[Walls, float]], grid: Floats) -> Polygon | 
     return free
 
 
-def _repair_crossings(free: Polygon | MultiPolygon, kinds: Sequence[tuple[Walls, float]]) -> Polygon | MultiPolygon:
+def _repair_crossings(free: Polygon | MultiPolygon, kinds: Sequence[tuple[BeadIndex, float]]) -> Polygon | MultiPolygon:
     """Repair a free area whose outlines cross, as they may after points were moved.
 
     On a grid, lines can always be divided where they cross; a face between them is free if it keeps its distance from
@@ -173,22 +175,22 @@ def _repair_crossings(free: Polygon | MultiPolygon, kinds: Sequence[tuple[Walls,
     """
     import shapely
 
-    lines = shapely.union_all([shapely.boundary(free)], grid_size=CROSSED)
+    lines = shapely.union_all([shapely.boundary(free)], grid_size=CROSSING_GRID)
     faces = shapely.get_parts(shapely.polygonize(shapely.get_parts(lines)))
     inside = shapely.get_coordinates(shapely.point_on_surface(faces))
     clear = np.ones(len(faces), dtype=bool)
     for walls, distance in kinds:
-        clear &= foot(inside, walls)[1] > distance
+        clear &= project_to_beads(inside, walls)[1] > distance
     union: Polygon | MultiPolygon = shapely.union_all(faces[clear])
     return union
 
 
-def _move_off_beads(kinds: Sequence[tuple[Walls, float]], points: Floats) -> Floats:
+def _move_off_beads(kinds: Sequence[tuple[BeadIndex, float]], points: Floats) -> Floats:
     """Move points near a contour to their distance from other beads: between nodes, a contour cuts across curves."""
     largest_lack = np.full(len(points), -np.inf)
     move = np.zeros(points.shape)
     for walls, distance in kinds:
-        nearest, apart = foot(points, walls)
+        nearest, apart = project_to_beads(points, walls)
         lacks = distance - apart
         binding = lacks > largest_lack
         direction = (points - nearest) / np.maximum(apart, 1e-9)[:, None]
@@ -213,7 +215,7 @@ def _fill_dents(area: Polygon | MultiPolygon) -> Polygon | MultiPolygon:
     """Remove the dents along skins, where lines end side by side; narrow arms stay."""
     import shapely
 
-    smooth = shapely.buffer(shapely.buffer(area, -STRAIGHTENED, quad_segs=4), STRAIGHTENED, quad_segs=4)
+    smooth = shapely.buffer(shapely.buffer(area, -DENT_RADIUS, quad_segs=4), DENT_RADIUS, quad_segs=4)
     rest = shapely.get_parts(shapely.difference(area, smooth))
     arms = rest[shapely.area(rest) > ARM]
     union = shapely.union_all([smooth, *shapely.buffer(arms, 1e-3)]) if len(arms) else smooth

@@ -9,19 +9,27 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.gcode.bodies import Body, Ways, bodies
+from infill.gcode.bodies import InfillSection, TravelSettings, find_sections
 from infill.kernels.threads import in_order
-from infill.paths.contact import sampled
+from infill.paths.contact import sample_paths
 from infill.paths.corners import UNIT
 from infill.paths.covering import total_length
-from infill.paths.layer_below import Ground, ground_of
-from infill.paths.neighbours import Around, Walls
-from infill.ragged import picked
+from infill.paths.layer_below import LayerBelow, index_layer_below
+from infill.paths.neighbours import BeadIndex, LayerBeads
+from infill.ragged import select_rows
 from infill.refilling.batch import Batch
-from infill.refilling.fitting import INSIDE, OFF, Column, Fitted, Place, column, fitted
-from infill.refilling.planning import Plan
-from infill.refilling.regions import INFILL_STEP, STEP, Region, region_of
-from infill.refilling.sharing import Group, grouped, lengths_of, unsure
+from infill.refilling.fitting import (
+    LENGTH_TOLERANCE,
+    REGION_TOLERANCE,
+    AreaSetting,
+    Column,
+    FittedPaths,
+    continue_column,
+    fit_paths,
+)
+from infill.refilling.planning import RefillPlan
+from infill.refilling.regions import INFILL_STEP, STEP, Region, find_region
+from infill.refilling.sharing import SectionGroup, area_lengths, group_sections, refusal_reason
 
 if TYPE_CHECKING:
     from shapely import Polygon
@@ -39,7 +47,7 @@ ACROSS = 0.1  # mm that travel may leave its areas without a retraction
 
 
 @dataclass(kw_only=True)
-class Memory:
+class LayerMemory:
     """State that one layer leaves for the next.
 
     Parameters
@@ -61,17 +69,17 @@ class Memory:
     """
 
     region: Region | None = None
-    ways: Ways = field(default_factory=Ways)
-    drawn: dict[tuple[int, int], Fitted] = field(default_factory=dict)
+    ways: TravelSettings = field(default_factory=TravelSettings)
+    drawn: dict[tuple[int, int], FittedPaths] = field(default_factory=dict)
     columns: list[Column] = field(default_factory=list)
-    ground: Ground | None = None
-    others: Walls | None = None
+    ground: LayerBelow | None = None
+    others: BeadIndex | None = None
     owed: float = 0.0
     fitted: int = -AGAIN_AFTER
 
 
 @dataclass(frozen=True, kw_only=True)
-class Fresh:
+class NewSection:
     """New paths for a section.
 
     Parameters
@@ -86,7 +94,7 @@ class Fresh:
     acceleration : float, mm/s²
     """
 
-    body: Body
+    body: InfillSection
     paths: Paths
     rate: float
     areas: tuple[Polygon, ...]
@@ -94,9 +102,9 @@ class Fresh:
     acceleration: float
 
 
-def fresh_sections(
-    batch: Batch, plan: Plan, memory: Memory, acceleration: float
-) -> tuple[list[Fresh], dict[str, Places]]:
+def draw_sections(
+    batch: Batch, plan: RefillPlan, memory: LayerMemory, acceleration: float
+) -> tuple[list[NewSection], dict[str, Places]]:
     """Draw new paths for the sections of a batch; return them, and the sections that keep theirs, by reason.
 
     Parameters
@@ -108,9 +116,9 @@ def fresh_sections(
     acceleration : float, mm/s²
         Where the print commands none.
     """
-    section_bodies, reasons = bodies(batch.table, batch.marks, batch.infill)
+    section_bodies, reasons = find_sections(batch.table, batch.marks, batch.infill)
     commanded = batch.acceleration(acceleration)
-    fresh: list[Fresh] = []
+    fresh: list[NewSection] = []
     # Regions do not depend on the drawing: another thread searches the next one meanwhile.
     for number, (region, layer_beads) in in_order(
         _region_finder(batch, memory.region), np.unique(batch.layer).tolist(), threads=1
@@ -120,22 +128,22 @@ def fresh_sections(
             below = [path for member in memory.drawn.values() for path in member.paths]
             memory.ground = None
             if memory.others is not None and plan.family.prismatic:
-                memory.ground = ground_of(below, memory.others, plan.line_width)
+                memory.ground = index_layer_below(below, memory.others, plan.line_width)
             memory.drawn.clear()
         elif not plan.family.prismatic:
             memory.drawn.clear()
         memory.region, memory.others = region, layer_beads.all
-        groups = grouped(region, batch.infill, strokes, batch.section)
+        groups = group_sections(region, batch.infill, strokes, batch.section)
         layer_bodies = {body.section: body for body in section_bodies if body.layer == number}
-        area_lengths_mm = lengths_of(groups)
+        area_lengths_mm = area_lengths(groups)
         memory.columns = [
-            column(polygon, area_lengths_mm.get(area, 0.0), plan, memory.columns)
+            continue_column(polygon, area_lengths_mm.get(area, 0.0), plan, memory.columns)
             for area, polygon in enumerate(region.polygons)
         ]
         _settle_debt(memory, number, sum(body.filament for body in layer_bodies.values()))
         for group in groups:
             members = [layer_bodies[member] for member in group.areas if member in layer_bodies]
-            reason = unsure(group, members)
+            reason = refusal_reason(group, members)
             if not reason:
                 filled = _fill_group(group, members, region, layer_beads.all, plan, memory, commanded)
                 fresh += filled
@@ -146,7 +154,7 @@ def fresh_sections(
     return sorted(fresh, key=lambda member: member.body.first), {**kept_sections, NO_REGION: batch.section}
 
 
-def _settle_debt(memory: Memory, layer: int, filament: float) -> None:
+def _settle_debt(memory: LayerMemory, layer: int, filament: float) -> None:
     """Let the columns that are far off choose new cells, if much filament of a layer is owed, mm."""
     if abs(memory.owed) <= DEBT * filament or layer < memory.fitted + AGAIN_AFTER:
         return
@@ -154,38 +162,40 @@ def _settle_debt(memory: Memory, layer: int, filament: float) -> None:
     memory.columns = [replace(stack, fresh=True) for stack in memory.columns]
     for key, fitted_paths in list(memory.drawn.items()):
         target = memory.columns[key[0]].length
-        if abs(fitted_paths.length - target) > OFF * target:
+        if abs(fitted_paths.length - target) > LENGTH_TOLERANCE * target:
             del memory.drawn[key]
 
 
-def _region_finder(batch: Batch, initial: Region | None) -> Callable[[int], tuple[Region, Around]]:
+def _region_finder(batch: Batch, initial: Region | None) -> Callable[[int], tuple[Region, LayerBeads]]:
     """Return a function that finds the region of a layer and its other beads, one layer after another."""
     region = initial
 
-    def find_next(number: int) -> tuple[Region, Around]:
+    def find_next(number: int) -> tuple[Region, LayerBeads]:
         nonlocal region
         layer_beads = batch.others.around(number, STEP)
-        places, offsets = picked(batch.infill.first, np.flatnonzero(batch.layer == number))
-        region = region_of(layer_beads, sampled(batch.infill.points[places], offsets, INFILL_STEP).points, region)
+        places, offsets = select_rows(batch.infill.first, np.flatnonzero(batch.layer == number))
+        region = find_region(
+            layer_beads, sample_paths(batch.infill.points[places], offsets, INFILL_STEP).points, region
+        )
         return region, layer_beads
 
     return find_next
 
 
 def _fill_group(
-    group: Group,
-    members: Sequence[Body],
+    group: SectionGroup,
+    members: Sequence[InfillSection],
     region: Region,
-    walls: Walls,
-    plan: Plan,
-    memory: Memory,
+    walls: BeadIndex,
+    plan: RefillPlan,
+    memory: LayerMemory,
     acceleration: Floats,
-) -> list[Fresh]:
+) -> list[NewSection]:
     """Draw new paths for sections that share areas, with their filament; return none if no path fits."""
     areas = tuple(region.polygons[area] for item in group.areas.values() for area in item)
     sections = []
     for body in members:
-        place = Place(
+        place = AreaSetting(
             plan=plan,
             walls=walls,
             z=body.z,
@@ -196,7 +206,7 @@ def _fill_group(
         )
         fitted_areas = [_paths_in_area(area, place, memory) for area in group.areas[body.section]]
         sections.append(
-            Fresh(
+            NewSection(
                 body=body,
                 paths=_shorter_direction([path for item in fitted_areas for path in item.paths], body),
                 rate=body.rate,
@@ -220,16 +230,16 @@ def _fill_group(
     return [replace(item, rate=item.rate * factor) for item in sections]
 
 
-def _paths_in_area(area: int, place: Place, memory: Memory) -> Fitted:
+def _paths_in_area(area: int, place: AreaSetting, memory: LayerMemory) -> FittedPaths:
     """Return the paths of an area, drawn once for all layers that have them in common."""
     key = (area, 0 if place.plan.family.prismatic else place.layer)
     if key not in memory.drawn:
-        memory.drawn[key] = result = fitted(memory.columns[area], place)
+        memory.drawn[key] = result = fit_paths(memory.columns[area], place)
         memory.columns[area] = replace(memory.columns[area], cell=result.cell)
     return memory.drawn[key]
 
 
-def _shorter_direction(paths: Paths, body: Body) -> Paths:
+def _shorter_direction(paths: Paths, body: InfillSection) -> Paths:
     """Order paths forwards or backwards, whichever begins and ends nearer to the section's ends."""
     if not paths:
         return paths
@@ -240,7 +250,7 @@ def _shorter_direction(paths: Paths, body: Body) -> Paths:
     return min(paths, [path[::-1] for path in paths[::-1]], key=travel_of)
 
 
-def retractions(fresh: Fresh) -> list[bool]:
+def choose_retractions(fresh: NewSection) -> list[bool]:
     """Tell for each travel, to each path and to the end, whether to retract: where it leaves the region."""
     import shapely
 
@@ -253,12 +263,12 @@ def retractions(fresh: Fresh) -> list[bool]:
     return [bool(leaves) for leaves in is_long & ~shapely.covers(allowed, travels)]
 
 
-def outside(fresh: Fresh) -> bool:
+def leaves_region(fresh: NewSection) -> bool:
     """Tell whether a path leaves its region."""
     import shapely
 
     if not fresh.paths:
         return False
-    allowed = shapely.buffer(shapely.union_all(list(fresh.areas)), INSIDE + UNIT)
+    allowed = shapely.buffer(shapely.union_all(list(fresh.areas)), REGION_TOLERANCE + UNIT)
     shapely.prepare(allowed)
     return not bool(shapely.covers(allowed, [shapely.linestrings(path) for path in fresh.paths]).all())

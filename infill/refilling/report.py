@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from typing import Any
 
 from infill.gcode.survey import Survey
-from infill.refilling.placement import placement
+from infill.refilling.placement import pattern_parameters
 from infill.refilling.request import KEEP, Request
-from infill.refilling.rules import Rules
-from infill.refilling.stats import Tally
+from infill.refilling.rules import RefillRules
+from infill.refilling.stats import RefillStats
 from infill.refilling.support import LEAST_LENGTH, LEAST_SHARE, kept_shares
 from infill.version import __version__
 from patterns.declared import parameter_values
@@ -18,18 +18,18 @@ from patterns.declared import parameter_values
 FORM = 1
 
 
-MOST_OFF = 0.01  # relative error of the filament of all infill that is reported
+FILAMENT_TOLERANCE = 0.01  # relative error of the filament of all infill that is reported
 
 
-def report_of_refill(
+def refill_report(
     request: Request,
     print_survey: Survey,
-    tally: Tally | None,
+    tally: RefillStats | None,
     *,
     already: bool,
-    rules: Rules | None = None,
+    rules: RefillRules | None = None,
     plates: Sequence[int] = (),
-    remedy: Tally | None = None,
+    remedy: RefillStats | None = None,
 ) -> dict[str, Any]:
     """Build the report of one run: plain numbers, strings, lists and dicts."""
     report: dict[str, Any] = {
@@ -38,7 +38,7 @@ def report_of_refill(
         "form": FORM,
         "request": {
             "pattern": request.pattern,
-            "parameters": parameter_values(placement(request.pattern, request.parameters)),
+            "parameters": parameter_values(pattern_parameters(request.pattern, request.parameters)),
             "density": request.density,
             "smooth_radius_mm": request.smooth_radius,
             "max_deviation_mm": request.max_deviation,
@@ -96,7 +96,7 @@ def report_of_refill(
             lost += f"; leave --smooth-radius out, and it takes {_ratio(remedy) - 1:+.1%}"
         report["problems"].append(lost)
     promised = request.pattern != KEEP and isinstance(request.density, str | None) and request.cell is None
-    if promised and tally.replaced and abs(ratio - 1) > MOST_OFF:
+    if promised and tally.replaced and abs(ratio - 1) > FILAMENT_TOLERANCE:
         report["problems"].append(
             f"the infill takes {ratio - 1:+.1%} filament: its lines come and go whole here; take another pattern, or "
             "another --density"
@@ -104,18 +104,18 @@ def report_of_refill(
     return report
 
 
-def loses_filament(tally: Tally) -> bool:
+def loses_filament(tally: RefillStats) -> bool:
     """Tell whether the infill lost so much filament that the report must say so."""
     return _ratio(tally) < LEAST_LENGTH
 
 
-def _ratio(tally: Tally) -> float:
+def _ratio(tally: RefillStats) -> float:
     """Return the filament of the infill, after over before."""
     before, after = tally.infill.filament, tally.infill_after.filament
     return after / before if before else 1.0
 
 
-def contact_section(tally: Tally) -> dict[str, Any]:
+def contact_section(tally: RefillStats) -> dict[str, Any]:
     """Report support and contact of the infill, before and after, as measured on some layers."""
     before, after = tally.before.shares, tally.after.shares
     shares = kept_shares(tally.before, tally.after)
@@ -134,7 +134,7 @@ def _finite(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
-def _problems(report: dict[str, Any], tally: Tally) -> list[str]:
+def _problems(report: dict[str, Any], tally: RefillStats) -> list[str]:
     keeps = report["request"]["pattern"] == KEEP
     problems = []
     if not tally.sections:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from infill.checks import positive, within
+from infill.checks import check_positive, check_range
 from infill.errors import ParameterError, UsageError
 from patterns.errors import PatternError
 
@@ -63,15 +63,15 @@ class Request:
         elif isinstance(self.density, str):
             if self.density != SAME:
                 raise UsageError(f"density is {self.density!r}; give 'same', or a number above 0 and up to 1")
-        elif not 0 < positive("density", self.density) <= 1:
+        elif not 0 < check_positive("density", self.density) <= 1:
             raise ParameterError(f"density is {self.density:g}; give 'same', or a number above 0 and up to 1")
         if isinstance(self.smooth_radius, str):
             if self.smooth_radius != AUTO:
                 raise UsageError(f"smooth_radius is {self.smooth_radius!r}; give 'auto', or a number in mm")
         else:
-            within("smooth_radius", self.smooth_radius, 0, LARGEST_RADIUS, "mm")
+            check_range("smooth_radius", self.smooth_radius, 0, LARGEST_RADIUS, "mm")
         if self.max_deviation is not None:
-            within("max_deviation", self.max_deviation, 0, LARGEST_RADIUS, "mm")
+            check_range("max_deviation", self.max_deviation, 0, LARGEST_RADIUS, "mm")
         if self.layers is not None and not 1 <= self.layers[0] <= self.layers[1]:
             raise ParameterError(f"layers is {self.layers[0]} to {self.layers[1]}; count from 1, the lower one first")
         if self.pattern != KEEP and Path(self.pattern).suffix.lower() not in DRAWINGS:
@@ -84,10 +84,10 @@ class Request:
         if self.pattern == KEEP and isinstance(self.density, int | float):
             raise UsageError("density is for patterns of ours; keep has the slicer's: leave it out, or set it there")
         if self.parameters:
-            from infill.refilling.placement import placement
+            from infill.refilling.placement import pattern_parameters
 
             try:
-                placement(self.pattern, self.parameters)
+                pattern_parameters(self.pattern, self.parameters)
             except PatternError as error:
                 raise ParameterError(str(error)) from None
             if self.cell is not None and self.density is not None:

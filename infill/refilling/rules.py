@@ -8,12 +8,12 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.gcode.limits import Limits, makes_sense
+from infill.gcode.limits import Limits, is_valid_limit
 from infill.gcode.survey import Survey
 from infill.paths.corners import UNIT
 from infill.paths.rounding import Rounding
 from infill.refilling.batch import Batch
-from infill.refilling.measuring import stride_of
+from infill.refilling.measuring import sampling_stride
 from infill.refilling.request import SAME, Request
 from infill.refilling.timing import neutral_limits
 
@@ -25,12 +25,12 @@ ACCELERATION = 1000.0  # mm/s², where neither the print nor its settings give i
 CORNER = 9.0  # mm/s × rad: of a square corner velocity of 5 mm/s
 LEAST_CORNER = 1.0  # mm/s × rad: less would cut an arc into crumbs
 SHORT_LAYER = 15.0  # s: shorter layers may have been slowed down to cool, whatever the settings of the file
-SLOWED = 0.97  # of the usual speed of infill: a slower layer was slowed down to cool
+SLOWED_SHARE = 0.97  # of the usual speed of infill: a slower layer was slowed down to cool
 LEAST_LEFT = 0.9  # of the length of a layer's infill after rounding, at least
 
 
 @dataclass(frozen=True, kw_only=True)
-class Rules:
+class RefillRules:
     """Rules for every batch of a refill.
 
     Parameters
@@ -60,16 +60,16 @@ class Rules:
     stride: int = 1
     limits: Limits = field(default_factory=neutral_limits)
 
-    def rounded_by(self, deviation: float) -> Rules:
+    def rounded_by(self, deviation: float) -> RefillRules:
         """Return the rules with another largest deviation, mm."""
         return replace(self, rounding=replace(self.rounding, deviation=deviation))
 
-    def with_radius(self, radius: float) -> Rules:
+    def with_radius(self, radius: float) -> RefillRules:
         """Return the rules with another largest radius of corners, mm."""
         return replace(self, rounding=replace(self.rounding, radius=radius))
 
 
-def rules_of(request: Request, print_survey: Survey, batches: Sequence[Batch]) -> Rules:
+def derive_rules(request: Request, print_survey: Survey, batches: Sequence[Batch]) -> RefillRules:
     """Derive the rules for a print from its header and some of its layers."""
     jerk = (
         print_survey.number("machine_max_jerk_x")
@@ -82,24 +82,24 @@ def rules_of(request: Request, print_survey: Survey, batches: Sequence[Batch]) -
     least_seconds = print_survey.number("slowdown_below_layer_time", "slow_down_layer_time") if cooled else 0.0
     settings = "infill_acceleration", "sparse_infill_acceleration", "default_acceleration"
     stated_acceleration = print_survey.number(*settings) or 0.0
-    return Rules(
+    return RefillRules(
         request=request,
         rounding=Rounding(
             deviation=request.deviation,
             most=request.deviation,
             radius=request.radius,
-            corner=max(jerk if jerk and makes_sense(jerk, "jerk") else CORNER, LEAST_CORNER),
+            corner=max(jerk if jerk and is_valid_limit(jerk, "jerk") else CORNER, LEAST_CORNER),
             same_filament=request.density == SAME,
         ),
-        acceleration=stated_acceleration if makes_sense(stated_acceleration, "acceleration") else ACCELERATION,
+        acceleration=stated_acceleration if is_valid_limit(stated_acceleration, "acceleration") else ACCELERATION,
         usual_speed=float(np.median(np.concatenate(speeds))) if speeds else 0.0,
         least_layer=least_seconds or 0.0,
         resets_filament=print_survey.resets_filament,
-        stride=stride_of(print_survey.layers, float(np.median(lengths)) if lengths else 0.0),
+        stride=sampling_stride(print_survey.layers, float(np.median(lengths)) if lengths else 0.0),
     )
 
 
-def unchanged(batch: Batch, rules: Rules) -> dict[str, Flags]:
+def unchangeable_strokes(batch: Batch, rules: RefillRules) -> dict[str, Flags]:
     """Find the strokes that must stay as they are, by reason, (M,) each."""
     infill, layer, table = batch.infill, batch.layer, batch.table
     reasons: dict[str, Flags] = {}
@@ -118,17 +118,17 @@ def unchanged(batch: Batch, rules: Rules) -> dict[str, Flags]:
     return reasons
 
 
-def _slowed_strokes(batch: Batch, rules: Rules) -> Flags:
+def _slowed_strokes(batch: Batch, rules: RefillRules) -> Flags:
     """Find strokes in layers that were slowed down to cool, or are already as short as cooling allows."""
     if not rules.least_layer:
         return np.zeros(len(batch.layer), dtype=bool)
-    slowed = batch.table.f[batch.infill.opens] < SLOWED * rules.usual_speed
+    slowed = batch.table.f[batch.infill.opens] < SLOWED_SHARE * rules.usual_speed
     short = _layer_seconds(batch) * LEAST_LEFT < rules.least_layer
     result: Flags = slowed | short[batch.layer - batch.marks.layer[0]]
     return result
 
 
-def short_layers(batch: Batch, rules: Rules) -> Flags:
+def short_layers(batch: Batch, rules: RefillRules) -> Flags:
     """Find the layers of a batch, from its first on, that may be as short as cooling allows."""
     return _layer_seconds(batch) < max(SHORT_LAYER, rules.least_layer)
 

@@ -52,10 +52,10 @@ def resolve(
     present = {name: value for name, value in flags.items() if value is not None}
     if config is None and not assigned:
         return _arguments(present)
-    from infill.options.assignments import gathered, table_of
+    from infill.options.assignments import collect_parameters, pop_table
     from infill.options.toml import read_toml
     from infill.options.trust import check_trusted
-    from infill.refilling.placement import unplaced
+    from infill.refilling.placement import default_parameters
 
     file_options = read_toml(config, example='pattern = "gyroid"') if config else {}
     if config:
@@ -65,9 +65,11 @@ def resolve(
             trust=trust,
             code=False,
         )
-    table = table_of(file_options)
-    kind = unplaced(parse_word("pattern", present.get("pattern", file_options.get("pattern", KEEP))))
-    pattern_arguments = gathered(kind, READERS, flags=present, assigned=assigned, filed=file_options, table=table)
+    table = pop_table(file_options)
+    kind = default_parameters(parse_word("pattern", present.get("pattern", file_options.get("pattern", KEEP))))
+    pattern_arguments = collect_parameters(
+        kind, READERS, flags=present, assigned=assigned, filed=file_options, table=table
+    )
     return {
         **_arguments({name: value for name, value in (file_options | present).items() if name in READERS}),
         **pattern_arguments,

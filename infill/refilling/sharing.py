@@ -8,22 +8,22 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.gcode.bodies import ALIKE, Body
-from infill.gcode.sections import Strokes
-from infill.paths.contact import sampled
-from infill.ragged import picked
+from infill.gcode.bodies import RATE_VARIATION, InfillSection
+from infill.gcode.sections import InfillStrokes
+from infill.paths.contact import sample_paths
+from infill.ragged import select_rows
 from infill.refilling.regions import Region
 
 Places = NDArray[np.intp]
 
-SHARED = 0.02  # share of an area's infill up to which another section is ignored
-LOST = 0.1  # share of the infill of a group that may lie outside every area
+IGNORED_SHARE = 0.02  # share of an area's infill up to which another section is ignored
+MOST_LOST = 0.1  # share of the infill of a group that may lie outside every area
 STEP = 0.5  # mm between the sampled points on infill
 AROUND = 0.1  # mm: margin of an area
 
 
 @dataclass(frozen=True, kw_only=True)
-class Group:
+class SectionGroup:
     """Sections of a layer that share areas; most groups hold a single section.
 
     Parameters
@@ -41,7 +41,7 @@ class Group:
     lost: float
 
 
-def grouped(region: Region, infill: Strokes, strokes: Places, section: Places) -> list[Group]:
+def group_sections(region: Region, infill: InfillStrokes, strokes: Places, section: Places) -> list[SectionGroup]:
     """Group the sections of a layer that share areas.
 
     Parameters
@@ -62,14 +62,14 @@ def grouped(region: Region, infill: Strokes, strokes: Places, section: Places) -
     area_lengths_mm = np.zeros((len(numbers), len(grown)))
     total, lost = np.zeros((2, len(numbers)))  # mm
     for place, number in enumerate(numbers):
-        places, offsets = picked(infill.first, strokes[section[strokes] == number])
-        drawn = sampled(infill.points[places], offsets, STEP)
+        places, offsets = select_rows(infill.first, strokes[section[strokes] == number])
+        drawn = sample_paths(infill.points[places], offsets, STEP)
         inside = np.array([shapely.contains_xy(area, drawn.points[:, 0], drawn.points[:, 1]) for area in grown])
         area_lengths_mm[place] = inside @ drawn.weight if len(grown) else 0.0
         total[place] = drawn.weight.sum()
         lost[place] = drawn.weight[~inside.any(axis=0)].sum() if len(grown) else total[place]
     # A section that printed next to nothing of an area has no share in it.
-    shares = area_lengths_mm > SHARED * area_lengths_mm.sum(axis=0)
+    shares = area_lengths_mm > IGNORED_SHARE * area_lengths_mm.sum(axis=0)
     label = np.arange(len(numbers))
     for area in range(len(grown)):
         sharing = np.flatnonzero(shares[:, area])
@@ -88,11 +88,11 @@ def grouped(region: Region, infill: Strokes, strokes: Places, section: Places) -
         amount = area_lengths_mm[label == group_label].sum(axis=0)
         lengths = {area: float(amount[area]) for area in np.flatnonzero(amount).tolist()}
         share = float(lost[label == group_label].sum() / total[label == group_label].sum())
-        groups.append(Group(areas=areas, lengths=lengths, lost=share))
+        groups.append(SectionGroup(areas=areas, lengths=lengths, lost=share))
     return groups
 
 
-def lengths_of(groups: Sequence[Group]) -> dict[int, float]:
+def area_lengths(groups: Sequence[SectionGroup]) -> dict[int, float]:
     """Sum the slicer's infill by area, mm."""
     totals: dict[int, float] = {}
     for group in groups:
@@ -101,7 +101,7 @@ def lengths_of(groups: Sequence[Group]) -> dict[int, float]:
     return totals
 
 
-def unsure(group: Group, members: Sequence[Body]) -> str:
+def refusal_reason(group: SectionGroup, members: Sequence[InfillSection]) -> str:
     """Say why a group of sections cannot be refilled; return an empty text if it can.
 
     Parameters
@@ -110,9 +110,9 @@ def unsure(group: Group, members: Sequence[Body]) -> str:
     members : sequence of Body
         Its sections that can be redrawn.
     """
-    if group.lost > LOST:
+    if group.lost > MOST_LOST:
         return "no sure region"
     if len(members) < len(group.areas):
         return "shares its region with a section that is kept"
     rates = [body.rate for body in members]
-    return "lines of different widths" if rates and max(rates) > (1 + ALIKE) * min(rates) else ""
+    return "lines of different widths" if rates and max(rates) > (1 + RATE_VARIATION) * min(rates) else ""

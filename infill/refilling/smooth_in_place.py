@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.gcode.sections import Strokes
-from infill.gcode.splicing import Redrawn
-from infill.paths.corners import UNIT, Rounded
-from infill.paths.rounding import Corners, Rounding, corners_of
-from infill.ragged import picked
+from infill.gcode.sections import InfillStrokes
+from infill.gcode.splicing import NewPaths
+from infill.paths.corners import UNIT, RoundedPaths
+from infill.paths.rounding import PathCorners, Rounding, find_corners
+from infill.ragged import select_rows
 from infill.refilling.batch import Batch
 from infill.refilling.widest_gap import largest_moves
 
@@ -21,7 +21,7 @@ Places = NDArray[np.intp]
 MOST_WIDENED = 1.08  # largest widening of beads, to make up for shorter paths
 
 
-def stroke_corners(batch: Batch, corner: float, *, acceleration: float) -> Corners:
+def stroke_corners(batch: Batch, corner: float, *, acceleration: float) -> PathCorners:
     """Recut the curves in the strokes of a batch, and find their corners.
 
     Parameters
@@ -32,7 +32,7 @@ def stroke_corners(batch: Batch, corner: float, *, acceleration: float) -> Corne
     acceleration : float, mm/s²
         Where the print commands none.
     """
-    return corners_of(
+    return find_corners(
         batch.infill.points,
         batch.infill.first,
         walls=batch.others.walls(np.unique(batch.layer)),
@@ -47,40 +47,40 @@ def stroke_corners(batch: Batch, corner: float, *, acceleration: float) -> Corne
     )
 
 
-def lengths(points: Floats, offsets: Places) -> Floats:
+def path_lengths(points: Floats, offsets: Places) -> Floats:
     """Return the length of every path, mm."""
     along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
     return np.asarray(along[offsets[1:] - 1] - along[offsets[:-1]])
 
 
-def redrawn(infill: Strokes, new: Rounded, chosen: NDArray[np.bool_], rounding: Rounding) -> Redrawn:
+def redraw_strokes(infill: InfillStrokes, new: RoundedPaths, chosen: NDArray[np.bool_], rounding: Rounding) -> NewPaths:
     """Select the strokes to redraw: those chosen that rounding changed."""
     strokes = np.flatnonzero(chosen & _moved_strokes(infill, new))
-    points_at, offsets = picked(new.first, strokes)
-    length = lengths(new.points, new.first)[strokes]
+    points_at, offsets = select_rows(new.first, strokes)
+    length = path_lengths(new.points, new.first)[strokes]
     rate = infill.filament[strokes] / infill.length[strokes]
-    drawn = Redrawn(
+    drawn = NewPaths(
         which=strokes,
         points=new.points[points_at],
         first=offsets,
         source=new.source[points_at],
         filament=rate * length,
     )
-    return replace(drawn, filament=same_filament(infill, drawn)) if rounding.same_filament else drawn
+    return replace(drawn, filament=widened_filament(infill, drawn)) if rounding.same_filament else drawn
 
 
-def same_filament(infill: Strokes, new: Redrawn) -> Floats:
+def widened_filament(infill: InfillStrokes, new: NewPaths) -> Floats:
     """Return the filament, mm, that redrawn strokes take with wider beads, (S,): as before, or as much as fits."""
-    length = lengths(new.points, new.first)
+    length = path_lengths(new.points, new.first)
     rate = infill.filament[new.which] / infill.length[new.which]
     return np.minimum(infill.filament[new.which], rate * length * MOST_WIDENED)
 
 
-def _moved_strokes(infill: Strokes, new: Rounded) -> NDArray[np.bool_]:
+def _moved_strokes(infill: InfillStrokes, new: RoundedPaths) -> NDArray[np.bool_]:
     """Tell which strokes have other points than before."""
     changed: NDArray[np.bool_] = np.diff(new.first) != np.diff(infill.first)
     alike = np.flatnonzero(~changed)
-    (old_places, _), (new_places, _) = picked(infill.first, alike), picked(new.first, alike)
+    (old_places, _), (new_places, _) = select_rows(infill.first, alike), select_rows(new.first, alike)
     old_points, new_points = infill.points[old_places], new.points[new_places]
     moved = (np.abs(old_points[:, 0] - new_points[:, 0]) > UNIT / 2) | (
         np.abs(old_points[:, 1] - new_points[:, 1]) > UNIT / 2

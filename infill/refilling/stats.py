@@ -40,7 +40,7 @@ class Histogram:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Amounts:
+class InfillAmounts:
     """Amounts that some infill takes.
 
     Parameters
@@ -53,8 +53,8 @@ class Amounts:
     length: float = 0.0
     filament: float = 0.0
 
-    def __add__(self, other: Amounts) -> Amounts:
-        return Amounts(
+    def __add__(self, other: InfillAmounts) -> InfillAmounts:
+        return InfillAmounts(
             seconds=self.seconds + other.seconds,
             length=self.length + other.length,
             filament=self.filament + other.filament,
@@ -62,7 +62,7 @@ class Amounts:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Whole:
+class PrintAmounts:
     """Amounts that an entire print takes.
 
     Parameters
@@ -80,8 +80,8 @@ class Whole:
     filament: float = 0.0
     grams: float | None = 0.0
 
-    def __add__(self, other: Whole) -> Whole:
-        return Whole(
+    def __add__(self, other: PrintAmounts) -> PrintAmounts:
+        return PrintAmounts(
             seconds=self.seconds + other.seconds,
             infill_seconds=self.infill_seconds + other.infill_seconds,
             filament=self.filament + other.filament,
@@ -90,7 +90,7 @@ class Whole:
 
 
 @dataclass(kw_only=True)
-class Tally:
+class RefillStats:
     """Statistics up to the current batch.
 
     Parameters
@@ -124,8 +124,8 @@ class Tally:
     sections: int = 0
     replaced: int = 0
     kept: dict[str, int] = field(default_factory=dict)
-    infill: Amounts = field(default_factory=Amounts)
-    infill_after: Amounts = field(default_factory=Amounts)
+    infill: InfillAmounts = field(default_factory=InfillAmounts)
+    infill_after: InfillAmounts = field(default_factory=InfillAmounts)
     widened: float = 0.0
     filament: dict[int, float] = field(default_factory=dict)
     change: dict[int, float] = field(default_factory=dict)
@@ -134,8 +134,8 @@ class Tally:
     lines: list[tuple[int, bytes]] = field(default_factory=list)
     before: Contact = field(default_factory=Contact)
     after: Contact = field(default_factory=Contact)
-    print_before: Whole = field(default_factory=Whole)
-    print_after: Whole = field(default_factory=Whole)
+    print_before: PrintAmounts = field(default_factory=PrintAmounts)
+    print_after: PrintAmounts = field(default_factory=PrintAmounts)
     slicer_seconds: float = 0.0
     unread: int = 0
     first_unread: int = 0
@@ -174,7 +174,7 @@ class Tally:
         """Add the change of the filament of sections, mm, by tool."""
         _add(self.change, tools, after - before)
 
-    def add(self, part: Tally) -> None:
+    def add(self, part: RefillStats) -> None:
         """Add the statistics of a batch, or of another print."""
         self.layers += part.layers
         self.sections += part.sections

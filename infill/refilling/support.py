@@ -12,16 +12,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from infill.gcode.sections import Strokes, Tags
+from infill.gcode.sections import InfillStrokes, TagState
 from infill.gcode.survey import Survey
-from infill.gcode.table import read
+from infill.gcode.table import read_table
 from infill.kernels.threads import in_order, thread_count
-from infill.paths.contact import Contact, Samples, contact, merged
-from infill.paths.corners import Rounded
-from infill.paths.rounding import Corners, Rounding
-from infill.refilling.batch import Batch, batch_of
-from infill.refilling.measuring import Drawing
-from infill.refilling.smooth_in_place import lengths, stroke_corners
+from infill.paths.contact import Contact, Samples, concatenate_samples, layer_contact
+from infill.paths.corners import RoundedPaths
+from infill.paths.rounding import PathCorners, Rounding
+from infill.refilling.batch import Batch, mark_batch
+from infill.refilling.measuring import LayerPaths
+from infill.refilling.smooth_in_place import path_lengths, stroke_corners
 
 LEAST_SHARE = 0.94
 LEAST_LENGTH = 0.97  # of the infill's length, and so of its filament
@@ -29,25 +29,25 @@ AIM = 0.944  # share that sampled layers must keep, so that all of them keep LEA
 # mm; tried from the largest down. Beyond them, the legs limit an arc.
 DEVIATIONS = (math.inf, 0.3, 0.2, 0.15, 0.12, *(round(0.1 - 0.0025 * k, 4) for k in range(33)), 0.01)
 LARGEST_DEVIATION, LEAST_LEFT = 0.2, 0.85  # mm, and about the share of support or contact that it leaves
-MANY = 6  # shares; with more, the search bisects instead of interpolating
-ENOUGH = 1000.0  # mm of infill in a layer
+BISECT_AFTER = 6  # shares; with more, the search bisects instead of interpolating
+ENOUGH_INFILL = 1000.0  # mm of infill in a layer
 NO_DIFFERENCE = 0.002  # of the remaining share
 LEAST_BONDED = 0.02  # of the length: below this, contact within the layer is by chance
 
 
-def filled(batch: Batch) -> list[int]:
+def layers_with_infill(batch: Batch) -> list[int]:
     """Return layers with infill, without the lowest unless it is the only one: the layer below it is unknown."""
     lowest = int(batch.marks.layer.min())
     layers = np.unique(batch.layer).tolist()
     chosen: list[int] = [number for number in layers if number > lowest] or layers[-1:]
     # A single layer is enough if it holds much infill.
-    return chosen[-1:] if chosen and batch.infill.length[batch.layer == chosen[-1]].sum() > ENOUGH else chosen
+    return chosen[-1:] if chosen and batch.infill.length[batch.layer == chosen[-1]].sum() > ENOUGH_INFILL else chosen
 
 
-def samples(print_survey: Survey) -> list[Batch]:
+def sample_batches(print_survey: Survey) -> list[Batch]:
     """Read the layers of a survey that hold infill."""
-    batches = [batch_of(read(text, print_survey.begin), Tags()) for text in print_survey.windows]
-    return [batch for batch in batches if filled(batch)]
+    batches = [mark_batch(read_table(text, print_survey.begin), TagState()) for text in print_survey.windows]
+    return [batch for batch in batches if layers_with_infill(batch)]
 
 
 def kept_shares(old: Contact, new: Contact) -> tuple[float, float]:
@@ -87,7 +87,7 @@ def largest_deviation(batches: Sequence[Batch], rounding: Rounding, acceleration
     tried = [_SampledLayers.of(batch, rounding, acceleration) for batch in batches]
     threads = thread_count()
 
-    def measure_all(infill: Callable[[_SampledLayers], Strokes | Rounded]) -> tuple[Contact, float]:
+    def measure_all(infill: Callable[[_SampledLayers], InfillStrokes | RoundedPaths]) -> tuple[Contact, float]:
         results = [pair for _, pair in in_order(lambda layers: layers.measure(infill(layers)), tried, threads=threads)]
         return sum((contact for contact, _ in results), Contact()), sum(length for _, length in results)
 
@@ -100,7 +100,7 @@ def largest_deviation(batches: Sequence[Batch], rounding: Rounding, acceleration
 
     if share(rounding.deviation) >= AIM:
         return rounding.deviation
-    return first_enough([deviation for deviation in DEVIATIONS if deviation < rounding.deviation], share)
+    return largest_sufficient([deviation for deviation in DEVIATIONS if deviation < rounding.deviation], share)
 
 
 def smaller_deviation(deviation: float, share: float, previous_share: float = 0.0) -> float:
@@ -126,7 +126,7 @@ def smaller_deviation(deviation: float, share: float, previous_share: float = 0.
     return smaller if smaller > DEVIATIONS[-1] / 2 else 0.0
 
 
-def first_enough(candidates: Sequence[float], share: Callable[[float], float]) -> float:
+def largest_sufficient(candidates: Sequence[float], share: Callable[[float], float]) -> float:
     """Find the first of some deviations, from the largest down, that leaves at least `AIM`; 0 if none does.
 
     The share mostly falls with the deviation: the search interpolates between the shares on both sides of the aim.
@@ -137,7 +137,7 @@ def first_enough(candidates: Sequence[float], share: Callable[[float], float]) -
         (larger, larger_share), (smaller, smaller_share) = shares[low], shares[high]
         aim = smaller + (larger - smaller) * (smaller_share - AIM) / max(smaller_share - larger_share, 1e-9)
         place = next((k for k in range(low + 1, high) if candidates[k] <= aim), high - 1)
-        if len(shares) > MANY:
+        if len(shares) > BISECT_AFTER:
             place = (low + high) // 2
         shares[place] = candidates[place], share(candidates[place])
         low, high = (low, place) if shares[place][1] >= AIM else (place, high)
@@ -152,7 +152,7 @@ class _SampledLayers:
     """Sampled layers, with all data that do not change with the deviation."""
 
     batch: Batch
-    corners: Corners
+    corners: PathCorners
     walls: dict[int, Samples]
 
     @classmethod
@@ -160,13 +160,15 @@ class _SampledLayers:
         return cls(
             batch=batch,
             corners=stroke_corners(batch, rounding.corner, acceleration=acceleration),
-            walls={number: batch.others.samples_of(number - 1) for number in filled(batch)},
+            walls={number: batch.others.samples_of(number - 1) for number in layers_with_infill(batch)},
         )
 
-    def measure(self, infill: Strokes | Rounded) -> tuple[Contact, float]:
+    def measure(self, infill: InfillStrokes | RoundedPaths) -> tuple[Contact, float]:
         """Measure the contact of the layers with some infill, and the length of all of it, mm."""
-        drawn = Drawing(points=infill.points, first=infill.first, layer=self.batch.layer)
+        drawn = LayerPaths(points=infill.points, first=infill.first, layer=self.batch.layer)
         total = Contact()
         for number, walls in self.walls.items():
-            total += contact(drawn.of(number), merged(drawn.of(number - 1), walls), self.batch.line_width)
-        return total, float(lengths(infill.points, infill.first).sum())
+            total += layer_contact(
+                drawn.of(number), concatenate_samples(drawn.of(number - 1), walls), self.batch.line_width
+            )
+        return total, float(path_lengths(infill.points, infill.first).sum())

@@ -10,15 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.gcode.dialect import role_of
-from infill.gcode.found_limits import FoundLimits
+from infill.gcode.found_limits import FileLimits
 from infill.gcode.limits import Limits
 from infill.gcode.sections import SPARSE
 from infill.gcode.sliced_file import SlicedText
-from infill.gcode.table import State, Table
+from infill.gcode.table import GcodeTable, MachineState
 from infill.planner.bounds import Moves
-from infill.planner.lookahead import Plan, plan
-from infill.planner.printing_time import timeline_of_text
-from infill.planner.strokes import Strokes as Sums
+from infill.planner.lookahead import MotionPlan, plan_moves
+from infill.planner.printing_time import make_timeline
+from infill.planner.strokes import FeatureSums as Sums
 from infill.planner.timeline import Steps
 
 Floats = NDArray[np.float64]
@@ -68,7 +68,7 @@ def path_seconds(points: Floats, offsets: Places, feedrate: Floats, acceleration
     ]
     stop = np.concatenate([[True], np.diff(owner) != 0])
     moves = Moves(delta=delta, feedrate=feedrate[owner], setting=setting[owner], stop=stop)
-    seconds: Floats = np.bincount(owner, plan(moves, limits_by_setting).seconds, len(number)).astype(np.float64)
+    seconds: Floats = np.bincount(owner, plan_moves(moves, limits_by_setting).seconds, len(number)).astype(np.float64)
     return seconds
 
 
@@ -121,15 +121,15 @@ class PrintClock:
         *,
         like: PrintClock | None = None,
     ) -> None:
-        self._timeline = timeline_of_text(sliced, text, found=None if like is None else like.found)
-        self.found: FoundLimits = self._timeline.found
-        self.begin: State = self._timeline.state
+        self._timeline = make_timeline(sliced, text, found=None if like is None else like.found)
+        self.found: FileLimits = self._timeline.found
+        self.begin: MachineState = self._timeline.state
         self._sums, self._asked = Sums(times_only=True), np.asarray(places, dtype=np.int64)
         self._elapsed = np.zeros(len(self._asked))
         self._first_layer = self._total = 0.0
         self._known = 0  # of the places
 
-    def add(self, table: Table) -> None:
+    def add(self, table: GcodeTable) -> None:
         """Take the next lines of the print."""
         self._count(*self._timeline.follow(table))
 
@@ -145,7 +145,7 @@ class PrintClock:
             self._count(*self._timeline.rest())
         return self._result()
 
-    def _count(self, steps: Steps, motion_plan: Plan) -> None:
+    def _count(self, steps: Steps, motion_plan: MotionPlan) -> None:
         if not len(steps):
             return
         self._sums.add(steps, motion_plan)

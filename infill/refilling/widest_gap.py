@@ -14,7 +14,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.ragged import picked
+from infill.ragged import select_rows
 from infill.refilling.batch import Batch
 
 Floats = NDArray[np.float64]
@@ -42,7 +42,7 @@ def _widest_gaps(batch: Batch, number: int, strokes: Places) -> Floats:
     from scipy import ndimage
 
     infill = batch.infill
-    places, offsets = picked(infill.first, strokes)
+    places, offsets = select_rows(infill.first, strokes)
     points = infill.points[places]
     low, high = points.min(axis=0) - MARGIN, points.max(axis=0) + MARGIN
     spacing = _spacing(points, offsets)

@@ -1,4 +1,4 @@
-"""Smooth data of any source into a surface, in five stages: see `attempted` and `delivered`.
+"""Smooth data of any source into a surface, in five stages: see `run_attempt` and `finish_attempt`.
 
 clean       remove specks from the data
 smooth      compute the field in bricks
@@ -17,36 +17,36 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from infill.errors import GeometryError
-from infill.inspection.bricks import Verdict, verdict, verdict_by_flips
-from infill.inspection.fidelity import Fidelity, fidelity
-from infill.inspection.sign_changes import Flips, near_each_other
+from infill.inspection.bricks import TopologyCheck, check_topology, check_topology_by_signs
+from infill.inspection.fidelity import Fidelity, measure_fidelity
+from infill.inspection.sign_changes import SignChanges, are_surfaces_near
 from infill.inspection.thickness import thinnest_walls
-from infill.kernels.compiling import told_of_compiling
-from infill.kernels.threads import thread_count, together
+from infill.kernels.compiling import log_compilation
+from infill.kernels.threads import run_together, thread_count
 from infill.meshes.distance import distances
-from infill.meshes.measuring import with_measures
+from infill.meshes.measuring import measure_surface
 from infill.phasefield.refining import refine_bricks
 from infill.phasefield.sparse import smooth_bricks
 from infill.report import report_of
 from infill.result import Clock, Result
 from infill.sections import Sections
-from infill.smoothing.cleaning import cleaned, require_room
-from infill.smoothing.comparing import Differences, differences, kinds_of_places
-from infill.smoothing.crumbs import Crumbs, without_crumbs
-from infill.smoothing.levelling import Surfaced, levelled
-from infill.smoothing.placing import lightened, placed, raw_surface
+from infill.smoothing.cleaning import remove_specks, require_room
+from infill.smoothing.comparing import Differences, find_differences, place_classifier
+from infill.smoothing.crumbs import Crumbs, remove_crumbs
+from infill.smoothing.levelling import SurfaceAtLevel, extract_surface
+from infill.smoothing.placing import place_surface, raw_surface, simplify_result
 from infill.smoothing.stages import SmoothStages
 
 if TYPE_CHECKING:
     from infill.phasefield.sparse import SparseField
     from infill.report_keys import SmoothReport
-    from infill.smoothing.request import Given, Request
+    from infill.smoothing.request import SmoothInput, SmoothRequest
     from infill.surface import Surface
     from infill.volume import Volume
 
-OFF = 0.01  # of the volume: deviation that is tolerated, because of specks that are gone
-NAMED = 5  # of the places that were lost or added are listed
-COMPARED = 5_000  # vertices of the voxels whose distance from the mesh is reported
+VOLUME_TOLERANCE = 0.01  # of the volume: deviation that is tolerated, because of specks that are gone
+MAX_LISTED_PLACES = 5  # of the places that were lost or added are listed
+MAX_COMPARED_VERTICES = 5_000  # vertices of the voxels whose distance from the mesh is reported
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -73,13 +73,13 @@ class Attempt:
     clock : Clock
     """
 
-    given: Given
-    request: Request
+    given: SmoothInput
+    request: SmoothRequest
     field: SparseField
-    surfaced: Surfaced
+    surfaced: SurfaceAtLevel
     crumbs: Crumbs
     specks: int
-    judged: Verdict
+    judged: TopologyCheck
     thinnest: tuple[float | None, float | None]
     found: Fidelity | None
     told: Differences
@@ -99,7 +99,7 @@ class Attempt:
             broken = bool(changes.broken or changes.fused or changes.vanished)
         else:
             broken = after.components != before.components or after.tunnels < before.tunnels
-        return broken or off_by(self.surfaced, self.given, self.request) != 0
+        return broken or volume_error(self.surfaced, self.given, self.request) != 0
 
     @property
     def rank(self) -> tuple[bool, int, float]:
@@ -109,8 +109,8 @@ class Attempt:
         return self.told.word == "lost", len(self.told.problems), area
 
 
-@told_of_compiling("the smoother")
-def attempted(smooth_input: Given, request: Request) -> Attempt:
+@log_compilation("the smoother")
+def run_attempt(smooth_input: SmoothInput, request: SmoothRequest) -> Attempt:
     """Smooth the data in the requested way and judge the surface, however good it is: the first four stages.
 
     Raises
@@ -123,25 +123,25 @@ def attempted(smooth_input: Given, request: Request) -> Attempt:
     clock = Clock(request.progress)
     with clock.stage("smooth", 0.05):
         require_room(smooth_input.data, request)
-        data, specks = cleaned(smooth_input.data, request)
+        data, specks = remove_specks(smooth_input.data, request)
         smooth_input = replace(smooth_input, data=data)
         field = _smooth_field(smooth_input, request, clock)
     with clock.stage("surface", 0.4):
-        raised = levelled(field, smooth_input, request)
+        raised = extract_surface(field, smooth_input, request)
     with clock.stage("check", 0.5):
         threads = thread_count(request.threads)
-        full, (flips, surely_near), _ = together(
+        full, (flips, surely_near), _ = run_together(
             partial(_measured_surface, raised, data),
             partial(_sign_changes, raised, smooth_input, request),
             partial(getattr, raised.found, "shells"),
             threads=threads,
         )
-        surfaced, crumbs = without_crumbs(raised, smooth_input, request)
+        surfaced, crumbs = remove_crumbs(raised, smooth_input, request)
         if surfaced.found.surface is not raised.found.surface:
             full = _measured_surface(surfaced, data)
         if not full.closed:
             raise GeometryError("the surface is not closed; use finer voxels or fewer steps")
-        judged, thinnest = together(
+        judged, thinnest = run_together(
             partial(_topology_verdict, surfaced, flips, data, request),
             partial(_wall_thickness, surfaced, data),
             threads=threads,
@@ -159,17 +159,19 @@ def attempted(smooth_input: Given, request: Request) -> Attempt:
         judged=judged,
         thinnest=thinnest,
         found=deviation,
-        told=differences(judged, deviation, smooth_input, off=off_by(surfaced, smooth_input, request)),
+        told=find_differences(judged, deviation, smooth_input, off=volume_error(surfaced, smooth_input, request)),
         full=full,
         clock=clock,
     )
 
 
-def _topology_verdict(surfaced: Surfaced, flips: Flips, data: Volume, request: Request) -> Verdict:
+def _topology_verdict(
+    surfaced: SurfaceAtLevel, flips: SignChanges, data: Volume, request: SmoothRequest
+) -> TopologyCheck:
     """Compare the topology before and after: by the cells that changed sign, or else by all cells."""
-    return verdict_by_flips(
+    return check_topology_by_signs(
         surfaced.found, surfaced.before, flips, levels=surfaced.levels, threads=request.threads
-    ) or verdict(
+    ) or check_topology(
         surfaced.found,
         surfaced.before,
         spacing=tuple(data.cell_size.tolist()),
@@ -179,36 +181,40 @@ def _topology_verdict(surfaced: Surfaced, flips: Flips, data: Volume, request: R
     )
 
 
-def _measured_surface(surfaced: Surfaced, data: Volume) -> Surface:
+def _measured_surface(surfaced: SurfaceAtLevel, data: Volume) -> Surface:
     """Place the surface and measure it, on this thread alone: other threads work on the topology meanwhile."""
-    return with_measures(placed(surfaced.found.surface, data), threads=1)
+    return measure_surface(place_surface(surfaced.found.surface, data), threads=1)
 
 
-def _sign_changes(raised: Surfaced, smooth_input: Given, request: Request) -> tuple[Flips, bool]:
+def _sign_changes(
+    raised: SurfaceAtLevel, smooth_input: SmoothInput, request: SmoothRequest
+) -> tuple[SignChanges, bool]:
     """Return the cells that changed sign, and whether the surface is sure to be near the input (only for voxels)."""
     levelled, spacing = raised.found, tuple(smooth_input.data.cell_size.tolist())
-    flips = Flips.of(
+    flips = SignChanges.of(
         levelled.against, raised.before.bits, levelled.height, signs=levelled.signs, threads=request.threads
     )
     of_data = smooth_input.mesh is None and smooth_input.raw is None
-    return flips, of_data and near_each_other(flips, spacing=spacing, threads=request.threads)
+    return flips, of_data and are_surfaces_near(flips, spacing=spacing, threads=request.threads)
 
 
-def _wall_thickness(surfaced: Surfaced, data: Volume) -> tuple[float | None, float | None]:
+def _wall_thickness(surfaced: SurfaceAtLevel, data: Volume) -> tuple[float | None, float | None]:
     """Return the thickness of the thinnest wall, in the data and smoothed, mm."""
     levelled = surfaced.found
     return thinnest_walls(levelled.against, levelled.surface, tuple(data.cell_size.tolist()), levelled.height)
 
 
-def delivered(best: Attempt) -> tuple[Result[SmoothStages, SmoothReport], Differences]:
+def finish_attempt(best: Attempt) -> tuple[Result[SmoothStages, SmoothReport], Differences]:
     """Simplify the surface of an attempt; return the result and its differences from the input: the fifth stage."""
     smooth_input, request, clock, data = best.given, best.request, best.clock, best.given.data
     judged, surfaced, deviation, final_verdict = best.judged, best.surfaced, best.found, best.told
     with clock.stage("measure", 0.75):
-        surface, simplified = lightened(best.full, request)
+        surface, simplified = simplify_result(best.full, request)
         if surface is not best.full:
             deviation = _compare_with_input(surface, smooth_input, best.field, request)
-            final_verdict = differences(judged, deviation, smooth_input, off=off_by(surfaced, smooth_input, request))
+            final_verdict = find_differences(
+                judged, deviation, smooth_input, off=volume_error(surfaced, smooth_input, request)
+            )
     report = report_of(
         product="smooth",
         surface=surface,
@@ -237,8 +243,8 @@ def delivered(best: Attempt) -> tuple[Result[SmoothStages, SmoothReport], Differ
                 *final_verdict.remarks,
                 *_remarks(best.crumbs, best.specks),
             ],
-            "lost": [patch.facts() for patch in deviation.lost[:NAMED]] if deviation else [],
-            "added": [patch.facts() for patch in deviation.added[:NAMED]] if deviation else [],
+            "lost": [patch.facts() for patch in deviation.lost[:MAX_LISTED_PLACES]] if deviation else [],
+            "added": [patch.facts() for patch in deviation.added[:MAX_LISTED_PLACES]] if deviation else [],
             "crumbs": {"removed": best.crumbs.count, "volume": best.crumbs.volume, "limit": best.crumbs.limit},
             "tried": [],
         },
@@ -248,27 +254,27 @@ def delivered(best: Attempt) -> tuple[Result[SmoothStages, SmoothReport], Differ
     return Result(surfaces={"solid": surface}, report=cast("SmoothReport", report), stages=stages), final_verdict
 
 
-def _raw_surface(smooth_input: Given, field: SparseField, request: Request) -> Surface:
+def _raw_surface(smooth_input: SmoothInput, field: SparseField, request: SmoothRequest) -> Surface:
     """Return the surface of the input voxels, mm."""
     return smooth_input.raw or raw_surface(field, smooth_input.data, request.threads)
 
 
 def _compare_with_input(
-    surface: Surface, smooth_input: Given, field: SparseField, request: Request, *, exact: bool = False
+    surface: Surface, smooth_input: SmoothInput, field: SparseField, request: SmoothRequest, *, exact: bool = False
 ) -> Fidelity:
     """Measure the distance between a surface and the input, both ways; by default, only where it is large."""
-    return fidelity(
+    return measure_fidelity(
         _raw_surface(smooth_input, field, request) if smooth_input.mesh is None else smooth_input.mesh,
         surface,
         cell=smooth_input.cell or float(smooth_input.data.cell_size.max()),
         closed=smooth_input.reference,
-        kinds=kinds_of_places(smooth_input, field, threads=request.threads),
+        kinds=place_classifier(smooth_input, field, threads=request.threads),
         exact=exact,
         threads=request.threads,
     )
 
 
-def _smooth_field(smooth_input: Given, request: Request, clock: Clock) -> SparseField:
+def _smooth_field(smooth_input: SmoothInput, request: SmoothRequest, clock: Clock) -> SparseField:
     """Smooth the data into a field of bricks: the second stage."""
     values, spacing = smooth_input.data.values, tuple(smooth_input.data.cell_size.tolist())
 
@@ -287,15 +293,15 @@ def _smooth_field(smooth_input: Given, request: Request, clock: Clock) -> Sparse
     return smooth_bricks(values, request.smoothing, spacing=spacing, threads=request.threads, progress=progress)
 
 
-def off_by(surfaced: Surfaced, smooth_input: Given, request: Request) -> float:
+def volume_error(surfaced: SurfaceAtLevel, smooth_input: SmoothInput, request: SmoothRequest) -> float:
     """Return the relative error of the volume; 0 if it is tolerable, or the level was fixed."""
     enclosed = smooth_input.enclosed
     target = float(surfaced.targets.sum()) if enclosed is None else enclosed.total
     error = surfaced.volume / target - 1
-    return error if request.level == "volume" and abs(error) > OFF else 0.0
+    return error if request.level == "volume" and abs(error) > VOLUME_TOLERANCE else 0.0
 
 
-def _level_facts(surfaced: Surfaced, request: Request) -> dict[str, Any]:
+def _level_facts(surfaced: SurfaceAtLevel, request: SmoothRequest) -> dict[str, Any]:
     """Return the levels of phi at which the surface lies, for the report."""
     return {
         "method": "volume" if request.level == "volume" else "fixed",
@@ -313,7 +319,9 @@ def _wall_facts(best: Attempt, data: Volume) -> dict[str, Any]:
     return {"thinnest": {"data": data_thickness, "result": result_thickness}, "lost": lost}
 
 
-def _distance_facts(surface: Surface, smooth_input: Given, field: SparseField, request: Request) -> dict[str, Any]:
+def _distance_facts(
+    surface: Surface, smooth_input: SmoothInput, field: SparseField, request: SmoothRequest
+) -> dict[str, Any]:
     """Return the distances between result and input, both ways, and from voxels to mesh, for the report."""
     deviation = _compare_with_input(surface, smooth_input, field, request, exact=True)
     facts: dict[str, Any] = {
@@ -327,7 +335,9 @@ def _distance_facts(surface: Surface, smooth_input: Given, field: SparseField, r
     if smooth_input.reference is not None:
         raw = _raw_surface(smooth_input, field, request)
         distances_from_mesh = distances(
-            raw.vertices[:: max(1, len(raw.vertices) // COMPARED)], smooth_input.reference, threads=request.threads
+            raw.vertices[:: max(1, len(raw.vertices) // MAX_COMPARED_VERTICES)],
+            smooth_input.reference,
+            threads=request.threads,
         )
         facts["data"] = {
             "mean": float(distances_from_mesh.mean()),

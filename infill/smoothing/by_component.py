@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING, Any, cast, get_args
 
 import numpy as np
 
-from infill.checks import length, whole
+from infill.checks import check_length, check_whole_number
 from infill.errors import GeometryError, InfillError, ParameterError, UsageError
 from infill.inspection.fidelity import Word
-from infill.meshes.split_components import parted
+from infill.meshes.split_components import split_components
 from infill.report import FORM
-from infill.result import Clock, Result, told_between
-from infill.smoothing.meshes import ways_of_mesh
-from infill.smoothing.remedies import best_of
-from infill.smoothing.request import Request
+from infill.result import Clock, Result, progress_between
+from infill.smoothing.meshes import mesh_strategies
+from infill.smoothing.remedies import first_sound
+from infill.smoothing.request import SmoothRequest
 from infill.surface import Surface
 from infill.version import __version__
 from infill.voxels.from_mesh import RESOLUTION
@@ -54,15 +54,15 @@ class ComponentStages:
 
     def picture(self, surface: Surface, report: Mapping[str, Any]) -> Image.Image:
         """Return the mesh and its components, smoothed one by one."""
-        from infill.pictures.before_and_after import before_and_after
+        from infill.pictures.before_and_after import draw_before_and_after
 
         before = f"given: {len(self.given.faces):,} triangles"
         after = f"smoothed: {len(report['components'])} components, {report['triangles']:,} triangles"
-        return before_and_after(self.given, surface, cell=self.voxel, report=report, captions=(before, after))
+        return draw_before_and_after(self.given, surface, cell=self.voxel, report=report, captions=(before, after))
 
 
-def by_components(
-    surface: Surface, request: Request, *, resolution: int | None = None, voxel: float | None = None
+def smooth_components(
+    surface: Surface, request: SmoothRequest, *, resolution: int | None = None, voxel: float | None = None
 ) -> Result[ComponentStages, ComponentsReport]:
     """Smooth every component of a mesh; return one surface for each.
 
@@ -98,7 +98,7 @@ def by_components(
     size = _voxel_size(surface, resolution, voxel)
     clock = Clock(request.progress)
     with clock.stage("components", 0.0):
-        parts = parted(surface, size)
+        parts = split_components(surface, size)
     if not parts.surfaces:
         raise GeometryError(
             f"none of the {parts.sheets} components of the mesh encloses anything (loose triangles or flat sheets); "
@@ -113,12 +113,12 @@ def by_components(
         for (name, part), begin, end in zip(named.items(), shares[:-1].tolist(), shares[1:].tolist(), strict=True):
             longest = float(np.ptp(part.bounds, axis=0).max())
             voxel_size = size if fixed else min(size, longest / FEWEST_ACROSS)
-            component_request = replace(request, progress=told_between(request.progress, begin, end))
+            component_request = replace(request, progress=progress_between(request.progress, begin, end))
             if longest < SMALL * voxel_size:
                 component_request = replace(component_request, threads=1)
             try:
-                result = best_of(
-                    ways_of_mesh(part, component_request, voxel=voxel_size, fixed=fixed), component_request
+                result = first_sound(
+                    mesh_strategies(part, component_request, voxel=voxel_size, fixed=fixed), component_request
                 )
             except (GeometryError, ParameterError) as error:
                 if not request.allow_broken:
@@ -145,8 +145,8 @@ def _voxel_size(surface: Surface, resolution: int | None, voxel: float | None) -
     if voxel is not None:
         if resolution is not None:
             raise UsageError("voxel and resolution are both given; give one of them")
-        return length("voxel", voxel)
-    count = whole("resolution", RESOLUTION if resolution is None else resolution, 1)
+        return check_length("voxel", voxel)
+    count = check_whole_number("resolution", RESOLUTION if resolution is None else resolution, 1)
     longest = float(np.ptp(surface.vertices[np.unique(surface.faces)], axis=0).max())
     if not longest > 0:
         raise GeometryError("all corners of the mesh are one point, so nothing is inside; give a closed mesh")
@@ -154,7 +154,7 @@ def _voxel_size(surface: Surface, resolution: int | None, voxel: float | None) -
 
 
 def _report(
-    request: Request,
+    request: SmoothRequest,
     surfaces: Mapping[str, Surface],
     reports: Mapping[str, SmoothReport],
     failed: Mapping[str, str],

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from infill.errors import ParameterError
-from infill.isosurfaces.components import components, data_bits, without
+from infill.isosurfaces.components import data_bits, erase_components, find_components
 from infill.machine import available_memory, require_memory
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.sparse import smooth_bricks
@@ -16,19 +16,19 @@ from infill.phasefield.sparse import smooth_bricks
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from infill.smoothing.request import Request
+    from infill.smoothing.request import SmoothRequest
     from infill.volume import Volume
 
 BYTES_PER_SURFACE_CELL = 600  # bricks, faces, labels and mesh, for every cell at the surface; a measured peak
 BYTES_TO_REFINE = 500  # three filtered fields and the last but one, on top of that
-SAMPLED = 16  # layers that are sampled to estimate the surface
+SAMPLED_LAYERS = 16  # layers that are sampled to estimate the surface
 FACES_PER_CROSSING = 1.5  # along two of the three axes
 
 
-def require_room(data: Volume, request: Request) -> None:
+def require_room(data: Volume, request: SmoothRequest) -> None:
     """Raise MemoryLimitError if the surface does not fit into memory; its cells are estimated from a few layers."""
     values: NDArray[Any] = data.values
-    steps = max(1, values.shape[0] // SAMPLED)
+    steps = max(1, values.shape[0] // SAMPLED_LAYERS)
     layers = values[::steps] > 0
     crossings = sum(int(np.count_nonzero(np.diff(layers, axis=axis))) for axis in (1, 2)) * steps * FACES_PER_CROSSING
     bytes_per_cell = BYTES_PER_SURFACE_CELL + (BYTES_TO_REFINE if request.refined else 0)
@@ -39,7 +39,7 @@ def require_room(data: Volume, request: Request) -> None:
     require_memory(int(needed), request.max_memory, f"give --voxel {larger:.2g} or more, or --roi for a part of it")
 
 
-def cleaned(data: Volume, request: Request) -> tuple[Volume, int]:
+def remove_specks(data: Volume, request: SmoothRequest) -> tuple[Volume, int]:
     """Remove components up to the requested volume; return the data and the number removed.
 
     Raises
@@ -51,7 +51,7 @@ def cleaned(data: Volume, request: Request) -> tuple[Volume, int]:
     if not largest:
         return data, 0
     field = smooth_bricks(data.values, Smoothing(steps=0), threads=request.threads)
-    solid_components = components(field, data_bits(field, threads=request.threads))
+    solid_components = find_components(field, data_bits(field, threads=request.threads))
     small = solid_components.cells * data.cell_volume <= largest
     if small.all():
         raise ParameterError(
@@ -60,4 +60,4 @@ def cleaned(data: Volume, request: Request) -> tuple[Volume, int]:
         )
     if not small.any():
         return data, 0
-    return replace(data, values=without(data.values, field, solid_components, small)), int(small.sum())
+    return replace(data, values=erase_components(data.values, field, solid_components, small)), int(small.sum())

@@ -8,17 +8,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.phasefield.allen_cahn import Smoothing
-from infill.phasefield.refining import cut_off, on_profile
+from infill.phasefield.refining import cut_off_distance, phase_from_distance
 from infill.phasefield.sparse import smooth_bricks
 from infill.smoothing.placing import raw_surface
-from infill.smoothing.request import Request
+from infill.smoothing.request import SmoothRequest
 from infill.volume import Volume
 from infill.voxels.partial import distances_in_cells
-from infill.voxels.point_fields import near_points
+from infill.voxels.point_fields import cell_distances
 
 
-def phase_of_points(
-    solid: Volume, points: NDArray[np.float64], normals: NDArray[np.float64] | None, request: Request
+def phase_field_of_points(
+    solid: Volume, points: NDArray[np.float64], normals: NDArray[np.float64] | None, request: SmoothRequest
 ) -> tuple[Volume, Volume, float]:
     """Return the phase field of the surface through points, the cells that it encloses, and its volume, mm³.
 
@@ -27,7 +27,7 @@ def phase_of_points(
     solid : Volume
         Cells that the points enclose, more or less.
     points, normals : (N, 3) float64, mm
-        See `infill.voxels.point_fields.near_points`.
+        See `infill.voxels.point_fields.cell_distances`.
     request : Request
 
     Notes
@@ -36,7 +36,7 @@ def phase_of_points(
     cells of the signed distance of their centre plus half a cell, clipped to 0 and 1: a surface of triangles encloses
     less where the points bend outwards.
     """
-    distances = replace(solid, values=near_points(solid, points, normals, threads=request.threads))
+    distances = replace(solid, values=cell_distances(solid, points, normals, threads=request.threads))
     inside = replace(solid, values=np.asarray(distances.values) > 0)
     distances = replace(distances, values=np.clip(distances.values, -1, 1))
     volume = float(np.clip(np.asarray(distances.values) + 0.5, 0, 1).sum(dtype=np.float64)) * solid.cell_volume
@@ -45,8 +45,8 @@ def phase_of_points(
     distance = distances_in_cells(
         raw_surface(field, distances, request.threads),
         inside,
-        cut_off(interface),
+        cut_off_distance(interface),
         several=False,
         threads=request.threads,
     )
-    return replace(solid, values=on_profile(distance, interface, threads=request.threads)), inside, volume
+    return replace(solid, values=phase_from_distance(distance, interface, threads=request.threads)), inside, volume

@@ -11,19 +11,19 @@ from numpy.typing import NDArray
 from infill.errors import GeometryError
 from infill.inspection.fidelity import LOST
 from infill.meshes.distance import distances
-from infill.smoothing.placing import summary
+from infill.smoothing.placing import summarise_distances
 
 if TYPE_CHECKING:
     from infill.report_keys import PointDistances, SmoothReport, VerdictKeys
     from infill.result import Result
-    from infill.smoothing.request import Request
+    from infill.smoothing.request import SmoothRequest
     from infill.smoothing.stages import SmoothStages
 
 NEIGHBOURS = 6  # of a point on a surface: if all of them are as far away as it is, it is no outlier
 
 
-def compared_with_points(
-    result: Result[SmoothStages, SmoothReport], cloud: NDArray[np.float64], voxel: float, request: Request
+def compare_with_points(
+    result: Result[SmoothStages, SmoothReport], cloud: NDArray[np.float64], voxel: float, request: SmoothRequest
 ) -> Result[SmoothStages, SmoothReport]:
     """Add the distances of the points from the surface to the report, and to the verdict; return the result.
 
@@ -44,7 +44,7 @@ def compared_with_points(
     distance = distances(cloud, result.surface, threads=request.threads)
     far_points = np.flatnonzero(distance > LOST * voxel)
     facts: PointDistances = {
-        **summary(distance),
+        **summarise_distances(distance),
         "p95": float(np.quantile(distance, 0.95)),
         "at": cloud[int(distance.argmax())].tolist(),
         "far": len(far_points),

@@ -9,19 +9,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.inspection.fidelity import COUNTS, HIDDEN, SHEET, THIN, Fidelity, Kinds, Word
-from infill.isosurfaces.components import data_bits, set_at, sturdy
+from infill.isosurfaces.components import data_bits, look_up_cells, open_by_blocks
 from infill.voxels.noise import NOISY
 
 if TYPE_CHECKING:
-    from infill.inspection.bricks import Verdict
+    from infill.inspection.bricks import TopologyCheck
     from infill.phasefield.sparse import SparseField
-    from infill.smoothing.request import Given
+    from infill.smoothing.request import SmoothInput
 
-JUST = 5e-5  # cells: distance from a face at which solid is looked for
-SLIT = 1.0  # cells: a slit as narrow as this may close
+SIDE_OFFSET = 5e-5  # cells: distance from a face at which solid is looked for
+SLIT_WIDTH = 1.0  # cells: a slit as narrow as this may close
 # Of a scan: features thinner than this, in voxels, may vanish. Noise makes specks and pits of two and more by chance.
 THICK, THICK_IN_NOISE = 2, 4
-CAPS = 0.001  # of the area: caps smaller than this are not mentioned
+MIN_CAP_SHARE = 0.001  # of the area: caps smaller than this are not mentioned
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,7 +45,7 @@ class Differences:
     remarks: tuple[str, ...]
 
 
-def kinds_of_places(smooth_input: Given, field: SparseField, *, threads: int | None = None) -> Kinds:
+def place_classifier(smooth_input: SmoothInput, field: SparseField, *, threads: int | None = None) -> Kinds:
     """Return the function that classifies points of the input: those that count as lost, and those that do not.
 
     Of a mesh, points with solid on one side count; those inside the solid, and on sheets without thickness, do not.
@@ -58,7 +58,8 @@ def kinds_of_places(smooth_input: Given, field: SparseField, *, threads: int | N
 
         def bounding(points: NDArray[np.float64], faces: NDArray[np.integer]) -> NDArray[np.integer]:
             outside, inside, narrow = (
-                enclosed.solid_beside(mesh, points, faces, offset, threads=threads) for offset in (JUST, -JUST, SLIT)
+                enclosed.solid_beside(mesh, points, faces, offset, threads=threads)
+                for offset in (SIDE_OFFSET, -SIDE_OFFSET, SLIT_WIDTH)
             )
             sides = np.where(inside & outside, HIDDEN, np.where(inside | outside, COUNTS, SHEET))
             return np.where((sides == COUNTS) & narrow & inside, THIN, sides)
@@ -69,19 +70,21 @@ def kinds_of_places(smooth_input: Given, field: SparseField, *, threads: int | N
 
     def thick(points: NDArray[np.float64], faces: NDArray[np.integer]) -> NDArray[np.integer]:  # noqa: ARG001
         bits = data_bits(field, threads=threads)
-        solid, empty = (sturdy(field, bits, void=void, cells=cells, threads=threads) for void in (False, True))
+        solid, empty = (open_by_blocks(field, bits, void=void, cells=cells, threads=threads) for void in (False, True))
         position = (points - np.array(data.origin)) @ turn / data.cell_size
         wall, gap = np.zeros((2, len(points)), dtype=bool)
         for step in np.ndindex(2, 2, 2):
             cell = np.floor(position - 0.5).astype(np.int64) + step
-            wall |= set_at(field, solid, cell)
-            gap |= set_at(field, empty, cell, void=True)
+            wall |= look_up_cells(field, solid, cell)
+            gap |= look_up_cells(field, empty, cell, void=True)
         return np.where(wall & gap, COUNTS, THIN)
 
     return thick
 
 
-def differences(judged: Verdict, deviation: Fidelity | None, smooth_input: Given, *, off: float = 0.0) -> Differences:
+def find_differences(
+    judged: TopologyCheck, deviation: Fidelity | None, smooth_input: SmoothInput, *, off: float = 0.0
+) -> Differences:
     """Judge a result: return the verdict with its losses, problems and remarks.
 
     Parameters
@@ -119,7 +122,7 @@ def differences(judged: Verdict, deviation: Fidelity | None, smooth_input: Given
     if smooth_input.facts.get("coarse"):
         remarks.append("what is smaller than the voxels that were asked for was not compared")
     repairs = smooth_input.facts.get("repairs", {})
-    if (share := repairs.get("hole_share", 0.0)) > CAPS:
+    if (share := repairs.get("hole_share", 0.0)) > MIN_CAP_SHARE:
         remarks.append(f"{repairs['holes']} holes of the mesh were closed by caps, {share:.1%} of the area")
     phrases = deviation.phrases if deviation else ()
     lost = deviation is not None and deviation.word == "lost"
@@ -130,7 +133,7 @@ def differences(judged: Verdict, deviation: Fidelity | None, smooth_input: Given
     return Differences(word=word, losses=losses, problems=tuple(problems), remarks=tuple(remarks))
 
 
-def _topology_changes(judged: Verdict, smooth_input: Given) -> list[str]:
+def _topology_changes(judged: TopologyCheck, smooth_input: SmoothInput) -> list[str]:
     """Describe differences in topology between mesh and result, if the topology of the mesh is known."""
     if smooth_input.topology is None:
         return []

@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.isosurfaces.levels import Levelled, component_of_shells
+from infill.isosurfaces.levels import LevelSurface, component_of_shells
 from infill.surface import Surface
 
 if TYPE_CHECKING:
-    from infill.smoothing.levelling import Surfaced
-    from infill.smoothing.request import Given, Request
+    from infill.smoothing.levelling import SurfaceAtLevel
+    from infill.smoothing.request import SmoothInput, SmoothRequest
 
-CRUMB = 8.0  # cells, a block of 2 x 2 x 2: pieces of this size remain of a wall that breaks up
+CRUMB_CELLS = 8.0  # cells, a block of 2 x 2 x 2: pieces of this size remain of a wall that breaks up
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,14 +35,16 @@ class Crumbs:
     limit: float
 
 
-def without_crumbs(surfaced: Surfaced, smooth_input: Given, request: Request) -> tuple[Surfaced, Crumbs]:
+def remove_crumbs(
+    surfaced: SurfaceAtLevel, smooth_input: SmoothInput, request: SmoothRequest
+) -> tuple[SurfaceAtLevel, Crumbs]:
     """Remove crumbs from a surface; return it and their number and volume.
 
     A piece of solid is a crumb if it has at most `request.crumbs` mm³, by default the volume of 8 cells, and is not
     the largest piece of a component of the data. If all components of a mesh are larger than that, every such piece
     is a crumb, and every such cavity too: the surface around it is removed, so that it is filled.
     """
-    limit = CRUMB * smooth_input.data.cell_volume if request.crumbs is None else request.crumbs
+    limit = CRUMB_CELLS * smooth_input.data.cell_volume if request.crumbs is None else request.crumbs
     levelled = surfaced.found
     volume = levelled.shells.volume
     if levelled.shells.names.min(initial=0) < 0:  # vertices that no face uses
@@ -72,7 +74,7 @@ def without_crumbs(surfaced: Surfaced, smooth_input: Given, request: Request) ->
     )
 
 
-def _without_shells(levelled: Levelled, removed: NDArray[np.bool_]) -> Levelled:
+def _without_shells(levelled: LevelSurface, removed: NDArray[np.bool_]) -> LevelSurface:
     """Remove shells from a surface; `removed` marks them."""
     names = levelled.shells.names
     vertices = (names >= 0) & ~removed[names]

@@ -7,13 +7,13 @@ import logging
 import numpy as np
 
 from infill.surface import Surface
-from infill.voxels.from_mesh import Voxelised
+from infill.voxels.from_mesh import VoxelisedMesh
 
 LOG = logging.getLogger("infill")
 DENSE = 2  # voxels: a mesh whose edges are longer in the mean has no detail to keep
 
 
-def tell_of_filters(surface: Surface, voxelised: Voxelised) -> None:
+def hint_at_filters(surface: Surface, voxelised: VoxelisedMesh) -> None:
     """Log a hint to "infill" if a filter of the mesh itself may stay nearer to it than voxels.
 
     That is so for a closed mesh of one component, without overlaps, whose edges are shorter than two voxels in the
@@ -26,7 +26,7 @@ def tell_of_filters(surface: Surface, voxelised: Voxelised) -> None:
     voxelised : Voxelised
         The cells inside it.
     """
-    edge_length, cell_size = mean_edge(surface), float(voxelised.volume.cell_size.max())
+    edge_length, cell_size = mean_edge_length(surface), float(voxelised.volume.cell_size.max())
     if edge_length >= DENSE * cell_size or voxelised.several or voxelised.repairs.holes:
         return
     LOG.info(
@@ -38,10 +38,10 @@ def tell_of_filters(surface: Surface, voxelised: Voxelised) -> None:
     )
 
 
-def mean_edge(surface: Surface) -> float:
+def mean_edge_length(surface: Surface) -> float:
     """Return the mean edge length over all faces, mm.
 
-    >>> round(mean_edge(Surface(vertices=np.eye(3), faces=np.array([[0, 1, 2]]))), 6)
+    >>> round(mean_edge_length(Surface(vertices=np.eye(3), faces=np.array([[0, 1, 2]]))), 6)
     1.414214
     """
     corners = np.asarray(surface.vertices, dtype=np.float64)[surface.faces]

@@ -11,19 +11,19 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from infill.errors import InfillError, ParameterError
-from infill.formats.parts import hexadecimal
+from infill.formats.parts import hex_colour
 from infill.grid import spacing_of
 from infill.imaging.label_tables import Segment
 from infill.imaging.segmentations import Segmentation
 from infill.kernels.sparse import BRICK
 from infill.report import FORM
-from infill.result import Clock, Result, told_between
-from infill.smoothing.request import Options, Request
+from infill.result import Clock, Result, progress_between
+from infill.smoothing.request import SmoothOptions, SmoothRequest
 from infill.smoothing.solids import smooth_volume
 from infill.version import __version__
 from infill.volume import AXES, Volume
-from infill.voxels.cropping import part
-from infill.voxels.labels import Extent, extents
+from infill.voxels.cropping import cut_cells
+from infill.voxels.labels import LabelExtent, label_extents
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -34,8 +34,8 @@ if TYPE_CHECKING:
 
 # Cells around a label in which phi is not yet void to the last bit: 12 with the usual interface of 2 cells, that is 6
 # interfaces; and 8 more, for the averages of refining.
-REACH, MORE = 6, 8
-LISTED = 12  # labels in a message
+REACH_IN_INTERFACES, REFINING_MARGIN = 6, 8
+MAX_LISTED_LABELS = 12  # labels in a message
 SMALL = 2**20  # cells of a box: one thread does it before others have begun
 
 
@@ -56,10 +56,10 @@ class LabelStages:
 
     def picture(self, surface: Surface, report: Mapping[str, Any]) -> Image.Image:
         """Return all labels as one picture."""
-        from infill.pictures.sheet import mesh_panel, sheet
+        from infill.pictures.sheet import arrange_panels, draw_mesh_panel
 
         caption = f"{len(report['labels'])} labels, {report['triangles']:,} triangles"
-        return sheet({caption: mesh_panel(surface)}, "")
+        return arrange_panels({caption: draw_mesh_panel(surface)}, "")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,7 +68,7 @@ class _Piece:
 
     name: str
     segment: Segment
-    extent: Extent
+    extent: LabelExtent
 
     @property
     def cells(self) -> int:
@@ -84,7 +84,7 @@ def smooth_labels(
     label: int | tuple[int, ...] | None = None,
     table: Iterable[Segment] = (),
     keep_going: bool = False,
-    **options: Unpack[Options],
+    **options: Unpack[SmoothOptions],
 ) -> Result[LabelStages, LabelsReport]:
     """Smooth every label of a segmentation; return one surface for each.
 
@@ -128,7 +128,7 @@ def smooth_labels(
     >>> {name: surface.closed for name, surface in smooth_labels(balls).surfaces.items()}
     {'label_1': True, 'label_2': True}
     """
-    request = Request(**options)  # so that a mistake in the options is not reported for the first label
+    request = SmoothRequest(**options)  # so that a mistake in the options is not reported for the first label
     segmentation = _as_segmentation(volume, spacing, origin)
     clock = Clock(request.progress)
     with clock.stage("labels", 0.0):
@@ -140,7 +140,10 @@ def smooth_labels(
     with clock.stage("smooth", 0.0):
         shares = np.cumsum([0, *(piece.cells for piece in pieces)]) / sum(piece.cells for piece in pieces)
         for piece, begin, end in zip(pieces, shares[:-1], shares[1:], strict=True):
-            label_options: Options = {**options, "progress": told_between(request.progress, float(begin), float(end))}
+            label_options: SmoothOptions = {
+                **options,
+                "progress": progress_between(request.progress, float(begin), float(end)),
+            }
             try:
                 result = _smooth_piece(segmentation.layers[piece.segment.layer], piece, request, label_options)
             except InfillError as error:
@@ -184,7 +187,7 @@ def _find_pieces(
     table_segments = {segment.value: segment for segment in table}
     present = []
     for layer, volume in enumerate(segmentation.layers):
-        for extent in extents(volume):
+        for extent in label_extents(volume):
             template = (
                 table_segments.get(extent.value)
                 or file_segments.get((layer, extent.value))
@@ -196,7 +199,9 @@ def _find_pieces(
         raise ParameterError("the volume holds no label, only 0; check that it is the right file")
     for value in requested or ():
         if value not in values:
-            excerpt = ", ".join(map(str, values[:LISTED])) + (", …" if len(values) > LISTED else "")
+            excerpt = ", ".join(map(str, values[:MAX_LISTED_LABELS])) + (
+                ", …" if len(values) > MAX_LISTED_LABELS else ""
+            )
             raise ParameterError(f"label is {value}, and the volume holds {excerpt}; give one that is there")
     used_names: set[str] = set()
     pieces = []
@@ -228,17 +233,17 @@ def _absent_names(segmentation: Segmentation, pieces: Sequence[_Piece]) -> list[
 
 
 def _smooth_piece(
-    volume: Volume, piece: _Piece, request: Request, options: Options
+    volume: Volume, piece: _Piece, request: SmoothRequest, options: SmoothOptions
 ) -> Result[SmoothStages, SmoothReport]:
     """Smooth one label in its part of the volume, whose sides lie between bricks of the whole volume."""
-    margin = math.ceil(REACH * request.smoothing.interface) + MORE
+    margin = math.ceil(REACH_IN_INTERFACES * request.smoothing.interface) + REFINING_MARGIN
     low = tuple(max(0, (at - margin) // size * size) for at, size in zip(piece.extent.low, BRICK, strict=True))
     high = tuple(
         min(count, -(-(at + margin) // size) * size)
         for at, size, count in zip(piece.extent.high, BRICK, volume.values.shape, strict=True)
     )
-    box = part(volume, low, high)
-    chosen: Options = {**options, "threads": 1} if box.values.size < SMALL else options
+    box = cut_cells(volume, low, high)
+    chosen: SmoothOptions = {**options, "threads": 1} if box.values.size < SMALL else options
     return smooth_volume(box, label=piece.segment.value, **chosen)
 
 
@@ -248,7 +253,7 @@ def _title(piece: _Piece) -> str:
 
 
 def _report(
-    request: Request,
+    request: SmoothRequest,
     smoothed_pieces: Sequence[_Piece],
     reports: Mapping[str, SmoothReport],
     failed_pieces: Sequence[_Piece],
@@ -276,7 +281,7 @@ def _report(
         "labels": [
             {
                 **label_facts(piece),
-                "colour": None if piece.segment.colour is None else hexadecimal(piece.segment.colour),
+                "colour": None if piece.segment.colour is None else hex_colour(piece.segment.colour),
                 "report": reports[piece.name],
             }
             for piece in smoothed_pieces

@@ -9,23 +9,30 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.isosurfaces.components import Components, components, data_bits
-from infill.isosurfaces.levels import Levelled, at_level, at_volume, counted, nearest_components, volumes_of
-from infill.phasefield.profile import REFINED
+from infill.isosurfaces.components import Components, data_bits, find_components
+from infill.isosurfaces.levels import (
+    LevelSurface,
+    component_volumes,
+    nearest_components,
+    prepare_levels,
+    surface_at_level,
+    surface_at_volume,
+)
+from infill.phasefield.profile import REFINED_PROFILE
 
 if TYPE_CHECKING:
     from infill.phasefield.sparse import SparseField
-    from infill.smoothing.request import Given, Request
+    from infill.smoothing.request import SmoothInput, SmoothRequest
     from infill.volume import Volume
-    from infill.voxels.partial import Enclosed
+    from infill.voxels.partial import EnclosedVolumes
 
 # Of the largest area of a mesh component that is nearest to one component of the data: smaller areas nearest to other
 # components are chance, as where two components touch.
-FEW = 0.02
+MIN_AREA_SHARE = 0.02
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Surfaced:
+class SurfaceAtLevel:
     """A surface, the components of the data, and its levels in terms of phi.
 
     Parameters
@@ -41,7 +48,7 @@ class Surfaced:
         Level of phi of each component.
     """
 
-    found: Levelled
+    found: LevelSurface
     before: Components
     targets: NDArray[np.float64]
     common: float
@@ -53,32 +60,32 @@ class Surfaced:
         return float(self.found.shells.volume.sum())
 
 
-def levelled(field: SparseField, smooth_input: Given, request: Request) -> Surfaced:
+def extract_surface(field: SparseField, smooth_input: SmoothInput, request: SmoothRequest) -> SurfaceAtLevel:
     """Extract the surface of a smoothed field: at the level that keeps the volume, or at the requested one.
 
     If the field is straightened along the way, its values are overwritten.
     """
     threads, level, spacing = request.threads, request.level, tuple(smooth_input.data.cell_size.tolist())
     if isinstance(level, str):
-        before, field, start = counted(field, spacing=spacing, straighten=not request.refined, threads=threads)
+        before, field, start = prepare_levels(field, spacing=spacing, straighten=not request.refined, threads=threads)
         targets = _target_volumes(field, before, smooth_input, threads)
-        level_surface = at_volume(field, before, spacing=spacing, targets=targets, start=start, threads=threads)
+        level_surface = surface_at_volume(field, before, spacing=spacing, targets=targets, start=start, threads=threads)
         to_phase_level = request.profile.phase_level
         common, levels = (
             to_phase_level(level_surface.common),
             np.array([to_phase_level(float(height)) for height in level_surface.levels]),
         )
     else:
-        before = components(field, data_bits(field, threads=threads))
+        before = find_components(field, data_bits(field, threads=threads))
         targets = _target_volumes(field, before, smooth_input, threads)
         threshold = request.profile.distance_level(level) if request.refined else level
-        level_surface = at_level(field, before, spacing=spacing, level=threshold, threads=threads)
+        level_surface = surface_at_level(field, before, spacing=spacing, level=threshold, threads=threads)
         common, levels = level, np.full(before.count, level)
-    return Surfaced(found=level_surface, before=before, targets=targets, common=common, levels=levels)
+    return SurfaceAtLevel(found=level_surface, before=before, targets=targets, common=common, levels=levels)
 
 
 def _target_volumes(
-    field: SparseField, data: Components, smooth_input: Given, threads: int | None
+    field: SparseField, data: Components, smooth_input: SmoothInput, threads: int | None
 ) -> NDArray[np.float64]:
     """Return the volume of each component of the data, mm³: of its cells, or inside its mesh or grey surface."""
     spacing = tuple(smooth_input.data.cell_size.tolist())
@@ -87,8 +94,8 @@ def _target_volumes(
         return cells
     grey = replace(field, values=field.data.astype(np.float32))
     if smooth_input.enclosed is not None:
-        grey = replace(grey, values=REFINED.distance(grey.values, threads=threads))
-    volume = volumes_of(grey, data, spacing=spacing, threads=threads)
+        grey = replace(grey, values=REFINED_PROFILE.distance(grey.values, threads=threads))
+    volume = component_volumes(grey, data, spacing=spacing, threads=threads)
     volume = np.where(volume > 0, volume, cells)
     if smooth_input.volume is not None:
         scaled: NDArray[np.float64] = volume * (smooth_input.volume / volume.sum())
@@ -101,7 +108,7 @@ def _target_volumes(
 
 
 def _mesh_targets(
-    field: SparseField, data: Components, grid: Volume, enclosed: Enclosed, volume: NDArray[np.float64]
+    field: SparseField, data: Components, grid: Volume, enclosed: EnclosedVolumes, volume: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Return the volume of the mesh in each component of the data, mm³; `volume` is that inside its field.
 
@@ -121,7 +128,7 @@ def _mesh_targets(
     of_mesh, of_data = np.divmod(key, data.count)
     largest_area = np.zeros(count)
     np.maximum.at(largest_area, of_mesh, area)
-    is_linked = area > FEW * largest_area[of_mesh]
+    is_linked = area > MIN_AREA_SHARE * largest_area[of_mesh]
     graph = coo_array(
         (np.ones(int(is_linked.sum()), dtype=np.int8), (of_mesh[is_linked], count + of_data[is_linked])),
         shape=(count + data.count,) * 2,

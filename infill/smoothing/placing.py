@@ -12,26 +12,26 @@ from infill.errors import GeometryError
 from infill.isosurfaces.components import shell_names
 from infill.isosurfaces.sparse_marching import extract_bricks
 from infill.meshes.distance import distances
-from infill.meshes.edge_collapse import collapsed
-from infill.meshes.simplification import simplified, with_volume
+from infill.meshes.edge_collapse import collapse_edges
+from infill.meshes.simplification import restore_volume, simplify_surface
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
 from infill.volume import Volume
 
 if TYPE_CHECKING:
     from infill.report_keys import Spread
-    from infill.smoothing.request import Request
+    from infill.smoothing.request import SmoothRequest
 
-COMPARED = 5_000  # vertices whose distance is measured
-SIMPLER = 0.05  # of the volume: how much simplification may change
+MAX_SAMPLES = 5_000  # vertices whose distance is measured
+MAX_VOLUME_CHANGE = 0.05  # of the volume: how much simplification may change
 
 
-def placed(surface: Surface, data: Volume) -> Surface:
+def place_surface(surface: Surface, data: Volume) -> Surface:
     """Move a surface from grid coordinates to the place of the volume in space."""
     return surface.moved(data.place(surface.vertices), space=data.space, mirrored=data.mirrored)
 
 
-def lightened(full: Surface, request: Request) -> tuple[Surface, dict[str, Any] | None]:
+def simplify_result(full: Surface, request: SmoothRequest) -> tuple[Surface, dict[str, Any] | None]:
     """Simplify the surface as requested; return it and the changes, None if it stays as it is.
 
     Raises
@@ -43,16 +43,16 @@ def lightened(full: Surface, request: Request) -> tuple[Surface, dict[str, Any] 
         return full, None
     assert not isinstance(request.tolerance, str)  # `Request.at` has made it a number
     if request.lenient and request.tolerance is not None:
-        simplified_surface = collapsed(full, tolerance=request.tolerance, threads=request.threads)
+        simplified_surface = collapse_edges(full, tolerance=request.tolerance, threads=request.threads)
         if simplified_surface is None or simplified_surface is full:
             return full, None
     else:
-        simplified_surface = simplified(
+        simplified_surface = simplify_surface(
             full, tolerance=request.tolerance, triangles=request.max_triangles, threads=request.threads
         )
-    result = replace(with_volume(simplified_surface, full.volume), space=full.space)
+    result = replace(restore_volume(simplified_surface, full.volume), space=full.space)
     change = result.volume / full.volume - 1
-    if abs(change) > SIMPLER and not request.allow_broken:
+    if abs(change) > MAX_VOLUME_CHANGE and not request.allow_broken:
         raise GeometryError(
             f"simplifying to {len(result.faces):,} triangles would change the volume by {change:+.0%}; "
             "allow more triangles or give a smaller tolerance"
@@ -61,22 +61,22 @@ def lightened(full: Surface, request: Request) -> tuple[Surface, dict[str, Any] 
         "triangles_before": len(full.faces),
         "volume_change": change,
         "shells": shell_names(result)[1],
-        "distance": summary(distances(some(full.vertices), result, threads=request.threads)),
+        "distance": summarise_distances(distances(subsample(full.vertices), result, threads=request.threads)),
     }
 
 
 def raw_surface(field: SparseField, data: Volume, threads: int | None) -> Surface:
     """Extract the surface of the unsmoothed data in the bricks, placed in space."""
     grey = replace(field, values=field.data.astype(np.float32))
-    return placed(extract_bricks(grey, spacing=tuple(data.cell_size), threads=threads), data)
+    return place_surface(extract_bricks(grey, spacing=tuple(data.cell_size), threads=threads), data)
 
 
-def some(vertices: NDArray[np.floating]) -> NDArray[np.floating]:
+def subsample(vertices: NDArray[np.floating]) -> NDArray[np.floating]:
     """Return at most about 5000 vertices, spread evenly over all of them."""
-    return vertices[:: max(1, len(vertices) // COMPARED)]
+    return vertices[:: max(1, len(vertices) // MAX_SAMPLES)]
 
 
-def summary(distance: NDArray[np.float64]) -> Spread:
+def summarise_distances(distance: NDArray[np.float64]) -> Spread:
     """Return the mean, root mean square and maximum of the distances."""
     return {
         "mean": float(distance.mean()),

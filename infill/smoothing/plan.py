@@ -18,35 +18,37 @@ from numpy.typing import NDArray
 
 from infill.errors import GeometryError
 from infill.grid import Grid
-from infill.kernels.compiling import told_of_compiling
+from infill.kernels.compiling import log_compilation
 from infill.machine import require_memory
-from infill.meshes.merging import closed_or_merged
-from infill.phasefield.schedule import FEWEST
+from infill.meshes.merging import merge_unless_closed
+from infill.phasefield.schedule import MIN_STEPS
 from infill.smoothing.cleaning import BYTES_PER_SURFACE_CELL, BYTES_TO_REFINE
 from infill.smoothing.meshes import BYTES_PER_CELL as MESH_BYTES_PER_CELL
-from infill.smoothing.meshes import MARGIN, ways_of_mesh
-from infill.smoothing.remedies import Way, best_of
-from infill.smoothing.request import AUTO, Request
-from infill.smoothing.scans import ways_of_scan, ways_of_volume
-from infill.smoothing.sources import AXES, Source, check_fitting, threshold_of, voxel_of_points
+from infill.smoothing.meshes import MARGIN, mesh_strategies
+from infill.smoothing.remedies import Strategy, first_sound
+from infill.smoothing.request import AUTO, SmoothRequest
+from infill.smoothing.scans import scan_strategies, volume_strategies
+from infill.smoothing.sources import AXES, Source, check_options_fit, threshold_of, voxel_of_points
 from infill.surface import Surface
 from infill.volume import Volume
-from infill.voxels.from_mesh import enclosed_cells, grid_around
+from infill.voxels.from_mesh import estimate_solid_cells, grid_around
 from infill.voxels.from_points import grid_around_points, voxelise_points
 
 if TYPE_CHECKING:
-    from infill.smoothing.request import Method, Options
+    from infill.smoothing.request import Method, SmoothOptions
 
-PER_VERTEX = 2  # triangles
-BALL = 16.0  # cells: the radius of the ball on which the time per triangle is measured
-MESHES = 0.85  # of that time, measured: a triangle of a mesh takes 0.5 to 1.6 times as long, one of a scan 1.0 to 1.2
-COARSE = 60  # voxels along the longest side of the grid on which points are surveyed
+TRIANGLES_PER_VERTEX = 2  # triangles
+BALL_RADIUS = 16.0  # cells: the radius of the ball on which the time per triangle is measured
+MESH_TIME_SHARE = (
+    0.85  # of that time, measured: a triangle of a mesh takes 0.5 to 1.6 times as long, one of a scan 1.0 to 1.2
+)
+COARSE_RESOLUTION = 60  # voxels along the longest side of the grid on which points are surveyed
 BYTES_BEFORE = 300e6  # of the program itself, a measured peak
 BYTES_PER_CELL = 6  # of a volume: the mask of solid cells, and the data as 32-bit numbers, besides its own array
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Plan:
+class SmoothPlan:
     """The plan of a smoothing run.
 
     Parameters
@@ -70,7 +72,7 @@ class Plan:
         Expected time of the first strategy on this machine, at its present load.
     """
 
-    request: Request
+    request: SmoothRequest
     grid: Grid
     space: str
     facts: Mapping[str, Any]
@@ -104,7 +106,7 @@ class Plan:
         }
 
 
-def planned(
+def plan_smoothing(
     source: Source,
     *,
     begin: float,
@@ -117,8 +119,8 @@ def planned(
     otsu: bool = False,
     grey: bool = False,
     by_component: bool = False,
-    **options: Unpack[Options],
-) -> Plan:
+    **options: Unpack[SmoothOptions],
+) -> SmoothPlan:
     """Return the plan for `infill.smoothing.sources.smooth_source` with the same arguments.
 
     Parameters
@@ -133,7 +135,7 @@ def planned(
     MemoryLimitError
         If a limit is given and the work needs more.
     """
-    check_fitting(
+    check_options_fit(
         source,
         resolution=resolution is not None,
         voxel=voxel is not None,
@@ -145,10 +147,12 @@ def planned(
         grey=grey,
         by_component=by_component,
     )
-    request = Request(**options)
+    request = SmoothRequest(**options)
     if isinstance(source, Volume):
         chosen = threshold_of(threshold, between, otsu=otsu)
-        survey = _survey_volume(ways_of_volume(source, request, threshold=chosen, label=label, grey=grey, voxel=voxel))
+        survey = _survey_volume(
+            volume_strategies(source, request, threshold=chosen, label=label, grey=grey, voxel=voxel)
+        )
     elif isinstance(source, Surface):
         survey = _survey_mesh(source, request, resolution, voxel)
     else:
@@ -160,18 +164,18 @@ def planned(
     if request.max_memory is not None:
         needed = round(max(cells, surface))
         require_memory(needed, request.max_memory, "give larger voxels, or --roi for a part of a volume")
-    shortest_smoothing = replace(cell_request.smoothing, steps=min(cell_request.smoothing.steps, FEWEST))
+    shortest_smoothing = replace(cell_request.smoothing, steps=min(cell_request.smoothing.steps, MIN_STEPS))
     _seconds_per_triangle(replace(cell_request, smoothing=shortest_smoothing), grid)  # loads what a run needs
     loaded = time.perf_counter()
-    work = survey.share * _seconds_per_triangle(cell_request, grid) * PER_VERTEX * survey.vertices
-    return Plan(
+    work = survey.share * _seconds_per_triangle(cell_request, grid) * TRIANGLES_PER_VERTEX * survey.vertices
+    return SmoothPlan(
         request=cell_request,
         grid=grid,
         space=survey.space,
         facts=survey.facts,
         solid=survey.solid,
         ways=survey.ways,
-        triangles=round(PER_VERTEX * survey.vertices),
+        triangles=round(TRIANGLES_PER_VERTEX * survey.vertices),
         memory=round(BYTES_BEFORE + cells + surface),
         seconds=loaded - begin + work + survey.seconds,
     )
@@ -184,7 +188,7 @@ class _InputSurvey:
     Parameters
     ----------
     request, grid, space, facts, solid, ways
-        See `Plan`; lengths of the request are in mm.
+        See `SmoothPlan`; lengths of the request are in mm.
     vertices : float
         Edges of the grid that cross the surface, about.
     bytes_per_cell : int
@@ -195,7 +199,7 @@ class _InputSurvey:
         Time to find the solid cells, if they were not found here.
     """
 
-    request: Request
+    request: SmoothRequest
     grid: Grid
     facts: Mapping[str, Any]
     solid: float
@@ -207,7 +211,7 @@ class _InputSurvey:
     seconds: float = 0.0
 
 
-def _survey_volume(ways: Iterator[Way]) -> _InputSurvey:
+def _survey_volume(ways: Iterator[Strategy]) -> _InputSurvey:
     first_strategy = next(ways)
     smooth_input, request = first_strategy.make()
     data = smooth_input.data
@@ -223,35 +227,37 @@ def _survey_volume(ways: Iterator[Way]) -> _InputSurvey:
     )
 
 
-def _survey_mesh(surface: Surface, request: Request, resolution: int | None, voxel: float | None) -> _InputSurvey:
+def _survey_mesh(surface: Surface, request: SmoothRequest, resolution: int | None, voxel: float | None) -> _InputSurvey:
     """Survey a mesh without voxelising it."""
     fixed = resolution is not None or voxel is not None
-    ways = [way.name for way in ways_of_mesh(surface, request, resolution=resolution, voxel=voxel, fixed=fixed)]
-    mesh = closed_or_merged(surface.vertices, surface.faces)
+    ways = [way.name for way in mesh_strategies(surface, request, resolution=resolution, voxel=voxel, fixed=fixed)]
+    mesh = merge_unless_closed(surface.vertices, surface.faces)
     grid = grid_around(mesh, voxel=voxel, resolution=resolution, margin=MARGIN)
     return _InputSurvey(
         request=replace(request, method=cast("Method", ways[0]), refine=None),
         grid=grid,
         facts={"source": "mesh", "triangles": len(surface.faces)},
-        solid=enclosed_cells(mesh, grid),
+        solid=estimate_solid_cells(mesh, grid),
         vertices=_crossings_per_area(mesh) / float(grid.cell_size[0]) ** 2,
         ways=tuple(ways),
         bytes_per_cell=MESH_BYTES_PER_CELL,
-        share=MESHES,
+        share=MESH_TIME_SHARE,
     )
 
 
-def _survey_points(points: NDArray[np.float64], cell: float, shell: float | None, request: Request) -> _InputSurvey:
+def _survey_points(
+    points: NDArray[np.float64], cell: float, shell: float | None, request: SmoothRequest
+) -> _InputSurvey:
     """Survey points with large voxels, which is quick."""
     narrow = shell is not None and shell < cell  # raises an error for the requested voxels
-    coarsening = 1.0 if narrow else max(1.0, float(np.ptp(points, axis=0).max()) / cell / COARSE)
+    coarsening = 1.0 if narrow else max(1.0, float(np.ptp(points, axis=0).max()) / cell / COARSE_RESOLUTION)
     begin = time.perf_counter()
     coarse_shell = shell if shell is None or narrow else max(shell, coarsening * cell)
     solid = voxelise_points(points, voxel=coarsening * cell, shell=coarse_shell, margin=MARGIN, threads=request.threads)
     seconds = time.perf_counter() - begin
     cells, vertices = _count_cells(np.asarray(solid.values))
     phase = shell is None and request.method != "plain"
-    ways = ways_of_scan(solid, solid, {"method": "points"}, {}, request, grey=False, phase=phase)
+    ways = scan_strategies(solid, solid, {"method": "points"}, {}, request, grey=False, phase=phase)
     first_strategy = next(ways)
     return _InputSurvey(
         request=first_strategy.make()[1],
@@ -264,11 +270,11 @@ def _survey_points(points: NDArray[np.float64], cell: float, shell: float | None
     )
 
 
-@told_of_compiling("the smoother")
-def _seconds_per_triangle(request: Request, grid: Grid) -> float:
+@log_compilation("the smoother")
+def _seconds_per_triangle(request: SmoothRequest, grid: Grid) -> float:
     """Measure the seconds per triangle on a ball of cells of the same size, smoothed in the same way."""
-    offsets = np.indices((round(2 * BALL) + 2 * MARGIN,) * 3) - (BALL + MARGIN - 0.5)
-    ball = Volume(values=(offsets**2).sum(axis=0) <= BALL**2, spacing=tuple(grid.cell_size.tolist()))
+    offsets = np.indices((round(2 * BALL_RADIUS) + 2 * MARGIN,) * 3) - (BALL_RADIUS + MARGIN - 0.5)
+    ball = Volume(values=(offsets**2).sum(axis=0) <= BALL_RADIUS**2, spacing=tuple(grid.cell_size.tolist()))
     trial_request = replace(
         request,
         method="refine" if request.refined else "plain",
@@ -281,8 +287,8 @@ def _seconds_per_triangle(request: Request, grid: Grid) -> float:
     )
     begin = time.perf_counter()
     with contextlib.suppress(GeometryError):  # many steps leave nothing of the ball, and take as long
-        best_of(ways_of_volume(ball, trial_request), trial_request)
-    return (time.perf_counter() - begin) / (PER_VERTEX * _count_cells(np.asarray(ball.values))[1])
+        first_sound(volume_strategies(ball, trial_request), trial_request)
+    return (time.perf_counter() - begin) / (TRIANGLES_PER_VERTEX * _count_cells(np.asarray(ball.values))[1])
 
 
 def _count_cells(solid: NDArray[np.bool_]) -> tuple[int, int]:

@@ -11,23 +11,23 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, cast
 
 from infill.errors import GeometryError, MemoryLimitError, ParameterError
-from infill.phasefield.schedule import FEWEST
+from infill.phasefield.schedule import MIN_STEPS
 from infill.sections import Sections
-from infill.smoothing.attempt import Attempt, attempted, delivered
+from infill.smoothing.attempt import Attempt, finish_attempt, run_attempt
 
 if TYPE_CHECKING:
     from infill.report_keys import SmoothReport, VerdictKeys
     from infill.result import Result
-    from infill.smoothing.request import Given, Request
+    from infill.smoothing.request import SmoothInput, SmoothRequest
     from infill.smoothing.stages import SmoothStages
 
 # Seconds of all cores together: a strategy that takes longer than the first is skipped if it would end later than this.
 # CPU time, not wall time: the choice must not depend on the load of the machine.
-PATIENCE = 100.0
+MAX_CPU_SECONDS = 100.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class Way:
+class Strategy:
     """One strategy of smoothing.
 
     Parameters
@@ -41,11 +41,11 @@ class Way:
     """
 
     name: str
-    make: Callable[[], tuple[Given, Request]]
+    make: Callable[[], tuple[SmoothInput, SmoothRequest]]
     cost: float = 1.0
 
 
-def best_of(ways: Iterable[Way], request: Request) -> Result[SmoothStages, SmoothReport]:
+def first_sound(ways: Iterable[Strategy], request: SmoothRequest) -> Result[SmoothStages, SmoothReport]:
     """Run strategies until one loses nothing; return its result, or else the best one.
 
     Parameters
@@ -68,10 +68,10 @@ def best_of(ways: Iterable[Way], request: Request) -> Result[SmoothStages, Smoot
     for way in ways:
         if tried and (request.strict or (request.allow_broken and best is not None)):
             break
-        if way.cost > 1 and time.process_time() - begin + way.cost * first_seconds > PATIENCE:
+        if way.cost > 1 and time.process_time() - begin + way.cost * first_seconds > MAX_CPU_SECONDS:
             break
         try:
-            attempt = attempted(*way.make())
+            attempt = run_attempt(*way.make())
         except GeometryError as error:
             failed = failed or error
         except (MemoryLimitError, ParameterError):
@@ -88,7 +88,7 @@ def best_of(ways: Iterable[Way], request: Request) -> Result[SmoothStages, Smoot
     if best is None:
         assert failed is not None
         raise GeometryError(f"{failed}{_list_tried(tried[1:])}") from failed
-    result, verdict_words = delivered(best)
+    result, verdict_words = finish_attempt(best)
     reasons = verdict_words.losses if not request.strict else (*verdict_words.losses, *verdict_words.problems)
     if reasons and not request.allow_broken:
         raise GeometryError(f"{'; '.join(reasons)}{_list_tried(tried[1:])}; {_advice(best)}")
@@ -112,10 +112,10 @@ def _advice(best: Attempt) -> str:
     return "give finer voxels or fewer steps, or --allow-broken to have it anyway"
 
 
-def fewer_steps(request: Request) -> list[int]:
+def fewer_steps(request: SmoothRequest) -> list[int]:
     """Return the smaller numbers of steps to try if the requested number loses something."""
     steps, counts = request.smoothing.steps, []
-    while steps > FEWEST:
-        steps = max(FEWEST, steps // 2)
+    while steps > MIN_STEPS:
+        steps = max(MIN_STEPS, steps // 2)
         counts.append(steps)
     return counts

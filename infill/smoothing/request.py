@@ -7,30 +7,30 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal, TypedDict
 
-from infill.checks import positive, within
+from infill.checks import check_positive, check_range
 from infill.errors import ParameterError, UsageError
 from infill.phasefield.allen_cahn import Smoothing
-from infill.phasefield.profile import REFINED, STRAIGHT, Profile
-from infill.phasefield.schedule import FEWEST
+from infill.phasefield.profile import PLAIN_PROFILE, REFINED_PROFILE, Profile
+from infill.phasefield.schedule import MIN_STEPS
 
 if TYPE_CHECKING:
-    from infill.inspection.changes import Counts
+    from infill.inspection.changes import ConnectionCounts
     from infill.result import Progress
     from infill.surface import Surface
     from infill.volume import Volume
-    from infill.voxels.partial import Enclosed
+    from infill.voxels.partial import EnclosedVolumes
 
 LevelMethod = Literal["volume"] | float
 Method = Literal["auto", "plain", "refine", "grey"]
 METHODS = ("auto", "plain", "refine", "grey")
 AUTO: Literal["auto"] = "auto"
-LEAN = 0.1  # of a cell: the distance by which simplification may move the surface by default
+DEFAULT_TOLERANCE_IN_CELLS = 0.1  # of a cell: the distance by which simplification may move the surface by default
 STEPS_PER_VARIANCE = 3.5  # cells²: the standard deviation of n steps is sqrt(2 n / 7) cells
 MOST_STEPS = 2000  # minutes
 HIGHEST, HIGHEST_REFINED = 0.999, 0.99  # of a fixed level of phi; beyond these, there is no profile to find it on
 
 
-class Options(TypedDict, total=False):
+class SmoothOptions(TypedDict, total=False):
     """The options that the three functions have in common; see `infill.smooth_volume`."""
 
     smoothing: Smoothing
@@ -50,8 +50,8 @@ class Options(TypedDict, total=False):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Request:
-    """The options of `Options`, checked, with defaults.
+class SmoothRequest:
+    """The options of `SmoothOptions`, checked, with defaults.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ class Request:
     refine : bool, optional
         True is `method="refine"`, False is `method="plain"`.
     held : bool
-        Whether exact data bound the surface: see `infill.phasefield.refining.Exact`. False if a radius is requested.
+        Whether exact data bound the surface: see `ExactDataLimits`. False if a radius is requested.
     lenient : bool
         Whether a surface that cannot be simplified to the tolerance is left as it is.
 
@@ -97,19 +97,19 @@ class Request:
                 raise UsageError(f"refine is {self.refine} and method {self.method}; give one of them")
             object.__setattr__(self, "method", "refine" if self.refine else "plain")
         if self.radius is not None:
-            object.__setattr__(self, "radius", positive("radius", self.radius, "mm"))
+            object.__setattr__(self, "radius", check_positive("radius", self.radius, "mm"))
         if isinstance(self.tolerance, str) and self.tolerance != AUTO:
             raise UsageError(f"tolerance is {self.tolerance!r}; give a number of mm, or auto")
         if self.tolerance is not None and not isinstance(self.tolerance, str):
-            positive("tolerance", self.tolerance, "mm")  # before the work
+            check_positive("tolerance", self.tolerance, "mm")  # before the work
         if self.crumbs is not None:
-            object.__setattr__(self, "crumbs", within("crumbs", self.crumbs, 0, math.inf, "mm³"))
+            object.__setattr__(self, "crumbs", check_range("crumbs", self.crumbs, 0, math.inf, "mm³"))
         if not isinstance(self.level, str):
             highest = HIGHEST_REFINED if self.refined else HIGHEST
-            object.__setattr__(self, "level", within("level", float(self.level), -highest, highest))
+            object.__setattr__(self, "level", check_range("level", float(self.level), -highest, highest))
         elif self.level != "volume":
             raise UsageError(f"level is {self.level!r}; give volume, or a number between -1 and 1")
-        object.__setattr__(self, "despeckle", within("despeckle", self.despeckle, 0, math.inf, "mm³"))
+        object.__setattr__(self, "despeckle", check_range("despeckle", self.despeckle, 0, math.inf, "mm³"))
 
     @property
     def refined(self) -> bool:
@@ -119,16 +119,16 @@ class Request:
     @property
     def profile(self) -> Profile:
         """The profile on which the level that keeps the volume is found."""
-        return REFINED if self.refined else STRAIGHT
+        return REFINED_PROFILE if self.refined else PLAIN_PROFILE
 
-    def at(self, cell: float) -> Request:
+    def at(self, cell: float) -> SmoothRequest:
         """Return the request with its lengths in cells of a size, mm: a radius becomes steps, `auto` a tolerance.
 
         n steps blur a field about as much as a Gaussian with a standard deviation of sqrt(2 n / 7) cells.
         """
         smoothing, tolerance = self.smoothing, self.tolerance
         if self.radius is not None:
-            fewest = FEWEST if self.refined else 1
+            fewest = MIN_STEPS if self.refined else 1
             steps = max(fewest, round(STEPS_PER_VARIANCE * (self.radius / cell) ** 2))
             if steps > MOST_STEPS:
                 raise ParameterError(
@@ -137,7 +137,7 @@ class Request:
                 )
             smoothing = replace(smoothing, steps=steps)
         if isinstance(tolerance, str):
-            tolerance = LEAN * cell if self.max_triangles is None else None
+            tolerance = DEFAULT_TOLERANCE_IN_CELLS * cell if self.max_triangles is None else None
         return replace(
             self,
             held=self.radius is None,
@@ -167,7 +167,7 @@ class Request:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Given:
+class SmoothInput:
     """The solid to smooth, and facts about its origin.
 
     Parameters
@@ -196,8 +196,8 @@ class Given:
     facts: Mapping[str, Any]
     reference: Surface | None = None
     mesh: Surface | None = None
-    enclosed: Enclosed | None = None
-    topology: Counts | None = None
+    enclosed: EnclosedVolumes | None = None
+    topology: ConnectionCounts | None = None
     raw: Surface | None = None
     volume: float | None = None
     cell: float | None = None

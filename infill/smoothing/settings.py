@@ -22,16 +22,16 @@ from infill.options.keyword_options import (
     parse_level,
     parse_number,
     parse_numbers,
+    parse_options,
     parse_whole,
     parse_wholes,
     parse_word,
-    parsed,
 )
-from infill.options.toml import read_toml, toml_rows
+from infill.options.toml import read_toml, write_rows
 from infill.options.trust import check_trusted
 
 if TYPE_CHECKING:
-    from infill.smoothing.request import LevelMethod, Method, Options
+    from infill.smoothing.request import LevelMethod, Method, SmoothOptions
 
 AUTO, REFINE, PLAIN = "auto", "refine", "plain"
 # Options that exclude each other: a flag on the command line drops its rivals in the file.
@@ -128,7 +128,7 @@ class SmoothSettings:
         return {name: getattr(self, name) for name in names}
 
     @property
-    def options(self) -> Options:
+    def options(self) -> SmoothOptions:
         """Options that all smoothing functions share."""
         from infill.phasefield.allen_cahn import Smoothing
 
@@ -148,15 +148,15 @@ class SmoothSettings:
 
     def check(self) -> None:
         """Raise ParameterError for options that suit no input."""
-        from infill.smoothing.request import Request
+        from infill.smoothing.request import SmoothRequest
 
-        Request(**self.options)
+        SmoothRequest(**self.options)
 
     def to_toml(self) -> str:
         """Return all settings, defaults included, as a TOML document that `resolve` reads back."""
         plain = {name: getattr(self, FIELDS.get(name, name)) for name in READERS}
         plain["labels"] = None if self.labels is None else str(self.labels)
-        return "\n".join(["# infill smooth INPUT --config THIS_FILE -o OUT", *toml_rows(plain), ""])
+        return "\n".join(["# infill smooth INPUT --config THIS_FILE -o OUT", *write_rows(plain), ""])
 
 
 def resolve(flags: Mapping[str, Any], config: Path | None = None, *, trust: bool = False) -> SmoothSettings:
@@ -178,13 +178,13 @@ def resolve(flags: Mapping[str, Any], config: Path | None = None, *, trust: bool
     FormatError
         If the file is missing or not TOML.
     """
-    typed = parsed("smooth", READERS, {name: value for name, value in flags.items() if value is not None})
+    typed = parse_options("smooth", READERS, {name: value for name, value in flags.items() if value is not None})
     read = read_toml(config, example="threshold = 226") if config else {}
     if config:
         check_trusted(
             {name: value for name, value in read.items() if name not in typed}, config, trust=trust, code=False
         )
-    filed = parsed("smooth", READERS, read)
+    filed = parse_options("smooth", READERS, read)
     for rivals in RIVALS:
         if any(typed.get(name, False) is not False for name in rivals):  # a flag that is off excludes nothing
             filed = {name: value for name, value in filed.items() if name not in rivals}

@@ -18,18 +18,18 @@ from infill.errors import ParameterError
 from infill.grid import spacing_of
 from infill.meshes.merging import surface_of
 from infill.result import Result
-from infill.smoothing.by_component import ComponentStages, by_components
-from infill.smoothing.cloud_data import phase_of_points
-from infill.smoothing.clouds import compared_with_points
-from infill.smoothing.meshes import MARGIN, ways_of_mesh
-from infill.smoothing.remedies import best_of
-from infill.smoothing.request import Options, Request
-from infill.smoothing.scans import range_of, ways_of_scan, ways_of_volume
+from infill.smoothing.by_component import ComponentStages, smooth_components
+from infill.smoothing.cloud_data import phase_field_of_points
+from infill.smoothing.clouds import compare_with_points
+from infill.smoothing.meshes import MARGIN, mesh_strategies
+from infill.smoothing.remedies import first_sound
+from infill.smoothing.request import SmoothOptions, SmoothRequest
+from infill.smoothing.scans import scan_strategies, threshold_range, volume_strategies
 from infill.smoothing.stages import SmoothStages
 from infill.surface import Surface
 from infill.volume import Volume
 from infill.voxels.from_points import voxelise_points
-from infill.voxels.masked import void_where_masked
+from infill.voxels.masked import fill_masked_with_void
 
 if TYPE_CHECKING:
     import trimesh
@@ -46,7 +46,7 @@ def smooth_volume(
     label: int | Sequence[int] | None = None,
     grey: bool = False,
     voxel: float | None = None,
-    **options: Unpack[Options],
+    **options: Unpack[SmoothOptions],
 ) -> Result[SmoothStages, SmoothReport]:
     """Return a smooth surface around the solid in a volume.
 
@@ -120,12 +120,12 @@ def smooth_volume(
     >>> bool(abs(result.mesh.volume / ball.sum() - 1) < 1e-4)
     True
     """
-    request = Request(**options)
-    low, _ = range_of(threshold)
+    request = SmoothRequest(**options)
+    low, _ = threshold_range(threshold)
     chosen = threshold is not None or label is not None
     scan = volume if isinstance(volume, Volume) else _as_volume(volume, spacing, origin, low, chosen=chosen)
-    ways = ways_of_volume(scan, request, threshold=threshold, label=label, grey=grey, voxel=voxel)
-    return best_of(ways, request)
+    ways = volume_strategies(scan, request, threshold=threshold, label=label, grey=grey, voxel=voxel)
+    return first_sound(ways, request)
 
 
 def _as_volume(
@@ -136,7 +136,7 @@ def _as_volume(
     *,
     chosen: bool,
 ) -> Volume:
-    plain = void_where_masked(np.asanyarray(values), low, chosen=chosen)
+    plain = fill_masked_with_void(np.asanyarray(values), low, chosen=chosen)
     return Volume(values=plain, spacing=spacing_of(spacing, 3), origin=origin)
 
 
@@ -147,7 +147,7 @@ def smooth_mesh(
     resolution: int | None = None,
     voxel: float | None = None,
     by_component: Literal[False] = False,
-    **options: Unpack[Options],
+    **options: Unpack[SmoothOptions],
 ) -> Result[SmoothStages, SmoothReport]: ...
 @overload
 def smooth_mesh(
@@ -156,7 +156,7 @@ def smooth_mesh(
     resolution: int | None = None,
     voxel: float | None = None,
     by_component: Literal[True],
-    **options: Unpack[Options],
+    **options: Unpack[SmoothOptions],
 ) -> Result[ComponentStages, ComponentsReport]: ...
 def smooth_mesh(
     mesh: trimesh.Trimesh | Surface,
@@ -164,7 +164,7 @@ def smooth_mesh(
     resolution: int | None = None,
     voxel: float | None = None,
     by_component: bool = False,
-    **options: Unpack[Options],
+    **options: Unpack[SmoothOptions],
 ) -> Result[SmoothStages, SmoothReport] | Result[ComponentStages, ComponentsReport]:
     """Return the smooth surface of a mesh, by way of voxels.
 
@@ -186,12 +186,12 @@ def smooth_mesh(
     >>> smooth_mesh(trimesh.creation.icosphere(radius=10), voxel=0.5).report["components"]
     1
     """
-    surface, request = surface_of(mesh), Request(**options)
+    surface, request = surface_of(mesh), SmoothRequest(**options)
     if by_component:
-        return by_components(surface, request, resolution=resolution, voxel=voxel)
+        return smooth_components(surface, request, resolution=resolution, voxel=voxel)
     fixed = resolution is not None or voxel is not None
-    ways = ways_of_mesh(surface, request, resolution=resolution, voxel=voxel, fixed=fixed, hint=True)
-    return best_of(ways, request)
+    ways = mesh_strategies(surface, request, resolution=resolution, voxel=voxel, fixed=fixed, hint=True)
+    return first_sound(ways, request)
 
 
 def smooth_points(
@@ -200,7 +200,7 @@ def smooth_points(
     voxel: float,
     shell: float | None = None,
     normals: ArrayLike | None = None,
-    **options: Unpack[Options],
+    **options: Unpack[SmoothOptions],
 ) -> Result[SmoothStages, SmoothReport]:
     """Return the smooth surface of a cloud of points.
 
@@ -231,7 +231,7 @@ def smooth_points(
     The cells show the solid that the points enclose; points and normals place the surface within a cell: see
     `infill.voxels.point_fields.distance_from_points`. A shell, or `method="plain"`, smooths the cells alone.
     """
-    cloud, request = np.asarray(points, dtype=np.float64), Request(**options)
+    cloud, request = np.asarray(points, dtype=np.float64), SmoothRequest(**options)
     across = _checked_normals(normals, cloud, shell)
     solid = voxelise_points(
         cloud,
@@ -243,12 +243,12 @@ def smooth_points(
     )
     scan, volume, phase = solid, None, shell is None and request.method != "plain"
     if phase:
-        scan, solid, volume = phase_of_points(solid, cloud, across, request)
+        scan, solid, volume = phase_field_of_points(solid, cloud, across, request)
     facts = {"source": "points", "points": len(cloud), "shell": shell, "normals": across is not None}
     used = {"method": "points"}
-    ways = ways_of_scan(scan, solid, used, facts, request, grey=False, phase=phase, volume=volume)
-    result = best_of(ways, request)
-    return compared_with_points(result, cloud, voxel, request) if shell is None else result
+    ways = scan_strategies(scan, solid, used, facts, request, grey=False, phase=phase, volume=volume)
+    result = first_sound(ways, request)
+    return compare_with_points(result, cloud, voxel, request) if shell is None else result
 
 
 def _checked_normals(

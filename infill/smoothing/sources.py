@@ -11,24 +11,24 @@ from typing import TYPE_CHECKING, Any, Literal, Unpack
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.checks import whole
+from infill.checks import check_whole_number
 from infill.errors import FormatError, GeometryError, ParameterError, UsageError
-from infill.files.broken import BROKEN
+from infill.files.broken import READER_ERRORS
 from infill.formats.mesh_files import READERS, read_mesh
 from infill.formats.point_files import read_points_and_normals
 from infill.grid import spacing_of
 from infill.imaging.segmentations import Segmentation, read_segmentation
-from infill.imaging.units import STATED, UNITS, guess_unit
+from infill.imaging.units import STATED_UNITS, UNITS, guess_unit
 from infill.imaging.volume_files import read_volume
 from infill.surface import Surface
 from infill.volume import Volume
-from infill.voxels.cropping import cropped
+from infill.voxels.cropping import crop
 
 if TYPE_CHECKING:
     from infill.report_keys import ComponentsReport, SmoothReport
     from infill.result import Result
     from infill.smoothing.by_component import ComponentStages
-    from infill.smoothing.request import Options
+    from infill.smoothing.request import SmoothOptions
     from infill.smoothing.stages import SmoothStages
 
 Kind = Literal["mesh", "points", "volume"]
@@ -36,7 +36,7 @@ Source = Surface | Volume | NDArray[np.float64]
 
 LOG = logging.getLogger("infill")
 POINT_SUFFIXES = (".xyz", ".txt", ".pts", ".csv")
-FITTING = {
+OPTIONS_OF_KIND = {
     "volume": ("threshold", "between", "label", "otsu", "grey", "voxel"),
     "mesh": ("resolution", "voxel", "by_component"),
     "points": ("resolution", "voxel", "shell"),
@@ -73,7 +73,7 @@ def read_source(
     frame : int, optional
         See `infill.imaging.volume_files.read_volume`.
     roi : (x0, x1, y0, y1, z0, z1), optional
-        The part of a volume to take, mm: see `infill.voxels.cropping.cropped`.
+        The part of a volume to take, mm: see `infill.voxels.cropping.crop`.
 
     Raises
     ------
@@ -108,13 +108,13 @@ def read_source(
         points = points * _unit_in_mm(source, points, units)
         return points if normals is None else np.concatenate([points, normals], axis=1)
     mesh = read_mesh(source)
-    stated = STATED.get(source.suffix.lower())
+    stated = STATED_UNITS.get(source.suffix.lower())
     if stated is not None:
         return replace(mesh, vertices=mesh.vertices * (UNITS[units] / stated)) if units else mesh
     return replace(mesh, vertices=mesh.vertices * _unit_in_mm(source, mesh.vertices, units))
 
 
-def read_labelled(
+def read_label_source(
     path: str | os.PathLike[str],
     *,
     kind: str | None = None,
@@ -157,7 +157,7 @@ def _resize_and_crop(
 ) -> Volume:
     """Set the cell size of a volume, if one is given, and crop it to a box."""
     sized = volume if spacing is None else replace(volume, spacing=spacing_of(spacing, 3))
-    return sized if roi is None else cropped(sized, roi, varied=varied)
+    return sized if roi is None else crop(sized, roi, varied=varied)
 
 
 def smooth_source(
@@ -172,12 +172,12 @@ def smooth_source(
     otsu: bool = False,
     grey: bool = False,
     by_component: bool = False,
-    **options: Unpack[Options],
+    **options: Unpack[SmoothOptions],
 ) -> Result[SmoothStages, SmoothReport] | Result[ComponentStages, ComponentsReport]:
     """Smooth the data of `read_source`; raise ParameterError for options that do not fit their kind."""
     from infill.smoothing.solids import smooth_mesh, smooth_points, smooth_volume
 
-    check_fitting(
+    check_options_fit(
         source,
         resolution=resolution is not None,
         voxel=voxel is not None,
@@ -207,12 +207,12 @@ def kind_of(source: Source) -> Kind:
     return "volume" if isinstance(source, Volume) else "mesh" if isinstance(source, Surface) else "points"
 
 
-def check_fitting(source: Source, **given: bool) -> None:
+def check_options_fit(source: Source, **given: bool) -> None:
     """Raise ParameterError if an option does not fit the kind of data, or excludes another."""
     kind = kind_of(source)
-    unfit = [name for name, used in given.items() if used and name not in FITTING[kind]]
+    unfit = [name for name, used in given.items() if used and name not in OPTIONS_OF_KIND[kind]]
     if unfit:
-        kinds = [candidate for candidate in KINDS if unfit[0] in FITTING[candidate]]
+        kinds = [candidate for candidate in KINDS if unfit[0] in OPTIONS_OF_KIND[candidate]]
         raise ParameterError(f"{unfit[0]} is for {' and '.join(kinds)}, and the input is read as {kind}; leave it out")
     choices = [name for name in ("threshold", "between", "otsu") if given[name]]
     if len(choices) > 1:
@@ -233,7 +233,7 @@ def voxel_of_points(points: NDArray[np.float64], resolution: int | None, voxel: 
     longest = float(np.ptp(points, axis=0).max())
     if longest == 0:
         raise GeometryError(f"all {len(points)} points are one point; give points all around the part")
-    return longest / whole("resolution", RESOLUTION if resolution is None else resolution, 1)
+    return longest / check_whole_number("resolution", RESOLUTION if resolution is None else resolution, 1)
 
 
 def _guess_kind(path: Path) -> Kind:
@@ -254,7 +254,7 @@ def _npy_axis_count(path: Path) -> int | None:
     """Return the number of axes of the array in a file, or None if it cannot be read."""
     try:
         return np.load(path, mmap_mode="r", allow_pickle=False).ndim  # type: ignore[no-any-return]
-    except (OSError, *BROKEN):
+    except (OSError, *READER_ERRORS):
         return None  # the reader will report the error
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from PIL import Image
 
-    from infill.isosurfaces.levels import Levelled
+    from infill.isosurfaces.levels import LevelSurface
     from infill.surface import Surface
     from infill.volume import Volume
 
@@ -29,7 +29,7 @@ class SmoothStages:
     """
 
     data: Volume
-    levelled: Levelled
+    levelled: LevelSurface
     given: Surface | None = None
 
     def staircase(self) -> Surface:
@@ -59,11 +59,11 @@ class SmoothStages:
 
     def picture(self, surface: Surface, report: Mapping[str, Any]) -> Image.Image:
         """Return a picture of the input (a mesh, or the surface of the voxels) beside the smoothed surface."""
-        from infill.pictures.before_and_after import before_and_after
+        from infill.pictures.before_and_after import draw_before_and_after
 
         shape = " x ".join(map(str, report["grid"]["shape"]))
         input_surface = self.staircase() if self.given is None else self.given
         before = f"data: {shape} voxels" if self.given is None else f"given: {len(input_surface.faces):,} triangles"
         after = f"smoothed: {report['request']['steps']} steps, {report['triangles']:,} triangles"
         cell = float(self.data.cell_size.max())
-        return before_and_after(input_surface, surface, cell=cell, report=report, captions=(before, after))
+        return draw_before_and_after(input_surface, surface, cell=cell, report=report, captions=(before, after))

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.checks import length
+from infill.checks import check_length
 from infill.errors import ParameterError
 from infill.volume import Volume
 
@@ -17,7 +17,7 @@ NEAR = 1e-6  # of a cell: by rounding, a voxel may be this much smaller than the
 FEWEST = 2  # cells along the longest side
 
 
-def coarser(volume: Volume, voxel: float) -> Volume:
+def coarsen(volume: Volume, voxel: float) -> Volume:
     """Average a volume over larger cells of about `voxel` mm along each side.
 
     Parameters
@@ -38,10 +38,10 @@ def coarser(volume: Volume, voxel: float) -> Volume:
     ParameterError
         If the voxel is smaller than the cells of the volume, or larger than half of the volume.
 
-    >>> coarser(Volume(values=np.arange(16.0).reshape(4, 2, 2)), 2.0).values.tolist()
+    >>> coarsen(Volume(values=np.arange(16.0).reshape(4, 2, 2)), 2.0).values.tolist()
     [[[3.5]], [[11.5]]]
     """
-    voxel, size = length("voxel", voxel), volume.cell_size
+    voxel, size = check_length("voxel", voxel), volume.cell_size
     shortest, longest = float(size.min()), float((size * volume.values.shape).max())
     if voxel < shortest * (1 - NEAR):
         raise ParameterError(f"voxel is {voxel:g} mm and the volume has {shortest:g} mm; give no less, or leave it out")

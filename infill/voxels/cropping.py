@@ -19,10 +19,10 @@ ROUNDING = 1e-6  # of a cell: a centre that lies this close to the box lies in i
 Box = tuple[float, ...]
 
 
-def part(volume: Volume, low: tuple[int, ...], high: tuple[int, ...]) -> Volume:
+def cut_cells(volume: Volume, low: tuple[int, ...], high: tuple[int, ...]) -> Volume:
     """Cut out the cells from `low` up to but without `high`, in the same place; nothing is copied.
 
-    >>> part(Volume(values=np.arange(8).reshape(2, 2, 2), spacing=0.5), (1, 0, 0), (2, 2, 2)).origin
+    >>> cut_cells(Volume(values=np.arange(8).reshape(2, 2, 2), spacing=0.5), (1, 0, 0), (2, 2, 2)).origin
     (0.5, 0.0, 0.0)
     """
     cells = tuple(slice(begin, end) for begin, end in zip(low, high, strict=True))
@@ -30,7 +30,7 @@ def part(volume: Volume, low: tuple[int, ...], high: tuple[int, ...]) -> Volume:
     return replace(volume, values=volume.values[cells], origin=tuple(corner.tolist()))
 
 
-def cropped(volume: Volume, roi: Box, *, varied: bool = True) -> Volume:
+def crop(volume: Volume, roi: Box, *, varied: bool = True) -> Volume:
     """Cut out the part of a volume that lies in a box.
 
     Parameters
@@ -52,7 +52,7 @@ def cropped(volume: Volume, roi: Box, *, varied: bool = True) -> Volume:
     ParameterError
         If the box has a side that is not above 0, holds no cell, or the same value in all of them.
 
-    >>> cropped(Volume(values=np.arange(64.0).reshape(4, 4, 4)), (1, 3, 0, 4, 0, 2)).values.shape
+    >>> crop(Volume(values=np.arange(64.0).reshape(4, 4, 4)), (1, 3, 0, 4, 0, 2)).values.shape
     (2, 4, 2)
     """
     ends = _box_ends(roi)
@@ -70,7 +70,7 @@ def cropped(volume: Volume, roi: Box, *, varied: bool = True) -> Volume:
     if (np.sqrt(np.clip(1 - turned**2, 0, 1)) * count > SKEW * count.max()).any():
         angle = math.degrees(math.acos(min(1.0, float(turned.min()))))
         LOG.warning("the grid is turned by %.3g degrees, so that more of it is kept than lies in the roi", angle)
-    cropped_volume = part(volume, tuple(low.tolist()), tuple(high.tolist()))
+    cropped_volume = cut_cells(volume, tuple(low.tolist()), tuple(high.tolist()))
     lowest, highest = cropped_volume.values.min().item(), cropped_volume.values.max().item()
     if varied and lowest == highest:
         raise ParameterError(f"roi holds {lowest:g} in all cells, so no surface; make it larger, or move it")

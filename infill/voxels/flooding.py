@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.ragged import spread
-from infill.voxels.scanlines import SLAB, Crossings, filled
+from infill.ragged import expand_rows
+from infill.voxels.scanlines import SLAB, RowCrossings, fill_rows
 
 LINKS = 2**20  # pairs of runs worked on at a time
 
 
-def enclosed(solid: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def enclosed_void(solid: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Mark the void cells that no path of void cells, face to face, joins to the corner of the grid.
 
     Parameters
@@ -27,7 +27,7 @@ def enclosed(solid: NDArray[np.bool_]) -> NDArray[np.bool_]:
     >>> shell = np.zeros((5, 5, 5), dtype=bool)
     >>> shell[1:4, 1:4, 1:4] = True
     >>> shell[2, 2, 2] = False
-    >>> np.argwhere(enclosed(shell)).tolist()
+    >>> np.argwhere(enclosed_void(shell)).tolist()
     [[2, 2, 2]]
     """
     from scipy.sparse import coo_array
@@ -40,7 +40,7 @@ def enclosed(solid: NDArray[np.bool_]) -> NDArray[np.bool_]:
     for shift in (width, ny * width):
         low = np.searchsorted(end, start + shift, side="right")
         high = np.searchsorted(start, end + shift, side="left")
-        for run, place in spread(np.maximum(high - low, 0), LINKS):
+        for run, place in expand_rows(np.maximum(high - low, 0), LINKS):
             run_lists.append(run.astype(np.int32))
             neighbour_lists.append((low[run] + place).astype(np.int32))
     first_run, second_run = np.concatenate(run_lists), np.concatenate(neighbour_lists)
@@ -51,14 +51,14 @@ def enclosed(solid: NDArray[np.bool_]) -> NDArray[np.bool_]:
     sign = np.repeat(np.array([1, -1], dtype=np.int8), int(inner.sum()))
     order = np.argsort(index, kind="stable")
     row, place = np.divmod(index[order], width)
-    ends = Crossings(
+    ends = RowCrossings(
         row=row.astype(np.int32),
         place=place.astype(np.int32),
         face=np.zeros_like(row, np.int32),
         sign=sign[order],
         depth=place.astype(np.float32),
     )
-    return filled(ends, solid.shape)
+    return fill_rows(ends, solid.shape)
 
 
 def _void_runs(solid: NDArray[np.bool_]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:

@@ -8,17 +8,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.checks import length, whole
+from infill.checks import check_length, check_whole_number
 from infill.errors import GeometryError, ParameterError, UsageError
 from infill.grid import Grid
 from infill.machine import require_memory
-from infill.meshes.hole_filling import capped, components
-from infill.meshes.merging import closed_or_merged
+from infill.meshes.hole_filling import component_volumes, fill_holes
+from infill.meshes.merging import merge_unless_closed
 from infill.surface import Surface
 from infill.volume import Volume
-from infill.voxels.nesting import inside_out
-from infill.voxels.partial import Enclosed, distances_in_cells, enclosed
-from infill.voxels.scanlines import SLAB, crossings, wound
+from infill.voxels.nesting import is_inside_out
+from infill.voxels.partial import EnclosedVolumes, distances_in_cells, measure_enclosed
+from infill.voxels.scanlines import SLAB, fill_rows_and_count, intersect_rows
 
 RESOLUTION = 200  # cells along the longest side by default
 FEWEST = 2  # voxels along the longest side
@@ -27,7 +27,7 @@ CROSSING_BYTES, FACE_BYTES = 60, 420  # measured peaks, sorting included
 
 
 @dataclass(frozen=True, kw_only=True)
-class Repairs:
+class MeshRepairs:
     """Assumptions that `voxelise` made about a mesh.
 
     Parameters
@@ -52,7 +52,7 @@ class Repairs:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Voxelised:
+class VoxelisedMesh:
     """The cells inside a mesh, and how they came about.
 
     Parameters
@@ -71,9 +71,9 @@ class Voxelised:
     """
 
     volume: Volume
-    repairs: Repairs
+    repairs: MeshRepairs
     closed: Surface
-    enclosed: Enclosed
+    enclosed: EnclosedVolumes
     several: bool
 
     def distances(self, reach: float, *, threads: int | None = None) -> NDArray[np.float32]:
@@ -92,9 +92,11 @@ def grid_around(
     if not extents.max() > 0:
         raise GeometryError("all corners of the mesh are one point, so nothing is inside; give a closed mesh")
     if voxel is None:
-        size = float(extents.max()) / whole("resolution", RESOLUTION if resolution is None else resolution, 1)
+        size = float(extents.max()) / check_whole_number(
+            "resolution", RESOLUTION if resolution is None else resolution, 1
+        )
     else:
-        size = length("voxel", voxel)
+        size = check_length("voxel", voxel)
         if size > extents.max() / FEWEST:
             raise ParameterError(
                 f"voxel is {size:g} mm and the part {' x '.join(f'{side:g}' for side in extents)} mm; "
@@ -105,7 +107,7 @@ def grid_around(
     return Grid(shape=shape, spacing=size, origin=tuple(origin.tolist()))
 
 
-def enclosed_cells(surface: Surface, grid: Grid) -> float:
+def estimate_solid_cells(surface: Surface, grid: Grid) -> float:
     """Estimate the number of cells inside a mesh and the caps on its holes; overlaps count twice.
 
     Raises
@@ -113,7 +115,9 @@ def enclosed_cells(surface: Surface, grid: Grid) -> float:
     GeometryError
         If it encloses nothing.
     """
-    cell_vertices, faces, _ = capped((surface.vertices - np.array(grid.origin)) / grid.cell_size - 0.5, surface.faces)
+    cell_vertices, faces, _ = fill_holes(
+        (surface.vertices - np.array(grid.origin)) / grid.cell_size - 0.5, surface.faces
+    )
     return abs(float(_components(cell_vertices, faces, len(surface.faces))[1].sum()))
 
 
@@ -121,7 +125,7 @@ def _components(
     vertices: NDArray[np.float64], faces: NDArray[np.integer], given: int
 ) -> tuple[NDArray[np.integer], NDArray[np.float64]]:
     """Label the components of the faces; return them and signed volumes. The first `given` faces are not caps."""
-    component, volumes = components(vertices, faces)
+    component, volumes = component_volumes(vertices, faces)
     if not volumes.any():
         raise GeometryError(
             f"the mesh of {given} triangles encloses nothing (loose triangles or a flat sheet); give a closed mesh"
@@ -186,44 +190,46 @@ def voxelise(
     >>> voxelise(Surface(vertices=corners, faces=faces), voxel=1.0).values.shape
     (8, 8, 8)
     """
-    return voxelise_reported(surface, voxel=voxel, resolution=resolution, margin=margin, max_memory=max_memory).volume
+    return voxelise_with_report(
+        surface, voxel=voxel, resolution=resolution, margin=margin, max_memory=max_memory
+    ).volume
 
 
-def voxelise_reported(
+def voxelise_with_report(
     surface: Surface,
     *,
     voxel: float | None = None,
     resolution: int | None = None,
     margin: int = 2,
     max_memory: int | None = None,
-) -> Voxelised:
+) -> VoxelisedMesh:
     """Voxelise a mesh as `voxelise` does; return the cells, the assumptions, and the closed mesh."""
     if voxel is not None and resolution is not None:
         raise UsageError("voxel and resolution are both given; give one of them")
-    margin = whole("margin", margin, 0)
+    margin = check_whole_number("margin", margin, 0)
     if len(surface.faces) == 0:
         raise GeometryError("the mesh has no triangles, so nothing is inside; give a closed mesh")
     if not np.isfinite(surface.vertices[np.unique(surface.faces)]).all():
         raise GeometryError("the mesh holds coordinates that are not finite; export it again")
-    mesh = closed_or_merged(surface.vertices, surface.faces)
+    mesh = merge_unless_closed(surface.vertices, surface.faces)
     grid = grid_around(mesh, voxel=voxel, resolution=resolution, margin=margin)
     size, shape, extents = float(grid.cell_size[0]), grid.shape, np.ptp(mesh.bounds, axis=0)
     advice = f"the grid has {' x '.join(map(str, shape))} cells; give larger voxels or a lower resolution"
     require_memory(math.prod(shape), max_memory, advice)  # before anything is allocated
     origin = np.array(grid.origin)
 
-    vertices, faces, holes = capped((mesh.vertices - origin) / size - 0.5, mesh.faces)
+    vertices, faces, holes = fill_holes((mesh.vertices - origin) / size - 0.5, mesh.faces)
     doubled = np.cross(vertices[faces[:, 1]] - vertices[faces[:, 0]], vertices[faces[:, 2]] - vertices[faces[:, 0]])
     expected = float(np.abs(doubled[:, 2]).sum()) / 2
     required = math.prod(shape) + CROSSING_BYTES * expected + FACE_BYTES * len(faces) + 8 * SLAB
     require_memory(int(required), max_memory, advice)
     areas = np.linalg.norm(doubled, axis=1)
     component, volumes = _components(vertices, faces, len(mesh.faces))
-    crossed = crossings(vertices, faces, shape)
-    turned = inside_out(crossed, component, volumes)
+    crossed = intersect_rows(vertices, faces, shape)
+    turned = is_inside_out(crossed, component, volumes)
     if turned.any():
         crossed = replace(crossed, sign=np.where(turned[component[crossed.face]], -crossed.sign, crossed.sign))
-    inside, largest_winding = wound(crossed, shape)
+    inside, largest_winding = fill_rows_and_count(crossed, shape)
     if not inside.any():
         raise ParameterError(
             f"voxel is {size:g} mm and the part {' x '.join(f'{side:g}' for side in extents)} mm: no centre of a "
@@ -231,15 +237,17 @@ def voxelise_reported(
         )
     closed = Surface(vertices=(vertices + 0.5) * size + origin, faces=faces) if holes else mesh
     cells = Volume(values=inside, spacing=size, origin=tuple(origin.tolist()))
-    enclosed_volumes = enclosed(closed, component, turned, volumes * size**3, cells, overlap=largest_winding > 1)
-    repairs = Repairs(
+    enclosed_volumes = measure_enclosed(
+        closed, component, turned, volumes * size**3, cells, overlap=largest_winding > 1
+    )
+    repairs = MeshRepairs(
         components=len(volumes),
         turned=int(turned.sum()),
         holes=holes,
         hole_share=float(areas[len(mesh.faces) :].sum() / areas.sum()),
         volume=enclosed_volumes.total,
     )
-    return Voxelised(
+    return VoxelisedMesh(
         volume=cells,
         repairs=repairs,
         closed=closed,

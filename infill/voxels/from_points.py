@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from infill.checks import length, whole
+from infill.checks import check_length, check_whole_number
 from infill.errors import GeometryError, ParameterError
 from infill.grid import Grid
 from infill.kernels.threads import thread_count
 from infill.machine import require_memory
-from infill.ragged import spread
+from infill.ragged import expand_rows
 from infill.volume import Volume
-from infill.voxels.flooding import enclosed
+from infill.voxels.flooding import enclosed_void
 
 if TYPE_CHECKING:
     from scipy.spatial import KDTree
@@ -97,22 +97,22 @@ def voxelise_points(
     >>> voxelise_points([[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4]], voxel=1, shell=3).values.shape
     (12, 12, 12)
     """
-    positions, size = _check_points(points), length("voxel", voxel)
-    margin = whole("margin", margin, 0)
+    positions, size = _check_points(points), check_length("voxel", voxel)
+    margin = check_whole_number("margin", margin, 0)
     if shell is not None:
-        return _voxelise_shell(positions, size, length("shell", shell), margin, max_memory)
+        return _voxelise_shell(positions, size, check_length("shell", shell), margin, max_memory)
     return _voxelise_solid(positions, size, margin, max_memory, thread_count(threads))
 
 
 def grid_around_points(points: ArrayLike, *, voxel: float, shell: float | None = None, margin: int = 2) -> Grid:
     """Lay the grid on which points are voxelised: see `voxelise_points`."""
-    positions, size = _check_points(points), length("voxel", voxel)
-    reach = 0 if shell is None else math.ceil(length("shell", shell) / 2 / size)
+    positions, size = _check_points(points), check_length("voxel", voxel)
+    reach = 0 if shell is None else math.ceil(check_length("shell", shell) / 2 / size)
     shape, origin, _ = _lay_grid(positions, size, margin + reach)
     return Grid(shape=shape, spacing=size, origin=tuple(origin.tolist()))
 
 
-def balls(centres: Floats, radius: float, shape: tuple[int, ...]) -> Cells:
+def fill_balls(centres: Floats, radius: float, shape: tuple[int, ...]) -> Cells:
     """Mark the cells whose centre lies in a ball around one of the points.
 
     Parameters
@@ -127,7 +127,7 @@ def balls(centres: Floats, radius: float, shape: tuple[int, ...]) -> Cells:
     -----
     A ball cuts a row of cells in one span, so that the work is N times the number of rows across a ball.
 
-    >>> balls(np.array([[1.0, 1, 1]]), 1.2, (3, 3, 3)).sum()
+    >>> fill_balls(np.array([[1.0, 1, 1]]), 1.2, (3, 3, 3)).sum()
     np.int64(7)
     """
     nx, ny, nz = shape
@@ -143,7 +143,7 @@ def balls(centres: Floats, radius: float, shape: tuple[int, ...]) -> Cells:
         reach = np.sqrt(half_chord_squared)
         low_row = np.clip(np.ceil(y[begin:end] - reach), 0, ny).astype(np.int64)
         high_row = np.clip(np.floor(y[begin:end] + reach), -1, ny - 1).astype(np.int64)
-        for ball, step in spread(np.maximum(high_row - low_row + 1, 0), AT_ONCE):
+        for ball, step in expand_rows(np.maximum(high_row - low_row + 1, 0), AT_ONCE):
             row = low_row[ball] + step
             half = np.sqrt(np.maximum(half_chord_squared[ball] - (y[begin:end][ball] - row) ** 2, 0))
             middle = z[begin:end][ball]
@@ -206,7 +206,7 @@ def _voxelise_shell(positions: Floats, size: float, shell: float, margin: int, l
     radius = shell / 2 / size
     shape, origin, placed = _lay_grid(positions, size, margin + math.ceil(radius))
     _require_room(shape, len(placed), SHELL_BYTES, limit)
-    return Volume(values=balls(placed, radius, shape), spacing=size, origin=tuple(origin.tolist()))
+    return Volume(values=fill_balls(placed, radius, shape), spacing=size, origin=tuple(origin.tolist()))
 
 
 def _voxelise_solid(positions: Floats, size: float, margin: int, limit: int | None, threads: int) -> Volume:
@@ -262,8 +262,8 @@ def _fill_shell(
     """
     from scipy.spatial import KDTree
 
-    shell = balls(points, radius, shape)
-    core = enclosed(shell)
+    shell = fill_balls(points, radius, shape)
+    core = enclosed_void(shell)
     if not core.any():
         return None, 0.0
     tree = KDTree(points)
@@ -272,12 +272,12 @@ def _fill_shell(
     share = seen_inside / seen_outside
     if share < lowest_share:
         return None, share
-    undecided = balls(inner, radius + REACH, shape)
-    undecided &= balls(outer, radius + REACH, shape)
+    undecided = fill_balls(inner, radius + REACH, shape)
+    undecided &= fill_balls(outer, radius + REACH, shape)
     undecided &= shell
     solid = shell
     solid |= core
-    solid &= ~balls(outer, radius, shape)
+    solid &= ~fill_balls(outer, radius, shape)
     lens = np.argwhere(undecided)
     if len(lens):
         inside, outside = (KDTree(centres).query(lens, workers=threads)[0] for centres in (inner, outer))

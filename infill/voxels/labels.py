@@ -12,12 +12,12 @@ from infill.errors import ParameterError
 from infill.volume import Volume
 
 DIRECT = 65536  # labels up to here are looked up by their number
-MOST = 4096  # labels; a volume with more is one of grey values
+MOST_LABELS = 4096  # labels; a volume with more is one of grey values
 SLAB = 2**22  # cells examined in one go
 
 
 @dataclass(frozen=True, kw_only=True)
-class Extent:
+class LabelExtent:
     """The box of cells that holds a label.
 
     Parameters
@@ -32,7 +32,7 @@ class Extent:
     high: tuple[int, ...]
 
 
-def extents(volume: Volume) -> tuple[Extent, ...]:
+def label_extents(volume: Volume) -> tuple[LabelExtent, ...]:
     """Return the extent of every label, in the order of their numbers; 0 is not a label.
 
     Raises
@@ -40,7 +40,7 @@ def extents(volume: Volume) -> tuple[Extent, ...]:
     ParameterError
         If a value is not a whole number, or there are more labels than any segmentation has.
 
-    >>> [extent.value for extent in extents(Volume(values=np.array([[[0, 7, 3, 7]]])))]
+    >>> [extent.value for extent in label_extents(Volume(values=np.array([[[0, 7, 3, 7]]])))]
     [3, 7]
     """
     from scipy.ndimage import find_objects
@@ -59,13 +59,14 @@ def extents(volume: Volume) -> tuple[Extent, ...]:
         for number, box in enumerate(find_objects(index))
         if box is not None and names[number] != 0
     ]
-    if len(boxes) > MOST:
+    if len(boxes) > MOST_LABELS:
         raise ParameterError(
-            f"the volume holds {len(boxes)} values, more than the {MOST} labels of a segmentation; give --threshold X "
+            f"the volume holds {len(boxes)} values, more than the {MOST_LABELS} labels of a segmentation; "
+            "give --threshold X "
             "for grey values, without {label}"
         )
     return tuple(
-        Extent(value=value, low=tuple(side.start for side in box), high=tuple(side.stop for side in box))
+        LabelExtent(value=value, low=tuple(side.start for side in box), high=tuple(side.stop for side in box))
         for value, box in boxes
     )
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 
-def void_where_masked(values: NDArray[Any], low: float | None, *, chosen: bool) -> NDArray[Any]:
+def fill_masked_with_void(values: NDArray[Any], low: float | None, *, chosen: bool) -> NDArray[Any]:
     """Give masked cells a value that no threshold, range or label takes for solid; return a plain array.
 
     Parameters
@@ -21,7 +21,7 @@ def void_where_masked(values: NDArray[Any], low: float | None, *, chosen: bool) 
     chosen : bool
         Whether a threshold, a range or a label selects the solid; else void is False, 0 or -1.
 
-    >>> void_where_masked(np.ma.MaskedArray([3, 5, 9], mask=[False, False, True]), 4.0, chosen=True).tolist()
+    >>> fill_masked_with_void(np.ma.MaskedArray([3, 5, 9], mask=[False, False, True]), 4.0, chosen=True).tolist()
     [3, 5, 2]
     """
     # Code that made a masked array has loaded the module already; loading it takes 20 ms.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.voxels.scanlines import Crossings
+from infill.voxels.scanlines import RowCrossings
 
 SAMPLES = 9  # crossings of a component that are examined to find the components around it
 
@@ -13,7 +13,7 @@ Floats = NDArray[np.float64]
 Integers = NDArray[np.integer]
 
 
-def inside_out(crossings: Crossings, component: Integers, volumes: Floats) -> NDArray[np.bool_]:
+def is_inside_out(crossings: RowCrossings, component: Integers, volumes: Floats) -> NDArray[np.bool_]:
     """Mark the components to reverse: those that face inwards outside all others, and everything inside them.
 
     Parameters

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.kernels.threads import thread_count, together
+from infill.kernels.threads import run_together, thread_count
 
 NOISY = 0.2  # the share when one cell in 25 is flipped at random; scans of bone and skin have 0.02 to 0.12
 SLABS = 12  # stretches of layers that are examined
@@ -44,7 +44,7 @@ def noise_share(solid: NDArray[Any], *, threads: int | None = None) -> float:
 
     def count_in_slabs(thread: int) -> NDArray[np.int64]:
         tally = np.zeros(3, dtype=np.int64)
-        work = np.empty(room_for(solid[:LAYERS]), dtype=np.uint8)
+        work = np.empty(work_shape(solid[:LAYERS]), dtype=np.uint8)
         for start in starts[thread::count]:
             slab = solid[start : start + LAYERS]
             slab = np.ascontiguousarray(slab if slab.dtype == bool else slab > 0).view(np.uint8)
@@ -52,17 +52,17 @@ def noise_share(solid: NDArray[Any], *, threads: int | None = None) -> float:
             count_overruled(slab, work, tally)
         return tally
 
-    counts = np.array(together(*(partial(count_in_slabs, thread) for thread in range(count)), threads=count))
+    counts = np.array(run_together(*(partial(count_in_slabs, thread) for thread in range(count)), threads=count))
     solid_overruled, void_overruled, surface = counts.sum(axis=0).tolist()
     return 2 * min(solid_overruled, void_overruled) / surface if surface >= FEWEST else 0.0
 
 
-def room_for(slab: NDArray[Any]) -> tuple[int, int, int]:
+def work_shape(slab: NDArray[Any]) -> tuple[int, int, int]:
     """Return the shape of the work array that counting in a slab needs."""
     return 3 * len(slab) + 1, slab.shape[1], slab.shape[2]
 
 
-def overruled(slab: NDArray[np.bool_]) -> tuple[int, int, int]:
+def count_overruled_cells(slab: NDArray[np.bool_]) -> tuple[int, int, int]:
     """Count the solid and the void cells that a majority overrules, and the surface cells left after the vote.
 
     This is the specification of `infill.kernels.noise.count_overruled`. The outermost two layers at either end are left

@@ -8,22 +8,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.kernels.threads import in_threads, thread_count
-from infill.meshes.winding import winding
-from infill.ragged import spread
+from infill.meshes.winding import winding_numbers
+from infill.ragged import expand_rows
 from infill.surface import Surface
 from infill.volume import Volume
-from infill.voxels.scanlines import crossings
+from infill.voxels.scanlines import intersect_rows
 
 FEWEST_ROWS, MOST_ROWS = 3, 16  # rows of a cell along x, and along y, on which overlaps are measured
-CROSSED = 5_000_000  # crossings of these rows, roughly; more rows than that are too many
-LOOKED = 2_000_000_000  # most triangles examined to tell which points are hidden
-BESIDE = 0.5  # cells from a face to the point that tells which solid the face bounds
+MOST_CROSSINGS = 5_000_000  # crossings of these rows, roughly; more rows than that are too many
+MOST_TRIANGLE_TESTS = 2_000_000_000  # most triangles examined to tell which points are hidden
+TEST_OFFSET = 0.5  # cells from a face to the point that tells which solid the face bounds
 
 Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Enclosed:
+class EnclosedVolumes:
     """The volume inside a closed mesh, place by place, so that it can be summed for each component of the cells.
 
     Parameters
@@ -61,9 +61,9 @@ class Enclosed:
         if len(points) == 0:
             return np.zeros(0, dtype=bool)
         middle = np.asarray(mesh.vertices, dtype=np.float64)[mesh.faces[faces]].mean(axis=1)
-        beside = points + cells / BESIDE * (middle - self.beside[faces])
-        stride = -(-len(points) * len(mesh.faces) // LOOKED)
-        windings = winding(beside[::stride], mesh, sign=self.sign, threads=threads)
+        beside = points + cells / TEST_OFFSET * (middle - self.beside[faces])
+        stride = -(-len(points) * len(mesh.faces) // MOST_TRIANGLE_TESTS)
+        windings = winding_numbers(beside[::stride], mesh, sign=self.sign, threads=threads)
         return np.repeat(windings != 0, stride)[: len(points)]
 
     @property
@@ -122,7 +122,7 @@ def _erode(solid: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return solid
 
 
-def enclosed(
+def measure_enclosed(
     mesh: Surface,
     component: NDArray[np.integer],
     turned: NDArray[np.bool_],
@@ -130,7 +130,7 @@ def enclosed(
     inside: Volume,
     *,
     overlap: bool,
-) -> Enclosed:
+) -> EnclosedVolumes:
     """Measure the volume inside a closed mesh.
 
     Parameters
@@ -157,8 +157,8 @@ def enclosed(
     size = float(inside.cell_size[0])
     sign = np.where(flip, -1, 1)[component]
     over, excess = _excess(mesh, sign, inside) if overlap else (np.empty((0, 3)), np.empty(0))
-    return Enclosed(
-        beside=(a + b + c) / 3 - BESIDE * size * outwards,
+    return EnclosedVolumes(
+        beside=(a + b + c) / 3 - TEST_OFFSET * size * outwards,
         area=length / 2,
         sign=sign,
         component=component,
@@ -174,8 +174,8 @@ def _excess(mesh: Surface, sign: NDArray[np.integer], inside: Volume) -> tuple[F
     points = (np.asarray(mesh.vertices, dtype=np.float64) - np.array(inside.origin)) / size
     (ax, ay), (bx, by), (cx, cy) = (points[mesh.faces[:, i], :2].T for i in range(3))
     flat = float(np.abs((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)).sum()) / 2  # as seen along the rows, cells²
-    rows = int(np.clip((CROSSED / max(flat, 1)) ** 0.5, FEWEST_ROWS, MOST_ROWS))
-    crossed = crossings(points * (rows, rows, 1) - 0.5, mesh.faces, (nx * rows, ny * rows, nz))
+    rows = int(np.clip((MOST_CROSSINGS / max(flat, 1)) ** 0.5, FEWEST_ROWS, MOST_ROWS))
+    crossed = intersect_rows(points * (rows, rows, 1) - 0.5, mesh.faces, (nx * rows, ny * rows, nz))
     order = np.lexsort((crossed.depth, crossed.row))
     row, depth = crossed.row[order].astype(np.int64), crossed.depth[order].astype(np.float64)
     wound = np.cumsum(crossed.sign[order] * sign[crossed.face[order]])  # 0 again at the end of every row
@@ -185,7 +185,7 @@ def _excess(mesh: Surface, sign: NDArray[np.integer], inside: Volume) -> tuple[F
     # In pieces of a cell, so that each is counted in the right place.
     pieces = np.maximum(1, np.ceil(span)).astype(np.int64)
     places, shares = [], []
-    for stretch, step in spread(pieces):
+    for stretch, step in expand_rows(pieces):
         i, j = np.divmod(row[repeated[stretch]], ny * rows)
         z = depth[repeated[stretch]] + (step + 0.5) * (span[stretch] / pieces[stretch]) + 0.5
         places.append(np.stack([(i + 0.5) / rows, (j + 0.5) / rows, z], axis=1) * size + np.array(inside.origin))

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from infill.kernels.threads import in_threads, thread_count
 from infill.volume import Volume
-from infill.voxels.from_points import balls, spacing_of_points
+from infill.voxels.from_points import fill_balls, spacing_of_points
 
 if TYPE_CHECKING:
     from scipy.spatial import KDTree
@@ -71,7 +71,7 @@ def distance_from_points(places: Floats, points: Floats, normals: Floats, sigma:
     return distance
 
 
-def near_points(
+def cell_distances(
     solid: Volume, points: Floats, normals: Floats | None, *, threads: int | None = None
 ) -> NDArray[np.float32]:
     """Measure the distance of cells from the surface of points, (nx, ny, nz) in cells: above 0 inside.
@@ -105,11 +105,11 @@ def near_points(
     spacing = spacing_of_points(tree)
     directions = _unit_normals(tree, None if normals is None else normals[index], thread_count(threads))
     outwards = _orient_outwards(inside, placed, directions, spacing)
-    placed, outwards = thinned(placed, outwards)
+    placed, outwards = merge_close_points(placed, outwards)
     sigma = max(FEWEST_CELLS, OF_SPACING * spacing)
     reach = math.hypot(ALONG * spacing, ACROSS)
-    cells = np.argwhere(balls(placed, reach, inside.shape)).astype(np.int32)
-    ordered, bin_start, shape = binned(placed, REACH * sigma)
+    cells = np.argwhere(fill_balls(placed, reach, inside.shape)).astype(np.int32)
+    ordered, bin_start, shape = sort_into_bins(placed, REACH * sigma)
     distances = np.empty(len(cells), dtype=np.float32)
     arguments = (cells, placed[ordered], outwards[ordered], bin_start, shape, sigma, REACH * sigma, SHARPNESS, PASSES)
     in_threads(signed_distances, *arguments, distances, threads=thread_count(threads))
@@ -119,12 +119,12 @@ def near_points(
     return distance
 
 
-def thinned(points: Floats, normals: Floats) -> tuple[Floats, Floats]:
+def merge_close_points(points: Floats, normals: Floats) -> tuple[Floats, Floats]:
     """Merge all points in the same cube of half a cell: return their mean, and the mean of their normals.
 
     Points whose normals cancel out are left out.
 
-    >>> thinned(np.array([[0.0, 0, 0], [0.2, 0, 0], [3, 0, 0]]), np.array([[0.0, 0, 1]] * 3))[0].tolist()
+    >>> merge_close_points(np.array([[0.0, 0, 0], [0.2, 0, 0], [3, 0, 0]]), np.array([[0.0, 0, 1]] * 3))[0].tolist()
     [[0.1, 0.0, 0.0], [3.0, 0.0, 0.0]]
     """
     _, group, count = np.unique(np.floor(points / THIN), axis=0, return_inverse=True, return_counts=True)
@@ -182,7 +182,7 @@ def _orient_outwards(inside: NDArray[np.bool_], points: Floats, normals: Floats,
     return oriented
 
 
-def binned(points: Floats, size: float) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+def sort_into_bins(points: Floats, size: float) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
     """Sort points (N, 3) into bins; return their order, the first of each bin, and the number of bins along each axis.
 
     Bins are cubes of a size, and the first begins at -`size`.

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.ragged import spread
+from infill.ragged import expand_rows
 
 AT_ONCE = 2**17  # crossings processed at a time: some ten arrays of this length
 SLAB = 2**21  # cells filled at a time
@@ -21,7 +21,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Crossings:
+class RowCrossings:
     """Crossings of rows with triangles, sorted by row.
 
     Parameters
@@ -45,7 +45,7 @@ class Crossings:
     depth: NDArray[np.float32]
 
 
-def crossings(vertices: Floats, faces: NDArray[np.integer], shape: tuple[int, ...]) -> Crossings:
+def intersect_rows(vertices: Floats, faces: NDArray[np.integer], shape: tuple[int, ...]) -> RowCrossings:
     """Intersect the rows of a grid along z with triangles.
 
     Parameters
@@ -61,7 +61,7 @@ def crossings(vertices: Floats, faces: NDArray[np.integer], shape: tuple[int, ..
     y_low <= j < y_high. A row passes through if x_left <= i < x_right. So ties go the same way for every triangle.
 
     >>> square = np.array([[0, 0, 0.5], [1, 0, 0.5], [1, 1, 0.5], [0, 1, 0.5]])
-    >>> crossed = crossings(square, np.array([[0, 2, 1], [0, 3, 2]]), (2, 2, 2))
+    >>> crossed = intersect_rows(square, np.array([[0, 2, 1], [0, 3, 2]]), (2, 2, 2))
     >>> crossed.row.tolist(), crossed.place.tolist(), crossed.sign.tolist()
     ([0], [1], [1])
     """
@@ -75,7 +75,7 @@ def crossings(vertices: Floats, faces: NDArray[np.integer], shape: tuple[int, ..
     low, middle, high = np.take_along_axis(faces, order, axis=1).T
     is_even = (order[:, 1] - order[:, 0]) % 3 == 1
     parts = []
-    for triangle, step in spread(count, AT_ONCE):
+    for triangle, step in expand_rows(count, AT_ONCE):
         plane = low_plane[triangle] + step
         upper = plane >= y[middle[triangle]]
         x_long, z_long = _cut_edges(vertices, low[triangle], high[triangle], plane)
@@ -89,7 +89,7 @@ def crossings(vertices: Floats, faces: NDArray[np.integer], shape: tuple[int, ..
         x_left, x_right = np.minimum(x_long, x_short), np.maximum(x_long, x_short)
         z_left, z_right = np.where(leftwards, z_short, z_long), np.where(leftwards, z_long, z_short)
         begin = np.ceil(x_left).astype(np.int64)
-        for crossed, along in spread(np.ceil(x_right).astype(np.int64) - begin, AT_ONCE):
+        for crossed, along in expand_rows(np.ceil(x_right).astype(np.int64) - begin, AT_ONCE):
             column = begin[crossed] + along
             share = (column - x_left[crossed]) / (x_right[crossed] - x_left[crossed])
             depth = z_left[crossed] + share * (z_right[crossed] - z_left[crossed])
@@ -104,12 +104,12 @@ def crossings(vertices: Floats, faces: NDArray[np.integer], shape: tuple[int, ..
             )
     if not parts:
         nothing = np.empty(0, dtype=np.int32)
-        return Crossings(
+        return RowCrossings(
             row=nothing, place=nothing, face=nothing, sign=nothing.astype(np.int8), depth=nothing.astype(np.float32)
         )
     row, place, face, sign, depth = (np.concatenate(column_parts) for column_parts in zip(*parts, strict=True))
     order = np.argsort(row, kind="stable")
-    return Crossings(row=row[order], place=place[order], face=face[order], sign=sign[order], depth=depth[order])
+    return RowCrossings(row=row[order], place=place[order], face=face[order], sign=sign[order], depth=depth[order])
 
 
 def _cut_edges(
@@ -123,13 +123,13 @@ def _cut_edges(
     return x, z0 + part * (z1 - z0)
 
 
-def filled(crossed: Crossings, shape: tuple[int, ...]) -> NDArray[np.bool_]:
+def fill_rows(crossed: RowCrossings, shape: tuple[int, ...]) -> NDArray[np.bool_]:
     """Fill rows: mark the cells (nx, ny, nz) where the sum of the signs up to their centre is not 0."""
-    return wound(crossed, shape)[0]
+    return fill_rows_and_count(crossed, shape)[0]
 
 
-def wound(crossed: Crossings, shape: tuple[int, ...]) -> tuple[NDArray[np.bool_], int]:
-    """Fill rows as `filled` does; return the marked cells, and the largest absolute sum of signs."""
+def fill_rows_and_count(crossed: RowCrossings, shape: tuple[int, ...]) -> tuple[NDArray[np.bool_], int]:
+    """Fill rows as `fill_rows` does; return the marked cells, and the largest absolute sum of signs."""
     nx, ny, nz = shape
     largest = 0
     inside = np.zeros(shape, dtype=bool)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.checks import positive, within
+from infill.checks import check_positive, check_range
 from infill.errors import ParameterError, UsageError
 from infill.kernels.threads import in_threads, thread_count
 from infill.volume import Volume
@@ -18,12 +18,12 @@ from infill.volume import Volume
 SIGNS = (-1, 1)  # void and solid, as in a phase field
 EXACT = 65536  # a histogram of whole numbers up to this range has one bin per value
 BINS = 4096  # bins otherwise
-NAMED = 12  # labels listed in a message
+MOST_NAMED_LABELS = 12  # labels listed in a message
 STRAIGHT = 2 / 3  # mean of 1 / (|x| + |y| + |z|) over a surface's unit normals, weighted by that sum
 SLAB = 2**22  # cells examined in one go
 
 
-def threshold(
+def segment_volume(
     volume: Volume,
     *,
     low: float | None = None,
@@ -63,7 +63,7 @@ def threshold(
     If no criterion is given, booleans are used directly; 0 and one value above it are a mask whose void is 0; −1 and 1
     are a mask whose void is −1; and floating-point numbers in [-1, 1] of both signs are a phase field, solid above 0.
 
-    >>> threshold(Volume(values=np.arange(8.0).reshape(2, 2, 2)), low=6)[1]["solid"]
+    >>> segment_volume(Volume(values=np.arange(8.0).reshape(2, 2, 2)), low=6)[1]["solid"]
     0.25
     """
     criteria = [low is not None or high is not None, label is not None, otsu]
@@ -85,7 +85,7 @@ def threshold(
         solid, used = _mark_range(values, low, high), {"method": "range", "low": low, "high": high}
     else:
         solid, used = _interpret_values(volume, lowest, highest)
-    count = solid_cells(solid)
+    count = count_solid_cells(solid)
     if count in (0, solid.size):
         amount = "no cell" if count == 0 else "every cell"
         raise ParameterError(
@@ -97,8 +97,8 @@ def threshold(
     return replace(volume, values=solid), used
 
 
-def solid_cells(solid: NDArray[Any]) -> int:
-    """Count the solid cells in the result of `threshold`."""
+def count_solid_cells(solid: NDArray[Any]) -> int:
+    """Count the solid cells in the result of `segment_volume`."""
     if solid.dtype in (bool, np.int8) and solid.flags.c_contiguous and solid.size > SLAB:
         from infill.kernels.transfer import count_solid
 
@@ -135,7 +135,7 @@ def otsu_threshold(volume: Volume) -> float:
     return float((middles[below] + middles[above]) / 2)
 
 
-def grey(volume: Volume, level: float, window: float | None = None) -> Volume:
+def scale_grey_values(volume: Volume, level: float, window: float | None = None) -> Volume:
     """Scale grey values to data in [-1, 1] that preserve where between two cells the surface lies.
 
     Parameters
@@ -165,21 +165,21 @@ def grey(volume: Volume, level: float, window: float | None = None) -> Volume:
     f = 0 lies 0.05 cells rms from the true surface, and that of a mask 0.19. A smaller window ends in the
     staircase of a mask; a larger one leaves interior cells grey, and holes where the part is faint.
 
-    >>> grey(Volume(values=np.array([[[0, 25, 100]]])), 50, 100).values.tolist()
+    >>> scale_grey_values(Volume(values=np.array([[[0, 25, 100]]])), 50, 100).values.tolist()
     [[[-1.0, -0.5, 1.0]]]
     """
     lowest, highest = _value_range(volume.values)
-    level = within("level", level, -math.inf, math.inf)
+    level = check_range("level", level, -math.inf, math.inf)
     if not lowest <= level < highest:
         raise ParameterError(f"level is {level:g} and the values go from {lowest:g} to {highest:g}; choose within them")
-    width = edge_window(volume, level) if window is None else positive("window", window)
+    width = edge_window(volume, level) if window is None else check_positive("window", window)
     field = np.subtract(volume.values, np.float32(level), dtype=np.float32, casting="unsafe")
     field *= np.float32(2 / width)
     return replace(volume, values=np.clip(field, -1, 1, out=field))
 
 
 def edge_window(volume: Volume, level: float) -> float:
-    """Return the change of values over one cell perpendicular to the surface, for `grey`.
+    """Return the change of values over one cell perpendicular to the surface, for `scale_grey_values`.
 
     It is the `contrast` of neighbours divided by 2/3, the mean directness with which the axes of the grid
     cross a surface that faces all directions equally. It is at most the mean of the values above the level
@@ -254,7 +254,7 @@ def _check_ends(low: float | None, high: float | None) -> None:
     """Raise ParameterError unless the ends of a range are finite and in order."""
     for value in (low, high):
         if value is not None:
-            within("threshold", value, -math.inf, math.inf)
+            check_range("threshold", value, -math.inf, math.inf)
     if low is not None and high is not None and low > high:
         raise ParameterError(f"threshold goes from {low:g} to {high:g}; give the lower end first")
 
@@ -324,7 +324,7 @@ def _labels(values: NDArray[Any]) -> str:
         return ""
     counts, edges = _histogram(values)
     occurring = (edges[:-1][counts > 0] + 0.5).astype(np.int64).tolist()
-    return f" ({', '.join(str(value) for value in occurring)})" if len(occurring) <= NAMED else ""
+    return f" ({', '.join(str(value) for value in occurring)})" if len(occurring) <= MOST_NAMED_LABELS else ""
 
 
 def _describe(used: dict[str, Any]) -> str:

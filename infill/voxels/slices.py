@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from infill.volume import Volume
 
 THICK = 2.0  # times the width of a cell: slices further apart than this are interpolated
-BESIDE = 1.01  # half pixels: only pixels next to the outline are this near
+OUTLINE_REACH = 1.01  # half pixels: only pixels next to the outline are this near
 REACH = 1.0  # pixels from the outline within which the result is grey
 
 
-def layers_between(volume: Volume) -> tuple[int, int]:
+def plan_sublayers(volume: Volume) -> tuple[int, int]:
     """Return the axis of the thickest cells, and the number of cells that replaces each; 1 if they are thin enough."""
     size = volume.cell_size
     axis = int(size.argmax())
@@ -24,7 +24,7 @@ def layers_between(volume: Volume) -> tuple[int, int]:
     return axis, max(1, round(ratio)) if ratio > THICK and volume.values.shape[axis] > 1 else 1
 
 
-def interpolated(volume: Volume, axis: int, count: int) -> Volume:
+def interpolate_slices(volume: Volume, axis: int, count: int) -> Volume:
     """Interpolate a solid to `count` cells in the place of each along an axis.
 
     Parameters
@@ -93,6 +93,6 @@ def signed_distance(layer: NDArray[Any], size: NDArray[np.float64]) -> NDArray[n
     outside = distance_transform_edt(~solid, sampling=size) if solid.any() else np.full(layer.shape, reach)
     distance: NDArray[np.float32] = np.where(solid, inside - half, half - outside).astype(np.float32)
     if layer.dtype.kind == "f":  # beside the outline, grey tells where inside a pixel it lies
-        at_outline = (np.abs(distance) <= half * BESIDE) & (np.abs(layer) < 1)
+        at_outline = (np.abs(distance) <= half * OUTLINE_REACH) & (np.abs(layer) < 1)
         np.multiply(layer, np.float32(half), out=distance, where=at_outline)
     return distance

@@ -14,10 +14,10 @@ import shapely
 from numpy.typing import ArrayLike, NDArray
 from shapely import MultiLineString
 
-from infill.checks import positive, whole
+from infill.checks import check_positive, check_whole_number
 from infill.errors import ParameterError
 from infill.grid import SOLID, VOID, Grid
-from infill.ragged import spread
+from infill.ragged import expand_rows
 
 ROUNDING = 1e-9  # of a cell: a point this near to a border of cells lies on it, and belongs to the cell above
 CANDIDATES_AT_ONCE = 2_000_000  # pairs of a cell and a piece of a line: about 100 bytes each
@@ -54,7 +54,7 @@ def stamp(
     >>> int((stamp([(2.5, 2.5)], Grid(shape=(5, 5), spacing=1.0)) > 0).sum())
     9
     """
-    block = whole("block", block, 1)
+    block = check_whole_number("block", block, 1)
     if block % 2 == 0:
         raise ParameterError(f"the block is {block} cells across; it must be odd (1, 3, 5 …) to have a middle cell")
     if outside not in ("error", "clip"):
@@ -81,11 +81,11 @@ def stamp(
     marked = np.zeros(grid.shape, dtype=bool)
     marked[tuple(index.T)] = True
     for axis in range(marked.ndim):
-        marked = widened(marked, axis, block // 2)
+        marked = dilate_along(marked, axis, block // 2)
     return np.where(marked, np.float32(SOLID), np.float32(VOID))
 
 
-def widened(marked: NDArray[np.bool_], axis: int, reach: int) -> NDArray[np.bool_]:
+def dilate_along(marked: NDArray[np.bool_], axis: int, reach: int) -> NDArray[np.bool_]:
     """Dilate `marked` by `reach` cells in both directions along one axis.
 
     The result is that of scipy.ndimage.maximum_filter1d, four times as fast for blocks of 3 and 5 cells.
@@ -123,7 +123,7 @@ def stamp_lines(lines: MultiLineString, grid: Grid, *, width: float) -> NDArray[
     """
     if len(grid.shape) != 2:
         raise ParameterError(f"lines are stamped on a grid of 2 axes, not {len(grid.shape)}")
-    width = positive("line width", width, "mm")
+    width = check_positive("line width", width, "mm")
     half_cell = float(grid.cell_size.min()) / 2
     reach = width / 2 + half_cell
     nearest = np.full(grid.cells, np.float32(reach))
@@ -135,7 +135,7 @@ def stamp_lines(lines: MultiLineString, grid: Grid, *, width: float) -> NDArray[
     low_cell = np.ceil((np.minimum(start, end) - reach - lower) / cell - 0.5).astype(np.intp).clip(0)
     high_cell = np.floor((np.maximum(start, end) + reach - lower) / cell - 0.5).astype(np.intp).clip(None, shape - 1)
     cells_across = (high_cell - low_cell + 1).clip(0)
-    for piece, place in spread(cells_across.prod(axis=1), CANDIDATES_AT_ONCE):
+    for piece, place in expand_rows(cells_across.prod(axis=1), CANDIDATES_AT_ONCE):
         index = low_cell[piece] + np.stack(np.divmod(place, cells_across[piece, 1]), axis=-1)
         distance = _segment_distance(lower + cell * (index + 0.5), start[piece], end[piece])
         np.minimum.at(nearest, index[:, 0] * shape[1] + index[:, 1], distance.astype(np.float32))

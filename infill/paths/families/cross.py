@@ -9,9 +9,9 @@ import numpy as np
 
 from infill.errors import ParameterError
 from infill.paths.families.protocol import TOUCH, Bounds, Path
-from patterns.cross import ORIGIN, SIDE, steps
+from patterns.cross import ORIGIN, SIDE, curve_steps
 
-AROUND = 2  # octagons, beyond the box, whose steps are drawn
+MARGIN = 2  # octagons, beyond the box, whose steps are drawn
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,10 +38,10 @@ class Cross:
 
         pitch = cell / SIDE
         corners = np.array(bounds, dtype=np.float64).reshape(2, 2) / pitch
-        low, high = np.floor(corners[0]) - AROUND, np.ceil(corners[1]) + AROUND
+        low, high = np.floor(corners[0]) - MARGIN, np.ceil(corners[1]) + MARGIN
         if max(-low.min(), high.max()) > ORIGIN:
             raise ParameterError(f"the cell is {cell:g} mm; the curve reaches {ORIGIN} octagons: give a larger one")
-        merged = shapely.line_merge(shapely.multilinestrings(steps(low, high)))
+        merged = shapely.line_merge(shapely.multilinestrings(curve_steps(low, high)))
         return [shapely.get_coordinates(part) * pitch for part in shapely.get_parts(merged)]
 
     def cell_for(self, density: float, line_width: float) -> float:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from infill.paths.families.curves import Floats, rows
+from infill.paths.families.curves import Floats, repeat_curves
 from infill.paths.families.level_sets import ALONG_X, ALONG_Y
 from infill.paths.families.protocol import TOUCH, Bounds, Path
 
@@ -47,7 +47,7 @@ class CrossHatch:
         def swing(angle: Floats) -> Floats:
             return np.arccos(-share * np.cos(angle))
 
-        return rows([swing, lambda angle: -swing(angle)], unit, bounds, ALONG_X if along_x else ALONG_Y)
+        return repeat_curves([swing, lambda angle: -swing(angle)], unit, bounds, ALONG_X if along_x else ALONG_Y)
 
     def cell_for(self, density: float, line_width: float) -> float:
         """Return the cell for a density, in the mean over heights; see `Family`."""

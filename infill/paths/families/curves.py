@@ -17,12 +17,12 @@ SAMPLES = 512  # of one period, by which its curvature is judged
 LONGEST = 1 / 12  # of a period, for a chord: straight parts have corners too, so that a spline may pass through them
 
 
-def parameters(curve: Callable[[Floats], Path], stop: float) -> Floats:
+def chord_parameters(curve: Callable[[Floats], Path], stop: float) -> Floats:
     """Divide a curve into chords; return their corners from 0 to `stop`, both ends included.
 
     Chords are c = √(8 · SAGITTA / κ) long at a curvature κ, which makes every chord depart as far from the curve.
 
-    >>> circle = parameters(lambda angle: 4 * np.stack([np.cos(angle), np.sin(angle)], axis=-1), math.tau)
+    >>> circle = chord_parameters(lambda angle: 4 * np.stack([np.cos(angle), np.sin(angle)], axis=-1), math.tau)
     >>> bool(np.ptp(np.diff(circle)) < 1e-3), round(math.tau / len(circle), 2)
     (True, 0.1)
     """
@@ -41,7 +41,9 @@ def parameters(curve: Callable[[Floats], Path], stop: float) -> Floats:
     return np.interp(np.linspace(0, chord_count[-1], math.ceil(chord_count[-1]) + 1), chord_count, place)
 
 
-def rows(curves: Sequence[Callable[[Floats], Floats]], unit: float, bounds: Bounds, frame: Floats) -> list[Path]:
+def repeat_curves(
+    curves: Sequence[Callable[[Floats], Floats]], unit: float, bounds: Bounds, frame: Floats
+) -> list[Path]:
     """Draw lines v = curve(u) and their copies every 2π in u and in v.
 
     Parameters
@@ -64,7 +66,7 @@ def rows(curves: Sequence[Callable[[Floats], Floats]], unit: float, bounds: Boun
         def points(angle: Floats, curve: Callable[[Floats], Floats] = curve) -> Path:
             return unit * np.stack([angle, curve(angle)], axis=-1)
 
-        u = parameters(points, math.tau)[:-1]
+        u = chord_parameters(points, math.tau)[:-1]
         v = curve(u)
         row = np.arange(math.floor(v0 - v.max() / math.tau), math.ceil(v1 - v.min() / math.tau) + 1)
         along = np.tile(((column * math.tau)[:, None] + u).ravel(), (len(row), 1))
@@ -73,7 +75,7 @@ def rows(curves: Sequence[Callable[[Floats], Floats]], unit: float, bounds: Boun
     return paths
 
 
-def copies(loop: Path, period: float, bounds: Bounds) -> list[Path]:
+def repeat_loop(loop: Path, period: float, bounds: Bounds) -> list[Path]:
     """Copy a closed line every `period` mm in x and y, as far as copies reach into a box."""
     low, high = loop.min(axis=0), loop.max(axis=0)
     lowest = np.ceil((np.array(bounds[:2]) - high) / period)

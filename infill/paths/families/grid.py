@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from infill.paths.families.protocol import TOUCH, Bounds, Path
-from infill.paths.families.waves import Rows, Wave, cell_of, flat, strands
+from infill.paths.families.waves import Rows, Wave, crest_length, draw_rows, solve_cell_for_density
 
 TURN = math.radians(45)  # at each end of a crest
 SHARE = 0.3  # of a cell that a radius may have, so that cells stay nearly square
@@ -38,18 +38,18 @@ class Zigzags:
         radius: float,
     ) -> list[Path]:
         """Return one zigzag per row; see `Family`."""
-        return strands(self.rows(cell, line_width, radius), bounds)
+        return draw_rows(self.rows(cell, line_width, radius), bounds)
 
     def rows(self, cell: float, line_width: float, radius: float) -> Rows:
         """Return the rows of zigzags."""
         height = cell / math.sqrt(2)
-        crest = flat(line_width, min(radius, self.largest_radius(cell, line_width)), TURN)
+        crest = crest_length(line_width, min(radius, self.largest_radius(cell, line_width)), TURN)
         wave = Wave(period=2 * (height + crest), bottom=crest, top=crest, height=height)
         return Rows(waves=[wave], pitch=height + TOUCH * line_width, slip=wave.period / 2, angle=self.angle)
 
     def cell_for(self, density: float, line_width: float) -> float:
         """Return the cell for a density; see `Family`."""
-        return cell_of(lambda cell: self.rows(cell, line_width, 0).length_per_area, density, line_width)
+        return solve_cell_for_density(lambda cell: self.rows(cell, line_width, 0).length_per_area, density, line_width)
 
     def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002
         """Return the radius at which cells are still nearly square, mm; crests touch at any."""

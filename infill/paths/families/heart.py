@@ -40,7 +40,7 @@ class ConcentricHeart:
         radius: float,  # noqa: ARG002 - lines stand alone
     ) -> list[Path]:
         """Return one closed line per heart; see `Family`."""
-        from patterns.heart import outline
+        from patterns.heart import heart_outline
         from patterns.linework import turn
 
         box = np.array(bounds).reshape(2, 2)
@@ -49,7 +49,7 @@ class ConcentricHeart:
         count = math.ceil(math.hypot(*np.abs(box - middle).max(axis=0)) / cell) + 1
         sides = cell * (2 * np.arange(count) + 1)
         return [
-            turn(side * (outline(_lobe_points(side / 2)) - 0.5), self.angle) + middle
+            turn(side * (heart_outline(_lobe_points(side / 2)) - 0.5), self.angle) + middle
             for side in sides
             if side >= SMALLEST * line_width
         ]

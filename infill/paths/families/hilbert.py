@@ -9,7 +9,7 @@ import numpy as np
 from infill.errors import ParameterError
 from infill.paths.families.protocol import TOUCH, Bounds, Path
 from patterns.errors import PatternError
-from patterns.hilbert import curve
+from patterns.hilbert import hilbert_curve
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,7 +33,7 @@ class Hilbert:
     ) -> list[Path]:
         """Return the parts of the curve in the box; see `Family`."""
         try:
-            return curve(np.array(bounds), cell)
+            return hilbert_curve(np.array(bounds), cell)
         except PatternError as error:
             raise ParameterError(str(error)) from error
 

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from infill.paths.families.protocol import TOUCH, Bounds, Path
-from infill.paths.families.waves import Rows, Wave, cell_of, strands
+from infill.paths.families.waves import Rows, Wave, draw_rows, solve_cell_for_density
 
 TURN = math.radians(60)
 
@@ -40,7 +40,7 @@ class Honeycomb:
         radius: float,
     ) -> list[Path]:
         """Return one wave per row; see `Family`."""
-        return strands(self.rows(cell, line_width, radius), bounds)
+        return draw_rows(self.rows(cell, line_width, radius), bounds)
 
     def rows(self, cell: float, line_width: float, radius: float) -> Rows:
         """Return the rows of waves."""
@@ -51,7 +51,7 @@ class Honeycomb:
 
     def cell_for(self, density: float, line_width: float) -> float:
         """Return the cell for a density; see `Family`."""
-        return cell_of(lambda cell: self.rows(cell, line_width, 0).length_per_area, density, line_width)
+        return solve_cell_for_density(lambda cell: self.rows(cell, line_width, 0).length_per_area, density, line_width)
 
     def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002 - flanks alone are the limit
         """Return the radius at which the arcs of a flank meet, mm."""

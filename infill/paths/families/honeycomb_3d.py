@@ -13,7 +13,7 @@ import math
 from dataclasses import dataclass
 
 from infill.paths.families.protocol import TOUCH, Bounds, Path
-from infill.paths.families.waves import Rows, Wave, cell_of, strands
+from infill.paths.families.waves import Rows, Wave, draw_rows, solve_cell_for_density
 
 SECTIONS = 24  # in which the mean over heights is taken
 SHARE = 0.25  # of a cell that a radius may have: half of the shortest flank
@@ -46,9 +46,9 @@ class Honeycomb3D:
         """Return two waves a row; see `Family`."""
         rows = self.rows(cell, line_width, z)
         if not _runs_along_y(cell, z):
-            return strands(rows, bounds)
+            return draw_rows(rows, bounds)
         x0, y0, x1, y1 = bounds
-        return [path[:, ::-1] for path in strands(rows, (y0, x0, y1, x1))]
+        return [path[:, ::-1] for path in draw_rows(rows, (y0, x0, y1, x1))]
 
     def rows(self, cell: float, line_width: float, z: float) -> Rows:
         """Return the rows of waves at height `z`, as if they ran along x."""
@@ -71,7 +71,7 @@ class Honeycomb3D:
             heights = [cell / 2 * part / SECTIONS for part in range(SECTIONS)]
             return sum(self.rows(cell, line_width, z).length_per_area for z in heights) / SECTIONS
 
-        return cell_of(length_per_area, density, line_width)
+        return solve_cell_for_density(length_per_area, density, line_width)
 
     def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002
         """Return the radius at which the arcs of a flank meet in the lowest section, mm."""

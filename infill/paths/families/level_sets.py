@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from infill.paths.families.curves import Floats, copies, parameters, rows
+from infill.paths.families.curves import Floats, chord_parameters, repeat_curves, repeat_loop
 from infill.paths.families.protocol import TOUCH, Bounds, Path
 
 # Neighbouring waves of a gyroid climb where they come nearest: the ratio of their distance along an axis to their
@@ -59,7 +59,7 @@ class Gyroid:
 
         side = math.copysign(1.0, sine)
         curves = [lambda angle: middle(angle) + swing(angle), lambda angle: middle(angle) - swing(angle)]
-        return rows(curves, unit, bounds, ALONG_X if along_x else ALONG_Y)
+        return repeat_curves(curves, unit, bounds, ALONG_X if along_x else ALONG_Y)
 
     def cell_for(self, density: float, line_width: float) -> float:
         """Return the cell for a density, in the mean over heights; see `Family`."""
@@ -102,12 +102,12 @@ class SchwarzP:
             swing = (1 - half) * np.cos(angle)
             return unit * np.arccos(np.clip(half + np.stack([swing, -swing], axis=-1), -1, 1))
 
-        points = quarter(parameters(quarter, math.pi))
+        points = quarter(chord_parameters(quarter, math.pi))
         reversed_points = points[::-1]
         loop = np.concatenate(
             [points, (reversed_points * [1, -1])[1:], (points * [-1, -1])[1:], (reversed_points * [-1, 1])[1:]], axis=0
         )
-        return copies(loop + (cell / 2 if cosine > 0 else 0.0), cell, bounds)
+        return repeat_loop(loop + (cell / 2 if cosine > 0 else 0.0), cell, bounds)
 
     def cell_for(self, density: float, line_width: float) -> float:
         """Return the cell for a density, in the mean over heights; see `Family`."""
@@ -145,14 +145,14 @@ class SchwarzD:
             def swing(angle: Floats) -> Floats:
                 return np.arcsin(sine / cosine * np.cos(angle))
 
-            return rows(
+            return repeat_curves(
                 [lambda angle: -swing(angle), lambda angle: math.pi + swing(angle)], unit, bounds, DIAGONAL[::-1]
             )
 
         def reach(angle: Floats) -> Floats:
             return np.arccos(-cosine / sine * np.sin(angle))
 
-        return rows([reach, lambda angle: -reach(angle)], unit, bounds, DIAGONAL)
+        return repeat_curves([reach, lambda angle: -reach(angle)], unit, bounds, DIAGONAL)
 
     def cell_for(self, density: float, line_width: float) -> float:
         """Return the cell for a density, in the mean over heights; see `Family`."""

@@ -15,8 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from infill.paths.families.protocol import TOUCH, Bounds, Path
-from infill.paths.families.waves import BOND, cell_of, repeated
-from patterns.octagons import NEAR, SIDES
+from infill.paths.families.waves import BOND, repeat_line, solve_cell_for_density
+from patterns.octagons import HALF_SIDE, SIDES
 
 RIGHT, TOP, UPPER_RIGHT, UPPER_LEFT, LOWER_LEFT, LOWER_RIGHT = range(len(SIDES))
 # Walls that a wave passes in one period, as a side of an octagon, the middle of the octagon relative to a square
@@ -63,7 +63,7 @@ class Octagons:
         diagonal = math.sqrt(2) * self._width(cell, line_width)  # from octagon to octagon, both ways
         paths: list[Path] = []
         for wave in self._waves(cell, line_width):
-            paths += repeated(wave[:-1], diagonal, diagonal, angle=ANGLE, bounds=bounds)
+            paths += repeat_line(wave[:-1], diagonal, diagonal, angle=ANGLE, bounds=bounds)
         return paths
 
     def cell_for(self, density: float, line_width: float) -> float:
@@ -73,11 +73,11 @@ class Octagons:
             lengths = [np.hypot(*np.diff(wave, axis=0).T).sum() for wave in self._waves(cell, line_width)]
             return float(sum(lengths)) / (2 * self._width(cell, line_width) ** 2)
 
-        return cell_of(length_per_area, density, line_width)
+        return solve_cell_for_density(length_per_area, density, line_width)
 
     def largest_radius(self, cell: float, line_width: float) -> float:
         """Return the radius at which the rest of a double wall between right angles still touches, mm."""
-        return max(0.0, NEAR * self._width(cell, line_width) - BOND * line_width / 2)
+        return max(0.0, HALF_SIDE * self._width(cell, line_width) - BOND * line_width / 2)
 
     def _width(self, cell: float, line_width: float) -> float:
         return max(cell, LEAST * TOUCH * line_width)

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from infill.paths.families.protocol import TOUCH, Bounds, Path
-from infill.paths.families.waves import cell_of, flat, repeated
+from infill.paths.families.waves import crest_length, repeat_line, solve_cell_for_density
 
 TURN = math.radians(45)  # at each end of a flat
 SHARE = 0.1  # of a cell that a radius may have, so that cells keep their shape
@@ -71,7 +71,9 @@ class QuarterCubic:
             corners = (wave[:, None] + ends).reshape(-1, 2)
             before = np.concatenate([corners[-1:] - (period, 0.0), corners[:-1]])
             is_distinct = np.hypot(*(corners - before).T) > SAME  # where lines of pairs meet, two flats are one
-            paths += repeated(corners[is_distinct] + (0.0, y), period, pitch, shift=x, slip=period / 2, bounds=bounds)
+            paths += repeat_line(
+                corners[is_distinct] + (0.0, y), period, pitch, shift=x, slip=period / 2, bounds=bounds
+            )
         return paths
 
     def cell_for(self, density: float, line_width: float) -> float:
@@ -81,7 +83,7 @@ class QuarterCubic:
             _, crest, period, pitch = self._sizes(cell, line_width, 0.0)
             return 2 * (math.sqrt(2) * cell + FLATS * crest) / (period * pitch)
 
-        return cell_of(length_per_area, density, line_width)
+        return solve_cell_for_density(length_per_area, density, line_width)
 
     def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002
         """Return the radius at which cells keep their shape, mm; flats touch at any."""
@@ -90,7 +92,7 @@ class QuarterCubic:
     def _sizes(self, cell: float, line_width: float, radius: float) -> tuple[float, float, float, float]:
         """Return the spacing of touching lines, the length of a flat, the period and the pitch of rows, mm."""
         gap = TOUCH * line_width
-        crest = flat(line_width, min(radius, self.largest_radius(cell, line_width)), TURN)
+        crest = crest_length(line_width, min(radius, self.largest_radius(cell, line_width)), TURN)
         return gap, crest, cell + FLATS * crest, cell / 2 + 2 * gap
 
 

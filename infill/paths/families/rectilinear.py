@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from infill.paths.families.protocol import TOUCH, Bounds, Path
-from infill.paths.families.waves import Rows, Wave, strands
+from infill.paths.families.waves import Rows, Wave, draw_rows
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,7 +29,7 @@ class Rectilinear:
     ) -> list[Path]:
         """Return one line per row; see `Family`."""
         line = Wave(period=cell, bottom=cell, top=0, height=0)
-        return strands(Rows(waves=[line], pitch=cell, slip=0, angle=(45, 135)[layer % 2]), bounds)
+        return draw_rows(Rows(waves=[line], pitch=cell, slip=0, angle=(45, 135)[layer % 2]), bounds)
 
     def cell_for(self, density: float, line_width: float) -> float:
         """Return the cell for a density; see `Family`."""

@@ -17,12 +17,12 @@ import math
 from dataclasses import dataclass
 
 from infill.paths.families.protocol import TOUCH, Bounds, Path
-from infill.paths.families.waves import Rows, Wave, cell_of, flat, strands
+from infill.paths.families.waves import Rows, Wave, crest_length, draw_rows, solve_cell_for_density
 
 TURN = math.radians(60)
 SHARE = 0.25  # of a cell that a radius may have, so that cells keep their shape
 LEAST = 0.25  # line widths: a lower wave is drawn as a straight line
-AT_LEAST = 24  # sections in which the mean of a family over its heights is taken
+SECTIONS = 24  # sections in which the mean of a family over its heights is taken
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,12 +54,12 @@ class Threefold:
         radius: float,
     ) -> list[Path]:
         """Return two waves a row; see `Family`."""
-        return strands(self.rows(cell, line_width, radius, z), bounds)
+        return draw_rows(self.rows(cell, line_width, radius, z), bounds)
 
     def rows(self, cell: float, line_width: float, radius: float, z: float) -> Rows:
         """Return the rows of waves at height `z`."""
         gap = TOUCH * line_width
-        crest = flat(line_width, min(radius, self.largest_radius(cell, line_width)), TURN)
+        crest = crest_length(line_width, min(radius, self.largest_radius(cell, line_width)), TURN)
         pitch = cell + 2 * gap
         # A cube's faces are orthogonal planes: as z rises by 1, the lines along x sink by √½ and the crossings of
         # the other two directions rise by √2.
@@ -84,10 +84,10 @@ class Threefold:
         """Return the cell for a density, in the mean over heights; see `Family`."""
 
         def length_per_area(cell: float) -> float:
-            heights = [cell * math.sqrt(2) / 3 * part / AT_LEAST for part in range(AT_LEAST if self.rises else 1)]
+            heights = [cell * math.sqrt(2) / 3 * part / SECTIONS for part in range(SECTIONS if self.rises else 1)]
             return sum(self.rows(cell, line_width, 0, z).length_per_area for z in heights) / len(heights)
 
-        return cell_of(length_per_area, density, line_width)
+        return solve_cell_for_density(length_per_area, density, line_width)
 
     def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002
         """Return the radius at which cells keep their shape, mm; crests touch at any."""

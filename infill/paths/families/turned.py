@@ -10,7 +10,7 @@ from infill.paths.families.protocol import Bounds, Family, Path
 
 
 @dataclass(frozen=True, kw_only=True)
-class Turned:
+class TurnedFamily:
     """The lines of another family, turned by `angle` degrees about (0, 0), then shifted by `phase`, mm."""
 
     family: Family

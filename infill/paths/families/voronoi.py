@@ -75,9 +75,9 @@ def _voronoi_cells(low: tuple[float, float], high: tuple[float, float], seed: in
     """Return the cells that reach into a box, Polygon each, in cells; the same for every layer."""
     import shapely
 
-    from patterns.voronoi import evened
+    from patterns.voronoi import relaxed_seeds
 
-    points = evened(np.array(low), np.array(high), seed=seed, even=EVEN)
+    points = relaxed_seeds(np.array(low), np.array(high), seed=seed, even=EVEN)
     polygons: NDArray[np.object_] = shapely.get_parts(shapely.voronoi_polygons(shapely.multipoints(points)))
     reaches_box: NDArray[np.bool_] = shapely.intersects(polygons, shapely.box(*low, *high))
     return polygons[reaches_box]

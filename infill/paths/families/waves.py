@@ -57,21 +57,21 @@ class Rows:
         return sum(wave.length for wave in self.waves) / (self.waves[0].period * self.pitch)
 
 
-def flat(line_width: float, radius: float, turn: float) -> float:
+def crest_length(line_width: float, radius: float, turn: float) -> float:
     """Return the length of a crest, mm, that keeps its bond after corners that turn by `turn` are rounded."""
     return BOND * line_width + 2 * radius * math.tan(turn / 2)
 
 
-def strands(rows: Rows, bounds: Bounds) -> list[Path]:
+def draw_rows(rows: Rows, bounds: Bounds) -> list[Path]:
     """Draw one line per row and wave, from beyond one side of the box to beyond the other.
 
     >>> square = Wave(period=4, bottom=2, top=2, height=1)
-    >>> [line[:3].tolist() for line in strands(Rows(waves=[square], pitch=2, slip=0), (0, 0.2, 1, 0.8))][1]
+    >>> [line[:3].tolist() for line in draw_rows(Rows(waves=[square], pitch=2, slip=0), (0, 0.2, 1, 0.8))][1]
     [[-5.0, 0.0], [-3.0, 0.0], [-3.0, 1.0]]
     """
     paths: list[Path] = []
     for wave in rows.waves:
-        lines = repeated(
+        lines = repeat_line(
             _wave_corners(wave) + np.array([0.0, wave.base]),
             wave.period,
             rows.pitch,
@@ -84,7 +84,7 @@ def strands(rows: Rows, bounds: Bounds) -> list[Path]:
     return paths
 
 
-def repeated(
+def repeat_line(
     corners: Path,
     period: float,
     pitch: float,
@@ -118,7 +118,7 @@ def repeated(
     return list(_turn(np.stack([x, y], axis=-1), angle))
 
 
-def cell_of(length_per_area: Callable[[float], float], density: float, line_width: float) -> float:
+def solve_cell_for_density(length_per_area: Callable[[float], float], density: float, line_width: float) -> float:
     """Solve for the cell, mm, of a density, for a family whose lines come closer as cells shrink."""
     target_length = density / (TOUCH * line_width)
     low, high = TOUCH * line_width, 1000 * line_width / density

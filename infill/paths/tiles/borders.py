@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 
 from infill.drawing import MOST_POINTS, Line
 from infill.errors import GeometryError
-from infill.paths.tiles.pairing import Graph, doubled_parts
+from infill.paths.tiles.pairing import TileGraph, choose_doubled_parts
 
 Floats = NDArray[np.float64]
 
@@ -35,7 +35,7 @@ TOUCH = 0.905  # line widths between the centres of two beads that touch
 ALIKE = math.radians(20)  # difference of angles below which a crossing counts as square
 ALONG = math.radians(10)  # near x, but not a line of symmetry
 SNAP = 1e-7  # of a tile: precision to which lines are cut at each other
-SAME = 1e-5  # of a tile: closer nodes are merged
+MERGE_DISTANCE = 1e-5  # of a tile: closer nodes are merged
 CUT = (math.sqrt(3) - 1.7, math.sqrt(7) - 2.6)  # of a tile: its corner; drawings have no lines along these values
 AHEAD = 0.03  # of a tile: distance from a crossing at which directions are measured
 MOST_COPIES = 200  # of one line in a tile
@@ -63,7 +63,7 @@ class Borders:
     inward: Floats
 
 
-def borders(lines: list[Line], size: tuple[float, float], *, line_width: float) -> Borders:
+def find_borders(lines: list[Line], size: tuple[float, float], *, line_width: float) -> Borders:
     """Find the borders between two colours, and the lines to be doubled, in a tile from (0, 0) to `size`.
 
     Parameters
@@ -87,7 +87,7 @@ def borders(lines: list[Line], size: tuple[float, float], *, line_width: float) 
             f"{size[0]:.4g} × {size[1]:.4g} mm; make the cell larger"
         )
     graph = _cut_to_torus(_copies_in_tile(merged, size), size)
-    double = doubled_parts(graph)
+    double = choose_doubled_parts(graph)
     crossings, inward = _crossings(graph, ~double, AHEAD * min(size))
     single = _edges([part for part, is_double in zip(graph.parts, double, strict=True) if not is_double])
     doubled = _edges([part for part, is_double in zip(graph.parts, double, strict=True) if is_double])
@@ -149,7 +149,7 @@ def _copies_in_tile(lines: list[Line], size: tuple[float, float]) -> list[Line]:
     return copies
 
 
-def _cut_to_torus(copies: list[Line], size: tuple[float, float]) -> Graph:
+def _cut_to_torus(copies: list[Line], size: tuple[float, float]) -> TileGraph:
     """Cut the lines of one tile at each other and at its edges."""
     import shapely
 
@@ -161,11 +161,11 @@ def _cut_to_torus(copies: list[Line], size: tuple[float, float]) -> Graph:
     parts = shapely.get_parts(cut)
     parts = [shapely.get_coordinates(part) for part in parts[shapely.get_type_id(parts) == 1]]
     ends = np.concatenate([part[[0, -1]] for part in parts])
-    label, places = _cluster_points(ends, size, SAME * max(size))
-    return Graph(parts=parts, node=label.reshape(-1, 2), places=places)
+    label, places = _cluster_points(ends, size, MERGE_DISTANCE * max(size))
+    return TileGraph(parts=parts, node=label.reshape(-1, 2), places=places)
 
 
-def _crossings(graph: Graph, chosen: NDArray[np.bool_], ahead: float) -> tuple[Floats, Floats]:
+def _crossings(graph: TileGraph, chosen: NDArray[np.bool_], ahead: float) -> tuple[Floats, Floats]:
     """Find the crossings of four single parts or more, and a direction into a sector to connect at each."""
     import shapely
 

@@ -9,16 +9,16 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.checks import length, positive, within
+from infill.checks import check_length, check_positive, check_range
 from infill.drawing import Bounds, Drawing
 from infill.errors import GeometryError
-from infill.paths.tiles.borders import TOUCH, borders
+from infill.paths.tiles.borders import TOUCH, find_borders
 from infill.paths.tiles.nodes import tile_grid
-from infill.paths.tiles.strands import Strand, repeated, tile_strands
-from infill.paths.tiles.two_colours import two_colours
+from infill.paths.tiles.strands import Strand, repeat_strands, tile_strands
+from infill.paths.tiles.two_colours import two_colour_field
 
 CELL_STEP = 1.04  # between the cells whose fields are computed
-IMPROVED = 2  # corrections of the first guess of the cell: lines are doubled, rounded and left out
+CELL_CORRECTIONS = 2  # corrections of the first guess of the cell: lines are doubled, rounded and left out
 LEAST_BLUR = 0.45  # of a line width: corners get about its radius, and necks of a cell or two heal
 BLUR_PER_RADIUS = 0.7  # mm that a right angle is blurred for a radius of 1 mm
 LARGEST_RADIUS = 0.1  # of the smaller side of a tile
@@ -26,7 +26,7 @@ MOST_LINES = 4.0  # line widths: rounder corners look no better, and smoothing t
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Drawn:
+class DrawnFamily:
     """A drawing that is repeated in both directions; `cell` is the width of its tile, mm.
 
     Parameters
@@ -90,17 +90,19 @@ class Drawn:
         GeometryError
             If nothing is left of the drawing at this size, or the tile is too large for the line width.
         """
-        strands, size = _scaled_strands(self, length("cell", cell), length("line_width", line_width), radius)
-        return repeated(strands, size, bounds)
+        strands, size = _scaled_strands(
+            self, check_length("cell", cell), check_length("line_width", line_width), radius
+        )
+        return repeat_strands(strands, size, bounds)
 
     def cell_for(self, density: float, line_width: float) -> float:
         """Return the width of the tile at which the paths fill about `density` of the plane."""
-        within("density", density, 1e-4, 1)
-        positive("line_width", line_width, "mm")
+        check_range("density", density, 1e-4, 1)
+        check_positive("line_width", line_width, "mm")
         _, y0, _, y1 = self.tile
         drawn_length = sum(np.hypot(*np.diff(line, axis=0).T).sum() for line in self.drawing.lines)
         cell = TOUCH * line_width * float(drawn_length) / (y1 - y0) / density
-        for _ in range(IMPROVED):
+        for _ in range(CELL_CORRECTIONS):
             strands, size = _scaled_strands(self, cell, line_width, 0.0)
             path_length = sum(np.hypot(*np.diff(strand.points, axis=0).T).sum() for strand in strands)
             cell *= TOUCH * line_width * float(path_length) / (size[0] * size[1]) / density
@@ -116,7 +118,7 @@ class Drawn:
 
 
 def _scaled_strands(
-    family: Drawn, cell: float, line_width: float, radius: float
+    family: DrawnFamily, cell: float, line_width: float, radius: float
 ) -> tuple[list[Strand], tuple[float, float]]:
     """Return the strands of a tile and its size, mm, scaled from the nearest of some fixed cells.
 
@@ -124,7 +126,7 @@ def _scaled_strands(
     beads keep their distance well enough, and a search for a cell sees lengths that change smoothly.
     """
     fixed = CELL_STEP ** round(math.log(cell, CELL_STEP))
-    limited_radius = min(within("radius", radius, 0, math.inf, "mm"), family.largest_radius(fixed, line_width))
+    limited_radius = min(check_range("radius", radius, 0, math.inf, "mm"), family.largest_radius(fixed, line_width))
     strands, (width, height) = _strands(family.name, family.drawing, fixed, line_width, limited_radius)
     scale = cell / fixed
     return [replace(strand, points=strand.points * scale) for strand in strands], (width * scale, height * scale)
@@ -142,7 +144,7 @@ def _strands(
     lines = [(line - (x0, y0)) * factor for line in drawing.lines]
     blur = max(LEAST_BLUR * line_width, BLUR_PER_RADIUS * radius)
     grid = tile_grid(size, line_width=line_width, blur=blur)
-    field = two_colours(borders(lines, size, line_width=line_width), grid, line_width=line_width, blur=blur)
+    field = two_colour_field(find_borders(lines, size, line_width=line_width), grid, line_width=line_width, blur=blur)
     strands = tile_strands(field, grid)
     if not strands:
         raise GeometryError(

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import GeometryError
-from infill.ragged import spread
+from infill.ragged import expand_rows
 
 Floats = NDArray[np.float64]
 
@@ -73,10 +73,10 @@ def tile_grid(size: tuple[float, float], *, line_width: float, blur: float) -> T
     return TileGrid(size=size, shape=shape, pad=math.ceil(MARGIN * blur / spacing) + CELLS_PER_LINE)
 
 
-def distances(edges: Floats, grid: TileGrid, band: float) -> Floats:
+def distance_field(edges: Floats, grid: TileGrid, band: float) -> Floats:
     """Compute the distance to the nearest edge at every node, at most `band`, mm."""
     distance = np.full(grid.nodes, band)
-    edges = short_edges(edges, 4 * max(grid.spacing))
+    edges = split_edges(edges, 4 * max(grid.spacing))
     low = np.floor((edges.min(axis=1) - band - grid.first) / grid.spacing).astype(int) + 1
     high = np.floor((edges.max(axis=1) + band - grid.first) / grid.spacing).astype(int)
     low, high = np.maximum(low, 0), np.minimum(high, np.array(grid.nodes) - 1)
@@ -84,7 +84,7 @@ def distances(edges: Floats, grid: TileGrid, band: float) -> Floats:
     direction = edges[:, 1] - edges[:, 0]
     squared = np.maximum((direction**2).sum(axis=1), 1e-30)
     flat = distance.ravel()
-    for edge, place in spread(wide[:, 0] * wide[:, 1], AT_ONCE):
+    for edge, place in expand_rows(wide[:, 0] * wide[:, 1], AT_ONCE):
         i = low[edge, 0] + place // wide[edge, 1]
         j = low[edge, 1] + place % wide[edge, 1]
         offset = np.stack([i, j], axis=1) * grid.spacing + grid.first - edges[edge, 0]
@@ -93,7 +93,7 @@ def distances(edges: Floats, grid: TileGrid, band: float) -> Floats:
     return distance
 
 
-def around(shapes: Floats, grid: TileGrid, band: float) -> Floats:
+def periodic_copies(shapes: Floats, grid: TileGrid, band: float) -> Floats:
     """Copy shapes (N, ..., 2) to the next tiles, as far as the padding and `band` reach."""
     if not len(shapes):
         return shapes
@@ -113,18 +113,18 @@ def around(shapes: Floats, grid: TileGrid, band: float) -> Floats:
     return np.concatenate(copies)
 
 
-def short_edges(edges: Floats, longest: float) -> Floats:
+def split_edges(edges: Floats, longest: float) -> Floats:
     """Cut edges into pieces no longer than `longest`."""
     counts = np.maximum(1, np.ceil(np.hypot(*(edges[:, 1] - edges[:, 0]).T) / longest)).astype(int)
     pieces = []
-    for edge, place in spread(counts, AT_ONCE):
+    for edge, place in expand_rows(counts, AT_ONCE):
         start, along = edges[edge, 0], edges[edge, 1] - edges[edge, 0]
         share = np.stack([place, place + 1], axis=1) / counts[edge, None]
         pieces.append(start[:, None] + share[..., None] * along[:, None])
     return np.concatenate(pieces) if pieces else edges
 
 
-def colours(edges: Floats, grid: TileGrid) -> NDArray[np.bool_]:
+def colour_parity(edges: Floats, grid: TileGrid) -> NDArray[np.bool_]:
     """Compute the colour of every node: the parity of the borders crossed from the first node, along y, then x."""
     scaled = (edges - grid.first) / grid.spacing
     flips = np.zeros(grid.nodes, dtype=np.int64)
@@ -145,7 +145,7 @@ def _crossed_lines(edges: Floats, axis: int, count: int) -> tuple[NDArray[np.int
     line_above = np.ceil(np.nextafter(edges[..., axis], np.inf)).astype(int)  # the first line above each end
     low, high = np.clip(np.sort(line_above, axis=1), 0, count).T
     rows, places = [np.empty(0, dtype=np.int64)], [np.empty(0)]
-    for edge, place in spread(high - low, AT_ONCE):
+    for edge, place in expand_rows(high - low, AT_ONCE):
         row = low[edge] + place
         a, b = edges[edge, 0], edges[edge, 1]
         share = (row - a[:, axis]) / (b[:, axis] - a[:, axis])

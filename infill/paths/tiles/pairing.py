@@ -19,7 +19,7 @@ MOST_PAIRED = 1000
 
 
 @dataclass(frozen=True, kw_only=True)
-class Graph:
+class TileGraph:
     """The lines of a tile on the torus.
 
     Parameters
@@ -41,7 +41,7 @@ class Graph:
         return np.bincount(self.node[chosen].ravel(), minlength=len(self.places))
 
 
-def doubled_parts(graph: Graph) -> NDArray[np.bool_]:
+def choose_doubled_parts(graph: TileGraph) -> NDArray[np.bool_]:
     """Choose the parts to double: shortest ways between nodes of odd degree, taken in pairs.
 
     Pairs are the nearest ones, improved as long as exchanging the partners of two pairs makes the ways shorter. With

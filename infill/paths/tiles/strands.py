@@ -22,7 +22,7 @@ LONGEST = 2.0  # mm, of a chord
 SHORTEST = 0.05  # mm
 TURN = 0.35  # rad, from chord to chord, the stricter limit at radii below 0.5 mm
 LEAST = 1e-6
-EVENED = 1.5  # grid cells over which the steps of the grid are evened out
+SMOOTHING_CELLS = 1.5  # grid cells over which the steps of the grid are evened out
 PER_CELL = 4  # points of a contour per grid cell while it is evened out
 
 
@@ -104,7 +104,7 @@ def _follow_contours(contours: list[Floats], shape: tuple[int, int]) -> list[tup
 def _resample_contour(points: Floats, period: Floats, grid: TileGrid) -> Floats:
     """Resample a contour in chords that are shorter where it bends more, without the steps of the grid.
 
-    Points are spread evenly, averaged with their neighbours by a Gaussian over `EVENED` cells, and then taken where
+    Points are spread evenly, averaged by a Gaussian over `SMOOTHING_CELLS` cells, and then taken where
     the integral of sqrt(curvature / (8 deviation)) passes whole numbers: a chord of length s lies s² / 8 R away.
     """
     h = min(grid.spacing)
@@ -115,7 +115,7 @@ def _resample_contour(points: Floats, period: Floats, grid: TileGrid) -> Floats:
     line = np.stack([np.interp(even, arc, axis) for axis in points.T], axis=1)
     drift = period * (even / arc[-1])[:, None]
     frequency = np.fft.rfftfreq(count, d=arc[-1] / count)
-    damping = np.exp(-2 * (math.pi * EVENED * h * frequency) ** 2)[:, None]
+    damping = np.exp(-2 * (math.pi * SMOOTHING_CELLS * h * frequency) ** 2)[:, None]
     spectrum = np.fft.rfft(line - drift, axis=0) * damping
     angular = 2j * math.pi * frequency[:, None]
     line = np.fft.irfft(spectrum, count, axis=0) + drift
@@ -133,7 +133,7 @@ def _resample_contour(points: Floats, period: Floats, grid: TileGrid) -> Floats:
     return resampled
 
 
-def repeated(strands: list[Strand], size: tuple[float, float], bounds: Bounds) -> list[Floats]:
+def repeat_strands(strands: list[Strand], size: tuple[float, float], bounds: Bounds) -> list[Floats]:
     """Repeat the strands over a box, in every tile in which they touch it; connected copies form one long path."""
     paths: list[Floats] = []
     for strand in strands:

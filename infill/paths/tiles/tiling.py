@@ -21,7 +21,7 @@ SLACK = 1e-3  # of the larger side: tolerance for lines that continue in the nex
 PIXEL = 0.1  # mm
 
 
-def tile_of(drawing: Drawing) -> Bounds:
+def repeating_box(drawing: Drawing) -> Bounds:
     """Return the box to repeat."""
     x0, y0, x1, y1 = drawing.bounds
     if drawing.page:
@@ -70,7 +70,7 @@ def _has_seams(drawing: Drawing) -> bool:
     return along > SEAM * 2 * (x1 - x0 + y1 - y0)
 
 
-def traced(picture: Picture, path: Path) -> Drawing:
+def trace_picture(picture: Picture, path: Path) -> Drawing:
     """Trace the outlines of dark areas, a tenth of a millimetre a pixel, periodic across the edges."""
     from scipy.ndimage import uniform_filter
     from skimage.measure import find_contours

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.paths.tiles.borders import TOUCH, Borders
-from infill.paths.tiles.nodes import TileGrid, around, colours, distances, short_edges
+from infill.paths.tiles.nodes import TileGrid, colour_parity, distance_field, periodic_copies, split_edges
 from infill.phasefield.allen_cahn import STEEPNESS, Smoothing
 from infill.phasefield.methods import smooth
 
@@ -25,12 +25,12 @@ INTERFACE = 2.3
 ALPHA = 0.2  # time step: explicit diffusion is stable up to 1 / 4 in a plane, on cells that are nearly square
 NARROWEST = 0.9  # line widths: narrower places are widened, or merged into their neighbours
 RIDGE = 0.5  # slope of a distance on its ridge, at most: between lines, or in a corner of less than 60°
-CAREFUL = 0.35  # of the thickest place of a colour: the limit of smoothing
+MOST_BLUR = 0.35  # of the thickest place of a colour: the limit of smoothing
 COARSE = 4  # cells
 EIGHT = np.ones((3, 3))  # neighbours
 
 
-def two_colours(borders: Borders, grid: TileGrid, *, line_width: float, blur: float) -> NDArray[np.float64]:
+def two_colour_field(borders: Borders, grid: TileGrid, *, line_width: float, blur: float) -> NDArray[np.float64]:
     """Compute the smoothed field at the nodes of the padded tile: a distance in line widths, zero on the paths.
 
     Parameters
@@ -45,15 +45,15 @@ def two_colours(borders: Borders, grid: TileGrid, *, line_width: float, blur: fl
     h = max(grid.spacing)
     radius = NARROWEST / 2 * line_width
     band = radius + 3 * h
-    edges = around(borders.single, grid, band)
-    field = np.where(colours(edges, grid), 1, -1) * distances(edges, grid, band)
+    edges = periodic_copies(borders.single, grid, band)
+    field = np.where(colour_parity(edges, grid), 1, -1) * distance_field(edges, grid, band)
     field = _double_edges(field, borders.double, grid, TOUCH / 2 * line_width)
     field = _open_crossings(field, borders, grid, radius)
     for sign in (1, -1):
         field = sign * _widen_necks(sign * field, grid, radius)
     for sign in (1, -1, 1):
         field = sign * _open_field(sign * field, grid, radius)
-    steps = math.ceil((min(blur, CAREFUL * _smallest_thickness(field, h)) / h) ** 2 / (2 * ALPHA))
+    steps = math.ceil((min(blur, MOST_BLUR * _smallest_thickness(field, h)) / h) ** 2 / (2 * ALPHA))
     profile = np.tanh(STEEPNESS / (INTERFACE * h) * field)
     smoothing = Smoothing(steps=steps, fidelity=FIDELITY, interface=INTERFACE, alpha=ALPHA)
     phi = smooth(profile, smoothing, spacing=grid.spacing, method="inplace").astype(np.float64)
@@ -110,13 +110,13 @@ def _double_edges(field: Floats, edges: Floats, grid: TileGrid, radius: float) -
     if not len(edges):
         return field
     band = radius + 4 * max(grid.spacing)
-    pieces = short_edges(edges, 2 * radius)  # so that each lies in one colour wherever it is sampled
+    pieces = split_edges(edges, 2 * radius)  # so that each lies in one colour wherever it is sampled
     middle = np.round((pieces.mean(axis=1) - grid.first) / grid.spacing).astype(int)
     # Edges lie in one tile, and so within the grid.
     colour = field[tuple(np.clip(middle, 0, np.array(grid.nodes) - 1).T)] > 0
     for sign, in_colour in ((1, colour), (-1, ~colour)):
         if in_colour.any():
-            strip = distances(around(pieces[in_colour], grid, band), grid, band) - radius
+            strip = distance_field(periodic_copies(pieces[in_colour], grid, band), grid, band) - radius
             field = sign * np.minimum(sign * field, strip)
     return field
 
@@ -126,7 +126,7 @@ def _open_crossings(field: Floats, borders: Borders, grid: TileGrid, radius: flo
     field = field.copy()
     reach = np.ceil(2 * radius / np.array(grid.spacing)).astype(int) + 1
     pairs = np.stack([borders.crossings, borders.crossings + radius * borders.inward], axis=1)
-    for centre, inward in around(pairs, grid, 2 * radius):
+    for centre, inward in periodic_copies(pairs, grid, 2 * radius):
         inside = np.round((inward - grid.first) / grid.spacing).astype(int)
         middle = np.round((centre - grid.first) / grid.spacing).astype(int)
         low, high = np.maximum(middle - reach, 0), np.minimum(middle + reach + 1, grid.nodes)
