@@ -56,7 +56,7 @@ python_maximum_signature_line_length = 88
 default_role = "code"  # single backquotes in docstrings are names of arguments as often as of functions
 
 # What public functions take or return and the packages do not export.
-NOT_EXPORTED = ("FeatureMotion", "Named", "Options", "Progress", "StampMethod", "SurfaceMethod", "Told")
+NOT_EXPORTED = ("FeatureMotion", "HasName", "Progress", "SmoothOptions", "StampMethod", "SurfaceMethod", "Told")
 NOT_EXPORTED += ("ComponentStages", "FillStages", "LabelStages", "MakeStages", "SmoothStages", "Stages")
 NOT_EXPORTED += ("ComponentsReport", "FillReport", "LabelsReport", "MakeReport", "PrintedVolume", "SmoothReport")
 NOT_EXPORTED += ("Edges", "Spiral", "Straight")

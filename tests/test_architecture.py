@@ -451,7 +451,7 @@ def modules_after(code: str) -> set[str]:
 
 
 def test_help_loads_nothing_heavy() -> None:
-    assert not HEAVY & modules_after("import infill.cli.app; infill.cli.app.build()")
+    assert not HEAVY & modules_after("import infill.cli.app; infill.cli.app.build_app()")
 
 
 def test_the_help_of_make_loads_no_pattern() -> None:

@@ -54,7 +54,7 @@ def test_memory_is_asked_for_before_the_work(monkeypatch: pytest.MonkeyPatch) ->
     def worked(*given: object, **options: object) -> None:
         raise AssertionError
 
-    monkeypatch.setattr("infill.smoothing.meshes.voxelise_reported", worked)
+    monkeypatch.setattr("infill.smoothing.meshes.voxelise_with_report", worked)
     words = ["--resolution", "200", "--max-memory", "100M", "-o", "b.stl"]
     one_line_error(run("smooth", "ball.stl", *words), "216 x 216 x 216 cells; give larger voxels")
 

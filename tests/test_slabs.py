@@ -248,10 +248,10 @@ def test_too_few_layers_beside_a_slab_are_seen(space: Interior, monkeypatch: pyt
     def few(*_: Any) -> Any:
         return replace(smoothing, steps=0)
 
-    real = slabwise.smoothed_void
-    monkeypatch.setattr(slabwise, "smoothing_for", few)  # by which layers are counted
+    real = slabwise.smooth_void
+    monkeypatch.setattr(slabwise, "choose_smoothing", few)  # by which layers are counted
     monkeypatch.setattr(
-        slabwise, "smoothed_void", lambda out, depth, _, threads: real(out, depth, smoothing, threads=threads)
+        slabwise, "smooth_void", lambda out, depth, _, threads: real(out, depth, smoothing, threads=threads)
     )
     with pytest.raises(GeometryError, match="do not meet"):
         surfaces_by_slabs(in_slabs(space), voids, request, SIZES, tolerance=0.0, threads=None)
@@ -321,7 +321,7 @@ def test_a_part_filled_in_slabs_keeps_all_promises(pattern: str, monkeypatch: py
     monkeypatch.setattr(module, "WHOLE", 1000)
     monkeypatch.setattr(layers, "SLAB", 100_000)
     seen = []
-    monkeypatch.setattr(hollowing, "unmade", lambda *given, **more: seen.append(1) or defer_voids(*given, **more))
+    monkeypatch.setattr(hollowing, "defer_voids", lambda *given, **more: seen.append(1) or defer_voids(*given, **more))
     result = fill(mesh, pattern, density=0.25)
     report, solid = result.report, result.surface
     assert seen

@@ -417,8 +417,8 @@ def test_a_mesh_with_holes_is_capped_once(monkeypatch: pytest.MonkeyPatch) -> No
         return fill_holes(*arguments)
 
     for module in ("infill.voxels.from_mesh", "infill.smoothing.solids"):
-        monkeypatch.setattr(f"{module}.capped", counted, raising=False)
-    assert from_mesh.capped is counted
+        monkeypatch.setattr(f"{module}.fill_holes", counted, raising=False)
+    assert from_mesh.fill_holes is counted
     whole = surface(BALL)
     report = smooth_mesh(Surface(vertices=whole.vertices, faces=whole.faces[3:]), resolution=30).report
     assert report["input"]["repairs"]["holes"] >= 1

@@ -79,7 +79,7 @@ def count_layer(layer: NDArray[np.floating]) -> LayerTopology:
     """Count the components and holes of a layer (nx, ny).
 
     >>> count_layer(np.pad(-np.ones((2, 2)), 2, constant_values=1.0))
-    Topology(components=1, holes=1)
+    LayerTopology(components=1, holes=1)
     """
     return label_regions(layer).topology
 
