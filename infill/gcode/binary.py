@@ -65,7 +65,7 @@ def decoded(block: Block) -> bytes:
 def encoded(text: bytes, *, like: Block) -> Block:
     """Make a block that holds a text, encoded and compressed like another block.
 
-    MeatPack drops blank lines, blanks and comments behind commands, see `meatpack.normalised`. Prusa's firmware
+    MeatPack drops blank lines, blanks and comments behind commands, see `meatpack.normalise_text`. Prusa's firmware
     stops a print where a block of G-code has another encoding or compression than the previous block, so neither
     changes from block to block, even where a block grows. Each block is decoded as a check before it is returned.
 

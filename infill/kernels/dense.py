@@ -3,7 +3,7 @@
 Every formula is arranged so that phi = f = +-1 among equal neighbours is a fixed point to the last bit:
 
     v = phi + sum of w (differences)            zero where neighbours are equal
-    v = v / sqrt(E + (1 - E) v v)               divides by 1 where v = +-1: see `parts_of_one` in `phasefield.dense`
+    v = v / sqrt(E + (1 - E) v v)               divides by 1 where v = +-1: see `split_one` in `phasefield.dense`
     phi = v + p / (1 + p) (f - v)               adds zero where v = f
 
 A kernel may therefore leave such cells out and give the same bits as one that does not. Importing this module loads

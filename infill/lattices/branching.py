@@ -45,7 +45,7 @@ class BranchLines:
         return False
 
     def sides(self, space: Interior, cell: float) -> Iterator[NDArray[np.bool_]]:  # noqa: ARG002 - of the protocol
-        """See `LineLayers`: none."""
+        """See `LinesByLayer`: none."""
         return iter(())
 
     @property
@@ -66,7 +66,7 @@ class BranchLines:
         return SHARE * density
 
     def lines(self, space: Interior, cell: float) -> list[Floats]:
-        """See `LineLayers`."""
+        """See `LinesByLayer`."""
         step = math.tan(math.radians(self.pattern.overhang))
         walls = _Walls(depth=space.below_walls, step=step, deeper=DEEPER + space.through)
         reach = cell / 2 / space.size

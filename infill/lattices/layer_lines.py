@@ -48,7 +48,7 @@ class LayerLines:
 
     @property
     def steepest(self) -> float:
-        """See `LineLayers`."""
+        """See `LinesByLayer`."""
         return STEEPEST
 
     def sharpest(self, space: Interior, cell: float) -> float:
@@ -68,7 +68,7 @@ class LayerLines:
         return replace(self, anchor=middle + self.anchor)
 
     def lines(self, space: Interior, cell: float) -> list[Floats]:
-        """See `LineLayers`."""
+        """See `LinesByLayer`."""
         pattern, start = with_cell(self.pattern, cell), space.origin[:2] - self.anchor[:2]
         depth, segments = space.depth, []
         for layer, z in enumerate(self._heights(space)):
@@ -82,7 +82,7 @@ class LayerLines:
         return segments
 
     def sides(self, space: Interior, cell: float) -> Iterator[NDArray[np.bool_]]:
-        """See `LineLayers`."""
+        """See `LinesByLayer`."""
         pattern = with_cell(self.pattern, cell)
         if not isinstance(pattern, LevelSet):
             return

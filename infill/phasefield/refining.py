@@ -162,7 +162,7 @@ def refine_bricks(
     Returns
     -------
     SparseField
-        Of distances, artanh phi / artanh 0.995, not of phi: `profile.REFINED` converts them to phi.
+        Of distances, artanh phi / artanh 0.995, not of phi: `profile.REFINED_PROFILE` converts them to phi.
 
     Raises
     ------
