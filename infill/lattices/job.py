@@ -29,6 +29,7 @@ from infill.lattices.voids import Voids
 from infill.meshes.measuring import measure_surface
 from infill.meshes.merging import surface_of
 from infill.meshes.split_components import concatenate_surfaces
+from infill.report import FORM
 from infill.result import Clock, Progress, Result
 from infill.surface import Surface
 from infill.version import __version__
@@ -37,8 +38,6 @@ if TYPE_CHECKING:
     import trimesh
 
     from infill.report_keys import FillReport
-
-FORM = 1
 
 
 def fill(

@@ -12,11 +12,9 @@ from infill.refilling.request import KEEP, Request
 from infill.refilling.rules import RefillRules
 from infill.refilling.stats import RefillStats
 from infill.refilling.support import LEAST_LENGTH, LEAST_SHARE, kept_shares
+from infill.report import FORM
 from infill.version import __version__
 from patterns.declared import parameter_values
-
-FORM = 1
-
 
 FILAMENT_TOLERANCE = 0.01  # relative error of the filament of all infill that is reported
 
