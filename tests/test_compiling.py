@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 MODULE = """
-from infill.kernels.compiling import njit, told_of_compiling
+from infill.kernels.compiling import njit, log_compilation
 
 @njit(cache=True)
 def one(x): return x + 1
@@ -16,12 +16,12 @@ def one(x): return x + 1
 @njit(cache=True)
 def two(x): return x * 2
 
-with told_of_compiling("nothing"):
+with log_compilation("nothing"):
     pass
 for what, kernel in (("one", one), ("two", two), ("one", one)):
-    with told_of_compiling(what):
+    with log_compilation(what):
         kernel(3)
-with told_of_compiling("one for other numbers"):
+with log_compilation("one for other numbers"):
     one(0.5)
 """
 
