@@ -413,7 +413,7 @@ def test_the_command_takes_places_and_vents(tmp_path: Path) -> None:
 @settings(max_examples=60, deadline=None)
 @given(
     corners=arrays(np.int64, st.tuples(st.integers(1, 12), st.just(3), st.just(3)), elements=st.integers(-6, 14)),
-    step=st.sampled_from([0.5, 1.0, 1.5]),
+    step=st.sampled_from([0.5, 1.0, 2.0]),
 )
 def test_lines_cross_triangles_where_arithmetic_without_rounding_has_it(
     corners: NDArray[np.int64], step: float

@@ -78,8 +78,8 @@ def list_crossings(nodes, heights, faces, nx, ny, ends, height, rising, owner):
     height : (N,) float64, mm
         Of each crossing.
     rising : (N,) int64
-        1 where a line that goes up enters what faces outwards, -1 where it leaves it.
-    1 where a line upwards enters an outward face, -1 where it leaves one.
+        1 where a line upwards enters the solid, -1 where it leaves it.
+    owner : (N,) int64
         The face that is crossed.
     """
     for number in range(len(faces)):
