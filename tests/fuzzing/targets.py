@@ -136,7 +136,8 @@ def _is_unambiguous(path: Path, answer: Answer) -> bool:
     text = path.read_bytes()
     progress = [line for line in text.splitlines() if b"M73" in line]
     unread = json.loads(answer.out)["print"]["unread_lines"]
-    return unread == 0 and all(map(PROGRESS.fullmatch, progress)) and text.count(b"\r\n") in (0, text.count(b"\n"))
+    one_ending = text.count(b"\r\n") in (0, text.count(b"\n")) and b"\r\r" not in text
+    return unread == 0 and all(map(PROGRESS.fullmatch, progress)) and one_ending
 
 
 def judge_settings(path: Path, folder: Path, rng: Random) -> Iterator[str]:
