@@ -311,7 +311,7 @@ class Machine:
             return
         which = dict(words(line.command))
         if line.kind == "fan":
-            on = 0.0 if line.name == b"M107" else which.get("S", 255.0)
+            on = 0.0 if line.name == b"M107" else which.get("S", 255.0) or 0.0
             self.modes[f"fan {which.get('P', 0)}"] = b"%g" % on
         elif line.kind == "temperature":
             bed = line.name in (b"M140", b"M190")
