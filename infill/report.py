@@ -47,9 +47,9 @@ def report_of(
         Its `shape`, `spacing`, `origin` and `space`.
     solid : mapping
         `data`, the volume before smoothing, mm³, `level`, and further facts about the volume.
-    data, result : Counts
+    data, result : ConnectionCounts
         How the solid is connected before and after smoothing.
-    changes : Changes
+    changes : TopologyChanges
     walls : mapping
         How thick the walls are.
     problems : sequence of str

@@ -83,8 +83,8 @@ def find_branches(below: TurnedPart, needs: DrainNeeds, drained: Iterable[int], 
 
     Parameters
     ----------
-    below : Below
-    needs : Needs
+    below : TurnedPart
+    needs : DrainNeeds
     drained, wanting : iterable of int
         Voids.
     """

@@ -76,7 +76,7 @@ def find_ways(part: Surface, voids: Surface, names: NDArray[np.integer], lattice
         Closed, each facing outwards from itself.
     names : (V,) int
         The void of every vertex.
-    lattice : Lattice
+    lattice : LineLattice
 
     Notes
     -----

@@ -136,9 +136,9 @@ class DrainPlaces:
 
     Parameters
     ----------
-    below : Below
-    needs : Needs
-    ways : Ways
+    below : TurnedPart
+    needs : DrainNeeds
+    ways : DrainWays
     order : list of (N,) int64
         Numbers of the ways of each void, the best first.
     lowest : (V,) float64

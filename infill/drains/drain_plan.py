@@ -113,7 +113,7 @@ class DrainPlan:
     holes : tuple of Hole
     volumes : tuple of float
         Of the voids, mm³, the largest first.
-    undrained, unvented : tuple of Undrained
+    undrained, unvented : tuple of SealedVoid
         By falling volume.
     diameter : float
         As requested, mm.
@@ -159,7 +159,7 @@ def plan_drains(
     part : Surface, mm
     voids : Surface, mm
         Facing outwards from themselves.
-    needs : Needs
+    needs : DrainNeeds
     vent : bool
         True if every void also gets a hole up from its highest place.
     places : tuple of (x, y, z), mm

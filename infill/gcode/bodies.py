@@ -305,7 +305,7 @@ def validate_section(
 
     Parameters
     ----------
-    new_table : Table
+    new_table : GcodeTable
         The new text as a table.
     selected, texts
         As for `replace_sections`.

@@ -117,7 +117,7 @@ def update_estimate(line: bytes, elapsed: float, change: EstimateChange, complet
     line : bytes
     elapsed : float
         Seconds that the print takes up to this line, as planned.
-    change : Change
+    change : EstimateChange
         Of the entire print.
     completed : bytes
         The letters that state completion, see `completion_letters`.

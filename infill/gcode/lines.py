@@ -77,8 +77,8 @@ class ParsedLines:
     values : (N, 7) float64
         The numbers of the words X, Y, Z, E, F, I, J of moves and arcs; NaN where there is none.
     given : (N, 7) bool
-        Which of these words the line has.
-    Words that the line has.
+        Words that the line has.
+    commands : tuple of GcodeCommand
         The lines that are OTHER or ODD.
     unread : (N,) bool
         Lines that may move or extrude and could not be read.

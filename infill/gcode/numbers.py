@@ -172,7 +172,7 @@ def write_words(columns: list[tuple[bytes, NDArray[np.float64], int]], head: byt
 
     Returns
     -------
-    Rows
+    TextRows
 
     >>> write_words([(b" X", np.array([1.5, -0.25]), 3), (b" F", np.array([np.nan, 900]), 0)], b"G1", b"\n").text
     b'G1 X1.5\nG1 X-.25 F900\n'

@@ -108,7 +108,7 @@ class LineMarks:
         By section, the name of its object.
     tagged : (N,) bool
         The line is a tag of this kind.
-    after : Tags
+    after : TagState
         State at the end.
     """
 

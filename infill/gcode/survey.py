@@ -45,11 +45,11 @@ class Survey:
     ----------
     size : int
         Bytes.
-    Its name for itself; "" if there is none.
+    slicer : str
+        Its name for itself; "" if there is none.
     settings : dict
-    Its settings by its own names, as far as the file states them.
-        Its settings by its own names, as far as the file tells them.
-    begin : State
+        Its settings by its own names, as far as the file states them.
+    begin : MachineState
         Modes at the first layer, with the position unknown.
     stamped : bool
         It was refilled before.

@@ -138,9 +138,9 @@ class GcodeTable:
         The words among X, Y, Z, E, F, I, J that the line has.
     i, j : (N,) float64
         Centre of an arc relative to its start; NaN if not given.
-    commands : tuple of Command
+    commands : tuple of GcodeCommand
         The lines that are OTHER or ODD.
-    before, after : State
+    before, after : MachineState
         At the beginning and at the end.
     relative_e : (N,) bool
         True if E is relative on the line.
@@ -212,12 +212,12 @@ def read_table(data: bytes, state: MachineState) -> GcodeTable:
     ----------
     data : bytes
         Lines with their line ends; only the last may lack one.
-    state : State
+    state : MachineState
         Position and modes of the machine before the first line.
 
     Returns
     -------
-    Table
+    GcodeTable
 
     >>> table = read_table(b"M83\nG1 X1 Y2 E.5\nG1 Y3\n", MachineState())
     >>> table.kind.tolist(), table.y.tolist(), table.extruded.tolist()
@@ -485,7 +485,7 @@ def firmware_retraction(command: GcodeCommand, firmware: str = "") -> bool | Non
 
     Parameters
     ----------
-    command : Command
+    command : GcodeCommand
     firmware : str
         As in `MachineState`.
     """

@@ -87,7 +87,7 @@ def read_data_files(
     ----------
     header : Path
         The file that announces them, for messages.
-    parts : sequence of Part
+    parts : sequence of DataFile
     kind : dtype
         Of a cell, with the order of its bytes.
     total, low, high : int

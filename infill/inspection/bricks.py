@@ -68,10 +68,10 @@ class TopologyCheck:
 
     Parameters
     ----------
-    data, result : Counts
+    data, result : ConnectionCounts
         Connections of the solid before and after.
-    changes : Changes
-    lost : tuple of Lost
+    changes : TopologyChanges
+    lost : tuple of LostWallPiece
         The largest pieces of wall that were lost.
     """
 
@@ -127,7 +127,7 @@ def check_topology(
 
     Parameters
     ----------
-    levelled : Levelled
+    levelled : LevelSurface
         The surface, and its field.
     before : Components
         Components of the data.
@@ -186,7 +186,7 @@ def check_topology_by_signs(
     ----------
     levelled, before, levels, threads
         See `check_topology`.
-    flips : Flips
+    flips : SignChanges
         The cells that changed sign between the data and the surface.
     """
     if not has_same_connections(flips, before, threads=threads):

@@ -85,9 +85,9 @@ class Fidelity:
 
     Parameters
     ----------
-    there, back : Gap
+    there, back : SurfaceGap
         From the result to the given surface, and back.
-    added, lost : tuple of Patch
+    added, lost : tuple of ChangedPatch
         Places that the result added, and places that it lacks; the largest first.
     thin, sheet, hidden : float
         Area of the given surface that is far from the result, but too thin to count, on a sheet without solid, or

@@ -93,7 +93,7 @@ def compare_layers(before: LayerRegions, after: LayerRegions, *, line_cells: int
 
     Parameters
     ----------
-    before, after : Regions
+    before, after : LayerRegions
     line_cells : int
         Cells across a line: anything as wide as a line is not a pinhole.
     """

@@ -128,7 +128,7 @@ def has_same_connections(flips: SignChanges, before: Components, *, threads: int
 
     Parameters
     ----------
-    flips : Flips
+    flips : SignChanges
     before : Components
         Of the data: of solid, or of void.
     threads : int, optional

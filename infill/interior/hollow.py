@@ -38,7 +38,7 @@ class VoidMeshes:
 
     Parameters
     ----------
-    space : Space
+    space : Interior
         The inside of the part.
     cell, width : float
         Of the pattern as it was drawn, mm: smoothing makes walls between narrow voids wider, and bars thinner.
@@ -52,7 +52,7 @@ class VoidMeshes:
         The inner side of the walls, if voids reach through them.
     loose : float
         mm³ of infill that was left out: pieces that float where the part was cut open, or that slicers do not print.
-    unmade : Unmade or None
+    unmade : DeferredVoids or None
         Set in place of surfaces until they are made.
     """
 

@@ -38,7 +38,7 @@ class Interior:
 
     Parameters
     ----------
-    layers : Layers
+    layers : LayerStack
         Depth of the centre of each cell below the inner side of the wall, in cells; cut off deep inside.
     size : float
         Of a cell, mm.
@@ -46,7 +46,7 @@ class Interior:
         The centre of cell (0, 0, 0), mm.
     part : Surface, mm
         The part after repairs: the original, if it is closed, faces outwards, and no components overlap.
-    repairs : Repairs
+    repairs : MeshRepairs
         Assumptions about the mesh.
     skin : {"as given", "turned", "closed", "parted", "united"}
         The last repair of the mesh: faces turned, holes closed, components that touch taken apart, or components that
@@ -55,13 +55,13 @@ class Interior:
         Share of the volume that components of `part` enclose twice, after repairs.
     wall : float
         mm
-    walled : Space or None
+    walled : Interior or None
         The space inside the walls, if voids reach through them here.
     through : float
         Number of cells by which they do.
     opening : Opening or None
         Sides where the part has no wall: the depth there is that of a part that goes on.
-    box_of : (Space, (3,) int) or None
+    box_of : (Interior, (3,) int) or None
         The space of which this is a box, and the first cell of the box in it.
     """
 

@@ -62,7 +62,7 @@ class LevelSurface:
     surface : Surface
     rate : (V, 3) float32
         Movement of its vertices when the level rises by one, mm.
-    signs : Signs
+    signs : LevelSigns
         Of the cells that the surface lies between.
     height : float
         The level of the surface in that field.
@@ -106,7 +106,7 @@ class LevelTrial:
     Parameters
     ----------
     level : float
-    found : Level
+    found : ExtractedLevel
     volume, slope : float
         The enclosed volume, mm³, and its change when the level rises by one.
     """
@@ -125,7 +125,7 @@ class LevelStart:
     ----------
     at_zero : (float, float) or None
         Volume at level 0, mm³, and its slope over the level.
-    first : Tried or None
+    first : LevelTrial or None
         The surface at the level that these suggest for the volume of all cells.
     """
 
@@ -229,7 +229,7 @@ def surface_at_volume(
     spacing : (hx, hy, hz), mm
     targets : (b,) float64
         Volume of each component, mm³.
-    start : Start, optional
+    start : LevelStart, optional
         Known volumes, from `prepare_levels`.
 
     Raises

@@ -78,7 +78,7 @@ class ExtractedLevel:
     surface : Surface, mm
     rate : (V, 3) float32
         Movement of each vertex when the level rises by one, mm.
-    signs : Signs
+    signs : LevelSigns
         Signs of the cells around the surface.
     """
 

@@ -112,8 +112,8 @@ def drill_drains(solid: Surface, hollow: VoidMeshes, request: FillSpec, *, threa
     ----------
     solid : Surface, mm
         The part without its voids.
-    hollow : Hollow
-    request : Request
+    hollow : VoidMeshes
+    request : FillSpec
     threads : int, optional
 
     Raises
@@ -192,8 +192,8 @@ def drain_problems(request: FillSpec, drained: DrainedSolid, closed: list[tuple[
 
     Parameters
     ----------
-    request : Request
-    drained : Drained
+    request : FillSpec
+    drained : DrainedSolid
     closed : list of (float, list of float)
         Voids of the finished mesh that are closed: volume, mm³, and lowest point of each.
     """

@@ -72,7 +72,7 @@ class NonPrismatic:
 
     Parameters
     ----------
-    layers : LineLayers
+    layers : LinesByLayer
     threads : int, optional
     grading : Grading, optional
     bodies : Bodies, optional

@@ -54,12 +54,12 @@ class ProjectInfill:
     Parameters
     ----------
     infill : Surface, mm
-    hollow : Hollow
+    hollow : VoidMeshes
     voids : Voids
         Of the pattern, in its place.
     phase : (x, y, z)
         mm by which it is shifted.
-    narrow : Narrow or None
+    narrow : NarrowShares or None
         The infill that slicers do not print, before it was left out.
     """
 

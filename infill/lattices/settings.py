@@ -44,7 +44,7 @@ class FillSettings:
 
     Parameters
     ----------
-    request : Request
+    request : FillSpec
     units : str or None
         Of the mesh.
     slicer : str or None

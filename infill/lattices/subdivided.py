@@ -33,7 +33,7 @@ class CubeTree:
 
     Parameters
     ----------
-    space : Space
+    space : Interior
         The space for which it was made.
     doubled : (n, m, k) uint8
         For each of the smallest cubes, how often the cube around it is doubled.

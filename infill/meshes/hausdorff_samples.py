@@ -113,7 +113,7 @@ def sample_original(
 
     Parameters
     ----------
-    tree, result : Tree, Surface
+    tree, result : TriangleTree, Surface
         The result, from which samples are measured.
     original : Surface, mm
     side : float, mm
@@ -170,7 +170,7 @@ def sample_between_vertices(
 
     Parameters
     ----------
-    tree : Tree
+    tree : TriangleTree
         Of the other surface.
     surface : Surface, mm
     owner, distance : (V,) int64, (V,) float64

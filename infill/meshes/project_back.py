@@ -43,12 +43,12 @@ def project_back(
     Parameters
     ----------
     candidate, original : Surface, closed, mm
-    tree : Tree
+    tree : TriangleTree
         Of the given surface.
     tolerance : float, mm
         Largest distance of either surface from the other, measured at vertices and at points between them that are
         closer together than the vertices of the given surface.
-    known : Watched, optional
+    known : HausdorffSamples, optional
         Samples measured for a surface that shares many faces and lies near the same given one.
     threads : int, optional
         See `infill.kernels.threads.thread_count`.

@@ -85,7 +85,7 @@ def corner_freedom(
     corner : (C,) int
         Their corners: none of them the end of a path, or beside a bead that is not of the infill.
     layer : (N,) int
-    walls : Walls
+    walls : BeadIndex
         Those beads.
     line_width : float, mm
     """
@@ -109,7 +109,7 @@ def offset_corners(
     Parameters
     ----------
     points : (N, 2) float64, mm
-    room : Room
+    room : CornerFreedom
     deviation : float or (C,) float64, mm
         How far the rounded path may lie from the old one.
     radius : float, mm

@@ -100,7 +100,7 @@ def round_corners(
 
     Returns
     -------
-    Rounded
+    RoundedPaths
 
     >>> corner = np.array([[0.0, 0.0], [10.0, 0.0], [10.0, 10.0]])
     >>> result = round_corners(corner, np.array([0, 3]), radius=2.0)

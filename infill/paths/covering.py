@@ -67,7 +67,7 @@ def cover(
         As for `join`, mm.
     start : (x, y), optional
         Where the nozzle comes from, mm.
-    ground : Ground, optional
+    ground : LayerBelow, optional
         As for `join`.
 
     Returns

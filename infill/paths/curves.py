@@ -65,7 +65,7 @@ def recut_curves(points: Floats, offsets: Places, machine: Machine, bulge: float
 
     Returns
     -------
-    Recut
+    RecutPaths
     """
     count = len(points)
     has_leg = np.ones(max(count - 1, 0), dtype=bool)  # the leg after a point belongs to its path

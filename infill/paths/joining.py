@@ -45,7 +45,7 @@ def join(
         Length of the anchor of an end that stays free, mm, at most.
     anchor_max : float
         Length of the outline along which two ends are joined, mm, at most; the shortest are joined first.
-    ground : Ground, optional
+    ground : LayerBelow, optional
         The layer below: where the outline lies on it, ends are joined before all others, and anchored.
 
     Returns

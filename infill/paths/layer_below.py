@@ -21,7 +21,7 @@ class LayerBelow:
 
     Parameters
     ----------
-    lines, others : Walls
+    lines, others : BeadIndex
         Its infill, and its other beads.
     reach : float, mm
         Half width of a bead: points within it lie on the bead.
@@ -49,7 +49,7 @@ def index_layer_below(paths: Sequence[Floats], others: BeadIndex, line_width: fl
     ----------
     paths : sequence of (N, 2) float64, mm
         Its infill.
-    others : Walls
+    others : BeadIndex
         Its other beads, as a single layer.
     line_width : float, mm
 

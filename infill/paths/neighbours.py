@@ -203,7 +203,7 @@ def project_to_beads(points: Floats, walls: BeadIndex) -> tuple[Floats, Floats]:
     Parameters
     ----------
     points : (N, 2) float64, mm
-    walls : Walls
+    walls : BeadIndex
         Without points, all distances are infinite.
     """
     if not len(walls.points):
@@ -291,7 +291,7 @@ def deviation_beside_beads(
         Inner points, nearer than `BESIDE` line widths to another bead.
     distance : (C,) float64, mm
         Their distances.
-    walls : Walls
+    walls : BeadIndex
     layer : (C,) int
     deviation, line_width : float, mm
     """

@@ -54,7 +54,7 @@ class PathCorners:
 
     Parameters
     ----------
-    curves : Recut
+    curves : RecutPaths
     old : int
         Number of points before.
     machine : Machine
@@ -65,10 +65,10 @@ class PathCorners:
     near : (B,) float64, mm
         Their distances.
     layer : (B,) int
-    walls : Walls
+    walls : BeadIndex
         The other beads.
     line_width : float, mm
-    room : Room, optional
+    room : CornerFreedom, optional
         Corners that may move outwards.
     limit : (K,) float64, mm, optional
         Limit of the move at each point of `curves`, whatever the rounding.
@@ -139,7 +139,7 @@ def find_corners(
     points : (N, 2) float64, mm
     offsets : (M + 1,) int
         Where each path begins.
-    walls : Walls
+    walls : BeadIndex
         Other beads.
     layer : (M,) int
         Of each path.

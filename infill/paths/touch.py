@@ -38,7 +38,7 @@ def touch_preserving_deviations(
     corner : (C,) int
         Inner points of the paths.
     layer : (N,) int
-    walls : Walls
+    walls : BeadIndex
     line_width : float, mm
     """
     turn = corner_turns(points, corner)[0]

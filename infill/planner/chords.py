@@ -26,7 +26,7 @@ def arc_chords(
 
     Parameters
     ----------
-    table : Table
+    table : GcodeTable
     arcs : (N,) int
         Lines.
     start, end : (N, 3) float64

@@ -81,7 +81,7 @@ def plan_moves(moves: Moves, limits: Sequence[Limits]) -> MotionPlan:
 
     Returns
     -------
-    Plan
+    MotionPlan
     """
     plans, entry, begin, end = [], None, 0, 0
     while begin < len(moves):
@@ -112,7 +112,7 @@ def plan_settled(
     -------
     settled : int
         Number of planned moves, from the front.
-    plan : Plan
+    plan : MotionPlan
         Plan of these moves.
     exit : float or None
         Square of the speed after them.

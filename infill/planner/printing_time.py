@@ -247,7 +247,7 @@ def make_timeline(
     text : binary file, optional
     fixed : mapping, optional
         As `collect_limits` returns it.
-    found : FoundLimits, optional
+    found : FileLimits, optional
         The limits of the file, if already read.
     """
     metadata = {

@@ -128,7 +128,7 @@ class Timeline:
         Fields of `Limits` that override those of the file.
     settings : mapping, optional
         Settings of the slicer from outside the text.
-    found : FoundLimits, optional
+    found : FileLimits, optional
         The limits of the file, if already read.
 
     Raises

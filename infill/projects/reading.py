@@ -104,8 +104,8 @@ class MeshObject:
     Parameters
     ----------
     key : str
-    body : Body
-    above : tuple of Body
+    body : PackageObject
+    above : tuple of PackageObject
         The objects around it, from the one that is built down.
     """
 
@@ -130,7 +130,7 @@ class ObjectTree:
 
     Parameters
     ----------
-    leaves : tuple of Leaf
+    leaves : tuple of MeshObject
     missing : tuple of str
         Objects that are referred to and missing, or that hold themselves.
     deepest : int
@@ -165,11 +165,11 @@ class Package:
     metadata : mapping of str to str
     prefix : str
         Prefix of the names of the core specification; empty for none, as most programs write them.
-    bodies : mapping of str to Body
+    bodies : mapping of str to PackageObject
         Objects by number, or by ``number of /path`` in other files of the package; in their order in the file.
     twice : tuple of str
         Numbers that several objects of one file have.
-    items : tuple of Item
+    items : tuple of BuildItem
         The items to build.
     """
 

@@ -38,9 +38,9 @@ class Batch:
 
     Parameters
     ----------
-    table : Table
-    marks : Marks
-    infill : Strokes
+    table : GcodeTable
+    marks : LineMarks
+    infill : InfillStrokes
         M strokes of sparse infill.
     """
 

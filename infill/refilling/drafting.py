@@ -48,8 +48,8 @@ def draft_print(
     ----------
     file, draft : binary files
     print_survey : Survey
-    rules : Rules
-    plan : Plan, optional
+    rules : RefillRules
+    plan : RefillPlan, optional
         Of a new pattern; None for the slicer's own paths.
     progress : callable, optional
     clock : PrintClock, optional

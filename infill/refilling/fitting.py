@@ -72,7 +72,7 @@ def continue_column(area: Polygon, length: float, plan: RefillPlan, below: Seque
     area : Polygon
     length : float, mm
         Of the slicer's infill in it.
-    plan : Plan
+    plan : RefillPlan
     below : sequence of Column
         Of the layer below.
     """
@@ -99,14 +99,14 @@ class AreaSetting:
 
     Parameters
     ----------
-    plan : Plan
-    walls : Walls
+    plan : RefillPlan
+    walls : BeadIndex
         The other beads of the layer, as layer 0.
     z : float, mm
     layer : int
     speed, acceleration : float
         mm/s and mm/s².
-    ground : Ground, optional
+    ground : LayerBelow, optional
         The layer below, if paths should lie on it.
     """
 

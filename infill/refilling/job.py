@@ -203,9 +203,9 @@ class _Draft:
     ----------
     found : Survey
     draft : binary file
-    tally, rules : Tally and Rules, optional
+    tally, rules : RefillStats and RefillRules, optional
         None if the print was refilled before.
-    remedy : Tally, optional
+    remedy : RefillStats, optional
         Of the remedy for infill that lost too much filament: a trial drawing that is discarded.
     edits : tuple of (place, length, text)
         Replacements in the draft, in order.

@@ -40,9 +40,9 @@ class RefilledBatch:
     Parameters
     ----------
     text : bytes
-    tally : Tally
+    tally : RefillStats
         Statistics of this batch, without the contact of its infill.
-    infill : Drawing
+    infill : LayerPaths
         Its infill now.
     """
 
@@ -57,10 +57,10 @@ def refill_batch(batch: Batch, rules: RefillRules, plan: RefillPlan | None, memo
     Parameters
     ----------
     batch : Batch
-    rules : Rules
-    plan : Plan, optional
+    rules : RefillRules
+    plan : RefillPlan, optional
         New paths; without it, the slicer's own are rounded, and batches may come in any order.
-    memory : Memory
+    memory : LayerMemory
         State after the previous batch, if there is a plan.
     """
     table, marks = batch.table, batch.marks
@@ -88,8 +88,8 @@ def measure_batch(
     Parameters
     ----------
     batch : Batch
-    refilled_batch : Refilled
-    last : Below, optional
+    refilled_batch : RefilledBatch
+    last : SampledLayer, optional
         Third result of this function for the previous batch.
     stride : int
         Sampling stride, in layers.
@@ -226,7 +226,7 @@ def _count_reasons(
 
     Parameters
     ----------
-    tally : Tally
+    tally : RefillStats
     batch : Batch
     reasons : mapping of str to array of int
         Sections by reason.

@@ -88,21 +88,21 @@ def measure_layers(
 
     Parameters
     ----------
-    old, new : Drawing
+    old, new : LayerPaths
         The infill.
-    others : Beads
+    others : BeadMoves
         All other beads.
     layers : (L,) int, ascending
         Of the batch.
     line_width : float, mm
     stride : int
-    last : Below, optional
+    last : SampledLayer, optional
         The last layer of the previous batch, if needed.
 
     Returns
     -------
     before, after : Contact
-    last : Below or None
+    last : SampledLayer or None
         For the next batch.
     """
     before, after = Contact(), Contact()

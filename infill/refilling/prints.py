@@ -49,7 +49,7 @@ def update_metadata(metadata: Iterable[tuple[bytes, bytes]], change: EstimateCha
     Parameters
     ----------
     metadata : iterable of (name, value)
-    change : Change
+    change : EstimateChange
     """
     updated = {}
     for name, value in metadata:

@@ -89,7 +89,7 @@ def find_region(around: LayerBeads, infill: Floats, before: Region | None = None
 
     Parameters
     ----------
-    around : Around
+    around : LayerBeads
         Points on the other beads of the layer, at most `STEP` apart.
     infill : (M, 2) float64, mm
         Points on the slicer's infill.

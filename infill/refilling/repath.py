@@ -53,14 +53,14 @@ class LayerMemory:
     Parameters
     ----------
     region : Region, optional
-    ways : Ways
-    drawn : dict of (area, layer) to Fitted
+    ways : TravelSettings
+    drawn : dict of (area, layer) to FittedPaths
         Of the areas of the region; for a pattern that repeats in every layer, the layer is 0.
     columns : list of Column
         One for each area.
-    others : Walls, optional
+    others : BeadIndex, optional
         Its other beads.
-    ground : Ground, optional
+    ground : LayerBelow, optional
         The layer below the one in which the region began, for a pattern that repeats in every layer.
     owed : float
         mm of filament still missing after beads are widened as far as allowed.
@@ -84,7 +84,7 @@ class NewSection:
 
     Parameters
     ----------
-    body : Body
+    body : InfillSection
     paths : list of (N, 2) float64, mm
     rate : float
         mm of filament per mm.
@@ -110,8 +110,8 @@ def draw_sections(
     Parameters
     ----------
     batch : Batch
-    plan : Plan
-    memory : Memory
+    plan : RefillPlan
+    memory : LayerMemory
         State after the previous layer; updated to the last layer.
     acceleration : float, mm/s²
         Where the print commands none.

@@ -48,7 +48,7 @@ def group_sections(region: Region, infill: InfillStrokes, strokes: Places, secti
     ----------
     region : Region
         Of the layer.
-    infill : Strokes
+    infill : InfillStrokes
     strokes : (S,) int
         The strokes of the layer.
     section : (M,) int
@@ -106,8 +106,8 @@ def refusal_reason(group: SectionGroup, members: Sequence[InfillSection]) -> str
 
     Parameters
     ----------
-    group : Group
-    members : sequence of Body
+    group : SectionGroup
+    members : sequence of InfillSection
         Its sections that can be redrawn.
     """
     if group.lost > MOST_LOST:

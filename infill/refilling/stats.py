@@ -99,7 +99,7 @@ class RefillStats:
         Read, with infill, and refilled.
     kept : dict of str to int
         Sections that stay as they were, by reason.
-    infill, infill_after : Amounts
+    infill, infill_after : InfillAmounts
         Before and after.
     widened : float
         mm of filament that the infill would take with the beads of ``--density same``.
@@ -112,7 +112,7 @@ class RefillStats:
         Lines that state time or filament, and their places in the draft.
     before, after : Contact
         Support and contact of the infill.
-    print_before, print_after : Whole
+    print_before, print_after : PrintAmounts
         Before and after.
     slicer_seconds : float
         Time that the print stated; 0 without one.

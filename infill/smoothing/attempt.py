@@ -55,13 +55,13 @@ class Attempt:
 
     Parameters
     ----------
-    given, request : Given, Request
+    given, request : SmoothInput, SmoothRequest
         The input and the options it was made from; the data have no specks, and lengths are in cells.
     field : SparseField
-    surfaced : Surfaced
+    surfaced : SurfaceAtLevel
     crumbs, specks : Crumbs, int
         Crumbs removed after smoothing, and the number of specks removed before.
-    judged : Verdict
+    judged : TopologyCheck
     thinnest : (float or None, float or None), mm
         The thinnest walls, in the data and smoothed: see `infill.inspection.thickness.thinnest_walls`.
     found : Fidelity or None

@@ -69,7 +69,7 @@ def smooth_components(
     Parameters
     ----------
     surface : Surface, mm
-    request : Request
+    request : SmoothRequest
     resolution : int, optional
         Cells along the longest side of the whole mesh; 200 if neither this nor `voxel` is given.
     voxel : float, optional

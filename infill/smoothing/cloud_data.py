@@ -28,7 +28,7 @@ def phase_field_of_points(
         Cells that the points enclose, more or less.
     points, normals : (N, 3) float64, mm
         See `infill.voxels.point_fields.cell_distances`.
-    request : Request
+    request : SmoothRequest
 
     Notes
     -----

@@ -34,7 +34,7 @@ def compare_with_points(
     cloud : (N, 3) float64, mm
     voxel : float, mm
         Points further than two of these from the surface are reported; they are lost if all their neighbours are too.
-    request : Request
+    request : SmoothRequest
 
     Raises
     ------

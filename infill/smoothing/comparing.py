@@ -89,11 +89,11 @@ def find_differences(
 
     Parameters
     ----------
-    judged : Verdict
+    judged : TopologyCheck
         The changes of the voxels in smoothing.
     deviation : Fidelity or None
         Distances between result and input; None if they are sure to be small everywhere.
-    smooth_input : Given
+    smooth_input : SmoothInput
     off : float
         Relative error of the volume.
     """

@@ -23,7 +23,7 @@ def hint_at_filters(surface: Surface, voxelised: VoxelisedMesh) -> None:
     ----------
     surface : Surface, mm
         The input mesh.
-    voxelised : Voxelised
+    voxelised : VoxelisedMesh
         The cells inside it.
     """
     edge_length, cell_size = mean_edge_length(surface), float(voxelised.volume.cell_size.max())

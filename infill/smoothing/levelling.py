@@ -37,7 +37,7 @@ class SurfaceAtLevel:
 
     Parameters
     ----------
-    found : Levelled
+    found : LevelSurface
     before : Components
         Of the data.
     targets : (b,) float64

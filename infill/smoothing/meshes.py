@@ -36,7 +36,7 @@ def mesh_strategies(
     Parameters
     ----------
     surface : Surface, mm
-    request : Request
+    request : SmoothRequest
     resolution, voxel
         See `infill.smooth_mesh`.
     fixed : bool

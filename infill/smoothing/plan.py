@@ -53,7 +53,7 @@ class SmoothPlan:
 
     Parameters
     ----------
-    request : Request
+    request : SmoothRequest
         The options of the first strategy, with lengths in cells of the grid.
     grid : Grid
     space : str

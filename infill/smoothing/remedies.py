@@ -50,9 +50,9 @@ def first_sound(ways: Iterable[Strategy], request: SmoothRequest) -> Result[Smoo
 
     Parameters
     ----------
-    ways : iterable of Way
+    ways : iterable of Strategy
         The first is the requested one. The others are tried as long as there is time and memory.
-    request : Request
+    request : SmoothRequest
 
     Raises
     ------

@@ -180,9 +180,9 @@ class SmoothInput:
         The closed mesh that the volume was made from, mm.
     mesh : Surface, optional
         The input mesh, mm: the closed one without its caps.
-    enclosed : Enclosed, optional
+    enclosed : EnclosedVolumes, optional
         The volumes inside the mesh; the data are then its exact distances, not a staircase.
-    topology : Counts, optional
+    topology : ConnectionCounts, optional
         The topology of the mesh, if it is known.
     raw : Surface, optional
         The surface of the input voxels, mm, if the data differ from them.

@@ -45,7 +45,7 @@ def volume_strategies(
     Parameters
     ----------
     scan : Volume
-    request : Request
+    request : SmoothRequest
     threshold, label, grey, voxel
         See `infill.smooth_volume`.
     """
@@ -106,7 +106,7 @@ def scan_strategies(
         How the solid was determined: see `infill.voxels.segmentation.segment_volume`.
     facts : mapping
         For the report.
-    request : Request
+    request : SmoothRequest
     grey : bool
         Whether grey levels are requested.
     phase : bool

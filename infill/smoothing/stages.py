@@ -22,7 +22,7 @@ class SmoothStages:
     ----------
     data : Volume
         The solid on the grid, and the place of the grid in space.
-    levelled : Levelled
+    levelled : LevelSurface
         The smoothed field in bricks, the surface in cells of the grid, and the level of each component.
     given : Surface, optional
         The input mesh, mm.

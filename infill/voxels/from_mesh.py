@@ -59,12 +59,12 @@ class VoxelisedMesh:
     ----------
     volume : Volume
         Booleans, True inside.
-    repairs : Repairs
+    repairs : MeshRepairs
         Assumptions about the mesh.
     closed : Surface
         The mesh around these cells, mm: equal vertices merged where that closes it, else with caps on its holes. The
         caps are its last faces.
-    enclosed : Enclosed
+    enclosed : EnclosedVolumes
         The exact volumes inside the mesh.
     several : bool
         Whether it has several components, or overlaps itself.

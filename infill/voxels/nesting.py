@@ -18,7 +18,7 @@ def is_inside_out(crossings: RowCrossings, component: Integers, volumes: Floats)
 
     Parameters
     ----------
-    crossings : Crossings
+    crossings : RowCrossings
     component : (F,) int
         Component of every face.
     volumes : (B,) float64
