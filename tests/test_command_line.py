@@ -500,12 +500,12 @@ def test_a_missing_config_is_told(tmp_path: Path) -> None:
 
 
 def test_sizes_and_bytes_are_read_as_people_write_them() -> None:
-    assert parse_size("60") == parse_size(60) == parse_size([60, 60]) == (60, 60)
-    assert parse_size(" 60 × 40 ") == parse_size("60X40") == (60, 40)
+    assert parse_size("size", "60") == parse_size("size", 60) == parse_size("size", [60, 60]) == (60, 60)
+    assert parse_size("size", " 60 × 40 ") == parse_size("size", "60X40") == (60, 40)
     assert [parse_bytes(text) for text in ("100", "1K", "2 MB", "1.5 GiB")] == [100, 1024, 2 * 2**20, 3 * 2**29]
     for bad in ("", "x", "60x40x2", "60x", None):
         with pytest.raises(ParameterError, match="size is"):
-            parse_size(bad)
+            parse_size("size", bad)
     for bad in ("", "-1G", "0", "2Q"):
         with pytest.raises(ParameterError, match="max_memory is"):
             parse_bytes(bad)

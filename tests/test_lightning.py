@@ -20,7 +20,6 @@ from infill.lattices.forest import NONE, Forest
 from infill.lattices.grading import UNIFORM_WIDTH as EVEN
 from infill.lattices.layered import NonPrismatic
 from infill.lattices.request import check_request
-from infill.lattices.settings import DEFAULTS
 from infill.meshes.merging import surface_of
 from patterns.errors import PatternError
 
@@ -118,9 +117,7 @@ def test_a_foot_goes_with_its_wall_or_stretches_to_it() -> None:
 
 def branches_in(part: trimesh.Trimesh, **more: Any) -> tuple[Interior, list[np.ndarray]]:
     """The inside of a part, and the branches of each of its layers."""
-    request = check_request(
-        pattern="lightning", own=more, form="solid", **{**DEFAULTS, "cell": CELL, "line_width": 0.8, "density": None}
-    )
+    request = check_request(pattern="lightning", own=more, cell=CELL, line_width=0.8)
     surface = surface_of(part)
     voids, space = choose_voids(request, surface.bounds, None), compute_interior(surface, wall=1.0, voxel=0.4)
     assert isinstance(voids, NonPrismatic)

@@ -360,18 +360,9 @@ def test_the_choices_are_those_of_the_library() -> None:
     assert told["fill", "--grade"].split("|") == [*get_args(Varies)]
     assert told["make", "--stamp"].split("|") == [*DEFAULT_CELLS]
     assert set(told["motion", "--model"].split("|")) == {*MODELS}
-    from infill.cli import checking, filling, making, smoothing, timing
+    from infill.cli import checking, timing
 
     for module, function, argument, wanted in (
-        (making, "make", "stamp", DEFAULT_CELLS),
-        (smoothing, "smooth", "method", METHODS),
-        (smoothing, "smooth", "kind", KINDS),
-        (smoothing, "smooth", "units", UNITS),
-        (filling, "fill", "kind", get_args(Form)),
-        (filling, "fill", "align", get_args(Align)),
-        (filling, "fill", "open_", get_args(Open)),
-        (filling, "fill", "grade", get_args(Varies)),
-        (filling, "fill", "slicer", SLICERS),
         (checking, "check", "slicer", SLICERS),
         (timing, "motion", "model", MODELS),
     ):

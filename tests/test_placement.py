@@ -24,7 +24,8 @@ from infill.paths.families.protocol import TOUCH, Family
 from infill.paths.families.turned import TurnedFamily
 from infill.paths.outlines import outline_of
 from infill.refilling.placement import default_parameters, family_of
-from infill.refilling.settings import ENDLESS, parse_radius, parse_range, parse_share_or_same, resolve
+from infill.refilling.request import ENDLESS, parse_radius, parse_range, parse_share_or_same
+from infill.refilling.settings import resolve
 from patterns import PatternError
 from patterns.declared import describe_values, parameters
 from patterns.given import parse_assignment

@@ -23,7 +23,6 @@ from test_command_line import run as command
 
 from infill import FormatError, Surface, UsageError, check_project, fill, read_mesh, save_project
 from infill.lattices.request import check_request
-from infill.lattices.settings import DEFAULTS
 from infill.lattices.sizing import enlarge
 from infill.meshes.solids import to_manifold
 from infill.projects.project import SLICERS, Project, Slicer
@@ -168,10 +167,7 @@ def test_room_that_is_narrower_than_a_line_is_told(thick: float, told: bool) -> 
 
 def test_larger_walls_of_a_project_leave_no_gap_between_two_lines() -> None:
     """Where there are too many triangles, cells and walls are larger: to 1.5 mm at least, if to more than 1 mm."""
-    request, solid = (
-        check_request(pattern="gyroid", own={}, form=form, **{**DEFAULTS, "density": 0.2})
-        for form in ("project", "solid")
-    )
+    request, solid = (check_request(pattern="gyroid", own={}, form=form, density=0.2) for form in ("project", "solid"))
     assert enlarge(request, (12.0, 0.9), 1.05) == pytest.approx((12.6, 0.945))
     assert enlarge(request, (12.0, 0.9), 1.3) == pytest.approx((20.0, 1.5))
     assert enlarge(request, (12.0, 0.9), 2.0) == pytest.approx((24.0, 1.8))

@@ -13,8 +13,7 @@ from hypothesis import strategies as st
 from test_command_line import one_line_error, run
 
 from infill import ParameterError
-from infill.cli.app import build_app
-from infill.smoothing.settings import FIELDS, READERS, SmoothSettings, resolve
+from infill.smoothing.settings import SmoothSettings, resolve
 
 pytestmark = pytest.mark.usefixtures("compiled", "silent_compiler")
 
@@ -29,18 +28,6 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     np.save("ct.npy", (100 * (8 - np.sqrt(BALL))).astype(np.int16))
     return tmp_path
-
-
-def test_every_option_that_changes_the_mesh_is_a_setting() -> None:
-    (command,) = [each for each in build_app("smooth").registered_commands if each.name == "smooth"]
-    from typer.main import get_command_from_info
-
-    found = get_command_from_info(command, pretty_exceptions_short=True, rich_markup_mode=None)
-    flags = {
-        max(each.opts, key=len).removeprefix("--").replace("-", "_") for each in found.params if each.opts[0][0] == "-"
-    }
-    assert flags - RUN_ONLY == set(READERS)
-    assert {FIELDS.get(name, name) for name in READERS} == {each.name for each in dataclasses.fields(SmoothSettings)}
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,6 @@ from infill.kernels.cells import colour_of_cube, colours_of_cubes, from_cubes
 from infill.lattices.choosing import choose_voids
 from infill.lattices.grading import UNIFORM_WIDTH
 from infill.lattices.request import check_request
-from infill.lattices.settings import DEFAULTS
 from infill.lattices.subdivided import CubeTree, Subdivided
 from infill.meshes.merging import surface_of
 from infill.meshes.winding import winding_numbers
@@ -153,9 +152,7 @@ def test_the_kernel_is_its_definition() -> None:
 
 
 def tree_in(part: trimesh.Trimesh, name: str, cell: float, **more: Any) -> tuple[Interior, CubeTree, Subdivided]:
-    request = check_request(
-        pattern=name, own=more, form="solid", **{**DEFAULTS, "cell": cell, "line_width": 0.45, "density": None}
-    )
+    request = check_request(pattern=name, own=more, cell=cell, line_width=0.45)
     surface = surface_of(part)
     voids, space = choose_voids(request, surface.bounds, None), compute_interior(surface, wall=1.0, voxel=0.5)
     assert isinstance(voids, Subdivided)

@@ -10,23 +10,6 @@ if TYPE_CHECKING:
     from patterns.declared import DescribedField
 
 
-def stamp_names(incomplete: str) -> list[str]:
-    """Return the ways to stamp that begin with the word."""
-    return [name for name in ("block", "exact") if name.startswith(incomplete)]
-
-
-def surface_names(incomplete: str) -> list[str]:
-    """Return the surfaces of a block that begin with the word."""
-    return [name for name in ("prism", "grid") if name.startswith(incomplete)]
-
-
-def unit_names(incomplete: str) -> list[str]:
-    """Return the units of length that begin with the word."""
-    from infill.imaging.units import UNITS
-
-    return [name for name in UNITS if name.startswith(incomplete)]
-
-
 def pattern_names(incomplete: str) -> list[tuple[str, str]]:
     """Return the patterns whose names begin with the word, each with its summary."""
     from patterns import PATTERNS

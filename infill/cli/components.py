@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, BinaryIO
+from typing import TYPE_CHECKING, BinaryIO
 
 import typer
 
@@ -17,17 +17,6 @@ if TYPE_CHECKING:
     from infill.smoothing.by_component import ComponentStages
 
 MOST_ROWS = 60  # components in the summary
-
-ByComponent = Annotated[
-    bool,
-    typer.Option(
-        "--by-component/--no-by-component",
-        show_default=False,
-        help="Smooth each component of a mesh by itself: what overlaps or touches stays apart. A .3mf or .glb names "
-        "them.",
-        rich_help_panel="What is solid",
-    ),
-]
 
 
 def check_fields(outputs: Sequence[Path]) -> None:

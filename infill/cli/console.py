@@ -73,16 +73,6 @@ class _PrintHandler(logging.Handler):
         say(escape_unprintable(record.getMessage()))
 
 
-def is_typed(context: typer.Context, name: str) -> bool:
-    """Tell whether an option was typed, even with its default value; `name` is that of its longest flag."""
-    flag = f"--{name.replace('_', '-')}"
-    for parameter in context.command.params:
-        if flag in parameter.opts and parameter.name is not None:
-            source = context.get_parameter_source(parameter.name)
-            return source is not None and source.name != "DEFAULT"
-    return False
-
-
 def format_table(rows: Mapping[str, str], title: str = "") -> str:
     """Format rows of a name and a text, with aligned texts."""
     width = max(len(name) for name in rows)

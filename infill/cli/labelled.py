@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, BinaryIO
+from typing import TYPE_CHECKING, BinaryIO
 
 import typer
 
@@ -17,70 +17,9 @@ if TYPE_CHECKING:
     from infill.result import Result
     from infill.smoothing.labels import LabelStages
     from infill.smoothing.request import SmoothOptions
+    from infill.smoothing.settings import SmoothSettings
 
-LABELS = "Every label in one run"
 MOST_ROWS = 60  # labels in the summary
-
-EachLabel = Annotated[
-    bool,
-    typer.Option(
-        "--each-label/--no-each-label",
-        show_default=False,
-        help="A surface for every label, named and coloured, into one .3mf or .glb; {label} or {number} in the name of "
-        "an output implies it, and writes a file for each.",
-        rich_help_panel=LABELS,
-    ),
-]
-Labels = Annotated[
-    Path | None,
-    typer.Option(
-        "--labels",
-        metavar="FILE",
-        help="Names and colours of the labels: label descriptions of ITK-SNAP, a lookup table of FreeSurfer, a .ctbl "
-        "of 3D Slicer. (default: as in a .seg.nrrd or a DICOM segmentation)",
-        rich_help_panel=LABELS,
-    ),
-]
-KeepGoing = Annotated[
-    bool,
-    typer.Option(
-        "--keep-going/--no-keep-going",
-        show_default=False,
-        help="If a label fails, write the others, list what failed and exit with 1. (default: write nothing)",
-        rich_help_panel=LABELS,
-    ),
-]
-Frame = Annotated[
-    int | None,
-    typer.Option(
-        metavar="N",
-        help="Which volume of a file with several, counted from 0: a frame of a series, a layer of segments.",
-        rich_help_panel="Files",
-    ),
-]
-Roi = Annotated[
-    str | None,
-    typer.Option(
-        metavar="X0,X1,Y0,Y1,Z0,Z1",
-        help="Only the part of a volume in this box, mm, where the mesh will lie (LPS for medical images). The surface "
-        "is closed where the box cuts it.",
-        rich_help_panel="Grid",
-    ),
-]
-
-
-@dataclass(frozen=True, kw_only=True)
-class LabelInput:
-    """The input and its options: see `infill.smoothing.sources.read_label_source`."""
-
-    source: Path
-    kind: str | None
-    array: str | None
-    series: str | None
-    frame: int | None
-    spacing: tuple[float, ...] | None
-    roi: tuple[float, ...] | None
-    labels: Path | None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,7 +31,6 @@ class LabelOutput:
     force: bool
     as_json: bool
     quiet: bool
-    keep_going: bool
     saved: Mapping[Path, Callable[[BinaryIO], object]]
 
 
@@ -116,9 +54,7 @@ def refuse_options(**given: bool) -> None:
             raise typer.BadParameter(f"--{option} does not go with --each-label or {{label}}; leave one of them out")
 
 
-def smooth_every_label(
-    label_input: LabelInput, output: LabelOutput, *, label: tuple[int, ...] | None, options: SmoothOptions
-) -> None:
+def smooth_every_label(source: Path, settings: SmoothSettings, output: LabelOutput, options: SmoothOptions) -> None:
     """Smooth every label, write the files and print a summary."""
     from infill.cli.piping import check_outputs, deliver_all
     from infill.formats.mesh_files import mesh_writer, parts_writer
@@ -138,22 +74,15 @@ def smooth_every_label(
 
         if progress is not None:
             progress("read", 0.0)
-        segments = () if label_input.labels is None else read_labels(label_input.labels)
-        segmentation = read_label_source(
-            label_input.source,
-            kind=label_input.kind,
-            array=label_input.array,
-            series=label_input.series,
-            frame=label_input.frame,
-            spacing=label_input.spacing,
-            roi=label_input.roi,
-        )
+        segments = () if settings.labels is None else read_labels(settings.labels)
+        reading = {name: value for name, value in settings.reading.items() if name != "units"}
+        segmentation = read_label_source(source, **reading)
         label_options: SmoothOptions = {**options, "progress": _scaled_progress(progress)}
         result = smooth_labels(
             segmentation,
-            label=label,
+            label=settings.label,
             table=segments,
-            keep_going=output.keep_going,
+            keep_going=settings.keep_going,
             **label_options,
         )
         if progress is not None:
@@ -162,7 +91,7 @@ def smooth_every_label(
         check_outputs(parts, text=text, overwrite=output.force, as_json=output.as_json)
         files = deliver_all(parts | dict(output.saved))
     if not output.quiet:
-        say(_summary(result, files, str(label_input.source)))
+        say(_summary(result, files, str(source)))
     if output.as_json:
         print_json({**result.report, "files": files})
     failed = result.report["failed"]

@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, BinaryIO, Literal
+from typing import TYPE_CHECKING, Annotated, Any, BinaryIO
 
 import typer
 
-from infill.cli.completing import pattern_assignments, pattern_names, stamp_names, surface_names
+from infill.cli.common import AsciiStl, Config, Force, Json, MaxMemory, Quiet, SaveConfig, Verbose
+from infill.cli.completing import pattern_assignments, pattern_names
 from infill.cli.console import format_bytes, format_table, print_json, progress_bar, say
+from infill.cli.declared import takes_options
+from infill.making.settings import MakeSettings, resolve
 
 if TYPE_CHECKING:
     from infill.report_keys import MakeReport
@@ -20,6 +23,7 @@ STDOUT = Path("-")
 BLOCK, FILES, PATTERN, RUN, ADVANCED = "Block", "Files", "Pattern", "Run", "Advanced"
 
 
+@takes_options(MakeSettings)
 def make(
     *,
     pattern: Annotated[
@@ -43,18 +47,10 @@ def make(
         Path | None,
         typer.Option(metavar="FILE", help="Picture to write, from lines to mesh: a .png.", rich_help_panel=FILES),
     ] = None,
-    ascii_stl: Annotated[bool, typer.Option("--ascii", help="Write STL as text.", rich_help_panel=FILES)] = False,
-    force: Annotated[bool, typer.Option("--force", help="Overwrite existing files.", rich_help_panel=FILES)] = False,
-    config: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", help="TOML file of options; flags override it.", rich_help_panel=FILES),
-    ] = None,
-    save_config: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="FILE", help="TOML file to write all options to, for --config; - for stdout.", rich_help_panel=FILES
-        ),
-    ] = None,
+    ascii_stl: AsciiStl = False,
+    force: Force = False,
+    config: Config = None,
+    save_config: SaveConfig = None,
     cell: Annotated[
         float | None,
         typer.Option(
@@ -92,123 +88,27 @@ def make(
     ] = None,
     waves: Annotated[float | None, typer.Option(hidden=True)] = None,
     hearts: Annotated[int | None, typer.Option(hidden=True)] = None,
-    size: Annotated[
-        str | None,
-        typer.Option(
-            metavar="MMxMM", help="Block in x and y: 60x40, or 60 for a square. (default: 60x60)", rich_help_panel=BLOCK
-        ),
-    ] = None,
-    height: Annotated[
-        float | None,
-        typer.Option(metavar="MM", help="Height of the block. (default: 6)", rich_help_panel=BLOCK),
-    ] = None,
-    line_width: Annotated[
-        float | None,
-        typer.Option(metavar="MM", help="Width of the walls. (default: 0.45)", rich_help_panel=BLOCK),
-    ] = None,
-    stamp: Annotated[
-        Literal["block", "exact"] | None,
-        typer.Option(
-            metavar="block|exact",
-            help="How lines become walls. block: quick, up to 41 % wider on diagonals; "
-            "exact: the same width in every direction. (default: block)",
-            autocompletion=stamp_names,
-            rich_help_panel=BLOCK,
-        ),
-    ] = None,
-    cells: Annotated[
-        int | None,
-        typer.Option(
-            metavar="N",
-            help="Grid cells across a line: more are finer and take longer. (default: 3 for block, 5 for exact)",
-            rich_help_panel=BLOCK,
-        ),
-    ] = None,
-    surface: Annotated[
-        Literal["prism", "grid"] | None,
-        typer.Option(
-            metavar="prism|grid",
-            help="prism: straight walls between flat faces; grid: the surface as it was computed, with rounded rims "
-            "and six times the triangles. (default: prism; grid for a tolerance of 0)",
-            autocompletion=surface_names,
-            rich_help_panel=BLOCK,
-        ),
-    ] = None,
-    tolerance: Annotated[
-        float | None,
-        typer.Option(
-            metavar="MM",
-            help="How far straightened walls may move: more makes fewer triangles, and 0 keeps them all. "
-            "(default: 0.002)",
-            rich_help_panel=BLOCK,
-        ),
-    ] = None,
-    steps: Annotated[
-        int | None,
-        typer.Option(
-            metavar="N",
-            help="Smoothing steps: more are rounder, and wear thin walls. (default: 10)",
-            rich_help_panel=BLOCK,
-        ),
-    ] = None,
-    fidelity: Annotated[
-        float | None,
-        typer.Option(
-            metavar="NUMBER",
-            help="How strongly the stamp constrains the result, 0 to 1 or more. (default: 0.01)",
-            rich_help_panel=ADVANCED,
-        ),
-    ] = None,
-    interface: Annotated[
-        float | None,
-        typer.Option(metavar="CELLS", help="From the surface to phi = 0.9. (default: 2)", rich_help_panel=ADVANCED),
-    ] = None,
-    alpha: Annotated[
-        float | None,
-        typer.Option(
-            metavar="NUMBER",
-            help="Time step over the cell size squared, up to 0.25. (default: 1/7)",
-            rich_help_panel=ADVANCED,
-        ),
-    ] = None,
+    typed: dict[str, Any],
     allow_broken: Annotated[
         bool, typer.Option("--allow-broken", help="Write the mesh even if smoothing broke walls.", rich_help_panel=RUN)
     ] = False,
-    max_memory: Annotated[
-        str | None,
-        typer.Option(
-            metavar="SIZE", help="Memory to use at most, such as 2G. (default: what is free)", rich_help_panel=RUN
-        ),
-    ] = None,
+    max_memory: MaxMemory = None,
     dry_run: Annotated[
         bool, typer.Option("--dry-run", help="Only show grid, memory, triangles and file size.", rich_help_panel=RUN)
     ] = False,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print the report as one JSON object to stdout.", rich_help_panel=RUN)
-    ] = False,
-    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Print errors only.", rich_help_panel=RUN)] = False,
-    verbose: Annotated[bool, typer.Option("-v", "--verbose", help="Say more.", rich_help_panel=RUN)] = False,
+    as_json: Json = False,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
 ) -> None:
     """Make a block of infill from a pattern: smooth walls, a closed mesh for a slicer."""
     from infill.cli.piping import check_outputs, deliver_all, with_suffix
     from infill.cli.words import parse_bytes
     from infill.formats.mesh_files import mesh_writer
     from infill.making.duration import duration_warning
-    from infill.making.settings import resolve
 
     flags = {
+        **typed,
         "pattern": pattern,
-        "size": size,
-        "height": height,
-        "line_width": line_width,
-        "stamp": stamp,
-        "cells": cells,
-        "surface": surface,
-        "tolerance": tolerance,
-        "steps": steps,
-        "fidelity": fidelity,
-        "interface": interface,
-        "alpha": alpha,
         "cell": cell,
         "angle": angle,
         "phase": phase,

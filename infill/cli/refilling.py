@@ -12,19 +12,23 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from infill.cli.commands import use_typed_options
+from infill.cli.common import FILES, RUN, Quiet
 from infill.cli.completing import placement_assignments
 from infill.cli.console import format_table, print_json, progress_bar, say
+from infill.cli.declared import takes_options
 from infill.cli.piping import STDOUT, check_outputs, is_piped, send_file
 from infill.errors import InfillError
+from infill.refilling.request import PATHS, Request
+from infill.refilling.settings import resolve
 from patterns.errors import PatternError
 
 if TYPE_CHECKING:
     from infill.planner.layer_speeds import LayerSpeeds
 
 ALIKE = 0.995  # of the filament of the infill: no less is the old amount
-PATHS, WHERE, FILES, RUN = "Paths", "Where", "Files", "Run"
 
 
+@takes_options(Request)
 def refill(
     context: typer.Context,
     gcode: Annotated[
@@ -47,18 +51,8 @@ def refill(
     force: Annotated[
         bool, typer.Option("--force", help="Overwrite an existing -o file.", rich_help_panel=FILES)
     ] = False,
-    pattern: Annotated[
-        str | None,
-        typer.Option(
-            metavar="keep|NAME|FILE",
-            help="keep: the slicer's own paths, with round corners. Or a drawing: tile.svg, .dxf, .png, .wkt. Or one "
-            "of ours: honeycomb, zigzag, concentric-heart, grid, triangles, tri-hexagon, cubic, rectilinear, hilbert, "
-            "gyroid, schwarz-p, schwarz-d, concentric, honeycomb-3d, octagons, voronoi, cross, cross-hatch, "
-            "quarter-cubic, lateral-honeycomb, archimedean-chords, octagram-spiral. "
-            "(default: keep)",
-            rich_help_panel=PATHS,
-        ),
-    ] = None,
+    *,
+    typed: dict[str, Any],
     assigned: Annotated[
         list[str] | None,
         typer.Option(
@@ -68,45 +62,6 @@ def refill(
             "docs/refill.md lists them all.",
             autocompletion=placement_assignments,
             rich_help_panel=PATHS,
-        ),
-    ] = None,
-    density: Annotated[
-        str | None,
-        typer.Option(
-            metavar="same|PERCENT",
-            help="same: the filament that the infill took; with keep, by beads up to 8 % wider. 20%: of the volume, "
-            "for a pattern of ours. (default: same for ours, the slicer's filament per mm for keep)",
-            rich_help_panel=PATHS,
-        ),
-    ] = None,
-    smooth_radius: Annotated[
-        str | None,
-        typer.Option(
-            metavar="auto|MM",
-            help="Largest radius of a corner; 0 leaves corners; auto: as large as support and contact allow. "
-            "(default: auto)",
-            rich_help_panel=PATHS,
-        ),
-    ] = None,
-    max_deviation: Annotated[
-        float | None,
-        typer.Option(metavar="MM", help="How far a path may move. (default: no limit)", rich_help_panel=PATHS),
-    ] = None,
-    layers: Annotated[
-        str | None,
-        typer.Option(
-            metavar="FROM-TO",
-            help="Layers to refill, counted from 1: 5-20, or 5-. (default: all)",
-            rich_help_panel=WHERE,
-        ),
-    ] = None,
-    part: Annotated[
-        str | None,
-        typer.Option(
-            "--object",
-            metavar="NAME",
-            help="Refill only objects with this in their name. (default: all)",
-            rich_help_panel=WHERE,
         ),
     ] = None,
     config: Annotated[
@@ -133,17 +88,9 @@ def refill(
     as_json: Annotated[
         bool, typer.Option("--json", help="Print one JSON object to stdout.", rich_help_panel=RUN)
     ] = False,
-    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Print errors only.", rich_help_panel=RUN)] = False,
+    quiet: Quiet = False,
 ) -> None:
     """Give the infill of a sliced print round corners, in its G-code; nothing else changes."""
-    flags = {
-        "pattern": pattern,
-        "density": density,
-        "smooth_radius": smooth_radius,
-        "max_deviation": max_deviation,
-        "layers": layers,
-        "object": part,
-    }
     if preview is not None and dry_run:
         raise typer.BadParameter("a dry run draws nothing; leave --preview out")
     piped = output is not None and is_piped(output)
@@ -156,9 +103,8 @@ def refill(
             progress_bar(shown=not quiet) as progress,
         ):
             from infill.refilling.job import refill as refilled
-            from infill.refilling.settings import resolve
 
-            settings = resolve(flags, config, assigned or [], trust=trust)
+            settings = resolve(typed, config, assigned or [], trust=trust)
             number = 0
             sliced_layers: dict[str, LayerSpeeds] = {}
             if preview is not None:

@@ -5,36 +5,38 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, BinaryIO, Literal, cast
+from typing import TYPE_CHECKING, Annotated, Any, BinaryIO, cast
 
 import typer
 
-from infill.cli.completing import unit_names
-from infill.cli.components import ByComponent, check_fields, component_summary, component_writer
-from infill.cli.console import format_bytes, format_table, is_typed, print_json, print_log, progress_bar, say
-from infill.cli.foreseeing import show_smooth_plan
-from infill.cli.labelled import (
-    EachLabel,
-    Frame,
-    KeepGoing,
-    LabelOutput,
-    Labels,
-    Roi,
-    refuse_options,
-    smooth_every_label,
-    wants_every_label,
+from infill.cli.common import (
+    FILES,
+    RUN,
+    AsciiStl,
+    Config,
+    Force,
+    Json,
+    MaxMemory,
+    Quiet,
+    SaveConfig,
+    Threads,
+    TrustFiles,
+    Verbose,
 )
-from infill.cli.labelled import LabelInput as GivenLabels
+from infill.cli.components import check_fields, component_summary, component_writer
+from infill.cli.console import format_bytes, format_table, print_json, print_log, progress_bar, say
+from infill.cli.declared import takes_options
+from infill.cli.foreseeing import show_smooth_plan
+from infill.cli.labelled import LabelOutput, refuse_options, smooth_every_label, wants_every_label
+from infill.smoothing.settings import SmoothSettings, resolve
 
 if TYPE_CHECKING:
     from infill.report_keys import SmoothReport
     from infill.smoothing.request import SmoothOptions
 
-GRID, SOLID, SURFACE, FILES, RUN, ADVANCED = "Grid", "What is solid", "Surface", "Files", "Run", "Advanced"
 
-
+@takes_options(SmoothSettings)
 def smooth(
-    context: typer.Context,
     source: Annotated[
         Path,
         typer.Argument(
@@ -62,292 +64,35 @@ def smooth(
             rich_help_panel=FILES,
         ),
     ] = None,
-    config: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", help="TOML file of options; flags override it.", rich_help_panel=FILES),
-    ] = None,
-    trust: Annotated[
-        bool,
-        typer.Option("--trust", help="Let the config file name files outside of its folder.", rich_help_panel=FILES),
-    ] = False,
-    save_config: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="FILE", help="TOML file to write all options to, for --config; - for stdout.", rich_help_panel=FILES
-        ),
-    ] = None,
-    ascii_stl: Annotated[bool, typer.Option("--ascii", help="Write STL as text.", rich_help_panel=FILES)] = False,
-    force: Annotated[bool, typer.Option("--force", help="Overwrite existing files.", rich_help_panel=FILES)] = False,
-    kind: Annotated[
-        Literal["mesh", "points", "volume"] | None,
-        typer.Option(
-            "--as",
-            metavar="mesh|points|volume",
-            help="What INPUT is read as. (default: by the file)",
-            rich_help_panel=FILES,
-        ),
-    ] = None,
-    units: Annotated[
-        Literal["um", "mm", "cm", "m", "in"] | None,
-        typer.Option(
-            metavar="um|mm|cm|m|in",
-            help="Unit of a mesh or of points. (default: as in the file, or mm)",
-            autocompletion=unit_names,
-            rich_help_panel=FILES,
-        ),
-    ] = None,
-    array: Annotated[
-        str | None,
-        typer.Option(metavar="NAME", help="Name of the array, if a .npz holds several.", rich_help_panel=FILES),
-    ] = None,
-    series: Annotated[
-        str | None,
-        typer.Option(metavar="UID", help="UID of the series, if a DICOM folder holds several.", rich_help_panel=FILES),
-    ] = None,
-    frame: Frame = None,
-    each_label: EachLabel = False,
-    labels: Labels = None,
-    keep_going: KeepGoing = False,
-    resolution: Annotated[
-        int | None,
-        typer.Option(
-            metavar="N",
-            help="Voxels along the longest side of a mesh or of points. (default: 200)",
-            rich_help_panel=GRID,
-        ),
-    ] = None,
-    voxel: Annotated[
-        float | None,
-        typer.Option(metavar="MM", help="Voxel size instead; of a scan: larger voxels.", rich_help_panel=GRID),
-    ] = None,
-    spacing: Annotated[
-        str | None,
-        typer.Option(
-            metavar="MM,MM,MM",
-            help="Voxel size of a volume: 0.9,0.9,1.5, or 1. (default: as in the file)",
-            rich_help_panel=GRID,
-        ),
-    ] = None,
-    roi: Roi = None,
-    shell: Annotated[
-        float | None,
-        typer.Option(
-            metavar="MM",
-            help="Points: a wall of this width along them, instead of the solid inside.",
-            rich_help_panel=SOLID,
-        ),
-    ] = None,
-    threshold: Annotated[
-        float | None,
-        typer.Option(metavar="VALUE", help="Solid is what has at least this value.", rich_help_panel=SOLID),
-    ] = None,
-    between: Annotated[
-        str | None,
-        typer.Option(
-            "--range", metavar="LOW,HIGH", help="Solid is what lies between these values.", rich_help_panel=SOLID
-        ),
-    ] = None,
-    label: Annotated[
-        list[int] | None,
-        typer.Option(metavar="N", help="Solid is what has this label. May be given again.", rich_help_panel=SOLID),
-    ] = None,
-    otsu: Annotated[
-        bool,
-        typer.Option(
-            "--otsu/--no-otsu",
-            show_default=False,
-            help="Find the threshold from the values (Otsu's method).",
-            rich_help_panel=SOLID,
-        ),
-    ] = False,
-    grey: Annotated[
-        bool,
-        typer.Option(
-            "--grey/--no-grey",
-            show_default=False,
-            help="Keep the grey levels around the threshold.",
-            rich_help_panel=SOLID,
-        ),
-    ] = False,
-    by_component: ByComponent = False,
-    despeckle: Annotated[
-        float,
-        typer.Option(
-            metavar="MM3",
-            show_default=False,
-            help="First remove components up to this volume. (default: 0)",
-            rich_help_panel=SOLID,
-        ),
-    ] = 0.0,
-    steps: Annotated[
-        int,
-        typer.Option(
-            metavar="N",
-            show_default=False,
-            help="Smoothing steps: more are smoother; 30 suit medical data. (default: 20)",
-            rich_help_panel=SURFACE,
-        ),
-    ] = 20,
-    method: Annotated[
-        Literal["auto", "plain", "refine", "grey"],
-        typer.Option(
-            "--smooth",
-            metavar="auto|plain|refine|grey",
-            show_default=False,
-            help="auto: by the data; plain: for noise; refine: keeps edges and thin walls; "
-            "grey: keeps the grey levels of a scan, too. (default: auto)",
-            rich_help_panel=SURFACE,
-        ),
-    ] = "auto",
-    refine: Annotated[
-        bool,
-        typer.Option(
-            "--refine/--no-refine", show_default=False, help="The same as --smooth refine.", rich_help_panel=SURFACE
-        ),
-    ] = False,
-    smooth_radius: Annotated[
-        float | None,
-        typer.Option(
-            metavar="MM",
-            help="Instead of steps: how far smoothing reaches, as the radius of a Gaussian blur.",
-            rich_help_panel=SURFACE,
-        ),
-    ] = None,
-    crumbs: Annotated[
-        float | None,
-        typer.Option(
-            metavar="MM3",
-            help="Remove pieces up to this volume that smoothing broke off. (default: 8 voxels)",
-            rich_help_panel=SURFACE,
-        ),
-    ] = None,
-    fidelity: Annotated[
-        float | None,
-        typer.Option(
-            metavar="NUMBER",
-            help="How strongly the data hold, 0 to 1 or more; not with --refine. (default: 0.01)",
-            rich_help_panel=ADVANCED,
-        ),
-    ] = None,
-    interface: Annotated[
-        float,
-        typer.Option(
-            metavar="VOXELS",
-            show_default=False,
-            help="From the surface to phi = 0.9. (default: 2)",
-            rich_help_panel=ADVANCED,
-        ),
-    ] = 2.0,
-    level: Annotated[
-        str,
-        typer.Option(
-            metavar="volume|NUMBER",
-            show_default=False,
-            help="Where the surface lies. volume: each part keeps its volume; 0: at phi = 0, as in the paper, "
-            "which shrinks. (default: volume)",
-            rich_help_panel=ADVANCED,
-        ),
-    ] = "volume",
-    tolerance: Annotated[
-        float | None,
-        typer.Option(
-            metavar="MM",
-            help="Simplify the mesh: move it by at most this; 0 for all triangles. (default: 0.1 voxels)",
-            rich_help_panel=SURFACE,
-        ),
-    ] = None,
-    max_triangles: Annotated[
-        int | None,
-        typer.Option(metavar="N", help="Simplify the mesh to at most this many triangles.", rich_help_panel=SURFACE),
-    ] = None,
-    allow_broken: Annotated[
-        bool,
-        typer.Option(
-            "--allow-broken/--no-allow-broken",
-            show_default=False,
-            help="Write the mesh even if something is lost.",
-            rich_help_panel=RUN,
-        ),
-    ] = False,
-    strict: Annotated[
-        bool,
-        typer.Option(
-            "--strict/--no-strict",
-            show_default=False,
-            help="Try no remedies, and refuse whatever breaks, fuses or vanishes.",
-            rich_help_panel=RUN,
-        ),
-    ] = False,
-    threads: Annotated[
-        int | None, typer.Option(metavar="N", help="Threads to use. (default: one per core)", rich_help_panel=RUN)
-    ] = None,
-    max_memory: Annotated[
-        str | None,
-        typer.Option(
-            metavar="SIZE", help="Memory to use at most, such as 2G. (default: what is free)", rich_help_panel=RUN
-        ),
-    ] = None,
+    config: Config = None,
+    trust: TrustFiles = False,
+    save_config: SaveConfig = None,
+    ascii_stl: AsciiStl = False,
+    force: Force = False,
+    *,
+    typed: dict[str, Any],
+    threads: Threads = None,
+    max_memory: MaxMemory = None,
     dry_run: Annotated[
         bool,
         typer.Option(
             "--dry-run", help="Only show grid, method, memory and time, and what would be tried.", rich_help_panel=RUN
         ),
     ] = False,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print the report as one JSON object to stdout.", rich_help_panel=RUN)
-    ] = False,
-    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Print errors only.", rich_help_panel=RUN)] = False,
-    verbose: Annotated[bool, typer.Option("-v", "--verbose", help="Say more.", rich_help_panel=RUN)] = False,
+    as_json: Json = False,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
 ) -> None:
     """Smooth a scan, a mesh or points: no staircase, no shrinkage, a closed mesh."""
     from infill.cli.piping import check_outputs, deliver_all, with_suffix
     from infill.cli.words import parse_bytes
     from infill.formats.mesh_files import WRITERS, mesh_writer
     from infill.imaging.volume_files import FIELD_WRITERS, field_writer
-    from infill.smoothing.settings import resolve
 
     outputs = [with_suffix(path) for path in output or []]
-    if refine and method not in ("auto", "refine"):
-        raise typer.BadParameter(f"--refine is --smooth refine, and --smooth {method} is given; leave one of them out")
-    if fidelity is not None and (refine or method in ("refine", "grey")):
-        raise typer.BadParameter("--fidelity is not used with --refine; leave one of them out")
     if not (outputs or preview or as_json or save_config or dry_run):
         raise typer.BadParameter("nothing to write; give -o FILE, --json to see the report, or --dry-run")
-    flags = {
-        "as": kind,
-        "units": units,
-        "array": array,
-        "series": series,
-        "frame": frame,
-        "spacing": spacing,
-        "roi": roi,
-        "resolution": resolution,
-        "voxel": voxel,
-        "shell": shell,
-        "threshold": threshold,
-        "range": between,
-        "label": label,
-        "otsu": otsu,
-        "grey": grey,
-        "by_component": by_component,
-        "each_label": each_label,
-        "labels": labels,
-        "keep_going": keep_going,
-        "despeckle": despeckle,
-        "steps": steps,
-        "smooth": method,
-        "refine": refine,
-        "smooth_radius": smooth_radius,
-        "crumbs": crumbs,
-        "fidelity": fidelity,
-        "interface": interface,
-        "level": level,
-        "tolerance": tolerance,
-        "max_triangles": max_triangles,
-        "allow_broken": allow_broken,
-        "strict": strict,
-    }
-    settings = resolve({name: value for name, value in flags.items() if is_typed(context, name)}, config, trust=trust)
+    settings = resolve(typed, config, trust=trust)
     settings.check()
     options: SmoothOptions = {
         **settings.options,
@@ -381,27 +126,17 @@ def smooth(
             dry_run=dry_run,
         )
         smooth_every_label(
-            GivenLabels(
-                source=source,
-                kind=settings.kind,
-                array=settings.array,
-                series=settings.series,
-                frame=settings.frame,
-                spacing=settings.spacing,
-                roi=settings.roi,
-                labels=settings.labels,
-            ),
+            source,
+            settings,
             LabelOutput(
                 outputs=outputs,
                 ascii_stl=ascii_stl,
                 force=force,
                 as_json=as_json,
                 quiet=quiet,
-                keep_going=settings.keep_going,
                 saved=saved,
             ),
-            label=settings.label,
-            options=options,
+            options,
         )
         return
     for path in outputs:

@@ -16,26 +16,256 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from infill.errors import UsageError
-from infill.lattices.choosing import add_seed, read_own_parameters
-from infill.lattices.request import TOLERANCE, FillSpec, check_request
 from infill.options.assignments import pop_table
-from infill.options.keyword_options import (
-    Reader,
-    parse_flag,
-    parse_number,
-    parse_numbers,
-    parse_options,
-    parse_share,
-    parse_whole,
-    parse_word,
-)
+from infill.options.declaration import Option, by_field, drop_replaced, read_options
+from infill.options.keyword_options import parse_numbers, parse_share
 from infill.options.toml import read_toml, write_options
 from infill.options.trust import check_trusted
 
+if TYPE_CHECKING:
+    from infill.lattices.request import FillSpec
+
 THIRDS = ("density", "line_width", "cell")  # two of them determine the third; the first is dropped first
+FILES, PATTERN, SOLID = "Files", "Pattern", "Solid"
+
+
+def parse_densities(name: str, value: object) -> float | tuple[float, ...]:
+    """Read one density, or two with a colon between, or raise UsageError.
+
+    >>> parse_densities("density", "15%:40%"), parse_densities("density", 0.2)
+    ((0.15, 0.4), 0.2)
+    """
+    parts = value.split(":") if isinstance(value, str) else value if isinstance(value, (list, tuple)) else [value]
+    shares = tuple(parse_share(name, part, "give a share such as 20%, or two such as 15%:40%") for part in parts)
+    return shares if len(shares) > 1 else shares[0]
+
+
+def parse_places(name: str, value: object) -> tuple[tuple[float, ...], ...]:
+    """Read one or more places x, y, z, or raise UsageError.
+
+    >>> parse_places("drain_at", ["1,2,3", "4, 5, 6"]), parse_places("drain_at", [7, 8, 9])
+    (((1.0, 2.0, 3.0), (4.0, 5.0, 6.0)), ((7.0, 8.0, 9.0),))
+    """
+    is_list = isinstance(value, (list, tuple)) and all(isinstance(part, (list, tuple, str)) for part in value)
+    places = value if is_list and isinstance(value, (list, tuple)) else [value]
+    return tuple(parse_numbers(name, place, (3,)) for place in places)
+
+
+@dataclass(frozen=True, kw_only=True)
+class FillOptions:
+    """The options of a fill, as typed or as a config file has them; None for those left to the request."""
+
+    units: Annotated[
+        Literal["um", "mm", "cm", "m", "in"] | None,
+        Option("Unit of the mesh.", FILES, default="as in the file, or mm"),
+    ] = None
+    pattern: Annotated[
+        str,
+        Option(
+            "Any that 'infill list' shows: walls in space, such as gyroid; bars, such as octet, voronoi-foam or"
+            " gyroid-network; upright walls, such as honeycomb. Or a drawing that is repeated (.svg .dxf .wkt "
+            ".png .jpg .bmp), or module.py:name.",
+            PATTERN,
+            unit="NAME",
+            default="gyroid",
+        ),
+    ] = "gyroid"
+    density: Annotated[
+        float | tuple[float, ...] | None,
+        Option(
+            "Solid share of what lies inside the walls: 20%, or 0.2; two, such as 15%:40%, for one that changes.",
+            PATTERN,
+            unit="SHARE",
+            default="20%",
+            read=parse_densities,
+            typed=str,
+        ),
+    ] = None
+    by: Annotated[
+        str | None,
+        Option(
+            "What the density follows from its first value to its second: x, y, z, skin (from the walls "
+            "inwards), a .csv of x, y, z, value, a .npy, a picture from above, or module.py:name.",
+            PATTERN,
+            unit="FIELD",
+            default="z",
+        ),
+    ] = None
+    grade: Annotated[
+        Literal["width", "cell"] | None,
+        Option(
+            "What is changed for two densities: the width of walls; or the size of cells, for walls in space "
+            "such as gyroid.",
+            PATTERN,
+            default="width",
+        ),
+    ] = None
+    cell: Annotated[
+        float | None,
+        Option(
+            "Period of the pattern.",
+            PATTERN,
+            unit="MM",
+            default="by density and line width",
+        ),
+    ] = None
+    line_width: Annotated[
+        float | None,
+        Option(
+            "Width of the walls inside, or diameter of bars.",
+            PATTERN,
+            unit="MM",
+            default="0.45, in a project 0.9, or for bars, by density and cell",
+        ),
+    ] = None
+    align: Annotated[
+        Literal["part", "bed", "body"],
+        Option(
+            "Where the pattern begins: in the middle of the part, at x = y = 0 on its bottom, or in the middle "
+            "of each body of several.",
+            PATTERN,
+            default="part",
+        ),
+    ] = "part"
+    angle: Annotated[
+        float,
+        Option(
+            "Turns the pattern counter-clockwise about z.",
+            PATTERN,
+            unit="DEG",
+            default="0",
+        ),
+    ] = 0.0
+    phase: Annotated[
+        tuple[float, ...],
+        Option(
+            "Shifts the pattern in x, y and z.",
+            PATTERN,
+            unit="MM MM MM",
+            default="0 0 0; in a project, to where slicers print it",
+            read=partial(parse_numbers, counts=(2, 3)),
+            typed=tuple[float, float, float],
+        ),
+    ] = (0.0, 0.0, 0.0)
+    seed: Annotated[
+        int | None,
+        Option(
+            "Which of all patterns of a kind, where chance has a part: voronoi, voronoi-foam.",
+            PATTERN,
+            unit="N",
+            default="0",
+        ),
+    ] = None
+    wall: Annotated[
+        float | None,
+        Option(
+            "Thickness of the shell; in a project, what the slicer's perimeters take.",
+            SOLID,
+            unit="MM",
+            default="1.2, in a project 0.9",
+        ),
+    ] = None
+    drain: Annotated[
+        float | None,
+        Option(
+            "Diameter of a hole down from the lowest place of every void, for powder and resin; it keeps the "
+            "wall from all sides.",
+            SOLID,
+            unit="MM",
+            default="none",
+        ),
+    ] = None
+    vent: Annotated[
+        bool,
+        Option(
+            "With --drain, also a hole up from the highest place of every void, for air.",
+            SOLID,
+        ),
+    ] = False
+    drain_at: Annotated[
+        tuple[tuple[float, ...], ...],
+        Option(
+            "With --drain, a place on the skin for a hole straight in, mm; may be given again.",
+            SOLID,
+            unit="X,Y,Z",
+            read=parse_places,
+            typed=list[str],
+        ),
+    ] = ()
+    open_: Annotated[
+        Literal["top", "bottom", "both"] | None,
+        Option(
+            "Leave the shell out at the flat top or bottom of the part, or both: voids are open there.",
+            SOLID,
+            name="open",
+            default="closed",
+        ),
+    ] = None
+    smooth_radius: Annotated[
+        float | None,
+        Option(
+            "Radius of the fillets where walls meet at right angles; 0 for none.",
+            SOLID,
+            unit="MM",
+            default="0.25, less in small parts",
+        ),
+    ] = None
+    form: Annotated[
+        Literal["solid", "infill", "project"] | None,
+        Option(
+            "solid: shell and infill in one; infill: the infill alone; project: part and infill for a slicer.",
+            SOLID,
+            name="as",
+            default="solid, or project with --for",
+        ),
+    ] = None
+    slicer: Annotated[
+        Literal["prusaslicer", "orcaslicer", "bambustudio", "cura", "plain"] | None,
+        Option("Slicer that a project is for; plain: two objects without settings.", SOLID, name="for"),
+    ] = None
+    overlap: Annotated[
+        float | None, Option("How far the infill alone reaches into the shell.", SOLID, unit="MM", default="0.15")
+    ] = None
+    tolerance: Annotated[
+        float,
+        Option(
+            "Simplify the voids: move their surface by at most this; 0 for all triangles.",
+            SOLID,
+            unit="MM",
+            default="0.03",
+        ),
+    ] = 0.03
+    max_triangles: Annotated[
+        int | None,
+        Option(
+            "Triangles of the mesh at most.",
+            SOLID,
+            unit="N",
+            default="a million",
+        ),
+    ] = None
+    resolution: Annotated[
+        int | None,
+        Option(
+            "Cells along the longest side of the part, in which voids are computed.",
+            SOLID,
+            unit="N",
+            default="what pattern and wall need",
+            replaces=("voxel",),
+        ),
+    ] = None
+    voxel: Annotated[
+        float | None,
+        Option(
+            "Size of these cells instead.",
+            SOLID,
+            unit="MM",
+            replaces=("resolution",),
+        ),
+    ] = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,14 +292,14 @@ class FillSettings:
 
 
 def resolve(
-    flags: Mapping[str, Any], assigned: Sequence[str] = (), config: Path | None = None, *, trust: bool = False
+    typed: Mapping[str, Any], assigned: Sequence[str] = (), config: Path | None = None, *, trust: bool = False
 ) -> FillSettings:
     """Resolve the settings: the command line takes precedence over the file, and the file over the defaults.
 
     Parameters
     ----------
-    flags : mapping
-        Typed values by their names on the command line; None counts as absent.
+    typed : mapping
+        Options by their names on the command line.
     assigned : sequence of str
         The pattern's own parameters as ``name=value``.
     config : Path, optional
@@ -84,30 +314,46 @@ def resolve(
     FormatError
         If the file is missing or not TOML, or asks for what it is not trusted with.
     """
-    typed = parse_options("fill", READERS, {name: value for name, value in flags.items() if value is not None})
+    from infill.lattices.choosing import add_seed, read_own_parameters
+    from infill.lattices.request import check_request
+
+    typed = read_options("fill", FillOptions, typed)
     read = read_toml(config, example='pattern = "gyroid"') if config else {}
     if config:
         check_trusted({name: value for name, value in read.items() if name not in typed}, config, trust=trust)
     table = dict(pop_table(read))
-    filed = parse_options("fill", READERS, read)
+    if "densities" in read:
+        read.setdefault("density", read.pop("densities"))  # as reports call two of them
+    filed = _drop_dependent(typed, drop_replaced(FillOptions, typed, read_options("fill", FillOptions, read)))
     if typed.get("pattern", filed.get("pattern")) != filed.get("pattern"):
         table = {}  # the parameters of another pattern
-    if "densities" in filed:
-        filed.setdefault("density", filed.pop("densities"))  # as reports call two of them
+    options = FillOptions(**by_field(FillOptions, {**filed, **typed}))
+    form, slicer = _choose_form(options, typed)
+    own_values = read_own_parameters(options.pattern, assigned, table)
+    if options.seed is not None:
+        own_values = add_seed(options.pattern, own_values, options.seed)
+    apart = ("units", "slicer", "form", "seed")
+    values = {field: getattr(options, field) for field in FillOptions.__dataclass_fields__ if field not in apart}
+    return FillSettings(request=check_request(own=own_values, form=form, **values), units=options.units, slicer=slicer)
+
+
+def _drop_dependent(typed: Mapping[str, Any], filed: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the options of a file without those that depend on values that typed options change."""
+    kept = dict(filed)
     for name in THIRDS:
-        if all(third in typed or third in filed for third in THIRDS) and name not in typed:
-            filed.pop(name, None)
-    for name, rival in (("voxel", "resolution"), ("resolution", "voxel")):
-        if name in typed and rival not in typed:
-            filed.pop(rival, None)
+        if all(third in typed or third in kept for third in THIRDS) and name not in typed:
+            kept.pop(name, None)
     if "wall" in typed:
-        filed.pop("overlap", None)  # it belongs to another wall
+        kept.pop("overlap", None)
     if isinstance(typed.get("density"), float):
-        filed.pop("by", None)  # it belongs to two densities
-        filed.pop("grade", None)
-    options = {**filed, **typed}
-    slicer, units = options.pop("for", None), options.pop("units", None)
-    form = options.pop("as", "solid" if slicer is None else "project")
+        kept.pop("by", None)
+        kept.pop("grade", None)
+    return kept
+
+
+def _choose_form(options: FillOptions, typed: Mapping[str, Any]) -> tuple[str, str | None]:
+    """Return the form and the slicer: either implies the other, and a typed one wins over the file."""
+    form, slicer = options.form or ("solid" if options.slicer is None else "project"), options.slicer
     if slicer is not None and form != "project":
         if "as" not in typed:
             form = "project"
@@ -117,86 +363,4 @@ def resolve(
             slicer = None
     if form == "project" and slicer is None:
         raise UsageError("as is 'project', and for is missing; say which slicer it is for, such as --for prusaslicer")
-    pattern = options.pop("pattern", "gyroid")
-    seed = options.pop("seed", None)
-    own_values = read_own_parameters(pattern, assigned, table)
-    if seed is not None:
-        own_values = add_seed(pattern, own_values, seed)
-    open_ = options.pop("open", None)
-    values = {**DEFAULTS, **options}
-    return FillSettings(
-        request=check_request(pattern=pattern, own=own_values, form=form, open_=open_, **values),
-        units=units,
-        slicer=slicer,
-    )
-
-
-def parse_densities(name: str, value: object) -> float | tuple[float, ...]:
-    """Read one density, or two with a colon between, or raise UsageError.
-
-    >>> parse_densities("density", "15%:40%"), parse_densities("density", 0.2)
-    ((0.15, 0.4), 0.2)
-    """
-    parts = value.split(":") if isinstance(value, str) else value if isinstance(value, (list, tuple)) else [value]
-    shares = tuple(parse_share(name, part, "give a share such as 20%, or two such as 15%:40%") for part in parts)
-    return shares if len(shares) > 1 else shares[0]
-
-
-def parse_places(name: str, value: object) -> tuple[tuple[float, ...], ...]:
-    """Read one or more places x, y, z, or raise UsageError.
-
-    >>> parse_places("drain_at", ["1,2,3", "4, 5, 6"]), parse_places("drain_at", [7, 8, 9])
-    (((1.0, 2.0, 3.0), (4.0, 5.0, 6.0)), ((7.0, 8.0, 9.0),))
-    """
-    is_list = isinstance(value, (list, tuple)) and all(isinstance(part, (list, tuple, str)) for part in value)
-    places = value if is_list and isinstance(value, (list, tuple)) else [value]
-    return tuple(parse_numbers(name, place, (3,)) for place in places)
-
-
-DEFAULTS: dict[str, Any] = {
-    "density": None,
-    "by": None,
-    "grade": None,
-    "cell": None,
-    "line_width": None,
-    "wall": None,
-    "align": "part",
-    "angle": 0.0,
-    "phase": (0.0, 0.0, 0.0),
-    "drain": None,
-    "vent": False,
-    "drain_at": (),
-    "smooth_radius": None,
-    "overlap": None,
-    "tolerance": TOLERANCE,
-    "max_triangles": None,
-    "resolution": None,
-    "voxel": None,
-}
-READERS: Mapping[str, Reader] = {
-    "pattern": parse_word,
-    "density": parse_densities,
-    "densities": parse_densities,
-    "by": parse_word,
-    "grade": parse_word,
-    "cell": parse_number,
-    "line_width": parse_number,
-    "wall": parse_number,
-    "as": parse_word,
-    "for": parse_word,
-    "units": parse_word,
-    "align": parse_word,
-    "angle": parse_number,
-    "phase": partial(parse_numbers, counts=(2, 3)),
-    "seed": parse_whole,
-    "drain": parse_number,
-    "vent": parse_flag,
-    "drain_at": parse_places,
-    "open": parse_word,
-    "smooth_radius": parse_number,
-    "overlap": parse_number,
-    "tolerance": parse_number,
-    "max_triangles": parse_whole,
-    "resolution": parse_whole,
-    "voxel": parse_number,
-}
+    return form, slicer

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, Literal
 
 from infill.errors import ParameterError, UsageError
 from infill.files.excerpts import quote_value
-from patterns.given import suggest_name
 
 LONGEST_WORD = 1000  # signs of a name, also of a file
 LARGEST_WHOLE = 2**53  # as floating-point numbers count without gaps
@@ -120,18 +119,3 @@ def parse_level(name: str, value: object) -> Literal["volume"] | float:
         return float(value) if isinstance(value, str) else parse_number(name, value)
     except ValueError:
         raise UsageError(f"{name} is {quote_value(value)}; give volume, or a number between -1 and 1") from None
-
-
-def parse_options(command: str, readers: Mapping[str, Reader], options: Mapping[str, object]) -> dict[str, Any]:
-    """Parse the options of a command by name, each with its reader.
-
-    Raises
-    ------
-    ParameterError
-        If a name is unknown, or if a reader raises it.
-    """
-    for name in options:
-        if name not in readers:
-            word = name.replace("_", "-")
-            raise ParameterError(f"{command} has no option {quote_value(word)}; {suggest_name(name, readers)}")
-    return {name: readers[name](name, value) for name, value in options.items()}

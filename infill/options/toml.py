@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 from infill.errors import FormatError, ParameterError
-from infill.files.broken import error_text
 
 OPTIONS = {"form": "as"}  # names of options that reports call otherwise
 
@@ -42,6 +41,8 @@ def read_toml(path: Path, *, example: str) -> dict[str, Any]:
             f"{path} is not TOML: lists lie too deep in one another; write lines such as {example}"
         ) from (error)
     except ValueError as error:  # not TOML, no text, or a number of thousands of digits
+        from infill.files.broken import error_text
+
         raise FormatError(f"{path} is not TOML: {error_text(error)}; write lines such as {example}") from error
     return {name.replace("-", "_"): value for name, value in content.items()}
 

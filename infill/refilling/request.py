@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import difflib
 import math
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 from infill.checks import check_positive, check_range
 from infill.errors import ParameterError, UsageError
+from infill.files.excerpts import quote_value
+from infill.options.declaration import Option
+from infill.options.keyword_options import parse_number, parse_share
 from patterns.errors import PatternError
 
 Progress = Callable[[str, float], None]
@@ -18,7 +22,49 @@ KEEP = "keep"
 AUTO = "auto"
 SAME = "same"
 LARGEST_RADIUS = 100.0  # mm
+ENDLESS = 10**9  # layers
+PATHS, WHERE = "Paths", "Where"
 DRAWINGS = (".svg", ".dxf", ".wkt", ".png", ".jpg", ".jpeg", ".bmp")
+
+
+def parse_radius(name: str, value: object) -> str | float:
+    """Parse "auto" or a number of mm, or raise ParameterError.
+
+    >>> parse_radius("smooth_radius", "1.5")
+    1.5
+    """
+    if value == AUTO:
+        return AUTO
+    try:
+        return float(value) if isinstance(value, str) else parse_number(name, value)
+    except ValueError:
+        raise UsageError(f"{name} is {quote_value(value)}; give auto, or a number in mm") from None
+
+
+def parse_share_or_same(name: str, value: object) -> str | float:
+    """Parse "same", or the share in ``20%`` or 0.2, or raise ParameterError.
+
+    >>> parse_share_or_same("density", "20%"), parse_share_or_same("density", "same")
+    (0.2, 'same')
+    """
+    return SAME if value == SAME else parse_share(name, value, "give same, or a share such as 20%")
+
+
+def parse_range(name: str, value: object) -> tuple[int, int]:
+    """Parse the first and the last of ``5-20``, ``5-`` or ``5``, 5 or [5, 20], or raise ParameterError.
+
+    >>> parse_range("layers", "5-20")
+    (5, 20)
+    """
+    parts = value if isinstance(value, (list, tuple)) and len(value) == 2 else [value]
+    numbers = [part for part in parts if isinstance(part, int) and not isinstance(part, bool)]
+    if len(numbers) == len(parts):
+        return numbers[0], numbers[-1]
+    match = re.fullmatch(r"\s*(\d{1,9})\s*(?:(-)\s*(\d{0,9})\s*)?", value) if isinstance(value, str) else None
+    if not match:
+        raise UsageError(f"{name} is {quote_value(value)}; give a range such as 5-20, or 5-")
+    lowest = int(match[1])
+    return lowest, int(match[3]) if match[3] else ENDLESS if match[2] else lowest
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,12 +95,65 @@ class Request:
         If one of them is out of range.
     """
 
-    pattern: str = KEEP
-    density: str | float | None = None
-    smooth_radius: str | float = AUTO
-    max_deviation: float | None = None
-    layers: tuple[int, int] | None = None
-    part: str | None = None
+    pattern: Annotated[
+        str,
+        Option(
+            "keep: the slicer's own paths, with round corners. Or a drawing: tile.svg, .dxf, .png, .wkt. Or one"
+            " of ours: honeycomb, zigzag, concentric-heart, grid, triangles, tri-hexagon, cubic, rectilinear, "
+            "hilbert, gyroid, schwarz-p, schwarz-d, concentric, honeycomb-3d, octagons, voronoi, cross, cross-"
+            "hatch, quarter-cubic, lateral-honeycomb, archimedean-chords, octagram-spiral.",
+            PATHS,
+            unit="keep|NAME|FILE",
+            default="keep",
+        ),
+    ] = KEEP
+    density: Annotated[
+        str | float | None,
+        Option(
+            "same: the filament that the infill took; with keep, by beads up to 8 % wider. 20%: of the volume, "
+            "for a pattern of ours.",
+            PATHS,
+            unit="same|PERCENT",
+            default="same for ours, the slicer's filament per mm for keep",
+            read=parse_share_or_same,
+            typed=str,
+        ),
+    ] = None
+    smooth_radius: Annotated[
+        str | float,
+        Option(
+            "Largest radius of a corner; 0 leaves corners; auto: as large as support and contact allow.",
+            PATHS,
+            unit="auto|MM",
+            default="auto",
+            read=parse_radius,
+            typed=str,
+        ),
+    ] = AUTO
+    max_deviation: Annotated[
+        float | None,
+        Option(
+            "How far a path may move.",
+            PATHS,
+            unit="MM",
+            default="no limit",
+        ),
+    ] = None
+    layers: Annotated[
+        tuple[int, int] | None,
+        Option(
+            "Layers to refill, counted from 1: 5-20, or 5-.",
+            WHERE,
+            unit="FROM-TO",
+            default="all",
+            read=parse_range,
+            typed=str,
+        ),
+    ] = None
+    part: Annotated[
+        str | None,
+        Option("Refill only objects with this in their name.", WHERE, unit="NAME", name="object", default="all"),
+    ] = None
     parameters: Mapping[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:

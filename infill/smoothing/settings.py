@@ -13,35 +13,20 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
 
-from infill.errors import ParameterError
-from infill.options.keyword_options import (
-    Reader,
-    parse_flag,
-    parse_level,
-    parse_number,
-    parse_numbers,
-    parse_options,
-    parse_whole,
-    parse_wholes,
-    parse_word,
-)
+from infill.errors import UsageError
+from infill.options.declaration import Option, by_field, by_key, drop_replaced, read_options
+from infill.options.keyword_options import parse_level, parse_numbers, parse_wholes
 from infill.options.toml import read_toml, write_rows
 from infill.options.trust import check_trusted
 
 if TYPE_CHECKING:
-    from infill.smoothing.request import LevelMethod, Method, SmoothOptions
+    from infill.smoothing.request import Method, SmoothOptions
 
 AUTO, REFINE, PLAIN = "auto", "refine", "plain"
-# Options that exclude each other: a flag on the command line drops its rivals in the file.
-RIVALS = (
-    ("threshold", "range", "label", "otsu"),
-    ("resolution", "voxel"),
-    ("steps", "smooth_radius"),
-    ("smooth", "refine", "fidelity"),
-)
-FIELDS = {"as": "kind", "range": "between", "smooth": "method"}  # names that Python reserves, or that say too little
+FILES, LABELS, GRID, SOLID = "Files", "Every label in one run", "Grid", "What is solid"
+SURFACE, RUN, ADVANCED = "Surface", "Run", "Advanced"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,45 +56,228 @@ class SmoothSettings:
         If two of them contradict each other.
     """
 
-    kind: str | None = None
-    units: str | None = None
-    array: str | None = None
-    series: str | None = None
-    frame: int | None = None
-    spacing: tuple[float, ...] | None = None
-    roi: tuple[float, ...] | None = None
-    resolution: int | None = None
-    voxel: float | None = None
-    shell: float | None = None
-    threshold: float | None = None
-    between: tuple[float, ...] | None = None
-    label: tuple[int, ...] | None = None
-    otsu: bool = False
-    grey: bool = False
-    by_component: bool = False
-    each_label: bool = False
-    labels: Path | None = None
-    keep_going: bool = False
-    despeckle: float = 0.0
-    steps: int = 20
-    method: str = AUTO
-    refine: bool = False
-    smooth_radius: float | None = None
-    crumbs: float | None = None
-    fidelity: float | None = None
-    interface: float = 2.0
-    level: LevelMethod = "volume"
-    tolerance: float | None = None
-    max_triangles: int | None = None
-    allow_broken: bool = False
-    strict: bool = False
+    kind: Annotated[
+        Literal["mesh", "points", "volume"] | None,
+        Option("What INPUT is read as.", FILES, name="as", default="by the file"),
+    ] = None
+    units: Annotated[
+        Literal["um", "mm", "cm", "m", "in"] | None,
+        Option("Unit of a mesh or of points.", FILES, default="as in the file, or mm"),
+    ] = None
+    array: Annotated[str | None, Option("Name of the array, if a .npz holds several.", FILES, unit="NAME")] = None
+    series: Annotated[str | None, Option("UID of the series, if a DICOM folder holds several.", FILES, unit="UID")] = (
+        None
+    )
+    frame: Annotated[
+        int | None,
+        Option(
+            "Which volume of a file with several, counted from 0: a frame of a series, a layer of segments.",
+            FILES,
+            unit="N",
+        ),
+    ] = None
+    each_label: Annotated[
+        bool,
+        Option(
+            "A surface for every label, named and coloured, into one .3mf or .glb; {label} or {number} in the name of "
+            "an output implies it, and writes a file for each.",
+            LABELS,
+            negatable=True,
+        ),
+    ] = False
+    labels: Annotated[
+        Path | None,
+        Option(
+            "Names and colours of the labels: label descriptions of ITK-SNAP, a lookup table of FreeSurfer, a .ctbl "
+            "of 3D Slicer.",
+            LABELS,
+            unit="FILE",
+            default="as in a .seg.nrrd or a DICOM segmentation",
+        ),
+    ] = None
+    keep_going: Annotated[
+        bool,
+        Option(
+            "If a label fails, write the others, list what failed and exit with 1.",
+            LABELS,
+            negatable=True,
+            default="write nothing",
+        ),
+    ] = False
+    resolution: Annotated[
+        int | None,
+        Option(
+            "Voxels along the longest side of a mesh or of points.",
+            GRID,
+            unit="N",
+            default="200",
+            replaces=("voxel",),
+        ),
+    ] = None
+    voxel: Annotated[
+        float | None,
+        Option("Voxel size instead; of a scan: larger voxels.", GRID, unit="MM", replaces=("resolution",)),
+    ] = None
+    spacing: Annotated[
+        tuple[float, ...] | None,
+        Option(
+            "Voxel size of a volume: 0.9,0.9,1.5, or 1.",
+            GRID,
+            unit="MM,MM,MM",
+            default="as in the file",
+            read=partial(parse_numbers, counts=(1, 3)),
+            typed=str,
+        ),
+    ] = None
+    roi: Annotated[
+        tuple[float, ...] | None,
+        Option(
+            "Only the part of a volume in this box, mm, where the mesh will lie (LPS for medical images). The surface "
+            "is closed where the box cuts it.",
+            GRID,
+            unit="X0,X1,Y0,Y1,Z0,Z1",
+            read=partial(parse_numbers, counts=(6,)),
+            typed=str,
+        ),
+    ] = None
+    shell: Annotated[
+        float | None,
+        Option("Points: a wall of this width along them, instead of the solid inside.", SOLID, unit="MM"),
+    ] = None
+    threshold: Annotated[
+        float | None,
+        Option("Solid is what has at least this value.", SOLID, unit="VALUE", replaces=("range", "label", "otsu")),
+    ] = None
+    between: Annotated[
+        tuple[float, ...] | None,
+        Option(
+            "Solid is what lies between these values.",
+            SOLID,
+            unit="LOW,HIGH",
+            name="range",
+            read=partial(parse_numbers, counts=(2,)),
+            typed=str,
+            replaces=("threshold", "label", "otsu"),
+        ),
+    ] = None
+    label: Annotated[
+        tuple[int, ...] | None,
+        Option(
+            "Solid is what has this label. May be given again.",
+            SOLID,
+            unit="N",
+            read=parse_wholes,
+            typed=list[int],
+            replaces=("threshold", "range", "otsu"),
+        ),
+    ] = None
+    otsu: Annotated[
+        bool,
+        Option(
+            "Find the threshold from the values (Otsu's method).",
+            SOLID,
+            negatable=True,
+            replaces=("threshold", "range", "label"),
+        ),
+    ] = False
+    grey: Annotated[bool, Option("Keep the grey levels around the threshold.", SOLID, negatable=True)] = False
+    by_component: Annotated[
+        bool,
+        Option(
+            "Smooth each component of a mesh by itself: what overlaps or touches stays apart. A .3mf or .glb names "
+            "them.",
+            SOLID,
+            negatable=True,
+        ),
+    ] = False
+    despeckle: Annotated[
+        float, Option("First remove components up to this volume.", SOLID, unit="MM3", default="0")
+    ] = 0.0
+    steps: Annotated[
+        int,
+        Option(
+            "Smoothing steps: more are smoother; 30 suit medical data.",
+            SURFACE,
+            unit="N",
+            default="20",
+            replaces=("smooth_radius",),
+        ),
+    ] = 20
+    method: Annotated[
+        Literal["auto", "plain", "refine", "grey"],
+        Option(
+            "auto: by the data; plain: for noise; refine: keeps edges and thin walls; "
+            "grey: keeps the grey levels of a scan, too.",
+            SURFACE,
+            name="smooth",
+            default="auto",
+            replaces=("refine", "fidelity"),
+        ),
+    ] = "auto"
+    refine: Annotated[
+        bool,
+        Option("The same as --smooth refine.", SURFACE, negatable=True, replaces=("smooth", "fidelity")),
+    ] = False
+    smooth_radius: Annotated[
+        float | None,
+        Option(
+            "Instead of steps: how far smoothing reaches, as the radius of a Gaussian blur.",
+            SURFACE,
+            unit="MM",
+            replaces=("steps",),
+        ),
+    ] = None
+    crumbs: Annotated[
+        float | None,
+        Option("Remove pieces up to this volume that smoothing broke off.", SURFACE, unit="MM3", default="8 voxels"),
+    ] = None
+    fidelity: Annotated[
+        float | None,
+        Option(
+            "How strongly the data hold, 0 to 1 or more; not with --refine.",
+            ADVANCED,
+            unit="NUMBER",
+            default="0.01",
+            replaces=("smooth", "refine"),
+        ),
+    ] = None
+    interface: Annotated[float, Option("From the surface to phi = 0.9.", ADVANCED, unit="VOXELS", default="2")] = 2.0
+    level: Annotated[
+        Literal["volume"] | float,
+        Option(
+            "Where the surface lies. volume: each part keeps its volume; 0: at phi = 0, as in the paper, "
+            "which shrinks.",
+            ADVANCED,
+            unit="volume|NUMBER",
+            default="volume",
+            read=parse_level,
+            typed=str,
+        ),
+    ] = "volume"
+    tolerance: Annotated[
+        float | None,
+        Option(
+            "Simplify the mesh: move it by at most this; 0 for all triangles.",
+            SURFACE,
+            unit="MM",
+            default="0.1 voxels",
+        ),
+    ] = None
+    max_triangles: Annotated[
+        int | None, Option("Simplify the mesh to at most this many triangles.", SURFACE, unit="N")
+    ] = None
+    allow_broken: Annotated[bool, Option("Write the mesh even if something is lost.", RUN, negatable=True)] = False
+    strict: Annotated[
+        bool,
+        Option("Try no remedies, and refuse whatever breaks, fuses or vanishes.", RUN, negatable=True),
+    ] = False
 
     def __post_init__(self) -> None:
         """Raise ParameterError for options that contradict each other."""
         if self.refine and self.method not in (AUTO, REFINE):
-            raise ParameterError(f"refine is smooth = refine, and smooth is {self.method}; leave one of them out")
+            raise UsageError(f"refine is smooth = refine, and smooth is {self.method}; leave one of them out")
         if self.fidelity is not None and (self.refine or self.method not in (AUTO, PLAIN)):
-            raise ParameterError("fidelity is for smooth = plain alone; leave one of them out")
+            raise UsageError("fidelity is for smooth = plain alone; leave one of them out")
 
     @property
     def way(self) -> Method:
@@ -154,18 +322,18 @@ class SmoothSettings:
 
     def to_toml(self) -> str:
         """Return all settings, defaults included, as a TOML document that `resolve` reads back."""
-        plain = {name: getattr(self, FIELDS.get(name, name)) for name in READERS}
-        plain["labels"] = None if self.labels is None else str(self.labels)
-        return "\n".join(["# infill smooth INPUT --config THIS_FILE -o OUT", *write_rows(plain), ""])
+        labels = None if self.labels is None else str(self.labels)
+        rows = write_rows({**by_key(self), "labels": labels})
+        return "\n".join(["# infill smooth INPUT --config THIS_FILE -o OUT", *rows, ""])
 
 
-def resolve(flags: Mapping[str, Any], config: Path | None = None, *, trust: bool = False) -> SmoothSettings:
+def resolve(typed: Mapping[str, Any], config: Path | None = None, *, trust: bool = False) -> SmoothSettings:
     """Return the settings: the command line takes precedence over the file, and the file over the defaults.
 
     Parameters
     ----------
-    flags : mapping
-        Options by their names on the command line; None counts as absent.
+    typed : mapping
+        Options by their names on the command line.
     config : Path, optional
         A TOML file.
     trust : bool
@@ -178,54 +346,12 @@ def resolve(flags: Mapping[str, Any], config: Path | None = None, *, trust: bool
     FormatError
         If the file is missing or not TOML.
     """
-    typed = parse_options("smooth", READERS, {name: value for name, value in flags.items() if value is not None})
-    read = read_toml(config, example="threshold = 226") if config else {}
+    typed = read_options("smooth", SmoothSettings, typed)
+    filed: dict[str, Any] = {}
     if config:
+        read = read_toml(config, example="threshold = 226")
         check_trusted(
             {name: value for name, value in read.items() if name not in typed}, config, trust=trust, code=False
         )
-    filed = parse_options("smooth", READERS, read)
-    for rivals in RIVALS:
-        if any(typed.get(name, False) is not False for name in rivals):  # a flag that is off excludes nothing
-            filed = {name: value for name, value in filed.items() if name not in rivals}
-    return SmoothSettings(**{FIELDS.get(name, name): value for name, value in {**filed, **typed}.items()})
-
-
-def _path(name: str, value: object) -> Path:
-    return value if isinstance(value, Path) else Path(parse_word(name, value))
-
-
-READERS: Mapping[str, Reader] = {
-    "as": parse_word,
-    "units": parse_word,
-    "array": parse_word,
-    "series": parse_word,
-    "frame": parse_whole,
-    "spacing": partial(parse_numbers, counts=(1, 3)),
-    "roi": partial(parse_numbers, counts=(6,)),
-    "resolution": parse_whole,
-    "voxel": parse_number,
-    "shell": parse_number,
-    "threshold": parse_number,
-    "range": partial(parse_numbers, counts=(2,)),
-    "label": parse_wholes,
-    "otsu": parse_flag,
-    "grey": parse_flag,
-    "by_component": parse_flag,
-    "each_label": parse_flag,
-    "labels": _path,
-    "keep_going": parse_flag,
-    "despeckle": parse_number,
-    "steps": parse_whole,
-    "smooth": parse_word,
-    "refine": parse_flag,
-    "smooth_radius": parse_number,
-    "crumbs": parse_number,
-    "fidelity": parse_number,
-    "interface": parse_number,
-    "level": parse_level,
-    "tolerance": parse_number,
-    "max_triangles": parse_whole,
-    "allow_broken": parse_flag,
-    "strict": parse_flag,
-}
+        filed = drop_replaced(SmoothSettings, typed, read_options("smooth", SmoothSettings, read))
+    return SmoothSettings(**by_field(SmoothSettings, {**filed, **typed}))

@@ -1,0 +1,200 @@
+"""One declaration an option: flags, config keys, checks and the keywords of the Python functions follow from it."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal
+
+import pytest
+import typer
+from test_command_line import run
+
+import infill
+from infill import ParameterError, UsageError
+from infill.cli.app import build_app
+from infill.cli.declared import takes_options
+from infill.lattices.settings import FillOptions
+from infill.making.settings import MakeSettings
+from infill.options.declaration import Option, by_key, declared_options, drop_replaced, read_options
+from infill.phasefield.allen_cahn import Smoothing
+from infill.refilling.request import Request
+from infill.smoothing.request import SmoothOptions
+from infill.smoothing.settings import SmoothSettings
+
+DECLARATIONS: dict[str, type[Any]] = {
+    "make": MakeSettings,
+    "smooth": SmoothSettings,
+    "fill": FillOptions,
+    "refill": Request,
+}
+# Flags of the run and its files, which no config file has.
+RUN = {"ascii", "config", "dry_run", "force", "json", "max_memory", "output", "preview", "quiet", "save_config", "set"}
+RUN |= {"cut", "threads", "trust", "verbose"}
+PATTERN_FLAGS = {"cell", "angle", "phase", "frame", "waves", "hearts"}  # of `make`: parameters of the pattern
+ONLY_MAKE = PATTERN_FLAGS | {"allow_broken"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Coffee:
+    """A small declaration."""
+
+    cups: Annotated[int, Option("Number of cups.", "Coffee", unit="N", default="1")] = 1
+    litres: Annotated[float | None, Option("Instead of cups.", "Coffee", unit="L", replaces=("cups",))] = None
+    kind: Annotated[Literal["black", "white"], Option("Sort.", "Coffee", name="as")] = "black"
+    sugar: Annotated[bool, Option("Sweet.", "Taste", negatable=True)] = False
+    made: int = 0
+
+
+def test_what_is_annotated_is_an_option() -> None:
+    declared = declared_options(Coffee)
+    assert list(declared) == ["cups", "litres", "as", "sugar"]
+    assert [entry.flag for entry in declared.values()] == ["--cups", "--litres", "--as", "--sugar"]
+    assert [entry.placeholder for entry in declared.values()] == ["N", "L", "black|white", None]
+    assert declared["cups"].help == "Number of cups. (default: 1)"
+    assert by_key(Coffee(kind="white")) == {"cups": 1, "litres": None, "as": "white", "sugar": False}
+
+
+def test_values_are_checked_by_the_type() -> None:
+    assert read_options("brew", Coffee, {"cups": 3, "litres": 0.5, "as": "white", "sugar": True}) == {
+        "cups": 3,
+        "litres": 0.5,
+        "as": "white",
+        "sugar": True,
+    }
+    for values in ({"cups": 1.5}, {"litres": "much"}, {"as": 3}, {"sugar": 1}):
+        with pytest.raises(UsageError, match=f"^{next(iter(values))} is "):
+            read_options("brew", Coffee, values)
+    with pytest.raises(ParameterError, match="brew has no option 'made'"):
+        read_options("brew", Coffee, {"made": 1})
+    with pytest.raises(ParameterError, match="did you mean 'cups'"):
+        read_options("brew", Coffee, {"cup": 1})
+
+
+def test_a_typed_option_replaces_those_that_say_the_same() -> None:
+    filed = {"cups": 2, "sugar": True}
+    assert drop_replaced(Coffee, {"litres": 1.0}, filed) == {"sugar": True}
+    assert drop_replaced(Coffee, {"litres": 1.0, "cups": 3}, filed) == filed
+    assert drop_replaced(Coffee, {"sugar": False}, filed) == filed
+
+
+@pytest.mark.parametrize(
+    ("words", "typed"),
+    [
+        ([], {}),
+        (["--cups", "1"], {"cups": 1}),
+        (["--as", "white", "--no-sugar"], {"as": "white", "sugar": False}),
+        (["--litres", "0.5", "--sugar"], {"litres": 0.5, "sugar": True}),
+    ],
+)
+def test_a_command_receives_what_was_typed(words: list[str], typed: dict[str, object]) -> None:
+    received: list[dict[str, Any]] = []
+
+    @takes_options(Coffee)
+    def brew(cup: Annotated[str, typer.Argument()], *, typed: dict[str, Any], hot: bool = False) -> None:
+        """Make coffee."""
+        received.append({"cup": cup, "hot": hot, **typed})
+
+    app = typer.Typer()
+    app.command()(brew)
+    result = typer.testing.CliRunner().invoke(app, ["big", *words, "--hot"])
+    assert result.exit_code == 0, result.output
+    assert received == [{"cup": "big", "hot": True, **typed}]
+
+
+@pytest.mark.parametrize("command", DECLARATIONS)
+def test_every_flag_of_a_command_is_declared(command: str) -> None:
+    parser = typer.main.get_command(build_app(command)).commands[command]  # type: ignore[attr-defined]
+    flags = {max(each.opts, key=len)[2:].replace("-", "_") for each in parser.params if each.opts[0][0] == "-"}
+    declared = set(declared_options(DECLARATIONS[command]))
+    assert declared <= flags
+    assert flags - declared <= RUN | (ONLY_MAKE if command == "make" else set())
+
+
+@pytest.mark.parametrize("command", DECLARATIONS)
+def test_defaults_satisfy_their_own_checks(command: str) -> None:
+    checked = 0
+    for key, entry in declared_options(DECLARATIONS[command]).items():
+        if entry.default not in (None, ()):
+            assert read_options(command, DECLARATIONS[command], {key: entry.default}) == {key: entry.default}
+            checked += 1
+    assert checked >= 2
+
+
+def keywords(function: Callable[..., Any]) -> dict[str, Any]:
+    """Return the keywords of a function and their defaults."""
+    parameters = inspect.signature(function).parameters.values()
+    return {each.name: each.default for each in parameters if each.kind is not each.VAR_KEYWORD}
+
+
+def declared_defaults(command: str) -> dict[str, Any]:
+    return {entry.field: entry.default for entry in declared_options(DECLARATIONS[command]).values()}
+
+
+def test_the_keywords_of_fill_are_its_options() -> None:
+    declared = declared_defaults("fill")
+    del (
+        declared["units"],
+        declared["slicer"],
+        declared["seed"],
+    )  # of the file, the project, and a parameter of a pattern
+    declared["as_"] = declared.pop("form") or "solid"
+    python = keywords(infill.fill)
+    assert {name: python.pop(name) for name in declared} == declared
+    assert set(python) == {"part", "threads", "max_memory", "progress"}
+
+
+def test_the_keywords_of_refill_are_its_options() -> None:
+    declared, python = declared_defaults("refill"), keywords(infill.refill)
+    assert {name: python.pop(name) for name in declared} == declared
+    assert set(python) == {"gcode", "output", "dry_run", "overwrite", "progress"}
+
+
+def test_the_keywords_of_make_are_its_options() -> None:
+    declared, python = declared_defaults("make"), keywords(infill.make)
+    smoothing = python.pop("smoothing")
+    for name in ("steps", "fidelity", "interface", "alpha"):
+        assert declared.pop(name) == getattr(smoothing, name)
+    assert {name: python.pop(name) for name in declared} == declared
+    assert set(python) == {"pattern", "allow_broken", "max_memory", "progress"}
+
+
+def test_the_keywords_of_smooth_are_its_options() -> None:
+    declared = set(declared_defaults("smooth"))
+    common = set(SmoothOptions.__annotations__) - {"smoothing", "threads", "max_memory", "progress"}
+    settings = SmoothSettings()
+    assert settings.options["smoothing"] == Smoothing(steps=20)
+    spelled = {"radius": "smooth_radius"}
+    assert {spelled.get(name, name) for name in common} <= declared
+    functions = (infill.smooth_volume, infill.smooth_mesh, infill.smooth_points, infill.smooth_labels)
+    python = {name for function in functions for name in keywords(function)}
+    inputs = {"volume", "mesh", "points", "origin", "normals", "labels", "table", "segmentation"}
+    assert python - inputs <= declared
+    reading = set(settings.reading) | {"labels", "each_label"}
+    assert declared <= python | {spelled.get(name, name) for name in common} | reading | {
+        "steps",
+        "fidelity",
+        "interface",
+        "between",
+        "otsu",
+    }
+
+
+def test_an_option_that_is_added_reaches_everything() -> None:
+    """A new field is a flag, a config key and a line of a saved config, with its check."""
+
+    @dataclass(frozen=True, kw_only=True)
+    class More(SmoothSettings):
+        fuzz: Annotated[float, Option("How fuzzy.", "Surface", unit="MM", default="0")] = 0.0
+
+    assert "fuzz = 0.5" in More(fuzz=0.5).to_toml().splitlines()
+    assert read_options("smooth", More, {"fuzz": 2}) == {"fuzz": 2}
+    with pytest.raises(UsageError, match="fuzz is 'x'; it must be a number"):
+        read_options("smooth", More, {"fuzz": "x"})
+
+
+def test_contradictions_are_told_with_status_2() -> None:
+    result = run("smooth", "a.npy", "--refine", "--smooth", "plain", "-o", "a.stl")
+    assert result.exit_code == 2
+    assert "--refine is smooth = refine, and smooth is plain" in result.stderr
