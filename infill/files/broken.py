@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import math
 import os
 import struct
 import tokenize
@@ -12,14 +11,10 @@ import zipfile
 import zlib
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree
 
-from numpy.typing import NDArray
-
-from infill.errors import FormatError, InfillError, MemoryLimitError, ParameterError
+from infill.errors import FormatError, InfillError, MemoryLimitError
 from infill.files.excerpts import excerpt
-from infill.volume import AXES, Volume
 
 SMALLER_VOLUME_ADVICE = "cut the volume to the part that matters, or halve its resolution"
 # The errors that libraries raise when a file is broken.
@@ -43,7 +38,6 @@ READER_ERRORS = (
 )
 # Of these, the errors that this package raises for such files: numbers that are not finite, and truncated files.
 DATA_ERRORS = (ValueError, OverflowError, EOFError, struct.error, zlib.error)
-COLOUR_CHANNELS = (2, 3, 4)  # numbers per cell of a picture that is not grey
 
 
 def require_readable(path: str | os.PathLike[str], suffixes: Iterable[str], what: str) -> Path:
@@ -112,26 +106,3 @@ def error_text(error: Exception) -> str:
     if isinstance(error, LookupError) or not words:  # whose text is just a key
         words = f"{type(error).__name__}: {words}".removesuffix(": ")
     return excerpt(words, 200)
-
-
-def checked_volume(path: Path, values: NDArray[Any], *, varied: bool = True, **place: Any) -> Volume:  # noqa: ANN401
-    """Check values [x, y, z] and return them as a volume; `varied` demands at least two different values."""
-    if values.dtype.kind == "c":
-        raise FormatError(f"{path} holds complex numbers; save their magnitude or their phase")
-    if values.dtype.kind not in "biuf":
-        raise FormatError(f"{path} holds values of type {values.dtype}; save numbers or booleans")
-    if values.ndim > AXES and values.shape[-1] in COLOUR_CHANNELS:
-        raise FormatError(f"{path} holds {values.shape[-1]} numbers per cell, shape {values.shape}; save one as grey")
-    if values.ndim != AXES or values.size == 0:
-        raise FormatError(f"{path} holds an array of shape {values.shape}; save three axes, with cells")
-    if not values.dtype.isnative:
-        values = values.astype(values.dtype.newbyteorder("="))
-    low, high = values.min().item(), values.max().item()
-    if not (math.isfinite(low) and math.isfinite(high)):
-        raise FormatError(f"{path} holds cells that are NaN or infinite; fill or cut those cells first")
-    if varied and low == high:
-        raise FormatError(f"{path} holds {low:g} in all cells, so no surface; check that it is the right file")
-    try:
-        return Volume(values=values, **place)
-    except ParameterError as error:
-        raise FormatError(f"{path} has no usable place in space: {error}; resample it, or save it again") from error

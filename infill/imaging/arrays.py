@@ -12,7 +12,8 @@ from numpy.lib import format as npy_format
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.files.broken import SMALLER_VOLUME_ADVICE, checked_volume, wrap_reader_errors
+from infill.files.broken import SMALLER_VOLUME_ADVICE, wrap_reader_errors
+from infill.imaging.checked_volume import checked_volume
 from infill.imaging.packed import BLANK_BYTES, MOST_PADDING
 from infill.machine import require_memory
 from infill.volume import AXES, Volume

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from infill.errors import FormatError
-from infill.files.broken import checked_volume
+from infill.imaging.checked_volume import checked_volume
 from infill.imaging.dicom_files import Frame, Image, is_dicom, read_image, require_pydicom
 from infill.imaging.dicom_frames import SOURCE_FILES, STORED_ORDER, Stack, place_frames, split_into_stacks
 from infill.imaging.dicom_pixels import frame_values, require_grey

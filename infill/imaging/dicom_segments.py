@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.files.broken import SMALLER_VOLUME_ADVICE, checked_volume
+from infill.files.broken import SMALLER_VOLUME_ADVICE
+from infill.imaging.checked_volume import checked_volume
 from infill.imaging.dicom_files import Frame, Image, Segments
 from infill.imaging.dicom_frames import STEP_TOLERANCE, Plane, Uneven, place_frames, plane_of, round_length
 from infill.imaging.dicom_pixels import stored_numbers

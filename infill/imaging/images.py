@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.files.broken import checked_volume
 from infill.imaging.assumed import warn
+from infill.imaging.checked_volume import checked_volume
 from infill.imaging.frames import choose_frame
 from infill.imaging.units import millimetres
 from infill.volume import AXES, Volume

@@ -15,8 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.files.broken import SMALLER_VOLUME_ADVICE, checked_volume, error_text, wrap_reader_errors
+from infill.files.broken import SMALLER_VOLUME_ADVICE, error_text, wrap_reader_errors
 from infill.imaging.assumed import LOG, warn
+from infill.imaging.checked_volume import checked_volume
 from infill.imaging.images import CELL_SIZE_PHRASE, scales_of
 from infill.machine import require_memory
 from infill.volume import AXES, Volume

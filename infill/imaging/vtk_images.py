@@ -15,8 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.files.broken import SMALLER_VOLUME_ADVICE, checked_volume, wrap_reader_errors
+from infill.files.broken import SMALLER_VOLUME_ADVICE, wrap_reader_errors
 from infill.imaging.assumed import warn
+from infill.imaging.checked_volume import checked_volume
 from infill.imaging.frames import choose_frame
 from infill.machine import require_memory
 from infill.volume import AXES, Volume
