@@ -15,9 +15,8 @@ from test_slabs import asked, in_slabs, surface
 from infill import ParameterError, Result, Surface, fill
 from infill.interior.interior import compute_interior
 from infill.interior.layer_stack import LayerStack
-from infill.interior.shadow import silhouette
 from infill.lattices.choosing import choose_voids
-from infill.lattices.drawn_voids import Prismatic
+from infill.lattices.drawn_voids import Prismatic, silhouette
 from infill.meshes.distance import TriangleTree
 from infill.meshes.solids import FINE, manifold_status
 from infill.meshes.winding import winding_numbers

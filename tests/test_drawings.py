@@ -15,9 +15,8 @@ from hypothesis import strategies as st
 from PIL import Image, ImageDraw
 
 from infill.drawing import Drawing, Picture
-from infill.drawings.drawing_files import READERS, read_drawing
+from infill.drawings.drawing_files import READERS, read_drawing, read_tile_family
 from infill.drawings.svg_paths import bezier_points, path_lines
-from infill.drawings.tile_files import read_tile_family
 from infill.errors import FormatError, GeometryError, ParameterError
 from infill.paths.covering import cover, solve_cell
 from infill.paths.tiles.drawn_family import BLUR_PER_RADIUS, DrawnFamily

@@ -13,8 +13,7 @@ from hypothesis import strategies as st
 from infill import Segment, read_labels, read_segmentation
 from infill.errors import FormatError
 from infill.files.file_names import MOST_BYTES, safe_names
-from infill.imaging.label_tables import segments_of_nrrd
-from infill.imaging.name_templates import fill_template, is_template
+from infill.imaging.label_tables import fill_template, is_template, segments_of_nrrd
 
 SNAP = """################################################
 # ITK-SnAP Label Description File

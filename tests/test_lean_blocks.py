@@ -17,10 +17,9 @@ from hypothesis import strategies as st
 from shapes import BUILT_IN, as_manifold, assert_printable, smooth_noise
 
 from infill import GeometryError, ParameterError, Result, Smoothing, check, extrude, make, smooth
-from infill.contours.prisms import extrude_contours
 from infill.contours.straightening import simplify_contours
 from infill.contours.strips import cut_strips
-from infill.contours.triangulation import triangulate_rings
+from infill.contours.triangulation import extrude_contours, triangulate_rings
 from infill.contours.zero_contours import Contours, trace_contours
 from infill.inspection.layers import count_layer, solid_area
 from infill.isosurfaces.stacking import extrude_surface

@@ -125,8 +125,7 @@ def fill(
             say(f"wrote {', '.join(written)}")
         return
     with progress_bar(shown=not quiet and not dry_run) as progress:
-        from infill.lattices.job import fill_request
-        from infill.lattices.planning import planned_fill
+        from infill.lattices.job import fill_request, plan_fill
         from infill.smoothing.sources import read_source
 
         if progress is not None:
@@ -138,7 +137,7 @@ def fill(
 
                 check_cuts(cuts, mesh.bounds)
             if dry_run:
-                show_plan(planned_fill(mesh, settings.request, threads=threads), str(part), as_json=as_json)
+                show_plan(plan_fill(mesh, settings.request, threads=threads), str(part), as_json=as_json)
                 return
             result = fill_request(mesh, settings.request, threads=threads, max_memory=limit, progress=progress)
         if progress is not None:

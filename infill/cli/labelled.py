@@ -36,7 +36,7 @@ class LabelOutput:
 
 def wants_every_label(outputs: Sequence[Path], *, each_label: bool, labels: Path | None, keep_going: bool) -> bool:
     """Tell whether every label is requested; raise BadParameter for options that make no sense otherwise."""
-    from infill.imaging.name_templates import is_template
+    from infill.imaging.label_tables import is_template
 
     if each_label or any(is_template(path) for path in outputs):
         return True
@@ -58,7 +58,7 @@ def smooth_every_label(source: Path, settings: SmoothSettings, output: LabelOutp
     """Smooth every label, write the files and print a summary."""
     from infill.cli.piping import check_outputs, deliver_all
     from infill.formats.mesh_files import mesh_writer, parts_writer
-    from infill.imaging.name_templates import is_template
+    from infill.imaging.label_tables import is_template
 
     single = [path for path in output.outputs if not is_template(path)]
     for path in output.outputs:
@@ -111,7 +111,7 @@ def _parts(result: Result[LabelStages, LabelsReport], written: LabelOutput) -> d
     """Return a function for each file that writes it."""
     from infill.errors import OutputError
     from infill.formats.mesh_files import mesh_writer, parts_writer
-    from infill.imaging.name_templates import fill_template, is_template
+    from infill.imaging.label_tables import fill_template, is_template
     from infill.result import parts_of
 
     # All names, also of labels that failed: the name of a file does not depend on the other labels.

@@ -1,4 +1,4 @@
-"""Fill rings with well-shaped triangles, without adding corners."""
+"""Fill rings with well-shaped triangles, without adding corners, and build prisms on them."""
 
 from __future__ import annotations
 
@@ -6,8 +6,10 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from infill.contours.strips import cut_strips
 from infill.contours.zero_contours import Contours
 from infill.errors import GeometryError
+from infill.surface import Surface
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -78,3 +80,32 @@ def _point_indices(points: Floats, corners: Floats) -> Indices:
     key, sought = points @ (1, 1j), corners @ (1, 1j)
     order = np.argsort(key)
     return np.asarray(order[np.searchsorted(key, sought, sorter=order)])
+
+
+def extrude_contours(contours: Contours, height: float, *, base: float = 0.0) -> Surface:
+    """Extrude contours from z = `base` to `base` + `height`, mm; return the solid inside them.
+
+    Every edge of a contour becomes a rectangle of two triangles; both caps have the same triangles. Long contours get
+    additional corners, where the caps are cut into strips: see `infill.contours.strips`.
+
+    Raises
+    ------
+    GeometryError
+        If the caps cannot be filled.
+
+    >>> square = Contours(points=np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), first=np.array([0, 4]))
+    >>> cube = extrude_contours(square, 1)
+    >>> len(cube.faces), cube.closed, cube.volume
+    (12, True, 1.0)
+    """
+    pieces = cut_strips(contours)
+    rings = pieces.contours
+    cap = pieces.order[triangulate_rings(Contours(points=rings.points[pieces.order], first=pieces.first))]
+    count, ahead = len(rings.points), rings.ahead
+    corner = np.arange(count)
+    walls = [[corner, ahead, ahead + count], [corner, ahead + count, corner + count]]
+    faces = [cap[:, ::-1], cap + count, *(np.stack(wall, axis=1) for wall in walls)]
+    vertices = np.empty((2 * count, 3))
+    vertices[:count, :2] = vertices[count:, :2] = rings.points
+    vertices[:count, 2], vertices[count:, 2] = base, base + height
+    return Surface(vertices=vertices, faces=np.concatenate(faces).astype(np.int32))

@@ -10,8 +10,10 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
+from infill.checks import check_length, check_positive
 from infill.drawing import Drawing, Picture, TooComplexError
 from infill.drawings.bitmaps import read_bitmap
 from infill.drawings.dxf import read_dxf
@@ -19,6 +21,8 @@ from infill.drawings.svg import read_svg
 from infill.drawings.wkt import read_wkt
 from infill.errors import FormatError
 from infill.files.broken import require_readable
+from infill.paths.tiles.drawn_family import DrawnFamily
+from infill.paths.tiles.tiling import repeating_box, trace_picture
 
 READERS: dict[str, Callable[[Path], Drawing | Picture]] = {
     ".svg": read_svg,
@@ -54,3 +58,40 @@ def read_drawing(path: str | os.PathLike[str]) -> Drawing | Picture:
         if isinstance(error, FormatError):
             raise
         raise FormatError(f"cannot read {source}: {error.strerror or error}; check the file") from error
+
+
+def read_tile_family(path: str | os.PathLike[str], *, width: float | None = None) -> DrawnFamily:
+    """Read a drawing as a family of paths.
+
+    Parameters
+    ----------
+    path : str or Path
+        .svg, .dxf, .wkt, .png, .jpg, .jpeg or .bmp. The tile is the page if the drawing extends over at least a quarter
+        of it in one direction. Otherwise it is the box around the lines, such that lines continue from tile to tile;
+        outlines that do not continue get a gap between them.
+    width : float, optional
+        Width of the tile, mm; by default as drawn, with 0.1 mm per pixel for pictures.
+
+    Raises
+    ------
+    FormatError
+        See `read_drawing`.
+    """
+    content = read_drawing(path)
+    drawing = (
+        trace_picture(content, Path(path))
+        if isinstance(content, Picture)
+        else replace(content, page=repeating_box(content))
+    )
+    if width is not None:
+        drawing = _scale_to_width(drawing, check_length("width", width))
+    return DrawnFamily(name=Path(path).name, drawing=drawing)
+
+
+def _scale_to_width(drawing: Drawing, width: float) -> Drawing:
+    """Scale a drawing to a width, and move its page to the origin."""
+    assert drawing.page is not None
+    x0, y0, x1, y1 = drawing.page
+    factor = check_positive("width", width, "mm") / (x1 - x0)
+    lines = tuple((line - (x0, y0)) * factor for line in drawing.lines)
+    return replace(drawing, lines=lines, page=(0.0, 0.0, width, (y1 - y0) * factor))

@@ -12,7 +12,6 @@ import shapely
 from numpy.typing import NDArray
 
 from infill.interior.interior import BAND, Interior
-from infill.interior.shadow import silhouette
 from infill.kernels.threads import in_threads, thread_count
 from infill.lattices.bodies import Bodies
 from infill.lattices.fillets import find_polygon_corners, sharpest_angle
@@ -28,6 +27,10 @@ from infill.lattices.line_sample import (
 )
 from infill.lattices.voids import FIELD, local_widths
 from patterns.protocol import Pattern, draw_lines
+
+LOW = 0.1  # cells: where no cell of a column lies deeper, rounding decides whether one lies inside
+SIMPLER = 0.05  # cells
+MITRE = 5.0  # largest move of a sharp corner, over that of its sides
 
 APART = 3.0  # cells of the grid: voids that are nearer to each other get separate fields
 THINNER, WIDER_LINES = 0.8, 1.5  # range of line widths for which fields suffice, over the width they were made for
@@ -228,3 +231,18 @@ def _colour_apart(polygons: NDArray[np.object_], apart: float) -> list[NDArray[n
         taken = {int(colours[adjacent]) for adjacent in beside[number]}
         colours[number] = next(colour for colour in range(len(polygons)) if colour not in taken)
     return [np.flatnonzero(colours == colour) for colour in range(int(colours.max(initial=-1)) + 1)]
+
+
+def silhouette(space: Interior) -> shapely.Geometry:
+    """Draw the polygons, mm, of the columns with a cell inside the walls, smooth between the cells.
+
+    Where voids reach through the walls, the walls still count.
+    """
+    from skimage.measure import find_contours
+
+    deepest = np.pad(space.deepest - np.float32(space.through), 1, constant_values=-BAND)
+    rings = find_contours(deepest, LOW)  # type: ignore[no-untyped-call]
+    area = shapely.build_area(shapely.MultiLineString([ring - 1 for ring in rings]))
+    # Away from an upright wall, depths rise by one per cell.
+    area = shapely.simplify(shapely.buffer(area, LOW, join_style="mitre", mitre_limit=MITRE), SIMPLER)
+    return shapely.transform(area, lambda cells: space.origin[:2] + space.size * cells)

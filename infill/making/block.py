@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 import shapely
 
-from infill.contours.prisms import extrude_contours
 from infill.contours.straightening import simplify_contours
+from infill.contours.triangulation import extrude_contours
 from infill.contours.zero_contours import trace_contours
 from infill.errors import GeometryError
 from infill.inspection.changes import TopologyChanges

@@ -160,7 +160,7 @@ def family_of(pattern: str, parameters: Mapping[str, Any]) -> Family:
     if pattern in FAMILIES:
         family = FAMILIES[pattern]
     else:
-        from infill.drawings.tile_files import read_tile_family
+        from infill.drawings.drawing_files import read_tile_family
 
         family = read_tile_family(pattern)
     return pattern_parameters(pattern, parameters).placed(family)

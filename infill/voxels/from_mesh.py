@@ -16,9 +16,13 @@ from infill.meshes.hole_filling import component_volumes, fill_holes
 from infill.meshes.merging import merge_unless_closed
 from infill.surface import Surface
 from infill.volume import Volume
-from infill.voxels.nesting import is_inside_out
 from infill.voxels.partial import EnclosedVolumes, distances_in_cells, measure_enclosed
-from infill.voxels.scanlines import SLAB, fill_rows_and_count, intersect_rows
+from infill.voxels.scanlines import SLAB, RowCrossings, fill_rows_and_count, intersect_rows
+
+SAMPLES = 9  # crossings of a component that are examined to find the components around it
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.integer]
 
 RESOLUTION = 200  # cells along the longest side by default
 FEWEST = 2  # voxels along the longest side
@@ -254,3 +258,48 @@ def voxelise_with_report(
         enclosed=enclosed_volumes,
         several=len(volumes) > 1 or largest_winding > 1,
     )
+
+
+def is_inside_out(crossings: RowCrossings, component: Integers, volumes: Floats) -> NDArray[np.bool_]:
+    """Mark the components to reverse: those that face inwards outside all others, and everything inside them.
+
+    Parameters
+    ----------
+    crossings : RowCrossings
+    component : (F,) int
+        Component of every face.
+    volumes : (B,) float64
+        Signed volume of each component.
+
+    Returns
+    -------
+    (B,) bool
+
+    Notes
+    -----
+    A component lies in another if the rows wind around it at every one of the crossings examined. One that faces
+    the opposite way from the component it lies in is a cavity of it, and turns with it.
+    """
+    turned = np.zeros(len(volumes), dtype=bool)
+    if (volumes >= 0).all() or (volumes <= 0).all():
+        return turned
+    owner = component[crossings.face]
+    order = np.argsort(owner, kind="stable")
+    bounds = np.searchsorted(owner, np.arange(len(volumes) + 1), sorter=order)
+    for number in np.flatnonzero(volumes):
+        own_crossings = order[bounds[number] : bounds[number + 1]]
+        if len(own_crossings) == 0:
+            continue
+        holders: set[int] | None = None
+        for i in own_crossings[np.linspace(0, len(own_crossings) - 1, SAMPLES).astype(np.int64)]:
+            begin, end = np.searchsorted(crossings.row, [crossings.row[i], crossings.row[i] + 1])
+            owners, signs, places = owner[begin:end], crossings.sign[begin:end], crossings.place[begin:end]
+            enclosing: set[int] = set()
+            for before in (places < crossings.place[i], places <= crossings.place[i]):
+                winding = np.bincount(owners[before], weights=signs[before])
+                enclosing.update(np.flatnonzero(winding).tolist())
+            holders = enclosing if holders is None else holders & enclosing
+        larger = [holder for holder in holders or () if abs(volumes[holder]) > abs(volumes[number])]
+        outermost = max(larger, key=lambda index: abs(volumes[index]), default=number)
+        turned[number] = volumes[outermost] < 0
+    return turned
