@@ -20,18 +20,34 @@ if TYPE_CHECKING:
     from infill.smoothing.settings import SmoothSettings
 
 MOST_ROWS = 60  # labels in the summary
+UNFIT = ("units", "resolution", "voxel", "shell", "threshold", "range", "otsu", "grey", "by_component")
 
 
 @dataclass(frozen=True, kw_only=True)
-class LabelOutput:
+class SmoothOutput:
     """The outputs of a run, and their options."""
 
     outputs: Sequence[Path]
+    preview: Path | None
+    saved: Mapping[Path, Callable[[BinaryIO], object]]
     ascii_stl: bool
     force: bool
+    dry_run: bool
     as_json: bool
     quiet: bool
-    saved: Mapping[Path, Callable[[BinaryIO], object]]
+    verbose: bool
+
+    def check(self) -> None:
+        """Raise an error, before the work, if an output cannot be written."""
+        from infill.cli.piping import check_outputs
+
+        check_outputs(
+            (*self.outputs, self.preview),
+            text=next(iter(self.saved), None),
+            overwrite=self.force,
+            as_json=self.as_json,
+            dry_run=self.dry_run,
+        )
 
 
 def wants_every_label(outputs: Sequence[Path], *, each_label: bool, labels: Path | None, keep_going: bool) -> bool:
@@ -46,15 +62,20 @@ def wants_every_label(outputs: Sequence[Path], *, each_label: bool, labels: Path
     return False
 
 
-def refuse_options(**given: bool) -> None:
+def refuse_options(settings: SmoothSettings, output: SmoothOutput) -> None:
     """Raise BadParameter for the first option that is given but does not apply to labels."""
-    for name, used in given.items():
-        if used:
-            option = name.strip("_").replace("_", "-")
-            raise typer.BadParameter(f"--{option} does not go with --each-label or {{label}}; leave one of them out")
+    from infill.options.declaration import declared_options
+
+    declared = declared_options(type(settings))
+    given = ["preview"] * (output.preview is not None)
+    given += [key for key in UNFIT if getattr(settings, declared[key].field) != declared[key].default]
+    given += ["grey"] * (settings.method == "grey") + ["dry_run"] * output.dry_run
+    if given:
+        option = given[0].replace("_", "-")
+        raise typer.BadParameter(f"--{option} does not go with --each-label or {{label}}; leave one of them out")
 
 
-def smooth_every_label(source: Path, settings: SmoothSettings, output: LabelOutput, options: SmoothOptions) -> None:
+def smooth_every_label(source: Path, settings: SmoothSettings, output: SmoothOutput, options: SmoothOptions) -> None:
     """Smooth every label, write the files and print a summary."""
     from infill.cli.piping import check_outputs, deliver_all
     from infill.formats.mesh_files import mesh_writer, parts_writer
@@ -107,7 +128,9 @@ def _scaled_progress(progress: Callable[[str, float], None] | None) -> Callable[
     return lambda stage, share: progress(stage, 0.9 * share)
 
 
-def _parts(result: Result[LabelStages, LabelsReport], written: LabelOutput) -> dict[Path, Callable[[BinaryIO], object]]:
+def _parts(
+    result: Result[LabelStages, LabelsReport], written: SmoothOutput
+) -> dict[Path, Callable[[BinaryIO], object]]:
     """Return a function for each file that writes it."""
     from infill.errors import OutputError
     from infill.formats.mesh_files import mesh_writer, parts_writer

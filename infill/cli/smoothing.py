@@ -27,7 +27,7 @@ from infill.cli.components import check_fields, component_summary, component_wri
 from infill.cli.console import format_bytes, format_table, print_json, print_log, progress_bar, say
 from infill.cli.declared import takes_options
 from infill.cli.foreseeing import show_smooth_plan
-from infill.cli.labelled import LabelOutput, refuse_options, smooth_every_label, wants_every_label
+from infill.cli.labelled import SmoothOutput, refuse_options, smooth_every_label, wants_every_label
 from infill.smoothing.settings import SmoothSettings, resolve
 
 if TYPE_CHECKING:
@@ -84,13 +84,10 @@ def smooth(
     verbose: Verbose = False,
 ) -> None:
     """Smooth a scan, a mesh or points: no staircase, no shrinkage, a closed mesh."""
-    from infill.cli.piping import check_outputs, deliver_all, with_suffix
+    from infill.cli.piping import with_suffix
     from infill.cli.words import parse_bytes
-    from infill.formats.mesh_files import WRITERS, mesh_writer
-    from infill.imaging.volume_files import FIELD_WRITERS, field_writer
 
-    outputs = [with_suffix(path) for path in output or []]
-    if not (outputs or preview or as_json or save_config or dry_run):
+    if not (output or preview or as_json or save_config or dry_run):
         raise typer.BadParameter("nothing to write; give -o FILE, --json to see the report, or --dry-run")
     settings = resolve(typed, config, trust=trust)
     settings.check()
@@ -99,88 +96,95 @@ def smooth(
         "threads": threads,
         "max_memory": None if max_memory is None else parse_bytes(max_memory),
     }
-    saved: dict[Path, Callable[[BinaryIO], object]] = {}
-    if save_config is not None:
-        text = settings.to_toml().encode()
-        saved[save_config] = lambda file: file.write(text)
-    if not (outputs or preview or as_json or dry_run):
-        check_outputs((), text=save_config, overwrite=force, as_json=as_json)
-        written = deliver_all(saved)
-        if not quiet and written != ["-"]:
-            say(f"wrote {', '.join(written)}")
-        return
-    if wants_every_label(
-        outputs, each_label=settings.each_label, labels=settings.labels, keep_going=settings.keep_going
+    text = settings.to_toml().encode()
+    outputs = SmoothOutput(
+        outputs=[with_suffix(path) for path in output or []],
+        preview=preview,
+        saved={} if save_config is None else {save_config: lambda file: file.write(text)},
+        ascii_stl=ascii_stl,
+        force=force,
+        dry_run=dry_run,
+        as_json=as_json,
+        quiet=quiet,
+        verbose=verbose,
+    )
+    if not (output or preview or as_json or dry_run):
+        _save_config(outputs)
+    elif wants_every_label(
+        outputs.outputs, each_label=settings.each_label, labels=settings.labels, keep_going=settings.keep_going
     ):
-        refuse_options(
-            preview=preview is not None,
-            units=settings.units is not None,
-            resolution=settings.resolution is not None,
-            voxel=settings.voxel is not None,
-            shell=settings.shell is not None,
-            threshold=settings.threshold is not None,
-            range=settings.between is not None,
-            otsu=settings.otsu,
-            grey=settings.grey or settings.method == "grey",
-            by_component=settings.by_component,
-            dry_run=dry_run,
-        )
-        smooth_every_label(
-            source,
-            settings,
-            LabelOutput(
-                outputs=outputs,
-                ascii_stl=ascii_stl,
-                force=force,
-                as_json=as_json,
-                quiet=quiet,
-                saved=saved,
-            ),
-            options,
-        )
-        return
-    for path in outputs:
+        refuse_options(settings, outputs)
+        smooth_every_label(source, settings, outputs, options)
+    else:
+        _check_formats(outputs, settings)
+        outputs.check()
+        if dry_run:
+            files = filter(None, (*outputs.outputs, preview, save_config))
+            show_smooth_plan(source, settings, options, files, as_json=as_json, quiet=quiet)
+        else:
+            _smooth_source(source, settings, options, outputs)
+
+
+def _save_config(output: SmoothOutput) -> None:
+    """Write the config file alone."""
+    from infill.cli.piping import deliver_all
+
+    output.check()
+    written = deliver_all(output.saved)
+    if not output.quiet and written != ["-"]:
+        say(f"wrote {', '.join(written)}")
+
+
+def _check_formats(output: SmoothOutput, settings: SmoothSettings) -> None:
+    """Raise an error for an output whose format is unknown, or cannot hold the result."""
+    from infill.formats.mesh_files import mesh_writer
+    from infill.imaging.volume_files import FIELD_WRITERS
+
+    for path in output.outputs:
         if path.suffix.lower() not in FIELD_WRITERS:
-            mesh_writer(path, ascii=ascii_stl, more=tuple(FIELD_WRITERS))
+            mesh_writer(path, ascii=output.ascii_stl, more=tuple(FIELD_WRITERS))
     if settings.by_component:
-        check_fields(outputs)
-    if preview is not None:
+        check_fields(output.outputs)
+    if output.preview is not None:
         from infill.pictures.preview import check_preview
 
-        check_preview(preview)
-    check_outputs((*outputs, preview), text=save_config, overwrite=force, as_json=as_json, dry_run=dry_run)
-    if dry_run:
-        files = filter(None, (*outputs, preview, save_config))
-        show_smooth_plan(source, settings, options, files, as_json=as_json, quiet=quiet)
-        return
-    with progress_bar(shown=not quiet) as progress:
+        check_preview(output.preview)
+
+
+def _smooth_source(source: Path, settings: SmoothSettings, options: SmoothOptions, output: SmoothOutput) -> None:
+    """Smooth a file or folder, write the files and print a summary."""
+    from infill.cli.piping import deliver_all
+    from infill.formats.mesh_files import WRITERS, mesh_writer
+    from infill.imaging.volume_files import field_writer
+
+    with progress_bar(shown=not output.quiet) as progress:
         from infill.smoothing.sources import read_source, smooth_source
 
         if progress is not None:
             progress("read", 0.0)
-        with print_log(shown=not quiet):
+        with print_log(shown=not output.quiet):
             data = read_source(source, **settings.reading)
             smoothing_options = cast("SmoothOptions", {**options, "progress": progress})
             result: Any = smooth_source(data, **settings.choice, **smoothing_options)
         if progress is not None:
             progress("write", 0.9)
         parts: dict[Path, Callable[[BinaryIO], object]] = {}
-        for path in outputs:
+        for path in output.outputs:
             if settings.by_component:
-                parts[path] = component_writer(path, result, ascii_stl=ascii_stl)
+                parts[path] = component_writer(path, result, ascii_stl=output.ascii_stl)
             elif path.suffix.lower() in WRITERS:
-                parts[path] = partial(mesh_writer(path, ascii=ascii_stl), result.surface)
+                parts[path] = partial(mesh_writer(path, ascii=output.ascii_stl), result.surface)
             else:
                 parts[path] = partial(field_writer(path), result.stages.field())
-        if preview is not None:
-            parts[preview] = result.write_picture
-        written = deliver_all(parts | saved)
-    if not quiet:
+        if output.preview is not None:
+            parts[output.preview] = result.write_picture
+        written = deliver_all(parts | dict(output.saved))
+    if not output.quiet:
         if settings.by_component:
             say(component_summary(result, written, str(source)))
         else:
-            say(_summary(result.report, written, str(source), verbose=verbose))
-    if as_json:
+            say(_summary(result.report, written, str(source), verbose=output.verbose))
+    if output.as_json:
         print_json({**result.report, "files": written})
 
 
