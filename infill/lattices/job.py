@@ -21,7 +21,7 @@ from infill.lattices.choosing import choose_voids
 from infill.lattices.drain_holes import DrainedSolid, check_drain_width, drill_drains
 from infill.lattices.hollowing import make_void_meshes
 from infill.lattices.projected import ProjectInfill, make_project_infill
-from infill.lattices.quality_checks import find_problems, measure_solid
+from infill.lattices.quality_checks import SolidMeasures, find_problems, measure_solid
 from infill.lattices.request import TOLERANCE, FillSpec, check_request
 from infill.lattices.sizing import resolve_voxel
 from infill.lattices.stages import FillStages
@@ -244,9 +244,23 @@ def _assemble(
         hollow = replace(hollow, islands=hollow.islands + drained.pieces)
     solid = measure_surface(drained.solid, threads=threads)
     facts = measure_solid(solid, outer, hollow, pattern, request, drained, threads=threads)
+    return solid, _fill_report(part, solid, hollow, request, facts, drained, project), hollow
+
+
+def _fill_report(
+    part: Surface,
+    solid: Surface,
+    hollow: VoidMeshes,
+    request: FillSpec,
+    facts: SolidMeasures,
+    drained: DrainedSolid,
+    project: ProjectInfill | None,
+) -> dict[str, Any]:
+    """Return the report: docs/report.md lists every key."""
+    space = hollow.space
     narrow = None if project is None else project.narrow
     bounds = solid.bounds
-    report = {
+    return {
         "form": FORM,
         "version": __version__,
         "product": "fill",
@@ -303,7 +317,6 @@ def _assemble(
         "drains": drained.facts(),
         "walls": {"requested": request.wall, "least": facts.least, "at": facts.at},
     }
-    return solid, report, hollow
 
 
 def _inner_surface(space: Interior, request: FillSpec, threads: int | None) -> Surface:
