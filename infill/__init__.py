@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from infill.inspection.width import WallWidth, wall_width
     from infill.isosurfaces.marching import isosurface
     from infill.isosurfaces.stacking import extrude, stack
+    from infill.lattices.groups import Graded, Meshing, Shell
     from infill.lattices.job import fill
     from infill.making.block import make
     from infill.phasefield.allen_cahn import Smoothing, rescale
@@ -61,6 +62,7 @@ _HOMES = {
         "UsageError",
     ),
     "refilling.job": ("RefillResult", "refill"),
+    "lattices.groups": ("Graded", "Meshing", "Shell"),
     "lattices.job": ("fill",),
     "formats.mesh_files": ("read_mesh", "save"),
     "grid": ("Grid",),
@@ -90,10 +92,12 @@ __all__ = [
     "Diagnosis",
     "FormatError",
     "GeometryError",
+    "Graded",
     "Grid",
     "InfillError",
     "Inspection",
     "MemoryLimitError",
+    "Meshing",
     "Motion",
     "OutputError",
     "ParameterError",
@@ -101,6 +105,7 @@ __all__ = [
     "Result",
     "Segment",
     "Segmentation",
+    "Shell",
     "Smoothing",
     "Surface",
     "UsageError",

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Annotated, Any, Literal
 
+import numpy as np
 import pytest
+import trimesh
 import typer
 from test_command_line import run
 
@@ -15,6 +17,7 @@ import infill
 from infill import ParameterError, UsageError
 from infill.cli.app import build_app
 from infill.cli.declared import takes_options
+from infill.lattices.groups import FLAT_NAMES
 from infill.lattices.settings import FillOptions
 from infill.making.settings import MakeSettings
 from infill.options.declaration import Option, by_key, declared_options, drop_replaced, read_options
@@ -142,7 +145,42 @@ def test_the_keywords_of_fill_are_its_options() -> None:
     declared["as_"] = declared.pop("form") or "solid"
     python = keywords(infill.fill)
     assert {name: python.pop(name) for name in declared} == declared
-    assert set(python) == {"part", "threads", "max_memory", "progress"}
+    assert set(python) == {"part", "shell", "meshing", "threads", "max_memory", "progress"}
+
+
+def test_keywords_in_groups_are_those_alone() -> None:
+    box = trimesh.creation.box((20, 20, 20))
+    alone = infill.fill(box, wall=1.5, drain=3, vent=True, density=(0.15, 0.4), by="x", voxel=0.5, tolerance=0.05)
+    grouped = infill.fill(
+        box,
+        shell=infill.Shell(wall=1.5, drain=3, vent=True),
+        density=infill.Graded(0.15, 0.4, by="x"),
+        meshing=infill.Meshing(voxel=0.5, tolerance=0.05),
+    )
+    assert np.array_equal(alone.surface.vertices, grouped.surface.vertices)
+    assert np.array_equal(alone.surface.faces, grouped.surface.faces)
+    assert alone.report["request"] == grouped.report["request"]
+
+
+def test_every_keyword_in_a_group_is_one_of_fill_with_its_default() -> None:
+    python = keywords(infill.fill)
+    for group in (infill.Shell, infill.Meshing):
+        for field in fields(group):
+            assert python[FLAT_NAMES.get(field.name, field.name)] == field.default
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        ({"wall": 2, "shell": infill.Shell(wall=1)}, "wall is given alone and in shell"),
+        ({"open_": "top", "shell": infill.Shell(open="bottom")}, "open is given alone and in shell"),
+        ({"voxel": 0.5, "meshing": infill.Meshing(voxel=0.4)}, "voxel is given alone and in meshing"),
+        ({"by": "x", "density": infill.Graded(0.1, 0.2)}, "by is given alone, and density is a Graded"),
+    ],
+)
+def test_a_keyword_given_twice_is_told(words: dict[str, Any], says: str) -> None:
+    with pytest.raises(UsageError, match=says):
+        infill.fill(trimesh.creation.box((20, 20, 20)), **words)
 
 
 def test_the_keywords_of_refill_are_its_options() -> None:

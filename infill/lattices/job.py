@@ -19,6 +19,7 @@ from infill.interior.interior import Interior
 from infill.interior.opening import clip_to_opening, cut_open
 from infill.lattices.choosing import choose_voids
 from infill.lattices.drain_holes import DrainedSolid, check_drain_width, drill_drains
+from infill.lattices.groups import Graded, Meshing, Shell, add_grading, add_group
 from infill.lattices.hollowing import make_void_meshes
 from infill.lattices.projected import ProjectInfill, make_project_infill
 from infill.lattices.quality_checks import SolidMeasures, find_problems, measure_solid
@@ -48,7 +49,7 @@ def fill(
     part: Surface | trimesh.Trimesh,
     pattern: object = "gyroid",
     *,
-    density: float | tuple[float, float] | None = None,
+    density: float | tuple[float, float] | Graded | None = None,
     by: object = None,
     grade: str | None = None,
     cell: float | None = None,
@@ -68,6 +69,8 @@ def fill(
     max_triangles: int | None = None,
     resolution: int | None = None,
     voxel: float | None = None,
+    shell: Shell | None = None,
+    meshing: Meshing | None = None,
     threads: int | None = None,
     max_memory: int | None = None,
     progress: Progress | None = None,
@@ -83,7 +86,7 @@ def fill(
         A pattern in space (gyroid, octet ...: `patterns.cellular.CELLULAR`), or one of `patterns.PATTERNS`, which is
         the same at every height; a drawing, which is repeated; "module.py:name"; a pattern itself; or a function of x,
         y and z, of one shape, in radians (2 pi is a cell): walls are where it is 0.
-    density : float, optional
+    density : float, (float, float) or Graded, optional
         Solid share of the space inside the walls, 0.01 to 0.9. Two of density, cell and line width determine the third.
         By default 0.2 and a line width of 0.45 mm (0.9 in a project), or for bars, 0.2 and a cell of 8 mm (in a
         project, a diameter of 2.7 mm). Two densities hold where `by` is lowest and where it is highest.
@@ -133,6 +136,8 @@ def fill(
         Cells of the grid along the longest side of the part; instead of `voxel`.
     voxel : float, optional
         Cell of the grid on which voids are computed, mm.
+    shell, meshing : Shell and Meshing, optional
+        Keywords above in groups: `wall` to `open`, and `tolerance` to `voxel`.
     threads, max_memory, progress
         As in `infill.smooth_mesh`.
     **parameters
@@ -164,30 +169,35 @@ def fill(
     >>> result.surface.closed, abs(result.report["density"] - 0.3) < 0.005
     (True, True)
     """
-    request = check_request(
-        pattern=pattern,
-        own=parameters,
-        density=density,
-        by=by,
-        grade=grade,
-        cell=cell,
-        line_width=line_width,
-        wall=wall,
-        overlap=overlap,
-        angle=angle,
-        phase=phase,
-        align=align,
-        form=as_,
-        drain=drain,
-        vent=vent,
-        drain_at=drain_at,
-        open_=open_,
-        smooth_radius=smooth_radius,
-        tolerance=tolerance,
-        resolution=resolution,
-        voxel=voxel,
-        max_triangles=max_triangles,
-    )
+    keywords: dict[str, Any] = {
+        "density": density,
+        "by": by,
+        "grade": grade,
+        "cell": cell,
+        "line_width": line_width,
+        "wall": wall,
+        "overlap": overlap,
+        "angle": angle,
+        "phase": phase,
+        "align": align,
+        "form": as_,
+        "drain": drain,
+        "vent": vent,
+        "drain_at": drain_at,
+        "open_": open_,
+        "smooth_radius": smooth_radius,
+        "tolerance": tolerance,
+        "resolution": resolution,
+        "voxel": voxel,
+        "max_triangles": max_triangles,
+    }
+    if isinstance(density, Graded):
+        keywords = add_grading(keywords, density)
+    if shell is not None:
+        keywords = add_group(keywords, "shell", shell)
+    if meshing is not None:
+        keywords = add_group(keywords, "meshing", meshing)
+    request = check_request(pattern=pattern, own=parameters, **keywords)
     return fill_request(surface_of(part), request, threads=threads, max_memory=max_memory, progress=progress)
 
 
