@@ -13,6 +13,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.graph import label_connected
 from infill.isosurfaces.components import shell_names
 from infill.meshes.distance import TriangleTree
 from infill.meshes.shells import shell_volumes
@@ -286,12 +287,7 @@ def _crossing_heights(corners: Floats, places: Floats) -> Floats:
 
 
 def _label_components(pairs: Integers, count: int) -> Integers:
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    graph = coo_array((np.ones(len(pairs), dtype=np.int8), tuple(pairs.T)), shape=(count, count))
-    names: Integers = connected_components(graph, directed=False)[1].astype(np.int64)
-    return names
+    return label_connected(pairs[:, 0], pairs[:, 1], count)[0].astype(np.int64)
 
 
 def _surface_points(

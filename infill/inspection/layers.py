@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.contours.zero_contours import TIE
+from infill.graph import label_connected
 from infill.grid import VOID
 from infill.inspection.changes import ConnectionCounts, TopologyChanges
 from infill.inspection.component_matching import compare_components, count_overlaps
@@ -176,12 +177,8 @@ def _label_cells(inside: NDArray[np.bool_], pairs: NDArray[np.intp]) -> NDArray[
     numbers, count = ndimage.label(inside)
     if len(pairs) == 0:
         return numbers
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     ends = numbers.ravel()[pairs]
-    graph = coo_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=(count + 1, count + 1))
-    _, merged = connected_components(graph, directed=False)
+    merged, _ = label_connected(ends[:, 0], ends[:, 1], count + 1)
     # Number 0, for unlabelled cells, is in no pair: it stays alone, and components are numbered from 1.
     _, renumbered = np.unique(merged[1:], return_inverse=True)
     return np.asarray(np.concatenate([[0], renumbered + 1])[numbers])

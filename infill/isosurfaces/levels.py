@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import GeometryError
+from infill.graph import label_connected
 from infill.isosurfaces.components import (
     Components,
     SurfaceShells,
@@ -373,12 +374,8 @@ def _sums(group: NDArray[np.integer], values: NDArray[np.float64], count: int | 
 
 def _join_groups(group: NDArray[np.integer], new_pairs: NDArray[np.integer]) -> NDArray[np.integer]:
     """Join groups by pairs (n, 2) of members; each group is named by its first member."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
     pairs = np.concatenate([new_pairs, np.stack([np.arange(len(group)), group], axis=1)])
-    graph = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(group), len(group)))
-    _, number = connected_components(graph, directed=False)
+    number, _ = label_connected(pairs[:, 0], pairs[:, 1], len(group))
     _, first_member = np.unique(number, return_index=True)
     merged: NDArray[np.integer] = first_member[number]
     return merged

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import GeometryError
+from infill.graph import label_connected
 from infill.isosurfaces.components import shell_names
 from infill.meshes.shells import select_faces, split_into_batches
 from infill.meshes.solids import simplify_open_piece
@@ -110,9 +111,6 @@ def sum_shell_volumes(slabs: Sequence[SlabShells | None]) -> Floats:
     GeometryError
         If pieces do not meet.
     """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     nothing = np.empty(0, dtype=np.int64)
     filled_slabs = [
         SlabShells(volumes=np.empty(0), low=nothing, high=nothing) if slab is None else slab for slab in slabs
@@ -123,9 +121,7 @@ def sum_shell_volumes(slabs: Sequence[SlabShells | None]) -> Floats:
         _require_meeting(len(lower.high) == len(upper.low))
         below.append(lower.high + begin)
         above.append(upper.low + next_begin)
-    rows, columns = np.concatenate(below), np.concatenate(above)
-    graph = coo_array((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(int(begins[-1]),) * 2)
-    count, names = connected_components(graph, directed=False)
+    names, count = label_connected(np.concatenate(below), np.concatenate(above), int(begins[-1]))
     volumes = np.zeros(count)
     np.add.at(volumes, names, np.concatenate([slab.volumes for slab in filled_slabs]))
     return volumes

@@ -7,6 +7,7 @@ from collections import defaultdict
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.graph import label_connected
 from infill.meshes.shells import vertex_components
 from infill.surface import Edges
 
@@ -38,9 +39,6 @@ def orient_faces(faces: Integers) -> Integers:
     A patch is then two components, and the one with more faces as they are is used. A one-sided patch
     (a Möbius strip) is a single component, and stays as it is.
     """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     start, end = faces.ravel().astype(np.int64), np.roll(faces, -1, axis=1).ravel().astype(np.int64)
     key = np.minimum(start, end) * (int(faces.max()) + 1) + np.maximum(start, end)
     order = np.argsort(key, kind="stable")
@@ -51,8 +49,7 @@ def orient_faces(faces: Integers) -> Integers:
     edge_side, twin_side, count = edge_side // 3, twin_side // 3, len(faces)
     source, target = np.concatenate([edge_side, edge_side + count]), np.concatenate([twin_side, twin_side + count])
     target = np.where(np.tile(opposed, 2), (target + count) % (2 * count), target)
-    graph = coo_array((np.ones(len(target), dtype=np.int8), (source, target)), shape=(2 * count,) * 2)
-    _, label = connected_components(graph, directed=False)
+    label, _ = label_connected(source, target, 2 * count)
     label_kept, label_reversed = label[:count], label[count:]
     size = np.bincount(label_kept, minlength=int(label.max()) + 1)
     reverse = (size[label_kept] < size[label_reversed]) | (
@@ -63,14 +60,11 @@ def orient_faces(faces: Integers) -> Integers:
 
 def weld_boundary(vertices: Floats, faces: Integers) -> Integers:
     """Merge corners on open edges that are closer than `WELD`, which closes cracks; return the faces."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
     from scipy.spatial import KDTree
 
     border = np.unique(open_edges(faces))
     pairs = KDTree(vertices[border]).query_pairs(WELD, output_type="ndarray")
-    graph = coo_array((np.ones(len(pairs), dtype=np.int8), tuple(pairs.T)), shape=(len(border),) * 2)
-    _, label = connected_components(graph, directed=False)
+    label, _ = label_connected(pairs[:, 0], pairs[:, 1], len(border))
     number = np.arange(len(vertices))
     number[border] = border[np.unique(label, return_index=True)[1]][label]
     return number[faces]

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.graph import label_connected
 from infill.surface import Surface
 
 Integers = NDArray[np.integer]
@@ -91,12 +92,8 @@ def split_into_batches(surface: Surface, limit: int) -> Iterator[Surface]:
 
 def _label_by_scipy(faces: Integers, vertices: int) -> tuple[Names, int, NDArray[np.bool_]]:
     """Label the components, with lone vertices; return names, count and a mask of used vertices: the specification."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     start, end = faces[:, [0, 1]].ravel(), faces[:, [1, 2]].ravel()
-    graph = coo_array((np.ones(len(start), dtype=np.int8), (start, end)), shape=(vertices,) * 2)
-    count, names = connected_components(graph, directed=False)
+    names, count = label_connected(start, end, vertices)
     used = np.zeros(vertices, dtype=bool)
     used[faces.ravel()] = True
     return names, count, used

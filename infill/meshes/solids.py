@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.graph import label_connected
 from infill.meshes.hole_filling import open_edges
 from infill.meshes.shells import select_faces
 from infill.surface import Surface
@@ -205,13 +206,9 @@ def _points_between(follows: dict[Place, Place], start: Place, end: Place) -> It
 
 def _label_loops(edges: NDArray[np.integer]) -> tuple[NDArray[np.int32], int]:
     """Label the loops of some edges (E, 2); return the loop of each edge, and the number of loops."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     ends = np.unique(edges, return_inverse=True)[1].reshape(edges.shape)
-    graph = coo_array((np.ones(len(edges), dtype=np.int8), tuple(ends.T)), shape=(int(ends.max()) + 1,) * 2)
-    count, names = connected_components(graph, directed=False)
-    return names[ends[:, 0]], int(count)
+    names, count = label_connected(ends[:, 0], ends[:, 1], int(ends.max()) + 1)
+    return names[ends[:, 0]], count
 
 
 def coincident_vertices(surface: Surface) -> NDArray[np.bool_]:

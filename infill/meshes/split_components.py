@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.graph import label_connected
 from infill.meshes.hole_filling import component_volumes, fill_holes, open_edges, orient_faces, weld_boundary
 from infill.meshes.merging import merge_unless_closed
 from infill.meshes.winding import winding_numbers
@@ -103,9 +104,6 @@ def edge_components(vertices: Floats, faces: Integers) -> tuple[Integers, int]:
     vertices : (V, 3) float64, mm
     faces : (F, 3) int
     """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     start, end = faces.ravel().astype(np.int64), np.roll(faces, -1, axis=1).ravel().astype(np.int64)
     key = np.minimum(start, end) * (int(faces.max()) + 1) + np.maximum(start, end)
     order = np.argsort(key, kind="stable")
@@ -119,9 +117,7 @@ def edge_components(vertices: Floats, faces: Integers) -> tuple[Integers, int]:
         start_faces.append(sides[linked[:, 0]] // 3)
         end_faces.append(sides[linked[:, 1]] // 3)
     row, column = np.concatenate(start_faces), np.concatenate(end_faces)
-    graph = coo_array((np.ones(len(row), dtype=np.int8), (row, column)), shape=(len(faces),) * 2)
-    count, names = connected_components(graph, directed=False)
-    return names, int(count)
+    return label_connected(row, column, len(faces))
 
 
 def _link_by_solid(vertices: Floats, faces: Integers, sides: Integers, ahead: NDArray[np.bool_]) -> Integers:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.graph import label_connected
 from infill.ragged import expand_rows
 from infill.voxels.scanlines import SLAB, RowCrossings, fill_rows
 
@@ -30,9 +31,6 @@ def enclosed_void(solid: NDArray[np.bool_]) -> NDArray[np.bool_]:
     >>> np.argwhere(enclosed_void(shell)).tolist()
     [[2, 2, 2]]
     """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     _, ny, nz = solid.shape
     width = nz + 1  # one place more than there are cells keeps the runs of different rows apart
     start, end = _void_runs(solid)
@@ -44,8 +42,7 @@ def enclosed_void(solid: NDArray[np.bool_]) -> NDArray[np.bool_]:
             run_lists.append(run.astype(np.int32))
             neighbour_lists.append((low[run] + place).astype(np.int32))
     first_run, second_run = np.concatenate(run_lists), np.concatenate(neighbour_lists)
-    graph = coo_array((np.ones(len(first_run), dtype=np.int8), (first_run, second_run)), shape=(len(start),) * 2)
-    _, component = connected_components(graph, directed=False)
+    component, _ = label_connected(first_run, second_run, len(start))
     inner = component != component[0]
     index = np.concatenate([start[inner], end[inner]])
     sign = np.repeat(np.array([1, -1], dtype=np.int8), int(inner.sum()))

@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 
 from infill.drawing import MOST_POINTS, Line
 from infill.errors import GeometryError
+from infill.graph import label_connected
 from infill.paths.tiles.pairing import TileGraph, choose_doubled_parts
 
 Floats = NDArray[np.float64]
@@ -115,16 +116,13 @@ def _merge_ends(lines: list[Line], size: tuple[float, float], tolerance: float) 
 
 def _cluster_points(points: Floats, size: tuple[float, float], tolerance: float) -> tuple[NDArray[np.intp], Floats]:
     """Cluster points on the torus; return the cluster of each point, and the places of clusters."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
     from scipy.spatial import KDTree
 
     box = np.array(size)
     wrapped = np.mod(points, box)
     wrapped[wrapped >= box] = 0  # rounding
     pairs = KDTree(wrapped, boxsize=box).query_pairs(tolerance, output_type="ndarray")
-    graph = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(points), len(points)))
-    _, label = connected_components(graph, directed=False)
+    label, _ = label_connected(pairs[:, 0], pairs[:, 1], len(points))
     _, representatives = np.unique(label, return_index=True)
     return label, wrapped[representatives]
 
