@@ -20,9 +20,9 @@ from infill.isosurfaces.components import data_bits
 from infill.kernels.flips import simple
 from infill.phasefield.sparse import smooth_bricks
 from infill.smoothing.levelling import extract_surface
-from infill.smoothing.placing import place_surface, raw_surface
 from infill.smoothing.request import SmoothInput, SmoothRequest
 from infill.smoothing.sources import read_source
+from infill.smoothing.stages import place_surface, raw_surface
 from infill.voxels.from_mesh import voxelise
 from infill.voxels.segmentation import segment_volume
 
@@ -55,10 +55,12 @@ def compared(given: SmoothInput, request: SmoothRequest) -> tuple[bool, bool]:
     data, spacing = given.data, tuple(given.data.cell_size.tolist())
     field = smooth_bricks(data.values, request.smoothing, spacing=spacing)
     surfaced = extract_surface(field, given, request)
-    found = surfaced.found
-    flips = SignChanges.of(found.against, surfaced.before.bits, found.height)
-    whole = check_topology(found, surfaced.before, spacing=spacing, blur=request.smoothing.blur, levels=surfaced.levels)
-    part = check_topology_by_signs(found, surfaced.before, flips, levels=surfaced.levels)
+    found = surfaced.levelled
+    flips = SignChanges.of(found.field, surfaced.components.bits, found.height)
+    whole = check_topology(
+        found, surfaced.components, spacing=spacing, blur=request.smoothing.blur, levels=surfaced.levels
+    )
+    part = check_topology_by_signs(found, surfaced.components, flips, levels=surfaced.levels)
     if part is not None:
         assert (part.data, part.result, part.changes, part.problems) == (
             whole.data,

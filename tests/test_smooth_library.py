@@ -34,7 +34,7 @@ from infill.isosurfaces.levels import SMALLEST
 from infill.kernels.compiling import log_compilation
 from infill.meshes.distance import distances
 from infill.phasefield.sparse import smooth_bricks
-from infill.smoothing.attempt import VOLUME_TOLERANCE
+from infill.smoothing.comparing import VOLUME_TOLERANCE
 
 Solid = NDArray[np.bool_]
 

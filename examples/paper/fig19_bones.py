@@ -15,7 +15,7 @@ from examples.paper import models, plots
 from examples.paper.entry import NOT_GIVEN, PICTURE_ONLY, Entry, Row, run
 from infill import Smoothing, smooth_points
 from infill.meshes.distance import distances
-from infill.smoothing.placing import subsample
+from infill.smoothing.comparing import subsample
 
 STEPS, WIDTH = 30, 5  # voxels
 
@@ -47,7 +47,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         unit = "mm" if name != "skull" else ""  # of which the unit is not known
         titles = (f"{name}: narrow volume", f"{STEPS} steps")
         plots.show_solids(line[:2], [raw, result.surface], titles, unit=unit)
-        phi = result.stages.levelled.against.to_dense() - np.float32(result.stages.levelled.height)
+        phi = result.stages.levelled.field.to_dense() - np.float32(result.stages.levelled.height)
         axis = int(np.argmin(data.values.shape[:2]))
         flat = [np.take(field, field.shape[axis] // 2, axis=axis) for field in (phi, np.where(data.values, 1.0, -1.0))]
         corner = [data.origin[i] for i in range(3) if i != axis]

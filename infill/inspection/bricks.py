@@ -165,7 +165,7 @@ def check_topology(
     )
     largest = np.argsort(-states.gone.cells)[:MOST_LOST_WALLS]
     lost = tuple(
-        _describe_loss(levelled.against, states.gone, int(number), spacing)
+        _describe_loss(levelled.field, states.gone, int(number), spacing)
         for number in largest
         if states.gone.cells[number] >= WALL
     )
@@ -194,14 +194,14 @@ def check_topology_by_signs(
     result, euler = _count_surface(levelled), flips.euler_number
     cavities = result.cavities
     if len(flips.doubt) or cavities or (before.count, euler) != (result.components, result.euler_number):
-        voids = find_components(levelled.against, flips.data, void=True)
+        voids = find_components(levelled.field, flips.data, void=True)
         if not has_unchanged_cells(voids, ~(flips.data ^ flips.result)):
             return None
         cavities = voids.count - 1
     data = ConnectionCounts.of(components=before.count, cavities=cavities, tunnels=before.count + cavities - euler // 2)
     faint = 0
     if (levels < FAINT).any():
-        thick = add_thickness(levelled.against, before).thick
+        thick = add_thickness(levelled.field, before).thick
         faint = int((thick & (before.cells >= WALL) & (levels < FAINT)).sum())
     changes = TopologyChanges(
         vanished_thin=0, walls_lost=0, faint=faint, walls_pierced=max(0, result.tunnels - data.tunnels)
@@ -211,7 +211,7 @@ def check_topology_by_signs(
 
 def _find_states(levelled: LevelSurface, before: Components, reach: int, threads: int | None) -> _States:
     """Find all components to be compared, in parallel."""
-    field = levelled.against
+    field = levelled.field
     before_bits, after_bits = (
         data_bits(field, threads=threads),
         solid_bits(field, level=levelled.height, threads=threads),

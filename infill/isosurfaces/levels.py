@@ -58,7 +58,7 @@ class LevelSurface:
 
     Parameters
     ----------
-    against : SparseField
+    field : SparseField
         The field, or the field minus the level of each component.
     surface : Surface
     rate : (V, 3) float32
@@ -77,7 +77,7 @@ class LevelSurface:
         Used to label the shells; see `infill.kernels.threads.thread_count`.
     """
 
-    against: SparseField
+    field: SparseField
     surface: Surface
     rate: NDArray[np.float32]
     signs: LevelSigns
@@ -200,7 +200,7 @@ def surface_at_level(
     """Extract the surface at one level; the paper's is at 0."""
     extracted = extract_level(field, spacing=spacing, level=level, threads=threads)
     return LevelSurface(
-        against=field,
+        field=field,
         height=level,
         surface=extracted.surface,
         rate=extracted.rate,
@@ -264,7 +264,7 @@ def surface_at_volume(
         )
     if data.count == 1:
         return LevelSurface(
-            against=field,
+            field=field,
             height=best.level,
             surface=best.found.surface,
             rate=best.found.rate,
@@ -318,7 +318,7 @@ def _level_components(
         if error[heads].sum() < smallest_error:
             smallest_error = float(error[heads].sum())
             best = LevelSurface(
-                against=shifted,
+                field=shifted,
                 height=0.0,
                 surface=extracted.surface,
                 rate=extracted.rate,
@@ -383,7 +383,7 @@ def _join_groups(group: NDArray[np.integer], new_pairs: NDArray[np.integer]) -> 
 
 def component_of_shells(levelled: LevelSurface, data: Components, *, spacing: tuple[float, ...]) -> NDArray[np.int64]:
     """Return for every shell of a surface the nearest component of the data; -1 for none."""
-    return _assign_components(levelled.shells, levelled.surface, levelled.against, data, spacing)[0]
+    return _assign_components(levelled.shells, levelled.surface, levelled.field, data, spacing)[0]
 
 
 def nearest_components(points: NDArray[np.floating], field: SparseField, data: Components) -> NDArray[np.int32]:

@@ -5,7 +5,7 @@ smooth      compute the field in bricks
 level       find the surface at the level at which every component has its volume, and remove crumbs
 judge       compare components, cavities, tunnels and walls before and after, and measure the distance between the
             surface and the input, both ways
-deliver     place and simplify the surface, and write the report
+deliver     simplify the surface, and write the report
 """
 
 from __future__ import annotations
@@ -16,37 +16,52 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from infill.errors import GeometryError
+from infill.errors import GeometryError, ParameterError
 from infill.inspection.bricks import TopologyCheck, check_topology, check_topology_by_signs
-from infill.inspection.fidelity import Fidelity, measure_fidelity
+from infill.inspection.fidelity import Fidelity
 from infill.inspection.sign_changes import SignChanges, are_surfaces_near
 from infill.inspection.thickness import thinnest_walls
+from infill.isosurfaces.components import data_bits, erase_components, find_components, shell_names
 from infill.kernels.compiling import log_compilation
 from infill.kernels.threads import run_together, thread_count
+from infill.machine import available_memory, require_memory
 from infill.meshes.distance import distances
+from infill.meshes.edge_collapse import collapse_edges
 from infill.meshes.measuring import measure_surface
+from infill.meshes.simplification import restore_volume, simplify_surface
+from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.refining import refine_bricks
 from infill.phasefield.sparse import smooth_bricks
 from infill.report import report_of
 from infill.result import Clock, Result
 from infill.sections import Sections
-from infill.smoothing.cleaning import remove_specks, require_room
-from infill.smoothing.comparing import Differences, find_differences, place_classifier
-from infill.smoothing.crumbs import Crumbs, remove_crumbs
-from infill.smoothing.levelling import SurfaceAtLevel, extract_surface
-from infill.smoothing.placing import place_surface, raw_surface, simplify_result
-from infill.smoothing.stages import SmoothStages
+from infill.smoothing.comparing import (
+    Differences,
+    compare_with_input,
+    distance_facts,
+    find_differences,
+    subsample,
+    summarise_distances,
+    volume_error,
+)
+from infill.smoothing.levelling import Crumbs, SurfaceAtLevel, extract_surface, remove_crumbs
+from infill.smoothing.stages import SmoothStages, place_surface
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from infill.phasefield.sparse import SparseField
     from infill.report_keys import SmoothReport
     from infill.smoothing.request import SmoothInput, SmoothRequest
     from infill.surface import Surface
     from infill.volume import Volume
 
-VOLUME_TOLERANCE = 0.01  # of the volume: deviation that is tolerated, because of specks that are gone
 MAX_LISTED_PLACES = 5  # of the places that were lost or added are listed
-MAX_COMPARED_VERTICES = 5_000  # vertices of the voxels whose distance from the mesh is reported
+MAX_VOLUME_CHANGE = 0.05  # of the volume: how much simplification may change
+BYTES_PER_SURFACE_CELL = 600  # bricks, faces, labels and mesh, for every cell at the surface; a measured peak
+BYTES_TO_REFINE = 500  # three filtered fields and the last but one, on top of that
+SAMPLED_LAYERS = 16  # layers that are sampled to estimate the surface
+FACES_PER_CROSSING = 1.5  # along two of the three axes
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -55,58 +70,54 @@ class Attempt:
 
     Parameters
     ----------
-    given, request : SmoothInput, SmoothRequest
+    smooth_input, request : SmoothInput, SmoothRequest
         The input and the options it was made from; the data have no specks, and lengths are in cells.
     field : SparseField
     surfaced : SurfaceAtLevel
+    surface : Surface, mm
+        The surface in its place.
     crumbs, specks : Crumbs, int
         Crumbs removed after smoothing, and the number of specks removed before.
-    judged : TopologyCheck
+    topology : TopologyCheck
     thinnest : (float or None, float or None), mm
         The thinnest walls, in the data and smoothed: see `infill.inspection.thickness.thinnest_walls`.
-    found : Fidelity or None
+    fidelity : Fidelity or None
         Its distance from the input; None if it is sure to be near everywhere, so that it was not measured.
-    told : Differences
+    differences : Differences
         The verdict in words.
-    full : Surface, mm
-        The surface in its place.
     clock : Clock
     """
 
-    given: SmoothInput
+    smooth_input: SmoothInput
     request: SmoothRequest
     field: SparseField
     surfaced: SurfaceAtLevel
+    surface: Surface
     crumbs: Crumbs
     specks: int
-    judged: TopologyCheck
+    topology: TopologyCheck
     thinnest: tuple[float | None, float | None]
-    found: Fidelity | None
-    told: Differences
-    full: Surface
+    fidelity: Fidelity | None
+    differences: Differences
     clock: Clock
 
     @property
-    def sound(self) -> bool:
-        """Whether another attempt could not improve on this one."""
-        return self.told.word != "lost" and not self.apart
-
-    @property
-    def apart(self) -> bool:
-        """Whether parts fused or broke, holes of a mesh closed, or the volume is off."""
-        changes, before, after = self.judged.changes, self.given.topology, self.judged.result
+    def is_sound(self) -> bool:
+        """Whether another attempt could not improve: nothing is lost, broken or fused, and the volume is right."""
+        changes, before, after = self.topology.changes, self.smooth_input.topology, self.topology.result
         if before is None:
             broken = bool(changes.broken or changes.fused or changes.vanished)
         else:
             broken = after.components != before.components or after.tunnels < before.tunnels
-        return broken or volume_error(self.surfaced, self.given, self.request) != 0
+        off = volume_error(self.surfaced, self.smooth_input, self.request) != 0
+        return self.differences.word != "lost" and not broken and not off
 
     @property
     def rank(self) -> tuple[bool, int, float]:
         """Sort key of attempts: the lowest is the best."""
-        patches = (*self.found.lost, *self.found.added) if self.found else ()
+        patches = (*self.fidelity.lost, *self.fidelity.added) if self.fidelity else ()
         area = float(sum(patch.area for patch in patches))
-        return self.told.word == "lost", len(self.told.problems), area
+        return self.differences.word == "lost", len(self.differences.problems), area
 
 
 @log_compilation("the smoother")
@@ -122,58 +133,117 @@ def run_attempt(smooth_input: SmoothInput, request: SmoothRequest) -> Attempt:
     request = request.at(float(smooth_input.data.cell_size.min()))
     clock = Clock(request.progress)
     with clock.stage("smooth", 0.05):
-        require_room(smooth_input.data, request)
-        data, specks = remove_specks(smooth_input.data, request)
+        _require_memory(smooth_input.data, request)
+        data, specks = _remove_specks(smooth_input.data, request)
         smooth_input = replace(smooth_input, data=data)
         field = _smooth_field(smooth_input, request, clock)
     with clock.stage("surface", 0.4):
         raised = extract_surface(field, smooth_input, request)
     with clock.stage("check", 0.5):
         threads = thread_count(request.threads)
-        full, (flips, surely_near), _ = run_together(
+        surface, (flips, surely_near), _ = run_together(
             partial(_measured_surface, raised, data),
             partial(_sign_changes, raised, smooth_input, request),
-            partial(getattr, raised.found, "shells"),
+            partial(getattr, raised.levelled, "shells"),
             threads=threads,
         )
         surfaced, crumbs = remove_crumbs(raised, smooth_input, request)
-        if surfaced.found.surface is not raised.found.surface:
-            full = _measured_surface(surfaced, data)
-        if not full.closed:
+        if surfaced.levelled.surface is not raised.levelled.surface:
+            surface = _measured_surface(surfaced, data)
+        if not surface.closed:
             raise GeometryError("the surface is not closed; use finer voxels or fewer steps")
-        judged, thinnest = run_together(
-            partial(_topology_verdict, surfaced, flips, data, request),
+        topology, thinnest = run_together(
+            partial(_check_topology, surfaced, flips, data, request),
             partial(_wall_thickness, surfaced, data),
             threads=threads,
         )
-        deviation = (
-            None if surely_near and not crumbs.count else _compare_with_input(full, smooth_input, field, request)
-        )
+        measured = crumbs.count or not surely_near
+        fidelity = compare_with_input(surface, smooth_input, field, request) if measured else None
     return Attempt(
-        given=smooth_input,
+        smooth_input=smooth_input,
         request=request,
         field=field,
         surfaced=surfaced,
+        surface=surface,
         crumbs=crumbs,
         specks=specks,
-        judged=judged,
+        topology=topology,
         thinnest=thinnest,
-        found=deviation,
-        told=find_differences(judged, deviation, smooth_input, off=volume_error(surfaced, smooth_input, request)),
-        full=full,
+        fidelity=fidelity,
+        differences=find_differences(topology, fidelity, surfaced, smooth_input, request),
         clock=clock,
     )
 
 
-def _topology_verdict(
+def estimate_surface_cells(data: Volume) -> float:
+    """Estimate the number of cells at the surface of the solid from a few layers."""
+    values: NDArray[Any] = data.values
+    stride = max(1, values.shape[0] // SAMPLED_LAYERS)
+    layers = values[::stride] > 0
+    crossings = sum(int(np.count_nonzero(np.diff(layers, axis=axis))) for axis in (1, 2))
+    return crossings * stride * FACES_PER_CROSSING
+
+
+def bytes_per_surface_cell(request: SmoothRequest) -> int:
+    """Return the memory that smoothing takes for each cell at the surface, bytes."""
+    return BYTES_PER_SURFACE_CELL + (BYTES_TO_REFINE if request.refined else 0)
+
+
+def _require_memory(data: Volume, request: SmoothRequest) -> None:
+    """Raise MemoryLimitError if the surface does not fit into memory."""
+    needed = estimate_surface_cells(data) * bytes_per_surface_cell(request)
+    allowed = available_memory() if request.max_memory is None else request.max_memory
+    # Half as many voxels along each side leave an eighth of the cells of a surface that fills the volume, like noise.
+    larger = float(data.cell_size.max()) * 1.1 * (needed / max(allowed or needed, 1)) ** (1 / 3)
+    require_memory(int(needed), request.max_memory, f"give --voxel {larger:.2g} or more, or --roi for a part of it")
+
+
+def _remove_specks(data: Volume, request: SmoothRequest) -> tuple[Volume, int]:
+    """Remove components up to the requested volume; return the data and the number removed."""
+    largest = request.despeckle
+    if not largest:
+        return data, 0
+    field = smooth_bricks(data.values, Smoothing(steps=0), threads=request.threads)
+    components = find_components(field, data_bits(field, threads=request.threads))
+    small = components.cells * data.cell_volume <= largest
+    if small.all():
+        raise ParameterError(
+            f"despeckle is {largest:g} mm³ and the largest component has "
+            f"{components.cells.max() * data.cell_volume:g} mm³; give less"
+        )
+    if not small.any():
+        return data, 0
+    return replace(data, values=erase_components(data.values, field, components, small)), int(small.sum())
+
+
+def _smooth_field(smooth_input: SmoothInput, request: SmoothRequest, clock: Clock) -> SparseField:
+    """Smooth the data into a field of bricks."""
+    values, spacing = smooth_input.data.values, tuple(smooth_input.data.cell_size.tolist())
+
+    def progress(share: float) -> None:
+        clock.tell("smooth", 0.05 + 0.3 * share)
+
+    if request.refined:
+        return refine_bricks(
+            values,
+            request.smoothing,
+            spacing=spacing,
+            exact=smooth_input.enclosed is not None and request.held,
+            threads=request.threads,
+            progress=progress,
+        )
+    return smooth_bricks(values, request.smoothing, spacing=spacing, threads=request.threads, progress=progress)
+
+
+def _check_topology(
     surfaced: SurfaceAtLevel, flips: SignChanges, data: Volume, request: SmoothRequest
 ) -> TopologyCheck:
     """Compare the topology before and after: by the cells that changed sign, or else by all cells."""
     return check_topology_by_signs(
-        surfaced.found, surfaced.before, flips, levels=surfaced.levels, threads=request.threads
+        surfaced.levelled, surfaced.components, flips, levels=surfaced.levels, threads=request.threads
     ) or check_topology(
-        surfaced.found,
-        surfaced.before,
+        surfaced.levelled,
+        surfaced.components,
         spacing=tuple(data.cell_size.tolist()),
         blur=request.smoothing.blur,
         levels=surfaced.levels,
@@ -183,16 +253,16 @@ def _topology_verdict(
 
 def _measured_surface(surfaced: SurfaceAtLevel, data: Volume) -> Surface:
     """Place the surface and measure it, on this thread alone: other threads work on the topology meanwhile."""
-    return measure_surface(place_surface(surfaced.found.surface, data), threads=1)
+    return measure_surface(place_surface(surfaced.levelled.surface, data), threads=1)
 
 
 def _sign_changes(
     raised: SurfaceAtLevel, smooth_input: SmoothInput, request: SmoothRequest
 ) -> tuple[SignChanges, bool]:
     """Return the cells that changed sign, and whether the surface is sure to be near the input (only for voxels)."""
-    levelled, spacing = raised.found, tuple(smooth_input.data.cell_size.tolist())
+    levelled, spacing = raised.levelled, tuple(smooth_input.data.cell_size.tolist())
     flips = SignChanges.of(
-        levelled.against, raised.before.bits, levelled.height, signs=levelled.signs, threads=request.threads
+        levelled.field, raised.components.bits, levelled.height, signs=levelled.signs, threads=request.threads
     )
     of_data = smooth_input.mesh is None and smooth_input.raw is None
     return flips, of_data and are_surfaces_near(flips, spacing=spacing, threads=request.threads)
@@ -200,21 +270,26 @@ def _sign_changes(
 
 def _wall_thickness(surfaced: SurfaceAtLevel, data: Volume) -> tuple[float | None, float | None]:
     """Return the thickness of the thinnest wall, in the data and smoothed, mm."""
-    levelled = surfaced.found
-    return thinnest_walls(levelled.against, levelled.surface, tuple(data.cell_size.tolist()), levelled.height)
+    levelled = surfaced.levelled
+    return thinnest_walls(levelled.field, levelled.surface, tuple(data.cell_size.tolist()), levelled.height)
 
 
 def finish_attempt(best: Attempt) -> tuple[Result[SmoothStages, SmoothReport], Differences]:
-    """Simplify the surface of an attempt; return the result and its differences from the input: the fifth stage."""
-    smooth_input, request, clock, data = best.given, best.request, best.clock, best.given.data
-    judged, surfaced, deviation, final_verdict = best.judged, best.surfaced, best.found, best.told
+    """Simplify the surface of an attempt; return the result and its differences from the input: the fifth stage.
+
+    Raises
+    ------
+    GeometryError
+        If simplification would change the volume by more than 5 %, unless broken results are allowed.
+    """
+    smooth_input, request, clock, surfaced = best.smooth_input, best.request, best.clock, best.surfaced
+    data, topology, fidelity, differences = smooth_input.data, best.topology, best.fidelity, best.differences
     with clock.stage("measure", 0.75):
-        surface, simplified = simplify_result(best.full, request)
-        if surface is not best.full:
-            deviation = _compare_with_input(surface, smooth_input, best.field, request)
-            final_verdict = find_differences(
-                judged, deviation, smooth_input, off=volume_error(surfaced, smooth_input, request)
-            )
+        surface, simplified = _simplify_result(best.surface, request)
+        if surface is not best.surface:
+            fidelity = compare_with_input(surface, smooth_input, best.field, request)
+            differences = find_differences(topology, fidelity, surfaced, smooth_input, request)
+    problems = [*differences.losses, *differences.problems]
     report = report_of(
         product="smooth",
         surface=surface,
@@ -226,79 +301,55 @@ def finish_attempt(best: Attempt) -> tuple[Result[SmoothStages, SmoothReport], D
             "space": data.space,
         },
         solid={"data": float(surfaced.targets.sum()), "level": _level_facts(surfaced, request)},
-        data=judged.data,
-        result=judged.result,
-        changes=judged.changes,
-        walls=_wall_facts(best, data),
-        problems=[*final_verdict.losses, *final_verdict.problems],
+        data=topology.data,
+        result=topology.result,
+        changes=topology.changes,
+        walls=_wall_facts(best),
+        problems=problems,
         seconds=clock.seconds,
         simplified=simplified,
         input={**smooth_input.facts, "despeckled": best.specks},
         distance={},
         verdict={
-            "word": final_verdict.word,
-            "changes": [
-                *final_verdict.losses,
-                *final_verdict.problems,
-                *final_verdict.remarks,
-                *_remarks(best.crumbs, best.specks),
-            ],
-            "lost": [patch.facts() for patch in deviation.lost[:MAX_LISTED_PLACES]] if deviation else [],
-            "added": [patch.facts() for patch in deviation.added[:MAX_LISTED_PLACES]] if deviation else [],
+            "word": differences.word,
+            "changes": [*problems, *differences.remarks, *_cleaning_remarks(best.crumbs, best.specks)],
+            "lost": [patch.facts() for patch in fidelity.lost[:MAX_LISTED_PLACES]] if fidelity else [],
+            "added": [patch.facts() for patch in fidelity.added[:MAX_LISTED_PLACES]] if fidelity else [],
             "crumbs": {"removed": best.crumbs.count, "volume": best.crumbs.volume, "limit": best.crumbs.limit},
             "tried": [],
         },
     )
-    report = Sections(report, {"distance": partial(_distance_facts, surface, smooth_input, best.field, request)})
-    stages = SmoothStages(data=data, levelled=surfaced.found, given=smooth_input.mesh)
-    return Result(surfaces={"solid": surface}, report=cast("SmoothReport", report), stages=stages), final_verdict
+    report = Sections(report, {"distance": partial(distance_facts, surface, smooth_input, best.field, request)})
+    stages = SmoothStages(data=data, levelled=surfaced.levelled, given=smooth_input.mesh)
+    return Result(surfaces={"solid": surface}, report=cast("SmoothReport", report), stages=stages), differences
 
 
-def _raw_surface(smooth_input: SmoothInput, field: SparseField, request: SmoothRequest) -> Surface:
-    """Return the surface of the input voxels, mm."""
-    return smooth_input.raw or raw_surface(field, smooth_input.data, request.threads)
-
-
-def _compare_with_input(
-    surface: Surface, smooth_input: SmoothInput, field: SparseField, request: SmoothRequest, *, exact: bool = False
-) -> Fidelity:
-    """Measure the distance between a surface and the input, both ways; by default, only where it is large."""
-    return measure_fidelity(
-        _raw_surface(smooth_input, field, request) if smooth_input.mesh is None else smooth_input.mesh,
-        surface,
-        cell=smooth_input.cell or float(smooth_input.data.cell_size.max()),
-        closed=smooth_input.reference,
-        kinds=place_classifier(smooth_input, field, threads=request.threads),
-        exact=exact,
-        threads=request.threads,
-    )
-
-
-def _smooth_field(smooth_input: SmoothInput, request: SmoothRequest, clock: Clock) -> SparseField:
-    """Smooth the data into a field of bricks: the second stage."""
-    values, spacing = smooth_input.data.values, tuple(smooth_input.data.cell_size.tolist())
-
-    def progress(share: float) -> None:
-        clock.tell("smooth", 0.05 + 0.3 * share)
-
-    if request.refined:
-        return refine_bricks(
-            values,
-            request.smoothing,
-            spacing=spacing,
-            exact=smooth_input.exact and request.held,
-            threads=request.threads,
-            progress=progress,
+def _simplify_result(full: Surface, request: SmoothRequest) -> tuple[Surface, dict[str, Any] | None]:
+    """Simplify the surface as requested; return it and the changes, None if it stays as it is."""
+    if request.tolerance is None and request.max_triangles is None:
+        return full, None
+    assert not isinstance(request.tolerance, str)  # `Request.at` has made it a number
+    if request.lenient and request.tolerance is not None:
+        simplified_surface = collapse_edges(full, tolerance=request.tolerance, threads=request.threads)
+        if simplified_surface is None or simplified_surface is full:
+            return full, None
+    else:
+        simplified_surface = simplify_surface(
+            full, tolerance=request.tolerance, triangles=request.max_triangles, threads=request.threads
         )
-    return smooth_bricks(values, request.smoothing, spacing=spacing, threads=request.threads, progress=progress)
-
-
-def volume_error(surfaced: SurfaceAtLevel, smooth_input: SmoothInput, request: SmoothRequest) -> float:
-    """Return the relative error of the volume; 0 if it is tolerable, or the level was fixed."""
-    enclosed = smooth_input.enclosed
-    target = float(surfaced.targets.sum()) if enclosed is None else enclosed.total
-    error = surfaced.volume / target - 1
-    return error if request.level == "volume" and abs(error) > VOLUME_TOLERANCE else 0.0
+    result = replace(restore_volume(simplified_surface, full.volume), space=full.space)
+    change = result.volume / full.volume - 1
+    if abs(change) > MAX_VOLUME_CHANGE and not request.allow_broken:
+        raise GeometryError(
+            f"simplifying to {len(result.faces):,} triangles would change the volume by {change:+.0%}; "
+            "allow more triangles or give a smaller tolerance"
+        )
+    return result, {
+        "triangles_before": len(full.faces),
+        "volume_change": change,
+        "shells": shell_names(result)[1],
+        "distance": summarise_distances(distances(subsample(full.vertices), result, threads=request.threads)),
+    }
 
 
 def _level_facts(surfaced: SurfaceAtLevel, request: SmoothRequest) -> dict[str, Any]:
@@ -312,42 +363,15 @@ def _level_facts(surfaced: SurfaceAtLevel, request: SmoothRequest) -> dict[str, 
     }
 
 
-def _wall_facts(best: Attempt, data: Volume) -> dict[str, Any]:
+def _wall_facts(best: Attempt) -> dict[str, Any]:
     """Return the thickness of the thinnest walls and the places of lost ones, for the report."""
     data_thickness, result_thickness = best.thinnest
-    lost = [{"voxels": patch.voxels, "at": data.place(patch.at[None])[0].tolist()} for patch in best.judged.lost]
+    place = best.smooth_input.data.place
+    lost = [{"voxels": piece.voxels, "at": place(piece.at[None])[0].tolist()} for piece in best.topology.lost]
     return {"thinnest": {"data": data_thickness, "result": result_thickness}, "lost": lost}
 
 
-def _distance_facts(
-    surface: Surface, smooth_input: SmoothInput, field: SparseField, request: SmoothRequest
-) -> dict[str, Any]:
-    """Return the distances between result and input, both ways, and from voxels to mesh, for the report."""
-    deviation = _compare_with_input(surface, smooth_input, field, request, exact=True)
-    facts: dict[str, Any] = {
-        "from": "voxels" if smooth_input.mesh is None else "mesh",
-        "result": deviation.there.facts(),
-        "input": deviation.back.facts(),
-        "thin": deviation.thin,
-        "sheet": deviation.sheet,
-        "hidden": deviation.hidden,
-    }
-    if smooth_input.reference is not None:
-        raw = _raw_surface(smooth_input, field, request)
-        distances_from_mesh = distances(
-            raw.vertices[:: max(1, len(raw.vertices) // MAX_COMPARED_VERTICES)],
-            smooth_input.reference,
-            threads=request.threads,
-        )
-        facts["data"] = {
-            "mean": float(distances_from_mesh.mean()),
-            "rms": float(np.sqrt((distances_from_mesh**2).mean())),
-            "max": float(distances_from_mesh.max()),
-        }
-    return facts
-
-
-def _remarks(crumbs: Crumbs, specks: int) -> list[str]:
+def _cleaning_remarks(crumbs: Crumbs, specks: int) -> list[str]:
     """Describe crumbs and specks that were removed on purpose, one phrase each."""
     phrases = []
     if crumbs.count:

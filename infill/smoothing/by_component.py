@@ -14,7 +14,7 @@ from infill.inspection.fidelity import Word
 from infill.meshes.split_components import split_components
 from infill.report import FORM
 from infill.result import Clock, Result, progress_between
-from infill.smoothing.meshes import mesh_strategies
+from infill.smoothing.meshes import mesh_ways
 from infill.smoothing.remedies import first_sound
 from infill.smoothing.request import SmoothRequest
 from infill.surface import Surface
@@ -118,7 +118,7 @@ def smooth_components(
                 component_request = replace(component_request, threads=1)
             try:
                 result = first_sound(
-                    mesh_strategies(part, component_request, voxel=voxel_size, fixed=fixed), component_request
+                    mesh_ways(part, component_request, voxel=voxel_size, fixed=fixed), component_request
                 )
             except (GeometryError, ParameterError) as error:
                 if not request.allow_broken:

@@ -1,27 +1,34 @@
-"""The verdict on a result: kept, changed a little or lost, and the phrases that say why."""
+"""Compare a result with its input: distances both ways, and the verdict: kept, changed a little or lost, and why."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.inspection.fidelity import COUNTS, HIDDEN, SHEET, THIN, Fidelity, Kinds, Word
+from infill.inspection.fidelity import COUNTS, HIDDEN, SHEET, THIN, Fidelity, Kinds, Word, measure_fidelity
 from infill.isosurfaces.components import data_bits, look_up_cells, open_by_blocks
+from infill.meshes.distance import distances
+from infill.smoothing.stages import raw_surface
+from infill.surface import Surface
 from infill.voxels.noise import NOISY
 
 if TYPE_CHECKING:
     from infill.inspection.bricks import TopologyCheck
     from infill.phasefield.sparse import SparseField
-    from infill.smoothing.request import SmoothInput
+    from infill.report_keys import Spread
+    from infill.smoothing.levelling import SurfaceAtLevel
+    from infill.smoothing.request import SmoothInput, SmoothRequest
 
 SIDE_OFFSET = 5e-5  # cells: distance from a face at which solid is looked for
 SLIT_WIDTH = 1.0  # cells: a slit as narrow as this may close
 # Of a scan: features thinner than this, in voxels, may vanish. Noise makes specks and pits of two and more by chance.
 THICK, THICK_IN_NOISE = 2, 4
 MIN_CAP_SHARE = 0.001  # of the area: caps smaller than this are not mentioned
+VOLUME_TOLERANCE = 0.01  # of the volume: tolerated error, because of specks that are gone
+MAX_SAMPLES = 5_000  # vertices whose distance is measured
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,7 +52,60 @@ class Differences:
     remarks: tuple[str, ...]
 
 
-def place_classifier(smooth_input: SmoothInput, field: SparseField, *, threads: int | None = None) -> Kinds:
+def compare_with_input(
+    surface: Surface, smooth_input: SmoothInput, field: SparseField, request: SmoothRequest, *, exact: bool = False
+) -> Fidelity:
+    """Measure the distance between a surface and the input, both ways; by default, only where it is large."""
+    return measure_fidelity(
+        _input_surface(smooth_input, field, request) if smooth_input.mesh is None else smooth_input.mesh,
+        surface,
+        cell=smooth_input.cell or float(smooth_input.data.cell_size.max()),
+        closed=smooth_input.reference,
+        kinds=_place_classifier(smooth_input, field, threads=request.threads),
+        exact=exact,
+        threads=request.threads,
+    )
+
+
+def distance_facts(
+    surface: Surface, smooth_input: SmoothInput, field: SparseField, request: SmoothRequest
+) -> dict[str, Any]:
+    """Return the distances between result and input, both ways, and from voxels to mesh, for the report."""
+    deviation = compare_with_input(surface, smooth_input, field, request, exact=True)
+    facts: dict[str, Any] = {
+        "from": "voxels" if smooth_input.mesh is None else "mesh",
+        "result": deviation.there.facts(),
+        "input": deviation.back.facts(),
+        "thin": deviation.thin,
+        "sheet": deviation.sheet,
+        "hidden": deviation.hidden,
+    }
+    if smooth_input.reference is not None:
+        vertices = subsample(_input_surface(smooth_input, field, request).vertices)
+        facts["data"] = summarise_distances(distances(vertices, smooth_input.reference, threads=request.threads))
+    return facts
+
+
+def subsample(vertices: NDArray[np.floating]) -> NDArray[np.floating]:
+    """Return at most about 5000 vertices, spread evenly over all of them."""
+    return vertices[:: max(1, len(vertices) // MAX_SAMPLES)]
+
+
+def summarise_distances(distance: NDArray[np.float64]) -> Spread:
+    """Return the mean, root mean square and maximum of the distances."""
+    return {
+        "mean": float(distance.mean()),
+        "rms": float(np.sqrt((distance**2).mean())),
+        "max": float(distance.max()),
+    }
+
+
+def _input_surface(smooth_input: SmoothInput, field: SparseField, request: SmoothRequest) -> Surface:
+    """Return the surface of the input voxels, mm."""
+    return smooth_input.raw or raw_surface(field, smooth_input.data, request.threads)
+
+
+def _place_classifier(smooth_input: SmoothInput, field: SparseField, *, threads: int | None) -> Kinds:
     """Return the function that classifies points of the input: those that count as lost, and those that do not.
 
     Of a mesh, points with solid on one side count; those inside the solid, and on sheets without thickness, do not.
@@ -83,37 +143,41 @@ def place_classifier(smooth_input: SmoothInput, field: SparseField, *, threads: 
 
 
 def find_differences(
-    judged: TopologyCheck, deviation: Fidelity | None, smooth_input: SmoothInput, *, off: float = 0.0
+    topology: TopologyCheck,
+    fidelity: Fidelity | None,
+    surfaced: SurfaceAtLevel,
+    smooth_input: SmoothInput,
+    request: SmoothRequest,
 ) -> Differences:
     """Judge a result: return the verdict with its losses, problems and remarks.
 
     Parameters
     ----------
-    judged : TopologyCheck
+    topology : TopologyCheck
         The changes of the voxels in smoothing.
-    deviation : Fidelity or None
+    fidelity : Fidelity or None
         Distances between result and input; None if they are sure to be small everywhere.
+    surfaced : SurfaceAtLevel
     smooth_input : SmoothInput
-    off : float
-        Relative error of the volume.
+    request : SmoothRequest
     """
-    problems = [*judged.problems, *_topology_changes(judged, smooth_input)]
-    if off:
+    problems = [*topology.problems, *_topology_changes(topology, smooth_input)]
+    if off := volume_error(surfaced, smooth_input, request):
         problems.append(f"the volume is off by {off:+.1%}, which no level can correct")
     remarks = []
-    if thin_count := judged.changes.vanished_thin:
+    if thin_count := topology.changes.vanished_thin:
         remarks.append(f"{thin_count} specks or flakes one voxel thick are gone")
-    if deviation and deviation.thin:
+    if fidelity and fidelity.thin:
         feature = (
             "walls or gaps one voxel thick are gone"
             if smooth_input.enclosed is None
             else "slits narrower than a voxel are closed"
         )
-        remarks.append(f"{feature}, {deviation.thin:.3g} mm² of their faces")
-    if deviation and deviation.sheet:
-        remarks.append(f"{deviation.sheet:.3g} mm² of faces that bound no solid are left out")
+        remarks.append(f"{feature}, {fidelity.thin:.3g} mm² of their faces")
+    if fidelity and fidelity.sheet:
+        remarks.append(f"{fidelity.sheet:.3g} mm² of faces that bound no solid are left out")
     if smooth_input.enclosed is not None and smooth_input.topology is None:
-        mesh_parts, result_parts = int((smooth_input.enclosed.volumes > 0).sum()), judged.result.components
+        mesh_parts, result_parts = int((smooth_input.enclosed.volumes > 0).sum()), topology.result.components
         if result_parts < mesh_parts:
             remarks.append(
                 f"the mesh has {mesh_parts} components, some of which overlap or touch, and the result {result_parts}; "
@@ -124,8 +188,8 @@ def find_differences(
     repairs = smooth_input.facts.get("repairs", {})
     if (share := repairs.get("hole_share", 0.0)) > MIN_CAP_SHARE:
         remarks.append(f"{repairs['holes']} holes of the mesh were closed by caps, {share:.1%} of the area")
-    phrases = deviation.phrases if deviation else ()
-    lost = deviation is not None and deviation.word == "lost"
+    phrases = fidelity.phrases if fidelity else ()
+    lost = fidelity is not None and fidelity.word == "lost"
     losses = phrases if lost else ()
     if not lost:
         remarks = [*phrases, *remarks]
@@ -133,11 +197,11 @@ def find_differences(
     return Differences(word=word, losses=losses, problems=tuple(problems), remarks=tuple(remarks))
 
 
-def _topology_changes(judged: TopologyCheck, smooth_input: SmoothInput) -> list[str]:
+def _topology_changes(topology: TopologyCheck, smooth_input: SmoothInput) -> list[str]:
     """Describe differences in topology between mesh and result, if the topology of the mesh is known."""
     if smooth_input.topology is None:
         return []
-    mesh_counts, result_counts = smooth_input.topology, judged.result
+    mesh_counts, result_counts = smooth_input.topology, topology.result
     phrases = []
     for name, singular, before, after in (
         ("components", "component", mesh_counts.components, result_counts.components),
@@ -147,3 +211,11 @@ def _topology_changes(judged: TopologyCheck, smooth_input: SmoothInput) -> list[
         if before != after:
             phrases.append(f"the mesh has {before} {singular if before == 1 else name}, the result {after}")
     return phrases
+
+
+def volume_error(surfaced: SurfaceAtLevel, smooth_input: SmoothInput, request: SmoothRequest) -> float:
+    """Return the relative error of the volume; 0 if it is tolerable, or the level was fixed."""
+    enclosed = smooth_input.enclosed
+    target = float(surfaced.targets.sum()) if enclosed is None else enclosed.total
+    error = surfaced.volume / target - 1
+    return error if request.level == "volume" and abs(error) > VOLUME_TOLERANCE else 0.0

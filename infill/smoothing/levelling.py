@@ -1,4 +1,4 @@
-"""The third stage: find the surface at the level at which every component keeps its volume."""
+"""The third stage: find the surface at the level at which every component keeps its volume, and remove crumbs."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from infill.isosurfaces.components import Components, data_bits, find_components
 from infill.isosurfaces.levels import (
     LevelSurface,
+    component_of_shells,
     component_volumes,
     nearest_components,
     prepare_levels,
@@ -19,6 +20,7 @@ from infill.isosurfaces.levels import (
     surface_at_volume,
 )
 from infill.phasefield.profile import REFINED_PROFILE
+from infill.surface import Surface
 
 if TYPE_CHECKING:
     from infill.phasefield.sparse import SparseField
@@ -29,6 +31,7 @@ if TYPE_CHECKING:
 # Of the largest area of a mesh component that is nearest to one component of the data: smaller areas nearest to other
 # components are chance, as where two components touch.
 MIN_AREA_SHARE = 0.02
+CRUMB_CELLS = 8.0  # cells, a block of 2 x 2 x 2: pieces of this size remain of a wall that breaks up
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -37,8 +40,8 @@ class SurfaceAtLevel:
 
     Parameters
     ----------
-    found : LevelSurface
-    before : Components
+    levelled : LevelSurface
+    components : Components
         Of the data.
     targets : (b,) float64
         Volume of each component, mm³.
@@ -48,8 +51,8 @@ class SurfaceAtLevel:
         Level of phi of each component.
     """
 
-    found: LevelSurface
-    before: Components
+    levelled: LevelSurface
+    components: Components
     targets: NDArray[np.float64]
     common: float
     levels: NDArray[np.float64]
@@ -57,7 +60,23 @@ class SurfaceAtLevel:
     @property
     def volume(self) -> float:
         """Volume enclosed by the surface, mm³."""
-        return float(self.found.shells.volume.sum())
+        return float(self.levelled.shells.volume.sum())
+
+
+@dataclass(frozen=True, kw_only=True)
+class Crumbs:
+    """Number and volume of the crumbs that were removed.
+
+    Parameters
+    ----------
+    count : int
+    volume, limit : float, mm³
+        Volume of all of them, and the size up to which a piece was a crumb.
+    """
+
+    count: int
+    volume: float
+    limit: float
 
 
 def extract_surface(field: SparseField, smooth_input: SmoothInput, request: SmoothRequest) -> SurfaceAtLevel:
@@ -67,21 +86,23 @@ def extract_surface(field: SparseField, smooth_input: SmoothInput, request: Smoo
     """
     threads, level, spacing = request.threads, request.level, tuple(smooth_input.data.cell_size.tolist())
     if isinstance(level, str):
-        before, field, start = prepare_levels(field, spacing=spacing, straighten=not request.refined, threads=threads)
-        targets = _target_volumes(field, before, smooth_input, threads)
-        level_surface = surface_at_volume(field, before, spacing=spacing, targets=targets, start=start, threads=threads)
+        components, field, start = prepare_levels(
+            field, spacing=spacing, straighten=not request.refined, threads=threads
+        )
+        targets = _target_volumes(field, components, smooth_input, threads)
+        levelled = surface_at_volume(field, components, spacing=spacing, targets=targets, start=start, threads=threads)
         to_phase_level = request.profile.phase_level
         common, levels = (
-            to_phase_level(level_surface.common),
-            np.array([to_phase_level(float(height)) for height in level_surface.levels]),
+            to_phase_level(levelled.common),
+            np.array([to_phase_level(float(height)) for height in levelled.levels]),
         )
     else:
-        before = find_components(field, data_bits(field, threads=threads))
-        targets = _target_volumes(field, before, smooth_input, threads)
+        components = find_components(field, data_bits(field, threads=threads))
+        targets = _target_volumes(field, components, smooth_input, threads)
         threshold = request.profile.distance_level(level) if request.refined else level
-        level_surface = surface_at_level(field, before, spacing=spacing, level=threshold, threads=threads)
-        common, levels = level, np.full(before.count, level)
-    return SurfaceAtLevel(found=level_surface, before=before, targets=targets, common=common, levels=levels)
+        levelled = surface_at_level(field, components, spacing=spacing, level=threshold, threads=threads)
+        common, levels = level, np.full(components.count, level)
+    return SurfaceAtLevel(levelled=levelled, components=components, targets=targets, common=common, levels=levels)
 
 
 def _target_volumes(
@@ -149,3 +170,57 @@ def _mesh_targets(
         scale = np.where(has_mesh & (mesh_volume > 0) & (field_volume > 0), mesh_volume / field_volume, 1.0)
     targets: NDArray[np.float64] = volume * scale[group[count:]]
     return targets
+
+
+def remove_crumbs(
+    surfaced: SurfaceAtLevel, smooth_input: SmoothInput, request: SmoothRequest
+) -> tuple[SurfaceAtLevel, Crumbs]:
+    """Remove crumbs from a surface; return it and their number and volume.
+
+    A piece of solid is a crumb if it has at most `request.crumbs` mm³, by default the volume of 8 cells, and is not
+    the largest piece of a component of the data. If all components of a mesh are larger than that, every such piece
+    is a crumb, and every such cavity too: the surface around it is removed, so that it is filled.
+    """
+    limit = CRUMB_CELLS * smooth_input.data.cell_volume if request.crumbs is None else request.crumbs
+    levelled = surfaced.levelled
+    volume = levelled.shells.volume
+    if levelled.shells.names.min(initial=0) < 0:  # vertices that no face uses
+        levelled = _without_shells(levelled, np.zeros(len(volume), dtype=bool))
+        surfaced = replace(surfaced, levelled=levelled)
+    enclosed = smooth_input.enclosed
+    all_small = enclosed is not None and not (np.abs(enclosed.volumes[enclosed.volumes != 0]) <= limit).any()
+    small = (np.abs(volume) if all_small else np.where(volume > 0, volume, np.inf)) <= limit
+    if not small.any() or small.all():
+        return surfaced, Crumbs(count=0, volume=0.0, limit=limit)
+    if all_small:
+        return replace(surfaced, levelled=_without_shells(levelled, small)), Crumbs(
+            count=int(small.sum()), volume=float(np.abs(volume[small]).sum()), limit=limit
+        )
+    spacing = tuple(smooth_input.data.cell_size.tolist())
+    component = component_of_shells(levelled, surfaced.components, spacing=spacing)
+    largest = np.full(surfaced.components.count, -math.inf)
+    has_component = component >= 0
+    np.maximum.at(largest, component[has_component], volume[has_component])
+    is_largest = np.where(has_component, largest[component], math.inf) <= volume
+    crumb = small & ~is_largest
+    if not crumb.any():
+        return surfaced, Crumbs(count=0, volume=0.0, limit=limit)
+    crumbless = _without_shells(levelled, crumb)
+    return replace(surfaced, levelled=crumbless), Crumbs(
+        count=int(crumb.sum()), volume=float(volume[crumb].sum()), limit=limit
+    )
+
+
+def _without_shells(levelled: LevelSurface, removed: NDArray[np.bool_]) -> LevelSurface:
+    """Remove shells from a surface; `removed` marks them."""
+    names = levelled.shells.names
+    vertices = (names >= 0) & ~removed[names]
+    number = np.cumsum(vertices) - 1
+    faces = levelled.surface.faces
+    remaining = faces[vertices[faces[:, 0]]]
+    surface = Surface(
+        vertices=levelled.surface.vertices[vertices],
+        faces=number[remaining].astype(faces.dtype),
+        space=levelled.surface.space,
+    )
+    return replace(levelled, surface=surface, rate=levelled.rate[vertices], total=None)

@@ -1,28 +1,30 @@
-"""Strategies for a mesh: exact distances on a grid, refined; and finer voxels if that loses something."""
+"""Smooth a mesh: its exact distances on a grid, refined; and finer voxels if that loses something."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import logging
 from dataclasses import asdict, replace
-from functools import partial
+
+import numpy as np
 
 from infill.errors import ParameterError
 from infill.inspection.changes import ConnectionCounts
 from infill.machine import require_memory
 from infill.phasefield.refining import cut_off_distance, phase_from_distance
 from infill.phasefield.schedule import MIN_STEPS
-from infill.smoothing.hints import hint_at_filters
-from infill.smoothing.remedies import Strategy
-from infill.smoothing.request import AUTO, Method, SmoothInput, SmoothRequest
+from infill.smoothing.request import AUTO, MeshOnGrid, Method, SmoothInput, SmoothRequest, Way
 from infill.surface import Surface
 from infill.voxels.from_mesh import RESOLUTION, VoxelisedMesh, grid_around, voxelise_with_report
 
+LOG = logging.getLogger("infill")
 BYTES_PER_CELL = 22  # a measured peak: the mask of cells inside, their distances, and the field made from these
 MARGIN = 8  # cells of void around a mesh or points, so that the edge of the grid has no effect
 FINER = (1.5, 2.0, 3.0)  # times as many voxels along each side, tried in turn where something would be lost
+COST_POWER = 2.5  # of these: the surface grows with the square, the volume with the cube
+DENSE = 2  # voxels: a mesh whose edges are longer in the mean has no detail to keep
 
 
-def mesh_strategies(
+def mesh_ways(
     surface: Surface,
     request: SmoothRequest,
     *,
@@ -30,8 +32,8 @@ def mesh_strategies(
     voxel: float | None = None,
     fixed: bool = True,
     hint: bool = False,
-) -> Iterator[Strategy]:
-    """Yield the strategies for a mesh: refined, then with finer voxels unless their size is fixed.
+) -> list[Way]:
+    """List the ways to smooth a mesh: refined, then with finer voxels unless their size is fixed.
 
     Parameters
     ----------
@@ -42,51 +44,43 @@ def mesh_strategies(
     fixed : bool
         Whether the size of the voxels is requested.
     hint : bool
-        Whether to log a hint at filters that may stay nearer to the mesh: see `infill.smoothing.hints`.
+        Whether to log a hint at filters that may stay nearer to the mesh.
     """
     auto: Method = "refine" if request.smoothing.steps >= MIN_STEPS and request.level == "volume" else "plain"
-    base_request = replace(request, method=auto if request.method == AUTO else request.method, refine=None)
-    if base_request.method == "grey":
+    chosen = replace(request, method=auto if request.method == AUTO else request.method, refine=None)
+    if chosen.method == "grey":
         raise ParameterError("grey levels are those of scans; choose plain or refine for a mesh")
-
-    def with_voxels(
-        resolution: int | None, voxel: float | None, *, hint: bool = False
-    ) -> tuple[SmoothInput, SmoothRequest]:
-        if len(surface.faces):
-            grid = grid_around(surface, voxel=voxel, resolution=resolution, margin=MARGIN)
-            advice = f"the grid has {' x '.join(map(str, grid.shape))} cells; give larger voxels or a lower resolution"
-            require_memory(BYTES_PER_CELL * grid.cells, request.max_memory, advice)
-        voxelised = voxelise_with_report(
-            surface, voxel=voxel, resolution=resolution, margin=MARGIN, max_memory=request.max_memory
-        )
-        if hint:
-            hint_at_filters(surface, voxelised)
-        return _mesh_input(surface, voxelised, base_request), base_request
-
-    yield Strategy(name=base_request.method, make=partial(with_voxels, resolution, voxel, hint=hint))
+    data = MeshOnGrid(surface=surface, resolution=resolution, voxel=voxel, hint=hint)
+    ways = [Way(name=chosen.method, data=data, request=chosen)]
     if request.method == AUTO and not fixed:
         for times in FINER:
             finer = round(times * RESOLUTION)
             size = (finer, None) if voxel is None else (None, voxel / times)
-            yield Strategy(name=f"{finer} voxels", make=partial(with_voxels, *size), cost=times**2.5)
+            data = MeshOnGrid(surface=surface, resolution=size[0], voxel=size[1])
+            ways.append(Way(name=f"{finer} voxels", data=data, request=chosen, cost=times**COST_POWER))
+    return ways
 
 
-def _mesh_input(surface: Surface, voxelised: VoxelisedMesh, request: SmoothRequest) -> SmoothInput:
-    """Return the distances from a mesh as data, with its topology if that is known."""
+def voxelise_input(mesh: MeshOnGrid, request: SmoothRequest) -> SmoothInput:
+    """Voxelise a mesh; return its distances as data, with its topology if that is known.
+
+    Raises
+    ------
+    ParameterError, GeometryError, MemoryLimitError
+        See `infill.voxels.from_mesh.voxelise`.
+    """
+    surface, voxel, resolution = mesh.surface, mesh.voxel, mesh.resolution
+    if len(surface.faces):
+        grid = grid_around(surface, voxel=voxel, resolution=resolution, margin=MARGIN)
+        advice = f"the grid has {' x '.join(map(str, grid.shape))} cells; give larger voxels or a lower resolution"
+        require_memory(BYTES_PER_CELL * grid.cells, request.max_memory, advice)
+    voxelised = voxelise_with_report(
+        surface, voxel=voxel, resolution=resolution, margin=MARGIN, max_memory=request.max_memory
+    )
+    if mesh.hint:
+        _hint_at_filters(surface, voxelised)
     interface = request.smoothing.interface
     distance = voxelised.distances(cut_off_distance(interface), threads=request.threads)
-    enclosed = voxelised.enclosed
-    # The topology of the mesh is known if its components neither touch nor overlap, and no caps had to be added.
-    is_exact = (
-        voxelised.closed.closed
-        and voxelised.repairs.holes == 0
-        and (not voxelised.several or len(enclosed.excess) == 0)
-    )
-    topology = None
-    if is_exact:
-        solids, cavities = int((enclosed.volumes > 0).sum()), int((enclosed.volumes < 0).sum())
-        tunnels = solids + cavities - voxelised.closed.euler_number // 2
-        topology = ConnectionCounts.of(components=solids, cavities=cavities, tunnels=tunnels) if tunnels >= 0 else None
     return SmoothInput(
         data=replace(voxelised.volume, values=phase_from_distance(distance, interface, threads=request.threads)),
         facts={
@@ -97,6 +91,37 @@ def _mesh_input(surface: Surface, voxelised: VoxelisedMesh, request: SmoothReque
         },
         reference=voxelised.closed,
         mesh=surface,
-        enclosed=enclosed,
-        topology=topology,
+        enclosed=voxelised.enclosed,
+        topology=_mesh_topology(voxelised),
+    )
+
+
+def _mesh_topology(voxelised: VoxelisedMesh) -> ConnectionCounts | None:
+    """Count solids, cavities and tunnels; None if components touch or overlap, or caps had to be added."""
+    enclosed, closed = voxelised.enclosed, voxelised.closed
+    overlaps = voxelised.several and len(enclosed.excess) > 0
+    if not closed.closed or voxelised.repairs.holes > 0 or overlaps:
+        return None
+    solids, cavities = int((enclosed.volumes > 0).sum()), int((enclosed.volumes < 0).sum())
+    tunnels = solids + cavities - closed.euler_number // 2
+    return ConnectionCounts.of(components=solids, cavities=cavities, tunnels=tunnels) if tunnels >= 0 else None
+
+
+def _hint_at_filters(surface: Surface, voxelised: VoxelisedMesh) -> None:
+    """Log a hint if a filter of the mesh itself may stay nearer to it than voxels.
+
+    That is so for a closed mesh of one component, without overlaps, whose edges are shorter than two voxels in the
+    mean: filters move the corners of such a mesh, while voxels take its noise for its shape.
+    """
+    corners = np.asarray(surface.vertices, dtype=np.float64)[surface.faces]
+    edge_length = float(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).mean())
+    cell_size = float(voxelised.volume.cell_size.max())
+    if edge_length >= DENSE * cell_size or voxelised.several or voxelised.repairs.holes:
+        return
+    LOG.info(
+        "hint: the mesh is closed, and its edges (%.3g mm in the mean) are short for voxels of %.3g mm; if it is a "
+        "noisy scan, a filter of the mesh itself, such as Taubin's or Humphrey's in trimesh, keeps its triangles and "
+        "may be nearer",
+        edge_length,
+        cell_size,
     )

@@ -1,4 +1,4 @@
-"""Plan smoothing without doing it: the grid, the method, the strategies, and expected time and memory.
+"""Plan smoothing without doing it: the grid, the ways, and expected time and memory.
 
 Time and memory grow with the surface. Its number of triangles before simplification is known beforehand: marching
 cubes puts a vertex on every edge of the grid that crosses it, and there are twice as many triangles as vertices. The
@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import contextlib
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Unpack, cast
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,20 +22,17 @@ from infill.kernels.compiling import log_compilation
 from infill.machine import require_memory
 from infill.meshes.merging import merge_unless_closed
 from infill.phasefield.schedule import MIN_STEPS
-from infill.smoothing.cleaning import BYTES_PER_SURFACE_CELL, BYTES_TO_REFINE
+from infill.smoothing.attempt import bytes_per_surface_cell
 from infill.smoothing.meshes import BYTES_PER_CELL as MESH_BYTES_PER_CELL
-from infill.smoothing.meshes import MARGIN, mesh_strategies
-from infill.smoothing.remedies import Strategy, first_sound
-from infill.smoothing.request import AUTO, SmoothRequest
-from infill.smoothing.scans import scan_strategies, volume_strategies
-from infill.smoothing.sources import AXES, Source, check_options_fit, threshold_of, voxel_of_points
+from infill.smoothing.meshes import MARGIN, mesh_ways
+from infill.smoothing.remedies import first_sound
+from infill.smoothing.request import AUTO, SmoothInput, SmoothRequest, Way
+from infill.smoothing.scans import scan_ways, volume_ways
+from infill.smoothing.sources import AXES, Source, SourceOptions, separate_choice
 from infill.surface import Surface
 from infill.volume import Volume
 from infill.voxels.from_mesh import estimate_solid_cells, grid_around
 from infill.voxels.from_points import grid_around_points, voxelise_points
-
-if TYPE_CHECKING:
-    from infill.smoothing.request import Method, SmoothOptions
 
 TRIANGLES_PER_VERTEX = 2  # triangles
 BALL_RADIUS = 16.0  # cells: the radius of the ball on which the time per triangle is measured
@@ -54,7 +51,7 @@ class SmoothPlan:
     Parameters
     ----------
     request : SmoothRequest
-        The options of the first strategy, with lengths in cells of the grid.
+        The options of the first way, with lengths in cells of the grid.
     grid : Grid
     space : str
         Name of the axes: see `infill.Volume`.
@@ -63,13 +60,13 @@ class SmoothPlan:
     solid : float
         Cells that are solid; of a mesh and of points, about.
     ways : tuple of str
-        Strategies that would be tried in turn until nothing is lost; usually the first one suffices.
+        Ways that would be tried in turn until nothing is lost; usually the first one suffices.
     triangles : int
         Of the surface before it is simplified, about.
     memory : int
         Bytes, about.
     seconds : float
-        Expected time of the first strategy on this machine, at its present load.
+        Expected time of the first way on this machine, at its present load.
     """
 
     request: SmoothRequest
@@ -106,27 +103,16 @@ class SmoothPlan:
         }
 
 
-def plan_smoothing(
-    source: Source,
-    *,
-    begin: float,
-    resolution: int | None = None,
-    voxel: float | None = None,
-    shell: float | None = None,
-    threshold: float | None = None,
-    between: tuple[float, ...] | None = None,
-    label: tuple[int, ...] | None = None,
-    otsu: bool = False,
-    grey: bool = False,
-    by_component: bool = False,
-    **options: Unpack[SmoothOptions],
-) -> SmoothPlan:
+def plan_smoothing(source: Source, *, begin: float, **options: Unpack[SourceOptions]) -> SmoothPlan:
     """Return the plan for `infill.smoothing.sources.smooth_source` with the same arguments.
 
     Parameters
     ----------
+    source : Source
     begin : float
         Start of reading the input, by `time.perf_counter`: the plan includes that time.
+    **options
+        See `SourceOptions`.
 
     Raises
     ------
@@ -135,32 +121,16 @@ def plan_smoothing(
     MemoryLimitError
         If a limit is given and the work needs more.
     """
-    check_options_fit(
-        source,
-        resolution=resolution is not None,
-        voxel=voxel is not None,
-        shell=shell is not None,
-        threshold=threshold is not None,
-        between=between is not None,
-        label=label is not None,
-        otsu=otsu,
-        grey=grey,
-        by_component=by_component,
-    )
-    request = SmoothRequest(**options)
+    choice, smooth_options = separate_choice(source, options)
+    request = SmoothRequest(**smooth_options)
     if isinstance(source, Volume):
-        chosen = threshold_of(threshold, between, otsu=otsu)
-        survey = _survey_volume(
-            volume_strategies(source, request, threshold=chosen, label=label, grey=grey, voxel=voxel)
-        )
+        survey = _survey_volume(volume_ways(source, request, **choice))
     elif isinstance(source, Surface):
-        survey = _survey_mesh(source, request, resolution, voxel)
+        survey = _survey_mesh(source, request, choice.get("resolution"), choice.get("voxel"))
     else:
-        points = source[:, :AXES]
-        survey = _survey_points(points, voxel_of_points(points, resolution, voxel), shell, request)
+        survey = _survey_points(source[:, :AXES], choice["voxel"], choice.get("shell"), request)
     grid, cell_request = survey.grid, survey.request.at(float(survey.grid.cell_size.min()))
-    bytes_per_surface_cell = BYTES_PER_SURFACE_CELL + (BYTES_TO_REFINE if cell_request.refined else 0)
-    cells, surface = survey.bytes_per_cell * grid.cells, bytes_per_surface_cell * survey.vertices
+    cells, surface = survey.bytes_per_cell * grid.cells, bytes_per_surface_cell(cell_request) * survey.vertices
     if request.max_memory is not None:
         needed = round(max(cells, surface))
         require_memory(needed, request.max_memory, "give larger voxels, or --roi for a part of a volume")
@@ -211,35 +181,35 @@ class _InputSurvey:
     seconds: float = 0.0
 
 
-def _survey_volume(ways: Iterator[Strategy]) -> _InputSurvey:
-    first_strategy = next(ways)
-    smooth_input, request = first_strategy.make()
+def _survey_volume(ways: Sequence[Way]) -> _InputSurvey:
+    smooth_input = ways[0].data
+    assert isinstance(smooth_input, SmoothInput)
     data = smooth_input.data
     solid, vertices = _count_cells(np.asarray(data.values) > 0)
     return _InputSurvey(
-        request=request,
+        request=ways[0].request,
         grid=Grid(shape=data.values.shape, spacing=tuple(data.cell_size.tolist()), origin=data.origin),
         space=data.space,
         facts=smooth_input.facts,
         solid=solid,
         vertices=vertices,
-        ways=(first_strategy.name, *(way.name for way in ways)),
+        ways=tuple(way.name for way in ways),
     )
 
 
 def _survey_mesh(surface: Surface, request: SmoothRequest, resolution: int | None, voxel: float | None) -> _InputSurvey:
     """Survey a mesh without voxelising it."""
     fixed = resolution is not None or voxel is not None
-    ways = [way.name for way in mesh_strategies(surface, request, resolution=resolution, voxel=voxel, fixed=fixed)]
+    ways = mesh_ways(surface, request, resolution=resolution, voxel=voxel, fixed=fixed)
     mesh = merge_unless_closed(surface.vertices, surface.faces)
     grid = grid_around(mesh, voxel=voxel, resolution=resolution, margin=MARGIN)
     return _InputSurvey(
-        request=replace(request, method=cast("Method", ways[0]), refine=None),
+        request=ways[0].request,
         grid=grid,
         facts={"source": "mesh", "triangles": len(surface.faces)},
         solid=estimate_solid_cells(mesh, grid),
         vertices=_crossings_per_area(mesh) / float(grid.cell_size[0]) ** 2,
-        ways=tuple(ways),
+        ways=tuple(way.name for way in ways),
         bytes_per_cell=MESH_BYTES_PER_CELL,
         share=MESH_TIME_SHARE,
     )
@@ -257,15 +227,14 @@ def _survey_points(
     seconds = time.perf_counter() - begin
     cells, vertices = _count_cells(np.asarray(solid.values))
     phase = shell is None and request.method != "plain"
-    ways = scan_strategies(solid, solid, {"method": "points"}, {}, request, grey=False, phase=phase)
-    first_strategy = next(ways)
+    ways = scan_ways(solid, solid, {"method": "points"}, {}, request, phase=phase)
     return _InputSurvey(
-        request=first_strategy.make()[1],
+        request=ways[0].request,
         grid=grid_around_points(points, voxel=cell, shell=shell, margin=MARGIN),
         facts={"source": "points", "points": len(points), "shell": shell},
         solid=cells * coarsening**3,
         vertices=vertices * coarsening**2,
-        ways=(first_strategy.name, *(way.name for way in ways)),
+        ways=tuple(way.name for way in ways),
         seconds=seconds * (coarsening**2 - 1),
     )
 
@@ -287,7 +256,7 @@ def _seconds_per_triangle(request: SmoothRequest, grid: Grid) -> float:
     )
     begin = time.perf_counter()
     with contextlib.suppress(GeometryError):  # many steps leave nothing of the ball, and take as long
-        first_sound(volume_strategies(ball, trial_request), trial_request)
+        first_sound(volume_ways(ball, trial_request), trial_request)
     return (time.perf_counter() - begin) / (TRIANGLES_PER_VERTEX * _count_cells(np.asarray(ball.values))[1])
 
 

@@ -1,4 +1,4 @@
-"""The options that `smooth_volume`, `smooth_mesh` and `smooth_points` have in common, checked."""
+"""Plain data of smoothing: the options, checked; the input; and a way to smooth it."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from infill.checks import check_positive, check_range
 from infill.errors import ParameterError, UsageError
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.profile import PLAIN_PROFILE, REFINED_PROFILE, Profile
-from infill.phasefield.schedule import MIN_STEPS
+from infill.phasefield.schedule import MIN_STEPS, SNAPSHOT_QUARTERS
 
 if TYPE_CHECKING:
     from infill.inspection.changes import ConnectionCounts
@@ -121,6 +121,11 @@ class SmoothRequest:
         """The profile on which the level that keeps the volume is found."""
         return REFINED_PROFILE if self.refined else PLAIN_PROFILE
 
+    @property
+    def total_steps(self) -> float:
+        """Steps of the scheme: refining takes 65 for every 20."""
+        return self.smoothing.steps * (SNAPSHOT_QUARTERS[-1] / 4 if self.refined else 1)
+
     def at(self, cell: float) -> SmoothRequest:
         """Return the request with its lengths in cells of a size, mm: a radius becomes steps, `auto` a tolerance.
 
@@ -202,7 +207,42 @@ class SmoothInput:
     volume: float | None = None
     cell: float | None = None
 
-    @property
-    def exact(self) -> bool:
-        """Whether the data are exact distances."""
-        return self.enclosed is not None
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class MeshOnGrid:
+    """A mesh, and the grid on which it is to be voxelised when its way is run.
+
+    Parameters
+    ----------
+    surface : Surface, mm
+    resolution, voxel
+        See `infill.smooth_mesh`.
+    hint : bool
+        Whether to log a hint at filters that may stay nearer to the mesh.
+    """
+
+    surface: Surface
+    resolution: int | None = None
+    voxel: float | None = None
+    hint: bool = False
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Way:
+    """One way to smooth an input.
+
+    Parameters
+    ----------
+    name : str
+        Its name in the report, such as "refine" or "300 voxels".
+    data : SmoothInput or MeshOnGrid
+    request : SmoothRequest
+        Its method and steps, and the other options.
+    cost : float
+        Its work, relative to the first way.
+    """
+
+    name: str
+    data: SmoothInput | MeshOnGrid
+    request: SmoothRequest
+    cost: float = 1.0

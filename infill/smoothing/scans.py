@@ -1,10 +1,9 @@
-"""Strategies for a scan: the values to keep, the method, and remedies if that loses something."""
+"""Smooth a scan: the values to keep, the method, and remedies if that loses something."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from functools import partial
 from typing import Any, Literal
 
 import numpy as np
@@ -14,15 +13,12 @@ from infill.errors import ParameterError
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.schedule import MIN_STEPS
 from infill.phasefield.sparse import smooth_bricks
-from infill.smoothing.placing import raw_surface
-from infill.smoothing.remedies import Strategy, fewer_steps
-from infill.smoothing.request import AUTO, SmoothInput, SmoothRequest
+from infill.smoothing.request import AUTO, SmoothInput, SmoothRequest, Way
+from infill.smoothing.stages import raw_surface
 from infill.volume import Volume
 from infill.voxels.coarsening import coarsen
 from infill.voxels.noise import NOISY, noise_share
-from infill.voxels.segmentation import count_solid_cells
-from infill.voxels.segmentation import scale_grey_values as grey_levels
-from infill.voxels.segmentation import segment_volume as segment
+from infill.voxels.segmentation import count_solid_cells, scale_grey_values, segment_volume
 from infill.voxels.slices import interpolate_slices, plan_sublayers
 
 Threshold = float | tuple[float | None, float | None] | Literal["otsu"] | None
@@ -31,7 +27,7 @@ SAMPLED_LAYERS = 16  # sampled for grey values
 SPECK_CELLS = 27  # cells: specks up to this size are taken out of noisy data
 
 
-def volume_strategies(
+def volume_ways(
     scan: Volume,
     request: SmoothRequest,
     *,
@@ -39,8 +35,8 @@ def volume_strategies(
     label: int | Sequence[int] | None = None,
     grey: bool = False,
     voxel: float | None = None,
-) -> Iterator[Strategy]:
-    """Return the strategies for the solid in a volume, the preferred one first.
+) -> list[Way]:
+    """List the ways to smooth the solid in a volume, the preferred one first.
 
     Parameters
     ----------
@@ -50,12 +46,12 @@ def volume_strategies(
         See `infill.smooth_volume`.
     """
     low, high = threshold_range(threshold)
-    solid, used = segment(scan, low=low, high=high, label=label, otsu=isinstance(threshold, str))
+    solid, used = segment_volume(scan, low=low, high=high, label=label, otsu=isinstance(threshold, str))
     phase = used["method"] == "phase"
     if voxel is not None:
         if phase or used["method"] in ("range", "otsu"):
             scan = coarsen(scan, voxel)
-            solid, _ = segment(scan, low=used["low"], high=used.get("high"))
+            solid, _ = segment_volume(scan, low=used["low"], high=used.get("high"))
         else:  # a mask: the solid share of a larger voxel gives the place of the surface in it
             scan = coarsen(replace(solid, values=np.asarray(solid.values) > 0), voxel)
             scan, phase = replace(scan, values=2 * np.asarray(scan.values) - 1), True
@@ -68,7 +64,7 @@ def volume_strategies(
         "coarse": voxel is not None,
         "warnings": list(scan.warnings),
     }
-    return scan_strategies(scan, solid, used, facts, request, grey=grey, phase=phase)
+    return scan_ways(scan, solid, used, facts, request, grey=grey, phase=phase)
 
 
 def threshold_range(threshold: Threshold) -> tuple[float | None, float | None]:
@@ -85,18 +81,18 @@ def threshold_range(threshold: Threshold) -> tuple[float | None, float | None]:
     return None if low is None else float(low), high
 
 
-def scan_strategies(
+def scan_ways(
     scan: Volume,
     solid: Volume,
     used: Mapping[str, Any],
     facts: Mapping[str, Any],
     request: SmoothRequest,
     *,
-    grey: bool,
-    phase: bool,
+    grey: bool = False,
+    phase: bool = False,
     volume: float | None = None,
-) -> Iterator[Strategy]:
-    """Yield the strategies for a scan, the preferred one first.
+) -> list[Way]:
+    """List the ways to smooth a scan, the preferred one first.
 
     Parameters
     ----------
@@ -123,35 +119,28 @@ def scan_strategies(
     if (grey or request.method == "grey") and level is None:
         raise ParameterError("grey levels are kept around one threshold; give one, or otsu")
     noise = noise_share(np.asarray(solid.values), threads=request.threads)
-    facts = {**facts, "noise": noise}
     method, despeckle, paper = request.method, request.despeckle, False
     if method == AUTO:
         keeps_grey = level is not None and not phase and _has_grey_values(np.asarray(scan.values), used["values"])
         paper = request.level != "volume" or request.smoothing.steps < MIN_STEPS
         method = "plain" if noise > NOISY or paper else "grey" if grey or keeps_grey else "refine"
         despeckle = despeckle or (SPECK_CELLS * scan.cell_volume if noise > NOISY and not paper else 0.0)
-    axis, count = plan_sublayers(solid)
-    data = scan if phase else solid
-    if (grey or method == "grey") and not phase:
-        data = grey_levels(scan, float(used["low"]))
-    smooth_input = _scan_input(data, solid, {**facts, "grey": grey or method == "grey"}, axis=axis, count=count)
+    grey = grey or method == "grey"
+    data = scan if phase else scale_grey_values(scan, float(used["low"])) if grey else solid
+    smooth_input = _scan_input(data, solid, {**facts, "noise": noise, "grey": grey})
     smooth_input = smooth_input if volume is None else replace(smooth_input, volume=volume)
-    base_request = replace(request, method=method, refine=None, despeckle=despeckle)
-    yield Strategy(name=method, make=partial(_pass_through, smooth_input, base_request))
+    first = replace(request, method=method, refine=None, despeckle=despeckle)
+    ways = [Way(name=method, data=smooth_input, request=first)]
     if request.method == AUTO and method == "plain" and not paper:
-        refined_request = replace(base_request, method="refine")
-        yield Strategy(name="refine", make=partial(_pass_through, smooth_input, refined_request), cost=2)
-    for steps in fewer_steps(base_request):
-        fewer = replace(base_request, smoothing=replace(base_request.smoothing, steps=steps), radius=None)
-        yield Strategy(name=f"{method}, {steps} steps", make=partial(_pass_through, smooth_input, fewer))
+        ways.append(Way(name="refine", data=smooth_input, request=replace(first, method="refine"), cost=2))
+    steps = request.smoothing.steps
+    while steps > MIN_STEPS:
+        steps = max(MIN_STEPS, steps // 2)
+        fewer = replace(first, smoothing=replace(first.smoothing, steps=steps), radius=None)
+        ways.append(Way(name=f"{method}, {steps} steps", data=smooth_input, request=fewer))
     if request.method == AUTO and method != "plain":
-        plain = replace(base_request, method="plain")
-        yield Strategy(name="plain", make=partial(_pass_through, smooth_input, plain), cost=0.5)
-
-
-def _pass_through(smooth_input: SmoothInput, request: SmoothRequest) -> tuple[SmoothInput, SmoothRequest]:
-    """Return both arguments: `make` of a strategy that needs no other data."""
-    return smooth_input, request
+        ways.append(Way(name="plain", data=smooth_input, request=replace(first, method="plain"), cost=0.5))
+    return ways
 
 
 def _has_grey_values(values: NDArray[Any], ends: list[float]) -> bool:
@@ -160,8 +149,9 @@ def _has_grey_values(values: NDArray[Any], ends: list[float]) -> bool:
     return bool(((sampled_layers > ends[0]) & (sampled_layers < ends[1])).any())
 
 
-def _scan_input(data: Volume, solid: Volume, facts: Mapping[str, Any], *, axis: int, count: int) -> SmoothInput:
+def _scan_input(data: Volume, solid: Volume, facts: Mapping[str, Any]) -> SmoothInput:
     """Return the input of a scan; thick slices are interpolated."""
+    axis, count = plan_sublayers(solid)
     facts = {**facts, "slices": count}
     if count == 1:
         return SmoothInput(data=data, facts=facts)

@@ -2,8 +2,9 @@
 
     data  ->  solid on a grid  ->  bricks, smoothed  ->  level of the right volume  ->  closed surface
 
-Each of the three functions determines the solid and the strategies of smoothing to try, the preferred one first: see
-`infill.smoothing.remedies`. The stages of a strategy are the same for all: see `infill.smoothing.attempt`.
+Each of the three functions lists the ways to smooth its input, the preferred one first, and `first_sound` of
+`infill.smoothing.remedies` runs them until nothing is lost. The stages of a run are the same for all: see
+`infill.smoothing.attempt`.
 """
 
 from __future__ import annotations
@@ -12,23 +13,20 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Literal, Unpack, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from infill.errors import ParameterError
 from infill.grid import spacing_of
 from infill.meshes.merging import surface_of
 from infill.result import Result
 from infill.smoothing.by_component import ComponentStages, smooth_components
-from infill.smoothing.cloud_data import phase_field_of_points
-from infill.smoothing.clouds import compare_with_points
-from infill.smoothing.meshes import MARGIN, mesh_strategies
+from infill.smoothing.meshes import mesh_ways
+from infill.smoothing.points import compare_with_points, points_ways
 from infill.smoothing.remedies import first_sound
 from infill.smoothing.request import SmoothOptions, SmoothRequest
-from infill.smoothing.scans import scan_strategies, threshold_range, volume_strategies
+from infill.smoothing.scans import threshold_range, volume_ways
 from infill.smoothing.stages import SmoothStages
 from infill.surface import Surface
 from infill.volume import Volume
-from infill.voxels.from_points import voxelise_points
 from infill.voxels.segmentation import fill_masked_with_void
 
 if TYPE_CHECKING:
@@ -106,7 +104,7 @@ def smooth_volume(
     ParameterError
         If the values do not determine the solid, or a number is out of range.
     GeometryError
-        If parts thicker than two cells are lost with every strategy: fewer steps, finer cells for a mesh.
+        If parts thicker than two cells are lost in every way: fewer steps, finer cells for a mesh.
     MemoryLimitError
         If memory will not suffice; raised before anything is computed.
 
@@ -123,21 +121,11 @@ def smooth_volume(
     request = SmoothRequest(**options)
     low, _ = threshold_range(threshold)
     chosen = threshold is not None or label is not None
-    scan = volume if isinstance(volume, Volume) else _as_volume(volume, spacing, origin, low, chosen=chosen)
-    ways = volume_strategies(scan, request, threshold=threshold, label=label, grey=grey, voxel=voxel)
+    if not isinstance(volume, Volume):
+        values = fill_masked_with_void(np.asanyarray(volume), low, chosen=chosen)
+        volume = Volume(values=values, spacing=spacing_of(spacing, 3), origin=origin)
+    ways = volume_ways(volume, request, threshold=threshold, label=label, grey=grey, voxel=voxel)
     return first_sound(ways, request)
-
-
-def _as_volume(
-    values: ArrayLike,
-    spacing: float | tuple[float, ...],
-    origin: tuple[float, ...],
-    low: float | None,
-    *,
-    chosen: bool,
-) -> Volume:
-    plain = fill_masked_with_void(np.asanyarray(values), low, chosen=chosen)
-    return Volume(values=plain, spacing=spacing_of(spacing, 3), origin=origin)
 
 
 @overload
@@ -190,7 +178,7 @@ def smooth_mesh(
     if by_component:
         return smooth_components(surface, request, resolution=resolution, voxel=voxel)
     fixed = resolution is not None or voxel is not None
-    ways = mesh_strategies(surface, request, resolution=resolution, voxel=voxel, fixed=fixed, hint=True)
+    ways = mesh_ways(surface, request, resolution=resolution, voxel=voxel, fixed=fixed, hint=True)
     return first_sound(ways, request)
 
 
@@ -232,34 +220,5 @@ def smooth_points(
     `infill.voxels.point_fields.distance_from_points`. A shell, or `method="plain"`, smooths the cells alone.
     """
     cloud, request = np.asarray(points, dtype=np.float64), SmoothRequest(**options)
-    across = _checked_normals(normals, cloud, shell)
-    solid = voxelise_points(
-        cloud,
-        voxel=voxel,
-        shell=shell,
-        margin=MARGIN,
-        max_memory=request.max_memory,
-        threads=request.threads,
-    )
-    scan, volume, phase = solid, None, shell is None and request.method != "plain"
-    if phase:
-        scan, solid, volume = phase_field_of_points(solid, cloud, across, request)
-    facts = {"source": "points", "points": len(cloud), "shell": shell, "normals": across is not None}
-    used = {"method": "points"}
-    ways = scan_strategies(scan, solid, used, facts, request, grey=False, phase=phase, volume=volume)
-    result = first_sound(ways, request)
+    result = first_sound(points_ways(cloud, request, voxel=voxel, shell=shell, normals=normals), request)
     return compare_with_points(result, cloud, voxel, request) if shell is None else result
-
-
-def _checked_normals(
-    normals: ArrayLike | None, points: NDArray[np.float64], shell: float | None
-) -> NDArray[np.float64] | None:
-    """Check normals and return them as an array, with zeros where they are not finite."""
-    if normals is None:
-        return None
-    if shell is not None:
-        raise ParameterError("a shell lies on both sides of the points and takes no normals; leave one of them out")
-    array = np.asarray(normals, dtype=np.float64)
-    if array.shape != points.shape:
-        raise ParameterError(f"the normals have the shape {array.shape} and the points {points.shape}; give one each")
-    return np.where(np.isfinite(array).all(axis=1, keepdims=True), array, 0.0)

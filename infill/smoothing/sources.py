@@ -6,7 +6,7 @@ import logging
 import os
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, Unpack
+from typing import TYPE_CHECKING, Any, Literal, Unpack, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,15 +20,16 @@ from infill.grid import spacing_of
 from infill.imaging.segmentations import Segmentation, read_segmentation
 from infill.imaging.units import STATED_UNITS, UNITS, guess_unit
 from infill.imaging.volume_files import read_volume
+from infill.smoothing.request import SmoothOptions
 from infill.surface import Surface
 from infill.volume import Volume
 from infill.voxels.cropping import crop
+from infill.voxels.from_mesh import RESOLUTION
 
 if TYPE_CHECKING:
     from infill.report_keys import ComponentsReport, SmoothReport
     from infill.result import Result
     from infill.smoothing.by_component import ComponentStages
-    from infill.smoothing.request import SmoothOptions
     from infill.smoothing.stages import SmoothStages
 
 Kind = Literal["mesh", "points", "volume"]
@@ -41,9 +42,26 @@ OPTIONS_OF_KIND = {
     "mesh": ("resolution", "voxel", "by_component"),
     "points": ("resolution", "voxel", "shell"),
 }
+CHOICES = ("resolution", "voxel", "shell", "threshold", "between", "label", "otsu", "grey", "by_component")
 AXES = 3
-RESOLUTION = 200  # voxels along the longest side
 KINDS = ("mesh", "points", "volume")
+
+
+class SourceOptions(SmoothOptions, total=False):
+    """The options of `smooth_source`: the choice of the solid and of the grid, and those of `SmoothOptions`.
+
+    `between` is a range of values, for `threshold`; for the others see `infill.smooth_volume` and its siblings.
+    """
+
+    resolution: int | None
+    voxel: float | None
+    shell: float | None
+    threshold: float | None
+    between: tuple[float, ...] | None
+    label: tuple[int, ...] | None
+    otsu: bool
+    grey: bool
+    by_component: bool
 
 
 def read_source(
@@ -161,45 +179,56 @@ def _resize_and_crop(
 
 
 def smooth_source(
-    source: Source,
-    *,
-    resolution: int | None = None,
-    voxel: float | None = None,
-    shell: float | None = None,
-    threshold: float | None = None,
-    between: tuple[float, ...] | None = None,
-    label: tuple[int, ...] | None = None,
-    otsu: bool = False,
-    grey: bool = False,
-    by_component: bool = False,
-    **options: Unpack[SmoothOptions],
+    source: Source, **options: Unpack[SourceOptions]
 ) -> Result[SmoothStages, SmoothReport] | Result[ComponentStages, ComponentsReport]:
     """Smooth the data of `read_source`; raise ParameterError for options that do not fit their kind."""
     from infill.smoothing.solids import smooth_mesh, smooth_points, smooth_volume
 
-    check_options_fit(
-        source,
-        resolution=resolution is not None,
-        voxel=voxel is not None,
-        shell=shell is not None,
-        threshold=threshold is not None,
-        between=between is not None,
-        label=label is not None,
-        otsu=otsu,
-        grey=grey,
-        by_component=by_component,
-    )
+    choice, smooth_options = separate_choice(source, options)
     if isinstance(source, Volume):
-        chosen = threshold_of(threshold, between, otsu=otsu)
-        return smooth_volume(source, threshold=chosen, label=label, grey=grey, voxel=voxel, **options)
+        return smooth_volume(source, **choice, **smooth_options)
     if isinstance(source, Surface):
-        if by_component:
-            return smooth_mesh(source, resolution=resolution, voxel=voxel, by_component=True, **options)
-        return smooth_mesh(source, resolution=resolution, voxel=voxel, **options)
-    points, normals = source[:, :AXES], source[:, AXES:] if source.shape[1] > AXES and shell is None else None
-    return smooth_points(
-        points, voxel=voxel_of_points(points, resolution, voxel), shell=shell, normals=normals, **options
-    )
+        return smooth_mesh(source, **choice, **smooth_options)
+    points, normals = source[:, :AXES], source[:, AXES:] if source.shape[1] > AXES and "shell" not in choice else None
+    return smooth_points(points, normals=normals, **choice, **smooth_options)
+
+
+def separate_choice(source: Source, options: SourceOptions) -> tuple[dict[str, Any], SmoothOptions]:
+    """Separate the choice of solid and grid from the options that all functions share.
+
+    Parameters
+    ----------
+    source : Source
+    options : SourceOptions
+
+    Returns
+    -------
+    choice : dict
+        Arguments of `infill.smooth_volume`, `infill.smooth_mesh` or `infill.smooth_points`, without those left out.
+    shared : SmoothOptions
+
+    Raises
+    ------
+    ParameterError
+        If an option does not fit the kind of data, or excludes another.
+    """
+    given = {name: value for name, value in options.items() if value is not None and value is not False}
+    choice: dict[str, Any] = {name: given[name] for name in CHOICES if name in given}
+    shared = {name: value for name, value in options.items() if name not in CHOICES}
+    kind = kind_of(source)
+    if unfit := [name for name in choice if name not in OPTIONS_OF_KIND[kind]]:
+        kinds = [candidate for candidate in KINDS if unfit[0] in OPTIONS_OF_KIND[candidate]]
+        raise ParameterError(f"{unfit[0]} is for {' and '.join(kinds)}, and the input is read as {kind}; leave it out")
+    thresholds = [name for name in ("threshold", "between", "otsu") if name in choice]
+    if len(thresholds) > 1:
+        raise UsageError(f"{' and '.join(thresholds)} exclude each other; give one of them")
+    if "between" in choice:
+        choice["threshold"] = choice.pop("between")
+    if choice.pop("otsu", False):
+        choice["threshold"] = "otsu"
+    if not isinstance(source, Volume | Surface):
+        choice["voxel"] = _voxel_of_points(source[:, :AXES], choice.pop("resolution", None), choice.get("voxel"))
+    return choice, cast("SmoothOptions", shared)
 
 
 def kind_of(source: Source) -> Kind:
@@ -207,24 +236,7 @@ def kind_of(source: Source) -> Kind:
     return "volume" if isinstance(source, Volume) else "mesh" if isinstance(source, Surface) else "points"
 
 
-def check_options_fit(source: Source, **given: bool) -> None:
-    """Raise ParameterError if an option does not fit the kind of data, or excludes another."""
-    kind = kind_of(source)
-    unfit = [name for name, used in given.items() if used and name not in OPTIONS_OF_KIND[kind]]
-    if unfit:
-        kinds = [candidate for candidate in KINDS if unfit[0] in OPTIONS_OF_KIND[candidate]]
-        raise ParameterError(f"{unfit[0]} is for {' and '.join(kinds)}, and the input is read as {kind}; leave it out")
-    choices = [name for name in ("threshold", "between", "otsu") if given[name]]
-    if len(choices) > 1:
-        raise UsageError(f"{' and '.join(choices)} exclude each other; give one of them")
-
-
-def threshold_of(threshold: float | None, between: tuple[float, ...] | None, *, otsu: bool) -> Any:  # noqa: ANN401
-    """Return the threshold as `infill.smooth_volume` takes it."""
-    return "otsu" if otsu else between if between is not None else threshold
-
-
-def voxel_of_points(points: NDArray[np.float64], resolution: int | None, voxel: float | None) -> float:
+def _voxel_of_points(points: NDArray[np.float64], resolution: int | None, voxel: float | None) -> float:
     """Return the size of the voxels for points (N, 3), mm."""
     if voxel is not None:
         if resolution is not None:

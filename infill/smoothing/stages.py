@@ -1,4 +1,4 @@
-"""The stages of smoothing: data, field and surface."""
+"""The stages of smoothing, data, field and surface, and the place of a surface in space."""
 
 from __future__ import annotations
 
@@ -6,12 +6,18 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from infill.isosurfaces.sparse_marching import extract_bricks
+from infill.machine import require_memory
+from infill.phasefield.sparse import SparseField
+from infill.surface import Surface
+from infill.volume import Volume
+
 if TYPE_CHECKING:
     from PIL import Image
 
     from infill.isosurfaces.levels import LevelSurface
-    from infill.surface import Surface
-    from infill.volume import Volume
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -34,9 +40,7 @@ class SmoothStages:
 
     def staircase(self) -> Surface:
         """Return the surface of the data, mm, in the same place as the result."""
-        from infill.smoothing.placing import raw_surface
-
-        return raw_surface(self.levelled.against, self.data, None)
+        return raw_surface(self.levelled.field, self.data, None)
 
     def field(self) -> Volume:
         """Return the whole field, minus its level, so that the surface lies at 0: float32, [x, y, z].
@@ -48,12 +52,8 @@ class SmoothStages:
         MemoryLimitError
             If it does not fit into memory.
         """
-        import numpy as np
-
-        from infill.machine import require_memory
-
         require_memory(4 * self.data.values.size, None, "write a mesh instead of the field, or use larger voxels")
-        values = self.levelled.against.to_dense()
+        values = self.levelled.field.to_dense()
         values -= np.float32(self.levelled.height)
         return replace(self.data, values=values.clip(-1, 1, out=values))
 
@@ -67,3 +67,14 @@ class SmoothStages:
         after = f"smoothed: {report['request']['steps']} steps, {report['triangles']:,} triangles"
         cell = float(self.data.cell_size.max())
         return draw_before_and_after(input_surface, surface, cell=cell, report=report, captions=(before, after))
+
+
+def raw_surface(field: SparseField, data: Volume, threads: int | None) -> Surface:
+    """Extract the surface of the unsmoothed data in the bricks, placed in space."""
+    grey = replace(field, values=field.data.astype(np.float32))
+    return place_surface(extract_bricks(grey, spacing=tuple(data.cell_size), threads=threads), data)
+
+
+def place_surface(surface: Surface, data: Volume) -> Surface:
+    """Move a surface from grid coordinates to the place of the volume in space."""
+    return surface.moved(data.place(surface.vertices), space=data.space, mirrored=data.mirrored)
