@@ -51,8 +51,8 @@ def refill(
         str | None,
         typer.Option(
             metavar="keep|NAME|FILE",
-            help="keep: the slicer's own paths, with round corners. Or a drawing: tile.svg, .dxf, .png, .wkt. Or one "
-            "of ours: honeycomb, zigzag, concentric-heart, grid, triangles, tri-hexagon, cubic, rectilinear, hilbert, "
+            help="keep: the slicer's own paths, with round corners. Or a drawing: tile.svg, .dxf, .png, .wkt. Or a "
+            "built-in pattern: honeycomb, zigzag, concentric-heart, grid, triangles, tri-hexagon, cubic, rectilinear, hilbert, "
             "gyroid, schwarz-p, schwarz-d, concentric, honeycomb-3d, octagons, voronoi, cross, cross-hatch, "
             "quarter-cubic, lateral-honeycomb, archimedean-chords, octagram-spiral. "
             "(default: keep)",
@@ -75,7 +75,7 @@ def refill(
         typer.Option(
             metavar="same|PERCENT",
             help="same: the filament that the infill took; with keep, by beads up to 8 % wider. 20%: of the volume, "
-            "for a pattern of ours. (default: same for ours, the slicer's filament per mm for keep)",
+            "for a built-in pattern. (default: the slicer's filament per mm for keep, else same)",
             rich_help_panel=PATHS,
         ),
     ] = None,

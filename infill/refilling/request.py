@@ -82,7 +82,7 @@ class Request:
                 advice = f"did you mean {matches[0]!r}?" if matches else f"give keep, or one of {', '.join(FAMILIES)}"
                 raise ParameterError(f"there is no pattern {self.pattern!r}; {advice}")
         if self.pattern == KEEP and isinstance(self.density, int | float):
-            raise UsageError("density is for patterns of ours; keep has the slicer's: leave it out, or set it there")
+            raise UsageError("density is for built-in patterns; keep has the slicer's: leave it out, or set it there")
         if self.parameters:
             from infill.refilling.placement import pattern_parameters
 
