@@ -17,7 +17,7 @@ SOURCES = $(shell find infill patterns -name '*.py')
 ## make quick     the suite without what is slow
 ## make oldest    the suite on the oldest dependencies that are allowed
 ## make fuzz      mutated files of every format, for an hour; FUZZ="--minutes 300 --only meshes" says how
-## make lint      ruff, and the schemas of workflows, issue forms and CITATION.cff
+## make lint      ruff, the words, and the schemas of workflows, issue forms and CITATION.cff
 ## make types     mypy --strict
 ## make docs      the site, in build/docs
 ## make check     what CI runs: lint, types, docs, coverage
@@ -74,6 +74,8 @@ oldest: .venv-oldest/test
 lint: .venv/lint
 	@$(BIN)/ruff check .
 	@$(BIN)/ruff format --check .
+	@$(BIN)/codespell
+	@$(BIN)/python tools/check_english.py
 	@$(BIN)/check-jsonschema --quiet --builtin-schema vendor.github-workflows .github/workflows/*.yml
 	@$(BIN)/check-jsonschema --quiet --builtin-schema vendor.dependabot .github/dependabot.yml
 	@$(BIN)/check-jsonschema --quiet --builtin-schema vendor.github-issue-config .github/ISSUE_TEMPLATE/config.yml

@@ -30,6 +30,6 @@ def cross_hatch(x: Floats, y: Floats, z: Floats) -> Floats:
 
 CROSS_HATCH = Surfaces(
     name="cross-hatch",
-    summary="upright walls along y and along x by turns; both sides hang together",
+    summary="upright walls, alternately along y and along x; both sides hang together",
     value=cross_hatch,
 )

@@ -90,7 +90,7 @@ def _load(entry: EntryPoint, used_names: Mapping[str, type[Pattern]]) -> type[Pa
     except (Exception, SystemExit) as error:
         message = " ".join(str(error).split())
         kind = "" if isinstance(error, PatternError) else f"{type(error).__name__}: "
-        raise PatternError(f"{prefix} {kind}{message}; mend or uninstall it") from error
+        raise PatternError(f"{prefix} {kind}{message}; repair or uninstall it") from error
     loaded_class: type[Pattern] = pattern
     return loaded_class
 

@@ -246,7 +246,7 @@ def test_circles_and_multitudes_are_refused(tmp_path: Path, monkeypatch: pytest.
         for slicer in SLICERS:
             assert not check_project(path, slicer).fine
     for name, read in readers(packed(tmp_path / "b.3mf", model(thing(1, PART), ITEM * 501))).items():
-        refused(read, "more than 500|no options of ours" if name == "settings" else "more than 500")
+        refused(read, "more than 500|no options of phasefill" if name == "settings" else "more than 500")
 
 
 def test_volumes_without_end_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -244,7 +244,7 @@ def test_a_negative_volume_takes_nothing_off_what_comes_after_it(tmp_path: Path)
 def test_an_open_negative_volume_is_refused(tmp_path: Path) -> None:
     text = model(f'<object id="1">{mesh(COLUMN, PART, missing=1)}</object>')
     told = prusa_config(volume(11, 22), volume(0, 10, volume_type="NegativeVolume", name="cut"))
-    with pytest.raises(FormatError, match="takes the negative volume 'cut' .* off .*not closed; mend"):
+    with pytest.raises(FormatError, match="takes the negative volume 'cut' .* off .*not closed; repair"):
         read_mesh(packed(tmp_path / "a.3mf", text, **{PRUSA: told}))
 
 
@@ -303,7 +303,7 @@ def test_objects_of_other_types_are_no_parts(kind: str, tmp_path: Path) -> None:
         path = packed(tmp_path / f"{name}.3mf", text)
         found = read_mesh(path)
         assert found.volume == pytest.approx(6000)
-        assert f"of type '{kind.strip()}', no part: it is left out" in found.notes[0]
+        assert f"of type '{kind.strip()}', not a part: it is left out" in found.notes[0]
         for slicer in ("prusaslicer", "cura", "plain"):
             assert not check_project(path, slicer).fine  # type: ignore[arg-type]
     alone = packed(tmp_path / "alone.3mf", model(thing(1, PART, kind=kind)))
@@ -543,7 +543,7 @@ def test_every_command_says_what_it_left_out(
     told = json.loads(result.stdout)
     for key in keys:
         told = told[key]
-    note = "volume 'in\\xadfill' of object 1 'o1' is a modifier, no part: it is left out"
+    note = "volume 'in\\xadfill' of object 1 'o1' is a modifier, not a part: it is left out"
     assert note in told
     assert f"part.3mf: {note}" in result.stderr + caplog.text  # the second for a command that has no log of its own
 

@@ -808,7 +808,7 @@ def test_a_side_that_cannot_be_open_is_one_clear_line(tmp_path: Path) -> None:
     assert "error: --open is 'top', and as is 'project'" in refused.stderr
     done = command("fill", path, "--open", "both", "--pattern", "grid", "-o", tmp_path / "a.stl")
     assert done.exit_code == 0
-    assert "but for the open top and bottom" in done.stderr
+    assert "except for the open top and bottom" in done.stderr
     assert "open at the top and bottom" in done.stderr
 
 

@@ -243,8 +243,8 @@ def test_what_stands_before_the_scalars_is_passed_over(text: bool, tmp_path: Pat
     ("change", "says"),
     [
         (lambda w: w.replace(b"STRUCTURED_POINTS", b"POLYDATA"), "no volume; save an image"),
-        (lambda w: w.replace(b"# vtk", b"# vtx"), "no legacy file of VTK"),
-        (lambda w: w.replace(b"BINARY", b"OTHER"), "no legacy file of VTK"),
+        (lambda w: w.replace(b"# vtk", b"# vtx"), "not a legacy VTK file"),
+        (lambda w: w.replace(b"BINARY", b"OTHER"), "not a legacy VTK file"),
         (lambda w: w.replace(b"DIMENSIONS 5 6 7", b"DIMENSIONS 5 6"), "how many points"),
         (lambda w: w.replace(b"DIMENSIONS 5 6 7", b"DIMENSIONS -5 6 7"), "how many points"),
         (lambda w: w.replace(b"5 6 7", b"500000 600000 700000"), "GiB"),

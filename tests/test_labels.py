@@ -78,7 +78,7 @@ def test_large_numbers_are_labels_too() -> None:
 
 
 def test_grey_values_are_no_labels() -> None:
-    with pytest.raises(ParameterError, match="no whole numbers, and so no labels; give --threshold X"):
+    with pytest.raises(ParameterError, match="not whole numbers, and so not labels; give --threshold X"):
         label_extents(Volume(values=np.linspace(0, 1, 27).reshape(3, 3, 3)))
     with pytest.raises(ParameterError, match=f"more than the {MOST_LABELS} labels"):
         label_extents(Volume(values=np.arange(20**3, dtype=np.int32).reshape(20, 20, 20)))

@@ -331,7 +331,7 @@ WRONG_OFFS = {
     "any dimensions": ("nOFF\n3\n1 1 0\n", "more than three dimensions"),
     "no counts": ("OFF\n", "does not say how many"),
     "a count that is none": ("OFF\n8 x 0\n", "line 2: 'x' is not a whole number"),
-    "a count below none": ("OFF\n8 -6 0\n", "line 2: '-6' is no count"),
+    "a count below none": ("OFF\n8 -6 0\n", "line 2: '-6' is not a count"),
     "very many": (off(BOX, counts="4000000000 6 0"), "cut off|not in lines"),
     "cut off": (off(BOX)[:-30], "cut off|not in lines|corners with"),
     "a corner beyond": (off(BOX).replace("4 3 2 1 0", "4 3 2 1 8"), "corner 8, which does not exist: it holds 8"),

@@ -270,14 +270,14 @@ RULES: dict[str, tuple[str, str, Callable[[str], str | None], str]] = {
 }  # fmt: skip
 WARNED: dict[str, tuple[str, str, Callable[[str], str | None], str]] = {
     "inches": ("plain", MODEL, to("millimeter", "inch"), "its unit is the inch"),
-    "no settings": ("prusaslicer", PRUSA, to('"fill_pattern" value="concentric"', '"fill_patern" value="concentric"'), "fill_patern of infill is no setting"),
+    "no settings": ("prusaslicer", PRUSA, to('"fill_pattern" value="concentric"', '"fill_patern" value="concentric"'), "fill_patern of infill is not a volume setting"),
     "no sign": ("prusaslicer", PRUSA, to('"0.1%"', '"0.1"'), "without a % sign"),
     "small rooms": ("prusaslicer", PRUSA, to('below_area" value="0"', 'below_area" value="70"'), "small rooms"),
     "small rooms in Orca": ("orcaslicer", BAMBU, to('infill_area" value="0"', 'infill_area" value="15"'), "small rooms"),
     "walls": ("prusaslicer", PRUSA, to('"fill_pattern" value="concentric"', '"perimeters" value="1"'), "walls are made"),
     "walls too": ("orcaslicer", BAMBU, to('"sparse_infill_pattern" value="concentric"', '"wall_loops" value="1"'), "walls"),
-    "unknown": ("orcaslicer", BAMBU, to('"sparse_infill_pattern" value="concentric"', '"fill_pattern" value="concentric"'), "fill_pattern of infill is no"),
-    "unknown to Cura": ("cura", MODEL, to("cura:infill_pattern", "cura:fill"), "fill of infill is no setting"),
+    "unknown": ("orcaslicer", BAMBU, to('"sparse_infill_pattern" value="concentric"', '"fill_pattern" value="concentric"'), "fill_pattern of infill is not a"),
+    "unknown to Cura": ("cura", MODEL, to("cura:infill_pattern", "cura:fill"), "fill of infill is not a setting"),
     "density of the part": ("cura", MODEL, to(">0</metadata>", ">20</metadata>"), "its density is not 0"),
     "skins": ("cura", MODEL, to('"cura:top_layers" preserve="1">0', '"cura:top_layers" preserve="1">3'), "skins"),
     "sides": ("cura", MODEL, to('wall_line_count" preserve="1">1', 'wall_line_count" preserve="1">0'), "along its sides"),
@@ -550,7 +550,7 @@ def test_paths_out_of_a_package_lead_nowhere(tmp_path: Path) -> None:
     path = packaged(tmp_path / "in" / "a.3mf", text, **{"../out.txt": "out", "/etc/out.txt": "out"})
     with pytest.raises(FormatError, match="refers to an object 1 that it does not hold"):
         read_mesh(path)
-    with pytest.raises(FormatError, match="no options of ours"):
+    with pytest.raises(FormatError, match="no options of phasefill"):
         from infill.formats.threemf import read_attached_settings
 
         read_attached_settings(path)

@@ -1,4 +1,4 @@
-"""What README shows works: its blocks, read from it, run in their order in a folder that holds a user's own files."""
+"""What README and the pages show works: their blocks run in order, each page in a folder with a user's own files."""
 
 from __future__ import annotations
 
@@ -11,20 +11,28 @@ import numpy as np
 import pytest
 import trimesh
 from handmade_prints import Dialect, written
+from PIL import Image
 from test_command_line import run
 from test_label_tables import FIELDS, seg_nrrd
 from test_scans import write_series
 
 ROOT = Path(__file__).resolve().parents[1]
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+# The pages whose blocks run: README, the tutorials and the pages that say how.
+PAGES = [
+    "README.md",
+    *sorted(page.relative_to(ROOT).as_posix() for page in (ROOT / "docs" / "tutorials").glob("*.md")),
+    *(f"docs/{name}.md" for name in ("make", "smooth", "fill", "projects", "refill", "motion")),
+]
 # Lines that install something, or build in a clone.
 SKIPPED = {
-    "pip install phasefill",
+    "git clone https://github.com/phasefill/phasefill",
+    "cd phasefill",
+    "pip install .",
+    "make demo      # optional: three designs as STL, with a picture of each",
     "pip install phasefill          # or: pipx install phasefill, or: uvx phasefill make honeycomb -o honeycomb.stl",
-    "make demo      # the three designs as STL, with a picture of each",
-    "make test      # the test suite without its longest cases, in six minutes",
 }
-# What a user has, and the README therefore does not make.
+# What a user has, and the pages therefore do not make.
 GIVEN = {
     "scan.nrrd",
     "scan.nii.gz",
@@ -35,6 +43,9 @@ GIVEN = {
     "part.stl",
     "cloud.xyz",
     "leaf.svg",
+    "stress.csv",
+    "weights.png",
+    "field.py",
     "print.gcode",
     "before.gcode",
     "after.gcode",
@@ -50,8 +61,27 @@ def blocks(text: str) -> list[tuple[str, str]]:
     return [(found[1], found[2]) for found in FENCE.finditer(text)]
 
 
-README = blocks((ROOT / "README.md").read_text(encoding="utf-8"))
-LINES = [line for language, block in README if language == "bash" for line in block.splitlines()]
+def page_blocks(page: str) -> list[tuple[str, str]]:
+    """Return the fenced blocks of a page of the repository."""
+    return blocks((ROOT / page).read_text(encoding="utf-8"))
+
+
+def row_names(text: str) -> list[str]:
+    """Return the first words of the rows of a summary or a table, up to two blanks.
+
+    >>> row_names("part.stl\\n  mesh    12 triangles\\n\\n  open sides  2")
+    ['part.stl', 'mesh', 'open sides']
+    """
+    return [re.split(r"\s{2,}", line.strip())[0] for line in text.splitlines() if line.strip()]
+
+
+def without_numbers(name: str) -> str:
+    """Return a row's name with N for every number, as they may differ from machine to machine.
+
+    >>> without_numbers("honeycomb, 40.05 x 40.05 x 4 mm")
+    'honeycomb, N x N x N mm'
+    """
+    return re.sub(r"\d[\d.,]*\d|\d", "N", name)
 
 
 @pytest.fixture
@@ -78,6 +108,9 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     Path("leaf.svg").write_text(
         f'<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="20mm" viewBox="0 0 20 20">{leaf}</svg>'
     )
+    Path("stress.csv").write_text("x,y,z,value\n" + "".join(f"{x},0,0,{x * x}\n" for x in range(-20, 21, 4)))
+    Image.fromarray(np.tile(np.arange(0, 250, 10, dtype=np.uint8), (9, 1))).save("weights.png")
+    Path("field.py").write_text("def f(points):\n    return points[:, 0]\n")
     for name in ("print.gcode", "before.gcode", "after.gcode"):
         Path(name).write_bytes(written(Dialect(layers=5)))
     assert {path.name for path in tmp_path.iterdir()} == GIVEN
@@ -99,26 +132,48 @@ def done(line: str) -> Any:
     return result
 
 
-def test_every_block_has_a_language() -> None:
-    assert {language for language, _ in README} == {"bash", "python", "text"}
-    for line in LINES:
+@pytest.mark.parametrize("page", PAGES)
+def test_every_line_runs_or_installs(page: str) -> None:
+    lines = [line for language, block in page_blocks(page) if language == "bash" for line in block.splitlines()]
+    assert lines
+    for line in lines:
         assert line.startswith("infill ") or line in SKIPPED
-    assert set(LINES) >= SKIPPED
+    if page == "README.md":
+        assert {language for language, _ in page_blocks(page)} == {"bash", "python", "text"}
+        assert set(lines) >= SKIPPED
 
 
-def test_the_blocks_of_the_readme_run_in_their_order(folder: Path) -> None:
-    for language, block in README:
-        if language == "python":
-            exec(compile(block, "README.md", "exec"), {})
+@pytest.mark.parametrize("page", PAGES)
+def test_the_blocks_of_a_page_run_in_their_order(page: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """And a block of text shows rows that the block before it printed."""
+    printed = ""
+    for language, block in page_blocks(page):
+        if language in ("bash", "python"):
+            printed = ""
+        if language == "python" and (saved := re.match(r"# (\w+\.py)\n", block)):
+            Path(saved[1]).write_text(block)
+        elif language == "python":
+            exec(compile(block, page, "exec"), {})
+            printed = capsys.readouterr().out
         for line in block.splitlines() if language == "bash" else []:
             if line in SKIPPED:
                 continue
             result = done(line)
             assert result.exit_code == 0, f"{line}\n{result.output}"
+            printed += result.output
             for made in re.findall(r"(?:-o|--preview|--save-config|--plot|>) (\S+)", line.partition(" #")[0]):
                 if "--dry-run" not in line and "{" not in made and made != "-":
                     assert Path(made).stat().st_size > 100, line
-    assert Path("report.json").read_text().startswith("{")
+        if language == "text":
+            printed_rows = {without_numbers(name) for name in row_names(printed)}
+            # A print of a user's own has features of its own.
+            rows = [name for name in row_names(block) if "gcode" not in printed or name[0].islower()]
+            assert {without_numbers(name) for name in rows} <= printed_rows
+
+
+def test_every_label_of_the_segmentation_was_written(folder: Path) -> None:
+    (line,) = [line for _, block in page_blocks("docs/smooth.md") for line in block.splitlines() if "{label}" in line]
+    assert done(line).exit_code == 0
     assert {"Femur, left_right.stl", "Cartilage.stl"} & {path.name for path in folder.iterdir()}
 
 

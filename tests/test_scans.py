@@ -626,7 +626,7 @@ def test_names_that_cannot_be(tmp_path: Path) -> None:
         read_volume(tmp_path / "a.stl")
     with pytest.raises(ParameterError, match=r"only an \.npz"):
         read_volume(tmp_path / "a.npy", array="x")
-    with pytest.raises(ParameterError, match="is no folder; give the one"):
+    with pytest.raises(ParameterError, match="is not a folder; give the one"):
         read_volume(tmp_path / "a.npy", series="x")
 
 

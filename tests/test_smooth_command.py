@@ -436,7 +436,7 @@ BAD = [
     ("two.npz", "holds 2 arrays with three axes .a, b."),
     ("two.npz --array c", "holds no array 'c'; it holds a, b"),
     ("ball.npy --array a", "only an .npz holds named arrays"),
-    ("ball.npy --series 1.2", "is no folder; give the one that holds the series"),
+    ("ball.npy --series 1.2", "is not a folder; give the one that holds the series"),
 ]
 
 

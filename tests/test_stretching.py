@@ -231,7 +231,7 @@ def test_a_flat_part_leaves_the_rest_to_the_widths_and_says_so() -> None:
         ({"density": (0.1, 0.3), "grade": "size"}, "grade is 'size'; choose from width, cell"),
         ({"density": (0.1, 0.3), "grade": "cell", "pattern": "octet"}, "cells of octet cannot follow a field"),
         ({"density": (0.1, 0.3), "grade": "cell", "pattern": "honeycomb"}, "cells of honeycomb cannot follow a field"),
-        ({"density": (0.1, 0.3), "grade": "cell", "align": "body"}, "cannot begin anew in every body"),
+        ({"density": (0.1, 0.3), "grade": "cell", "align": "body"}, "cannot begin again in every body"),
     ],
 )
 def test_what_cells_cannot_follow_is_refused(words: dict[str, Any], says: str) -> None:

@@ -46,9 +46,9 @@ def summary(report: FillReport, files: list[str], name: str, *, verbose: bool) -
     )
     skin = "as it was" if mesh["skin"] == "as given" else REPAIR_TEXTS[mesh["skin"]]
     if report["drains"]["count"]:
-        skin += ", but for the drains"
+        skin += ", except for the drains"
     if request["open"]:
-        skin += f", but for the open {END_TEXTS[request['open']]}"
+        skin += f", except for the open {END_TEXTS[request['open']]}"
     graded = report["graded"]
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}; skin {skin}",

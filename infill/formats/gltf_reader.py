@@ -129,7 +129,7 @@ class Gltf:
         """Return all items of a kind, such as "nodes"."""
         entries = self.document.get(name, [])
         if not isinstance(entries, list):
-            self.fail(f"its {name} are no list")
+            self.fail(f"its {name} are not a list")
         return entries
 
     def item(self, name: str, index: object) -> JsonObject:
@@ -369,7 +369,7 @@ def _place_nodes(gltf: Gltf) -> dict[int, Node]:
         placed[index] = Node(item=node, matrix=matrix)
         children = node.get("children", [])
         if not isinstance(children, list) or len(children) > len(nodes):
-            gltf.fail(f"node {index} has children that are no list of nodes")
+            gltf.fail(f"node {index} has children that are not a list of nodes")
         stack += [(child, matrix) for child in reversed(children)]
     return placed
 
@@ -379,7 +379,7 @@ def _roots(gltf: Gltf) -> list[Any]:
     if gltf.items("scenes"):
         roots = gltf.item("scenes", gltf.document.get("scene", 0)).get("nodes", [])
         if not isinstance(roots, list):
-            gltf.fail("its scene is no list of nodes")
+            gltf.fail("its scene is not a list of nodes")
         return roots
     nodes = [node for node in gltf.items("nodes") if isinstance(node, dict)]
     lists = [node["children"] for node in nodes if isinstance(node.get("children"), list)]
@@ -392,7 +392,7 @@ def _local(gltf: Gltf, node: JsonObject) -> Floats:
     if "matrix" in node:
         matrix = gltf.numbers(node, "matrix", 16, []).reshape(4, 4).T  # column after column
         if not np.array_equal(matrix[3], [0, 0, 0, 1]):
-            gltf.fail("a node has a matrix that is no affine transform: its last row is not 0 0 0 1")
+            gltf.fail("a node has a matrix that is not an affine transform: its last row is not 0 0 0 1")
         return matrix
     translation = gltf.numbers(node, "translation", 3, [0, 0, 0])
     quaternion = gltf.numbers(node, "rotation", 4, [0, 0, 0, 1])
@@ -454,7 +454,7 @@ def _primitives(
     bones = _joint_transforms(gltf, node["skin"], places) if "skin" in node else None
     for primitive in primitives:
         if not isinstance(primitive, dict):
-            gltf.fail(f"mesh {node['mesh']} has a primitive that is no object")
+            gltf.fail(f"mesh {node['mesh']} has a primitive that is not an object")
         mode = gltf.whole(primitive, "mode", TRIANGLES)
         if mode >= MOST_MODES:
             gltf.fail(f"a primitive has the mode {mode}, which glTF does not have")
@@ -506,7 +506,7 @@ def _morph(gltf: Gltf, primitive: JsonObject, points: Floats, weights: object) -
     """Move vertices by the morph targets, by their weights at rest; return the vertices."""
     targets = primitive.get("targets", [])
     if not isinstance(targets, list) or not isinstance(weights, list):
-        gltf.fail("its morph targets or their weights are no list")
+        gltf.fail("its morph targets or their weights are not a list")
     for target, weight in zip(targets, weights, strict=False):
         if type(weight) not in (int, float) or not isinstance(target, dict):
             gltf.fail(f"a morph target has the weight {_quote(weight)}")

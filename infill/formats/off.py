@@ -52,7 +52,7 @@ def _count(lines: Lines, number: int) -> int:
     """Return a count of vertices, faces or edges."""
     word = lines.word(number)
     if not word.isdigit() or len(word) > 12:
-        raise lines.error(number, number_complaint(word, whole=True) or f"{word.decode()!r} is no count of anything")
+        raise lines.error(number, number_complaint(word, whole=True) or f"{word.decode()!r} is not a count")
     return int(word)
 
 

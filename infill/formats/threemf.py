@@ -57,7 +57,7 @@ def read_attached_settings(path: Path) -> str:
     with open_package(path) as package:
         if part_key(SETTINGS_PATH) in entries_by_key(package):
             return read_entry(package, SETTINGS_PATH).decode()
-    raise FormatError(f"{path} holds no options of ours; give a project that 'infill fill' wrote, or a TOML file")
+    raise FormatError(f"{path} holds no options of phasefill; give a project that 'infill fill' wrote, or a TOML file")
 
 
 def write_3mf(surface: Surface, file: BinaryIO) -> None:

@@ -183,10 +183,10 @@ class _Reading:
         if (element_name := element.get("name")) and excerpt(element_name):
             name = f"{name} '{excerpt(element_name)}'"
         if not is_part_type(element.get("type")) and self.told_role(chain)[0] != NEGATIVE:
-            self.note(f"{name} is of type '{excerpt(element.get('type', ''))}', no part: it is left out")
+            self.note(f"{name} is of type '{excerpt(element.get('type', ''))}', not a part: it is left out")
             return
         if (role := cura_role(settings_of(element, model.core, model.spaces))) != PART:
-            self.note(f"{name} is a {role}, no part: it is left out")
+            self.note(f"{name} is a {role}, not a part: it is left out")
             return
         self._note_extensions(model, element, name)
         if model.mesh_of(element) is not None:
@@ -209,7 +209,7 @@ class _Reading:
         if role_name and excerpt(role_name):
             name = f"object {excerpt(number)} '{excerpt(role_name)}'"
         if role not in (PART, NEGATIVE):
-            self.note(f"{name} is a {role}, no part: it is left out")
+            self.note(f"{name} is a {role}, not a part: it is left out")
             return
         vertices = mesh.vertices @ outer[:3] + outer[3]
         # A mirrored part would face inwards: its corners are taken in reverse order.
@@ -238,7 +238,7 @@ class _Reading:
                 surface = Surface(vertices=vertices[vertex_indices], faces=corners.reshape(-1, 3))
                 yield PlacedVolume(surface=surface, role=volume.role, name=label, scope=scope)
             else:
-                self.note(f"{label} is a {volume.role}, no part: it is left out")
+                self.note(f"{label} is a {volume.role}, not a part: it is left out")
         if not covered.all():
             self.note(f"{int((~covered).sum()):,} triangle(s) of {name} are in none of its volumes: they are left out")
 
@@ -287,7 +287,7 @@ class _Reading:
             if remainder is None:
                 raise FormatError(
                     f"{self.path} takes the negative {volumes[cutters[0]].name} off {part.name}, and one of them is "
-                    "not closed; mend them in the slicer, or export the part as an STL without it"
+                    "not closed; repair them in the slicer, or export the part as an STL without it"
                 )
             if len(remainder.faces):
                 yield remainder

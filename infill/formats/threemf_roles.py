@@ -113,7 +113,7 @@ def prusa_volumes(config: ElementTree.Element) -> dict[str, list[TriangleRange]]
     for item in config.findall("object"):
         key = object_key(item.get("id"))
         if key in volumes_of:
-            raise ValueError(f"it tells of object {key} twice")
+            raise ValueError(f"it describes object {key} twice")
         volumes_of[key] = [
             TriangleRange(
                 first=volume.get("firstid", ""),

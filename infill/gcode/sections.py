@@ -53,7 +53,7 @@ class TagState(NamedTuple):
         Of the object; "" if unnamed.
     wiping : bool
         Up to the tag that ends it. A tag of a role, an object or a layer ends it too: then the next move that
-        extrudes was no part of it.
+        extrudes was not part of it.
     acceleration : float
         mm/s² of printing moves as last commanded; NaN while unknown.
     tool : str

@@ -63,6 +63,6 @@ def _check_line(text: bytes) -> None:
         end = text.rfind(b"\n", begin, begin + MAX_LINE_BYTES + 1)
         if end < 0:
             raise FormatError(
-                f"a line of more than {MAX_LINE_BYTES >> 20} MiB is no G-code; give the file that the slicer wrote"
+                f"a line of more than {MAX_LINE_BYTES >> 20} MiB is not G-code; give the file that the slicer wrote"
             )
         begin = end + 1

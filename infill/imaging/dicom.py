@@ -83,7 +83,7 @@ def read_dicom(
     what = f"holds {len(volumes.stacks)} volumes of {counts} slices, told apart by {volumes.apart}"
     chosen_index = choose_frame(path, frame, len(volumes.stacks), what=what)
     if volumes.apart in (STORED_ORDER, SOURCE_FILES):
-        warnings = (*warnings, f"{path}: frame {chosen_index} is told from the others by {volumes.apart}")
+        warnings = (*warnings, f"{path}: frame {chosen_index} differs from the others by {volumes.apart}")
     stack = volumes.stacks[chosen_index]
     numbers = frame_values(source.images, stack.frames)
     volume = checked_volume(path, numbers.values.T, **_placement(stack))

@@ -407,7 +407,7 @@ def _items(header: Dataset | None, name: str) -> list[Dataset]:
     if value is None:
         return []
     if not isinstance(value, Sequence):
-        raise ValueError(f"{name} is no sequence")  # noqa: TRY004 - of a file
+        raise ValueError(f"{name} is not a sequence")  # noqa: TRY004 - of a file
     return list(value)
 
 

@@ -95,7 +95,7 @@ def _parse_header(path: Path, head: bytes) -> _MghHeader:
     if version & 255 != VERSION or min(nx, ny, nz, frames) < 1:
         raise FormatError(f"{path} has no header of FreeSurfer; check that it is an {path.suffix} file")
     if kind not in TYPES:
-        raise FormatError(f"{path} holds cells of type {kind}, which are no numbers; save it as integers or floats")
+        raise FormatError(f"{path} holds cells of type {kind}, which are not numbers; save it as integers or floats")
     if not placed:
         warn(
             "%s does not say the size and the place of its cells; 1 mm is taken, towards left, inferior and anterior, "

@@ -159,7 +159,7 @@ def _read_text(path: Path) -> str:
     except OSError as error:
         raise FormatError(f"cannot read {path}: {error.strerror or error}; check the file") from error
     if len(content) > LARGEST_TABLE or b"\0" in content:
-        raise FormatError(f"{path} is no table of labels; give a text file with one label a line")
+        raise FormatError(f"{path} is not a table of labels; give a text file with one label a line")
     return _decode(content)
 
 

@@ -93,7 +93,7 @@ def _parse_header(path: Path) -> tuple[_MetaFields, tuple[str, ...], int]:
                 continue
             match = LINE.fullmatch(text)
             if match is None:
-                raise FormatError(f"{path} has a line in its header that is no field, {text[:40]!r}; save it again")
+                raise FormatError(f"{path} has a line in its header that is not a field, {text[:40]!r}; save it again")
             fields[match[1].lower()] = match[2]
             if match[1].lower() == DATA_FIELD:
                 listed: tuple[str, ...] = ()

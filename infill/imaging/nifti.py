@@ -295,7 +295,7 @@ def _affine_of_quaternion(path: Path, header: _NiftiHeader, steps: NDArray[np.fl
     b, c, d, *offset = (float(number) for number in header.all("quaternion"))
     squared_real = 1 - (b * b + c * c + d * d)
     if not squared_real > -QUATERNION_TOLERANCE:
-        raise FormatError(f"{path} has a quaternion that is no rotation ({b:.4g}, {c:.4g}, {d:.4g}); save it again")
+        raise FormatError(f"{path} has a quaternion that is not a rotation ({b:.4g}, {c:.4g}, {d:.4g}); save it again")
     if squared_real < 1e-7:  # a half turn, rounded
         length = math.sqrt(b * b + c * c + d * d)
         a, b, c, d = 0.0, b / length, c / length, d / length

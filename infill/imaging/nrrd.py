@@ -162,7 +162,7 @@ def _parse_header(path: Path) -> _NrrdFields:
                 continue
             name, colon, text = line.partition(":")
             if not colon:
-                raise FormatError(f"{path} has a line in its header that is no field, {line[:40]!r}; save it again")
+                raise FormatError(f"{path} has a line in its header that is not a field, {line[:40]!r}; save it again")
             name = SYNONYMS.get(name.strip().lower(), name.strip().lower())
             fields[name] = text.strip()
             if name == "data file" and fields[name].split()[:1] == ["LIST"]:

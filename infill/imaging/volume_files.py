@@ -85,7 +85,7 @@ def read_volume(
     if array is not None and suffix != ".npz":
         raise ParameterError(f"array is {array!r}, and only an .npz holds named arrays, not {source}; leave it out")
     if series is not None and not source.is_dir():
-        raise ParameterError(f"series is {series!r}, and {source} is no folder; give the one that holds the series")
+        raise ParameterError(f"series is {series!r}, and {source} is not a folder; give the one that holds the series")
     if frame is not None and not source.is_dir() and suffix and suffix not in FRAME_READERS:
         raise _frame_error(frame, source)
     size = None if spacing is None else spacing_of(spacing, AXES)

@@ -99,7 +99,7 @@ def read_vtk(path: Path, frame: int | None = None) -> Volume:
     with wrap_reader_errors(path), path.open("rb") as file:
         magic, _, encoding, dataset = (_read_line(file) for _ in range(4))
         if not magic.startswith("# vtk DataFile") or encoding.upper() not in ("ASCII", "BINARY"):
-            raise FormatError(f"{path} is no legacy file of VTK; check that it is a .vtk file")
+            raise FormatError(f"{path} is not a legacy VTK file; check that it is a .vtk file")
         if dataset.upper().split() != ["DATASET", "STRUCTURED_POINTS"]:
             raise FormatError(f"{path} holds {dataset[:40]!r}, no volume; save an image, DATASET STRUCTURED_POINTS")
         return _read_image(path, file, frame, text=encoding.upper() == "ASCII")

@@ -128,7 +128,7 @@ def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspectio
         f"{open_edges} edge(s) without exactly two faces: the mesh is not closed": open_edges,
         "neighbouring faces disagree about which side is out": not open_edges and not surface.closed,
         "the mesh is inside out": surface.closed and not outward,
-        f"manifold3d does not take it: {status}": surface.closed and status != "NoError",
+        f"manifold3d rejects the mesh: {status}": surface.closed and status != "NoError",
         f"{duplicate} triangle(s) stand twice": duplicate,
     }
     warnings = {

@@ -303,7 +303,7 @@ def _repair_skin(voxelised: VoxelisedMesh) -> tuple[Surface, str, float]:
         mesh, verdict, skin = apart, manifold_status(apart), "parted"
     if verdict != FINE:
         raise GeometryError(
-            f"the mesh of {len(mesh.faces):,} triangles is no solid, even with its holes closed ({verdict}, says "
+            f"the mesh of {len(mesh.faces):,} triangles is not a solid, even with its holes closed ({verdict}, says "
             "manifold3d); make one of it first: 'infill smooth' does"
         )
     return mesh, skin, overlap

@@ -208,7 +208,7 @@ def cut_open(
         if best.closed and not coincident_vertices(best).any():
             break
     if best is None:
-        raise GeometryError("manifold3d does not take the voids as solids; give another cell or smaller voxels")
+        raise GeometryError("manifold3d rejects the voids as solids; give another cell or smaller voxels")
     return _drop_loose(best, solid, opening, threads)
 
 

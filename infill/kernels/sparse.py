@@ -212,7 +212,7 @@ def fill_bricks(phi, data, flat, next_flat, rows, next_rows, still, values, firs
 
 @njit(inline="always", cache=True)
 def rows_beside(neighbour, rows, column):
-    """Return a column of the notes on the rows next to a brick, +1 or -1 by turns; beyond the grid, all."""
+    """Return a column of the notes on the rows next to a brick, +1 and -1 alternately; beyond the grid, all."""
     if neighbour >= 0:
         return rows[neighbour, column]
     if neighbour == OUTSIDE:

@@ -204,5 +204,5 @@ def _load_function(text: str) -> Callable[[Floats], Any]:
     """Load a function by the file and the name in ``module.py:name``."""
     loaded = load_object(text)
     if not callable(loaded):
-        raise FormatError(f"{text} is no function; check the name")
+        raise FormatError(f"{text} is not a function; check the name")
     return loaded

@@ -163,5 +163,5 @@ def _subtract_voids(space: Interior, voids: list[Surface], request: FillSpec, th
         )
         infill = subtract(inside, voids)
     if infill is None or not len(infill.faces):
-        raise GeometryError("manifold3d does not take the voids as solids; give another cell or smaller voxels")
+        raise GeometryError("manifold3d rejects the voids as solids; give another cell or smaller voxels")
     return simplify_solid(infill, SHORT)

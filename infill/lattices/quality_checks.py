@@ -276,4 +276,4 @@ def find_problems(
     if facts.crowded:
         yield f"{facts.crowded} vertices are in one place in single precision: an STL of it is not closed"
     if facts.verdict != FINE:
-        yield f"manifold3d does not take it: {facts.verdict}"
+        yield f"manifold3d rejects the mesh: {facts.verdict}"

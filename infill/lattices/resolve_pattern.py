@@ -83,7 +83,7 @@ def _pattern_from_function(function: Any, name: str) -> Surfaces:  # noqa: ANN40
         reason = " ".join(str(error).split())
         raise ParameterError(f"pattern is {name}, which fails: {type(error).__name__}: {reason}") from error
     if level.shape != x.shape or not np.isfinite(level).all():
-        raise ParameterError(f"pattern is {name}, which does not return a finite number for each point; mend it")
+        raise ParameterError(f"pattern is {name}, which does not return a finite number for each point; correct it")
     if not level.min() < 0 < level.max():
         raise ParameterError(
             f"pattern is {name}, which is 0 nowhere: in a cell, x, y and z from 0 to 2 pi, it runs from "

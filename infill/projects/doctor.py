@@ -154,7 +154,7 @@ def _check_tree(package: Package, key: str, slicer: Slicer) -> Iterator[Finding]
     for leaf in tree.leaves:
         if (alien := leaf.other) is not None and slicer != "prusaslicer":  # PrusaSlicer has a separate rule
             yield as_problem(
-                f"object {alien.number} is of type {alien.kind!r}, which is no part: slicers leave it out, print it "
+                f"object {alien.number} is of type {alien.kind!r}, which is not a part: slicers leave it out, print it "
                 "or refuse the file"
             )
         for body in (*leaf.above, leaf.body):

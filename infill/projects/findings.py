@@ -134,7 +134,7 @@ def check_fill_settings(
             yield as_warning(f"{density} of {name} is {value!r}, without a % sign: older versions read 0.5 as 50%")
     for key in settings:
         if key not in known:
-            yield as_warning(f"{key} of {name} is no setting of a volume that {slicer} is known to read: it is ignored")
+            yield as_warning(f"{key} of {name} is not a volume setting that {slicer} is known to read: it is ignored")
 
 
 def check_shells(

@@ -60,7 +60,7 @@ def _check_volume(body: PackageObject, volume: PrintedVolume) -> Iterator[Findin
     for key, value in volume.settings.items():
         if key not in KEYS:
             yield as_warning(
-                f"{key} of {volume.name} is no setting that Cura is known to read from a file: it is ignored"
+                f"{key} of {volume.name} is not a setting that Cura is known to read from a file: it is ignored"
             )
         if key in CURA_ROLES and value not in ("True", "False"):
             yield as_problem(

@@ -99,7 +99,7 @@ def volumes_for_prusaslicer(package: Package) -> Iterator[PrintedVolume | Findin
     configured: dict[str, ElementTree.Element] = {}
     for element in [] if config is None else config.findall("object"):
         if (number := object_key(element.get("id"))) in configured:
-            yield as_problem(f"{CONFIG} tells of object {number} twice: the file is not opened")
+            yield as_problem(f"{CONFIG} describes object {number} twice: the file is not opened")
         configured[number] = element
         if number not in package.bodies:
             yield as_problem(

@@ -111,10 +111,10 @@ class Request:
         str | float | None,
         Option(
             "same: the filament that the infill took; with keep, by beads up to 8 % wider. 20%: of the volume, "
-            "for a pattern of ours.",
+            "for a built-in pattern.",
             PATHS,
             unit="same|PERCENT",
-            default="same for ours, the slicer's filament per mm for keep",
+            default="the slicer's filament per mm for keep, else same",
             read=parse_share_or_same,
             typed=str,
         ),
@@ -181,7 +181,7 @@ class Request:
                 advice = f"did you mean {matches[0]!r}?" if matches else f"give keep, or one of {', '.join(FAMILIES)}"
                 raise ParameterError(f"there is no pattern {self.pattern!r}; {advice}")
         if self.pattern == KEEP and isinstance(self.density, int | float):
-            raise UsageError("density is for patterns of ours; keep has the slicer's: leave it out, or set it there")
+            raise UsageError("density is for built-in patterns; keep has the slicer's: leave it out, or set it there")
         if self.parameters:
             from infill.refilling.placement import pattern_parameters
 

@@ -80,7 +80,7 @@ def _whole_numbers(values: NDArray[Any]) -> NDArray[Any]:
     for part in _slabs(values):
         if not (part == np.rint(part)).all() or np.abs(part).max() > np.iinfo(np.int32).max:
             raise ParameterError(
-                "the volume holds values that are no whole numbers, and so no labels; give --threshold X for grey "
+                "the volume holds values that are not whole numbers, and so not labels; give --threshold X for grey "
                 "values, without {label}"
             )
     return values.astype(np.int32)

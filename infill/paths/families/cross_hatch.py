@@ -1,4 +1,4 @@
-"""Cross hatch: walls along y and along x by turns, as waves that grow until they change over to the other direction."""
+"""Cross hatch: walls alternately along y and along x, as waves that grow until they change over to the other direction."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class CrossHatch:
     """
 
     name: str = "cross-hatch"
-    summary: str = "walls along y and along x by turns, and waves where they change over"
+    summary: str = "walls alternately along y and along x, and waves where they change over"
     prismatic: bool = False
     wide: bool = False
 

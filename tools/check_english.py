@@ -1,0 +1,68 @@
+"""Find turns of phrase that readers stumble over in pages, docstrings and messages: `make lint` runs it.
+
+python tools/check_english.py [files]
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+# What stands in the way, and what to write instead.
+TURNS = {
+    r"(?<!not\s)\bours\b": "name it: a built-in pattern, `infill fill`",
+    r"\banew\b": "again",
+    r"(?<!there\s)\b(?:is|are|was|were) no (?!more\b|longer\b|less\b|fewer\b|\w+er\b)": "is not a, has no",
+    r"\bbut for\b": "except for",
+    r"\bevery so[ -]many": "sampling stride",
+    r"\bso that not\b": "so that ... does not",
+    r"\bthan which\b": "turn the sentence round",
+    r"\bby turns\b": "alternately",
+    r"\bwhat (?:was|is) (?:asked for|there)\b": "requested, actual",
+    r"\b(?:is|are|was|were|be) told\b|\btells? of\b": "is reported, states",
+    r"\bmend(?:s|ed|ing)?\b": "repair, fix",
+    r"\bdoes not take\b": "rejects",
+}
+# Pages that programs write: their words come from those programs.
+WRITTEN = {"commands.md", "paper.md", "report.md", "slicer-report.md", "smooth-report.md"}
+FENCED = re.compile(r"^( *)(```|~~~).*?^\1\2 *$", re.MULTILINE | re.DOTALL)
+
+
+def texts(path: Path) -> Iterator[tuple[int, str]]:
+    """Yield every text for readers in a file with its line: a page without its code, or the sentences of a module."""
+    source = path.read_text(encoding="utf-8")
+    if path.suffix != ".py":
+        yield 1, FENCED.sub(lambda found: "\n" * found[0].count("\n"), source)
+        return
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and " " in node.value:
+            yield node.lineno, node.value
+
+
+def find_turns(path: Path) -> list[str]:
+    """Return a line for each turn in a file: the place, the words and what to write."""
+    found = []
+    for line, text in texts(path):
+        for turn, remedy in TURNS.items():
+            for match in re.finditer(turn.replace(" ", r"\s+"), text, re.IGNORECASE):
+                place = line + text.count("\n", 0, match.start())
+                found.append(f"{path}:{place}: '{' '.join(match[0].split())}'; write: {remedy}")
+    return found
+
+
+def readers_files() -> list[Path]:
+    """Return the pages of the repository and the modules of both packages."""
+    pages = [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")]
+    pages = [page for page in pages if page.name not in WRITTEN]
+    return sorted([*pages, *ROOT.glob("infill/**/*.py"), *ROOT.glob("patterns/**/*.py")])
+
+
+if __name__ == "__main__":
+    files = [Path(name) for name in sys.argv[1:]] or readers_files()
+    complaints = [line for path in files for line in find_turns(path)]
+    print("\n".join(complaints), file=sys.stderr, end="\n" if complaints else "")
+    sys.exit(bool(complaints))
