@@ -98,8 +98,8 @@ class Request:
     pattern: Annotated[
         str,
         Option(
-            "keep: the slicer's own paths, with round corners. Or a drawing: tile.svg, .dxf, .png, .wkt. Or one"
-            " of ours: honeycomb, zigzag, concentric-heart, grid, triangles, tri-hexagon, cubic, rectilinear, "
+            "keep: the slicer's own paths, with round corners. Or a drawing: tile.svg, .dxf, .png, .wkt. Or a"
+            " built-in pattern: honeycomb, zigzag, concentric-heart, grid, triangles, tri-hexagon, cubic, rectilinear, "
             "hilbert, gyroid, schwarz-p, schwarz-d, concentric, honeycomb-3d, octagons, voronoi, cross, cross-"
             "hatch, quarter-cubic, lateral-honeycomb, archimedean-chords, octagram-spiral.",
             PATHS,
