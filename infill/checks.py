@@ -18,7 +18,7 @@ def check_positive(name: str, value: float, unit: str = "") -> float:
     """
     number = _to_float(name, value)
     if not math.isfinite(number) or number <= 0:
-        raise ParameterError(f"{name} is {number:g} {unit}".rstrip() + "; it must be a finite number above 0")
+        raise ParameterError.about(name, f"is {number:g} {unit}".rstrip() + "; it must be a finite number above 0")
     return number
 
 
@@ -36,7 +36,9 @@ def check_range(name: str, value: float, low: float, high: float, unit: str = ""
     """Return `value` as a float, or raise ParameterError if it does not lie between `low` and `high`."""
     number = _to_float(name, value)
     if not low <= number <= high:
-        raise ParameterError(f"{name} is {number:.10g}; it must be a number from {low:g} to {high:g} {unit}".rstrip())
+        raise ParameterError.about(
+            name, f"is {number:.10g}; it must be a number from {low:g} to {high:g} {unit}".rstrip()
+        )
     return number
 
 
@@ -44,17 +46,17 @@ def check_whole_number(name: str, value: float, low: int) -> int:
     """Return `value` as an int, or raise ParameterError if it is not a whole number of at least `low`."""
     number = _to_float(name, value)
     if not math.isfinite(number) or number != int(number) or number < low:
-        raise ParameterError(f"{name} is {number:.10g}; it must be a whole number of at least {low}")
+        raise ParameterError.about(name, f"is {number:.10g}; it must be a whole number of at least {low}")
     return int(value)
 
 
 def _to_float(name: str, value: float) -> float:
     """Convert a number to float, or raise ParameterError for anything else."""
     if isinstance(value, bool | str | bytes):  # float() would take True for 1 and "6" for 6
-        raise ParameterError(f"{name} is {value!r}; it must be a number")
+        raise ParameterError.about(name, f"is {value!r}; it must be a number")
     try:
         return float(value)
     except (TypeError, ValueError):
-        raise ParameterError(f"{name} is {value!r}; it must be a number") from None
+        raise ParameterError.about(name, f"is {value!r}; it must be a number") from None
     except OverflowError:
         return math.inf

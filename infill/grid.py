@@ -25,7 +25,9 @@ def spacing_of(spacing: float | tuple[float, ...], dimensions: int) -> tuple[flo
     if len(sizes) == 1:
         sizes = sizes * dimensions  # type: ignore[assignment]
     if len(sizes) != dimensions:
-        raise ParameterError(f"spacing has {len(sizes)} numbers for {dimensions} axes; give one, or one per axis")
+        raise ParameterError.about(
+            "spacing", f"has {len(sizes)} numbers for {dimensions} axes; give one, or one per axis"
+        )
     return tuple(check_positive("spacing", size, "mm") for size in sizes)  # type: ignore[arg-type]
 
 
@@ -66,7 +68,7 @@ class Grid:
             raise ParameterError("shape is empty; give one number of cells per axis")
         origin = tuple(float(x) for x in self.origin) or (0.0,) * len(shape)
         if len(origin) != len(shape) or not all(math.isfinite(x) for x in origin):
-            raise ParameterError(f"origin is {origin}; it must hold {len(shape)} finite numbers, one per axis")
+            raise ParameterError.about("origin", f"is {origin}; it must hold {len(shape)} finite numbers, one per axis")
         object.__setattr__(self, "shape", shape)
         object.__setattr__(self, "spacing", spacing_of(self.spacing, len(shape)))
         object.__setattr__(self, "origin", origin)

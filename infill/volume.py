@@ -59,11 +59,11 @@ class Volume:
             raise ParameterError(f"the volume is of type {values.dtype}; give real numbers or booleans")
         origin = tuple(float(x) for x in self.origin)
         if len(origin) != AXES or not all(math.isfinite(x) for x in origin):
-            raise ParameterError(f"origin is {origin}; it must hold 3 finite numbers")
+            raise ParameterError.about("origin", f"is {origin}; it must hold 3 finite numbers")
         direction = np.asarray(self.direction, dtype=np.float64)
         if direction.shape != (AXES, AXES) or not np.allclose(direction.T @ direction, np.eye(AXES), atol=SKEW):
-            raise ParameterError(
-                f"direction is {direction.tolist()}; it must be 3 x 3, its columns of length 1 and square"
+            raise ParameterError.about(
+                "direction", f"is {direction.tolist()}; it must be 3 x 3, its columns of length 1 and square"
             )
         object.__setattr__(self, "values", values)
         object.__setattr__(self, "spacing", spacing_of(self.spacing, AXES))

@@ -196,9 +196,9 @@ def check_value(pattern: str, described: DescribedField, value: object) -> Any: 
         plain = _number(value, parameter)
     if plain is None:
         kind = PatternUsageError if isinstance(value, str) else PatternError
-        raise kind(
-            f"{field.name} of {pattern} is {format_value(value, parameter)}; it must be "
-            f"{describe_values(default, parameter)}"
+        raise kind.about(
+            field.name,
+            f"of {pattern} is {format_value(value, parameter)}; it must be {describe_values(default, parameter)}",
         )
     return plain
 

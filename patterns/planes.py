@@ -56,9 +56,10 @@ class LateralLattice(Planes):
         """Check the parameters, and derive the normals of the planes."""
         check_parameters(self)
         if abs(self.first - self.second) < MIN_ANGLE_BETWEEN:
-            raise PatternError(
-                f"first and second of {self.name} are {self.first:g} and {self.second:g} degrees; they must be at "
-                f"least {MIN_ANGLE_BETWEEN:g} degrees apart"
+            raise PatternError.about(
+                ("first", "second"),
+                f"of {self.name} are {self.first:g} and {self.second:g} degrees; they must be at "
+                f"least {MIN_ANGLE_BETWEEN:g} degrees apart",
             )
         angles = (self.first, self.second)
         normals = tuple((0.0, 1.0, round(math.tan(math.radians(angle)), 12)) for angle in angles)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import pickle
 from collections.abc import Callable
 from dataclasses import dataclass, fields
 from typing import Annotated, Any, Literal
@@ -14,6 +15,7 @@ import typer
 from test_command_line import run
 
 import infill
+import patterns as infill_patterns
 from infill import ParameterError, UsageError
 from infill.cli.app import build_app
 from infill.cli.declared import takes_options
@@ -236,3 +238,32 @@ def test_contradictions_are_told_with_status_2() -> None:
     result = run("smooth", "a.npy", "--refine", "--smooth", "plain", "-o", "a.stl")
     assert result.exit_code == 2
     assert "--refine is smooth = refine, and smooth is plain" in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("call", "parameter", "flag"),
+    [
+        (lambda: infill.make("honeycomb", line_width=-1), "line_width", "--line-width"),
+        (lambda: infill.make("honeycomb", cell=-1), "cell", "--cell"),
+        (lambda: infill.fill(trimesh.creation.box(), wall=-1), "wall", "--wall"),
+        (lambda: infill.refill("a.gcode", max_deviation=-1), "max_deviation", "--max-deviation"),
+        (lambda: infill.smooth_volume(np.eye(3)[..., None], threshold=0.5, tolerance=-1), "tolerance", "--tolerance"),
+    ],
+)
+def test_an_error_carries_the_name_of_its_parameter(call: Callable[[], object], parameter: str, flag: str) -> None:
+    with pytest.raises((ParameterError, infill_patterns.PatternError)) as caught:
+        call()
+    assert caught.value.parameter == parameter
+    assert str(caught.value).startswith(f"{parameter} ")
+    assert caught.value.spell(lambda name: f"--{name.replace('_', '-')}") == str(caught.value).replace(
+        parameter, flag, 1
+    )
+
+
+def test_an_error_of_a_label_keeps_its_parameter() -> None:
+    error = ParameterError.about(("voxel", "resolution"), "are both given").within("label 3")
+    assert str(error) == "label 3: voxel and resolution are both given"
+    assert error.spell(str.upper) == "label 3: VOXEL and RESOLUTION are both given"
+    assert ParameterError.like(infill_patterns.PatternError.about("cell", "is 3")).parameters == ("cell",)
+    assert ParameterError.like(infill_patterns.PatternError("too many")).parameters == ()
+    assert pickle.loads(pickle.dumps(error)).parameters == ("voxel", "resolution")

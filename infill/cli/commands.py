@@ -1,14 +1,13 @@
 """Behaviour of all commands: the help of their options, and errors in the words that were typed.
 
-Messages of the library begin with the name of an argument, as Python spells it: "line_width is -1 mm; ...". Here, and
-nowhere else, the option that was typed replaces it: "--line-width is -1 mm; ...".
+Errors of the library carry the names of the arguments that they are about: "line_width is -1 mm; ...". Here, and
+nowhere else, the option that was typed replaces the name: "--line-width is -1 mm; ...".
 
 Exit status 2 is for a command line that cannot be understood, and 1 for one that is, and cannot be done.
 """
 
 from __future__ import annotations
 
-import re
 from typing import Any
 
 import typer
@@ -32,11 +31,6 @@ PARAMETERS_OF_ARGUMENT = {
     "range": ("between",),
     "smooth": ("method",),
 }
-ARGUMENTS_AT_START = re.compile(
-    r"(?P<where>label [^:]*: )?"  # one of several labels
-    r"(?P<names>\w+(?:(?:, | and )\w+)*)"
-    r"(?= (?:is|are|of|goes|x|y|has|holds|exclude|belong)\b)"
-)
 
 
 class Command(TyperCommand):
@@ -62,7 +56,7 @@ class Command(TyperCommand):
         except UsageException as error:
             raise _usage_exit(ctx, _plain_message(error)) from error
         except (InfillError, PatternError) as error:
-            message = use_typed_options(str(error), ctx)
+            message = use_typed_options(error, ctx)
             # An option of a config file is not part of the command line.
             names_option = message != str(error) or message.startswith("--")
             if names_option and isinstance(error, (UsageError, PatternUsageError)):
@@ -97,13 +91,9 @@ class Group(TyperGroup):
             raise _usage_exit(ctx, _plain_message(error)) from error
 
 
-def use_typed_options(message: str, context: typer.Context) -> str:
-    """Replace the arguments at the beginning of a message with the options that were typed."""
-    match = ARGUMENTS_AT_START.match(message)
-    if match is None:
-        return message
-    names = re.sub(r"\w+", lambda word: _typed_option(word[0], context), match["names"])
-    return f"{match['where'] or ''}{names}{message[match.end() :]}"
+def use_typed_options(error: InfillError | PatternError, context: typer.Context) -> str:
+    """Return the message of an error with the options that were typed in place of its parameters."""
+    return error.spell(lambda name: _typed_option(name, context))
 
 
 def _typed_option(word: str, context: typer.Context) -> str:

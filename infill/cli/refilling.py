@@ -164,7 +164,7 @@ def _log_errors(gcode: Path, context: typer.Context, *, in_place: bool) -> Itera
     try:
         yield
     except (InfillError, PatternError) as error:
-        error.args = (use_typed_options(str(error), context),)
+        error.args = (use_typed_options(error, context),)
         for log in logs if gcode.is_file() else []:
             with contextlib.suppress(OSError):
                 log.write_text(f"error: {error}\n", encoding="utf-8")

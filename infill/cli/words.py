@@ -18,7 +18,7 @@ def parse_bytes(text: str) -> int:
     advice = "give a number above 0 with K, M, G or T, such as 2G"
     match = re.fullmatch(r"\s*(-?\d+(?:\.\d+)?|nan)\s*([KMGT]?)(?:i?B)?\s*", text, re.IGNORECASE)
     if not match:
-        raise UsageError(f"max_memory is {text!r}; {advice}")
+        raise UsageError.about("max_memory", f"is {text!r}; {advice}")
     if not float(match[1]) > 0:
-        raise ParameterError(f"max_memory is {text!r}; {advice}")
+        raise ParameterError.about("max_memory", f"is {text!r}; {advice}")
     return int(float(match[1]) * BYTES[match[2].upper()])

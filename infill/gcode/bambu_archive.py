@@ -129,7 +129,7 @@ def _find_members(archive: zipfile.ZipFile) -> dict[int, str]:
 def _get_member(members: Mapping[int, str], plate: int) -> str:
     if plate not in members:
         available = ", ".join(map(str, sorted(members)))
-        raise ParameterError(f"plate is {plate}, which is not in the archive; it has {available}")
+        raise ParameterError.about("plate", f"is {plate}, which is not in the archive; it has {available}")
     return members[plate]
 
 

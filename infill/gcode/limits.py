@@ -90,17 +90,17 @@ class Limits:
 
     def __post_init__(self) -> None:
         if self.model not in MODELS:
-            raise UsageError(f"model is {self.model!r}; give one of {', '.join(MODELS)}")
+            raise UsageError.about("model", f"is {self.model!r}; give one of {', '.join(MODELS)}")
         for limit in fields(self)[1:]:
             limit_value = getattr(self, limit.name)
             for value in limit_value if isinstance(limit_value, tuple) else (limit_value,):
                 if not (
                     is_valid_limit(value, limit.name) or (value == INFINITE and limit.name != "minimum_cruise_ratio")
                 ):
-                    raise ParameterError(f"{limit.name} is {value:g}; give {_describe_valid(limit.name)}")
+                    raise ParameterError.about(limit.name, f"is {value:g}; give {_describe_valid(limit.name)}")
         for name in ("acceleration", "travel_acceleration", "retract_acceleration"):
             if getattr(self, name) == INFINITE:
-                raise ParameterError(f"{name} is infinite; give a number in mm/s²")
+                raise ParameterError.about(name, "is infinite; give a number in mm/s²")
 
 
 def is_valid_limit(value: float, name: str) -> bool:

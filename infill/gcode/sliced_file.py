@@ -75,7 +75,7 @@ class SlicedFile:
             available = (
                 f"it has {', '.join(map(str, self.plates))}" if self.plates else "it has no plates; leave it out"
             )
-            raise ParameterError(f"plate is {plate}, which is not in {self.name}; {available}")
+            raise ParameterError.about("plate", f"is {plate}, which is not in {self.name}; {available}")
         return plate
 
     @contextlib.contextmanager

@@ -36,5 +36,5 @@ def choose_frame(path: Path, frame: int | None, frames: int, *, what: str) -> in
         return 0
     if isinstance(frame, bool) or frame != int(frame) or not 0 <= frame < frames:
         available = "one frame, number 0" if frames == 1 else f"{frames} frames, 0 to {frames - 1}"
-        raise ParameterError(f"frame is {frame!r} and {path} holds {available}; give one that is there")
+        raise ParameterError.about("frame", f"is {frame!r} and {path} holds {available}; give one that is there")
     return int(frame)

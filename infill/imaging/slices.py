@@ -219,7 +219,7 @@ def read_slices(folder: Path, names: list[Path]) -> Volume:
         if page.shape != pages.shape[1:] or page.dtype != pages.dtype:
             raise FormatError(
                 f"{name} is {page.shape} {page.dtype} and {names[0].name} is {pages.shape[1:]} {pages.dtype}; "
-                f"keep only slices of one scan in {folder}"
+                f"keep only slices of one scan in {folder}",
             )
         pages[number] = page
     assert pages is not None

@@ -83,9 +83,13 @@ def read_volume(
     source = Path(path)
     suffix = next((ending for ending in READERS if source.name.lower().endswith(ending)), "")
     if array is not None and suffix != ".npz":
-        raise ParameterError(f"array is {array!r}, and only an .npz holds named arrays, not {source}; leave it out")
+        raise ParameterError.about(
+            "array", f"is {array!r}, and only an .npz holds named arrays, not {source}; leave it out"
+        )
     if series is not None and not source.is_dir():
-        raise ParameterError(f"series is {series!r}, and {source} is not a folder; give the one that holds the series")
+        raise ParameterError.about(
+            "series", f"is {series!r}, and {source} is not a folder; give the one that holds the series"
+        )
     if frame is not None and not source.is_dir() and suffix and suffix not in FRAME_READERS:
         raise _frame_error(frame, source)
     size = None if spacing is None else spacing_of(spacing, AXES)
@@ -98,8 +102,8 @@ def read_volume(
 
 def _frame_error(frame: int, source: Path) -> ParameterError:
     """Return the error for a frame of a format without frames."""
-    return ParameterError(
-        f"frame is {frame!r}, and only {', '.join(FRAME_READERS)} hold frames, not {source}; leave it out"
+    return ParameterError.about(
+        "frame", f"is {frame!r}, and only {', '.join(FRAME_READERS)} hold frames, not {source}; leave it out"
     )
 
 

@@ -255,9 +255,10 @@ def compute_interior(
     )
     for end in () if open_ is None else ENDS[open_]:
         if not space.reaches(end):
-            raise GeometryError(
-                f"open is {open_!r}, and the flat {end} of the part is nowhere wider than two walls of {wall:g} mm; "
-                "give a thinner wall, or turn the part"
+            raise GeometryError.about(
+                "open",
+                f"is {open_!r}, and the flat {end} of the part is nowhere wider than two walls of {wall:g} mm; "
+                "give a thinner wall, or turn the part",
             )
     return space
 

@@ -139,9 +139,10 @@ def find_flat_ends(part: Surface, name: Open) -> tuple[Opening, list[tuple[NDArr
         at = float(heights.max() if is_top else heights.min())
         flat = (np.abs(heights - at) <= level).all(axis=1)
         if not flat.any():
-            raise GeometryError(
-                f"open is {name!r}, and the part has no flat face at its {end}, z = {at:.4g} mm; turn it so that one "
-                "lies there, or cut it off flat"
+            raise GeometryError.about(
+                "open",
+                f"is {name!r}, and the part has no flat face at its {end}, z = {at:.4g} mm; turn it so that one "
+                "lies there, or cut it off flat",
             )
         low, high = (low, at) if is_top else (at, high)
         ends.append((flat, 1.0 if is_top else -1.0))

@@ -85,7 +85,7 @@ def isosurface(
     if np.isnan(field.min()):
         raise ParameterError("the volume holds NaN; fill or cut those cells first")
     if len(origin) != 3:
-        raise ParameterError(f"origin has {len(origin)} numbers; give x, y and z")
+        raise ParameterError.about("origin", f"has {len(origin)} numbers; give x, y and z")
     surface = extract_dense(field, spacing=spacing_of(spacing, 3), origin=origin, level=level)
     if not surface.closed:
         raise GeometryError("the surface is not closed; smooth the volume a little, or use finer cells")

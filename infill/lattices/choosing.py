@@ -91,9 +91,11 @@ def add_seed(pattern: object, own: Mapping[str, Any], seed: int) -> dict[str, An
     """Add a seed to the pattern's own parameters, or raise ParameterError if the pattern has no randomness."""
     kind, name = resolve_pattern(pattern)
     if SEED not in parameters(kind):
-        raise ParameterError(f"seed is {seed}, and {name} leaves nothing to chance; choose voronoi or voronoi-foam")
+        raise ParameterError.about(
+            "seed", f"is {seed}, and {name} leaves nothing to chance; choose voronoi or voronoi-foam"
+        )
     if own.get(SEED, seed) != seed:
-        raise ParameterError(f"seed is {seed}, and --set says {own[SEED]}; give one of them")
+        raise ParameterError.about("seed", f"is {seed}, and --set says {own[SEED]}; give one of them")
     return {**own, SEED: seed}
 
 
@@ -106,9 +108,10 @@ def configure_cellular(kind: Unlined, request: FillSpec) -> Unlined:
         if name not in names:
             raise ParameterError(f"{request.pattern} has no parameter {name!r}; {suggest_name(name, names)}")
     if isinstance(kind, Network) and (request.lowest or 1.0) < kind.thinnest:
-        raise ParameterError(
-            f"density is {request.lowest:.3g}, and the bars of {kind.name} break below {kind.thinnest:g}; give a "
-            f"higher one, or choose {kind.surfaces.name}"
+        raise ParameterError.about(
+            "density",
+            f"is {request.lowest:.3g}, and the bars of {kind.name} break below {kind.thinnest:g}; give a "
+            f"higher one, or choose {kind.surfaces.name}",
         )
     return replace(kind, **request.parameters) if request.parameters else kind
 
@@ -121,8 +124,8 @@ def configure_lines(kind: Pattern | type[Pattern], request: FillSpec) -> Pattern
         if name not in settable:
             raise ParameterError(f"{request.pattern} has no parameter {name!r}; {suggest_name(name, settable)}")
     if request.angle and "angle" not in declared:
-        raise ParameterError(
-            f"angle is {request.angle:g} degrees, and {request.pattern} cannot be turned; leave it out"
+        raise ParameterError.about(
+            "angle", f"is {request.angle:g} degrees, and {request.pattern} cannot be turned; leave it out"
         )
     own_angle = 0.0 if isinstance(kind, type) else float(getattr(kind, "angle", 0.0))
     rotation = {"angle": math.remainder(own_angle + request.angle, 360.0)} if "angle" in declared else {}
@@ -137,8 +140,8 @@ def _check_follower(request: FillSpec) -> None:
     """Raise ParameterError if a pattern that follows the part is to be shifted, or to be denser at a depth."""
     if any(request.phase):
         shift = ", ".join(f"{step:g}" for step in request.phase)
-        raise ParameterError(f"phase is {shift} mm, and {request.pattern} follows the part; leave it out")
+        raise ParameterError.about("phase", f"is {shift} mm, and {request.pattern} follows the part; leave it out")
     if request.grading is not None and request.grading.name == SKIN:
-        raise ParameterError(
-            f"by is 'skin', and every wall of {request.pattern} lies at one depth; choose x, y, z or another pattern"
+        raise ParameterError.about(
+            "by", f"is 'skin', and every wall of {request.pattern} lies at one depth; choose x, y, z or another pattern"
         )

@@ -125,9 +125,11 @@ class FunctionField:
         try:
             numbers = np.asarray(self.function(points), dtype=np.float64)
         except Exception as error:
-            raise ParameterError(f"by is {self.name}, which fails: {error_text(error)}") from error
+            raise ParameterError.about("by", f"is {self.name}, which fails: {error_text(error)}") from error
         if numbers.shape != (len(points),):
-            raise UsageError(f"by is {self.name}, which returns {numbers.shape} for {points.shape} points; return (N,)")
+            raise UsageError.about(
+                "by", f"is {self.name}, which returns {numbers.shape} for {points.shape} points; return (N,)"
+            )
         return numbers
 
 
@@ -153,7 +155,7 @@ def resolve_field(by: object) -> tuple[Field, str]:
     if isinstance(by, np.ndarray):
         return _field_of_array(by, "an array"), f"an array of shape {by.shape}"
     if not isinstance(by, (str, Path)):
-        raise UsageError(f"by is {by!r}; give x, y, z, skin, a file, an array or a function")
+        raise UsageError.about("by", f"is {by!r}; give x, y, z, skin, a file, an array or a function")
     text = str(by)
     if text in AXES:
         return AxisField(axis=AXES.index(text)), text
@@ -171,18 +173,18 @@ def resolve_field(by: object) -> tuple[Field, str]:
         with wrap_reader_errors(source, "holds something other than numbers", "write rows of x, y, z and a value"):
             values = np.load(source, allow_pickle=False) if suffix in ARRAYS else _read_table(source)
         return _field_of_array(values, text), text
-    raise UsageError(f"by is {text!r}; give x, y, z, skin, a .csv, a .npy, a picture, or module.py:name")
+    raise UsageError.about("by", f"is {text!r}; give x, y, z, skin, a .csv, a .npy, a picture, or module.py:name")
 
 
 def _field_of_array(values: NDArray[Any], name: str) -> Field:
     values = np.asarray(values, dtype=np.float64)
     if not values.size or not np.isfinite(values).all():
-        raise FormatError(f"by is {name}, which holds nothing, or numbers that are not finite; check it")
+        raise FormatError.about("by", f"is {name}, which holds nothing, or numbers that are not finite; check it")
     if values.ndim == 3:
         return BoxedField(values=values)
     if values.ndim == 2 and values.shape[1] == COLUMNS:
         return ScatteredField(points=values[:, :3], values=values[:, 3])
-    raise FormatError(f"by is {name} of shape {values.shape}; give rows of x, y, z and a value, or three axes")
+    raise FormatError.about("by", f"is {name} of shape {values.shape}; give rows of x, y, z and a value, or three axes")
 
 
 def _read_table(path: Path) -> Floats:

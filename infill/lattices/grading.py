@@ -134,14 +134,14 @@ class Grading:
         )
         inside = _inside(space, points)
         if not np.isfinite(field[inside]).all():
-            raise GeometryError(f"by is {self.name}, which is not finite everywhere in the part; check it")
+            raise GeometryError.about("by", f"is {self.name}, which is not finite everywhere in the part; check it")
         drawn, outermost = _sample_cells(space)
         drawn, outermost = (self.by.at(space.origin + space.size * cells, space) for cells in (drawn, outermost))
         inside_values = np.concatenate([field[inside], drawn, outermost])
         low, high = float(np.nanmin(inside_values)), float(np.nanmax(inside_values))
         if high - low <= 1e-9 * max(abs(low), abs(high), 1e-30):
-            raise GeometryError(
-                f"by is {self.name}, which is {low:g} everywhere in the part; give one density, or a field"
+            raise GeometryError.about(
+                "by", f"is {self.name}, which is {low:g} everywhere in the part; give one density, or a field"
             )
         share = np.clip((np.nan_to_num(field, nan=low) - low) / (high - low), 0, 1)
         shares = self.first + (self.last - self.first) * share

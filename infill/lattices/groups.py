@@ -75,5 +75,5 @@ def add_grading(keywords: dict[str, Any], density: Graded) -> dict[str, Any]:
     """Return keywords with those of a graded density; raise UsageError for `by` or `grade` that are given alone."""
     for name in ("by", "grade"):
         if keywords[name] is not None:
-            raise UsageError(f"{name} is given alone, and density is a Graded; give it there")
+            raise UsageError.about(name, "is given alone, and density is a Graded; give it there")
     return {**keywords, "density": (density.first, density.last), "by": density.by, "grade": density.grade}

@@ -181,9 +181,10 @@ class FillSpec:
         if self.max_triangles is None:
             return max(MOST_TRIANGLES - taken, LEAST_TRIANGLES)
         if self.max_triangles < taken + FEWEST_TRIANGLES:
-            raise GeometryError(
-                f"max_triangles is {self.max_triangles:,}, and the skin of the part alone has {taken:,}; give at least "
-                f"{taken + FEWEST_TRIANGLES:,}"
+            raise GeometryError.about(
+                "max_triangles",
+                f"is {self.max_triangles:,}, and the skin of the part alone has {taken:,}; give at least "
+                f"{taken + FEWEST_TRIANGLES:,}",
             )
         return self.max_triangles - taken
 
@@ -253,41 +254,50 @@ def check_request(
 ) -> FillSpec:
     """Check that numbers are in range; return a request in which sizes that follow from others are open."""
     if density is not None and cell is not None and line_width is not None:
-        raise UsageError("density, cell and line_width are all given; give two of them, and the third follows")
+        raise UsageError.about(
+            ("density", "cell", "line_width"), "are all given; give two of them, and the third follows"
+        )
     if resolution is not None and voxel is not None:
-        raise UsageError("voxel and resolution are both given; give one of them")
+        raise UsageError.about(("voxel", "resolution"), "are both given; give one of them")
     if align not in get_args(Align):
-        raise UsageError(f"align is {align!r}; choose from {', '.join(get_args(Align))}")
+        raise UsageError.about("align", f"is {align!r}; choose from {', '.join(get_args(Align))}")
     if form not in get_args(Form):
-        raise UsageError(f"as is {form!r}; choose from {', '.join(get_args(Form))}")
+        raise UsageError.about("as", f"is {form!r}; choose from {', '.join(get_args(Form))}")
     if drain is not None and form != "solid":
-        raise UsageError(f"drain is for a shell with its infill as one, and as is {form!r}; leave one of them out")
+        raise UsageError.about(
+            "drain", f"is for a shell with its infill as one, and as is {form!r}; leave one of them out"
+        )
     places = tuple(_check_place(place) for place in drain_at)
     for name, value in (("vent", vent), ("drain_at", bool(places))):
         if value and drain is None:
-            raise UsageError(f"{name} is given, and drain is missing; give drain too, the diameter of the holes in mm")
+            raise UsageError.about(
+                name, "is given, and drain is missing; give drain too, the diameter of the holes in mm"
+            )
     if open_ is not None and open_ not in get_args(Open):
-        raise UsageError(f"open is {open_!r}; choose from {', '.join(get_args(Open))}")
+        raise UsageError.about("open", f"is {open_!r}; choose from {', '.join(get_args(Open))}")
     if open_ is not None and form == "project":
-        raise UsageError(
-            f"open is {open_!r}, and as is 'project', whose shell is the slicer's; leave open out, and let the slicer "
-            "make no top or bottom layers"
+        raise UsageError.about(
+            "open",
+            f"is {open_!r}, and as is 'project', whose shell is the slicer's; leave open out, and let the slicer "
+            "make no top or bottom layers",
         )
     if len(phase) not in (2, 3):
-        raise UsageError(f"phase has {len(phase)} numbers; give two or three, mm")
+        raise UsageError.about("phase", f"has {len(phase)} numbers; give two or three, mm")
     shift = [check_range("phase", step, -FURTHEST, FURTHEST, "mm") for step in phase]
     kind, name = resolve_pattern(pattern)
     grading = None
     if isinstance(density, (tuple, list)):
         if isinstance(kind, Lightning):
-            raise UsageError(f"density is to change from place to place, and branches of {name} follow roofs; give one")
+            raise UsageError.about(
+                "density", f"is to change from place to place, and branches of {name} follow roofs; give one"
+            )
         grading = check_grading(density, by, grade or "width")
         density = grading.middle
         if grading.varies == "cell":
             _check_cells_follow(kind, name, align)
     elif by is not None or grade is not None:
         option = "by" if by is not None else "grade"
-        raise UsageError(f"{option} is given with one density; give two, such as 15%:40%, or leave it out")
+        raise UsageError.about(option, "is given with one density; give two, such as 15%:40%, or leave it out")
     elif density is not None:
         density = check_range("density", density, LOWEST, HIGHEST)
     elif (cell is None or line_width is None) and not isinstance(kind, Lightning):
@@ -295,9 +305,10 @@ def check_request(
         if density is None:
             line_width = SLICED_WIDTH if form == "project" else LINE_WIDTH
     if density is not None and line_width is not None and isinstance(kind, Lightning):
-        raise UsageError(
-            f"density and line_width are both given, and {name} has as many branches as the roofs need; leave one of "
-            "them out, or give cell and line_width"
+        raise UsageError.about(
+            ("density", "line_width"),
+            f"are both given, and {name} has as many branches as the roofs need; leave one of "
+            "them out, or give cell and line_width",
         )
     wall = (SLICED_WALL if form == "project" else WALL) if wall is None else check_length("wall", wall)
     return FillSpec(
@@ -329,7 +340,7 @@ def check_request(
 def _check_place(place: Sequence[float]) -> tuple[float, float, float]:
     """Check a place of a drain."""
     if isinstance(place, (str, bytes)) or not isinstance(place, (Sequence, np.ndarray)) or len(place) != 3:
-        raise UsageError(f"drain_at has a place {place!r}; give three numbers x, y, z in mm for each")
+        raise UsageError.about("drain_at", f"has a place {place!r}; give three numbers x, y, z in mm for each")
     x, y, z = (check_range("drain_at", coordinate, -FURTHEST, FURTHEST, "mm") for coordinate in place)
     return x, y, z
 
@@ -337,22 +348,23 @@ def _check_place(place: Sequence[float]) -> tuple[float, float, float]:
 def _check_cells_follow(kind: Kind, name: str, align: str) -> None:
     """Raise an error if the cells of a pattern cannot follow a field."""
     if not isinstance(kind, Surfaces):
-        raise UsageError(
-            f"grade is 'cell', and cells of {name} cannot follow a field; choose walls along a surface, such as "
-            "gyroid, or grade 'width'"
+        raise UsageError.about(
+            "grade",
+            f"is 'cell', and cells of {name} cannot follow a field; choose walls along a surface, such as "
+            "gyroid, or grade 'width'",
         )
     if align == "body":
-        raise UsageError(
-            "grade is 'cell', and cells that follow a field cannot begin again in every body; align 'part'"
+        raise UsageError.about(
+            "grade", "is 'cell', and cells that follow a field cannot begin again in every body; align 'part'"
         )
 
 
 def check_grading(densities: Sequence[float], by: object, grade: str = "width") -> Grading:
     """Check two densities, where a field is lowest and where it is highest, and the field."""
     if grade not in get_args(Varies):
-        raise UsageError(f"grade is {grade!r}; choose from {', '.join(get_args(Varies))}")
+        raise UsageError.about("grade", f"is {grade!r}; choose from {', '.join(get_args(Varies))}")
     if len(densities) != 2:
-        raise UsageError(f"density has {len(densities)} numbers; give one, or two such as 15%:40%")
+        raise UsageError.about("density", f"has {len(densities)} numbers; give one, or two such as 15%:40%")
     low, high = (check_range("density", density, LOWEST, HIGHEST) for density in densities)
     field, name = resolve_field("z" if by is None else by)
     return Grading(first=low, last=high, by=field, name=name, varies=grade)  # type: ignore[arg-type]

@@ -68,8 +68,9 @@ def _pattern_from_object(given: Any, name: str) -> tuple[Kind, str]:  # noqa: AN
         return given, name
     if callable(given) and not isinstance(given, type):
         return _pattern_from_function(given, name), name
-    raise ParameterError(
-        f"pattern is {name}, which is {type(given).__name__}; give a Pattern, Surfaces, Bars, or a function of x, y, z"
+    raise ParameterError.about(
+        "pattern",
+        f"is {name}, which is {type(given).__name__}; give a Pattern, Surfaces, Bars, or a function of x, y, z",
     )
 
 
@@ -81,12 +82,15 @@ def _pattern_from_function(function: Any, name: str) -> Surfaces:  # noqa: ANN40
         level = np.asarray(function(x, y, z), dtype=np.float64)
     except Exception as error:
         reason = " ".join(str(error).split())
-        raise ParameterError(f"pattern is {name}, which fails: {type(error).__name__}: {reason}") from error
+        raise ParameterError.about("pattern", f"is {name}, which fails: {type(error).__name__}: {reason}") from error
     if level.shape != x.shape or not np.isfinite(level).all():
-        raise ParameterError(f"pattern is {name}, which does not return a finite number for each point; correct it")
+        raise ParameterError.about(
+            "pattern", f"is {name}, which does not return a finite number for each point; correct it"
+        )
     if not level.min() < 0 < level.max():
-        raise ParameterError(
-            f"pattern is {name}, which is 0 nowhere: in a cell, x, y and z from 0 to 2 pi, it runs from "
-            f"{level.min():.3g} to {level.max():.3g}"
+        raise ParameterError.about(
+            "pattern",
+            f"is {name}, which is 0 nowhere: in a cell, x, y and z from 0 to 2 pi, it runs from "
+            f"{level.min():.3g} to {level.max():.3g}",
         )
     return Surfaces(name=name, summary="walls where a function is 0", value=function)

@@ -358,9 +358,13 @@ def _choose_form(options: FillOptions, typed: Mapping[str, Any]) -> tuple[str, s
         if "as" not in typed:
             form = "project"
         elif "for" in typed:
-            raise UsageError(f"for is {slicer!r}, and projects for slicers are as project, not {form}; leave one out")
+            raise UsageError.about(
+                "for", f"is {slicer!r}, and projects for slicers are as project, not {form}; leave one out"
+            )
         else:
             slicer = None
     if form == "project" and slicer is None:
-        raise UsageError("as is 'project', and for is missing; say which slicer it is for, such as --for prusaslicer")
+        raise UsageError.about(
+            "as", "is 'project', and for is missing; say which slicer it is for, such as --for prusaslicer"
+        )
     return form, slicer

@@ -89,14 +89,16 @@ def choose_voxel(request: FillSpec, voids: Voids, extents: NDArray[np.floating],
         max(size, _finest_voxel(extents, slabs=goes_by_slabs(request, voids))), math.cbrt(_box_volume(extents) / FEWEST)
     )
     if size > request.wall / LEAST_ACROSS:
-        raise GeometryError(
-            f"wall is {request.wall:g} mm, and the part {extents.max():.4g} mm long: a grid as fine as such a wall "
-            f"needs has more than {MOST:,.0f} cells; give a wall of {LEAST_ACROSS * size:.2g} mm, or the right unit"
+        raise GeometryError.about(
+            "wall",
+            f"is {request.wall:g} mm, and the part {extents.max():.4g} mm long: a grid as fine as such a wall "
+            f"needs has more than {MOST:,.0f} cells; give a wall of {LEAST_ACROSS * size:.2g} mm, or the right unit",
         )
     if size > (most := coarsest_voxel(request, voids, cell, width / request.thinnest)):
-        raise GeometryError(
-            f"cell is {cell:.3g} mm, and the part {extents.max():.4g} mm long: a grid as fine as such cells need has "
-            f"more than {MOST:,.0f} cells; give a cell of {math.ceil(cell * size / most)} mm, or a lower density"
+        raise GeometryError.about(
+            "cell",
+            f"is {cell:.3g} mm, and the part {extents.max():.4g} mm long: a grid as fine as such cells need has "
+            f"more than {MOST:,.0f} cells; give a cell of {math.ceil(cell * size / most)} mm, or a lower density",
         )
     return size
 

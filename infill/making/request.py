@@ -210,7 +210,7 @@ def plan_block(
     ready_pattern = instantiate_pattern(pattern, parameters)
     sides = list(size) if isinstance(size, Iterable) else [size, size]
     if len(sides) != 2:
-        raise ParameterError(f"size has {len(sides)} numbers; give x and y in mm, or one number for a square")
+        raise ParameterError.about("size", f"has {len(sides)} numbers; give x and y in mm, or one number for a square")
     width, depth, height = (
         check_length("size x", sides[0]),
         check_length("size y", sides[1]),
@@ -218,12 +218,13 @@ def plan_block(
     )
     line_width = check_length("line_width", line_width)
     if stamp not in get_args(StampMethod):
-        raise UsageError(f"stamp is {stamp!r}; choose block or exact")
+        raise UsageError.about("stamp", f"is {stamp!r}; choose block or exact")
     across = check_whole_number("cells", DEFAULT_CELLS[stamp] if cells is None else cells, 1)
     if stamp == "block" and across % 2 == 0:
-        raise ParameterError(
-            f"cells is {across}, and a block of {across} × {across} cells has no middle cell; use an odd number, "
-            "or the exact stamp"
+        raise ParameterError.about(
+            "cells",
+            f"is {across}, and a block of {across} × {across} cells has no middle cell; use an odd number, "
+            "or the exact stamp",
         )
     cell = line_width / across
     counts = tuple(max(1, round(side / cell)) for side in (width, depth))
@@ -263,21 +264,23 @@ def _resolve_surface(
 ) -> tuple[SurfaceMethod, float]:
     """Check the surface and its tolerance; return both, with a missing one derived from the other."""
     if surface is not None and surface not in get_args(SurfaceMethod):
-        raise UsageError(f"surface is {surface!r}; choose prism or grid")
+        raise UsageError.about("surface", f"is {surface!r}; choose prism or grid")
     if tolerance is None:
         return (
             ("grid", 0.0) if surface == "grid" else ("prism", min(DEFAULT_TOLERANCE, MAX_TOLERANCE_SHARE * line_width))
         )
     check_range("tolerance", tolerance, 0.0, math.inf, "mm")
     if surface == "grid" and tolerance > 0:
-        raise UsageError(
-            f"surface and tolerance exclude each other: grid is the isosurface as it is, and not {tolerance:g} mm "
-            "off; leave the tolerance out, or take prism"
+        raise UsageError.about(
+            ("surface", "tolerance"),
+            f"exclude each other: grid is the isosurface as it is, and not {tolerance:g} mm "
+            "off; leave the tolerance out, or take prism",
         )
     if tolerance > MAX_TOLERANCE_SHARE * line_width:
-        raise ParameterError(
-            f"tolerance is {tolerance:g} mm; it must be at most a tenth of the line width, "
-            f"{MAX_TOLERANCE_SHARE * line_width:g} mm"
+        raise ParameterError.about(
+            "tolerance",
+            f"is {tolerance:g} mm; it must be at most a tenth of the line width, "
+            f"{MAX_TOLERANCE_SHARE * line_width:g} mm",
         )
     return surface or ("prism" if tolerance > 0 else "grid"), float(tolerance)
 

@@ -48,7 +48,7 @@ def parse_size(name: str, size: object) -> tuple[float, float]:
     except (TypeError, ValueError, OverflowError):
         lengths = []
     if len(lengths) not in (1, 2):
-        raise UsageError(f"{name} is {quote_value(size)}; give millimetres as 60x40, or 60 for a square")
+        raise UsageError.about(name, f"is {quote_value(size)}; give millimetres as 60x40, or 60 for a square")
     return lengths[0], lengths[-1]
 
 

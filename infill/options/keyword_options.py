@@ -18,9 +18,9 @@ Reader = Callable[[str, object], Any]
 def parse_word(name: str, value: object) -> str:
     """Check a word, or raise UsageError."""
     if not isinstance(value, str) or not value.strip():
-        raise UsageError(f"{name} is {quote_value(value)}; it must be a word")
+        raise UsageError.about(name, f"is {quote_value(value)}; it must be a word")
     if len(value) > LONGEST_WORD:
-        raise ParameterError(f"{name} is {quote_value(value)}, of {len(value):,} signs; give a name")
+        raise ParameterError.about(name, f"is {quote_value(value)}, of {len(value):,} signs; give a name")
     return value
 
 
@@ -33,26 +33,26 @@ def parse_share(name: str, value: object, advice: str = "give a share such as 20
     if isinstance(value, str):
         match = re.fullmatch(r"\s*([+-]?\d+(?:\.\d+)?|nan|[+-]?inf)\s*(%?)\s*", value)
         if not match:
-            raise UsageError(f"{name} is {quote_value(value)}; {advice}")
+            raise UsageError.about(name, f"is {quote_value(value)}; {advice}")
         share = float(match[1]) / (100 if match[2] else 1)
     else:
         share = parse_number(name, value)
     if not 0 < share <= 1:
-        raise ParameterError(f"{name} is {quote_value(value)}; {advice}, up to 100%")
+        raise ParameterError.about(name, f"is {quote_value(value)}; {advice}, up to 100%")
     return share
 
 
 def parse_flag(name: str, value: object) -> bool:
     """Check true or false, or raise UsageError."""
     if not isinstance(value, bool):
-        raise UsageError(f"{name} is {quote_value(value)}; it must be true or false")
+        raise UsageError.about(name, f"is {quote_value(value)}; it must be true or false")
     return value
 
 
 def parse_number(name: str, value: object) -> float:
     """Check a number, or raise UsageError."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise UsageError(f"{name} is {quote_value(value)}; it must be a number")
+        raise UsageError.about(name, f"is {quote_value(value)}; it must be a number")
     return check_fits_float(name, value)
 
 
@@ -61,16 +61,16 @@ def check_fits_float(name: str, value: float) -> float:
     try:
         float(value)
     except OverflowError:
-        raise ParameterError(f"{name} is {quote_value(value)}; give a number below 1e308") from None
+        raise ParameterError.about(name, f"is {quote_value(value)}; give a number below 1e308") from None
     return value
 
 
 def parse_whole(name: str, value: object) -> int:
     """Check a whole number, or raise UsageError."""
     if isinstance(value, bool) or not isinstance(value, int):
-        raise UsageError(f"{name} is {quote_value(value)}; it must be a whole number")
+        raise UsageError.about(name, f"is {quote_value(value)}; it must be a whole number")
     if abs(value) > LARGEST_WHOLE:
-        raise ParameterError(f"{name} is {quote_value(value)}; give a whole number up to {LARGEST_WHOLE:,}")
+        raise ParameterError.about(name, f"is {quote_value(value)}; give a whole number up to {LARGEST_WHOLE:,}")
     return value
 
 
@@ -82,7 +82,7 @@ def parse_wholes(name: str, value: object) -> tuple[int, ...]:
     """
     values = value if isinstance(value, (list, tuple)) else (value,)
     if not values:
-        raise UsageError(f"{name} is empty; give a whole number, or several")
+        raise UsageError.about(name, "is empty; give a whole number, or several")
     return tuple(parse_whole(name, number) for number in values)
 
 
@@ -101,9 +101,9 @@ def parse_numbers(name: str, value: object, counts: tuple[int, ...]) -> tuple[fl
         numbers = ()
     if len(numbers) not in counts:
         expected = " or ".join(map(str, counts))
-        raise UsageError(f"{name} is {quote_value(value)}; give {expected} number(s), with commas between")
+        raise UsageError.about(name, f"is {quote_value(value)}; give {expected} number(s), with commas between")
     if not all(map(math.isfinite, numbers)):
-        raise ParameterError(f"{name} is {quote_value(value)}; give finite numbers")
+        raise ParameterError.about(name, f"is {quote_value(value)}; give finite numbers")
     return numbers
 
 
@@ -118,4 +118,4 @@ def parse_level(name: str, value: object) -> Literal["volume"] | float:
     try:
         return float(value) if isinstance(value, str) else parse_number(name, value)
     except ValueError:
-        raise UsageError(f"{name} is {quote_value(value)}; give volume, or a number between -1 and 1") from None
+        raise UsageError.about(name, f"is {quote_value(value)}; give volume, or a number between -1 and 1") from None

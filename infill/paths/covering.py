@@ -224,4 +224,4 @@ def check_cell(cell: float, line_width: float) -> None:
     """Raise ParameterError if a cell is too small for beads."""
     smallest = TOUCH * check_positive("line width", line_width, "mm")
     if check_positive("cell", cell, "mm") < smallest * (1 - 1e-9):
-        raise ParameterError(f"cell is {cell:g} mm; beads of {line_width:g} mm need at least {smallest:g} mm")
+        raise ParameterError.about("cell", f"is {cell:g} mm; beads of {line_width:g} mm need at least {smallest:g} mm")

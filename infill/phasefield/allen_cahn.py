@@ -96,9 +96,10 @@ class Smoothing:
         shares = [(smallest / cell_size) ** 2 for cell_size in spacing]
         limit = 1 / (2 * sum(shares))
         if self.alpha > limit * (1 + 1e-12):
-            raise ParameterError(
-                f"alpha is {self.alpha:g}, the time step over h²; explicit diffusion is stable up to {limit:g} "
-                f"on this {len(spacing)}D grid; lower alpha"
+            raise ParameterError.about(
+                "alpha",
+                f"is {self.alpha:g}, the time step over h²; explicit diffusion is stable up to {limit:g} "
+                f"on this {len(spacing)}D grid; lower alpha",
             )
         return tuple(self.alpha * share for share in shares)
 
@@ -115,12 +116,12 @@ def as_phase_field(data: ArrayLike, name: str = "the data") -> NDArray[np.generi
     if field.dtype == bool:
         field = np.where(field, np.int8(1), np.int8(-1))
     if field.size == 0 or field.ndim == 0:
-        raise ParameterError(f"{name} has no cells; give an array with at least one cell on each of its axes")
+        raise ParameterError.about(name, "has no cells; give an array with at least one cell on each of its axes")
     if not (np.issubdtype(field.dtype, np.integer) or np.issubdtype(field.dtype, np.floating)):
-        raise ParameterError(f"{name} is of type {field.dtype}; give real numbers or booleans")
+        raise ParameterError.about(name, f"is of type {field.dtype}; give real numbers or booleans")
     low, high = field.min(), field.max()
     if np.isnan(low):
-        raise ParameterError(f"{name} holds NaN; fill or cut those cells first")
+        raise ParameterError.about(name, "holds NaN; fill or cut those cells first")
     if not (low >= -1 and high <= 1):
         raise ParameterError(
             f"{name} ranges from {low:g} to {high:g}; scale it to [-1, 1] first: rescale(data), Eq. (2)"

@@ -89,7 +89,7 @@ def smooth(
     [1.0, 1.0, 1.0]
     """
     if method != "auto" and method not in KERNELS:
-        raise UsageError(f"method is {method!r}; choose from auto, {', '.join(KERNELS)}")
+        raise UsageError.about("method", f"is {method!r}; choose from auto, {', '.join(KERNELS)}")
     if method in COMPILED and np.ndim(f) > COMPILED_AXES:
         raise ParameterError(f"method {method!r} takes up to {COMPILED_AXES} axes, not {np.ndim(f)}; choose inplace")
     field = as_phase_field(f)
@@ -97,7 +97,7 @@ def smooth(
     domain = None if mask is None else np.asarray(mask)
     for name, array in (("the initial field", start), ("the mask", domain)):
         if array is not None and array.shape != field.shape:
-            raise ParameterError(f"{name} has the shape {array.shape}, the data {field.shape}; give equal shapes")
+            raise ParameterError.about(name, f"has the shape {array.shape}, the data {field.shape}; give equal shapes")
     if domain is not None and domain.dtype != bool:
         raise ParameterError(f"the mask is of type {domain.dtype}; give booleans")
     chosen = _choose_kernel(np.asarray(f), smoothing) if method == "auto" else method

@@ -57,9 +57,9 @@ def parse_cut(text: str) -> Cut:
     """
     match = re.fullmatch(CUT_PATTERN, text.lower())
     if not match:
-        raise UsageError(f"cut is {text!r}; give x, y or z and a place in mm, such as z=10")
+        raise UsageError.about("cut", f"is {text!r}; give x, y or z and a place in mm, such as z=10")
     if not math.isfinite(float(match[2])):
-        raise ParameterError(f"cut is {text!r}; give a place in mm, such as {match[1]}=10")
+        raise ParameterError.about("cut", f"is {text!r}; give a place in mm, such as {match[1]}=10")
     return Cut(axis=AXES.index(match[1]), at=float(match[2]))
 
 
@@ -69,9 +69,10 @@ def check_cuts(cuts: Sequence[Cut], bounds: NDArray[np.floating]) -> None:
         low, high = np.asarray(bounds, dtype=np.float64)[:, cut.axis].tolist()
         if not low < cut.at < high:
             axis = AXES[cut.axis]
-            raise ParameterError(
-                f"cut is {axis}={cut.at:g}, and the part goes from {axis} = {low:.4g} to {high:.4g} mm; give a place "
-                f"between, such as {axis}={(low + high) / 2:.4g}"
+            raise ParameterError.about(
+                "cut",
+                f"is {axis}={cut.at:g}, and the part goes from {axis} = {low:.4g} to {high:.4g} mm; give a place "
+                f"between, such as {axis}={(low + high) / 2:.4g}",
             )
 
 

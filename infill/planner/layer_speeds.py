@@ -79,7 +79,7 @@ def layer_speeds(
             batches_of_pieces.append(_cut_pieces(slice_rows(steps, rows), slice_rows(plan, rows), timeline.features))
     pieces = concatenate_rows(batches_of_pieces)
     if not len(pieces.speed):
-        raise ParameterError(f"layer is {layer}; {Path(path).name} has moves in layers 1 to {timeline.layers}")
+        raise ParameterError.about("layer", f"is {layer}; {Path(path).name} has moves in layers 1 to {timeline.layers}")
     return pieces
 
 

@@ -269,8 +269,8 @@ def collect_limits(**given: Any) -> dict[str, Any]:  # noqa: ANN401
     means["jerk"] = "jerk"
     meant = {model for name, model in means.items() if name in fixed}
     if "model" not in fixed and len(meant) > 1:
-        names = " and ".join(name for name in means if name in fixed)
-        raise UsageError(f"{names} belong to {len(meant)} models, {', '.join(sorted(meant))}; give model")
+        names = tuple(name for name in means if name in fixed)
+        raise UsageError.about(names, f"belong to {len(meant)} models, {', '.join(sorted(meant))}; give model")
     if "model" not in fixed and meant - {"jerk"}:  # two models have jerk: the file decides
         fixed["model"] = meant.pop()
     if "acceleration" in fixed:

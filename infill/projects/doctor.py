@@ -74,7 +74,7 @@ def check_project(path: str | os.PathLike[str], slicer: Slicer) -> Diagnosis:
     The rules are those that the readers of the slicers follow; their own exit status is 0 in most of these cases.
     """
     if slicer not in SLICERS:
-        raise UsageError(f"slicer is {slicer!r}; choose from {', '.join(SLICERS)}")
+        raise UsageError.about("slicer", f"is {slicer!r}; choose from {', '.join(SLICERS)}")
     package = read_package(Path(path))
     findings: list[Finding] = []
     volumes: list[PrintedVolume] = []

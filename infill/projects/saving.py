@@ -18,7 +18,7 @@ from infill.result import Result
 def writer_for(slicer: str) -> Callable[[Project, BinaryIO], None]:
     """Look up the function that writes projects for a slicer, or raise UsageError."""
     if slicer not in SLICERS:
-        raise UsageError(f"slicer is {slicer!r}; choose from {', '.join(SLICERS)}")
+        raise UsageError.about("slicer", f"is {slicer!r}; choose from {', '.join(SLICERS)}")
     return WRITERS[slicer]
 
 

@@ -38,7 +38,7 @@ def parse_radius(name: str, value: object) -> str | float:
     try:
         return float(value) if isinstance(value, str) else parse_number(name, value)
     except ValueError:
-        raise UsageError(f"{name} is {quote_value(value)}; give auto, or a number in mm") from None
+        raise UsageError.about(name, f"is {quote_value(value)}; give auto, or a number in mm") from None
 
 
 def parse_share_or_same(name: str, value: object) -> str | float:
@@ -62,7 +62,7 @@ def parse_range(name: str, value: object) -> tuple[int, int]:
         return numbers[0], numbers[-1]
     match = re.fullmatch(r"\s*(\d{1,9})\s*(?:(-)\s*(\d{0,9})\s*)?", value) if isinstance(value, str) else None
     if not match:
-        raise UsageError(f"{name} is {quote_value(value)}; give a range such as 5-20, or 5-")
+        raise UsageError.about(name, f"is {quote_value(value)}; give a range such as 5-20, or 5-")
     lowest = int(match[1])
     return lowest, int(match[3]) if match[3] else ENDLESS if match[2] else lowest
 
@@ -161,18 +161,20 @@ class Request:
             pass
         elif isinstance(self.density, str):
             if self.density != SAME:
-                raise UsageError(f"density is {self.density!r}; give 'same', or a number above 0 and up to 1")
+                raise UsageError.about("density", f"is {self.density!r}; give 'same', or a number above 0 and up to 1")
         elif not 0 < check_positive("density", self.density) <= 1:
-            raise ParameterError(f"density is {self.density:g}; give 'same', or a number above 0 and up to 1")
+            raise ParameterError.about("density", f"is {self.density:g}; give 'same', or a number above 0 and up to 1")
         if isinstance(self.smooth_radius, str):
             if self.smooth_radius != AUTO:
-                raise UsageError(f"smooth_radius is {self.smooth_radius!r}; give 'auto', or a number in mm")
+                raise UsageError.about("smooth_radius", f"is {self.smooth_radius!r}; give 'auto', or a number in mm")
         else:
             check_range("smooth_radius", self.smooth_radius, 0, LARGEST_RADIUS, "mm")
         if self.max_deviation is not None:
             check_range("max_deviation", self.max_deviation, 0, LARGEST_RADIUS, "mm")
         if self.layers is not None and not 1 <= self.layers[0] <= self.layers[1]:
-            raise ParameterError(f"layers is {self.layers[0]} to {self.layers[1]}; count from 1, the lower one first")
+            raise ParameterError.about(
+                "layers", f"is {self.layers[0]} to {self.layers[1]}; count from 1, the lower one first"
+            )
         if self.pattern != KEEP and Path(self.pattern).suffix.lower() not in DRAWINGS:
             from infill.paths.families.catalogue import FAMILIES
 
@@ -181,16 +183,18 @@ class Request:
                 advice = f"did you mean {matches[0]!r}?" if matches else f"give keep, or one of {', '.join(FAMILIES)}"
                 raise ParameterError(f"there is no pattern {self.pattern!r}; {advice}")
         if self.pattern == KEEP and isinstance(self.density, int | float):
-            raise UsageError("density is for built-in patterns; keep has the slicer's: leave it out, or set it there")
+            raise UsageError.about(
+                "density", "is for built-in patterns; keep has the slicer's: leave it out, or set it there"
+            )
         if self.parameters:
             from infill.refilling.placement import pattern_parameters
 
             try:
                 pattern_parameters(self.pattern, self.parameters)
             except PatternError as error:
-                raise ParameterError(str(error)) from None
+                raise ParameterError.like(error) from None
             if self.cell is not None and self.density is not None:
-                raise UsageError("density and cell are both given, and each decides the other; leave one out")
+                raise UsageError.about(("density", "cell"), "are both given, and each decides the other; leave one out")
 
     @property
     def radius(self) -> float:

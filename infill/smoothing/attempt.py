@@ -207,9 +207,10 @@ def _remove_specks(data: Volume, request: SmoothRequest) -> tuple[Volume, int]:
     components = find_components(field, data_bits(field, threads=request.threads))
     small = components.cells * data.cell_volume <= largest
     if small.all():
-        raise ParameterError(
-            f"despeckle is {largest:g} mm³ and the largest component has "
-            f"{components.cells.max() * data.cell_volume:g} mm³; give less"
+        raise ParameterError.about(
+            "despeckle",
+            f"is {largest:g} mm³ and the largest component has "
+            f"{components.cells.max() * data.cell_volume:g} mm³; give less",
         )
     if not small.any():
         return data, 0

@@ -122,11 +122,11 @@ def smooth_components(
                 )
             except (GeometryError, ParameterError) as error:
                 if not request.allow_broken:
-                    raise type(error)(f"{name}: {error}") from error
+                    raise error.within(name) from error
                 failed[name] = str(error)
                 continue
             except InfillError as error:
-                raise type(error)(f"{name}: {error}") from error
+                raise error.within(name) from error
             surfaces[name] = result.surface
             # A complete copy: measuring later would keep the field of every component in memory.
             reports[name] = result.report.copy()
@@ -144,7 +144,7 @@ def _voxel_size(surface: Surface, resolution: int | None, voxel: float | None) -
     """Return the size of the voxels, mm."""
     if voxel is not None:
         if resolution is not None:
-            raise UsageError("voxel and resolution are both given; give one of them")
+            raise UsageError.about(("voxel", "resolution"), "are both given; give one of them")
         return check_length("voxel", voxel)
     count = check_whole_number("resolution", RESOLUTION if resolution is None else resolution, 1)
     longest = float(np.ptp(surface.vertices[np.unique(surface.faces)], axis=0).max())

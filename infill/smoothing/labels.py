@@ -147,12 +147,12 @@ def smooth_labels(
             try:
                 result = _smooth_piece(segmentation.layers[piece.segment.layer], piece, request, label_options)
             except InfillError as error:
-                message = f"{_title(piece)}: {error}"
+                placed_error = error.within(_title(piece))
                 if not keep_going:
-                    raise type(error)(message) from error
+                    raise placed_error from error
                 failed[piece.name] = str(error)
                 if len(failed) == len(pieces):
-                    raise type(error)(f"no label can be smoothed; {message}") from error
+                    raise type(error)(f"no label can be smoothed; {placed_error}") from error
                 continue
             surfaces[piece.name] = result.surface
             # A complete copy: measuring later would keep the field of every label in memory.
@@ -202,7 +202,7 @@ def _find_pieces(
             excerpt = ", ".join(map(str, values[:MAX_LISTED_LABELS])) + (
                 ", …" if len(values) > MAX_LISTED_LABELS else ""
             )
-            raise ParameterError(f"label is {value}, and the volume holds {excerpt}; give one that is there")
+            raise ParameterError.about("label", f"is {value}, and the volume holds {excerpt}; give one that is there")
     used_names: set[str] = set()
     pieces = []
     for segment, extent in present:

@@ -91,15 +91,15 @@ class SmoothRequest:
     def __post_init__(self) -> None:
         """Check all options that do not depend on the data."""
         if self.method not in METHODS:
-            raise UsageError(f"method is {self.method!r}; choose from {', '.join(METHODS)}")
+            raise UsageError.about("method", f"is {self.method!r}; choose from {', '.join(METHODS)}")
         if self.refine is not None:
             if self.method not in (AUTO, "refine" if self.refine else "plain"):
-                raise UsageError(f"refine is {self.refine} and method {self.method}; give one of them")
+                raise UsageError.about("refine", f"is {self.refine} and method {self.method}; give one of them")
             object.__setattr__(self, "method", "refine" if self.refine else "plain")
         if self.radius is not None:
             object.__setattr__(self, "radius", check_positive("radius", self.radius, "mm"))
         if isinstance(self.tolerance, str) and self.tolerance != AUTO:
-            raise UsageError(f"tolerance is {self.tolerance!r}; give a number of mm, or auto")
+            raise UsageError.about("tolerance", f"is {self.tolerance!r}; give a number of mm, or auto")
         if self.tolerance is not None and not isinstance(self.tolerance, str):
             check_positive("tolerance", self.tolerance, "mm")  # before the work
         if self.crumbs is not None:
@@ -108,7 +108,7 @@ class SmoothRequest:
             highest = HIGHEST_REFINED if self.refined else HIGHEST
             object.__setattr__(self, "level", check_range("level", float(self.level), -highest, highest))
         elif self.level != "volume":
-            raise UsageError(f"level is {self.level!r}; give volume, or a number between -1 and 1")
+            raise UsageError.about("level", f"is {self.level!r}; give volume, or a number between -1 and 1")
         object.__setattr__(self, "despeckle", check_range("despeckle", self.despeckle, 0, math.inf, "mm³"))
 
     @property
@@ -136,9 +136,10 @@ class SmoothRequest:
             fewest = MIN_STEPS if self.refined else 1
             steps = max(fewest, round(STEPS_PER_VARIANCE * (self.radius / cell) ** 2))
             if steps > MOST_STEPS:
-                raise ParameterError(
-                    f"radius is {self.radius:g} mm, {self.radius / cell:.3g} voxels, which would take {steps} "
-                    f"steps; give at most {cell * math.sqrt(MOST_STEPS / STEPS_PER_VARIANCE):.3g} mm, or larger voxels"
+                raise ParameterError.about(
+                    "radius",
+                    f"is {self.radius:g} mm, {self.radius / cell:.3g} voxels, which would take {steps} "
+                    f"steps; give at most {cell * math.sqrt(MOST_STEPS / STEPS_PER_VARIANCE):.3g} mm, or larger voxels",
                 )
             smoothing = replace(smoothing, steps=steps)
         if isinstance(tolerance, str):

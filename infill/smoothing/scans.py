@@ -57,7 +57,9 @@ def volume_ways(
             scan, phase = replace(scan, values=2 * np.asarray(scan.values) - 1), True
             solid = replace(scan, values=np.asarray(scan.values) > 0)
         if not np.asarray(solid.values).any():
-            raise ParameterError(f"voxel is {voxel:g} mm, and nothing of the solid fills half of one; give less")
+            raise ParameterError.about(
+                "voxel", f"is {voxel:g} mm, and nothing of the solid fills half of one; give less"
+            )
     facts = {
         "source": "volume",
         "segmentation": used,

@@ -275,9 +275,9 @@ class SmoothSettings:
     def __post_init__(self) -> None:
         """Raise ParameterError for options that contradict each other."""
         if self.refine and self.method not in (AUTO, REFINE):
-            raise UsageError(f"refine is smooth = refine, and smooth is {self.method}; leave one of them out")
+            raise UsageError.about("refine", f"is smooth = refine, and smooth is {self.method}; leave one of them out")
         if self.fidelity is not None and (self.refine or self.method not in (AUTO, PLAIN)):
-            raise UsageError("fidelity is for smooth = plain alone; leave one of them out")
+            raise UsageError.about("fidelity", "is for smooth = plain alone; leave one of them out")
 
     @property
     def way(self) -> Method:

@@ -107,20 +107,20 @@ def read_source(
     """
     source = Path(path)
     if kind is not None and kind not in KINDS:
-        raise UsageError(f"kind is {kind!r}; choose from {', '.join(KINDS)}")
+        raise UsageError.about("kind", f"is {kind!r}; choose from {', '.join(KINDS)}")
     if units is not None and units not in UNITS:
-        raise UsageError(f"units is {units!r}; choose from {', '.join(UNITS)}")
+        raise UsageError.about("units", f"is {units!r}; choose from {', '.join(UNITS)}")
     source_kind = kind or _guess_kind(source)
     if source_kind == "volume":
         if units is not None:
-            raise ParameterError("units is for meshes and points; give the spacing of a volume in mm")
+            raise ParameterError.about("units", "is for meshes and points; give the spacing of a volume in mm")
         return _resize_and_crop(
             read_volume(source, array=array, series=series, frame=frame, spacing=spacing), spacing, roi
         )
     volume_options = {"spacing": spacing, "array": array, "series": series, "frame": frame, "roi": roi}
     if any(value is not None for value in volume_options.values()):
-        names = " and ".join(name for name, value in volume_options.items() if value is not None)
-        raise ParameterError(f"{names} is for volumes, and {source} is read as {source_kind}; leave it out")
+        names = tuple(name for name, value in volume_options.items() if value is not None)
+        raise ParameterError.about(names, f"is for volumes, and {source} is read as {source_kind}; leave it out")
     if source_kind == "points":
         points, normals = read_points_and_normals(source)
         points = points * _unit_in_mm(source, points, units)
@@ -159,7 +159,9 @@ def read_label_source(
     source = Path(path)
     source_kind = kind or _guess_kind(source)
     if source_kind != "volume":
-        raise ParameterError(f"labels are those of a volume, and {source} is read as {source_kind}; leave them out")
+        raise ParameterError.about(
+            "labels", f"are those of a volume, and {source} is read as {source_kind}; leave them out"
+        )
     segmentation = read_segmentation(source, array=array, series=series, frame=frame, spacing=spacing)
     return replace(
         segmentation, layers=tuple(_resize_and_crop(layer, spacing, roi, varied=False) for layer in segmentation.layers)
@@ -218,10 +220,12 @@ def separate_choice(source: Source, options: SourceOptions) -> tuple[dict[str, A
     kind = kind_of(source)
     if unfit := [name for name in choice if name not in OPTIONS_OF_KIND[kind]]:
         kinds = [candidate for candidate in KINDS if unfit[0] in OPTIONS_OF_KIND[candidate]]
-        raise ParameterError(f"{unfit[0]} is for {' and '.join(kinds)}, and the input is read as {kind}; leave it out")
+        raise ParameterError.about(
+            unfit[0], f"is for {' and '.join(kinds)}, and the input is read as {kind}; leave it out"
+        )
     thresholds = [name for name in ("threshold", "between", "otsu") if name in choice]
     if len(thresholds) > 1:
-        raise UsageError(f"{' and '.join(thresholds)} exclude each other; give one of them")
+        raise UsageError.about(tuple(thresholds), "exclude each other; give one of them")
     if "between" in choice:
         choice["threshold"] = choice.pop("between")
     if choice.pop("otsu", False):
@@ -240,7 +244,7 @@ def _voxel_of_points(points: NDArray[np.float64], resolution: int | None, voxel:
     """Return the size of the voxels for points (N, 3), mm."""
     if voxel is not None:
         if resolution is not None:
-            raise UsageError("voxel and resolution are both given; give one of them")
+            raise UsageError.about(("voxel", "resolution"), "are both given; give one of them")
         return voxel
     longest = float(np.ptp(points, axis=0).max())
     if longest == 0:

@@ -44,10 +44,12 @@ def coarsen(volume: Volume, voxel: float) -> Volume:
     voxel, size = check_length("voxel", voxel), volume.cell_size
     shortest, longest = float(size.min()), float((size * volume.values.shape).max())
     if voxel < shortest * (1 - NEAR):
-        raise ParameterError(f"voxel is {voxel:g} mm and the volume has {shortest:g} mm; give no less, or leave it out")
+        raise ParameterError.about(
+            "voxel", f"is {voxel:g} mm and the volume has {shortest:g} mm; give no less, or leave it out"
+        )
     if voxel > longest / FEWEST + NEAR:
-        raise ParameterError(
-            f"voxel is {voxel:g} mm and the volume {longest:g} mm long; give at most {longest / FEWEST:g} mm"
+        raise ParameterError.about(
+            "voxel", f"is {voxel:g} mm and the volume {longest:g} mm long; give at most {longest / FEWEST:g} mm"
         )
     factors = np.maximum(voxel / size, 1.0)
     counts = np.maximum(1, np.ceil(np.array(volume.values.shape) / factors - NEAR)).astype(int)

@@ -63,8 +63,8 @@ def crop(volume: Volume, roi: Box, *, varied: bool = True) -> Volume:
     low = np.ceil(np.clip(along.min(axis=0) - ROUNDING, 0, count)).astype(int)
     high = np.floor(np.clip(along.max(axis=0) + ROUNDING, -1, count - 1)).astype(int) + 1
     if (low >= high).any():
-        raise ParameterError(
-            f"roi is {_format_ends(ends)} and holds no cell of the volume, {_describe_extent(volume)}; move the box"
+        raise ParameterError.about(
+            "roi", f"is {_format_ends(ends)} and holds no cell of the volume, {_describe_extent(volume)}; move the box"
         )
     turned = np.abs(direction).max(axis=0)
     if (np.sqrt(np.clip(1 - turned**2, 0, 1)) * count > SKEW * count.max()).any():
@@ -73,7 +73,7 @@ def crop(volume: Volume, roi: Box, *, varied: bool = True) -> Volume:
     cropped_volume = cut_cells(volume, tuple(low.tolist()), tuple(high.tolist()))
     lowest, highest = cropped_volume.values.min().item(), cropped_volume.values.max().item()
     if varied and lowest == highest:
-        raise ParameterError(f"roi holds {lowest:g} in all cells, so no surface; make it larger, or move it")
+        raise ParameterError.about("roi", f"holds {lowest:g} in all cells, so no surface; make it larger, or move it")
     return cropped_volume
 
 
@@ -81,11 +81,11 @@ def _box_ends(roi: Box) -> NDArray[np.float64]:
     """Check the box; return it as (3, 2)."""
     numbers = np.array(roi, dtype=np.float64)
     if numbers.shape != (2 * AXES,) or not np.isfinite(numbers).all():
-        raise ParameterError(f"roi is {roi}; give six finite numbers: X0,X1,Y0,Y1,Z0,Z1")
+        raise ParameterError.about("roi", f"is {roi}; give six finite numbers: X0,X1,Y0,Y1,Z0,Z1")
     ends = numbers.reshape(AXES, 2)
     for name, (low, high) in zip("xyz", ends.tolist(), strict=True):
         if low >= high:
-            raise ParameterError(f"roi goes from {low:g} to {high:g} mm in {name}; give the lower end first")
+            raise ParameterError.about("roi", f"goes from {low:g} to {high:g} mm in {name}; give the lower end first")
     return ends
 
 

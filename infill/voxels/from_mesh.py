@@ -90,7 +90,7 @@ def grid_around(
 ) -> Grid:
     """Lay the grid on which a mesh is voxelised: see `voxelise`."""
     if voxel is not None and resolution is not None:
-        raise UsageError("voxel and resolution are both given; give one of them")
+        raise UsageError.about(("voxel", "resolution"), "are both given; give one of them")
     lower, upper = surface.bounds
     extents = upper - lower
     if not extents.max() > 0:
@@ -102,9 +102,10 @@ def grid_around(
     else:
         size = check_length("voxel", voxel)
         if size > extents.max() / FEWEST:
-            raise ParameterError(
-                f"voxel is {size:g} mm and the part {' x '.join(f'{side:g}' for side in extents)} mm; "
-                f"give at most {extents.max() / FEWEST:g} mm"
+            raise ParameterError.about(
+                "voxel",
+                f"is {size:g} mm and the part {' x '.join(f'{side:g}' for side in extents)} mm; "
+                f"give at most {extents.max() / FEWEST:g} mm",
             )
     shape = tuple(max(1, math.ceil(side / size - ROUNDING)) + 2 * margin for side in extents.tolist())
     origin = (lower + upper) / 2 - np.array(shape) * size / 2
@@ -209,7 +210,7 @@ def voxelise_with_report(
 ) -> VoxelisedMesh:
     """Voxelise a mesh as `voxelise` does; return the cells, the assumptions, and the closed mesh."""
     if voxel is not None and resolution is not None:
-        raise UsageError("voxel and resolution are both given; give one of them")
+        raise UsageError.about(("voxel", "resolution"), "are both given; give one of them")
     margin = check_whole_number("margin", margin, 0)
     if len(surface.faces) == 0:
         raise GeometryError("the mesh has no triangles, so nothing is inside; give a closed mesh")
@@ -235,9 +236,10 @@ def voxelise_with_report(
         crossed = replace(crossed, sign=np.where(turned[component[crossed.face]], -crossed.sign, crossed.sign))
     inside, largest_winding = fill_rows_and_count(crossed, shape)
     if not inside.any():
-        raise ParameterError(
-            f"voxel is {size:g} mm and the part {' x '.join(f'{side:g}' for side in extents)} mm: no centre of a "
-            "cell lies inside; give a voxel of at most half the thinnest wall"
+        raise ParameterError.about(
+            "voxel",
+            f"is {size:g} mm and the part {' x '.join(f'{side:g}' for side in extents)} mm: no centre of a "
+            "cell lies inside; give a voxel of at most half the thinnest wall",
         )
     closed = Surface(vertices=(vertices + 0.5) * size + origin, faces=faces) if holes else mesh
     cells = Volume(values=inside, spacing=size, origin=tuple(origin.tolist()))

@@ -199,9 +199,10 @@ def _require_room(shape: tuple[int, ...], points: int, per_cell: int, limit: int
 def _voxelise_shell(positions: Floats, size: float, shell: float, margin: int, limit: int | None) -> Volume:
     """Mark the cells in a shell around points."""
     if shell < size:
-        raise ParameterError(
-            f"shell is {shell:g} mm and voxel {size:g} mm: the shell would have gaps; give a shell of at least "
-            "one voxel, better three"
+        raise ParameterError.about(
+            "shell",
+            f"is {shell:g} mm and voxel {size:g} mm: the shell would have gaps; give a shell of at least "
+            "one voxel, better three",
         )
     radius = shell / 2 / size
     shape, origin, placed = _lay_grid(positions, size, margin + math.ceil(radius))
@@ -222,8 +223,8 @@ def _voxelise_solid(positions: Floats, size: float, margin: int, limit: int | No
             "or a shell"
         )
     if thickness < 2 * size:
-        raise ParameterError(
-            f"voxel is {size:g} mm and the points are {thickness:.4g} mm thick; give a voxel of at most half of that"
+        raise ParameterError.about(
+            "voxel", f"is {size:g} mm and the points are {thickness:.4g} mm thick; give a voxel of at most half of that"
         )
     _require_room(_lay_grid(positions, size, margin)[0], len(positions), SOLID_BYTES, limit)
     distinct = np.unique(positions, axis=0)

@@ -69,7 +69,7 @@ def segment_volume(
     """
     criteria = [low is not None or high is not None, label is not None, otsu]
     if sum(criteria) > 1:
-        raise UsageError("threshold, label and otsu exclude each other; give one of them")
+        raise UsageError.about(("threshold", "label", "otsu"), "exclude each other; give one of them")
     values = volume.values
     lowest, highest = _value_range(values)
     used: dict[str, Any]
@@ -172,7 +172,9 @@ def scale_grey_values(volume: Volume, level: float, window: float | None = None)
     lowest, highest = _value_range(volume.values)
     level = check_range("level", level, -math.inf, math.inf)
     if not lowest <= level < highest:
-        raise ParameterError(f"level is {level:g} and the values go from {lowest:g} to {highest:g}; choose within them")
+        raise ParameterError.about(
+            "level", f"is {level:g} and the values go from {lowest:g} to {highest:g}; choose within them"
+        )
     width = edge_window(volume, level) if window is None else check_positive("window", window)
     field = np.subtract(volume.values, np.float32(level), dtype=np.float32, casting="unsafe")
     field *= np.float32(2 / width)
@@ -257,7 +259,7 @@ def _check_ends(low: float | None, high: float | None) -> None:
         if value is not None:
             check_range("threshold", value, -math.inf, math.inf)
     if low is not None and high is not None and low > high:
-        raise ParameterError(f"threshold goes from {low:g} to {high:g}; give the lower end first")
+        raise ParameterError.about("threshold", f"goes from {low:g} to {high:g}; give the lower end first")
 
 
 def _mark_range(values: NDArray[Any], low: float | None, high: float | None) -> NDArray[np.bool_]:
@@ -274,11 +276,11 @@ def _mark_range(values: NDArray[Any], low: float | None, high: float | None) -> 
 def _mark_labels(values: NDArray[Any], labels: tuple[int, ...]) -> NDArray[np.bool_]:
     """Mark the values that are one of the labels."""
     if not labels:
-        raise ParameterError("label is empty; give one, or several")
+        raise ParameterError.about("label", "is empty; give one, or several")
     solid = np.zeros_like(values, dtype=bool)
     for label in labels:
         if isinstance(label, bool) or not isinstance(label, int | np.integer):
-            raise ParameterError(f"label is {label!r}; it must be a whole number")
+            raise ParameterError.about("label", f"is {label!r}; it must be a whole number")
         solid |= values == label
     return solid
 

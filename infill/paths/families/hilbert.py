@@ -35,7 +35,7 @@ class Hilbert:
         try:
             return hilbert_curve(np.array(bounds), cell)
         except PatternError as error:
-            raise ParameterError(str(error)) from error
+            raise ParameterError.like(error) from error
 
     def cell_for(self, density: float, line_width: float) -> float:
         """Return the cell for a density; see `Family`."""
