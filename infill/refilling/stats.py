@@ -217,6 +217,7 @@ class RefillStats:
         usual = volume / length if length > 0 and volume > 0 else section(0)
         self.infill = replace(self.infill, filament=self.infill.filament / usual)
         self.infill_after = replace(self.infill_after, filament=self.infill_after.filament / usual)
+        self.widened /= usual
 
 
 def _add(sums: dict[int, float], tools: Places, values: Floats) -> None:
