@@ -391,6 +391,12 @@ def test_a_prefix_that_nobody_declares_is_unknown(tmp_path: Path) -> None:
         read_mesh(packed(tmp_path / "a.3mf", model(thing(1, PART), more='requiredextensions="p z"')))
 
 
+def test_several_extensions_are_told_together(tmp_path: Path) -> None:
+    path = packed(tmp_path / "a.3mf", model(thing(1, PART), more='requiredextensions="y z"'))
+    with pytest.raises(FormatError, match="requires the 3MF extensions 'y' .* and 'z' .*, which are not read; export"):
+        read_mesh(path)
+
+
 def test_what_another_file_requires_counts_where_it_is_used(tmp_path: Path) -> None:
     more = f'xmlns:b="{next(iter(UNREAD))}" requiredextensions="b"'
     inner = {"3D/o.model": model(thing(1, PART), "", more=more)}

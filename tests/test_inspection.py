@@ -213,3 +213,11 @@ def test_metres_are_noticed(data: Path) -> None:
     found = check(data / "nasty" / "metres_part_47um.stl")
     assert found.unit_guess == "m"
     assert math.isclose(max(found.extents), 0.047, rel_tol=0.02)
+
+
+@pytest.mark.parametrize("suffix", [".gcode", ".GCODE", ".bgcode"])
+def test_a_sliced_print_is_no_mesh(suffix: str, tmp_path: Path) -> None:
+    path = tmp_path / f"a{suffix}"
+    path.write_bytes(b"G1 X1 E1\n")
+    with pytest.raises(FormatError, match="is a sliced print, not a mesh; infill motion tells"):
+        check(path)

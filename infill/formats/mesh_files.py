@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 
 FARTHEST = 1e12  # mm, a million kilometres: a larger number is broken, and its squares may overflow
 LOG = logging.getLogger("infill")
+PRINTS = (".gcode", ".bgcode", ".gco")  # suffixes of sliced prints
 
 
 def save(mesh: trimesh.Trimesh | Surface, path: str | os.PathLike[str], *, ascii: bool = False) -> Path:  # noqa: A002
@@ -117,6 +118,11 @@ def read_mesh(path: str | os.PathLike[str]) -> Surface:
     -----
     Omissions are logged as warnings too, to the log "infill".
     """
+    if Path(path).suffix.lower() in PRINTS:
+        raise FormatError(
+            f"{path} is a sliced print, not a mesh; infill motion tells how long it takes, infill refill smooths its "
+            "infill"
+        )
     source = require_readable(path, READERS, "a mesh format")
     try:
         with wrap_reader_errors(source, "is broken", "export the mesh again"):

@@ -98,7 +98,8 @@ def check_required(model: Model, name: str) -> None:
     """
     unknown = [extension for extension in required_extensions(model) if not extension.known]
     if unknown:
+        names = " and ".join(map(str, unknown))
+        extension = f"extension {names}, which is" if len(unknown) == 1 else f"extensions {names}, which are"
         raise FormatError(
-            f"{name} requires the 3MF extension {' and '.join(map(str, unknown))}, which is not read; "
-            "export the part as a mesh of triangles, such as an STL"
+            f"{name} requires the 3MF {extension} not read; export the part as a mesh of triangles, such as an STL"
         )
