@@ -210,3 +210,14 @@ def test_the_writer_of_trimesh_with_everything(tmp_path: Path) -> None:
     mesh = read_mesh(write(tmp_path, text))
     assert mesh.closed
     assert mesh.volume == pytest.approx(ball.volume, rel=1e-6)  # eight digits
+
+
+def test_statements_that_the_format_does_not_have_are_counted(tmp_path: Path) -> None:
+    path = tmp_path / "a.obj"
+    path.write_text(TEXT + "blah 0 1\nBLAH 3\ncurv 0 1 1 2\n")
+    mesh = read_mesh(path)
+    assert mesh.notes == ("2 line(s) that begin with 'blah', 'BLAH', which OBJ does not have, are left out",)
+    path.write_text(TEXT + "".join(f"x{letter} 1\n" for letter in "abcde"))
+    assert read_mesh(path).notes == (
+        "5 line(s) that begin with 'xa', 'xb', 'xc' …, which OBJ does not have, are left out",
+    )

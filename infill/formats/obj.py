@@ -18,12 +18,17 @@ from infill.surface import Surface
 from infill.version import __version__
 
 SURFACES = {b"surf", b"bzp", b"bsp"}  # smooth surfaces instead of polygons
+KNOWN = frozenset(  # statements of the format that say nothing of its triangles
+    b"vt vn vp l p curv curv2 deg bmat step cstype parm trim hole scrv sp end con g s mg o bevel c_interp d_interp lod "
+    b"usemtl mtllib shadow_obj trace_obj ctech stech maplib usemap".split()
+)
+MOST_NAMED = 3  # unknown statements, in a note
 # A statement of the format, or an addition of some program: two letters or more.
 STATEMENT = re.compile(rb"[a-z][a-z_]\w*|[goslp]", re.IGNORECASE)
 
 
-def read_obj(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Read vertices and triangles; polygons are split.
+def read_obj(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64], tuple[str, ...]]:
+    """Read vertices and triangles, and notes of statements that the format does not have; polygons are split.
 
     Parameters
     ----------
@@ -45,15 +50,16 @@ def read_obj(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     is_vertex = (letter1 == ord("v")) & has_one_letter
     is_face = (letter1 == ord("f")) & (has_one_letter | ((letter2 == ord("o")) & has_two_letters))
     is_vertex_attribute = (letter1 == ord("v")) & ((letter2 == ord("n")) | (letter2 == ord("t"))) & has_two_letters
-    _check_statements(lines, np.flatnonzero(~(is_vertex | is_face | is_vertex_attribute)))
+    notes = _check_statements(lines, np.flatnonzero(~(is_vertex | is_face | is_vertex_attribute)))
     vertex_rows, face_rows = np.flatnonzero(is_vertex), np.flatnonzero(is_face)
     vertices = _vertices(lines, vertex_rows)
     corners, counts = _corners(lines, vertex_rows, face_rows)
-    return vertices, split_polygons(vertices, corners, counts)
+    return vertices, split_polygons(vertices, corners, counts), notes
 
 
-def _check_statements(lines: Lines, rows: NDArray[np.int64]) -> None:
-    """Raise FormatError for statements that would be left out silently, and for lines of another format."""
+def _check_statements(lines: Lines, rows: NDArray[np.int64]) -> tuple[str, ...]:
+    """Return notes of unknown statements; raise FormatError for surfaces, and for lines of another format."""
+    unknown: dict[bytes, int] = {}
     for number in lines.first[rows].tolist():
         word = lines.word(number)
         if word.lower() in SURFACES:
@@ -64,6 +70,12 @@ def _check_statements(lines: Lines, rows: NDArray[np.int64]) -> None:
             raise lines.error(number, "'call' takes in another file", "export everything into one file")
         if not STATEMENT.fullmatch(word):
             raise lines.error(number, f"{quote_word(word)} begins no line of an OBJ file")
+        if word.lower() not in KNOWN:
+            unknown[word] = unknown.get(word, 0) + 1
+    if not unknown:
+        return ()
+    names = ", ".join(map(quote_word, list(unknown)[:MOST_NAMED])) + (" …" if len(unknown) > MOST_NAMED else "")
+    return (f"{sum(unknown.values())} line(s) that begin with {names}, which OBJ does not have, are left out",)
 
 
 def _vertices(lines: Lines, rows: NDArray[np.int64]) -> NDArray[np.float64]:
