@@ -159,6 +159,7 @@ def test_the_citation_is_of_the_project() -> None:
 def test_the_owner_is_one() -> None:
     """Nobody is sent to another repository by a line that was forgotten."""
     pages = [*ROOT.glob("*.md"), *ROOT.glob("*.toml"), *ROOT.glob("docs/*.py"), *ROOT.glob(".github/**/*.*")]
+    assert len(pages) > 10
     owners = {
         owner for page in pages for owner in re.findall(r"github\.com/([\w-]+/phasefill)\b", page.read_text("utf-8"))
     }
@@ -168,7 +169,9 @@ def test_the_owner_is_one() -> None:
 def test_what_a_newcomer_looks_for_is_there() -> None:
     for name in ("README.md", "LICENSE", "CONTRIBUTING.md", "SECURITY.md", "CODE_OF_CONDUCT.md", "CITATION.cff"):
         assert text(name)
-    for form in (ROOT / ".github" / "ISSUE_TEMPLATE").glob("*.yml"):
+    forms = list((ROOT / ".github" / "ISSUE_TEMPLATE").glob("*.yml"))
+    assert len(forms) >= 2
+    for form in forms:
         assert yaml.safe_load(form.read_text(encoding="utf-8"))
 
 
