@@ -104,7 +104,7 @@ def fill(
         str | None,
         typer.Option(
             metavar="SHARE",
-            help="Solid share of what lies inside the walls: 20%, or 0.2; two, such as 15%:40%, for one that changes. "
+            help="Solid share of the space inside the walls: 20%, or 0.2; two, such as 15%:40%, for one that changes. "
             "(default: 20%)",
             rich_help_panel=PATTERN,
         ),
@@ -122,8 +122,8 @@ def fill(
         Literal["width", "cell"] | None,
         typer.Option(
             metavar="width|cell",
-            help="What is changed for two densities: the width of walls; or the size of cells, for walls in space such "
-            "as gyroid. (default: width)",
+            help="What changes between two densities: the width of walls; or the size of cells, for walls in space "
+            "such as gyroid. (default: width)",
             rich_help_panel=PATTERN,
         ),
     ] = None,
@@ -174,7 +174,7 @@ def fill(
         int | None,
         typer.Option(
             metavar="N",
-            help="Which of all patterns of a kind, where chance has a part: voronoi, voronoi-foam. (default: 0)",
+            help="Seed of the random patterns, voronoi and voronoi-foam. (default: 0)",
             rich_help_panel=PATTERN,
         ),
     ] = None,
@@ -281,7 +281,7 @@ def fill(
     ] = 0.03,
     max_triangles: Annotated[
         int | None,
-        typer.Option(metavar="N", help="Triangles of the mesh at most. (default: a million)", rich_help_panel=SOLID),
+        typer.Option(metavar="N", help="Most triangles of the mesh. (default: a million)", rich_help_panel=SOLID),
     ] = None,
     resolution: Annotated[
         int | None,
@@ -318,7 +318,7 @@ def fill(
     quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Print errors only.", rich_help_panel=RUN)] = False,
     verbose: Annotated[bool, typer.Option("-v", "--verbose", help="Say more.", rich_help_panel=RUN)] = False,
 ) -> None:
-    """Fill a part: a shell and infill as one solid, the skin as it was; or part and infill as a slicer's project."""
+    """Fill a part: shell and infill as one solid with the part's own skin, or as a project for a slicer."""
     from infill.cli.filled_words import show_plan, summary
     from infill.cli.piping import check_outputs, deliver_all, with_suffix
     from infill.cli.words import parse_bytes

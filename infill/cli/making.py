@@ -161,7 +161,9 @@ def make(
     ] = None,
     interface: Annotated[
         float | None,
-        typer.Option(metavar="CELLS", help="From the surface to phi = 0.9. (default: 2)", rich_help_panel=ADVANCED),
+        typer.Option(
+            metavar="CELLS", help="Distance from the surface to phi = 0.9. (default: 2)", rich_help_panel=ADVANCED
+        ),
     ] = None,
     alpha: Annotated[
         float | None,

@@ -31,7 +31,7 @@ def refill(
         Path,
         typer.Argument(
             metavar="PRINT.gcode",
-            help="What a slicer wrote: .gcode, .bgcode or .gcode.3mf; replaced in place without -o.",
+            help="G-code from a slicer: .gcode, .bgcode or .gcode.3mf; replaced in place without -o.",
         ),
     ],
     output: Annotated[
@@ -52,8 +52,8 @@ def refill(
         typer.Option(
             metavar="keep|NAME|FILE",
             help="keep: the slicer's own paths, with round corners. Or a drawing: tile.svg, .dxf, .png, .wkt. Or a "
-            "built-in pattern: honeycomb, zigzag, concentric-heart, grid, triangles, tri-hexagon, cubic, rectilinear, hilbert, "
-            "gyroid, schwarz-p, schwarz-d, concentric, honeycomb-3d, octagons, voronoi, cross, cross-hatch, "
+            "built-in pattern: honeycomb, zigzag, concentric-heart, grid, triangles, tri-hexagon, cubic, rectilinear, "
+            "hilbert, gyroid, schwarz-p, schwarz-d, concentric, honeycomb-3d, octagons, voronoi, cross, cross-hatch, "
             "quarter-cubic, lateral-honeycomb, archimedean-chords, octagram-spiral. "
             "(default: keep)",
             rich_help_panel=PATHS,
@@ -135,7 +135,7 @@ def refill(
     ] = False,
     quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Print errors only.", rich_help_panel=RUN)] = False,
 ) -> None:
-    """Give the infill of a sliced print round corners, in its G-code; nothing else changes."""
+    """Round the corners of the infill in the G-code of a sliced print; nothing else changes."""
     flags = {
         "pattern": pattern,
         "density": density,

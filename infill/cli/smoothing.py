@@ -83,7 +83,7 @@ def smooth(
         typer.Option(
             "--as",
             metavar="mesh|points|volume",
-            help="What INPUT is read as. (default: by the file)",
+            help="How to read INPUT. (default: by the file)",
             rich_help_panel=FILES,
         ),
     ] = None,
@@ -139,17 +139,15 @@ def smooth(
     ] = None,
     threshold: Annotated[
         float | None,
-        typer.Option(metavar="VALUE", help="Solid is what has at least this value.", rich_help_panel=SOLID),
+        typer.Option(metavar="VALUE", help="Values from this one upwards are solid.", rich_help_panel=SOLID),
     ] = None,
     between: Annotated[
         str | None,
-        typer.Option(
-            "--range", metavar="LOW,HIGH", help="Solid is what lies between these values.", rich_help_panel=SOLID
-        ),
+        typer.Option("--range", metavar="LOW,HIGH", help="Values between these two are solid.", rich_help_panel=SOLID),
     ] = None,
     label: Annotated[
         list[int] | None,
-        typer.Option(metavar="N", help="Solid is what has this label. May be given again.", rich_help_panel=SOLID),
+        typer.Option(metavar="N", help="Cells with this label are solid. May be given again.", rich_help_panel=SOLID),
     ] = None,
     otsu: Annotated[
         bool,
@@ -234,7 +232,7 @@ def smooth(
         typer.Option(
             metavar="VOXELS",
             show_default=False,
-            help="From the surface to phi = 0.9. (default: 2)",
+            help="Distance from the surface to phi = 0.9. (default: 2)",
             rich_help_panel=ADVANCED,
         ),
     ] = 2.0,
@@ -290,7 +288,7 @@ def smooth(
     dry_run: Annotated[
         bool,
         typer.Option(
-            "--dry-run", help="Only show grid, method, memory and time, and what would be tried.", rich_help_panel=RUN
+            "--dry-run", help="Only show grid, method, memory and time, and possible remedies.", rich_help_panel=RUN
         ),
     ] = False,
     as_json: Annotated[

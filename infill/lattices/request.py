@@ -342,7 +342,9 @@ def _check_cells_follow(kind: Kind, name: str, align: str) -> None:
             "gyroid, or grade 'width'"
         )
     if align == "body":
-        raise UsageError("grade is 'cell', and cells that follow a field cannot begin again in every body; align 'part'")
+        raise UsageError(
+            "grade is 'cell', and cells that follow a field cannot begin again in every body; align 'part'"
+        )
 
 
 def check_grading(densities: Sequence[float], by: object, grade: str = "width") -> Grading:
