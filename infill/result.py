@@ -119,7 +119,8 @@ class Result(Generic[Stages, Told]):
         overwrite : bool
             Whether an existing file is replaced, once the new one is complete. By default it is, as by `numpy.save`,
             `Image.save` and `Trimesh.export`: a script or a notebook cell that is run again should not fail. The
-            command keeps existing files unless it is asked to overwrite them, since a name typed by mistake is gone for good.
+            command keeps existing files unless it is asked to overwrite them, since a file lost by a mistyped name is
+            gone for good.
 
         Raises
         ------

@@ -1,4 +1,4 @@
-"""Cross hatch: walls alternately along y and along x, as waves that grow until they change over to the other direction."""
+"""Cross hatch: walls alternately along y and x, as waves that grow until they change over to the other direction."""
 
 from __future__ import annotations
 
