@@ -105,7 +105,7 @@ def _diagnosis_table(diagnosis: Diagnosis, name: str) -> str:
         rows[f"volume {number}"] = f"{volume.name}: {volume.role}, {volume.triangles:,} triangles, {closed}"
         if settings:
             rows[f"settings {number}"] = settings
-    rows["written by"] = diagnosis.application or "nobody, as it says"
+    rows["written by"] = diagnosis.application or "not stated"
     return format_table(rows, title=f"{name}, for {diagnosis.slicer}")
 
 
