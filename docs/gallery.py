@@ -29,25 +29,24 @@ OFF = 0.005  # of a density: what is further off is none
 STEEP = np.cos(np.radians(45))  # what hangs over by more than this needs support
 INTRODUCTION = """# Gallery
 
-Every pattern that [fill](fill.md) knows, in a cube of {side:g} mm at {density:.0%}, cut open; made by `make gallery`.
-Drawings and patterns of your own join them.
+Every pattern that [fill](fill.md) knows, in a cube of {side:g} mm at {density:.0%}, cut open; made by `make
+gallery`. Drawings and patterns of your own join them.
 
-* *Cell* and *line* are what gives the density of {density:.0%}, in mm: walls are 0.45 mm wide unless asked otherwise,
-  and bars come from a cell of 8 mm; [below](#density-against-cell-size) for other densities. A network's line is its
-  thickest place.
-* The *smallest radius* is the one asked for, of the fillets where walls meet: 0.25 mm in every pattern, unless
-  `--smooth-radius` says another. Where the grid has four cells to it, at least 95% of all places keep it; bars that
-  are thinner than six radii have less, and so have voids that are narrower than two and a half, which are round.
-  Minimal surfaces bend as their formula says, whatever is asked for.
-* *Stiffness* is Young's modulus of the pattern far from any wall, in percent of the solid's: along x, along z, and in
-  the weakest and the stiffest direction. It is an estimate with {fine} voxels to a cell (foam: 24), homogenised with
-  Poisson's ratio 0.3, and exact for upright walls along z. At 3 % the octet comes
-  within 16 % of what theory has for slender bars (Deshpande, Fleck & Ashby, 2001). Patterns that depend on the part
-  have none.
-* `lightning` has as many branches as the roof needs, and no 20%: of this cube it fills {light:.1%}.
-* *Overhang* is the share of the surfaces of the voids that hang over by more than 45°: what a printer without support
-  bridges.
-* *Voids* is how many there are in this cube. Each needs a drain of its own in resin and powder.
+* *Cell* and *line* are the sizes that give the density of {density:.0%}, in mm: walls are 0.45 mm wide by default,
+  and bars come from a cell of 8 mm; other densities are [below](#density-against-cell-size). A network's line is
+  its thickest place.
+* The *smallest radius* is the requested one, of the fillets where walls meet: 0.25 mm in every pattern, unless
+  `--smooth-radius` sets another. Where the grid has four cells to it, at least 95% of all places keep it. Bars
+  thinner than six radii have less, and so do voids narrower than two and a half radii, which are round. Minimal
+  surfaces bend as their formula says, whatever radius is requested.
+* *Stiffness* is Young's modulus of the pattern far from any wall, in percent of the solid's: along x, along z, and
+  in the weakest and the stiffest direction. It is an estimate with {fine} voxels to a cell (foam: 24), homogenised
+  with Poisson's ratio 0.3, and exact for upright walls along z. At 3 % the octet is within 16 % of the theory of
+  slender bars (Deshpande, Fleck & Ashby, 2001). Patterns that depend on the part have no such value.
+* `lightning` has as many branches as the roof needs, not 20%: of this cube it fills {light:.1%}.
+* *Overhang* is the share of the voids' surfaces that overhang by more than 45°, which a printer has to bridge without
+  support.
+* *Voids* is their number in this cube. Each needs its own drain in resin and powder.
 
 | pattern | cell | line | stiffness x | z | weakest | stiffest | overhang | voids |
 |---|---|---|---|---|---|---|---|---|
@@ -55,9 +54,9 @@ Drawings and patterns of your own join them.
 
 SIZES = """## Density against cell size
 
-In the same cube, in mm: the cell of walls 0.45 mm wide, and how thick bars and networks are in cells of 8 mm. Cells
-are no larger than the {room:g} mm inside: walls are thinner then. In a cube as small as this, walls that happen to
-lie along the shell change the cell by up to a tenth. A place is empty where there is no such density.
+In the same cube, in mm: the cell of walls 0.45 mm wide, and the thickness of bars and networks in cells of 8 mm.
+Cells are no larger than the {room:g} mm inside: walls are thinner then. In so small a cube, walls that happen to
+lie along the shell change the cell by up to a tenth. An empty place means that there is no such density.
 
 | pattern | {densities} |
 |---|{lines}

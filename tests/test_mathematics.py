@@ -1,4 +1,4 @@
-"""What docs/mathematics.md claims, and that its tables hold the numbers the code gives."""
+"""What docs/design/mathematics.md claims, and that its tables hold the numbers the code gives."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from examples.paper import walls
 from infill import Smoothing
 from infill.phasefield.allen_cahn import STEEPNESS, apply_fidelity, diffuse, laplacian, react, smooth_reference, step
 
-PAGE = Path(__file__).resolve().parents[1] / "docs" / "mathematics.md"
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "design" / "mathematics.md"
 ROUNDING = 1e-12  # relative: sums of some thousand terms in float64
 NEVER = "never"
 

@@ -78,7 +78,9 @@ def test_links_out_of_the_pages_lead_to_the_repository(site: Path) -> None:
 
 
 def test_formulas_and_pictures_are_shown(site: Path) -> None:
-    page = (site / "mathematics.html").read_text(encoding="utf-8")
-    assert page.count('class="math') >= (DOCS / "mathematics.md").read_text(encoding="utf-8").count("```math")
+    page = (site / "design" / "mathematics.html").read_text(encoding="utf-8")
+    assert page.count('class="math') >= (DOCS / "design" / "mathematics.md").read_text(encoding="utf-8").count(
+        "```math"
+    )
     for picture in re.findall(r'<img[^>]* src="([^"]+)"', page):
-        assert picture.startswith("http") or (site / picture).is_file()
+        assert picture.startswith("http") or (site / "design" / picture).is_file()

@@ -12,31 +12,31 @@ from infill.files.whole_files import atomic_file
 HEAD = """# The paper, reproduced
 
 Wang, Li, Choi, Lee, Kim, *Fast and accurate smoothing method using a modified Allen–Cahn equation*, Computer-Aided
-Design 120 (2020) 102804, figure by figure: the paper's value, ours, and that of a peer where there is one. This page
-and its pictures are written by `make paper` (`python -m examples.paper`); each part is one script of
-[examples/paper](../examples/paper), and reading them in order is a course in the method. The mathematics is in
-[mathematics.md](mathematics.md), and more of quality and speed in [smoothing.md](smoothing.md).
+Design 120 (2020) 102804, figure by figure: the paper's value, that of this package (column *ours*), and that of a
+peer if there is one. This page and its pictures are written by `make paper` (`python -m examples.paper`); each part
+is one script of [examples/paper](../examples/paper), and reading them in order is a course in the method. See also
+[the mathematics](design/mathematics.md) and [smoothing, measured](smoothing.md).
 
-**How to read it.** Lengths have no unit and h is the cell size, as in the paper; Δt = h²/7. "Picture only": the paper
-shows this and prints no number; "–": it has nothing of the kind that we know of, or there is no peer. Figs. 1, 15 and
-16 show no result. "Across" and "up" in pictures of solids are lengths in the plane of the picture. *Choi* is Choi et
-al. 2017, the modified Cahn–Hilliard smoother that the paper compares itself with. Of that paper we had the abstract:
-a linearly stable splitting, solved by a Fourier spectral method. We built the standard one of that name
-(`benchmarks/peers/cahn_hilliard.py`). Times are of one run.
+**How to read it.** Lengths have no unit and h is the cell size, as in the paper; Δt = h²/7. "Picture only": the
+paper shows this and prints no number; "–": it has nothing comparable as far as we know, or there is no peer. Figs.
+1, 15 and 16 show no result. "Across" and "up" in pictures of solids are lengths in the plane of the picture. *Choi*
+is Choi et al. 2017, the modified Cahn–Hilliard smoother that the paper compares itself with. Of that paper we had
+only the abstract: a linearly stable splitting, solved by a Fourier spectral method. We built the standard method of
+that name (`benchmarks/peers/cahn_hilliard.py`). Times are from one run.
 
-**Misprints and gaps in the text that we have, and how we read them.**
+**Misprints and gaps in our copy of the text, and how we read them.**
 
 * *The stepped pyramid's upper bounds* are printed as 1 − h(187.5 − 3m) and so on, which leaves every layer empty.
   Read as −1 + h(…), which gives a pyramid.
-* *Eq. (16)*, the "MSE of volume", is missing. The mean of (φⁿ − f)² over all cells comes near the two values of Table
-  1 that we have, and is nearly in proportion to the vertices, as all six printed values are. No reading gives the
+* *Eq. (16)*, the "MSE of volume", is missing. The mean of (φⁿ − f)² over all cells is near the two values of Table
+  1 that we have, and is nearly proportional to the vertices, as all six printed values are. No reading gives the
   values of Fig. 13, which are far larger; three are compared there.
 * *The Neumann rows in three dimensions* are read as the plain six faces.
-* *λ* has a unit: what acts is λh². λ = 100 is 0.01 at h = 0.01, 0.098 at h = 1/32 and 1 at h = 0.1.
-* *Table 1* prints times in proportion to the vertices of each shape, for both methods. A method that sweeps the whole
-  grid takes the same time for every shape, so either the grids differ or the time counts something else. Of its rows
-  we have the quotients by the number of vertices, and two values of the MSE.
-* *Models, noisy meshes, fonts and scans* of the paper are not published; ours are named where they stand in for them.
+* *λ* has a unit: only λh² matters. λ = 100 is 0.01 at h = 0.01, 0.098 at h = 1/32 and 1 at h = 0.1.
+* *Table 1* prints times proportional to the vertices of each shape, for both methods. A method that sweeps the
+  whole grid takes the same time for every shape, so either the grids differ or the time counts something else. Of
+  its rows we have the quotients by the number of vertices, and two values of the MSE.
+* *Models, noisy meshes, fonts and scans* of the paper are not published; our substitutes are named where they appear.
 """
 
 FOOT = """

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 def check(
     meshes: Annotated[
-        list[Path], typer.Argument(metavar="MESH...", help="Meshes to look at: .stl .3mf .obj .ply .off .glb .gltf.")
+        list[Path], typer.Argument(metavar="MESH...", help="Meshes to check: .stl .3mf .obj .ply .off .glb .gltf.")
     ],
     slicer: Annotated[
         Literal["prusaslicer", "orcaslicer", "bambustudio", "cura", "plain"] | None,
@@ -33,7 +33,7 @@ def check(
         bool, typer.Option("--json", help="Print one JSON object to stdout; of several meshes, a list of them.")
     ] = False,
 ) -> None:
-    """Say whether meshes are printable, and if not, why; exit 1 when one is not."""
+    """Check whether meshes are printable, and say why not; exit 1 if one is not."""
     if slicer is not None:
         _check_projects(meshes, slicer, strict=strict, as_json=as_json)
         return
@@ -105,7 +105,7 @@ def _diagnosis_table(diagnosis: Diagnosis, name: str) -> str:
         rows[f"volume {number}"] = f"{volume.name}: {volume.role}, {volume.triangles:,} triangles, {closed}"
         if settings:
             rows[f"settings {number}"] = settings
-    rows["written by"] = diagnosis.application or "nobody, as it says"
+    rows["written by"] = diagnosis.application or "not stated"
     return format_table(rows, title=f"{name}, for {diagnosis.slicer}")
 
 

@@ -35,7 +35,7 @@ def refill(
         Path,
         typer.Argument(
             metavar="PRINT.gcode",
-            help="What a slicer wrote: .gcode, .bgcode or .gcode.3mf; replaced in place without -o.",
+            help="G-code from a slicer: .gcode, .bgcode or .gcode.3mf; replaced in place without -o.",
         ),
     ],
     output: Annotated[

@@ -76,7 +76,7 @@ def smooth(
     dry_run: Annotated[
         bool,
         typer.Option(
-            "--dry-run", help="Only show grid, method, memory and time, and what would be tried.", rich_help_panel=RUN
+            "--dry-run", help="Only show grid, method, memory and time, and possible remedies.", rich_help_panel=RUN
         ),
     ] = False,
     as_json: Json = False,

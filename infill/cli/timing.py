@@ -14,7 +14,7 @@ from infill.cli.console import format_table, print_json, say
 if TYPE_CHECKING:
     from infill.planner.printing_time import FeatureMotion, Motion
 
-MACHINE, FILES = "The machine, instead of what the file says", "Files"
+MACHINE, FILES = "The machine, instead of the limits in the file", "Files"
 UNITS = {"feedrate": "mm/s", "axis_acceleration": "mm/s²", "acceleration": "mm/s²", "jerk": "mm/s"}
 UNITS |= {"junction_deviation": "mm", "square_corner_velocity": "mm/s", "travel_acceleration": "mm/s²"}
 # Columns of a single file: heading, and the text of a feature below it.
@@ -33,10 +33,10 @@ COLUMNS: dict[str, Callable[[FeatureMotion], str]] = {
 
 def motion(
     file: Annotated[
-        Path, typer.Argument(metavar="A.gcode", help="What a slicer wrote: .gcode, .bgcode or .gcode.3mf.")
+        Path, typer.Argument(metavar="A.gcode", help="G-code from a slicer: .gcode, .bgcode or .gcode.3mf.")
     ],
     other: Annotated[
-        Path | None, typer.Argument(metavar="[B.gcode]", help="A second one, to compare with the first.")
+        Path | None, typer.Argument(metavar="[B.gcode]", help="A second print, to compare with the first.")
     ] = None,
     model: Annotated[
         Literal["jerk", "vector-jerk", "junction", "klipper"] | None,
@@ -50,25 +50,32 @@ def motion(
     acceleration: Annotated[
         float | None,
         typer.Option(
-            metavar="MM/S2", help="Of printing and travel. (default: as in the file)", rich_help_panel=MACHINE
+            metavar="MM/S2",
+            help="Acceleration of printing and travel. (default: as in the file)",
+            rich_help_panel=MACHINE,
         ),
     ] = None,
     jerk: Annotated[
         float | None,
-        typer.Option(metavar="MM/S", help="Of x and y. (default: as in the file)", rich_help_panel=MACHINE),
+        typer.Option(metavar="MM/S", help="Jerk of x and y. (default: as in the file)", rich_help_panel=MACHINE),
     ] = None,
     junction_deviation: Annotated[
-        float | None, typer.Option(metavar="MM", help="Marlin's. (default: as in the file)", rich_help_panel=MACHINE)
+        float | None,
+        typer.Option(
+            metavar="MM", help="Junction deviation of Marlin. (default: as in the file)", rich_help_panel=MACHINE
+        ),
     ] = None,
     square_corner_velocity: Annotated[
         float | None,
-        typer.Option(metavar="MM/S", help="Klipper's. (default: as in the file)", rich_help_panel=MACHINE),
+        typer.Option(
+            metavar="MM/S", help="Square corner velocity of Klipper. (default: as in the file)", rich_help_panel=MACHINE
+        ),
     ] = None,
     minimum_cruise_ratio: Annotated[
         float | None,
         typer.Option(
             metavar="NUMBER",
-            help="Klipper's, from 0 to less than 1. (default: as in the file)",
+            help="Minimum cruise ratio of Klipper, from 0 to less than 1. (default: as in the file)",
             rich_help_panel=MACHINE,
         ),
     ] = None,
@@ -86,12 +93,14 @@ def motion(
     ] = None,
     layer: Annotated[
         int | None,
-        typer.Option(metavar="N", help="Which layer, from 1. (default: the middle one)", rich_help_panel=FILES),
+        typer.Option(
+            metavar="N", help="Which layer to plot, counted from 1. (default: the middle one)", rich_help_panel=FILES
+        ),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite an existing file.", rich_help_panel=FILES)] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object to stdout.")] = False,
 ) -> None:
-    """Plan every move of a print as firmware does, and say how long each feature takes, and why."""
+    """Plan every move of a print as firmware does, and say how long each feature takes and why."""
     from infill.planner.printing_time import motion as planned
 
     planner_options: dict[str, Any] = {

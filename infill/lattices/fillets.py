@@ -70,7 +70,7 @@ def rounding_time(radius: float, degrees: float, bar: float | None = None, *, ce
 
 
 def sharpest_angle(angles: Floats) -> float:
-    """Return the sharpest angle except for a few outliers, degrees; at most a right angle, as at walls of the part."""
+    """Return the sharpest angle, degrees, except for a few outliers; at most the right angle of the walls of a part."""
     return min(90.0, float(np.quantile(angles, FEW))) if len(angles) else 90.0
 
 

@@ -217,21 +217,21 @@ def find_problems(
     for step in facts.graded:
         if not abs(step["density"] - step["wanted"]) <= OFF_LOCAL:
             yield (
-                f"where {step['wanted']:.1%} was asked for, the density is {step['density']:.1%}; cells that are small "
-                "beside the field's changes follow it better"
+                f"where {step['wanted']:.1%} was asked for, the density is {step['density']:.1%}; smaller cells follow "
+                "the field better"
             )
     if request.grading is not None and request.grading.varies == "cell" and facts.widths is not None:
         narrow, wide = facts.widths
         if narrow < LEAST_WIDTH * hollow.width:
             yield (
                 f"cells cannot follow the density alone, so walls are {narrow:.2g} to {wide:.2g} mm wide: there is too "
-                "little room for cells of such sizes beside one another; give densities that are nearer to one another"
+                "little room for cells of such sizes beside one another; give densities closer to each other"
             )
     share = hollow.density_before if request.form == "project" else hollow.density
     if share < LEAST_LEFT * facts.drawn:
         yield (
-            f"of the infill, {facts.drawn:.1%} as drawn, {share:.1%} is left: walls or bars are too thin for the grid, "
-            "or were smoothed away; give smaller voxels, a smaller smooth radius or wider lines"
+            f"the infill was drawn with a density of {facts.drawn:.1%}, and {share:.1%} is left: walls or bars are too "
+            "thin for the grid, or were smoothed away; give smaller voxels, a smaller smooth radius or wider lines"
         )
     if request.line_width is not None and request.grading is None and not is_width_ok(facts.width, request.line_width):
         yield f"walls or bars inside are {facts.width:.3g} mm wide, and {request.line_width:g} mm was asked for"

@@ -76,7 +76,7 @@ class FillOptions:
     density: Annotated[
         float | tuple[float, ...] | None,
         Option(
-            "Solid share of what lies inside the walls: 20%, or 0.2; two, such as 15%:40%, for one that changes.",
+            "Solid share of the space inside the walls: 20%, or 0.2; two, such as 15%:40%, for one that changes.",
             PATTERN,
             unit="SHARE",
             default="20%",
@@ -97,8 +97,8 @@ class FillOptions:
     grade: Annotated[
         Literal["width", "cell"] | None,
         Option(
-            "What is changed for two densities: the width of walls; or the size of cells, for walls in space "
-            "such as gyroid.",
+            "What changes between two densities: the width of walls; or the size of cells, for walls in "
+            "space such as gyroid.",
             PATTERN,
             default="width",
         ),
@@ -153,7 +153,7 @@ class FillOptions:
     seed: Annotated[
         int | None,
         Option(
-            "Which of all patterns of a kind, where chance has a part: voronoi, voronoi-foam.",
+            "Seed of the random patterns, voronoi and voronoi-foam.",
             PATTERN,
             unit="N",
             default="0",
@@ -241,7 +241,7 @@ class FillOptions:
     max_triangles: Annotated[
         int | None,
         Option(
-            "Triangles of the mesh at most.",
+            "Most triangles of the mesh.",
             SOLID,
             unit="N",
             default="a million",

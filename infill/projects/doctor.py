@@ -189,8 +189,8 @@ def _volumes_of_any(package: Package) -> Iterator[PrintedVolume | Finding]:
     yield from meshes
     if len(meshes) > 1:
         yield as_warning(
-            f"its {len(meshes)} objects have no settings: a slicer fills each as its profile says, and prints what two "
-            "of them have in common twice, unless they are put together there"
+            f"its {len(meshes)} objects have no settings: a slicer fills each by its profile and prints overlaps "
+            "twice, unless you combine them there"
         )
 
 

@@ -190,7 +190,7 @@ def check_order(volumes: list[PrintedVolume]) -> Iterator[Finding]:
             )
         elif volume.role == "negative":
             yield as_problem(
-                f"{volume.name} comes before {volumes[last_part].name}, of which it takes nothing off; put it after it"
+                f"{volume.name} comes before {volumes[last_part].name}, so it takes nothing off that part; put it last"
             )
 
 

@@ -102,7 +102,7 @@ def _read_object(
         if number not in ids:
             yield as_problem(
                 f"{CONFIG} is about a part {number}, and object {body.number} consists of {', '.join(sorted(ids))}: "
-                "the settings are lost, and what was to be a modifier is printed as a part"
+                "the settings are lost, and an intended modifier is printed as a part"
             )
     volumes: list[PrintedVolume] = []
     for leaf in tree.leaves:

@@ -107,8 +107,8 @@ def volumes_for_prusaslicer(package: Package) -> Iterator[PrintedVolume | Findin
             )
         elif package.bodies[number].mesh is None:
             yield as_problem(
-                f"{CONFIG} is about object {number}, which has components and no mesh: its settings are lost, and what "
-                "was to be a modifier is printed as a part"
+                f"{CONFIG} is about object {number}, which has components and no mesh: its settings are lost, and "
+                "an intended modifier is printed as a part"
             )
     yield from _check_opening(package)
     if config is None and len(package.items) + sum(len(body.components) for body in package.bodies.values()) > 1:
@@ -127,8 +127,8 @@ def volumes_for_prusaslicer(package: Package) -> Iterator[PrintedVolume | Findin
         leaves = [leaf for leaf in package.tree(item.key).leaves if leaf.other is None and not leaf.covered]
         if len(leaves) > 1:
             yield as_problem(
-                f"object {item.key} has components, of which PrusaSlicer makes objects of their own: no settings of "
-                "volumes that they have in common, and where they overlap is printed twice"
+                f"object {item.key} has components, and PrusaSlicer makes separate objects of them: they share no "
+                "settings of volumes, and overlaps are printed twice"
             )
         for leaf in leaves:
             if leaf.body.mesh is None or leaf.key in listed:
@@ -139,7 +139,7 @@ def volumes_for_prusaslicer(package: Package) -> Iterator[PrintedVolume | Findin
             moved = not item.stays or leaf.above
             if not versioned and moved and sum(isinstance(result, PrintedVolume) for result in results) > 1:
                 yield as_problem(
-                    f"it says no {VERSION}, and moves object {leaf.key}: only the first volume is moved; say it"
+                    f"it states no {VERSION}, and moves object {leaf.key}: only the first volume is moved; state it"
                 )
 
 
@@ -187,7 +187,7 @@ def _check_opening(package: Package) -> Iterator[Finding]:
                 f"object {key} has triangles and components, of which PrusaSlicer reads the triangles alone"
             )
         if body.mesh is not None and len(body.mesh.faces) and is_read(body) and key not in reached:
-            yield as_problem(f"object {key} is neither built nor in what is built: {closed}")
+            yield as_problem(f"object {key} is not built and is not part of a built object: {closed}")
     if any(" of /" in key for key in reached):
         yield as_problem("it has objects in files of their own, which PrusaSlicer reads from 2.9 on and 2.5 does not")
 

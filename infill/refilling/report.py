@@ -96,8 +96,8 @@ def refill_report(
     promised = request.pattern != KEEP and isinstance(request.density, str | None) and request.cell is None
     if promised and tally.replaced and abs(ratio - 1) > FILAMENT_TOLERANCE:
         report["problems"].append(
-            f"the infill takes {ratio - 1:+.1%} filament: its lines come and go whole here; take another pattern, or "
-            "another --density"
+            f"the infill takes {ratio - 1:+.1%} filament: only whole lines can be added or removed here; take another "
+            "pattern, or another --density"
         )
     return report
 

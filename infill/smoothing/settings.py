@@ -58,7 +58,7 @@ class SmoothSettings:
 
     kind: Annotated[
         Literal["mesh", "points", "volume"] | None,
-        Option("What INPUT is read as.", FILES, name="as", default="by the file"),
+        Option("How to read INPUT.", FILES, name="as", default="by the file"),
     ] = None
     units: Annotated[
         Literal["um", "mm", "cm", "m", "in"] | None,
@@ -146,12 +146,12 @@ class SmoothSettings:
     ] = None
     threshold: Annotated[
         float | None,
-        Option("Solid is what has at least this value.", SOLID, unit="VALUE", replaces=("range", "label", "otsu")),
+        Option("Values from this one upwards are solid.", SOLID, unit="VALUE", replaces=("range", "label", "otsu")),
     ] = None
     between: Annotated[
         tuple[float, ...] | None,
         Option(
-            "Solid is what lies between these values.",
+            "Values between these two are solid.",
             SOLID,
             unit="LOW,HIGH",
             name="range",
@@ -163,7 +163,7 @@ class SmoothSettings:
     label: Annotated[
         tuple[int, ...] | None,
         Option(
-            "Solid is what has this label. May be given again.",
+            "Cells with this label are solid. May be given again.",
             SOLID,
             unit="N",
             read=parse_wholes,
@@ -241,7 +241,9 @@ class SmoothSettings:
             replaces=("smooth", "refine"),
         ),
     ] = None
-    interface: Annotated[float, Option("From the surface to phi = 0.9.", ADVANCED, unit="VOXELS", default="2")] = 2.0
+    interface: Annotated[
+        float, Option("Distance from the surface to phi = 0.9.", ADVANCED, unit="VOXELS", default="2")
+    ] = 2.0
     level: Annotated[
         Literal["volume"] | float,
         Option(
