@@ -228,7 +228,7 @@ def _smooth_field(smooth_input: SmoothInput, request: SmoothRequest, clock: Cloc
             values,
             request.smoothing,
             spacing=spacing,
-            exact=smooth_input.enclosed is not None and request.held,
+            exact=smooth_input.mesh_volumes is not None and request.keep_exact,
             threads=request.threads,
             progress=progress,
         )
@@ -264,7 +264,7 @@ def _sign_changes(
     flips = SignChanges.of(
         levelled.field, raised.components.bits, levelled.height, signs=levelled.signs, threads=request.threads
     )
-    of_data = smooth_input.mesh is None and smooth_input.raw is None
+    of_data = smooth_input.mesh is None and smooth_input.voxel_surface is None
     return flips, of_data and are_surfaces_near(flips, spacing=spacing, threads=request.threads)
 
 
@@ -329,7 +329,7 @@ def _simplify_result(full: Surface, request: SmoothRequest) -> tuple[Surface, di
     if request.tolerance is None and request.max_triangles is None:
         return full, None
     assert not isinstance(request.tolerance, str)  # `Request.at` has made it a number
-    if request.lenient and request.tolerance is not None:
+    if request.default_tolerance and request.tolerance is not None:
         simplified_surface = collapse_edges(full, tolerance=request.tolerance, threads=request.threads)
         if simplified_surface is None or simplified_surface is full:
             return full, None

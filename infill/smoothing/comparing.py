@@ -60,7 +60,7 @@ def compare_with_input(
         _input_surface(smooth_input, field, request) if smooth_input.mesh is None else smooth_input.mesh,
         surface,
         cell=smooth_input.cell or float(smooth_input.data.cell_size.max()),
-        closed=smooth_input.reference,
+        closed=smooth_input.closed_mesh,
         kinds=_place_classifier(smooth_input, field, threads=request.threads),
         exact=exact,
         threads=request.threads,
@@ -80,9 +80,9 @@ def distance_facts(
         "sheet": deviation.sheet,
         "hidden": deviation.hidden,
     }
-    if smooth_input.reference is not None:
+    if smooth_input.closed_mesh is not None:
         vertices = subsample(_input_surface(smooth_input, field, request).vertices)
-        facts["data"] = summarise_distances(distances(vertices, smooth_input.reference, threads=request.threads))
+        facts["data"] = summarise_distances(distances(vertices, smooth_input.closed_mesh, threads=request.threads))
     return facts
 
 
@@ -102,7 +102,7 @@ def summarise_distances(distance: NDArray[np.float64]) -> Spread:
 
 def _input_surface(smooth_input: SmoothInput, field: SparseField, request: SmoothRequest) -> Surface:
     """Return the surface of the input voxels, mm."""
-    return smooth_input.raw or raw_surface(field, smooth_input.data, request.threads)
+    return smooth_input.voxel_surface or raw_surface(field, smooth_input.data, request.threads)
 
 
 def _place_classifier(smooth_input: SmoothInput, field: SparseField, *, threads: int | None) -> Kinds:
@@ -112,8 +112,8 @@ def _place_classifier(smooth_input: SmoothInput, field: SparseField, *, threads:
     Slits narrower than a cell have a class of their own. Of voxels, points between solid and void more than one cell
     thick count; the equation removes walls one cell thick, which have a class of their own.
     """
-    if smooth_input.enclosed is not None:
-        enclosed, mesh = smooth_input.enclosed, smooth_input.reference
+    if smooth_input.mesh_volumes is not None:
+        enclosed, mesh = smooth_input.mesh_volumes, smooth_input.closed_mesh
         assert mesh is not None
 
         def bounding(points: NDArray[np.float64], faces: NDArray[np.integer]) -> NDArray[np.integer]:
@@ -170,14 +170,14 @@ def find_differences(
     if fidelity and fidelity.thin:
         feature = (
             "walls or gaps one voxel thick are gone"
-            if smooth_input.enclosed is None
+            if smooth_input.mesh_volumes is None
             else "slits narrower than a voxel are closed"
         )
         remarks.append(f"{feature}, {fidelity.thin:.3g} mm² of their faces")
     if fidelity and fidelity.sheet:
         remarks.append(f"{fidelity.sheet:.3g} mm² of faces that bound no solid are left out")
-    if smooth_input.enclosed is not None and smooth_input.topology is None:
-        mesh_parts, result_parts = int((smooth_input.enclosed.volumes > 0).sum()), topology.result.components
+    if smooth_input.mesh_volumes is not None and smooth_input.topology is None:
+        mesh_parts, result_parts = int((smooth_input.mesh_volumes.volumes > 0).sum()), topology.result.components
         if result_parts < mesh_parts:
             remarks.append(
                 f"the mesh has {mesh_parts} components, some of which overlap or touch, and the result {result_parts}; "
@@ -215,7 +215,7 @@ def _topology_changes(topology: TopologyCheck, smooth_input: SmoothInput) -> lis
 
 def volume_error(surfaced: SurfaceAtLevel, smooth_input: SmoothInput, request: SmoothRequest) -> float:
     """Return the relative error of the volume; 0 if it is tolerable, or the level was fixed."""
-    enclosed = smooth_input.enclosed
+    enclosed = smooth_input.mesh_volumes
     target = float(surfaced.targets.sum()) if enclosed is None else enclosed.total
     error = surfaced.volume / target - 1
     return error if request.level == "volume" and abs(error) > VOLUME_TOLERANCE else 0.0

@@ -114,7 +114,7 @@ def _target_volumes(
     if field.data.dtype == np.int8:
         return cells
     grey = replace(field, values=field.data.astype(np.float32))
-    if smooth_input.enclosed is not None:
+    if smooth_input.mesh_volumes is not None:
         grey = replace(grey, values=REFINED_PROFILE.distance(grey.values, threads=threads))
     volume = component_volumes(grey, data, spacing=spacing, threads=threads)
     volume = np.where(volume > 0, volume, cells)
@@ -123,8 +123,8 @@ def _target_volumes(
         return scaled
     return (
         volume
-        if smooth_input.enclosed is None
-        else _mesh_targets(field, data, smooth_input.data, smooth_input.enclosed, volume)
+        if smooth_input.mesh_volumes is None
+        else _mesh_targets(field, data, smooth_input.data, smooth_input.mesh_volumes, volume)
     )
 
 
@@ -187,7 +187,7 @@ def remove_crumbs(
     if levelled.shells.names.min(initial=0) < 0:  # vertices that no face uses
         levelled = _without_shells(levelled, np.zeros(len(volume), dtype=bool))
         surfaced = replace(surfaced, levelled=levelled)
-    enclosed = smooth_input.enclosed
+    enclosed = smooth_input.mesh_volumes
     all_small = enclosed is not None and not (np.abs(enclosed.volumes[enclosed.volumes != 0]) <= limit).any()
     small = (np.abs(volume) if all_small else np.where(volume > 0, volume, np.inf)) <= limit
     if not small.any() or small.all():

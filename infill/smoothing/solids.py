@@ -27,7 +27,7 @@ from infill.smoothing.scans import threshold_range, volume_ways
 from infill.smoothing.stages import SmoothStages
 from infill.surface import Surface
 from infill.volume import Volume
-from infill.voxels.masked import fill_masked_with_void
+from infill.voxels.segmentation import fill_masked_with_void
 
 if TYPE_CHECKING:
     import trimesh

@@ -16,9 +16,8 @@ from infill.meshes.hole_filling import component_volumes, fill_holes
 from infill.meshes.merging import merge_unless_closed
 from infill.surface import Surface
 from infill.volume import Volume
-from infill.voxels.nesting import is_inside_out
 from infill.voxels.partial import EnclosedVolumes, distances_in_cells, measure_enclosed
-from infill.voxels.scanlines import SLAB, fill_rows_and_count, intersect_rows
+from infill.voxels.scanlines import SLAB, fill_rows_and_count, intersect_rows, is_inside_out
 
 RESOLUTION = 200  # cells along the longest side by default
 FEWEST = 2  # voxels along the longest side
@@ -85,26 +84,35 @@ def grid_around(
     surface: Surface, *, voxel: float | None = None, resolution: int | None = None, margin: int = 2
 ) -> Grid:
     """Lay the grid on which a mesh is voxelised: see `voxelise`."""
-    if voxel is not None and resolution is not None:
-        raise UsageError("voxel and resolution are both given; give one of them")
     lower, upper = surface.bounds
     extents = upper - lower
-    if not extents.max() > 0:
+    longest = float(extents.max())
+    if not longest > 0:
         raise GeometryError("all corners of the mesh are one point, so nothing is inside; give a closed mesh")
-    if voxel is None:
-        size = float(extents.max()) / check_whole_number(
-            "resolution", RESOLUTION if resolution is None else resolution, 1
+    size = voxel_size(longest, voxel=voxel, resolution=resolution)
+    if voxel is not None and size > longest / FEWEST:
+        raise ParameterError(
+            f"voxel is {size:g} mm and the part {' x '.join(f'{side:g}' for side in extents)} mm; "
+            f"give at most {longest / FEWEST:g} mm"
         )
-    else:
-        size = check_length("voxel", voxel)
-        if size > extents.max() / FEWEST:
-            raise ParameterError(
-                f"voxel is {size:g} mm and the part {' x '.join(f'{side:g}' for side in extents)} mm; "
-                f"give at most {extents.max() / FEWEST:g} mm"
-            )
     shape = tuple(max(1, math.ceil(side / size - ROUNDING)) + 2 * margin for side in extents.tolist())
     origin = (lower + upper) / 2 - np.array(shape) * size / 2
     return Grid(shape=shape, spacing=size, origin=tuple(origin.tolist()))
+
+
+def voxel_size(longest: float, *, voxel: float | None, resolution: int | None) -> float:
+    """Return the size of the voxels, mm, or divide the longest side of the data by the resolution, 200 by default.
+
+    Raises
+    ------
+    ParameterError
+        If both are given, or one is out of range.
+    """
+    if voxel is None:
+        return longest / check_whole_number("resolution", RESOLUTION if resolution is None else resolution, 1)
+    if resolution is not None:
+        raise UsageError("voxel and resolution are both given; give one of them")
+    return check_length("voxel", voxel)
 
 
 def estimate_solid_cells(surface: Surface, grid: Grid) -> float:
@@ -204,8 +212,6 @@ def voxelise_with_report(
     max_memory: int | None = None,
 ) -> VoxelisedMesh:
     """Voxelise a mesh as `voxelise` does; return the cells, the assumptions, and the closed mesh."""
-    if voxel is not None and resolution is not None:
-        raise UsageError("voxel and resolution are both given; give one of them")
     margin = check_whole_number("margin", margin, 0)
     if len(surface.faces) == 0:
         raise GeometryError("the mesh has no triangles, so nothing is inside; give a closed mesh")
