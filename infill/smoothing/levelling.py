@@ -24,7 +24,7 @@ from infill.surface import Surface
 
 if TYPE_CHECKING:
     from infill.phasefield.sparse import SparseField
-    from infill.smoothing.request import SmoothInput, SmoothRequest
+    from infill.smoothing.request import SmoothedInput, SmoothInput
     from infill.volume import Volume
     from infill.voxels.partial import EnclosedVolumes
 
@@ -79,12 +79,13 @@ class Crumbs:
     limit: float
 
 
-def extract_surface(field: SparseField, smooth_input: SmoothInput, request: SmoothRequest) -> SurfaceAtLevel:
+def extract_surface(smoothed: SmoothedInput) -> SurfaceAtLevel:
     """Extract the surface of a smoothed field: at the level that keeps the volume, or at the requested one.
 
     If the field is straightened along the way, its values are overwritten.
     """
-    threads, level, spacing = request.threads, request.level, tuple(smooth_input.data.cell_size.tolist())
+    field, smooth_input, request = smoothed.field, smoothed.smooth_input, smoothed.request
+    threads, level, spacing = smoothed.threads, request.level, smoothed.spacing
     if isinstance(level, str):
         components, field, start = prepare_levels(
             field, spacing=spacing, straighten=not request.refined, threads=threads
@@ -172,15 +173,14 @@ def _mesh_targets(
     return targets
 
 
-def remove_crumbs(
-    surfaced: SurfaceAtLevel, smooth_input: SmoothInput, request: SmoothRequest
-) -> tuple[SurfaceAtLevel, Crumbs]:
+def remove_crumbs(surfaced: SurfaceAtLevel, smoothed: SmoothedInput) -> tuple[SurfaceAtLevel, Crumbs]:
     """Remove crumbs from a surface; return it and their number and volume.
 
     A piece of solid is a crumb if it has at most `request.crumbs` mm³, by default the volume of 8 cells, and is not
     the largest piece of a component of the data. If all components of a mesh are larger than that, every such piece
     is a crumb, and every such cavity too: the surface around it is removed, so that it is filled.
     """
+    smooth_input, request = smoothed.smooth_input, smoothed.request
     limit = CRUMB_CELLS * smooth_input.data.cell_volume if request.crumbs is None else request.crumbs
     levelled = surfaced.levelled
     volume = levelled.shells.volume
@@ -196,8 +196,7 @@ def remove_crumbs(
         return replace(surfaced, levelled=_without_shells(levelled, small)), Crumbs(
             count=int(small.sum()), volume=float(np.abs(volume[small]).sum()), limit=limit
         )
-    spacing = tuple(smooth_input.data.cell_size.tolist())
-    component = component_of_shells(levelled, surfaced.components, spacing=spacing)
+    component = component_of_shells(levelled, surfaced.components, spacing=smoothed.spacing)
     largest = np.full(surfaced.components.count, -math.inf)
     has_component = component >= 0
     np.maximum.at(largest, component[has_component], volume[has_component])

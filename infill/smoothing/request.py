@@ -15,6 +15,7 @@ from infill.phasefield.schedule import MIN_STEPS, SNAPSHOT_QUARTERS
 
 if TYPE_CHECKING:
     from infill.inspection.changes import ConnectionCounts
+    from infill.phasefield.sparse import SparseField
     from infill.result import Progress
     from infill.surface import Surface
     from infill.volume import Volume
@@ -206,6 +207,34 @@ class SmoothInput:
     voxel_surface: Surface | None = None
     volume: float | None = None
     cell: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class SmoothedInput:
+    """An input and the field that was smoothed from it.
+
+    Parameters
+    ----------
+    smooth_input : SmoothInput
+        Its data have no specks.
+    request : SmoothRequest
+        Lengths are in cells.
+    field : SparseField
+    """
+
+    smooth_input: SmoothInput
+    request: SmoothRequest
+    field: SparseField
+
+    @property
+    def spacing(self) -> tuple[float, ...]:
+        """Size of the cells, mm."""
+        return tuple(self.smooth_input.data.cell_size.tolist())
+
+    @property
+    def threads(self) -> int | None:
+        """Threads to use; None for all that are available."""
+        return self.request.threads
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
