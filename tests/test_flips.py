@@ -20,7 +20,7 @@ from infill.isosurfaces.components import data_bits
 from infill.kernels.flips import simple
 from infill.phasefield.sparse import smooth_bricks
 from infill.smoothing.levelling import extract_surface
-from infill.smoothing.request import SmoothInput, SmoothRequest
+from infill.smoothing.request import SmoothedInput, SmoothInput, SmoothRequest
 from infill.smoothing.sources import read_source
 from infill.smoothing.stages import place_surface, raw_surface
 from infill.voxels.from_mesh import voxelise
@@ -54,7 +54,7 @@ def compared(given: SmoothInput, request: SmoothRequest) -> tuple[bool, bool]:
     """Check both forms against each other; return whether the cells that flipped decided each."""
     data, spacing = given.data, tuple(given.data.cell_size.tolist())
     field = smooth_bricks(data.values, request.smoothing, spacing=spacing)
-    surfaced = extract_surface(field, given, request)
+    surfaced = extract_surface(SmoothedInput(smooth_input=given, request=request, field=field))
     found = surfaced.levelled
     flips = SignChanges.of(found.field, surfaced.components.bits, found.height)
     whole = check_topology(

@@ -45,6 +45,7 @@ from infill.smoothing.comparing import (
     volume_error,
 )
 from infill.smoothing.levelling import Crumbs, SurfaceAtLevel, extract_surface, remove_crumbs
+from infill.smoothing.request import SmoothedInput
 from infill.smoothing.stages import SmoothStages, place_surface
 
 if TYPE_CHECKING:
@@ -70,9 +71,7 @@ class Attempt:
 
     Parameters
     ----------
-    smooth_input, request : SmoothInput, SmoothRequest
-        The input and the options it was made from; the data have no specks, and lengths are in cells.
-    field : SparseField
+    smoothed : SmoothedInput
     surfaced : SurfaceAtLevel
     surface : Surface, mm
         The surface in its place.
@@ -88,9 +87,7 @@ class Attempt:
     clock : Clock
     """
 
-    smooth_input: SmoothInput
-    request: SmoothRequest
-    field: SparseField
+    smoothed: SmoothedInput
     surfaced: SurfaceAtLevel
     surface: Surface
     crumbs: Crumbs
@@ -104,12 +101,12 @@ class Attempt:
     @property
     def is_sound(self) -> bool:
         """Whether another attempt could not improve: nothing is lost, broken or fused, and the volume is right."""
-        changes, before, after = self.topology.changes, self.smooth_input.topology, self.topology.result
+        changes, before, after = self.topology.changes, self.smoothed.smooth_input.topology, self.topology.result
         if before is None:
             broken = bool(changes.broken or changes.fused or changes.vanished)
         else:
             broken = after.components != before.components or after.tunnels < before.tunnels
-        off = volume_error(self.surfaced, self.smooth_input, self.request) != 0
+        off = volume_error(self.surfaced, self.smoothed) != 0
         return self.differences.word != "lost" and not broken and not off
 
     @property
@@ -137,32 +134,30 @@ def run_attempt(smooth_input: SmoothInput, request: SmoothRequest) -> Attempt:
         data, specks = _remove_specks(smooth_input.data, request)
         smooth_input = replace(smooth_input, data=data)
         field = _smooth_field(smooth_input, request, clock)
+        smoothed = SmoothedInput(smooth_input=smooth_input, request=request, field=field)
     with clock.stage("surface", 0.4):
-        raised = extract_surface(field, smooth_input, request)
+        raised = extract_surface(smoothed)
     with clock.stage("check", 0.5):
         threads = thread_count(request.threads)
         surface, (flips, surely_near), _ = run_together(
             partial(_measured_surface, raised, data),
-            partial(_sign_changes, raised, smooth_input, request),
+            partial(_sign_changes, raised, smoothed),
             partial(getattr, raised.levelled, "shells"),
             threads=threads,
         )
-        surfaced, crumbs = remove_crumbs(raised, smooth_input, request)
+        surfaced, crumbs = remove_crumbs(raised, smoothed)
         if surfaced.levelled.surface is not raised.levelled.surface:
             surface = _measured_surface(surfaced, data)
         if not surface.closed:
             raise GeometryError("the surface is not closed; use finer voxels or fewer steps")
         topology, thinnest = run_together(
-            partial(_check_topology, surfaced, flips, data, request),
-            partial(_wall_thickness, surfaced, data),
+            partial(_check_topology, surfaced, flips, smoothed),
+            partial(_wall_thickness, surfaced, smoothed),
             threads=threads,
         )
-        measured = crumbs.count or not surely_near
-        fidelity = compare_with_input(surface, smooth_input, field, request) if measured else None
+        fidelity = None if surely_near and not crumbs.count else compare_with_input(surface, smoothed)
     return Attempt(
-        smooth_input=smooth_input,
-        request=request,
-        field=field,
+        smoothed=smoothed,
         surfaced=surfaced,
         surface=surface,
         crumbs=crumbs,
@@ -170,7 +165,7 @@ def run_attempt(smooth_input: SmoothInput, request: SmoothRequest) -> Attempt:
         topology=topology,
         thinnest=thinnest,
         fidelity=fidelity,
-        differences=find_differences(topology, fidelity, surfaced, smooth_input, request),
+        differences=find_differences(topology, fidelity, surfaced, smoothed),
         clock=clock,
     )
 
@@ -181,7 +176,7 @@ def estimate_surface_cells(data: Volume) -> float:
     stride = max(1, values.shape[0] // SAMPLED_LAYERS)
     layers = values[::stride] > 0
     crossings = sum(int(np.count_nonzero(np.diff(layers, axis=axis))) for axis in (1, 2))
-    return crossings * stride * FACES_PER_CROSSING
+    return float(crossings * stride * FACES_PER_CROSSING)
 
 
 def bytes_per_surface_cell(request: SmoothRequest) -> int:
@@ -229,26 +224,24 @@ def _smooth_field(smooth_input: SmoothInput, request: SmoothRequest, clock: Cloc
             values,
             request.smoothing,
             spacing=spacing,
-            exact=smooth_input.enclosed is not None and request.held,
+            exact=smooth_input.mesh_volumes is not None and request.keep_exact,
             threads=request.threads,
             progress=progress,
         )
     return smooth_bricks(values, request.smoothing, spacing=spacing, threads=request.threads, progress=progress)
 
 
-def _check_topology(
-    surfaced: SurfaceAtLevel, flips: SignChanges, data: Volume, request: SmoothRequest
-) -> TopologyCheck:
+def _check_topology(surfaced: SurfaceAtLevel, flips: SignChanges, smoothed: SmoothedInput) -> TopologyCheck:
     """Compare the topology before and after: by the cells that changed sign, or else by all cells."""
     return check_topology_by_signs(
-        surfaced.levelled, surfaced.components, flips, levels=surfaced.levels, threads=request.threads
+        surfaced.levelled, surfaced.components, flips, levels=surfaced.levels, threads=smoothed.threads
     ) or check_topology(
         surfaced.levelled,
         surfaced.components,
-        spacing=tuple(data.cell_size.tolist()),
-        blur=request.smoothing.blur,
+        spacing=smoothed.spacing,
+        blur=smoothed.request.smoothing.blur,
         levels=surfaced.levels,
-        threads=request.threads,
+        threads=smoothed.threads,
     )
 
 
@@ -257,22 +250,20 @@ def _measured_surface(surfaced: SurfaceAtLevel, data: Volume) -> Surface:
     return measure_surface(place_surface(surfaced.levelled.surface, data), threads=1)
 
 
-def _sign_changes(
-    raised: SurfaceAtLevel, smooth_input: SmoothInput, request: SmoothRequest
-) -> tuple[SignChanges, bool]:
+def _sign_changes(raised: SurfaceAtLevel, smoothed: SmoothedInput) -> tuple[SignChanges, bool]:
     """Return the cells that changed sign, and whether the surface is sure to be near the input (only for voxels)."""
-    levelled, spacing = raised.levelled, tuple(smooth_input.data.cell_size.tolist())
+    levelled, threads, smooth_input = raised.levelled, smoothed.threads, smoothed.smooth_input
     flips = SignChanges.of(
-        levelled.field, raised.components.bits, levelled.height, signs=levelled.signs, threads=request.threads
+        levelled.field, raised.components.bits, levelled.height, signs=levelled.signs, threads=threads
     )
-    of_data = smooth_input.mesh is None and smooth_input.raw is None
-    return flips, of_data and are_surfaces_near(flips, spacing=spacing, threads=request.threads)
+    of_data = smooth_input.mesh is None and smooth_input.voxel_surface is None
+    return flips, of_data and are_surfaces_near(flips, spacing=smoothed.spacing, threads=threads)
 
 
-def _wall_thickness(surfaced: SurfaceAtLevel, data: Volume) -> tuple[float | None, float | None]:
+def _wall_thickness(surfaced: SurfaceAtLevel, smoothed: SmoothedInput) -> tuple[float | None, float | None]:
     """Return the thickness of the thinnest wall, in the data and smoothed, mm."""
     levelled = surfaced.levelled
-    return thinnest_walls(levelled.field, levelled.surface, tuple(data.cell_size.tolist()), levelled.height)
+    return thinnest_walls(levelled.field, levelled.surface, smoothed.spacing, levelled.height)
 
 
 def finish_attempt(best: Attempt) -> tuple[Result[SmoothStages, SmoothReport], Differences]:
@@ -283,13 +274,14 @@ def finish_attempt(best: Attempt) -> tuple[Result[SmoothStages, SmoothReport], D
     GeometryError
         If simplification would change the volume by more than 5 %, unless broken results are allowed.
     """
-    smooth_input, request, clock, surfaced = best.smooth_input, best.request, best.clock, best.surfaced
+    smoothed, clock, surfaced = best.smoothed, best.clock, best.surfaced
+    smooth_input, request = smoothed.smooth_input, smoothed.request
     data, topology, fidelity, differences = smooth_input.data, best.topology, best.fidelity, best.differences
     with clock.stage("measure", 0.75):
         surface, simplified = _simplify_result(best.surface, request)
         if surface is not best.surface:
-            fidelity = compare_with_input(surface, smooth_input, best.field, request)
-            differences = find_differences(topology, fidelity, surfaced, smooth_input, request)
+            fidelity = compare_with_input(surface, smoothed)
+            differences = find_differences(topology, fidelity, surfaced, smoothed)
     problems = [*differences.losses, *differences.problems]
     report = report_of(
         product="smooth",
@@ -320,7 +312,7 @@ def finish_attempt(best: Attempt) -> tuple[Result[SmoothStages, SmoothReport], D
             "tried": [],
         },
     )
-    report = Sections(report, {"distance": partial(distance_facts, surface, smooth_input, best.field, request)})
+    report = Sections(report, {"distance": partial(distance_facts, surface, smoothed)})
     stages = SmoothStages(data=data, levelled=surfaced.levelled, given=smooth_input.mesh)
     return Result(surfaces={"solid": surface}, report=cast("SmoothReport", report), stages=stages), differences
 
@@ -330,7 +322,7 @@ def _simplify_result(full: Surface, request: SmoothRequest) -> tuple[Surface, di
     if request.tolerance is None and request.max_triangles is None:
         return full, None
     assert not isinstance(request.tolerance, str)  # `Request.at` has made it a number
-    if request.lenient and request.tolerance is not None:
+    if request.default_tolerance and request.tolerance is not None:
         simplified_surface = collapse_edges(full, tolerance=request.tolerance, threads=request.threads)
         if simplified_surface is None or simplified_surface is full:
             return full, None
@@ -367,7 +359,7 @@ def _level_facts(surfaced: SurfaceAtLevel, request: SmoothRequest) -> dict[str, 
 def _wall_facts(best: Attempt) -> dict[str, Any]:
     """Return the thickness of the thinnest walls and the places of lost ones, for the report."""
     data_thickness, result_thickness = best.thinnest
-    place = best.smooth_input.data.place
+    place = best.smoothed.smooth_input.data.place
     lost = [{"voxels": piece.voxels, "at": place(piece.at[None])[0].tolist()} for piece in best.topology.lost]
     return {"thinnest": {"data": data_thickness, "result": result_thickness}, "lost": lost}
 

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any, cast, get_args
 
 import numpy as np
 
-from infill.checks import check_length, check_whole_number
-from infill.errors import GeometryError, InfillError, ParameterError, UsageError
+from infill.errors import GeometryError, InfillError, ParameterError
 from infill.inspection.fidelity import Word
 from infill.meshes.split_components import split_components
 from infill.report import FORM
@@ -19,7 +18,7 @@ from infill.smoothing.remedies import first_sound
 from infill.smoothing.request import SmoothRequest
 from infill.surface import Surface
 from infill.version import __version__
-from infill.voxels.from_mesh import RESOLUTION
+from infill.voxels.from_mesh import voxel_size
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -95,7 +94,11 @@ def smooth_components(
     out, and the report says so.
     """
     fixed = resolution is not None or voxel is not None
-    size = _voxel_size(surface, resolution, voxel)
+    corners = surface.vertices[np.unique(surface.faces)]
+    longest = float(np.ptp(corners, axis=0).max()) if len(corners) else 0.0
+    if not longest > 0:
+        raise GeometryError("all corners of the mesh are one point, so nothing is inside; give a closed mesh")
+    size = voxel_size(longest, voxel=voxel, resolution=resolution)
     clock = Clock(request.progress)
     with clock.stage("components", 0.0):
         parts = split_components(surface, size)
@@ -112,13 +115,13 @@ def smooth_components(
     with clock.stage("smooth", 0.0):
         for (name, part), begin, end in zip(named.items(), shares[:-1].tolist(), shares[1:].tolist(), strict=True):
             longest = float(np.ptp(part.bounds, axis=0).max())
-            voxel_size = size if fixed else min(size, longest / FEWEST_ACROSS)
+            part_voxel = size if fixed else min(size, longest / FEWEST_ACROSS)
             component_request = replace(request, progress=progress_between(request.progress, begin, end))
-            if longest < SMALL * voxel_size:
+            if longest < SMALL * part_voxel:
                 component_request = replace(component_request, threads=1)
             try:
                 result = first_sound(
-                    mesh_ways(part, component_request, voxel=voxel_size, fixed=fixed), component_request
+                    mesh_ways(part, component_request, voxel=part_voxel, fixed=fixed), component_request
                 )
             except (GeometryError, ParameterError) as error:
                 if not request.allow_broken:
@@ -138,19 +141,6 @@ def smooth_components(
         stages=ComponentStages(given=surface, voxel=size, components=named, failed=failed),
         joins=True,
     )
-
-
-def _voxel_size(surface: Surface, resolution: int | None, voxel: float | None) -> float:
-    """Return the size of the voxels, mm."""
-    if voxel is not None:
-        if resolution is not None:
-            raise UsageError.about(("voxel", "resolution"), "are both given; give one of them")
-        return check_length("voxel", voxel)
-    count = check_whole_number("resolution", RESOLUTION if resolution is None else resolution, 1)
-    longest = float(np.ptp(surface.vertices[np.unique(surface.faces)], axis=0).max())
-    if not longest > 0:
-        raise GeometryError("all corners of the mesh are one point, so nothing is inside; give a closed mesh")
-    return longest / count
 
 
 def _report(

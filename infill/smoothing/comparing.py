@@ -17,10 +17,9 @@ from infill.voxels.noise import NOISY
 
 if TYPE_CHECKING:
     from infill.inspection.bricks import TopologyCheck
-    from infill.phasefield.sparse import SparseField
     from infill.report_keys import Spread
     from infill.smoothing.levelling import SurfaceAtLevel
-    from infill.smoothing.request import SmoothInput, SmoothRequest
+    from infill.smoothing.request import SmoothedInput, SmoothInput
 
 SIDE_OFFSET = 5e-5  # cells: distance from a face at which solid is looked for
 SLIT_WIDTH = 1.0  # cells: a slit as narrow as this may close
@@ -52,26 +51,23 @@ class Differences:
     remarks: tuple[str, ...]
 
 
-def compare_with_input(
-    surface: Surface, smooth_input: SmoothInput, field: SparseField, request: SmoothRequest, *, exact: bool = False
-) -> Fidelity:
+def compare_with_input(surface: Surface, smoothed: SmoothedInput, *, exact: bool = False) -> Fidelity:
     """Measure the distance between a surface and the input, both ways; by default, only where it is large."""
+    smooth_input = smoothed.smooth_input
     return measure_fidelity(
-        _input_surface(smooth_input, field, request) if smooth_input.mesh is None else smooth_input.mesh,
+        _input_surface(smoothed) if smooth_input.mesh is None else smooth_input.mesh,
         surface,
         cell=smooth_input.cell or float(smooth_input.data.cell_size.max()),
-        closed=smooth_input.reference,
-        kinds=_place_classifier(smooth_input, field, threads=request.threads),
+        closed=smooth_input.closed_mesh,
+        kinds=_place_classifier(smoothed),
         exact=exact,
-        threads=request.threads,
+        threads=smoothed.threads,
     )
 
 
-def distance_facts(
-    surface: Surface, smooth_input: SmoothInput, field: SparseField, request: SmoothRequest
-) -> dict[str, Any]:
+def distance_facts(surface: Surface, smoothed: SmoothedInput) -> dict[str, Any]:
     """Return the distances between result and input, both ways, and from voxels to mesh, for the report."""
-    deviation = compare_with_input(surface, smooth_input, field, request, exact=True)
+    smooth_input, deviation = smoothed.smooth_input, compare_with_input(surface, smoothed, exact=True)
     facts: dict[str, Any] = {
         "from": "voxels" if smooth_input.mesh is None else "mesh",
         "result": deviation.there.facts(),
@@ -80,9 +76,9 @@ def distance_facts(
         "sheet": deviation.sheet,
         "hidden": deviation.hidden,
     }
-    if smooth_input.reference is not None:
-        vertices = subsample(_input_surface(smooth_input, field, request).vertices)
-        facts["data"] = summarise_distances(distances(vertices, smooth_input.reference, threads=request.threads))
+    if smooth_input.closed_mesh is not None:
+        vertices = subsample(_input_surface(smoothed).vertices)
+        facts["data"] = summarise_distances(distances(vertices, smooth_input.closed_mesh, threads=smoothed.threads))
     return facts
 
 
@@ -100,20 +96,22 @@ def summarise_distances(distance: NDArray[np.float64]) -> Spread:
     }
 
 
-def _input_surface(smooth_input: SmoothInput, field: SparseField, request: SmoothRequest) -> Surface:
+def _input_surface(smoothed: SmoothedInput) -> Surface:
     """Return the surface of the input voxels, mm."""
-    return smooth_input.raw or raw_surface(field, smooth_input.data, request.threads)
+    smooth_input = smoothed.smooth_input
+    return smooth_input.voxel_surface or raw_surface(smoothed.field, smooth_input.data, smoothed.threads)
 
 
-def _place_classifier(smooth_input: SmoothInput, field: SparseField, *, threads: int | None) -> Kinds:
+def _place_classifier(smoothed: SmoothedInput) -> Kinds:
     """Return the function that classifies points of the input: those that count as lost, and those that do not.
 
     Of a mesh, points with solid on one side count; those inside the solid, and on sheets without thickness, do not.
     Slits narrower than a cell have a class of their own. Of voxels, points between solid and void more than one cell
     thick count; the equation removes walls one cell thick, which have a class of their own.
     """
-    if smooth_input.enclosed is not None:
-        enclosed, mesh = smooth_input.enclosed, smooth_input.reference
+    smooth_input, field, threads = smoothed.smooth_input, smoothed.field, smoothed.threads
+    if smooth_input.mesh_volumes is not None:
+        enclosed, mesh = smooth_input.mesh_volumes, smooth_input.closed_mesh
         assert mesh is not None
 
         def bounding(points: NDArray[np.float64], faces: NDArray[np.integer]) -> NDArray[np.integer]:
@@ -143,11 +141,7 @@ def _place_classifier(smooth_input: SmoothInput, field: SparseField, *, threads:
 
 
 def find_differences(
-    topology: TopologyCheck,
-    fidelity: Fidelity | None,
-    surfaced: SurfaceAtLevel,
-    smooth_input: SmoothInput,
-    request: SmoothRequest,
+    topology: TopologyCheck, fidelity: Fidelity | None, surfaced: SurfaceAtLevel, smoothed: SmoothedInput
 ) -> Differences:
     """Judge a result: return the verdict with its losses, problems and remarks.
 
@@ -158,11 +152,11 @@ def find_differences(
     fidelity : Fidelity or None
         Distances between result and input; None if they are sure to be small everywhere.
     surfaced : SurfaceAtLevel
-    smooth_input : SmoothInput
-    request : SmoothRequest
+    smoothed : SmoothedInput
     """
+    smooth_input = smoothed.smooth_input
     problems = [*topology.problems, *_topology_changes(topology, smooth_input)]
-    if off := volume_error(surfaced, smooth_input, request):
+    if off := volume_error(surfaced, smoothed):
         problems.append(f"the volume is off by {off:+.1%}, which no level can correct")
     remarks = []
     if thin_count := topology.changes.vanished_thin:
@@ -170,14 +164,14 @@ def find_differences(
     if fidelity and fidelity.thin:
         feature = (
             "walls or gaps one voxel thick are gone"
-            if smooth_input.enclosed is None
+            if smooth_input.mesh_volumes is None
             else "slits narrower than a voxel are closed"
         )
         remarks.append(f"{feature}, {fidelity.thin:.3g} mm² of their faces")
     if fidelity and fidelity.sheet:
         remarks.append(f"{fidelity.sheet:.3g} mm² of faces that bound no solid are left out")
-    if smooth_input.enclosed is not None and smooth_input.topology is None:
-        mesh_parts, result_parts = int((smooth_input.enclosed.volumes > 0).sum()), topology.result.components
+    if smooth_input.mesh_volumes is not None and smooth_input.topology is None:
+        mesh_parts, result_parts = int((smooth_input.mesh_volumes.volumes > 0).sum()), topology.result.components
         if result_parts < mesh_parts:
             remarks.append(
                 f"the mesh has {mesh_parts} components, some of which overlap or touch, and the result {result_parts}; "
@@ -213,9 +207,9 @@ def _topology_changes(topology: TopologyCheck, smooth_input: SmoothInput) -> lis
     return phrases
 
 
-def volume_error(surfaced: SurfaceAtLevel, smooth_input: SmoothInput, request: SmoothRequest) -> float:
+def volume_error(surfaced: SurfaceAtLevel, smoothed: SmoothedInput) -> float:
     """Return the relative error of the volume; 0 if it is tolerable, or the level was fixed."""
-    enclosed = smooth_input.enclosed
+    enclosed = smoothed.smooth_input.mesh_volumes
     target = float(surfaced.targets.sum()) if enclosed is None else enclosed.total
     error = surfaced.volume / target - 1
-    return error if request.level == "volume" and abs(error) > VOLUME_TOLERANCE else 0.0
+    return error if smoothed.request.level == "volume" and abs(error) > VOLUME_TOLERANCE else 0.0

@@ -24,7 +24,7 @@ from infill.surface import Surface
 
 if TYPE_CHECKING:
     from infill.phasefield.sparse import SparseField
-    from infill.smoothing.request import SmoothInput, SmoothRequest
+    from infill.smoothing.request import SmoothedInput, SmoothInput
     from infill.volume import Volume
     from infill.voxels.partial import EnclosedVolumes
 
@@ -79,12 +79,13 @@ class Crumbs:
     limit: float
 
 
-def extract_surface(field: SparseField, smooth_input: SmoothInput, request: SmoothRequest) -> SurfaceAtLevel:
+def extract_surface(smoothed: SmoothedInput) -> SurfaceAtLevel:
     """Extract the surface of a smoothed field: at the level that keeps the volume, or at the requested one.
 
     If the field is straightened along the way, its values are overwritten.
     """
-    threads, level, spacing = request.threads, request.level, tuple(smooth_input.data.cell_size.tolist())
+    field, smooth_input, request = smoothed.field, smoothed.smooth_input, smoothed.request
+    threads, level, spacing = smoothed.threads, request.level, smoothed.spacing
     if isinstance(level, str):
         components, field, start = prepare_levels(
             field, spacing=spacing, straighten=not request.refined, threads=threads
@@ -114,7 +115,7 @@ def _target_volumes(
     if field.data.dtype == np.int8:
         return cells
     grey = replace(field, values=field.data.astype(np.float32))
-    if smooth_input.enclosed is not None:
+    if smooth_input.mesh_volumes is not None:
         grey = replace(grey, values=REFINED_PROFILE.distance(grey.values, threads=threads))
     volume = component_volumes(grey, data, spacing=spacing, threads=threads)
     volume = np.where(volume > 0, volume, cells)
@@ -123,8 +124,8 @@ def _target_volumes(
         return scaled
     return (
         volume
-        if smooth_input.enclosed is None
-        else _mesh_targets(field, data, smooth_input.data, smooth_input.enclosed, volume)
+        if smooth_input.mesh_volumes is None
+        else _mesh_targets(field, data, smooth_input.data, smooth_input.mesh_volumes, volume)
     )
 
 
@@ -172,22 +173,21 @@ def _mesh_targets(
     return targets
 
 
-def remove_crumbs(
-    surfaced: SurfaceAtLevel, smooth_input: SmoothInput, request: SmoothRequest
-) -> tuple[SurfaceAtLevel, Crumbs]:
+def remove_crumbs(surfaced: SurfaceAtLevel, smoothed: SmoothedInput) -> tuple[SurfaceAtLevel, Crumbs]:
     """Remove crumbs from a surface; return it and their number and volume.
 
     A piece of solid is a crumb if it has at most `request.crumbs` mm³, by default the volume of 8 cells, and is not
     the largest piece of a component of the data. If all components of a mesh are larger than that, every such piece
     is a crumb, and every such cavity too: the surface around it is removed, so that it is filled.
     """
+    smooth_input, request = smoothed.smooth_input, smoothed.request
     limit = CRUMB_CELLS * smooth_input.data.cell_volume if request.crumbs is None else request.crumbs
     levelled = surfaced.levelled
     volume = levelled.shells.volume
     if levelled.shells.names.min(initial=0) < 0:  # vertices that no face uses
         levelled = _without_shells(levelled, np.zeros(len(volume), dtype=bool))
         surfaced = replace(surfaced, levelled=levelled)
-    enclosed = smooth_input.enclosed
+    enclosed = smooth_input.mesh_volumes
     all_small = enclosed is not None and not (np.abs(enclosed.volumes[enclosed.volumes != 0]) <= limit).any()
     small = (np.abs(volume) if all_small else np.where(volume > 0, volume, np.inf)) <= limit
     if not small.any() or small.all():
@@ -196,8 +196,7 @@ def remove_crumbs(
         return replace(surfaced, levelled=_without_shells(levelled, small)), Crumbs(
             count=int(small.sum()), volume=float(np.abs(volume[small]).sum()), limit=limit
         )
-    spacing = tuple(smooth_input.data.cell_size.tolist())
-    component = component_of_shells(levelled, surfaced.components, spacing=spacing)
+    component = component_of_shells(levelled, surfaced.components, spacing=smoothed.spacing)
     largest = np.full(surfaced.components.count, -math.inf)
     has_component = component >= 0
     np.maximum.at(largest, component[has_component], volume[has_component])

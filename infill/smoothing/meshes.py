@@ -89,9 +89,9 @@ def voxelise_input(mesh: MeshOnGrid, request: SmoothRequest) -> SmoothInput:
             "several": voxelised.several,
             "notes": list(surface.notes),
         },
-        reference=voxelised.closed,
+        closed_mesh=voxelised.closed,
         mesh=surface,
-        enclosed=voxelised.enclosed,
+        mesh_volumes=voxelised.enclosed,
         topology=_mesh_topology(voxelised),
     )
 

@@ -85,13 +85,7 @@ def first_sound(ways: Iterable[Way], request: SmoothRequest) -> Result[SmoothSta
 
 
 def estimate_work(smooth_input: SmoothInput, request: SmoothRequest) -> float:
-    """Estimate the work of a run before it begins: cells at the surface times steps.
-
-    Parameters
-    ----------
-    smooth_input : SmoothInput
-    request : SmoothRequest
-    """
+    """Estimate the work of a run before it begins: cells at the surface times steps."""
     steps = request.at(float(smooth_input.data.cell_size.min())).total_steps
     return estimate_surface_cells(smooth_input.data) * (OTHER_STEPS + steps)
 
@@ -103,7 +97,7 @@ def _list_tried(ways: list[str]) -> str:
 
 def _advice(best: Attempt) -> str:
     """Return advice on a loss: about simplification if only that caused it."""
-    request = best.request
+    request = best.smoothed.request
     if not best.differences.losses and (request.tolerance is not None or request.max_triangles is not None):
         return "give a smaller --tolerance or more --max-triangles, or --allow-broken to have it anyway"
     if request.strict:

@@ -15,6 +15,7 @@ from infill.phasefield.schedule import MIN_STEPS, SNAPSHOT_QUARTERS
 
 if TYPE_CHECKING:
     from infill.inspection.changes import ConnectionCounts
+    from infill.phasefield.sparse import SparseField
     from infill.result import Progress
     from infill.surface import Surface
     from infill.volume import Volume
@@ -60,10 +61,10 @@ class SmoothRequest:
         See `infill.smooth_volume`.
     refine : bool, optional
         True is `method="refine"`, False is `method="plain"`.
-    held : bool
+    keep_exact : bool
         Whether exact data bound the surface: see `ExactDataLimits`. False if a radius is requested.
-    lenient : bool
-        Whether a surface that cannot be simplified to the tolerance is left as it is.
+    default_tolerance : bool
+        Whether the tolerance is the default: a surface that cannot be simplified to it is left as it is.
 
     Raises
     ------
@@ -85,8 +86,8 @@ class SmoothRequest:
     threads: int | None = None
     max_memory: int | None = None
     progress: Progress | None = None
-    lenient: bool = False
-    held: bool = True
+    default_tolerance: bool = False
+    keep_exact: bool = True
 
     def __post_init__(self) -> None:
         """Check all options that do not depend on the data."""
@@ -146,12 +147,12 @@ class SmoothRequest:
             tolerance = DEFAULT_TOLERANCE_IN_CELLS * cell if self.max_triangles is None else None
         return replace(
             self,
-            held=self.radius is None,
+            keep_exact=self.radius is None,
             smoothing=smoothing,
             radius=None,
             tolerance=tolerance,
             refine=None,
-            lenient=isinstance(self.tolerance, str),
+            default_tolerance=isinstance(self.tolerance, str),
         )
 
     def facts(self) -> dict[str, Any]:
@@ -182,15 +183,15 @@ class SmoothInput:
         Booleans, or a phase field.
     facts : mapping
         The section `input` of the report: `source` and others.
-    reference : Surface, optional
+    closed_mesh : Surface, optional
         The closed mesh that the volume was made from, mm.
     mesh : Surface, optional
         The input mesh, mm: the closed one without its caps.
-    enclosed : EnclosedVolumes, optional
+    mesh_volumes : EnclosedVolumes, optional
         The volumes inside the mesh; the data are then its exact distances, not a staircase.
     topology : ConnectionCounts, optional
         The topology of the mesh, if it is known.
-    raw : Surface, optional
+    voxel_surface : Surface, optional
         The surface of the input voxels, mm, if the data differ from them.
     volume : float, optional
         Volume of the input, mm³, if the data do not give it.
@@ -200,13 +201,41 @@ class SmoothInput:
 
     data: Volume
     facts: Mapping[str, Any]
-    reference: Surface | None = None
+    closed_mesh: Surface | None = None
     mesh: Surface | None = None
-    enclosed: EnclosedVolumes | None = None
+    mesh_volumes: EnclosedVolumes | None = None
     topology: ConnectionCounts | None = None
-    raw: Surface | None = None
+    voxel_surface: Surface | None = None
     volume: float | None = None
     cell: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class SmoothedInput:
+    """An input and the field that was smoothed from it.
+
+    Parameters
+    ----------
+    smooth_input : SmoothInput
+        Its data have no specks.
+    request : SmoothRequest
+        Lengths are in cells.
+    field : SparseField
+    """
+
+    smooth_input: SmoothInput
+    request: SmoothRequest
+    field: SparseField
+
+    @property
+    def spacing(self) -> tuple[float, ...]:
+        """Size of the cells, mm."""
+        return tuple(self.smooth_input.data.cell_size.tolist())
+
+    @property
+    def threads(self) -> int | None:
+        """Threads to use; None for all that are available."""
+        return self.request.threads
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -161,7 +161,7 @@ def _scan_input(data: Volume, solid: Volume, facts: Mapping[str, Any]) -> Smooth
     return SmoothInput(
         data=interpolate_slices(data, axis, count),
         facts=facts,
-        raw=raw_surface(mask, solid, None),
+        voxel_surface=raw_surface(mask, solid, None),
         volume=None if data is not solid else count_solid_cells(np.asarray(solid.values)) * solid.cell_volume,
         cell=float(solid.cell_size.max()),
     )

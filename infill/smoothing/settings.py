@@ -282,7 +282,7 @@ class SmoothSettings:
             raise UsageError.about("fidelity", "is for smooth = plain alone; leave one of them out")
 
     @property
-    def way(self) -> Method:
+    def chosen_method(self) -> Method:
         """Method of smoothing: a fidelity implies the plain method."""
         return cast("Method", REFINE if self.refine else self.method if self.fidelity is None else PLAIN)
 
@@ -305,7 +305,7 @@ class SmoothSettings:
         fidelity = {} if self.fidelity is None else {"fidelity": self.fidelity}
         return {
             "smoothing": Smoothing(steps=self.steps, interface=self.interface, **fidelity),
-            "method": self.way,
+            "method": self.chosen_method,
             "radius": self.smooth_radius,
             "crumbs": self.crumbs,
             "strict": self.strict,

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any, Literal, Unpack, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.checks import check_whole_number
 from infill.errors import FormatError, GeometryError, ParameterError, UsageError
 from infill.files.broken import READER_ERRORS
 from infill.formats.mesh_files import READERS, read_mesh
@@ -24,7 +23,7 @@ from infill.smoothing.request import SmoothOptions
 from infill.surface import Surface
 from infill.volume import Volume
 from infill.voxels.cropping import crop
-from infill.voxels.from_mesh import RESOLUTION
+from infill.voxels.from_mesh import voxel_size
 
 if TYPE_CHECKING:
     from infill.report_keys import ComponentsReport, SmoothReport
@@ -231,25 +230,16 @@ def separate_choice(source: Source, options: SourceOptions) -> tuple[dict[str, A
     if choice.pop("otsu", False):
         choice["threshold"] = "otsu"
     if not isinstance(source, Volume | Surface):
-        choice["voxel"] = _voxel_of_points(source[:, :AXES], choice.pop("resolution", None), choice.get("voxel"))
+        longest = float(np.ptp(source[:, :AXES], axis=0).max())
+        if longest == 0 and "voxel" not in choice:
+            raise GeometryError(f"all {len(source)} points are one point; give points all around the part")
+        choice["voxel"] = voxel_size(longest, voxel=choice.get("voxel"), resolution=choice.pop("resolution", None))
     return choice, cast("SmoothOptions", shared)
 
 
 def kind_of(source: Source) -> Kind:
     """Return the kind of data that `read_source` returned."""
     return "volume" if isinstance(source, Volume) else "mesh" if isinstance(source, Surface) else "points"
-
-
-def _voxel_of_points(points: NDArray[np.float64], resolution: int | None, voxel: float | None) -> float:
-    """Return the size of the voxels for points (N, 3), mm."""
-    if voxel is not None:
-        if resolution is not None:
-            raise UsageError.about(("voxel", "resolution"), "are both given; give one of them")
-        return voxel
-    longest = float(np.ptp(points, axis=0).max())
-    if longest == 0:
-        raise GeometryError(f"all {len(points)} points are one point; give points all around the part")
-    return longest / check_whole_number("resolution", RESOLUTION if resolution is None else resolution, 1)
 
 
 def _guess_kind(path: Path) -> Kind:

@@ -17,12 +17,7 @@ from infill.meshes.merging import merge_unless_closed
 from infill.surface import Surface
 from infill.volume import Volume
 from infill.voxels.partial import EnclosedVolumes, distances_in_cells, measure_enclosed
-from infill.voxels.scanlines import SLAB, RowCrossings, fill_rows_and_count, intersect_rows
-
-SAMPLES = 9  # crossings of a component that are examined to find the components around it
-
-Floats = NDArray[np.float64]
-Integers = NDArray[np.integer]
+from infill.voxels.scanlines import SLAB, fill_rows_and_count, intersect_rows, is_inside_out
 
 RESOLUTION = 200  # cells along the longest side by default
 FEWEST = 2  # voxels along the longest side
@@ -89,27 +84,36 @@ def grid_around(
     surface: Surface, *, voxel: float | None = None, resolution: int | None = None, margin: int = 2
 ) -> Grid:
     """Lay the grid on which a mesh is voxelised: see `voxelise`."""
-    if voxel is not None and resolution is not None:
-        raise UsageError.about(("voxel", "resolution"), "are both given; give one of them")
     lower, upper = surface.bounds
     extents = upper - lower
-    if not extents.max() > 0:
+    longest = float(extents.max())
+    if not longest > 0:
         raise GeometryError("all corners of the mesh are one point, so nothing is inside; give a closed mesh")
-    if voxel is None:
-        size = float(extents.max()) / check_whole_number(
-            "resolution", RESOLUTION if resolution is None else resolution, 1
+    size = voxel_size(longest, voxel=voxel, resolution=resolution)
+    if voxel is not None and size > longest / FEWEST:
+        raise ParameterError.about(
+            "voxel",
+            f"is {size:g} mm and the part {' x '.join(f'{side:g}' for side in extents)} mm; "
+            f"give at most {longest / FEWEST:g} mm",
         )
-    else:
-        size = check_length("voxel", voxel)
-        if size > extents.max() / FEWEST:
-            raise ParameterError.about(
-                "voxel",
-                f"is {size:g} mm and the part {' x '.join(f'{side:g}' for side in extents)} mm; "
-                f"give at most {extents.max() / FEWEST:g} mm",
-            )
     shape = tuple(max(1, math.ceil(side / size - ROUNDING)) + 2 * margin for side in extents.tolist())
     origin = (lower + upper) / 2 - np.array(shape) * size / 2
     return Grid(shape=shape, spacing=size, origin=tuple(origin.tolist()))
+
+
+def voxel_size(longest: float, *, voxel: float | None, resolution: int | None) -> float:
+    """Return the size of the voxels, mm, or divide the longest side of the data by the resolution, 200 by default.
+
+    Raises
+    ------
+    ParameterError
+        If both are given, or one is out of range.
+    """
+    if voxel is None:
+        return longest / check_whole_number("resolution", RESOLUTION if resolution is None else resolution, 1)
+    if resolution is not None:
+        raise UsageError.about(("voxel", "resolution"), "are both given; give one of them")
+    return check_length("voxel", voxel)
 
 
 def estimate_solid_cells(surface: Surface, grid: Grid) -> float:
@@ -209,8 +213,6 @@ def voxelise_with_report(
     max_memory: int | None = None,
 ) -> VoxelisedMesh:
     """Voxelise a mesh as `voxelise` does; return the cells, the assumptions, and the closed mesh."""
-    if voxel is not None and resolution is not None:
-        raise UsageError.about(("voxel", "resolution"), "are both given; give one of them")
     margin = check_whole_number("margin", margin, 0)
     if len(surface.faces) == 0:
         raise GeometryError("the mesh has no triangles, so nothing is inside; give a closed mesh")
@@ -260,48 +262,3 @@ def voxelise_with_report(
         enclosed=enclosed_volumes,
         several=len(volumes) > 1 or largest_winding > 1,
     )
-
-
-def is_inside_out(crossings: RowCrossings, component: Integers, volumes: Floats) -> NDArray[np.bool_]:
-    """Mark the components to reverse: those that face inwards outside all others, and everything inside them.
-
-    Parameters
-    ----------
-    crossings : RowCrossings
-    component : (F,) int
-        Component of every face.
-    volumes : (B,) float64
-        Signed volume of each component.
-
-    Returns
-    -------
-    (B,) bool
-
-    Notes
-    -----
-    A component lies in another if the rows wind around it at every one of the crossings examined. One that faces
-    the opposite way from the component it lies in is a cavity of it, and turns with it.
-    """
-    turned = np.zeros(len(volumes), dtype=bool)
-    if (volumes >= 0).all() or (volumes <= 0).all():
-        return turned
-    owner = component[crossings.face]
-    order = np.argsort(owner, kind="stable")
-    bounds = np.searchsorted(owner, np.arange(len(volumes) + 1), sorter=order)
-    for number in np.flatnonzero(volumes):
-        own_crossings = order[bounds[number] : bounds[number + 1]]
-        if len(own_crossings) == 0:
-            continue
-        holders: set[int] | None = None
-        for i in own_crossings[np.linspace(0, len(own_crossings) - 1, SAMPLES).astype(np.int64)]:
-            begin, end = np.searchsorted(crossings.row, [crossings.row[i], crossings.row[i] + 1])
-            owners, signs, places = owner[begin:end], crossings.sign[begin:end], crossings.place[begin:end]
-            enclosing: set[int] = set()
-            for before in (places < crossings.place[i], places <= crossings.place[i]):
-                winding = np.bincount(owners[before], weights=signs[before])
-                enclosing.update(np.flatnonzero(winding).tolist())
-            holders = enclosing if holders is None else holders & enclosing
-        larger = [holder for holder in holders or () if abs(volumes[holder]) > abs(volumes[number])]
-        outermost = max(larger, key=lambda index: abs(volumes[index]), default=number)
-        turned[number] = volumes[outermost] < 0
-    return turned
