@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 import trimesh
 from handmade_prints import Dialect, written
-from PIL import Image
 from test_command_line import run
 from test_label_tables import FIELDS, seg_nrrd
 from test_scans import write_series
@@ -22,7 +21,7 @@ FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 PAGES = [
     "README.md",
     *sorted(page.relative_to(ROOT).as_posix() for page in (ROOT / "docs" / "tutorials").glob("*.md")),
-    *(f"docs/{name}.md" for name in ("make", "smooth", "fill", "projects", "refill", "motion")),
+    *(f"docs/{name}.md" for name in ("make", "smooth", "fill", "refill", "motion")),
 ]
 # Lines that install something, or build in a clone.
 SKIPPED = {
@@ -43,9 +42,6 @@ GIVEN = {
     "part.stl",
     "cloud.xyz",
     "leaf.svg",
-    "stress.csv",
-    "weights.png",
-    "field.py",
     "print.gcode",
     "before.gcode",
     "after.gcode",
@@ -108,9 +104,6 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     Path("leaf.svg").write_text(
         f'<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="20mm" viewBox="0 0 20 20">{leaf}</svg>'
     )
-    Path("stress.csv").write_text("x,y,z,value\n" + "".join(f"{x},0,0,{x * x}\n" for x in range(-20, 21, 4)))
-    Image.fromarray(np.tile(np.arange(0, 250, 10, dtype=np.uint8), (9, 1))).save("weights.png")
-    Path("field.py").write_text("def f(points):\n    return points[:, 0]\n")
     for name in ("print.gcode", "before.gcode", "after.gcode"):
         Path(name).write_bytes(written(Dialect(layers=5)))
     assert {path.name for path in tmp_path.iterdir()} == GIVEN
