@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 # Work is counted in steps over cells at the surface. Finding the level, comparing and measuring take as long as 100
 # steps: of 42 meshes and scans, a unit took 0.06 to 0.18 µs of one core, and up to 0.36 where components overlap.
 OTHER_STEPS = 100
-# A way that takes more work than the first is skipped if all ways together would take more than this, about 100 s of one
-# core. With the usual 20 steps, refined, that leaves the three finer grids to meshes of up to 190,000 cells at the
+# A way that takes more work than the first is skipped if all ways together would take more than this, about 100 s of
+# one core. With the usual 20 steps, refined, that leaves the three finer grids to meshes of up to 190,000 cells at the
 # surface, two of them up to 510,000, and one up to 1,300,000; all 42 take the ways that they took within 100 s.
 MAX_WORK = 8e8
 
