@@ -18,8 +18,8 @@ from infill.imaging.segmentations import Segmentation
 from infill.kernels.sparse import BRICK
 from infill.report import FORM
 from infill.result import Clock, Result, share_progress
+from infill.smoothing.job import smooth_volume
 from infill.smoothing.request import SmoothOptions, SmoothRequest
-from infill.smoothing.solids import smooth_volume
 from infill.version import __version__
 from infill.volume import AXES, Volume
 from infill.voxels.cropping import cut_cells

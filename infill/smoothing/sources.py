@@ -181,7 +181,7 @@ def smooth_source(
     source: Source, **options: Unpack[SourceOptions]
 ) -> Result[SmoothStages, SmoothReport] | Result[ComponentStages, ComponentsReport]:
     """Smooth the data of `read_source`; raise ParameterError for options that do not fit their kind."""
-    from infill.smoothing.solids import smooth_mesh, smooth_points, smooth_volume
+    from infill.smoothing.job import smooth_mesh, smooth_points, smooth_volume
 
     choice, smooth_options = separate_choice(source, options)
     if isinstance(source, Volume):
