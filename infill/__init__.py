@@ -44,8 +44,8 @@ if TYPE_CHECKING:
     from infill.projects.saving import save_project
     from infill.refilling.job import RefillResult, refill
     from infill.result import Result
+    from infill.smoothing.job import smooth_mesh, smooth_points, smooth_volume
     from infill.smoothing.labels import smooth_labels
-    from infill.smoothing.solids import smooth_mesh, smooth_points, smooth_volume
     from infill.surface import Surface
     from infill.volume import Volume
     from infill.voxels.stamping import stamp, stamp_lines
@@ -74,7 +74,7 @@ _HOMES = {
     "smoothing.labels": ("smooth_labels",),
     "imaging.label_tables": ("Segment", "read_labels"),
     "imaging.segmentations": ("Segmentation", "read_segmentation"),
-    "smoothing.solids": ("smooth_mesh", "smooth_points", "smooth_volume"),
+    "smoothing.job": ("smooth_mesh", "smooth_points", "smooth_volume"),
     "phasefield.methods": ("smooth",),
     "isosurfaces.stacking": ("extrude", "stack"),
     "voxels.stamping": ("stamp", "stamp_lines"),

@@ -5,10 +5,11 @@ from __future__ import annotations
 import io
 import os
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import accumulate
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, Generic, Protocol, TypeVar
 
@@ -154,10 +155,15 @@ def parts_of(result: Result[Any, Any]) -> list[Part]:
     ]
 
 
-def progress_between(progress: Progress | None, begin: float, end: float) -> Progress | None:
-    """Map progress from 0 to 1 onto the range `begin` to `end`; return None without a listener."""
-    if progress is None:
-        return None
+def share_progress(progress: Progress | None, sizes: Sequence[int]) -> list[Progress | None]:
+    """Divide a listener into one for each part of a work, by the sizes of the parts; None without a listener."""
+    return [
+        progress and _progress_between(progress, (upto - size) / sum(sizes), upto / sum(sizes))
+        for size, upto in zip(sizes, accumulate(sizes), strict=True)
+    ]
+
+
+def _progress_between(progress: Progress, begin: float, end: float) -> Progress:
     return lambda stage, share: progress(stage, begin + share * (end - begin))
 
 

@@ -416,7 +416,7 @@ def test_a_mesh_with_holes_is_capped_once(monkeypatch: pytest.MonkeyPatch) -> No
         calls.append(1)
         return fill_holes(*arguments)
 
-    for module in ("infill.voxels.from_mesh", "infill.smoothing.solids"):
+    for module in ("infill.voxels.from_mesh", "infill.smoothing.job"):
         monkeypatch.setattr(f"{module}.fill_holes", counted, raising=False)
     assert from_mesh.fill_holes is counted
     whole = surface(BALL)

@@ -12,7 +12,7 @@ from infill.errors import GeometryError, InfillError, ParameterError
 from infill.inspection.fidelity import Word
 from infill.meshes.split_components import split_components
 from infill.report import FORM
-from infill.result import Clock, Result, progress_between
+from infill.result import Clock, Result, share_progress
 from infill.smoothing.meshes import mesh_ways
 from infill.smoothing.remedies import first_sound
 from infill.smoothing.request import SmoothRequest
@@ -111,18 +111,16 @@ def smooth_components(
     surfaces: dict[str, Surface] = {}
     reports: dict[str, SmoothReport] = {}
     failed: dict[str, str] = {}
-    shares = np.cumsum([0, *(len(part.faces) for part in parts.surfaces)]) / sum(len(p.faces) for p in parts.surfaces)
+    listeners = share_progress(request.progress, [len(part.faces) for part in parts.surfaces])
     with clock.stage("smooth", 0.0):
-        for (name, part), begin, end in zip(named.items(), shares[:-1].tolist(), shares[1:].tolist(), strict=True):
+        for (name, part), progress in zip(named.items(), listeners, strict=True):
             longest = float(np.ptp(part.bounds, axis=0).max())
             part_voxel = size if fixed else min(size, longest / FEWEST_ACROSS)
-            component_request = replace(request, progress=progress_between(request.progress, begin, end))
-            if longest < SMALL * part_voxel:
-                component_request = replace(component_request, threads=1)
+            threads = 1 if longest < SMALL * part_voxel else request.threads
+            component_request = replace(request, progress=progress, threads=threads)
             try:
-                result = first_sound(
-                    mesh_ways(part, component_request, voxel=part_voxel, fixed=fixed), component_request
-                )
+                ways = mesh_ways(part, component_request, voxel=part_voxel, fixed=fixed)
+                result = first_sound(ways, component_request)
             except (GeometryError, ParameterError) as error:
                 if not request.allow_broken:
                     raise error.within(name) from error

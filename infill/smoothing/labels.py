@@ -17,9 +17,9 @@ from infill.imaging.label_tables import Segment
 from infill.imaging.segmentations import Segmentation
 from infill.kernels.sparse import BRICK
 from infill.report import FORM
-from infill.result import Clock, Result, progress_between
+from infill.result import Clock, Result, share_progress
+from infill.smoothing.job import smooth_volume
 from infill.smoothing.request import SmoothOptions, SmoothRequest
-from infill.smoothing.solids import smooth_volume
 from infill.version import __version__
 from infill.volume import AXES, Volume
 from infill.voxels.cropping import cut_cells
@@ -138,12 +138,9 @@ def smooth_labels(
     reports: dict[str, SmoothReport] = {}
     failed: dict[str, str] = {}
     with clock.stage("smooth", 0.0):
-        shares = np.cumsum([0, *(piece.cells for piece in pieces)]) / sum(piece.cells for piece in pieces)
-        for piece, begin, end in zip(pieces, shares[:-1], shares[1:], strict=True):
-            label_options: SmoothOptions = {
-                **options,
-                "progress": progress_between(request.progress, float(begin), float(end)),
-            }
+        listeners = share_progress(request.progress, [piece.cells for piece in pieces])
+        for piece, progress in zip(pieces, listeners, strict=True):
+            label_options: SmoothOptions = {**options, "progress": progress}
             try:
                 result = _smooth_piece(segmentation.layers[piece.segment.layer], piece, request, label_options)
             except InfillError as error:

@@ -19,12 +19,12 @@ from infill.isosurfaces.levels import (
     surface_at_level,
     surface_at_volume,
 )
-from infill.phasefield.profile import REFINED_PROFILE
+from infill.phasefield.profile import PLAIN_PROFILE, REFINED_PROFILE
 from infill.surface import Surface
 
 if TYPE_CHECKING:
     from infill.phasefield.sparse import SparseField
-    from infill.smoothing.request import SmoothedInput, SmoothInput
+    from infill.smoothing.request import SmoothedInput
     from infill.volume import Volume
     from infill.voxels.partial import EnclosedVolumes
 
@@ -84,33 +84,31 @@ def extract_surface(smoothed: SmoothedInput) -> SurfaceAtLevel:
 
     If the field is straightened along the way, its values are overwritten.
     """
-    field, smooth_input, request = smoothed.field, smoothed.smooth_input, smoothed.request
+    field, request = smoothed.field, smoothed.request
     threads, level, spacing = smoothed.threads, request.level, smoothed.spacing
     if isinstance(level, str):
         components, field, start = prepare_levels(
             field, spacing=spacing, straighten=not request.refined, threads=threads
         )
-        targets = _target_volumes(field, components, smooth_input, threads)
+        targets = _target_volumes(field, components, smoothed)
         levelled = surface_at_volume(field, components, spacing=spacing, targets=targets, start=start, threads=threads)
-        to_phase_level = request.profile.phase_level
+        to_phase_level = (REFINED_PROFILE if request.refined else PLAIN_PROFILE).phase_level
         common, levels = (
             to_phase_level(levelled.common),
             np.array([to_phase_level(float(height)) for height in levelled.levels]),
         )
     else:
         components = find_components(field, data_bits(field, threads=threads))
-        targets = _target_volumes(field, components, smooth_input, threads)
-        threshold = request.profile.distance_level(level) if request.refined else level
+        targets = _target_volumes(field, components, smoothed)
+        threshold = REFINED_PROFILE.distance_level(level) if request.refined else level
         levelled = surface_at_level(field, components, spacing=spacing, level=threshold, threads=threads)
         common, levels = level, np.full(components.count, level)
     return SurfaceAtLevel(levelled=levelled, components=components, targets=targets, common=common, levels=levels)
 
 
-def _target_volumes(
-    field: SparseField, data: Components, smooth_input: SmoothInput, threads: int | None
-) -> NDArray[np.float64]:
+def _target_volumes(field: SparseField, data: Components, smoothed: SmoothedInput) -> NDArray[np.float64]:
     """Return the volume of each component of the data, mm³: of its cells, or inside its mesh or grey surface."""
-    spacing = tuple(smooth_input.data.cell_size.tolist())
+    smooth_input, spacing, threads = smoothed.smooth_input, smoothed.spacing, smoothed.threads
     cells: NDArray[np.float64] = data.cells.astype(np.float64) * math.prod(spacing)
     if field.data.dtype == np.int8:
         return cells
@@ -122,11 +120,9 @@ def _target_volumes(
     if smooth_input.volume is not None:
         scaled: NDArray[np.float64] = volume * (smooth_input.volume / volume.sum())
         return scaled
-    return (
-        volume
-        if smooth_input.mesh_volumes is None
-        else _mesh_targets(field, data, smooth_input.data, smooth_input.mesh_volumes, volume)
-    )
+    if smooth_input.mesh_volumes is None:
+        return volume
+    return _mesh_targets(field, data, smooth_input.data, smooth_input.mesh_volumes, volume)
 
 
 def _mesh_targets(

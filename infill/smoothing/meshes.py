@@ -10,11 +10,11 @@ import numpy as np
 from infill.errors import ParameterError
 from infill.inspection.changes import ConnectionCounts
 from infill.machine import require_memory
-from infill.phasefield.refining import cut_off_distance, phase_from_distance
 from infill.phasefield.schedule import MIN_STEPS
 from infill.smoothing.request import AUTO, MeshOnGrid, Method, SmoothInput, SmoothRequest, Way
 from infill.surface import Surface
 from infill.voxels.from_mesh import RESOLUTION, VoxelisedMesh, grid_around, voxelise_with_report
+from infill.voxels.partial import phase_field_of_mesh
 
 LOG = logging.getLogger("infill")
 BYTES_PER_CELL = 22  # a measured peak: the mask of cells inside, their distances, and the field made from these
@@ -79,14 +79,13 @@ def voxelise_input(mesh: MeshOnGrid, request: SmoothRequest) -> SmoothInput:
     )
     if mesh.hint:
         _hint_at_filters(surface, voxelised)
-    interface = request.smoothing.interface
-    distance = voxelised.distances(cut_off_distance(interface), threads=request.threads)
+    cells, interface, several = voxelised.volume, request.smoothing.interface, voxelised.several
     return SmoothInput(
-        data=replace(voxelised.volume, values=phase_from_distance(distance, interface, threads=request.threads)),
+        data=phase_field_of_mesh(voxelised.closed, cells, interface, several=several, threads=request.threads),
         facts={
             "source": "mesh",
             "repairs": asdict(voxelised.repairs),
-            "several": voxelised.several,
+            "several": several,
             "notes": list(surface.notes),
         },
         closed_mesh=voxelised.closed,

@@ -11,17 +11,14 @@ from numpy.typing import ArrayLike, NDArray
 from infill.errors import GeometryError, ParameterError
 from infill.inspection.fidelity import LOST
 from infill.meshes.distance import distances
-from infill.phasefield.allen_cahn import Smoothing
-from infill.phasefield.refining import cut_off_distance, phase_from_distance
-from infill.phasefield.sparse import smooth_bricks
 from infill.smoothing.comparing import summarise_distances
 from infill.smoothing.meshes import MARGIN
 from infill.smoothing.request import SmoothRequest, Way
 from infill.smoothing.scans import scan_ways
-from infill.smoothing.stages import raw_surface
+from infill.smoothing.stages import surface_of_data
 from infill.volume import Volume
 from infill.voxels.from_points import voxelise_points
-from infill.voxels.partial import distances_in_cells
+from infill.voxels.partial import phase_field_of_mesh
 from infill.voxels.point_fields import cell_distances
 
 if TYPE_CHECKING:
@@ -84,9 +81,8 @@ def _phase_field(
     inside = replace(solid, values=np.asarray(place.values) > 0)
     place = replace(place, values=np.clip(place.values, -1, 1))
     volume = float(np.clip(np.asarray(place.values) + 0.5, 0, 1).sum(dtype=np.float64)) * solid.cell_volume
-    surface = raw_surface(smooth_bricks(place.values, Smoothing(steps=0), threads=threads), place, threads)
-    distance = distances_in_cells(surface, inside, cut_off_distance(interface), several=False, threads=threads)
-    return replace(solid, values=phase_from_distance(distance, interface, threads=threads)), inside, volume
+    surface = surface_of_data(place, threads)
+    return phase_field_of_mesh(surface, inside, interface, several=False, threads=threads), inside, volume
 
 
 def compare_with_points(

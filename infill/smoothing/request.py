@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any, Literal, TypedDict
 from infill.checks import check_positive, check_range
 from infill.errors import ParameterError, UsageError
 from infill.phasefield.allen_cahn import Smoothing
-from infill.phasefield.profile import PLAIN_PROFILE, REFINED_PROFILE, Profile
 from infill.phasefield.schedule import MIN_STEPS, SNAPSHOT_QUARTERS
 
 if TYPE_CHECKING:
@@ -116,11 +115,6 @@ class SmoothRequest:
     def refined(self) -> bool:
         """Whether edges and thin walls are refined; "auto" counts as no."""
         return self.method in ("refine", "grey")
-
-    @property
-    def profile(self) -> Profile:
-        """The profile on which the level that keeps the volume is found."""
-        return REFINED_PROFILE if self.refined else PLAIN_PROFILE
 
     @property
     def total_steps(self) -> float:

@@ -10,11 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import ParameterError
-from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.schedule import MIN_STEPS
-from infill.phasefield.sparse import smooth_bricks
 from infill.smoothing.request import AUTO, SmoothInput, SmoothRequest, Way
-from infill.smoothing.stages import raw_surface
+from infill.smoothing.stages import surface_of_data
 from infill.volume import Volume
 from infill.voxels.coarsening import coarsen
 from infill.voxels.noise import NOISY, noise_share
@@ -129,7 +127,7 @@ def scan_ways(
         despeckle = despeckle or (SPECK_CELLS * scan.cell_volume if noise > NOISY and not paper else 0.0)
     grey = grey or method == "grey"
     data = scan if phase else scale_grey_values(scan, float(used["low"])) if grey else solid
-    smooth_input = _scan_input(data, solid, {**facts, "noise": noise, "grey": grey})
+    smooth_input = _scan_input(data, solid, {**facts, "noise": noise, "grey": grey}, request.threads)
     smooth_input = smooth_input if volume is None else replace(smooth_input, volume=volume)
     first = replace(request, method=method, refine=None, despeckle=despeckle)
     ways = [Way(name=method, data=smooth_input, request=first)]
@@ -151,17 +149,16 @@ def _has_grey_values(values: NDArray[Any], ends: list[float]) -> bool:
     return bool(((sampled_layers > ends[0]) & (sampled_layers < ends[1])).any())
 
 
-def _scan_input(data: Volume, solid: Volume, facts: Mapping[str, Any]) -> SmoothInput:
+def _scan_input(data: Volume, solid: Volume, facts: Mapping[str, Any], threads: int | None) -> SmoothInput:
     """Return the input of a scan; thick slices are interpolated."""
     axis, count = plan_sublayers(solid)
     facts = {**facts, "slices": count}
     if count == 1:
         return SmoothInput(data=data, facts=facts)
-    mask = smooth_bricks(solid.values, Smoothing(steps=0))
     return SmoothInput(
         data=interpolate_slices(data, axis, count),
         facts=facts,
-        voxel_surface=raw_surface(mask, solid, None),
+        voxel_surface=surface_of_data(solid, threads),
         volume=None if data is not solid else count_solid_cells(np.asarray(solid.values)) * solid.cell_volume,
         cell=float(solid.cell_size.max()),
     )

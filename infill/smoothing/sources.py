@@ -183,7 +183,7 @@ def smooth_source(
     source: Source, **options: Unpack[SourceOptions]
 ) -> Result[SmoothStages, SmoothReport] | Result[ComponentStages, ComponentsReport]:
     """Smooth the data of `read_source`; raise ParameterError for options that do not fit their kind."""
-    from infill.smoothing.solids import smooth_mesh, smooth_points, smooth_volume
+    from infill.smoothing.job import smooth_mesh, smooth_points, smooth_volume
 
     choice, smooth_options = separate_choice(source, options)
     if isinstance(source, Volume):
@@ -216,7 +216,7 @@ def separate_choice(source: Source, options: SourceOptions) -> tuple[dict[str, A
     given = {name: value for name, value in options.items() if value is not None and value is not False}
     choice: dict[str, Any] = {name: given[name] for name in CHOICES if name in given}
     shared = {name: value for name, value in options.items() if name not in CHOICES}
-    kind = kind_of(source)
+    kind = "volume" if isinstance(source, Volume) else "mesh" if isinstance(source, Surface) else "points"
     if unfit := [name for name in choice if name not in OPTIONS_OF_KIND[kind]]:
         kinds = [candidate for candidate in KINDS if unfit[0] in OPTIONS_OF_KIND[candidate]]
         raise ParameterError.about(
@@ -235,11 +235,6 @@ def separate_choice(source: Source, options: SourceOptions) -> tuple[dict[str, A
             raise GeometryError(f"all {len(source)} points are one point; give points all around the part")
         choice["voxel"] = voxel_size(longest, voxel=choice.get("voxel"), resolution=choice.pop("resolution", None))
     return choice, cast("SmoothOptions", shared)
-
-
-def kind_of(source: Source) -> Kind:
-    """Return the kind of data that `read_source` returned."""
-    return "volume" if isinstance(source, Volume) else "mesh" if isinstance(source, Surface) else "points"
 
 
 def _guess_kind(path: Path) -> Kind:

@@ -10,7 +10,8 @@ import numpy as np
 
 from infill.isosurfaces.sparse_marching import extract_bricks
 from infill.machine import require_memory
-from infill.phasefield.sparse import SparseField
+from infill.phasefield.allen_cahn import Smoothing
+from infill.phasefield.sparse import SparseField, smooth_bricks
 from infill.surface import Surface
 from infill.volume import Volume
 
@@ -67,6 +68,11 @@ class SmoothStages:
         after = f"smoothed: {report['request']['steps']} steps, {report['triangles']:,} triangles"
         cell = float(self.data.cell_size.max())
         return draw_before_and_after(input_surface, surface, cell=cell, report=report, captions=(before, after))
+
+
+def surface_of_data(data: Volume, threads: int | None) -> Surface:
+    """Extract the surface of data as they are, placed in space."""
+    return raw_surface(smooth_bricks(data.values, Smoothing(steps=0), threads=threads), data, threads)
 
 
 def raw_surface(field: SparseField, data: Volume, threads: int | None) -> Surface:

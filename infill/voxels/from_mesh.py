@@ -16,7 +16,7 @@ from infill.meshes.hole_filling import component_volumes, fill_holes
 from infill.meshes.merging import merge_unless_closed
 from infill.surface import Surface
 from infill.volume import Volume
-from infill.voxels.partial import EnclosedVolumes, distances_in_cells, measure_enclosed
+from infill.voxels.partial import EnclosedVolumes, measure_enclosed
 from infill.voxels.scanlines import SLAB, fill_rows_and_count, intersect_rows, is_inside_out
 
 RESOLUTION = 200  # cells along the longest side by default
@@ -74,10 +74,6 @@ class VoxelisedMesh:
     closed: Surface
     enclosed: EnclosedVolumes
     several: bool
-
-    def distances(self, reach: float, *, threads: int | None = None) -> NDArray[np.float32]:
-        """Measure the distance of the cell centres from the mesh: see `infill.voxels.partial.distances_in_cells`."""
-        return distances_in_cells(self.closed, self.volume, reach, several=self.several, threads=threads)
 
 
 def grid_around(

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from infill.kernels.threads import in_threads, thread_count
 from infill.meshes.winding import winding_numbers
+from infill.phasefield.refining import cut_off_distance, phase_from_distance
 from infill.ragged import expand_rows
 from infill.surface import Surface
 from infill.volume import Volume
@@ -70,6 +71,22 @@ class EnclosedVolumes:
     def total(self) -> float:
         """Volume of the union of all components, mm³."""
         return float(self.volumes.sum() - self.excess.sum())
+
+
+def phase_field_of_mesh(
+    mesh: Surface, inside: Volume, interface: float, *, several: bool, threads: int | None = None
+) -> Volume:
+    """Return the phase field whose surface is a mesh, from the distance of the cells from it.
+
+    Parameters
+    ----------
+    mesh, inside, several, threads
+        See `distances_in_cells`.
+    interface : float
+        Width of the interface, cells: see `infill.Smoothing`.
+    """
+    distance = distances_in_cells(mesh, inside, cut_off_distance(interface), several=several, threads=threads)
+    return replace(inside, values=phase_from_distance(distance, interface, threads=threads))
 
 
 def distances_in_cells(
