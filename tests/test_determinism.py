@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import sys
 import time
@@ -16,6 +17,7 @@ import numpy as np
 import pytest
 import trimesh
 
+import infill
 from infill import Smoothing, smooth_mesh, smooth_points, smooth_volume
 from infill.smoothing.attempt import estimate_surface_cells
 from infill.smoothing.remedies import MAX_WORK, estimate_work
@@ -124,6 +126,17 @@ def test_the_order_of_hashes_changes_nothing(folder: Path) -> None:
     ]
     assert len(printed[0].split()) == len(SOURCES)
     assert printed[0] == printed[1]
+
+
+def test_clocks_are_read_only_where_time_is_told() -> None:
+    """In reports, forecasts and plans, and to warn: nothing that makes a file may import a clock."""
+    package = Path(infill.__file__).parent
+    readers = {
+        path.relative_to(package).as_posix()
+        for path in package.rglob("*.py")
+        if re.search(r"^\s*(import time\b|from time import)", path.read_text(encoding="utf-8"), re.MULTILINE)
+    }
+    assert readers == {"cli/__init__.py", "cli/foreseeing.py", "making/duration.py", "result.py", "smoothing/plan.py"}
 
 
 def half_space(side: int) -> Volume:
