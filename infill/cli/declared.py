@@ -59,15 +59,18 @@ def _parameter(entry: DeclaredOption, complete: Callable[[str], Any] | None) -> 
     """Return the parameter of a command for an option; None stands for an option that was not typed."""
     option = entry.option
     flag = f"{entry.flag}/--no-{entry.flag[2:]}" if option.negatable else entry.flag
-    annotation = Annotated[
-        (option.typed or entry.kind) | None,  # type: ignore[misc]
-        typer.Option(
-            flag,
-            metavar=entry.placeholder,
-            help=entry.help,
-            rich_help_panel=option.group,
-            show_default=False,
-            autocompletion=complete,
-        ),
-    ]
-    return inspect.Parameter(entry.field, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation)
+    kind: Any = (option.typed or entry.kind) | None
+    described = typer.Option(
+        flag,
+        metavar=entry.placeholder,
+        help=entry.help,
+        rich_help_panel=option.group,
+        show_default=False,
+        autocompletion=complete,
+    )
+    return inspect.Parameter(
+        entry.field,
+        inspect.Parameter.KEYWORD_ONLY,
+        default=None,
+        annotation=Annotated[kind, described],
+    )

@@ -108,9 +108,14 @@ READERS: Mapping[Any, Reader] = {
 }
 
 
-@cache
 def declared_options(declaration: type[Any]) -> Mapping[str, DeclaredOption]:
     """Return the options that a dataclass declares, by key, in the order of their fields."""
+    described: Any = declaration
+    return _read_fields(described)
+
+
+@cache
+def _read_fields(declaration: Any) -> Mapping[str, DeclaredOption]:  # noqa: ANN401 - a class, as a cache takes it
     hints = get_type_hints(declaration, include_extras=True)
     declared = {}
     for field in fields(declaration):

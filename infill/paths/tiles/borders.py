@@ -124,7 +124,7 @@ def _cluster_points(points: Floats, size: tuple[float, float], tolerance: float)
     pairs = KDTree(wrapped, boxsize=box).query_pairs(tolerance, output_type="ndarray")
     label, _ = label_connected(pairs[:, 0], pairs[:, 1], len(points))
     _, representatives = np.unique(label, return_index=True)
-    return label, wrapped[representatives]
+    return label.astype(np.intp), wrapped[representatives]
 
 
 def _copies_in_tile(lines: list[Line], size: tuple[float, float]) -> list[Line]:
