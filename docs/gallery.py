@@ -13,9 +13,7 @@ from infill.inspection.stiffness import Stiffness, homogenise_stiffness
 from infill.lattices.stages import FillStages
 from infill.pictures.render import render
 from infill.report_keys import FillReport
-from patterns import PATTERNS, Pattern, parameters
-from patterns.cellular import CELLULAR, InSpace
-from patterns.lightning import LIGHTNING
+from patterns import PATTERNS, Cells, Lightning, Pattern, parameters
 from patterns.polyhedra import Polyhedra
 from patterns.unit_cells import Bars, Cellular, Network, Planes, Surfaces
 
@@ -117,11 +115,11 @@ def shown(name: str, solid: Surface) -> None:
 
 def filled(name: str, density: float = DENSITY) -> Result[FillStages, FillReport]:
     """Return the cube with a pattern in it."""
-    asked = None if name == LIGHTNING.name else density
+    asked = None if name == Lightning.name else density
     return fill(trimesh.creation.box((SIDE, SIDE, SIDE)), name, density=asked, wall=WALL)
 
 
-def size_at(name: str, kind: InSpace | type[Pattern], density: float) -> str:
+def size_at(name: str, kind: Cells | Pattern, density: float) -> str:
     """Return what gives a density, if anything does."""
     try:
         report = filled(name, density).report
@@ -130,13 +128,13 @@ def size_at(name: str, kind: InSpace | type[Pattern], density: float) -> str:
     return size_of(kind, report) if abs(report["density"] - density) < OFF else ""
 
 
-def size_of(kind: InSpace | type[Pattern], report: FillReport) -> str:
+def size_of(kind: Cells | Pattern, report: FillReport) -> str:
     """Return the cell of walls, or how thick bars are."""
     sizes = report["infill"]
     return f"{sizes['line_width']:.2f} thick" if isinstance(kind, Bars | Network) else f"{sizes['cell']:.1f}"
 
 
-def size_table(kinds: dict[str, InSpace | type[Pattern]], usual: dict[str, str]) -> str:
+def size_table(kinds: dict[str, Cells | Pattern], usual: dict[str, str]) -> str:
     """Return the table of sizes at some densities, of which one is known."""
     densities = sorted({DENSITY, *OTHERS})
     rows = []
@@ -150,14 +148,14 @@ def size_table(kinds: dict[str, InSpace | type[Pattern]], usual: dict[str, str])
     return head + "\n".join(rows) + "\n"
 
 
-def entry(name: str, kind: InSpace | type[Pattern], result: Result[FillStages, FillReport]) -> tuple[str, str]:
+def entry(name: str, kind: Cells | Pattern, result: Result[FillStages, FillReport]) -> tuple[str, str]:
     """Return the row and the section of a pattern, and write its picture."""
     shown(name, result.surface)
     sizes, voids = result.report["infill"], result.report["voids"]["count"]
     found = homogenise_stiffness(cell_of(kind)) if isinstance(kind, Cellular) else None
     columns = [f"[{name}](#{name})", f"{sizes['cell']:.1f}", f"{sizes['line_width']:.2f}", *modulus(found, kind)]
     columns += [f"{overhang(result.stages.voids):.0%}", str(voids)]
-    own = [each for each in parameters(type(kind) if isinstance(kind, InSpace) else kind) if each not in GIVEN]
+    own = [each for each in parameters(kind) if each not in GIVEN]
     options = f" Its own parameters: {', '.join(f'`--set {each}`' for each in own)}." if own else ""
     picture = f"![{name}](pictures/gallery/{name}.png)"
     section = f"## {name}\n\n{kind.summary[0].upper()}{kind.summary[1:]}.{options}\n\n{picture}\n"
@@ -167,16 +165,15 @@ def entry(name: str, kind: InSpace | type[Pattern], result: Result[FillStages, F
 def main() -> None:
     """Fill a cube with every pattern, and write the page."""
     FOLDER.mkdir(parents=True, exist_ok=True)
-    kinds: dict[str, InSpace | type[Pattern]] = {
-        **CELLULAR,
-        **{name: kind for name, kind in PATTERNS.built_in.items() if kind.prismatic},
+    kinds: dict[str, Cells | Pattern] = {
+        name: PATTERNS[name]() for name in sorted(PATTERNS.built_in, key=lambda name: PATTERNS[name].prismatic)
     }
     rows, sections, light = [], [], 0.0
     usual = {}
     for name, kind in kinds.items():
         result = filled(name)
         row, section = entry(name, kind, result)
-        if name == LIGHTNING.name:
+        if isinstance(kind, Lightning):
             light = result.report["density"]
         else:
             usual[name] = size_of(kind, result.report)

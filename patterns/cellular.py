@@ -1,49 +1,48 @@
-"""The patterns in space, by name: periodic ones, and those that follow the skin of a part."""
+"""Patterns in space: walls or bars around cells that repeat along x, y and z, or follow the skin of a part."""
 
 from __future__ import annotations
 
-import difflib
-from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import ClassVar
 
-from patterns.cross import Cross3D
+from patterns.declared import check_parameters, parameter
 from patterns.errors import PatternError
-from patterns.lightning import LIGHTNING, Lightning
-from patterns.octree import OCTREES, Octree
-from patterns.unit_cells import Cellular
-
-Unlined = Cellular | Octree | Lightning  # no lines at any height describe them
-InSpace = Unlined | Cross3D
 
 
-class _Catalogue(Mapping[str, InSpace]):
-    """Patterns in space by name."""
+@dataclass(frozen=True, kw_only=True)
+class Cells:
+    """Walls or bars around cells in space.
 
-    def _all(self) -> dict[str, InSpace]:
-        from patterns.hatch import CROSS_HATCH
-        from patterns.honeycombs import HONEYCOMBS
-        from patterns.planes import PLANES
-        from patterns.struts import STRUTS
-        from patterns.tpms import NETWORKS, TPMS
+    Parameters
+    ----------
+    name, summary : str
+        The name to type on the command line; what the pattern is for, in one phrase.
+    cell : float, optional
+        Period, mm; None leaves it to a density.
 
-        wall_patterns = (CROSS_HATCH, Cross3D(), *PLANES, *OCTREES, LIGHTNING, *HONEYCOMBS)
-        return {pattern.name: pattern for pattern in (*TPMS, *wall_patterns, *NETWORKS, *STRUTS)}
+    Attributes
+    ----------
+    prismatic : bool
+        False, as sections change with height.
+    bars : bool
+        True for bars with one void around all of them, instead of walls.
+    repeats : bool
+        False if the cells follow the skin of a part.
+    paths : bool
+        See `patterns.Pattern`.
+    """
 
-    def __getitem__(self, name: str) -> InSpace:
-        return self._all()[name]
+    prismatic: ClassVar[bool] = False
+    bars: ClassVar[bool] = False
+    repeats: ClassVar[bool] = True
+    paths: ClassVar[bool] = False
 
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._all())
+    name: str = ""
+    summary: str = ""
+    cell: float | None = parameter(None, "period, in place of a density", low=0.001, high=1e4)
 
-    def __len__(self) -> int:
-        return len(self._all())
-
-
-CELLULAR: Mapping[str, InSpace] = _Catalogue()
-
-
-def unknown_pattern_error(name: str, names: Iterable[str]) -> PatternError:
-    """Return the error for an unknown pattern, with the nearest known name."""
-    names = list(names)
-    matches = difflib.get_close_matches(name.lower(), names, n=1, cutoff=0.4)
-    advice = f"did you mean {matches[0]!r}?" if matches else f"there are {', '.join(names)}"
-    return PatternError(f"there is no pattern {name!r}; {advice}")
+    def __post_init__(self) -> None:
+        """Check the parameters."""
+        if not self.name:
+            raise PatternError(f"a pattern of {type(self).__name__} has no name; give name='mine'")
+        check_parameters(self)

@@ -24,6 +24,7 @@ class Concentric(Pattern):
 
     name: ClassVar[str] = "concentric"
     summary: ClassVar[str] = "lines parallel to the outline, one inside another"
+    paths: ClassVar[bool] = True
     follows: ClassVar[bool] = True
 
     cell: float = cell_parameter()

@@ -35,6 +35,7 @@ class Cross(Pattern):
 
     name: ClassVar[str] = "cross"
     summary: ClassVar[str] = "one line around a tree of crosses: soft in every direction"
+    paths: ClassVar[bool] = True
 
     cell: float = cell_parameter(4.0)
     angle: float = angle_parameter()
@@ -74,6 +75,7 @@ class Cross3D(Cross):
     name: ClassVar[str] = "cross-3d"
     summary: ClassVar[str] = "the walls of cross, winding upwards: soft in every direction, from above too"
     prismatic: ClassVar[bool] = False
+    paths: ClassVar[bool] = False
 
     lean: float = parameter(45.0, "how far walls lean from upright, at most", unit="deg", low=5.0, high=60.0)
 

@@ -21,6 +21,10 @@ MAX_SHOWN_LENGTH = 60  # signs of a value in a message
 SHOWN_UNITS = {"mm": " mm", "deg": " degrees", "": ""}
 
 
+class DefaultLength(float):
+    """A length that nobody gave, unlike the same number: a product may choose another in its place."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Parameter:
     """Range, unit and meaning of one field of a pattern.
@@ -127,6 +131,21 @@ def parameter_values(pattern: object) -> dict[str, Any]:
     return {name: as_json_value(value) for name, value in values.items() if name not in replaced}
 
 
+def given_parameters(pattern: object) -> dict[str, Any]:
+    """Return the parameters that were given when a pattern was made, by name: those that are not their defaults.
+
+    >>> from patterns import Honeycomb
+    >>> given_parameters(Honeycomb()), given_parameters(Honeycomb(cell=6, angle=0))
+    ({}, {'cell': 6.0})
+    """
+    values = {name: (getattr(pattern, name), field.default) for name, (field, _) in parameters(pattern).items()}
+    return {
+        name: value
+        for name, (value, default) in values.items()
+        if value != default or isinstance(default, DefaultLength) > isinstance(value, DefaultLength)
+    }
+
+
 def as_json_value(value: object) -> object:
     """Convert a tuple to a list, as JSON and TOML return it."""
     return list(value) if isinstance(value, tuple) else value
@@ -223,6 +242,8 @@ def _number(value: object, declaration: Parameter) -> float | None:
         return None
     if not math.isfinite(number) or not declaration.low <= number <= declaration.high:
         return None
+    if isinstance(value, DefaultLength):
+        return value
     if declaration.whole:
         return int(number) if number == round(number) else None
     return number

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from patterns.declared import check_parameters, parameter
+from patterns.declared import parameter
 from patterns.scattering import scatter_points
 from patterns.shared import seed_parameter
 from patterns.unit_cells import Bars
@@ -22,20 +22,18 @@ ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, kw_only=True)
-class Foam(Bars):
+class VoronoiFoam(Bars):
     """Bars along the edges of Voronoi cells, 27 to a period of 3 cells, evened out by Lloyd's method.
 
     Source: Lloyd, "Least squares quantization in PCM", IEEE Trans. Inf. Theory 28 (1982) 129-137.
     """
 
+    name: str = "voronoi-foam"
+    summary: str = "irregular cells, as in sponge and bone; no direction is weaker than another"
     edges: tuple[()] = ()
     cells: int = CELLS_PER_PERIOD
     seed: int = seed_parameter()
     even: int = parameter(3, "how often cells are evened out", unit="", low=0, high=20, whole=True)
-
-    def __post_init__(self) -> None:
-        """Check the parameters."""
-        check_parameters(self)
 
     def axes(self) -> Floats:
         """Return the edges of the Voronoi cells: (E, 2, 3), in periods."""

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
 
 from patterns.unit_cells import Surfaces
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from patterns.unit_cells import Floats
 
 
@@ -28,8 +31,12 @@ def cross_hatch(x: Floats, y: Floats, z: Floats) -> Floats:
     return value
 
 
-CROSS_HATCH = Surfaces(
-    name="cross-hatch",
-    summary="upright walls, alternately along y and along x; both sides hang together",
-    value=cross_hatch,
-)
+@dataclass(frozen=True, kw_only=True)
+class CrossHatch(Surfaces):
+    """Walls alternately along y and along x, half a cell apart."""
+
+    paths: ClassVar[bool] = True
+
+    name: str = "cross-hatch"
+    summary: str = "upright walls, alternately along y and along x; both sides hang together"
+    value: Callable[[Floats, Floats, Floats], Floats] = cross_hatch

@@ -55,6 +55,7 @@ class ConcentricHeart(Pattern):
 
     name: ClassVar[str] = "concentric-heart"
     summary: ClassVar[str] = "nested hearts; lines that follow an outline and never cross"
+    paths: ClassVar[bool] = True
 
     cell: float = cell_parameter()
     hearts: int | None = parameter(

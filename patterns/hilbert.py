@@ -28,6 +28,7 @@ class Hilbert(Pattern):
 
     name: ClassVar[str] = "hilbert"
     summary: ClassVar[str] = "one line, folded through the region; equally stiff in x and y"
+    paths: ClassVar[bool] = True
 
     cell: float = cell_parameter(4.0)
     angle: float = angle_parameter()

@@ -27,6 +27,7 @@ class Honeycomb(Pattern):
 
     name: ClassVar[str] = "honeycomb"
     summary: ClassVar[str] = "stiff in every direction for little material"
+    paths: ClassVar[bool] = True
 
     cell: float = cell_parameter()
     angle: float = angle_parameter()

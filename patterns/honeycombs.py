@@ -5,41 +5,49 @@ from __future__ import annotations
 import itertools
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
-from patterns.declared import check_parameters, parameter
-from patterns.polyhedra import Polyhedra
+from patterns.declared import parameter
+from patterns.polyhedra import Polyhedra, Vector
 
 if TYPE_CHECKING:
     from patterns.polyhedra import Floats
 
 SLANTED = 1 / math.sqrt(3)
 
+NORMALS = (
+    (1.0, 0.0, 0.0),
+    (0.0, 1.0, 0.0),
+    (0.0, 0.0, 1.0),
+    (SLANTED, SLANTED, SLANTED),
+    (SLANTED, SLANTED, -SLANTED),
+    (SLANTED, -SLANTED, SLANTED),
+    (-SLANTED, SLANTED, SLANTED),
+)
 # In half cells, the middles are the points whose coordinates are all even, or all odd: a body-centred lattice. For two
 # cells that touch, the sums of these coordinates differ by 1, 2 or 3.
-HONEYCOMB_3D = Polyhedra(
-    name="honeycomb-3d",
-    summary="truncated octahedra: closed cells, about as stiff in every direction",
-    normals=(
-        (1.0, 0.0, 0.0),
-        (0.0, 1.0, 0.0),
-        (0.0, 0.0, 1.0),
-        (SLANTED, SLANTED, SLANTED),
-        (SLANTED, SLANTED, -SLANTED),
-        (SLANTED, -SLANTED, SLANTED),
-        (-SLANTED, SLANTED, SLANTED),
-    ),
-    halves=(0.5, 0.5, 0.5, *(0.75 * SLANTED,) * 4),  # |x| + |y| + |z| <= 3/4
-    period=(2.0, 2.0, 2.0),
-    middles=tuple(
-        tuple(
-            (x / 2, y / 2, z / 2)
-            for x, y, z in itertools.product(range(4), repeat=3)
-            if x % 2 == y % 2 == z % 2 and (x + y + z) % 4 == which
-        )
-        for which in range(4)
-    ),
+MIDDLES = tuple(
+    tuple(
+        (x / 2, y / 2, z / 2)
+        for x, y, z in itertools.product(range(4), repeat=3)
+        if x % 2 == y % 2 == z % 2 and (x + y + z) % 4 == which
+    )
+    for which in range(4)
 )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Honeycomb3D(Polyhedra):
+    """Walls of truncated octahedra."""
+
+    paths: ClassVar[bool] = True
+
+    name: str = "honeycomb-3d"
+    summary: str = "truncated octahedra: closed cells, about as stiff in every direction"
+    normals: tuple[Vector, ...] = NORMALS
+    halves: tuple[float, ...] = (0.5, 0.5, 0.5, *(0.75 * SLANTED,) * 4)  # |x| + |y| + |z| <= 3/4
+    period: Vector = (2.0, 2.0, 2.0)
+    middles: tuple[tuple[Vector, ...], ...] = MIDDLES
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,15 +58,13 @@ class LateralHoneycomb(Polyhedra):
     hexagons.
     """
 
+    paths: ClassVar[bool] = True
+
     name: str = "lateral-honeycomb"
     summary: str = "hexagonal tubes on their side, along x; leaning walls print without support"
     overhang: float = parameter(
         45.0, "how far walls lean from upright; 60 makes hexagons regular", unit="deg", low=30.0, high=75.0
     )
-
-    def __post_init__(self) -> None:
-        """Check the parameters."""
-        check_parameters(self)
 
     def faces(self) -> tuple[Floats, Floats]:
         """See `Polyhedra`."""
@@ -83,7 +89,3 @@ class LateralHoneycomb(Polyhedra):
         """Return the width of a wall, and the rise of a leaning one, in cells."""
         leaning = math.radians(self.overhang)
         return 0.5 / math.sin(leaning), 0.5 / math.tan(leaning)
-
-
-LATERAL_HONEYCOMB = LateralHoneycomb()
-HONEYCOMBS = (HONEYCOMB_3D, LATERAL_HONEYCOMB)

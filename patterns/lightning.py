@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from patterns.declared import check_parameters, parameter
+from patterns.cellular import Cells
+from patterns.declared import parameter
 
 
 @dataclass(frozen=True, kw_only=True)
-class Lightning:
+class Lightning(Cells):
     """Upright walls under roofs: branches that end at the walls of the part, and whose lower edges rise to their tips.
 
     Below every roof there are twigs about a cell apart. Each goes to the nearest branch or wall; further down, tips
@@ -17,7 +18,8 @@ class Lightning:
 
     Parameters
     ----------
-    name, summary : str
+    name, summary, cell
+        See `Cells`.
     overhang : float
         Degrees from upright that lower edges lean; a steeper surface does not count as a roof.
     first : (x, y)
@@ -32,19 +34,10 @@ class Lightning:
     Graphics Forum 39 (2020) 147-159, whose ribs also lean from their load to existing walls.
     """
 
+    repeats: ClassVar[bool] = False
     cells: ClassVar[int] = 8
 
-    name: str
-    summary: str
+    name: str = "lightning"
+    summary: str = "branches below roofs alone, which lean to the walls: carries tops with the least material"
     first: tuple[float, float] = (0.3, 0.2)
     overhang: float = parameter(45.0, "how far walls lean out, from upright", unit="deg", low=10.0, high=60.0)
-
-    def __post_init__(self) -> None:
-        """Check the parameters."""
-        check_parameters(self)
-
-
-LIGHTNING = Lightning(
-    name="lightning",
-    summary="branches below roofs alone, which lean to the walls: carries tops with the least material",
-)

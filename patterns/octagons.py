@@ -35,6 +35,7 @@ class Octagons(Pattern):
 
     name: ClassVar[str] = "octagons"
     summary: ClassVar[str] = "octagons and squares: round cells, three walls at every corner"
+    paths: ClassVar[bool] = True
 
     cell: float = cell_parameter(7.0)
     angle: float = angle_parameter()

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
-from patterns.declared import check_parameters, parameter
+from patterns.cellular import Cells
+from patterns.declared import parameter
 from patterns.planes import ON_A_CORNER
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ Rows = tuple[tuple[float, float, float], ...]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Octree:
+class Octree(Cells):
     """Walls around cubes: the smallest have the side `cell`, larger ones twice, four times ... that.
 
     A cube is split into eight, down to the smallest, if the followed surface is nearer to its middle than half its
@@ -29,7 +30,8 @@ class Octree:
 
     Parameters
     ----------
-    name, summary : str
+    name, summary, cell
+        See `Cells`.
     roofs : bool
         Whether it follows only surfaces above, flatter than 45 degrees, not the entire inner side of the walls.
     upright : three rows of (x, y, z)
@@ -38,19 +40,13 @@ class Octree:
         Most doublings of a cube.
     """
 
-    bars: ClassVar[bool] = False
+    repeats: ClassVar[bool] = False
 
-    name: str
-    summary: str
     roofs: bool = False
     upright: Rows = ON_A_CORNER
     levels: int = parameter(
         2, "how often cubes are doubled where they may be larger", unit="", low=1, high=4, whole=True
     )
-
-    def __post_init__(self) -> None:
-        """Check the parameters."""
-        check_parameters(self)
 
     @property
     def cells(self) -> int:
@@ -64,6 +60,23 @@ class Octree:
         In the middle of a cube of twice the side of the smallest, and far from the faces of all larger ones.
         """
         return round(self.cells / 3)
+
+
+@dataclass(frozen=True, kw_only=True)
+class AdaptiveCubic(Octree):
+    """Cubes that are small at the walls."""
+
+    name: str = "adaptive-cubic"
+    summary: str = "cubes on their corners, small at the walls and large inside: light where little is needed"
+
+
+@dataclass(frozen=True, kw_only=True)
+class SupportCubic(Octree):
+    """Cubes that are small below roofs."""
+
+    name: str = "support-cubic"
+    summary: str = "cubes on their corners, small below roofs and large elsewhere: carries tops, and little else"
+    roofs: bool = True
 
 
 def cube_levels(whole: Sequence[Flags]) -> NDArray[np.uint8]:
@@ -100,16 +113,3 @@ def cube_levels(whole: Sequence[Flags]) -> NDArray[np.uint8]:
             covered = covered.repeat(1 << level, axis=axis)
         levels[covered] = level
     return levels
-
-
-ADAPTIVE_CUBIC = Octree(
-    name="adaptive-cubic",
-    summary="cubes on their corners, small at the walls and large inside: light where little is needed",
-)
-SUPPORT_CUBIC = Octree(
-    name="support-cubic",
-    summary="cubes on their corners, small below roofs and large elsewhere: carries tops, and little else",
-    roofs=True,
-)
-
-OCTREES = (ADAPTIVE_CUBIC, SUPPORT_CUBIC)

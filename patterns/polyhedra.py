@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
+from patterns.cellular import Cells
+
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
@@ -15,12 +17,13 @@ Vector = tuple[float, float, float]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Polyhedra:
+class Polyhedra(Cells):
     """Walls around shifted copies of one polyhedron, whose faces are parallel in pairs.
 
     Parameters
     ----------
-    name, summary : str
+    name, summary, cell
+        See `Cells`.
     normals : tuple of (x, y, z)
         Unit vectors, one for each pair of faces.
     halves : tuple of float
@@ -32,11 +35,8 @@ class Polyhedra:
         class do not touch, not even at a corner.
     """
 
-    bars: ClassVar[bool] = False
     cells: ClassVar[int] = 1
 
-    name: str
-    summary: str
     normals: tuple[Vector, ...] = ()
     halves: tuple[float, ...] = ()
     period: Vector = (1.0, 1.0, 1.0)
@@ -62,9 +62,9 @@ class Polyhedra:
     def distance(self, points: Floats) -> Floats:
         """Return the distance of points (N, 3), in cells, from the nearest wall: (N,), in cells.
 
-        >>> from patterns.honeycombs import HONEYCOMB_3D
+        >>> from patterns import Honeycomb3D
         >>> import numpy as np
-        >>> HONEYCOMB_3D.distance(np.array([[0.0, 0.0, 0.0], [0.5, 0.1, 0.0]])).round(3).tolist()
+        >>> Honeycomb3D().distance(np.array([[0.0, 0.0, 0.0], [0.5, 0.1, 0.0]])).round(3).tolist()
         [0.433, 0.0]
         """
         import numpy as np

@@ -1,9 +1,11 @@
-"""The protocol of a pattern: lines in a plane at height z, a level set in space, or both."""
+"""The protocol of a pattern, and what patterns offer: lines, a level set, cells in space, paths of beads."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar, Protocol, runtime_checkable
+import dataclasses
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol, runtime_checkable
 
+from patterns.cellular import Cells
 from patterns.declared import check_parameters
 from patterns.errors import PatternError
 
@@ -13,7 +15,7 @@ if TYPE_CHECKING:
     from shapely import MultiLineString, MultiPolygon, Polygon
 
 REQUIRED_ATTRIBUTES = ("name", "summary", "prismatic", "points", "line_spacing")
-LINES, LEVEL_SET = "lines", "level set"
+LINES, LEVEL_SET, CELLS, PATHS = "lines", "level set", "cells", "paths"
 
 
 class Pattern(Protocol):
@@ -34,6 +36,8 @@ class Pattern(Protocol):
     follows : bool
         True if the lines follow the outline of the region: in a part, that of its inside as seen from above. Such a
         pattern is neither turned nor shifted.
+    paths : bool
+        True if `refill` has paths drawn for this very class; it draws those of others along their lines.
 
     Notes
     -----
@@ -46,6 +50,7 @@ class Pattern(Protocol):
     summary: ClassVar[str]
     prismatic: ClassVar[bool] = True
     follows: ClassVar[bool] = False
+    paths: ClassVar[bool] = False
 
     def lines(self, region: Polygon | MultiPolygon, z: float = 0.0) -> MultiLineString:
         """Return the centre lines of the walls at height `z`, clipped to `region`.
@@ -138,6 +143,14 @@ def draw_lines(pattern: Pattern, region: Polygon | MultiPolygon, z: float = 0.0)
         raise PatternError(f"the pattern {pattern.name} failed: {type(error).__name__}: {message}") from error
 
 
+def with_cell(pattern: Pattern, cell: float) -> Pattern:
+    """Set the cell of a pattern, mm, and drop its frame."""
+    overrides: dict[str, Any] = {"cell": cell} if hasattr(pattern, "cell") else {}
+    if hasattr(pattern, "frame"):
+        overrides["frame"] = False
+    return dataclasses.replace(pattern, **overrides)  # type: ignore[type-var]
+
+
 def gives(pattern: object) -> tuple[str, ...]:
     """List the descriptions that a pattern, or a class of patterns, provides: "lines", "level set", or both.
 
@@ -150,11 +163,27 @@ def gives(pattern: object) -> tuple[str, ...]:
     return (LINES,) * has_lines + (LEVEL_SET,) * callable(getattr(pattern, "level_set", None))
 
 
+def offers(pattern: object) -> tuple[str, ...]:
+    """List the forms in which products can have a pattern, or a class of patterns.
+
+    Lines and level sets are walls of a block, cells are voids in a part, and paths are the beads of a layer.
+
+    >>> from patterns import Gyroid, Honeycomb
+    >>> offers(Gyroid), offers(Honeycomb)
+    (('cells', 'paths'), ('lines', 'paths'))
+    """
+    pattern_class = pattern if isinstance(pattern, type) else type(pattern)
+    has_paths = bool(vars(pattern_class).get("paths"))  # those of a base class are not its own
+    return gives(pattern) + (CELLS,) * issubclass(pattern_class, Cells) + (PATHS,) * has_paths
+
+
 def lacking(pattern: object) -> list[str]:
     """List the required attributes that a pattern, or a class of patterns, lacks.
 
     >>> lacking("honeycomb")[:2]
     ['name', 'summary']
     """
+    if CELLS in offers(pattern):
+        return [] if hasattr(pattern, "name") else ["name"]
     missing = [attribute for attribute in REQUIRED_ATTRIBUTES if not hasattr(pattern, attribute)]
     return missing if gives(pattern) else [*missing, "lines or level_set"]

@@ -1,4 +1,4 @@
-"""Patterns by name: the built-in ones and those of installed plug-ins.
+"""Patterns by name: the built-in ones, loaded when they are asked for, and those of installed plug-ins.
 
 A third party adds a pattern with the entry-point group ``infill.patterns``::
 
@@ -8,11 +8,12 @@ A third party adds a pattern with the entry-point group ``infill.patterns``::
 
 from __future__ import annotations
 
-import difflib
+import importlib
 import warnings
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
+from patterns.cellular import Cells
 from patterns.errors import PatternError
 from patterns.protocol import Pattern, lacking
 
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
 
 GROUP = "infill.patterns"
+PatternClass = type[Pattern] | type[Cells]
 
 
 class PatternWarning(UserWarning):
@@ -33,44 +35,60 @@ def installed_plugins() -> list[EntryPoint]:
     return sorted(entry_points(group=GROUP), key=lambda entry: entry.name)
 
 
-class Registry(Mapping[str, type[Pattern]]):
-    """Patterns by name; plug-ins are searched for once, when the registry is first read.
+class Registry(Mapping[str, PatternClass]):
+    """Classes of patterns by name; plug-ins are searched for once, when the registry is first read.
 
+    Parameters
+    ----------
+    built_in : mapping of str to str
+        By name, the module of this package and the class in it, as "honeycomb:Honeycomb".
+    plugins : callable
+        Returns the entry points of plug-ins.
+
+    Notes
+    -----
     A plug-in that cannot be imported, cannot be made without arguments, is not a pattern, or takes a name that is
     already in use causes one `PatternWarning` that names it.
     """
 
     def __init__(
-        self, built_in: tuple[type[Pattern], ...], plugins: Callable[[], list[EntryPoint]] = installed_plugins
+        self, built_in: Mapping[str, str], plugins: Callable[[], list[EntryPoint]] = installed_plugins
     ) -> None:
-        self.built_in: Mapping[str, type[Pattern]] = {pattern.name: pattern for pattern in built_in}
+        self.built_in = built_in
         self._plugins = plugins
-        self._all: dict[str, type[Pattern]] | None = None
+        self._plugged_in: dict[str, PatternClass] | None = None
 
-    def _load_all(self) -> dict[str, type[Pattern]]:
-        if self._all is None:
-            classes = dict(self.built_in)
+    def _load_plugins(self) -> dict[str, PatternClass]:
+        if self._plugged_in is None:
+            classes: dict[str, PatternClass] = {}
             for entry in self._plugins():
                 try:
-                    classes[entry.name] = _load(entry, classes)
+                    classes[entry.name] = _load(entry, [*self.built_in, *classes])
                 except PatternError as error:
                     warnings.warn(str(error), PatternWarning, stacklevel=3)
-            self._all = classes
-        return self._all
+            self._plugged_in = classes
+        return self._plugged_in
 
-    def __getitem__(self, name: str) -> type[Pattern]:
-        if name in self.built_in:
-            return self.built_in[name]
-        return self._load_all()[name]
+    def __getitem__(self, name: str) -> PatternClass:
+        if name not in self.built_in:
+            return self._load_plugins()[name]
+        module, _, class_name = self.built_in[name].partition(":")
+        pattern_class: PatternClass = getattr(importlib.import_module(f"patterns.{module}"), class_name)
+        return pattern_class
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.built_in or name in self._load_plugins()
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._load_all())
+        return iter([*self.built_in, *self._load_plugins()])
 
     def __len__(self) -> int:
-        return len(self._load_all())
+        return len(self.built_in) + len(self._load_plugins())
 
-    def find(self, name: str) -> type[Pattern]:
+    def find(self, name: str) -> PatternClass:
         """Return the pattern called `name`, or raise PatternError suggesting the nearest name."""
+        import difflib
+
         if name in self:
             return self[name]
         matches = difflib.get_close_matches(name.lower(), self, n=1, cutoff=0.4)
@@ -78,7 +96,7 @@ class Registry(Mapping[str, type[Pattern]]):
         raise PatternError(f"there is no pattern {name!r}; {advice} ('infill list' shows all)")
 
 
-def _load(entry: EntryPoint, used_names: Mapping[str, type[Pattern]]) -> type[Pattern]:
+def _load(entry: EntryPoint, used_names: Collection[str]) -> PatternClass:
     """Return the class behind `entry`, or raise PatternError that names the plug-in."""
     prefix = f"plug-in pattern {entry.name!r} ({entry.value}) is left out:"
     if entry.name in used_names:
@@ -91,7 +109,7 @@ def _load(entry: EntryPoint, used_names: Mapping[str, type[Pattern]]) -> type[Pa
         message = " ".join(str(error).split())
         kind = "" if isinstance(error, PatternError) else f"{type(error).__name__}: "
         raise PatternError(f"{prefix} {kind}{message}; repair or uninstall it") from error
-    loaded_class: type[Pattern] = pattern
+    loaded_class: PatternClass = pattern
     return loaded_class
 
 

@@ -14,14 +14,14 @@ from __future__ import annotations
 
 from typing import Any
 
-from patterns.declared import parameter
+from patterns.declared import DefaultLength, parameter
 
 SHARED = ("cell", "angle", "phase", "frame")
 
 
 def cell_parameter(default: float = 6.0) -> Any:  # noqa: ANN401 - a field of type float
     """Return the field for the distance between neighbouring lines, mm."""
-    return parameter(default, "distance between neighbouring lines", low=0.001, high=1e4)
+    return parameter(DefaultLength(default), "distance between neighbouring lines", low=0.001, high=1e4)
 
 
 def angle_parameter(default: float = 0.0) -> Any:  # noqa: ANN401 - a field of type float

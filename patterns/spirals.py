@@ -116,6 +116,7 @@ class ArchimedeanChords(Spiral):
 
     name: ClassVar[str] = "archimedean-chords"
     summary: ClassVar[str] = "a round spiral, in and out again; no corners"
+    paths: ClassVar[bool] = True
     half: ClassVar[Callable[[int], NDArray[np.float64]]] = staticmethod(half_circle)
     inscribed: ClassVar[float] = 1.0
 
@@ -126,5 +127,6 @@ class OctagramSpiral(Spiral):
 
     name: ClassVar[str] = "octagram-spiral"
     summary: ClassVar[str] = "a spiral of eight-pointed stars: walls in four directions"
+    paths: ClassVar[bool] = True
     half: ClassVar[Callable[[int], NDArray[np.float64]]] = staticmethod(half_star)
     inscribed: ClassVar[float] = math.cos(math.pi / 4)

@@ -85,6 +85,7 @@ class Rectilinear(Straight):
 
     name: ClassVar[str] = "rectilinear"
     summary: ClassVar[str] = "parallel walls; stiff along them, and open from end to end"
+    paths: ClassVar[bool] = True
     directions: ClassVar[tuple[Direction, ...]] = ((0.0, 0.0),)
 
 
@@ -94,6 +95,7 @@ class Grid(Straight):
 
     name: ClassVar[str] = "grid"
     summary: ClassVar[str] = "squares: stiff in two directions"
+    paths: ClassVar[bool] = True
     directions: ClassVar[tuple[Direction, ...]] = ((0.0, 0.0), (90.0, 0.0))
 
 
@@ -103,6 +105,7 @@ class Triangles(Straight):
 
     name: ClassVar[str] = "triangles"
     summary: ClassVar[str] = "equilateral triangles: as stiff in every direction as walls can be"
+    paths: ClassVar[bool] = True
     directions: ClassVar[tuple[Direction, ...]] = ((0.0, 0.0), (60.0, 0.0), (120.0, 0.0))
 
 
@@ -112,4 +115,5 @@ class TriHexagon(Straight):
 
     name: ClassVar[str] = "tri-hexagon"
     summary: ClassVar[str] = "hexagons and triangles: as stiff as triangles, with fewer crossings"
+    paths: ClassVar[bool] = True
     directions: ClassVar[tuple[Direction, ...]] = ((0.0, 0.0), (60.0, 0.0), (120.0, 0.5))

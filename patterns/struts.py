@@ -5,8 +5,8 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterable
+from dataclasses import dataclass
 
-from patterns.foam import Foam
 from patterns.unit_cells import Bars
 
 Node = tuple[float, float, float]
@@ -43,35 +43,56 @@ OCTAHEDRON: tuple[Node, ...] = tuple(
     )
 )
 
-CUBIC = Bars(
-    name="cubic-bars",
-    summary="bars along x, y and z",
-    edges=(((0, 0, 0), (1, 0, 0)), ((0, 0, 0), (0, 1, 0)), ((0, 0, 0), (0, 0, 1))),
-)
-OCTET = Bars(
-    name="octet",
-    summary="octahedra and tetrahedra: the stiffest for its weight",
-    edges=_edges_between((*CORNERS, *FACES), FACES, math.sqrt(0.5)),
-)
-BCC = Bars(
-    name="bcc", summary="bars to the corners of a cube", edges=_edges_between(CORNERS, [CENTRE], math.sqrt(0.75))
-)
-FCC = Bars(
-    name="fcc",
-    summary="bars across the faces of a cube",
-    edges=_edges_between(CORNERS, FACES, math.sqrt(0.5)),
-)
-DIAMOND = Bars(
-    name="diamond",
-    summary="four bars at every node; soft, and prints without support",
-    edges=_edges_between((*CORNERS, *FACES), QUARTERS, math.sqrt(3) / 4),
-)
-KELVIN = Bars(
-    name="kelvin",
-    summary="truncated octahedra, as foam has them",
-    edges=_edges_between(OCTAHEDRON, OCTAHEDRON, math.sqrt(0.125)),
-)
 
-FOAM = Foam(name="voronoi-foam", summary="irregular cells, as in sponge and bone; no direction is weaker than another")
+@dataclass(frozen=True, kw_only=True)
+class CubicBars(Bars):
+    """Bars along the edges of cubes."""
 
-STRUTS = (CUBIC, OCTET, BCC, FCC, DIAMOND, KELVIN, FOAM)
+    name: str = "cubic-bars"
+    summary: str = "bars along x, y and z"
+    edges: tuple[Edge, ...] = (((0, 0, 0), (1, 0, 0)), ((0, 0, 0), (0, 1, 0)), ((0, 0, 0), (0, 0, 1)))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Octet(Bars):
+    """Bars along the edges of octahedra and tetrahedra."""
+
+    name: str = "octet"
+    summary: str = "octahedra and tetrahedra: the stiffest for its weight"
+    edges: tuple[Edge, ...] = _edges_between((*CORNERS, *FACES), FACES, math.sqrt(0.5))
+
+
+@dataclass(frozen=True, kw_only=True)
+class BCC(Bars):
+    """Bars of a body-centred cube."""
+
+    name: str = "bcc"
+    summary: str = "bars to the corners of a cube"
+    edges: tuple[Edge, ...] = _edges_between(CORNERS, [CENTRE], math.sqrt(0.75))
+
+
+@dataclass(frozen=True, kw_only=True)
+class FCC(Bars):
+    """Bars of a face-centred cube."""
+
+    name: str = "fcc"
+    summary: str = "bars across the faces of a cube"
+    edges: tuple[Edge, ...] = _edges_between(CORNERS, FACES, math.sqrt(0.5))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Diamond(Bars):
+    """Bars as atoms in diamond are bound."""
+
+    name: str = "diamond"
+    summary: str = "four bars at every node; soft, and prints without support"
+    edges: tuple[Edge, ...] = _edges_between((*CORNERS, *FACES), QUARTERS, math.sqrt(3) / 4)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Kelvin(Bars):
+    """Bars along the edges of truncated octahedra."""
+
+    name: str = "kelvin"
+    summary: str = "truncated octahedra, as foam has them"
+    edges: tuple[Edge, ...] = _edges_between(OCTAHEDRON, OCTAHEDRON, math.sqrt(0.125))

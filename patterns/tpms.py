@@ -7,11 +7,14 @@ doi:10.1007/BF01313411; Neovius and I-WP after Schoen, NASA TN D-5541 (1970).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
 
 from patterns.unit_cells import Network, Surfaces
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import numpy as np
     from numpy.typing import NDArray
 
@@ -68,27 +71,124 @@ def _i_wp(x: Floats, y: Floats, z: Floats) -> Floats:
     return 2 * (cos(x) * cos(y) + cos(y) * cos(z) + cos(z) * cos(x)) - (cos(2 * x) + cos(2 * y) + cos(2 * z))
 
 
-GYROID = Surfaces(name="gyroid", summary="alike in every direction, prints without support", value=_gyroid)
-SCHWARZ_P = Surfaces(name="schwarz-p", summary="round chambers in rows, open in six directions", value=_schwarz_p)
-SCHWARZ_D = Surfaces(name="schwarz-d", summary="the surface of diamond; stiff, with narrow channels", value=_schwarz_d)
-FISCHER_KOCH_S = Surfaces(name="fischer-koch-s", summary="winding channels, much surface", value=_fischer_koch_s)
-LIDINOID = Surfaces(name="lidinoid", summary="winding channels, the most surface", value=_lidinoid)
-NEOVIUS = Surfaces(name="neovius", summary="chambers with twelve openings; stiff", value=_neovius)
-I_WP = Surfaces(name="i-wp", summary="a wrapped package: chambers along the diagonals", value=_i_wp)
+@dataclass(frozen=True, kw_only=True)
+class Gyroid(Surfaces):
+    """Walls along Schoen's gyroid."""
 
-TPMS = (GYROID, SCHWARZ_P, SCHWARZ_D, FISCHER_KOCH_S, LIDINOID, NEOVIUS, I_WP)
+    paths: ClassVar[bool] = True
+
+    name: str = "gyroid"
+    summary: str = "alike in every direction, prints without support"
+    value: Callable[[Floats, Floats, Floats], Floats] = _gyroid
 
 
-def _network(surfaces: Surfaces, summary: str, *, thinnest: float, side: int = 1) -> Network:
-    name = f"{surfaces.name}-network"
-    return Network(name=name, summary=summary, surfaces=surfaces, side=side, thinnest=thinnest)
+@dataclass(frozen=True, kw_only=True)
+class SchwarzP(Surfaces):
+    """Walls along Schwarz's primitive surface."""
+
+    paths: ClassVar[bool] = True
+
+    name: str = "schwarz-p"
+    summary: str = "round chambers in rows, open in six directions"
+    value: Callable[[Floats, Floats, Floats], Floats] = _schwarz_p
+
+
+@dataclass(frozen=True, kw_only=True)
+class SchwarzD(Surfaces):
+    """Walls along Schwarz's diamond surface."""
+
+    paths: ClassVar[bool] = True
+
+    name: str = "schwarz-d"
+    summary: str = "the surface of diamond; stiff, with narrow channels"
+    value: Callable[[Floats, Floats, Floats], Floats] = _schwarz_d
+
+
+@dataclass(frozen=True, kw_only=True)
+class FischerKochS(Surfaces):
+    """Walls along the surface S of Fischer and Koch."""
+
+    name: str = "fischer-koch-s"
+    summary: str = "winding channels, much surface"
+    value: Callable[[Floats, Floats, Floats], Floats] = _fischer_koch_s
+
+
+@dataclass(frozen=True, kw_only=True)
+class Lidinoid(Surfaces):
+    """Walls along the lidinoid."""
+
+    name: str = "lidinoid"
+    summary: str = "winding channels, the most surface"
+    value: Callable[[Floats, Floats, Floats], Floats] = _lidinoid
+
+
+@dataclass(frozen=True, kw_only=True)
+class Neovius(Surfaces):
+    """Walls along Neovius's surface."""
+
+    name: str = "neovius"
+    summary: str = "chambers with twelve openings; stiff"
+    value: Callable[[Floats, Floats, Floats], Floats] = _neovius
+
+
+@dataclass(frozen=True, kw_only=True)
+class IWP(Surfaces):
+    """Walls along Schoen's surface I-WP."""
+
+    name: str = "i-wp"
+    summary: str = "a wrapped package: chambers along the diagonals"
+    value: Callable[[Floats, Floats, Floats], Floats] = _i_wp
 
 
 # Neovius's surface and the lidinoid have no network: bars along their channels break at usual densities.
-NETWORKS = (
-    _network(GYROID, "bars that wind, three at every node; prints without support", thinnest=0.02),
-    _network(SCHWARZ_P, "thick bars along x, y and z that flow into one another", thinnest=0.08),
-    _network(SCHWARZ_D, "the bars of diamond, as if cast", thinnest=0.04),
-    _network(FISCHER_KOCH_S, "many thin winding bars", thinnest=0.06),
-    _network(I_WP, "bars to the corners of a cube, as if cast", thinnest=0.04, side=-1),
-)
+
+
+@dataclass(frozen=True, kw_only=True)
+class GyroidNetwork(Network):
+    """One side of `Gyroid`."""
+
+    name: str = "gyroid-network"
+    summary: str = "bars that wind, three at every node; prints without support"
+    surfaces: Surfaces = Gyroid()
+    thinnest: float = 0.02
+
+
+@dataclass(frozen=True, kw_only=True)
+class SchwarzPNetwork(Network):
+    """One side of `SchwarzP`."""
+
+    name: str = "schwarz-p-network"
+    summary: str = "thick bars along x, y and z that flow into one another"
+    surfaces: Surfaces = SchwarzP()
+    thinnest: float = 0.08
+
+
+@dataclass(frozen=True, kw_only=True)
+class SchwarzDNetwork(Network):
+    """One side of `SchwarzD`."""
+
+    name: str = "schwarz-d-network"
+    summary: str = "the bars of diamond, as if cast"
+    surfaces: Surfaces = SchwarzD()
+    thinnest: float = 0.04
+
+
+@dataclass(frozen=True, kw_only=True)
+class FischerKochSNetwork(Network):
+    """One side of `FischerKochS`."""
+
+    name: str = "fischer-koch-s-network"
+    summary: str = "many thin winding bars"
+    surfaces: Surfaces = FischerKochS()
+    thinnest: float = 0.06
+
+
+@dataclass(frozen=True, kw_only=True)
+class IWPNetwork(Network):
+    """One side of `IWP`."""
+
+    name: str = "i-wp-network"
+    summary: str = "bars to the corners of a cube, as if cast"
+    surfaces: Surfaces = IWP()
+    side: int = -1
+    thinnest: float = 0.04

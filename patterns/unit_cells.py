@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
+from patterns.cellular import Cells
 from patterns.polyhedra import Polyhedra
 
 if TYPE_CHECKING:
@@ -36,21 +37,19 @@ BINS, BINS_PER_CELL = 12, 6  # along a period, in each of which the edges that m
 
 
 @dataclass(frozen=True, kw_only=True)
-class Surfaces:
+class Surfaces(Cells):
     """Walls along a surface that repeats, with void on both sides: a sheet.
 
     Parameters
     ----------
-    name, summary : str
+    name, summary, cell
+        See `Cells`.
     value : callable
         Takes x, y and z, of one shape, in radians: 2 pi is a cell. Its zeros are the surface.
     """
 
-    bars: ClassVar[bool] = False
     cells: ClassVar[int] = 1
 
-    name: str
-    summary: str
     value: Callable[[Floats, Floats, Floats], Floats]
 
     def distance(self, points: Floats) -> Floats:
@@ -58,9 +57,9 @@ class Surfaces:
 
         It is cut off half a cell away. The search begins at the nearest of many sample points of the surface.
 
-        >>> from patterns.tpms import SCHWARZ_P
+        >>> from patterns import SchwarzP
         >>> import numpy as np
-        >>> SCHWARZ_P.distance(np.array([[0.25, 0.25, 0.25], [0.25, 0.25, 0.26]])).round(3).tolist()
+        >>> SchwarzP().distance(np.array([[0.25, 0.25, 0.25], [0.25, 0.25, 0.26]])).round(3).tolist()
         [0.0, -0.006]
         """
         import numpy as np
@@ -172,14 +171,15 @@ def _unit(vectors: Floats) -> Floats:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Network:
+class Network(Cells):
     """One side of a periodic surface: solid where it is deepest, with one void around all of it.
 
     Its width is twice the distance of the void from the deepest places: the largest thickness.
 
     Parameters
     ----------
-    name, summary : str
+    name, summary, cell
+        See `Cells`.
     surfaces : Surfaces
     side : {1, -1}
         Where the value is above 0, or below.
@@ -190,10 +190,8 @@ class Network:
     bars: ClassVar[bool] = True
     cells: ClassVar[int] = 1
 
-    name: str
-    summary: str
     surfaces: Surfaces
-    side: int
+    side: int = 1
     thinnest: float
 
     def distance(self, points: Floats) -> Floats:
@@ -227,12 +225,13 @@ class BinnedEdges(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Bars:
+class Bars(Cells):
     """Round bars along edges that repeat, with one void around all of them.
 
     Parameters
     ----------
-    name, summary : str
+    name, summary, cell
+        See `Cells`.
     edges : tuple of ((x, y, z), (x, y, z))
         In periods; each repeats along x, y and z.
     cells : int
@@ -241,8 +240,6 @@ class Bars:
 
     bars: ClassVar[bool] = True
 
-    name: str
-    summary: str
     edges: tuple[tuple[tuple[float, float, float], tuple[float, float, float]], ...]
     cells: int = 1
 
@@ -255,8 +252,8 @@ class Bars:
     def around_cell(self) -> BinnedEdges:
         """Return the edges, and copies of them, that may be the nearest of some point in the unit cell.
 
-        >>> from patterns.struts import CUBIC
-        >>> len(CUBIC.around_cell().edges)
+        >>> from patterns import CubicBars
+        >>> len(CubicBars().around_cell().edges)
         36
         """
         import numpy as np
@@ -291,12 +288,13 @@ def _squared_distance(points: Floats, edge: Floats) -> Floats:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Planes:
+class Planes(Cells):
     """Walls along families of parallel planes that cross, and leave closed cells with flat faces.
 
     Parameters
     ----------
-    name, summary : str
+    name, summary, cell
+        See `Cells`.
     normals : tuple of (x, y, z)
         The planes of a family are those where normal . point + offset is a whole number; points are in cells.
     offsets : tuple of float
@@ -305,11 +303,8 @@ class Planes:
         Rotation from the part to the pattern.
     """
 
-    bars: ClassVar[bool] = False
     cells: ClassVar[int] = 1
 
-    name: str
-    summary: str
     normals: tuple[tuple[float, float, float], ...]
     offsets: tuple[float, ...] = ()
     upright: tuple[tuple[float, float, float], ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
@@ -329,9 +324,9 @@ class Planes:
     def distance(self, points: Floats) -> Floats:
         """Return the distance of points (N, 3), in cells, from the nearest plane: (N,), in cells.
 
-        >>> from patterns.planes import CUBIC
+        >>> from patterns import Cubic
         >>> import numpy as np
-        >>> CUBIC.distance(np.array([[0.5, 0.5, 0.5], [0.5, 0.1, 0.5]])).tolist()
+        >>> Cubic().distance(np.array([[0.5, 0.5, 0.5], [0.5, 0.1, 0.5]])).tolist()
         [0.5, 0.1]
         """
         nearest: Floats = abs(self._beside(points)[0]).min(axis=1)

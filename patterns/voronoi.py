@@ -29,6 +29,7 @@ class Voronoi(Pattern):
 
     name: ClassVar[str] = "voronoi"
     summary: ClassVar[str] = "irregular cells; no direction is weaker than another"
+    paths: ClassVar[bool] = True
 
     cell: float = cell_parameter(8.0)
     seed: int = seed_parameter()

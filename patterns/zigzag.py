@@ -28,6 +28,7 @@ class Zigzag(Pattern):
 
     name: ClassVar[str] = "zigzag"
     summary: ClassVar[str] = "two crossing waves, drawn in long, nearly straight strokes"
+    paths: ClassVar[bool] = True
 
     cell: float = cell_parameter()
     waves: float | None = parameter(

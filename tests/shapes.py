@@ -114,7 +114,8 @@ LEVEL_SETS: list[Pattern] = [
     Ripples(frame=False, mirrored=True),
     Ripples(cell=7, angle=23, phase=(1.0, -2.0)),
 ]
-BUILT_IN = list(PATTERNS.built_in)
+BUILT_IN = [name for name in PATTERNS.built_in if PATTERNS[name].prismatic]
+IN_SPACE = {name: PATTERNS[name]() for name in PATTERNS.built_in if name not in BUILT_IN}
 OF_THE_PAPER = ("honeycomb", "zigzag", "concentric-heart")  # walls a cell apart, or more, everywhere
 REGIONS: list[Polygon] = [
     box(-30, -30, 30, 30),

@@ -16,7 +16,7 @@ import pytest
 import trimesh
 from PIL import Image
 from shapely import box
-from shapes import BUILT_IN
+from shapes import BUILT_IN, IN_SPACE
 from typer.testing import CliRunner
 
 import infill
@@ -27,7 +27,6 @@ from infill.cli.listing import BRAILLE_BLANK
 from infill.cli.words import parse_bytes
 from infill.making.settings import MakeSettings, parse_size, resolve
 from patterns import PATTERNS, gives, parameters
-from patterns.cellular import CELLULAR
 from patterns.shared import SHARED
 
 COMMANDS = ["make", "smooth", "fill", "refill", "list", "check", "motion"]
@@ -146,16 +145,16 @@ def test_list_is_one_line_a_pattern() -> None:
         "",
         "in space, for 'infill fill':",
     ]
-    for (name, each), line in zip(CELLULAR.items(), rest[3:], strict=True):
+    for (name, each), line in zip(IN_SPACE.items(), rest[3:], strict=True):
         assert line.split() == [name, *each.summary.split()]
 
 
 @pytest.mark.parametrize("name", ["gyroid", "octet"])
 def test_list_shows_a_pattern_that_repeats_in_space(name: str, tmp_path: Path) -> None:
-    assert run("list", name).stdout.startswith(f"{name}: {CELLULAR[name].summary}\n  repeats in space")
+    assert run("list", name).stdout.startswith(f"{name}: {IN_SPACE[name].summary}\n  repeats in space")
     assert json.loads(run("list", name, "--json").stdout) == {
         "patterns": {},
-        "in_space": {name: CELLULAR[name].summary},
+        "in_space": {name: IN_SPACE[name].summary},
     }
     assert run("list", name, "--preview", tmp_path / "a.png").exit_code == 2
     assert not list(tmp_path.iterdir())
@@ -164,7 +163,7 @@ def test_list_shows_a_pattern_that_repeats_in_space(name: str, tmp_path: Path) -
 @pytest.mark.parametrize("name", ["adaptive-cubic", "support-cubic"])
 def test_list_shows_a_pattern_that_follows_the_part(name: str) -> None:
     text = run("list", name).stdout
-    assert text.startswith(f"{name}: {CELLULAR[name].summary}\n  follows the part")
+    assert text.startswith(f"{name}: {IN_SPACE[name].summary}\n  follows the part")
     assert "--set levels" in text
 
 
@@ -238,7 +237,7 @@ def test_list_names_the_nearest_pattern() -> None:
 def test_list_as_json() -> None:
     whole = json.loads(run("list", "--json").stdout)
     found = whole["patterns"]
-    assert set(whole["in_space"]) == set(CELLULAR)
+    assert set(whole["in_space"]) == set(IN_SPACE)
     assert set(found) == set(BUILT_IN)
     assert found["honeycomb"]["options"]["angle"] == {
         "help": "turns the pattern counter-clockwise",

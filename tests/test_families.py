@@ -18,9 +18,9 @@ from shapely import box
 from infill import ParameterError
 from infill.paths.families.catalogue import FAMILIES
 from infill.paths.families.grid import TURN as HALF_RIGHT
-from infill.paths.families.heart import ConcentricHeart
-from infill.paths.families.honeycomb import Honeycomb
-from infill.paths.families.level_sets import Gyroid, SchwarzD, SchwarzP
+from infill.paths.families.heart import ConcentricHeartPaths
+from infill.paths.families.honeycomb import HoneycombPaths
+from infill.paths.families.level_sets import GyroidPaths, SchwarzDPaths, SchwarzPPaths
 from infill.paths.families.protocol import TOUCH, Family, Path, RegionFamily
 from infill.paths.families.spirals import Spirals
 from infill.paths.families.waves import BOND
@@ -46,9 +46,9 @@ EXACT = dict.fromkeys(("octagons", "cross", "archimedean-chords", "octagram-spir
     "lateral-honeycomb": 1.0 + math.sqrt(2),
 }
 LEVEL_SETS = {
-    Gyroid(): lambda x, y, z: np.sin(x) * np.cos(y) + np.sin(y) * np.cos(z) + np.sin(z) * np.cos(x),
-    SchwarzP(): lambda x, y, z: np.cos(x) + np.cos(y) + np.cos(z),
-    SchwarzD(): lambda x, y, z: np.cos(z) * np.sin(x + y) + np.sin(z) * np.cos(x - y),
+    GyroidPaths(): lambda x, y, z: np.sin(x) * np.cos(y) + np.sin(y) * np.cos(z) + np.sin(z) * np.cos(x),
+    SchwarzPPaths(): lambda x, y, z: np.cos(x) + np.cos(y) + np.cos(z),
+    SchwarzDPaths(): lambda x, y, z: np.cos(z) * np.sin(x + y) + np.sin(z) * np.cos(x - y),
 }
 
 every_family = pytest.mark.parametrize("family", FAMILIES.values(), ids=FAMILIES)
@@ -129,7 +129,7 @@ def test_lines_never_cross_and_beads_never_overlap(family: Family, cell: float, 
 @every_cell
 def test_lines_do_not_depend_on_the_box(family: Family, cell: float) -> None:
     """So that neighbouring regions, and layers, fit each other."""
-    if isinstance(family, ConcentricHeart | Spirals):
+    if isinstance(family, ConcentricHeartPaths | Spirals):
         family = dataclasses.replace(family, middle=(1.0, 2.0))
     inner = (-9.0, -7.0, 8.0, 12.0)  # wide enough for a line of the widest
     for z in layers_of(family, cell):
@@ -248,7 +248,7 @@ def cut_back(path: Path, back: float | np.ndarray) -> Path:
 def test_half_of_the_honeycomb_touches(flats: float, radius: float) -> None:
     """Or more, if its flats are longer than its flanks."""
     side = 6.5 / math.sqrt(3)
-    paths = [shapely.LineString(path) for path in strands(Honeycomb(flats=flats), 6.5, radius=radius)]
+    paths = [shapely.LineString(path) for path in strands(HoneycombPaths(flats=flats), 6.5, radius=radius)]
     middle = paths[len(paths) // 2]
     beside = shapely.union_all([p.buffer(GAP * 1.001, cap_style="flat") for p in paths if p is not middle])
     flat = 2 * radius * math.tan(math.radians(30)) + flats * side

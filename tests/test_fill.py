@@ -14,6 +14,7 @@ import slicers
 import trimesh
 from made_shapes import ball, box, less, rod, together, turned, union
 from PIL import Image
+from shapes import IN_SPACE
 from test_command_line import one_line_error
 from test_command_line import run as command
 from test_report import FILL, PAGE, described, differences, misfits
@@ -33,7 +34,6 @@ from infill.meshes.winding import winding_numbers
 from infill.report_keys import FillReport
 from infill.result import Clock
 from patterns import PATTERNS
-from patterns.cellular import CELLULAR
 from patterns.cross import Cross3D
 from patterns.errors import PatternError
 from patterns.honeycombs import LateralHoneycomb
@@ -44,7 +44,7 @@ from patterns.unit_cells import Bars, Network, Planes, Surfaces
 
 pytestmark = pytest.mark.usefixtures("compiled")
 
-EVERY = [*CELLULAR, *(name for name, kind in PATTERNS.items() if kind.prismatic)]
+EVERY = [*IN_SPACE, *(name for name, kind in PATTERNS.items() if kind.prismatic)]
 BAR = "octet"
 FEW = {"voxel": 0.5, "wall": 1.5, "density": 0.3}  # quick
 
@@ -91,12 +91,12 @@ def test_a_filled_part_is_the_part_without_voids_that_keep_their_distance(patter
     assert not winding_numbers(points[(away > 0) & (away < 0.9 * 1.2)][:2000], voids).any()
 
 
-@pytest.mark.parametrize("name", CELLULAR)
+@pytest.mark.parametrize("name", IN_SPACE)
 def test_a_shift_by_a_period_changes_nothing(name: str) -> None:
     given = {"cell": 6.0, "line_width": 0.7, "voxel": 0.4, "wall": 1.0}
     block = box(15, 15, 15)
     one = fill(block, name, **given).surface
-    kind = CELLULAR[name]
+    kind = IN_SPACE[name]
     # That of a curve is far too long, along x and y.
     period = np.array([0, 0, kind.height * 1.5] if isinstance(kind, Cross3D) else [1, -2, 1]) * 6.0
     period = period if isinstance(kind, Cross3D) else period * kind.cells
@@ -122,11 +122,11 @@ def test_both_sides_of_a_gyroid_are_alike() -> None:
 # --- what patterns are -------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", [name for name, each in CELLULAR.items() if isinstance(each, Surfaces)])
+@pytest.mark.parametrize("name", [name for name, each in IN_SPACE.items() if isinstance(each, Surfaces)])
 def test_distances_to_a_surface_are_those_to_its_mesh(name: str) -> None:
     from skimage.measure import marching_cubes
 
-    pattern = CELLULAR[name]
+    pattern = IN_SPACE[name]
     assert isinstance(pattern, Surfaces)
     line = np.linspace(-0.25, 1.25, 97)
     x, y, z = np.meshgrid(*[2 * np.pi * line] * 3, indexing="ij")
@@ -144,7 +144,7 @@ def test_distances_to_a_surface_are_those_to_its_mesh(name: str) -> None:
 
 
 def test_cross_hatch_is_upright_at_half_of_all_heights_and_turned_half_a_period_up() -> None:
-    pattern = CELLULAR["cross-hatch"]
+    pattern = IN_SPACE["cross-hatch"]
     assert isinstance(pattern, Surfaces)
     x, y, z = np.random.default_rng(4).uniform(0, 2 * np.pi, (3, 1000))
     assert pattern.value(x, y, z + np.pi) == pytest.approx(pattern.value(y, x, z), abs=1e-12)
@@ -160,9 +160,9 @@ def test_cross_hatch_is_upright_at_half_of_all_heights_and_turned_half_a_period_
     assert fill(box(16, 16, 16), "cross-hatch", cell=7, line_width=0.6, wall=1, voxel=0.4).report["voids"]["count"] == 2
 
 
-@pytest.mark.parametrize("name", [name for name, each in CELLULAR.items() if isinstance(each, Bars)])
+@pytest.mark.parametrize("name", [name for name, each in IN_SPACE.items() if isinstance(each, Bars)])
 def test_the_bars_of_a_cell_repeat_and_none_that_is_near_is_missing(name: str) -> None:
-    pattern = CELLULAR[name]
+    pattern = IN_SPACE[name]
     assert isinstance(pattern, Bars)
     edges, first, which = pattern.around_cell()
     shifts = np.stack(np.meshgrid(*[np.arange(-2, 3)] * 3), axis=-1).reshape(-1, 1, 1, 3)
@@ -191,12 +191,12 @@ def to_edges(points: np.ndarray, edges: np.ndarray) -> np.ndarray:
     return np.linalg.norm(beside - share[..., None] * along, axis=2).min(axis=1)
 
 
-@pytest.mark.parametrize("name", [name for name, each in CELLULAR.items() if isinstance(each, Planes)])
+@pytest.mark.parametrize("name", [name for name, each in IN_SPACE.items() if isinstance(each, Planes)])
 def test_every_point_is_in_one_class_of_cells_and_no_two_of_a_class_touch(name: str) -> None:
     """Not even at a corner: cells grown by 0.02 still have pieces with one number in every family of planes each."""
     from scipy.ndimage import label
 
-    pattern = CELLULAR[name]
+    pattern = IN_SPACE[name]
     assert isinstance(pattern, Planes)
     line = np.linspace(0, 2, 84)
     points = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
@@ -215,7 +215,7 @@ def test_every_point_is_in_one_class_of_cells_and_no_two_of_a_class_touch(name: 
         assert len(np.unique(pairs[0])) == pairs.shape[1]
 
 
-POLYHEDRA = {name: each for name, each in CELLULAR.items() if isinstance(each, Polyhedra)}
+POLYHEDRA = {name: each for name, each in IN_SPACE.items() if isinstance(each, Polyhedra)}
 POLYHEDRA |= {"regular": LateralHoneycomb(overhang=60.0)}
 
 
@@ -251,7 +251,7 @@ def test_the_cells_of_honeycomb_3d_are_those_of_voronoi_around_a_body_centred_la
     apart = np.linalg.norm(seeds[None] - seeds[nearest][:, None], axis=2)
     apart[apart == 0] = np.inf
     exact = ((squared - squared.min(axis=1)[:, None]) / (2 * apart) + np.where(np.isinf(apart), np.inf, 0)).min(axis=1)
-    assert CELLULAR["honeycomb-3d"].distance(points) == pytest.approx(exact, abs=1e-12)
+    assert IN_SPACE["honeycomb-3d"].distance(points) == pytest.approx(exact, abs=1e-12)
 
 
 @pytest.mark.parametrize("overhang", [30.0, 45.0, 60.0, 75.0])
@@ -304,12 +304,12 @@ def test_walls_of_the_lateral_lattice_that_hardly_cross_are_refused() -> None:
         fill(box(15, 15, 15), "lateral-lattice", first=10.0, second=20.0)
 
 
-@pytest.mark.parametrize("name", [name for name, each in CELLULAR.items() if isinstance(each, Network)])
+@pytest.mark.parametrize("name", [name for name, each in IN_SPACE.items() if isinstance(each, Network)])
 def test_a_network_hangs_together_from_its_lowest_density_on(name: str) -> None:
     """Also across the border of a period: every piece of 2 x 2 x 2 of them touches another, or is a speck."""
     from scipy.ndimage import label
 
-    pattern = CELLULAR[name]
+    pattern = IN_SPACE[name]
     assert isinstance(pattern, Network)
     line = np.arange(64) / 64
     core = pattern.distance(np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3))
@@ -374,7 +374,7 @@ def test_kernels_are_their_definitions() -> None:
     turn = trimesh.transformations.random_rotation_matrix(rng.random(3))[:3, :3]
     start, period, half = rng.uniform(-9, 9, 3), 7.3, 0.8
     places = (start + cells @ turn.T) / period
-    pattern = CELLULAR["kelvin"]
+    pattern = IN_SPACE["kelvin"]
     assert isinstance(pattern, Bars)
     binned, out = pattern.around_cell(), np.empty_like(depth)
     filled = from_bars(depth, -1.0, *binned, turn, start, period, half, *UNIFORM_WIDTH, out, 0, 1)
@@ -391,7 +391,7 @@ def test_kernels_are_their_definitions() -> None:
         there = map_coordinates(table, (places % 1 * 4).reshape(-1, 3).T, order=1, mode="grid-wrap")
         exact = sign * there.reshape(depth.shape) * period - half
         assert out == pytest.approx(np.where(depth <= -1, depth, np.minimum(exact, depth)), abs=1e-4)
-    crossing = CELLULAR["quarter-cubic"]
+    crossing = IN_SPACE["quarter-cubic"]
     assert isinstance(crossing, Planes)
     normals, offsets = crossing.families()
     slopes, first = normals @ turn / period, normals @ start / period + offsets
@@ -400,7 +400,7 @@ def test_kernels_are_their_definitions() -> None:
         from_planes(depth, -1.0, slopes, first, apart, which, half, *UNIFORM_WIDTH, out, 0, 1)
         exact = crossing.depth(places.reshape(-1, 3), which).reshape(depth.shape) * period - half
         assert out == pytest.approx(np.where(depth <= -1, depth, np.minimum(exact, depth)), abs=1e-4)
-    solids = CELLULAR["honeycomb-3d"]
+    solids = IN_SPACE["honeycomb-3d"]
     assert isinstance(solids, Polyhedra)
     (normals, halves), (sides, middles) = solids.faces(), solids.lattice()
     for which in range(solids.classes):

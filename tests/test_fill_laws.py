@@ -13,26 +13,27 @@ import shapely
 import trimesh
 from hypothesis import strategies as st
 from made_shapes import box, union
+from shapes import IN_SPACE
 
 from infill import Surface, fill
 from infill.lattices.fillets import DEGREES, TIPS
-from infill.lattices.line_sample import centred_square, faces_between, with_cell
+from infill.lattices.line_sample import centred_square, faces_between
 from infill.meshes.distance import TriangleTree
 from infill.meshes.winding import winding_numbers
 from patterns import PATTERNS, Pattern
-from patterns.cellular import CELLULAR, InSpace
+from patterns.cellular import Cells
 from patterns.cross import Cross3D
 from patterns.declared import parameter
 from patterns.lightning import Lightning
 from patterns.octree import Octree
 from patterns.polyhedra import Polyhedra
-from patterns.protocol import draw_lines
+from patterns.protocol import draw_lines, with_cell
 from patterns.unit_cells import Bars, Network, Planes, Surfaces
 
 pytestmark = pytest.mark.usefixtures("compiled")
 
-EVERY = [*CELLULAR, *(name for name, kind in PATTERNS.items() if kind.prismatic)]
-FOLLOW = [name for name, kind in PATTERNS.items() if kind.follows]
+EVERY = [*IN_SPACE, *(name for name, kind in PATTERNS.items() if kind.prismatic)]
+FOLLOW = [name for name, kind in PATTERNS.items() if getattr(kind, "follows", False)]
 # Without symmetry, and a whole number of cells of the grid along each side.
 PART = union(box(20, 12, 10), box(6, 6, 10, (5, 0, 4)), box(3, 4, 10, (-7, 3, 2)))
 EXACT: dict[str, Any] = {"voxel": 0.5, "wall": 1.0, "tolerance": 0, "smooth_radius": 0.0}  # nothing is drawn anew
@@ -43,7 +44,7 @@ FLIP = np.diag([-1.0, 1.0, 1.0])
 @cache
 def far(name: str) -> dict[str, float]:
     """A cell and a line width that leave 0.3 far from any skin, and voids many cells of the grid wide."""
-    kind = CELLULAR.get(name)
+    kind = IN_SPACE.get(name)
     if isinstance(kind, Lightning):
         return {"cell": 3.0, "line_width": 1.6}  # which leave less: only roofs need them
     given = {"cell": 7.0} if isinstance(kind, Bars) else {"cell": 11.0} if isinstance(kind, Network) else {}
@@ -84,11 +85,11 @@ def across(voids: Surface, reach: float, inside: float) -> float:
     return float(np.median(np.where(hit.any(axis=1), hit.argmax(axis=1), 100))) * step
 
 
-@pytest.mark.parametrize("name", [name for name in EVERY if not isinstance(CELLULAR.get(name), Network)])
+@pytest.mark.parametrize("name", [name for name in EVERY if not isinstance(IN_SPACE.get(name), Network)])
 def test_walls_in_the_mesh_are_as_wide_as_asked_for(name: str) -> None:
     """And bars as thick, though smoothing makes these thinner, and walls between narrow voids wider."""
-    width = 1.6 if isinstance(CELLULAR.get(name), Bars) else 0.8
-    more = {"cell": 5.0} if isinstance(CELLULAR.get(name), Lightning) else {"density": 0.3}
+    width = 1.6 if isinstance(IN_SPACE.get(name), Bars) else 0.8
+    more = {"cell": 5.0} if isinstance(IN_SPACE.get(name), Lightning) else {"density": 0.3}
     result = fill(box(24, 24, 24), name, line_width=width, wall=1.0, voxel=0.4 if "density" in more else 0.25, **more)
     assert not [each for each in result.report["problems"] if "wide" in each]
     assert result.report["infill"]["line_width"] == pytest.approx(width, rel=0.06)
@@ -153,7 +154,7 @@ RADIUS = 0.8  # mm, four cells of the grid
 
 def walls_meet(name: str) -> bool:
     """Whether walls or bars of a pattern meet or bend."""
-    return name != "rectilinear" and not isinstance(CELLULAR.get(name), Surfaces | Network | Lightning)
+    return name != "rectilinear" and not isinstance(IN_SPACE.get(name), Surfaces | Network | Lightning)
 
 
 WITH_ROOM = {"cross-3d": 0.12}  # with more, passages between leaning walls are narrower than two and a half radii
@@ -209,7 +210,7 @@ def test_fillets_have_at_least_the_radius_asked_for(name: str) -> None:
     """At 95 % of all places where walls meet or bend, or bars meet, six radii thick."""
     given = {"density": WITH_ROOM.get(name, 0.25), "line_width": 0.8, "voxel": RADIUS / 4}
     radius = RADIUS
-    if isinstance(CELLULAR.get(name), Bars):
+    if isinstance(IN_SPACE.get(name), Bars):
         radius = 0.5
         given = {"cell": 14.0, "line_width": 6 * radius, "voxel": radius / 4}
     result = fill(box(24, 24, 24), name, smooth_radius=radius, tolerance=0, wall=1.0, **given)
@@ -226,8 +227,8 @@ def test_a_fillet_that_is_too_sharp_is_found() -> None:
 @pytest.mark.parametrize("name", EVERY)
 def test_the_mirror_image_of_part_and_pattern_is_that_of_the_result(name: str) -> None:
     sizes = far(name)
-    kind: Any = CELLULAR[name] if name in CELLULAR else PATTERNS[name]
-    image = in_space(kind) if name in CELLULAR else kind if name in FOLLOW else InPlane(of=kind)
+    kind: Any = IN_SPACE[name] if name in IN_SPACE else PATTERNS[name]
+    image = in_space(kind) if name in IN_SPACE else kind if name in FOLLOW else InPlane(of=kind)
     mirrored = trimesh.Trimesh(PART.vertices @ FLIP, PART.faces[:, ::-1])
     one = fill(PART, name, **sizes, **EXACT).stages.voids
     other = fill(mirrored, image, **sizes, **EXACT).stages.voids
@@ -235,7 +236,7 @@ def test_the_mirror_image_of_part_and_pattern_is_that_of_the_result(name: str) -
     assert farthest(one, replace(other, vertices=np.asarray(other.vertices) @ FLIP)) < 0.1
 
 
-def in_space(kind: InSpace) -> InSpace:
+def in_space(kind: Cells | Pattern) -> Cells | Pattern:
     """The mirror image of a pattern in space, at x = 0."""
     if isinstance(kind, Network):
         surfaces = in_space(kind.surfaces)

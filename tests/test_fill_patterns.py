@@ -12,14 +12,14 @@ import numpy as np
 import pytest
 import shapely
 from made_shapes import box
+from shapes import IN_SPACE
 from test_command_line import one_line_error
 from test_command_line import run as command
 
 from infill import FormatError, ParameterError, fill
-from infill.lattices.resolve_pattern import resolve_pattern
-from infill.lattices.tiled import read_tiled
+from infill.drawings.tiled import read_tiled
+from infill.options.resolve_pattern import resolve_pattern
 from patterns import Honeycomb, Pattern, PatternError, parameter
-from patterns.cellular import CELLULAR
 from patterns.linework import clip
 
 pytestmark = pytest.mark.usefixtures("compiled")
@@ -111,7 +111,7 @@ def test_what_a_name_stands_for_may_be_given_itself(folder: Path) -> None:
             ("object", Honeycomb()),
             ("honeycomb", "honeycomb"),
             ("function", waves),
-            ("surfaces", CELLULAR["schwarz-p"]),
+            ("surfaces", IN_SPACE["schwarz-p"]),
         )
     }
     assert volumes["class"] == volumes["object"] == volumes["honeycomb"]
@@ -157,7 +157,7 @@ def test_a_pattern_that_cannot_be_turned_says_so() -> None:
 )
 def test_what_is_no_pattern_is_one_clear_line(folder: Path, pattern: str, error: type[Exception], says: str) -> None:
     with pytest.raises(error, match=says):
-        resolve_pattern(pattern)
+        resolve_pattern(pattern, "fill")
     result = command("fill", "part.stl", "--pattern", pattern, "-o", "a.stl")
     one_line_error(result, says)
     assert not Path("a.stl").exists()

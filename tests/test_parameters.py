@@ -47,7 +47,7 @@ class Rings(Pattern):
         return self.steps[0]
 
 
-KINDS: dict[str, type[Pattern]] = {**PATTERNS.built_in, "rings": Rings, "ripples": Ripples}
+KINDS: dict[str, Any] = {**{name: PATTERNS[name] for name in BUILT_IN}, "rings": Rings, "ripples": Ripples}
 EVERY = [(kind, name) for kind, made in KINDS.items() for name in parameters(made)]
 every_parameter = pytest.mark.parametrize(("kind", "name"), EVERY, ids=["-".join(each) for each in EVERY])
 
@@ -55,7 +55,7 @@ every_parameter = pytest.mark.parametrize(("kind", "name"), EVERY, ids=["-".join
 @pytest.fixture(autouse=True)
 def _plugins(monkeypatch: pytest.MonkeyPatch) -> None:
     """Two plug-ins beside the built-in patterns."""
-    monkeypatch.setattr(PATTERNS, "_all", dict(KINDS))
+    monkeypatch.setattr(PATTERNS, "_plugged_in", {"rings": Rings, "ripples": Ripples})
 
 
 def as_text(value: Any) -> str:

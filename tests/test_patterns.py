@@ -13,7 +13,7 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 from shapely import box
-from shapes import DESIGNS, LEVEL_SETS, REGIONS, Ripples
+from shapes import BUILT_IN, DESIGNS, LEVEL_SETS, REGIONS, Ripples
 
 from patterns import (
     PATTERNS,
@@ -88,7 +88,7 @@ def test_patterns_keep_the_protocol(pattern: Pattern) -> None:
 
 
 def test_every_design_is_in_the_catalogue() -> None:
-    assert {type(pattern) for pattern in DESIGNS} == set(PATTERNS.built_in.values())
+    assert {type(pattern) for pattern in DESIGNS} == {PATTERNS[name] for name in BUILT_IN}
 
 
 @every_design
@@ -98,7 +98,7 @@ def test_a_bad_spacing_of_points_is_refused(pattern: Pattern, spacing: float) ->
         pattern.points(REGIONS[0], spacing)
 
 
-@pytest.mark.parametrize("name", list(PATTERNS.built_in))
+@pytest.mark.parametrize("name", BUILT_IN)
 @pytest.mark.parametrize("value", [0, -3, math.nan, math.inf, 1e9])
 def test_a_bad_cell_is_refused(name: str, value: float) -> None:
     with pytest.raises(PatternError, match=f"cell of {name}"):
@@ -264,7 +264,7 @@ class Needs(Lines):
 
 
 def registry_with(*entries: EntryPoint) -> Registry:
-    return Registry((Honeycomb,), plugins=lambda: list(entries))
+    return Registry({"honeycomb": "honeycomb:Honeycomb"}, plugins=lambda: list(entries))
 
 
 def entry(name: str, value: str) -> EntryPoint:
@@ -357,7 +357,7 @@ def test_parameters_carry_their_range() -> None:
 
 def test_shared_parameters_are_the_same_everywhere() -> None:
     """But for their defaults, and in their order."""
-    found = [parameters(kind) for kind in (*PATTERNS.built_in.values(), Ripples)]
+    found = [parameters(kind) for kind in (*map(PATTERNS.get, BUILT_IN), Ripples)]
     for name in SHARED:
         assert len({each[name][1] for each in found if name in each}) == 1
     assert list(parameters(Zigzag)) == ["cell", "waves", "angle", "phase", "frame"]

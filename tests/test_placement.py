@@ -19,7 +19,7 @@ from test_parameters import offered
 from infill import FormatError, ParameterError, refill
 from infill.paths.covering import cover, solve_cell
 from infill.paths.families.catalogue import FAMILIES
-from infill.paths.families.honeycomb import Honeycomb
+from infill.paths.families.honeycomb import HoneycombPaths
 from infill.paths.families.protocol import TOUCH, Family
 from infill.paths.families.turned import TurnedFamily
 from infill.paths.outlines import outline_of
@@ -162,7 +162,7 @@ def test_hearts_stand_on_a_point() -> None:
 def test_flats_of_the_honeycomb(flats: float) -> None:
     """At both ends of the range lines neither cross nor overlap, and the guess of the cell holds."""
     family = family_of("honeycomb", {"flats": flats})
-    assert family == Honeycomb(flats=flats)
+    assert family == HoneycombPaths(flats=flats)
     paths = family.strands((-20, -20, 20, 20), cell=4.0, line_width=WIDTH, z=0, layer=0, radius=1.0)
     assert shapely.MultiLineString([shapely.LineString(path) for path in paths]).is_simple
     assert least_spacing(paths, near=4 * WIDTH, most=0.6) > GAP - 0.002

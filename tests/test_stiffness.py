@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from shapes import IN_SPACE
 
 from infill import ParameterError
 from infill.inspection.stiffness import homogenise_stiffness
-from patterns.cellular import CELLULAR
 from patterns.unit_cells import Bars
 
 AXES = np.eye(3)
@@ -15,7 +15,7 @@ AXES = np.eye(3)
 
 def octet(count: int, density: float) -> np.ndarray:
     """Voxels of a cell, as many of the nearest to the bars as the density says."""
-    pattern = CELLULAR["octet"]
+    pattern = IN_SPACE["octet"]
     assert isinstance(pattern, Bars)
     line = (np.arange(count) + 0.5) / count
     points = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)

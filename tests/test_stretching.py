@@ -22,7 +22,7 @@ from infill.interior.conformal_map import fit_conformal_map, map_points, spline_
 from infill.interior.crossing import median_width
 from infill.lattices.voids import NODES
 from infill.meshes.solids import to_manifold
-from patterns.tpms import GYROID
+from patterns import Gyroid
 
 pytestmark = pytest.mark.usefixtures("compiled")
 
@@ -132,7 +132,7 @@ def test_the_kernel_computes_what_it_is_to(sign: float) -> None:
     nodes, step, period = (4, 5, 4), 5.0, 11.0
     coordinates, _ = fit_conformal_map(random.uniform(0.7, 1.5, nodes))
     shape = tuple(int((count - 1) * step) for count in nodes)
-    table = period_table(GYROID)
+    table = period_table(Gyroid())
     depth = np.full(shape, np.float32(np.inf))
     depth[:2] = -3.0
     out = np.empty(shape, dtype=np.float32)

@@ -10,6 +10,7 @@ import pytest
 import trimesh
 from made_shapes import box
 from scipy.ndimage import distance_transform_edt
+from shapes import IN_SPACE
 
 from infill import ParameterError, fill
 from infill.interior.interior import Interior, compute_interior
@@ -21,13 +22,12 @@ from infill.lattices.subdivided import CubeTree, Subdivided
 from infill.meshes.merging import surface_of
 from infill.meshes.winding import winding_numbers
 from infill.voxels.scanlines import fill_rows, intersect_rows
-from patterns.cellular import CELLULAR
 from patterns.errors import PatternError
-from patterns.octree import OCTREES, cube_levels
+from patterns.octree import cube_levels
 
 pytestmark = pytest.mark.usefixtures("compiled")
 
-NAMES = [each.name for each in OCTREES]
+NAMES = ["adaptive-cubic", "support-cubic"]
 GIVEN: dict[str, Any] = {
     "cell": 4.0,
     "line_width": 0.6,
@@ -266,4 +266,4 @@ def test_a_part_far_from_the_origin_has_the_same_tree(name: str) -> None:
 
 
 def test_the_catalogue_has_them() -> None:
-    assert [each for each in CELLULAR if each in NAMES] == NAMES
+    assert [each for each in IN_SPACE if each in NAMES] == NAMES

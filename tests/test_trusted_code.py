@@ -9,6 +9,7 @@ import pytest
 import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from shapes import IN_SPACE
 from test_command_line import one_line_error, run
 
 from infill import FormatError
@@ -149,7 +150,6 @@ def test_whatever_is_named_is_told_on_one_line(text: str, name: str) -> None:
 def test_names_of_patterns_are_no_files() -> None:
     """Whatever `infill list` shows, plug-ins included, may be named by a file."""
     from patterns import PATTERNS
-    from patterns.cellular import CELLULAR
 
-    for name in (*PATTERNS, *CELLULAR, "x", "skin", "keep"):
+    for name in (*PATTERNS, *IN_SPACE, "x", "skin", "keep"):
         check_trusted({"pattern": name, "by": name}, Path("/somewhere/else/theirs.toml"))

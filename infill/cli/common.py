@@ -21,6 +21,14 @@ SaveConfig = Annotated[
 TrustFiles = Annotated[
     bool, typer.Option("--trust", help="Let the config file name files outside of its folder.", rich_help_panel=FILES)
 ]
+TrustCode = Annotated[
+    bool,
+    typer.Option(
+        "--trust",
+        help="Let the config file name code to run, and files outside of its folder.",
+        rich_help_panel=FILES,
+    ),
+]
 AsciiStl = Annotated[bool, typer.Option("--ascii", help="Write STL as text.", rich_help_panel=FILES)]
 Force = Annotated[bool, typer.Option("--force", help="Overwrite existing files.", rich_help_panel=FILES)]
 Threads = Annotated[

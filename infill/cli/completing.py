@@ -11,26 +11,27 @@ if TYPE_CHECKING:
 
 
 def pattern_names(incomplete: str) -> list[tuple[str, str]]:
-    """Return the patterns whose names begin with the word, each with its summary."""
+    """Return the patterns of `make` whose names begin with the word, each with its summary."""
+    from patterns import PATTERNS
+
+    return [(name, kind.summary) for name, kind in PATTERNS.items() if name.startswith(incomplete) and kind.prismatic]
+
+
+def fill_names(incomplete: str) -> list[tuple[str, str]]:
+    """Return all patterns whose names begin with the word, each with its summary."""
     from patterns import PATTERNS
 
     return [(name, kind.summary) for name, kind in PATTERNS.items() if name.startswith(incomplete)]
 
 
-def fill_names(incomplete: str) -> list[tuple[str, str]]:
-    """Return all patterns whose names begin with the word, also those in space, each with its summary."""
-    from patterns.cellular import CELLULAR
-
-    in_space = [(name, pattern.summary) for name, pattern in CELLULAR.items() if name.startswith(incomplete)]
-    return [*pattern_names(incomplete), *in_space]
-
-
 def fill_assignments(context: typer.Context, incomplete: str) -> list[tuple[str, str]]:
-    """Return ``name=`` for the parameters of the pattern of a fill."""
+    """Return ``name=`` for the parameters of the pattern of a fill, without those that are options of `fill`."""
     from patterns import PATTERNS, parameters
+    from patterns.shared import SHARED
 
     pattern = str(context.params.get("pattern"))
-    return _assignments(parameters(PATTERNS[pattern]), incomplete) if pattern in PATTERNS else []
+    declared = parameters(PATTERNS[pattern]) if pattern in PATTERNS else {}
+    return _assignments({name: declared[name] for name in declared if name not in SHARED}, incomplete)
 
 
 def pattern_assignments(context: typer.Context, incomplete: str) -> list[tuple[str, str]]:

@@ -10,7 +10,19 @@ from typing import TYPE_CHECKING, Annotated, Any, BinaryIO
 
 import typer
 
-from infill.cli.common import FILES, RUN, AsciiStl, Force, Json, MaxMemory, Quiet, SaveConfig, Threads, Verbose
+from infill.cli.common import (
+    FILES,
+    RUN,
+    AsciiStl,
+    Force,
+    Json,
+    MaxMemory,
+    Quiet,
+    SaveConfig,
+    Threads,
+    TrustCode,
+    Verbose,
+)
 from infill.cli.completing import fill_assignments, fill_names
 from infill.cli.console import print_json, print_log, progress_bar, say
 from infill.cli.declared import takes_options
@@ -67,14 +79,7 @@ def fill(
         ),
     ] = None,
     save_config: SaveConfig = None,
-    trust: Annotated[
-        bool,
-        typer.Option(
-            "--trust",
-            help="Let the config file name code to run, and files outside of its folder.",
-            rich_help_panel=FILES,
-        ),
-    ] = False,
+    trust: TrustCode = False,
     ascii_stl: AsciiStl = False,
     force: Force = False,
     *,

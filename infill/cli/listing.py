@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -13,7 +14,7 @@ from infill.cli.console import can_show, format_table, print_json, say
 
 if TYPE_CHECKING:
     from patterns import Pattern
-    from patterns.cellular import InSpace
+    from patterns.registry import PatternClass
 
 BRAILLE_BLANK = "\N{BRAILLE PATTERN BLANK}"
 
@@ -33,17 +34,16 @@ def list_patterns(
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object to stdout.")] = False,
 ) -> None:
     """List the patterns and what each is for, or show one of them."""
-    from patterns import PATTERNS
+    from patterns import PATTERNS, Cells
 
     if pattern is None and preview is not None:
         raise typer.BadParameter("a preview shows a single pattern; name one")
-    from patterns.cellular import CELLULAR
-
-    in_space = {name: kind.summary for name, kind in CELLULAR.items()}
-    if pattern in CELLULAR:
-        _show_in_space(str(pattern), CELLULAR[str(pattern)], pictured=preview is not None, as_json=as_json)
+    shown: Mapping[str, PatternClass] = PATTERNS if pattern is None else {pattern: PATTERNS.find(pattern)}
+    kinds = {name: kind for name, kind in shown.items() if kind.prismatic and not issubclass(kind, Cells)}
+    in_space = {name: kind.summary for name, kind in shown.items() if name not in kinds}
+    if pattern in in_space:
+        _show_in_space(shown[str(pattern)], pictured=preview is not None, as_json=as_json)
         return
-    kinds = PATTERNS if pattern is None else {pattern: PATTERNS.find(pattern)}
     if preview is not None:
         _write_preview(kinds[str(pattern)], preview, overwrite=force)
     if as_json:
@@ -57,19 +57,17 @@ def list_patterns(
         typer.echo(_pattern_text(kinds[pattern]))
 
 
-def _show_in_space(name: str, kind: InSpace, *, pictured: bool, as_json: bool) -> None:
+def _show_in_space(kind: PatternClass, *, pictured: bool, as_json: bool) -> None:
     """Print the purpose of a pattern in space, and its parameters."""
-    from patterns.lightning import Lightning
-    from patterns.octree import Octree
-
+    name = kind.name
     if pictured:
         raise typer.BadParameter(f"'infill fill PART --pattern {name} --preview FILE' shows {name}, in a part")
     if as_json:
         print_json({"patterns": {}, "in_space": {name: kind.summary}})
     else:
-        place = "follows the part" if isinstance(kind, (Octree, Lightning)) else "repeats in space"
+        place = "follows the part" if not getattr(kind, "repeats", True) else "repeats in space"
         title = f"{name}: {kind.summary}\n  {place}, for 'infill fill': see its --cell and --line-width\n"
-        typer.echo(_parameter_table(type(kind), title, own=True).rstrip("\n"))
+        typer.echo(_parameter_table(kind, title, own=True).rstrip("\n"))
 
 
 def _write_preview(kind: type[Pattern], path: Path, *, overwrite: bool) -> None:

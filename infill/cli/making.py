@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, BinaryIO
 
 import typer
 
-from infill.cli.common import AsciiStl, Config, Force, Json, MaxMemory, Quiet, SaveConfig, Verbose
+from infill.cli.common import AsciiStl, Config, Force, Json, MaxMemory, Quiet, SaveConfig, TrustCode, Verbose
 from infill.cli.completing import pattern_assignments, pattern_names
 from infill.cli.console import format_bytes, format_table, print_json, progress_bar, say
 from infill.cli.declared import takes_options
@@ -29,7 +29,9 @@ def make(
     pattern: Annotated[
         str | None,
         typer.Argument(
-            metavar="PATTERN", help="Name of the pattern: 'infill list' shows all.", autocompletion=pattern_names
+            metavar="PATTERN",
+            help="Name of the pattern: 'infill list' shows all. Or a drawing, or module.py:name.",
+            autocompletion=pattern_names,
         ),
     ] = None,
     output: Annotated[
@@ -50,6 +52,7 @@ def make(
     ascii_stl: AsciiStl = False,
     force: Force = False,
     config: Config = None,
+    trust: TrustCode = False,
     save_config: SaveConfig = None,
     cell: Annotated[
         float | None,
@@ -121,7 +124,7 @@ def make(
         raise typer.BadParameter("nothing to write; give -o FILE, or --dry-run to see what it would be")
     if save_config == STDOUT and (as_json or dry_run):
         raise typer.BadParameter("--save-config - has stdout for itself; leave --json and --dry-run out")
-    settings = resolve(flags, config, assigned or [])
+    settings = resolve(flags, config, assigned or [], trust=trust)
     limit = None if max_memory is None else parse_bytes(max_memory)
     for path in outputs:
         mesh_writer(path, ascii=ascii_stl)

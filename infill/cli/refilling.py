@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from infill.cli.commands import use_typed_options
-from infill.cli.common import FILES, RUN, Quiet
+from infill.cli.common import FILES, RUN, Quiet, TrustCode
 from infill.cli.completing import placement_assignments
 from infill.cli.console import format_table, print_json, progress_bar, say
 from infill.cli.declared import takes_options
@@ -72,10 +72,7 @@ def refill(
             rich_help_panel=FILES,
         ),
     ] = None,
-    trust: Annotated[
-        bool,
-        typer.Option("--trust", help="Let the config file name files outside of its folder.", rich_help_panel=FILES),
-    ] = False,
+    trust: TrustCode = False,
     preview: Annotated[
         Path | None,
         typer.Option(

@@ -19,17 +19,17 @@ from infill.lattices.layer_lines import LayerLines
 from infill.lattices.layered import NonPrismatic
 from infill.lattices.line_sample import follows_outline
 from infill.lattices.request import FillSpec
-from infill.lattices.resolve_pattern import resolve_pattern
 from infill.lattices.subdivided import Subdivided
 from infill.lattices.voids import Periodic, Voids
 from infill.options.assignments import ParameterSource, merge_parameters, parse_assignments, parse_values
-from patterns.cellular import Unlined
+from infill.options.resolve_pattern import resolve_pattern, with_parameters
+from patterns.cellular import Cells
 from patterns.declared import parameters
 from patterns.given import suggest_name
 from patterns.lightning import Lightning
 from patterns.octree import Octree
 from patterns.protocol import Pattern
-from patterns.unit_cells import Network, Planes
+from patterns.unit_cells import Cellular, Network, Planes
 
 SEED = "seed"
 HELD = ("cell", "angle", "phase", "frame")  # parameters of patterns that `fill` has arguments for, or does not use
@@ -46,7 +46,7 @@ def choose_voids(request: FillSpec, bounds: NDArray[np.floating], threads: int |
     turn = np.array(
         [[np.cos(radians), np.sin(radians), 0.0], [-np.sin(radians), np.cos(radians), 0.0], [0.0, 0.0, 1.0]]
     )
-    if isinstance(request.kind, Unlined):
+    if isinstance(request.kind, Cells):
         pattern = configure_cellular(request.kind, request)
         if isinstance(pattern, Lightning):
             branches = BranchLines(pattern=pattern, turn=turn, anchor=anchor)
@@ -57,6 +57,7 @@ def choose_voids(request: FillSpec, bounds: NDArray[np.floating], threads: int |
             return Subdivided(
                 pattern=pattern, turn=turn, anchor=anchor, threads=threads, grading=grading, bodies=bodies
             )
+        assert isinstance(pattern, Cellular)
         return Periodic(pattern=pattern, turn=turn, anchor=anchor, threads=threads, grading=grading, bodies=bodies)
     lines = configure_lines(request.kind, request)
     if not lines.prismatic:
@@ -71,8 +72,8 @@ def read_own_parameters(
     """Read the pattern's own parameters from ``name=value`` and a table, or raise ParameterError."""
     if not (assigned or table):
         return {}
-    kind, name = resolve_pattern(pattern)
-    if not parameters(kind):
+    kind, name = resolve_pattern(pattern, "fill")
+    if not set(parameters(kind)) - set(HELD):
         if assigned:
             raise ParameterError(f"--set {assigned[0]}: {name} has no parameters; give --cell or --line-width")
         return dict(table or {})  # refused later
@@ -89,7 +90,7 @@ def read_own_parameters(
 
 def add_seed(pattern: object, own: Mapping[str, Any], seed: int) -> dict[str, Any]:
     """Add a seed to the pattern's own parameters, or raise ParameterError if the pattern has no randomness."""
-    kind, name = resolve_pattern(pattern)
+    kind, name = resolve_pattern(pattern, "fill")
     if SEED not in parameters(kind):
         raise ParameterError.about(
             "seed", f"is {seed}, and {name} leaves nothing to chance; choose voronoi or voronoi-foam"
@@ -99,9 +100,9 @@ def add_seed(pattern: object, own: Mapping[str, Any], seed: int) -> dict[str, An
     return {**own, SEED: seed}
 
 
-def configure_cellular(kind: Unlined, request: FillSpec) -> Unlined:
+def configure_cellular(kind: Cells, request: FillSpec) -> Cells:
     """Make the requested pattern in space, or raise ParameterError."""
-    names = list(parameters(kind))
+    names = [name for name in parameters(kind) if name not in HELD]
     for name in request.parameters:
         if not names:
             raise ParameterError(f"{request.pattern} has no parameter {name!r}; it has none but cell and line width")
@@ -130,7 +131,7 @@ def configure_lines(kind: Pattern | type[Pattern], request: FillSpec) -> Pattern
     own_angle = 0.0 if isinstance(kind, type) else float(getattr(kind, "angle", 0.0))
     rotation = {"angle": math.remainder(own_angle + request.angle, 360.0)} if "angle" in declared else {}
     values = {**request.parameters, **rotation}
-    made_pattern: Pattern = kind(**values) if isinstance(kind, type) else replace(kind, **values)  # type: ignore[type-var]
+    made_pattern = with_parameters(kind, values)
     if follows_outline(made_pattern):
         _check_follower(request)
     return made_pattern

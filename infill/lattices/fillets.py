@@ -77,9 +77,9 @@ def sharpest_angle(angles: Floats) -> float:
 def corner_angle_between_walls(pattern: Cellular) -> float:
     """Return the angle of the sharpest corners of voids in a pattern in space, degrees.
 
-    >>> from patterns.cellular import CELLULAR
+    >>> from patterns import PATTERNS
     >>> names = "cubic", "quarter-cubic", "octet", "kelvin", "gyroid"
-    >>> [round(corner_angle_between_walls(CELLULAR[name]), 1) for name in names]
+    >>> [round(corner_angle_between_walls(PATTERNS[name]()), 1) for name in names]
     [90.0, 70.5, 60.0, 90.0, 90.0]
     """
     if isinstance(pattern, Planes):

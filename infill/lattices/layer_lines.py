@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from infill.interior.interior import BAND, Interior
 from infill.lattices.fillets import sharpest_angle
-from infill.lattices.line_sample import SAMPLE, LineSample, centred_square, corner_angles, line_segments, with_cell
-from patterns.protocol import LEVEL_SET, LevelSet, Pattern, draw_lines, gives
+from infill.lattices.line_sample import SAMPLE, LineSample, centred_square, corner_angles, line_segments
+from patterns.protocol import LEVEL_SET, LevelSet, Pattern, draw_lines, gives, with_cell
 
 LOOKED_AT = 8  # heights at which corners are looked at
 STEEPEST = 1.75  # slope of a wall, 60 degrees: lines that move by more from layer to layer belong to another wall

@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import math
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 import shapely
@@ -14,7 +13,7 @@ from numpy.typing import NDArray
 from infill.interior.root_finding import find_root
 from infill.lattices.fillets import find_polygon_corners, sharpest_angle
 from patterns.errors import PatternError
-from patterns.protocol import Pattern, draw_lines
+from patterns.protocol import Pattern, draw_lines, with_cell
 
 SAMPLE = 12.0  # cells of the pattern along a side of the square in which density is measured
 SNAP = 1e-6  # of a cell: lines that are nearer than this meet
@@ -69,14 +68,6 @@ class LineSample:
         if not lines.length:
             raise PatternError(f"the pattern {self.pattern.name} has no lines; draw some")
         return region, lines
-
-
-def with_cell(pattern: Pattern, cell: float) -> Pattern:
-    """Set the cell of a pattern, mm, and drop its frame."""
-    overrides: dict[str, Any] = {"cell": cell} if hasattr(pattern, "cell") else {}
-    if hasattr(pattern, "frame"):
-        overrides["frame"] = False
-    return dataclasses.replace(pattern, **overrides)  # type: ignore[type-var]
 
 
 def follows_outline(pattern: Pattern) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal, get_args
 
 import numpy as np
@@ -14,7 +14,9 @@ from infill.errors import GeometryError, UsageError
 from infill.interior.opening import Open
 from infill.lattices.density_fields import resolve_field
 from infill.lattices.grading import Grading, Varies
-from infill.lattices.resolve_pattern import Kind, resolve_pattern
+from infill.options.resolve_pattern import Kind, resolve_pattern
+from patterns.cellular import Cells
+from patterns.declared import given_parameters
 from patterns.lightning import Lightning
 from patterns.unit_cells import Bars, Network, Surfaces
 
@@ -43,7 +45,7 @@ class FillSpec:
     ----------
     pattern : str
         Its name.
-    kind : Surfaces, Planes, Polyhedra, Octree, Network, Bars, Pattern or class of patterns
+    kind : Cells, Pattern or class of patterns
         The pattern, or class of patterns, of that name.
     parameters : mapping
         The pattern's own, by name.
@@ -253,6 +255,8 @@ def check_request(
     drain_at: Sequence[Sequence[float]] = (),
 ) -> FillSpec:
     """Check that numbers are in range; return a request in which sizes that follow from others are open."""
+    kind, name = resolve_pattern(pattern, "fill")
+    kind, cell = _take_cell(kind, name, cell)
     if density is not None and cell is not None and line_width is not None:
         raise UsageError.about(
             ("density", "cell", "line_width"), "are all given; give two of them, and the third follows"
@@ -268,10 +272,10 @@ def check_request(
             "drain", f"is for a shell with its infill as one, and as is {form!r}; leave one of them out"
         )
     places = tuple(_check_place(place) for place in drain_at)
-    for name, value in (("vent", vent), ("drain_at", bool(places))):
+    for option, value in (("vent", vent), ("drain_at", bool(places))):
         if value and drain is None:
             raise UsageError.about(
-                name, "is given, and drain is missing; give drain too, the diameter of the holes in mm"
+                option, "is given, and drain is missing; give drain too, the diameter of the holes in mm"
             )
     if open_ is not None and open_ not in get_args(Open):
         raise UsageError.about("open", f"is {open_!r}; choose from {', '.join(get_args(Open))}")
@@ -284,7 +288,6 @@ def check_request(
     if len(phase) not in (2, 3):
         raise UsageError.about("phase", f"has {len(phase)} numbers; give two or three, mm")
     shift = [check_range("phase", step, -FURTHEST, FURTHEST, "mm") for step in phase]
-    kind, name = resolve_pattern(pattern)
     grading = None
     if isinstance(density, (tuple, list)):
         if isinstance(kind, Lightning):
@@ -335,6 +338,15 @@ def check_request(
         vent=vent,
         drain_at=places,
     )
+
+
+def _take_cell(kind: Kind, name: str, cell: float | None) -> tuple[Kind, float | None]:
+    """Return a pattern without a cell of its own, and that cell, or the one that is given beside it."""
+    if isinstance(kind, type) or (own := given_parameters(kind).get("cell")) is None:
+        return kind, cell
+    if cell is not None and cell != own:
+        raise UsageError.about("cell", f"is {cell:g} mm, and {name} is made with {own:g} mm; give one of them")
+    return replace(kind, cell=None) if isinstance(kind, Cells) else kind, own
 
 
 def _check_place(place: Sequence[float]) -> tuple[float, float, float]:

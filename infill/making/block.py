@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import asdict
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
@@ -32,7 +33,7 @@ from infill.report import report_of
 from infill.result import Clock, Progress, Result
 from infill.voxels.stamping import stamp as stamp_points
 from infill.voxels.stamping import stamp_lines
-from patterns import Pattern
+from patterns import Cells, Pattern
 from patterns.linework import body_numbers, sample_points
 
 if TYPE_CHECKING:
@@ -50,7 +51,7 @@ ADVICE = "use more cells per line, fewer steps or more fidelity (or --allow-brok
 
 
 def make(
-    pattern: Pattern | str,
+    pattern: Pattern | Cells | Path | str,
     *,
     size: float | tuple[float, float] = (60.0, 60.0),
     height: float = 6.0,
@@ -69,8 +70,8 @@ def make(
 
     Parameters
     ----------
-    pattern : Pattern or str
-        A pattern, or the name of a registered one.
+    pattern : Pattern, Path or str
+        A pattern, the name of a registered one, a drawing, or "module.py:name".
     size : float or (x, y)
         Size of the block, mm, rounded to whole cells.
     height : float

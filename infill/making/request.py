@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass, fields, is_dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import shapely
@@ -15,8 +16,10 @@ from infill.errors import ParameterError, UsageError
 from infill.grid import Grid
 from infill.isosurfaces.stacking import layer_count
 from infill.machine import require_memory
+from infill.options.resolve_pattern import resolve_lines, with_parameters
 from infill.phasefield.allen_cahn import Smoothing
-from patterns import PATTERNS, Pattern, PatternError, lacking, parameter_values
+from patterns import Cells, Pattern, PatternError, lacking, parameter_values
+from patterns.declared import parameters as declared
 from patterns.protocol import draw_lines
 
 if TYPE_CHECKING:
@@ -194,7 +197,7 @@ class Block:
 
 
 def plan_block(
-    pattern: Pattern | str,
+    pattern: Pattern | Cells | Path | str,
     *,
     size: float | tuple[float, float],
     height: float,
@@ -285,9 +288,9 @@ def _resolve_surface(
     return surface or ("prism" if tolerance > 0 else "grid"), float(tolerance)
 
 
-def instantiate_pattern(pattern: Pattern | str, parameters: dict[str, Any]) -> Pattern:
+def instantiate_pattern(pattern: Pattern | Cells | Path | str, parameters: dict[str, Any]) -> Pattern:
     """Return the pattern that a name and its parameters describe, or the pattern itself."""
-    if not isinstance(pattern, str):
+    if not isinstance(pattern, (str, Path)):
         if isinstance(pattern, type) or lacking(pattern):
             raise ParameterError(f"{pattern!r} is not a pattern; give a name, or a pattern such as Honeycomb(cell=5)")
         if parameters:
@@ -295,10 +298,11 @@ def instantiate_pattern(pattern: Pattern | str, parameters: dict[str, Any]) -> P
                 f"{', '.join(parameters)} given together with a ready-made pattern; "
                 "set parameters where the pattern is made"
             )
-        return pattern
-    kind = PATTERNS.find(pattern)
-    field_names = [f.name for f in fields(kind) if f.init] if is_dataclass(kind) else list(parameters)
+        return with_parameters(resolve_lines(pattern), {})
+    kind = resolve_lines(pattern)
+    is_class = isinstance(kind, type) and is_dataclass(kind)
+    field_names = [f.name for f in fields(kind) if f.init] if is_class else list(declared(kind))  # type: ignore[arg-type]
     for name in parameters:
         if name not in field_names:
             raise PatternError(f"{pattern} has no parameter {name!r}; it has {', '.join(field_names)}")
-    return kind(**parameters)
+    return with_parameters(kind, parameters)

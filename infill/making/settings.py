@@ -23,6 +23,7 @@ from infill.options.assignments import SET, collect_parameters, pop_table
 from infill.options.declaration import Option, by_key, declared_options, read_options
 from infill.options.keyword_options import parse_number, parse_word
 from infill.options.toml import read_toml, write_rows
+from infill.options.trust import check_trusted
 
 if TYPE_CHECKING:
     from infill.making.request import Block
@@ -59,7 +60,7 @@ class MakeSettings:
     Parameters
     ----------
     pattern : str
-        Name of a registered pattern.
+        Its name, a drawing, or "module.py:name".
     size : (x, y)
         mm.
     height, line_width : float
@@ -150,9 +151,9 @@ class MakeSettings:
 
     def build_pattern(self) -> Pattern:
         """Return the pattern with its parameters."""
-        from patterns import PATTERNS
+        from infill.options.resolve_pattern import resolve_lines, with_parameters
 
-        return PATTERNS.find(self.pattern)(**self.parameters)
+        return with_parameters(resolve_lines(self.pattern), self.parameters)
 
     def _request(self) -> dict[str, Any]:
         from infill.phasefield.allen_cahn import Smoothing
@@ -201,7 +202,9 @@ class MakeSettings:
         return "\n".join(lines)
 
 
-def resolve(flags: Mapping[str, Any], config: Path | None = None, assigned: Sequence[str] = ()) -> MakeSettings:
+def resolve(
+    flags: Mapping[str, Any], config: Path | None = None, assigned: Sequence[str] = (), *, trust: bool = False
+) -> MakeSettings:
     """Return the settings: the command line takes precedence over the file, and the file over the defaults.
 
     Parameters
@@ -212,6 +215,8 @@ def resolve(flags: Mapping[str, Any], config: Path | None = None, assigned: Sequ
         A TOML file.
     assigned : sequence of str
         Parameters of the pattern as ``name=value``; they may share a name with one of make's options.
+    trust : bool
+        Whether the file may name code to run and files from elsewhere: see `infill.options.trust`.
 
     Raises
     ------
@@ -219,22 +224,25 @@ def resolve(flags: Mapping[str, Any], config: Path | None = None, assigned: Sequ
         If a name is unknown to both `make` and the pattern, a parameter is given twice or cannot take its value,
         or no pattern is given.
     FormatError
-        If the file is missing or not TOML.
+        If the file is missing or not TOML, or asks for what it is not trusted with.
     """
-    from patterns import PATTERNS
+    from infill.options.resolve_pattern import resolve_lines
 
     file_values = read_toml(config, example="size = [60, 40]") if config else {}
-    table = pop_table(file_values)
     flag_values = {name: value for name, value in flags.items() if value is not None}
+    if config:
+        typed_names = file_values.keys() & flag_values.keys()
+        check_trusted({name: file_values[name] for name in file_values.keys() - typed_names}, config, trust=trust)
+    table = pop_table(file_values)
     values = file_values | flag_values
     if "pattern" not in values:
         raise ParameterError(
             "no pattern is given; name one ('infill list' shows all), or set pattern in the config file"
         )
-    pattern_class = PATTERNS.find(parse_word("pattern", values["pattern"]))
+    kind = resolve_lines(parse_word("pattern", values["pattern"]))
     common = {"pattern", *declared_options(MakeSettings)}
     parameters_given = collect_parameters(
-        pattern_class, common, flags=flag_values, assigned=assigned, filed=file_values, table=table
+        kind, common, flags=flag_values, assigned=assigned, filed=file_values, table=table
     )
     options = read_options(
         "make", MakeSettings, {name: values[name] for name in values if name in common - {"pattern"}}

@@ -65,7 +65,7 @@ def refill(
     gcode: str | os.PathLike[str] | Iterable[str],
     *,
     output: str | os.PathLike[str] | None = None,
-    pattern: str = KEEP,
+    pattern: object = KEEP,
     density: str | float | None = None,
     smooth_radius: str | float = AUTO,
     max_deviation: float | None = None,
@@ -87,9 +87,10 @@ def refill(
         (.gcode.3mf), of which every plate is refilled; or its lines, with or without line ends.
     output : path, optional
         File to write; without it, the input is replaced.
-    pattern : str
-        "keep": the slicer's own paths with round corners. Or the name of a pattern, see
-        `infill.paths.families.catalogue`, or the path of a drawing: .svg .dxf .wkt .png.
+    pattern : str, Path, Pattern or Cells
+        "keep": the slicer's own paths with round corners. Or the name of a pattern that offers paths, lines or a level
+        set, see `patterns.offers`; the path of a drawing: .svg .dxf .wkt .png; "module.py:name"; or a pattern itself,
+        such as `patterns.Gyroid(cell=6)`.
     density : "same" or float, optional
         With "keep", "same" widens beads by up to 8 % to make up for shorter paths; without it, the filament per mm
         stays. With a pattern, a number above 0 and up to 1 is the share of the volume; else every section keeps its
@@ -127,7 +128,7 @@ def refill(
         If the file cannot be written.
     """
     request = Request(
-        pattern=pattern,
+        pattern=pattern,  # type: ignore[arg-type]  # whose name takes its place
         density=density,
         smooth_radius=smooth_radius,
         max_deviation=max_deviation,
@@ -265,7 +266,7 @@ def _refill_text(sliced: SlicedText, draft: BinaryIO, request: Request, progress
     from infill.refilling.support import largest_deviation, sample_batches
     from infill.refilling.timing import PrintClock
 
-    family = None if request.pattern == KEEP else family_of(request.pattern, request.parameters)
+    family = None if request.pattern == KEEP else family_of(request.pattern, request.parameters, request.lines)
     print_survey = survey_print(sliced.text, more=family is not None and not family.prismatic, settings=sliced.settings)
     print_survey = replace(print_survey, slicer=print_survey.slicer or sliced.slicer)
     if print_survey.stamped:

@@ -2,20 +2,27 @@
 
 from __future__ import annotations
 
+import difflib
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
+from infill.errors import ParameterError, UsageError
 from infill.files.excerpts import excerpt
-from patterns.declared import check_parameters, parameter
+from patterns.cellular import Cells
+from patterns.declared import HasName, check_parameters, given_parameters, parameter, parameter_values
 from patterns.declared import parameters as declared
 from patterns.errors import PatternError
 from patterns.given import suggest_name
+from patterns.protocol import Pattern
 from patterns.shared import angle_parameter, phase_parameter, seed_parameter
 
 if TYPE_CHECKING:
     from infill.paths.families.protocol import Family
+
+LineSource = Pattern | type[Pattern]
+FRAME = "frame"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,9 +79,9 @@ class HoneycombParameters(PlacedParameters):
 
     def placed(self, family: Family) -> Family:
         """Return a family with these parameters."""
-        from infill.paths.families.honeycomb import Honeycomb
+        from infill.paths.families.honeycomb import HoneycombPaths
 
-        assert isinstance(family, Honeycomb)
+        assert isinstance(family, HoneycombPaths)
         return super().placed(replace(family, flats=self.flats))
 
 
@@ -86,9 +93,9 @@ class VoronoiParameters(PlacedParameters):
 
     def placed(self, family: Family) -> Family:
         """Return a family with these parameters."""
-        from infill.paths.families.voronoi import Voronoi
+        from infill.paths.families.voronoi import VoronoiPaths
 
-        assert isinstance(family, Voronoi)
+        assert isinstance(family, VoronoiPaths)
         return super().placed(replace(family, seed=self.seed))
 
 
@@ -107,10 +114,10 @@ class CentredParameters(SizedParameters):
 
     def placed(self, family: Family) -> Family:
         """Return a family with these parameters."""
-        from infill.paths.families.heart import ConcentricHeart
+        from infill.paths.families.heart import ConcentricHeartPaths
         from infill.paths.families.spirals import Spirals
 
-        assert isinstance(family, ConcentricHeart | Spirals)
+        assert isinstance(family, ConcentricHeartPaths | Spirals)
         return replace(family, angle=self.angle, middle=self.middle)
 
 
@@ -125,28 +132,88 @@ KINDS: Mapping[str, type[PatternParameters]] = {
 }
 
 
-def default_parameters(pattern: str) -> PatternParameters:
-    """Return the parameters of a pattern, by its name, or of a drawing, by its path, with their defaults."""
-    return KINDS.get(pattern, PlacedParameters)(name=excerpt(PurePath(pattern).name))
+def resolve_paths(pattern: object, parameters: Mapping[str, Any]) -> tuple[str, Mapping[str, Any], LineSource | None]:
+    """Find the paths of a pattern; return its name, its parameters, and itself if paths are to follow its lines.
+
+    Parameters
+    ----------
+    pattern : str, Path, Pattern or Cells
+        A name; the path of a drawing; "module.py:name"; or a pattern, or a class of patterns.
+    parameters : mapping
+        Beside those that a pattern is made with.
+
+    Raises
+    ------
+    PatternError, ParameterError
+        If there is no such pattern, or it offers no paths, lines or level set; if a parameter is given twice.
+    """
+    from infill.options.modules import names_code
+    from infill.options.resolve_pattern import is_drawing, resolve_pattern
+    from infill.paths.families.catalogue import FAMILIES
+    from patterns import PATTERNS
+
+    if isinstance(pattern, (str, PurePath)):
+        name = str(pattern)
+        if name in FAMILIES or is_drawing(name):
+            return name, parameters, None
+        if name not in PATTERNS and not names_code(name):
+            matches = difflib.get_close_matches(name.lower(), FAMILIES, n=1, cutoff=0.4)
+            advice = f"did you mean {matches[0]!r}?" if matches else f"give keep, or one of {', '.join(FAMILIES)}"
+            raise ParameterError(f"there is no pattern {name!r}; {advice}")
+    kind, name = resolve_pattern(pattern, "refill")
+    own = {} if isinstance(kind, type) else given_parameters(kind)
+    own.pop(FRAME, None)  # a print has walls
+    for parameter_name, value in own.items():
+        if parameters.get(parameter_name, value) != value:
+            raise UsageError.about(
+                parameter_name, f"is {parameters[parameter_name]}, and {name} is made with {value}; give one of them"
+            )
+    made_class = kind if isinstance(kind, type) else type(kind)
+    if kind.name in FAMILIES and PATTERNS[kind.name] is made_class:
+        return kind.name, {**own, **parameters}, None
+    if isinstance(kind, Cells):  # a subclass of one that has paths
+        raise PatternError(f"{name} offers cells, and refill needs paths, lines or a level set; choose another pattern")
+    return name, {**own, **parameters}, kind
 
 
-def pattern_parameters(pattern: str, parameters: Mapping[str, Any]) -> PatternParameters:
-    """Return the checked parameters of a pattern.
+def default_parameters(pattern: str, lines: LineSource | None = None) -> HasName:
+    """Return the parameters of a pattern, by its name, or of a drawing, by its path, with their defaults.
+
+    Those of a pattern whose lines are drawn are its own.
+    """
+    return KINDS.get(pattern, PlacedParameters)(name=excerpt(PurePath(pattern).name)) if lines is None else lines
+
+
+def check_pattern_parameters(
+    pattern: str, parameters: Mapping[str, Any], lines: LineSource | None = None
+) -> PatternParameters | Pattern:
+    """Return the checked parameters of a pattern; of one whose lines are drawn, the pattern itself.
 
     Raises
     ------
     PatternError
         If one is unknown or out of range.
     """
-    kind = default_parameters(pattern)
-    names = declared(kind)
+    kind = default_parameters(pattern, lines)
+    names = [name for name in declared(kind) if name != FRAME]
     for name in parameters:
         if name not in names:
             raise PatternError(f"{kind.name} has no parameter {name!r}; {suggest_name(name, names)}")
+    if lines is not None:
+        from infill.options.resolve_pattern import with_parameters
+
+        return with_parameters(lines, dict(parameters))
+    assert isinstance(kind, PatternParameters)
     return replace(kind, **parameters)
 
 
-def family_of(pattern: str, parameters: Mapping[str, Any]) -> Family:
+def facts(pattern: str, parameters: Mapping[str, Any], lines: LineSource | None = None) -> dict[str, Any]:
+    """Return all parameters of a pattern as the report has them; the cell is none if none was given."""
+    values = parameter_values(check_pattern_parameters(pattern, parameters, lines))
+    return {name: parameters.get(name) if name == "cell" else value for name, value in values.items() if name != FRAME}
+
+
+def family_of(pattern: str, parameters: Mapping[str, Any], lines: LineSource | None = None) -> Family:
     """Return the family of a pattern, by its name, or of a drawing, by its path, with its parameters.
 
     Parameters
@@ -154,7 +221,14 @@ def family_of(pattern: str, parameters: Mapping[str, Any]) -> Family:
     pattern : str
     parameters : mapping
         By name; angles in degrees.
+    lines : Pattern or class of patterns, optional
+        The pattern itself, if paths are to follow its lines.
     """
+    made = check_pattern_parameters(pattern, parameters, lines)
+    if not isinstance(made, PatternParameters):
+        from infill.paths.families.lines import line_paths
+
+        return line_paths(made)
     from infill.paths.families.catalogue import FAMILIES
 
     if pattern in FAMILIES:
@@ -163,4 +237,4 @@ def family_of(pattern: str, parameters: Mapping[str, Any]) -> Family:
         from infill.drawings.drawing_files import read_tile_family
 
         family = read_tile_family(pattern)
-    return pattern_parameters(pattern, parameters).placed(family)
+    return made.placed(family)

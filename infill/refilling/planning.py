@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from infill.paths.contact import sample_paths
 from infill.paths.covering import check_cell, solve_cell, total_length
-from infill.paths.families.heart import ConcentricHeart
+from infill.paths.families.heart import ConcentricHeartPaths
+from infill.paths.families.lines import LinePaths
 from infill.paths.families.protocol import TOUCH, Family
 from infill.paths.families.spirals import Spirals
 from infill.paths.neighbours import index_beads
@@ -122,7 +123,8 @@ def plan_refill(
             length += float(batch.infill.length[strokes].sum()) if density is None else density * area.area / spacing
     if not regions:
         return None
-    if isinstance(family, ConcentricHeart | Spirals) and family.middle is None:  # one centre for the whole print
+    centred = ConcentricHeartPaths | Spirals | LinePaths
+    if isinstance(family, centred) and family.middle is None:  # one centre for the whole print
         boxes = np.array([area.bounds for area, _, _ in regions])
         low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
         family = replace(family, middle=tuple(((low + high) / 2).tolist()))

@@ -7,14 +7,13 @@ from collections.abc import Sequence
 from typing import Any
 
 from infill.gcode.survey import Survey
-from infill.refilling.placement import pattern_parameters
+from infill.refilling.placement import facts
 from infill.refilling.request import KEEP, Request
 from infill.refilling.rules import RefillRules
 from infill.refilling.stats import RefillStats
 from infill.refilling.support import LEAST_LENGTH, LEAST_SHARE, kept_shares
 from infill.report import FORM
 from infill.version import __version__
-from patterns.declared import parameter_values
 
 FILAMENT_TOLERANCE = 0.01  # relative error of the filament of all infill that is reported
 
@@ -36,7 +35,7 @@ def refill_report(
         "form": FORM,
         "request": {
             "pattern": request.pattern,
-            "parameters": parameter_values(pattern_parameters(request.pattern, request.parameters)),
+            "parameters": facts(request.pattern, request.parameters, request.lines),
             "density": request.density,
             "smooth_radius_mm": request.smooth_radius,
             "max_deviation_mm": request.max_deviation,

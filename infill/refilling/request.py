@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Annotated, Any
 
 from infill.checks import check_positive, check_range
@@ -24,7 +22,6 @@ SAME = "same"
 LARGEST_RADIUS = 100.0  # mm
 ENDLESS = 10**9  # layers
 PATHS, WHERE = "Paths", "Where"
-DRAWINGS = (".svg", ".dxf", ".wkt", ".png", ".jpg", ".jpeg", ".bmp")
 
 
 def parse_radius(name: str, value: object) -> str | float:
@@ -73,8 +70,8 @@ class Request:
 
     Parameters
     ----------
-    pattern : str
-        "keep" for the slicer's own paths, the name of a pattern, or the path of a drawing.
+    pattern : str, Path, Pattern or Cells
+        "keep" for the slicer's own paths, or a pattern as `resolve_paths` takes it. Once checked, its name.
     density : None, "same" or float
         None: the slicer's filament per mm with its own paths, its filament with others. "same": its filament.
         A number above 0 and up to 1: the share of the volume.
@@ -87,7 +84,9 @@ class Request:
     part : str, optional
         Refill only objects whose name contains this.
     parameters : mapping
-        Of the pattern, by name; angles in degrees.
+        Of the pattern, by name; angles in degrees. Once checked, with those that the pattern was made with.
+    lines : Pattern or class of patterns, optional
+        Set once checked: the pattern, if paths are to follow its lines.
 
     Raises
     ------
@@ -101,7 +100,7 @@ class Request:
             "keep: the slicer's own paths, with round corners. Or a drawing: tile.svg, .dxf, .png, .wkt. Or a"
             " built-in pattern: honeycomb, zigzag, concentric-heart, grid, triangles, tri-hexagon, cubic, rectilinear, "
             "hilbert, gyroid, schwarz-p, schwarz-d, concentric, honeycomb-3d, octagons, voronoi, cross, cross-"
-            "hatch, quarter-cubic, lateral-honeycomb, archimedean-chords, octagram-spiral.",
+            "hatch, quarter-cubic, lateral-honeycomb, archimedean-chords, octagram-spiral. Or module.py:name.",
             PATHS,
             unit="keep|NAME|FILE",
             default="keep",
@@ -155,6 +154,7 @@ class Request:
         Option("Refill only objects with this in their name.", WHERE, unit="NAME", name="object", default="all"),
     ] = None
     parameters: Mapping[str, Any] = field(default_factory=dict)
+    lines: Any = field(default=None, init=False)
 
     def __post_init__(self) -> None:
         if self.density is None:
@@ -175,26 +175,32 @@ class Request:
             raise ParameterError.about(
                 "layers", f"is {self.layers[0]} to {self.layers[1]}; count from 1, the lower one first"
             )
-        if self.pattern != KEEP and Path(self.pattern).suffix.lower() not in DRAWINGS:
-            from infill.paths.families.catalogue import FAMILIES
-
-            if self.pattern not in FAMILIES:
-                matches = difflib.get_close_matches(self.pattern.lower(), FAMILIES, n=1, cutoff=0.4)
-                advice = f"did you mean {matches[0]!r}?" if matches else f"give keep, or one of {', '.join(FAMILIES)}"
-                raise ParameterError(f"there is no pattern {self.pattern!r}; {advice}")
+        if self.pattern != KEEP:
+            self._resolve_pattern()
         if self.pattern == KEEP and isinstance(self.density, int | float):
             raise UsageError.about(
                 "density", "is for built-in patterns; keep has the slicer's: leave it out, or set it there"
             )
         if self.parameters:
-            from infill.refilling.placement import pattern_parameters
+            from infill.refilling.placement import check_pattern_parameters
 
             try:
-                pattern_parameters(self.pattern, self.parameters)
+                check_pattern_parameters(self.pattern, self.parameters, self.lines)
             except PatternError as error:
                 raise ParameterError.like(error) from None
             if self.cell is not None and self.density is not None:
                 raise UsageError.about(("density", "cell"), "are both given, and each decides the other; leave one out")
+
+    def _resolve_pattern(self) -> None:
+        """Put the name of the pattern in its place, and find its parameters and lines."""
+        from infill.refilling.placement import resolve_paths
+
+        try:
+            resolved = resolve_paths(self.pattern, self.parameters)
+        except PatternError as error:
+            raise ParameterError.like(error) from None
+        for attribute, value in zip(("pattern", "parameters", "lines"), resolved, strict=True):
+            object.__setattr__(self, attribute, value)
 
     @property
     def radius(self) -> float:

@@ -36,7 +36,7 @@ def resolve(
     assigned : sequence of str
         Parameters of the pattern as ``name=value``, angles in degrees.
     trust : bool
-        Whether the file may name files from elsewhere: see `infill.options.trust`.
+        Whether the file may name code to run and files from elsewhere: see `infill.options.trust`.
 
     Raises
     ------
@@ -51,7 +51,7 @@ def resolve(
     from infill.options.assignments import collect_parameters, pop_table
     from infill.options.toml import read_toml
     from infill.options.trust import check_trusted
-    from infill.refilling.placement import default_parameters
+    from infill.refilling.placement import default_parameters, resolve_paths
 
     file_options = read_toml(config, example='pattern = "gyroid"') if config else {}
     if config:
@@ -59,10 +59,10 @@ def resolve(
             {name: value for name, value in file_options.items() if name not in typed},
             config,
             trust=trust,
-            code=False,
         )
     table = pop_table(file_options)
-    kind = default_parameters(parse_word("pattern", typed.get("pattern", file_options.get("pattern", KEEP))))
+    pattern = parse_word("pattern", typed.get("pattern", file_options.get("pattern", KEEP)))
+    kind = default_parameters(pattern, None if pattern == KEEP else resolve_paths(pattern, {})[2])
     pattern_arguments = collect_parameters(
         kind, declared_options(Request), flags=typed, assigned=assigned, filed=file_options, table=table
     )

@@ -1,4 +1,4 @@
-"""The catalogue: every family by name, loaded on first use."""
+"""Paths drawn by hand, by the names of `patterns.PATTERNS`, loaded on first use; `families.lines` draws all others."""
 
 from __future__ import annotations
 
@@ -8,33 +8,33 @@ from collections.abc import Iterator, Mapping
 from infill.paths.families.protocol import Family
 
 _HOMES = {
-    "concentric-heart": ("heart", "ConcentricHeart"),
+    "concentric-heart": ("heart", "ConcentricHeartPaths"),
     "zigzag": ("grid", "ZIGZAG"),
-    "honeycomb": ("honeycomb", "Honeycomb"),
-    "honeycomb-3d": ("honeycomb_3d", "Honeycomb3D"),
+    "honeycomb": ("honeycomb", "HoneycombPaths"),
+    "honeycomb-3d": ("honeycomb_3d", "Honeycomb3DPaths"),
     "grid": ("grid", "GRID"),
     "triangles": ("triangles", "TRIANGLES"),
     "tri-hexagon": ("triangles", "TRI_HEXAGON"),
     "cubic": ("triangles", "CUBIC"),
-    "rectilinear": ("rectilinear", "Rectilinear"),
-    "hilbert": ("hilbert", "Hilbert"),
-    "gyroid": ("level_sets", "Gyroid"),
-    "schwarz-p": ("level_sets", "SchwarzP"),
-    "schwarz-d": ("level_sets", "SchwarzD"),
-    "concentric": ("concentric", "Concentric"),
-    "octagons": ("octagons", "Octagons"),
-    "cross": ("cross", "Cross"),
+    "rectilinear": ("rectilinear", "RectilinearPaths"),
+    "hilbert": ("hilbert", "HilbertPaths"),
+    "gyroid": ("level_sets", "GyroidPaths"),
+    "schwarz-p": ("level_sets", "SchwarzPPaths"),
+    "schwarz-d": ("level_sets", "SchwarzDPaths"),
+    "concentric": ("concentric", "ConcentricPaths"),
+    "octagons": ("octagons", "OctagonsPaths"),
+    "cross": ("cross", "CrossPaths"),
     "archimedean-chords": ("spirals", "ARCHIMEDEAN_CHORDS"),
     "octagram-spiral": ("spirals", "OCTAGRAM_SPIRAL"),
-    "voronoi": ("voronoi", "Voronoi"),
-    "cross-hatch": ("cross_hatch", "CrossHatch"),
-    "lateral-honeycomb": ("lateral_honeycomb", "LateralHoneycomb"),
-    "quarter-cubic": ("quarter_cubic", "QuarterCubic"),
+    "voronoi": ("voronoi", "VoronoiPaths"),
+    "cross-hatch": ("cross_hatch", "CrossHatchPaths"),
+    "lateral-honeycomb": ("lateral_honeycomb", "LateralHoneycombPaths"),
+    "quarter-cubic": ("quarter_cubic", "QuarterCubicPaths"),
 }
 
 
 class _Catalogue(Mapping[str, Family]):
-    """Families by name, the three designs of the paper first."""
+    """Families of the patterns that offer paths, by name, the three designs of the paper first."""
 
     def __getitem__(self, name: str) -> Family:
         module, attribute = _HOMES[name]

@@ -15,7 +15,7 @@ SIMPLER = 0.002  # mm
 
 
 @dataclass(frozen=True, kw_only=True)
-class Concentric:
+class ConcentricPaths:
     """Closed lines at (k + 1/2) `cell` from the outline; where two sides of one would overlap, it draws back."""
 
     name: str = "concentric"

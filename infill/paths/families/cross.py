@@ -15,7 +15,7 @@ MARGIN = 2  # octagons, beyond the box, whose steps are drawn
 
 
 @dataclass(frozen=True, kw_only=True)
-class Cross:
+class CrossPaths:
     """The one curve of order 24 about (0, 0), with steps `cell` long: lines are nowhere nearer to one another."""
 
     name: str = "cross"

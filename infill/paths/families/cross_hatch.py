@@ -17,7 +17,7 @@ PLACES = 256  # along a wave
 
 
 @dataclass(frozen=True, kw_only=True)
-class CrossHatch:
+class CrossHatchPaths:
     """The surface of `patterns.hatch`; `cell` is its period in x and y, with two walls; upwards it is twice that.
 
     With weights a of cos x and b of cos y, where b is larger, cos y = -a / b cos x. Where both are the same, waves

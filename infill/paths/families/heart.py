@@ -15,7 +15,7 @@ FEWEST, MOST = 9, 513  # points on a lobe
 
 
 @dataclass(frozen=True, kw_only=True)
-class ConcentricHeart:
+class ConcentricHeartPaths:
     """Hearts inside one another, `cell` apart at their straight sides and up to twice that at their lobes.
 
     They lie about `middle`, mm, or else about the middle of the box, turned by `angle` degrees. `middle` should be

@@ -13,7 +13,7 @@ from patterns.hilbert import hilbert_curve
 
 
 @dataclass(frozen=True, kw_only=True)
-class Hilbert:
+class HilbertPaths:
     """The one curve of order 24 about (0, 0), in squares of side `cell`, as far as the box reaches."""
 
     name: str = "hilbert"

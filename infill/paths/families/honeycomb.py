@@ -12,13 +12,13 @@ TURN = math.radians(60)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Honeycomb:
+class HoneycombPaths:
     """Hexagons whose walls across the rows are single and whose walls along them are double.
 
     `cell` is the distance between the walls along the rows. Flats are `flats` times as long as flanks, and what
     rounding takes from them: at any radius, about flats / (1 + flats) of the lines touches a neighbour.
 
-    >>> rows = Honeycomb().rows(6.0, 0.45, 0.0)
+    >>> rows = HoneycombPaths().rows(6.0, 0.45, 0.0)
     >>> round(rows.pitch, 3), round(rows.waves[0].top, 3)
     (3.407, 3.464)
     """

@@ -20,10 +20,10 @@ SHARE = 0.25  # of a cell that a radius may have: half of the shortest flank
 
 
 @dataclass(frozen=True, kw_only=True)
-class Honeycomb3D:
+class Honeycomb3DPaths:
     """Truncated octahedra; `cell` is the distance between neighbours side by side, and of equal layers.
 
-    >>> low, high = Honeycomb3D().rows(8.0, 0.45, 0.0).waves
+    >>> low, high = Honeycomb3DPaths().rows(8.0, 0.45, 0.0).waves
     >>> round(high.height, 3), round(high.bottom, 3), round(high.base - low.base - low.height, 3)
     (1.796, 4.407, 0.407)
     """

@@ -19,7 +19,7 @@ from infill.paths.families.protocol import TOUCH, Bounds, Path
 
 
 @dataclass(frozen=True, kw_only=True)
-class LateralHoneycomb:
+class LateralHoneycombPaths:
     """Two lines a tube; `cell` is the distance between upright walls, in which both lines touch."""
 
     name: str = "lateral-honeycomb"
@@ -38,10 +38,10 @@ class LateralHoneycomb:
         radius: float,  # noqa: ARG002 - there are no corners
     ) -> list[Path]:
         """Return straight lines, two a tube; see `Family`."""
-        from patterns.honeycombs import LATERAL_HONEYCOMB
+        from patterns.honeycombs import LateralHoneycomb
 
-        normals, _ = LATERAL_HONEYCOMB.faces()
-        period, _ = LATERAL_HONEYCOMB.lattice()
+        tubes = LateralHoneycomb()
+        (normals, _), (period, _) = tubes.faces(), tubes.lattice()
         _, across, up = normals[1]
         # Of a leaning wall, and of a tube with one upright wall, in cells.
         rise, height = across / up / 2, period[2] / 2

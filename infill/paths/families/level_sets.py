@@ -22,7 +22,7 @@ DIAGONAL = np.array([[1.0, 1.0], [1.0, -1.0]]) / math.sqrt(2)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Gyroid:
+class GyroidPaths:
     """sin x cos y + sin y cos z + sin z cos x = 0; `cell` is the period.
 
     Solved for y, y = atan2(cos z, sin x) ± acos(−sin z cos x / √(sin² x + cos² z)), where |cos z| > |sin z|; for x
@@ -71,7 +71,7 @@ class Gyroid:
 
 
 @dataclass(frozen=True, kw_only=True)
-class SchwarzP:
+class SchwarzPPaths:
     """cos x + cos y + cos z = 0; `cell` is the period.
 
     With c = |cos z|, every loop is cos x = c/2 + (1 − c/2) cos t, cos y = c/2 − (1 − c/2) cos t about its middle.
@@ -119,7 +119,7 @@ class SchwarzP:
 
 
 @dataclass(frozen=True, kw_only=True)
-class SchwarzD:
+class SchwarzDPaths:
     """cos z sin(x + y) + sin z cos(x − y) = 0; `cell` is the period."""
 
     name: str = "schwarz-d"

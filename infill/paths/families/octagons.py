@@ -41,7 +41,7 @@ LEAST = 3.6  # gaps of touching lines, that an octagon is wide: single walls shr
 
 
 @dataclass(frozen=True, kw_only=True)
-class Octagons:
+class OctagonsPaths:
     """Octagons `cell` wide, one about (0, 0), and the squares between them. A third of the walls is drawn twice."""
 
     name: str = "octagons"

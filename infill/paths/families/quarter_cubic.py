@@ -1,6 +1,6 @@
 r"""Quarter cubic: sections of tetrahedra with every crossing resolved, drawn as two waves a row that touch.
 
-The planes of `patterns.planes.QUARTER_CUBIC` are cut at one height in lines u = x + y and v = x - y. Those along u lie
+The planes of `patterns.QuarterCubic` are cut at one height in lines u = x + y and v = x - y. Those along u lie
 in pairs about fixed middles, those along v as well: as z rises, lines of a pair part until they meet those of the
 next pairs, and come back. A wave climbs along one line of v and comes down along one of u, turn by turn; flats at
 every corner touch the waves above and below::
@@ -28,7 +28,7 @@ SAME = 1e-6  # mm: corners nearer than that are one
 
 
 @dataclass(frozen=True, kw_only=True)
-class QuarterCubic:
+class QuarterCubicPaths:
     """Tetrahedra, with and without corners; `cell` is the period in x, y and z, before flats and touching are added.
 
     Planes are `cell` / √3 apart.
@@ -98,9 +98,9 @@ class QuarterCubic:
 
 def _line_pair(z: float, sign: int) -> tuple[float, float]:
     """Return the middle of the two lines x + y (or x - y, for a sign of -1) and half of their distance, in cells."""
-    from patterns.planes import QUARTER_CUBIC
+    from patterns.planes import QuarterCubic
 
-    normals, offsets = QUARTER_CUBIC.families()
+    normals, offsets = QuarterCubic().families()
     # A plane n . p + offset = 0 cuts the height z in x + sign y = -(n_z z + offset) n_x, modulo 1.
     along = normals[:, 0] * normals[:, 1] == sign
     place = -(normals[along, 2] * z + offsets[along])[0] * normals[along, 0][0]

@@ -9,7 +9,7 @@ from infill.paths.families.waves import Rows, Wave, draw_rows
 
 
 @dataclass(frozen=True, kw_only=True)
-class Rectilinear:
+class RectilinearPaths:
     """Lines at 45° in even layers and at 135° in odd ones, `cell` apart: each rests on all those that it crosses."""
 
     name: str = "rectilinear"

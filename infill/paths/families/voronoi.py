@@ -25,7 +25,7 @@ MITRE = 20.0  # half distances of touching lines, that the corner of a cell may 
 
 
 @dataclass(frozen=True, kw_only=True)
-class Voronoi:
+class VoronoiPaths:
     """The cells of `patterns.voronoi`; `cell` is the side of a square as large as one of them on average.
 
     A cell too small for a bead is left out. Cells are at least `FINEST` line widths large, so that beads fit into most.

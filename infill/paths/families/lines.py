@@ -1,0 +1,149 @@
+"""Paths along the lines of any pattern: the paths of plug-ins and of patterns of users.
+
+A line that meets no other is one path. Lines that meet or come too near have a path on either side, half a bead away,
+so that nothing crosses and no bead is laid twice::
+
+    ──┼──    becomes    ══╝╚══
+                        ══╗╔══
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Hashable
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from infill.paths.families.protocol import TOUCH, Bounds, Path
+from patterns.protocol import Pattern, draw_lines, with_cell
+
+if TYPE_CHECKING:
+    from shapely import MultiLineString, MultiPolygon, Polygon
+
+GROWTH = 1.5  # between the squares in which lines are drawn: regions of a print that differ little have the same one
+SNAP = 1e-6  # of a cell: lines that are nearer than this meet
+NEARER = 0.95  # of the distance of touching beads, below which lines count as too near
+SIMPLER = 0.002  # mm
+ARC = 16  # chords in a quarter of a circle
+SHARE = 0.25  # of a cell that a radius may have, so that cells keep their shape
+SAMPLE = 12.0  # cells along a side of the square in which a density is measured
+ROUNDS = 3  # of the guess of a cell
+
+
+@dataclass(frozen=True, kw_only=True)
+class LinePaths:
+    """Paths along the lines of a pattern, whose origin lies at `middle`, mm; `cell` is the cell of the pattern."""
+
+    pattern: Pattern
+    middle: tuple[float, float] | None = None
+    wide: bool = False
+
+    @property
+    def name(self) -> str:
+        """The name of the pattern."""
+        return self.pattern.name
+
+    @property
+    def summary(self) -> str:
+        """Purpose of the pattern."""
+        return self.pattern.summary
+
+    @property
+    def prismatic(self) -> bool:
+        """True if every layer is equal."""
+        return self.pattern.prismatic
+
+    def strands(
+        self,
+        bounds: Bounds,
+        *,
+        cell: float,
+        line_width: float,
+        z: float,
+        layer: int,  # noqa: ARG002 - the height decides
+        radius: float,  # noqa: ARG002 - paths touch along their walls
+    ) -> list[Path]:
+        """Return the paths of a square about the middle that reach into the box; see `Family`."""
+        middle = np.array(self.middle or (0.0, 0.0))
+        box = np.array(bounds, dtype=np.float64).reshape(2, 2) - middle
+        half = GROWTH ** math.ceil(math.log(max(float(np.abs(box).max()) + cell, 1.0), GROWTH))
+        paths = self._draw(cell, half, 0.0 if self.prismatic else z, line_width)
+        low, high = box
+        return [path + middle for path in paths if (path.max(axis=0) >= low).all() and (path.min(axis=0) <= high).all()]
+
+    def cell_for(self, density: float, line_width: float) -> float:
+        """Return the cell for a density, as measured in a few cells; see `Family`."""
+        cell = 10 * line_width
+        for _ in range(ROUNDS):
+            half = SAMPLE / 2 * cell
+            paths = self._draw(cell, half, 0.0, line_width)
+            length = sum(float(np.hypot(*np.diff(path, axis=0).T).sum()) for path in paths)
+            cell *= max(TOUCH * line_width * length / (2 * half) ** 2, 1e-3) / density
+        return cell
+
+    def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002
+        """Return the radius at which cells keep their shape, mm; paths that are offset together touch at any."""
+        return SHARE * cell
+
+    def _draw(self, cell: float, half: float, z: float, line_width: float) -> list[Path]:
+        pattern = with_cell(self.pattern, cell)
+        if isinstance(pattern, Hashable):
+            return _paths_in_square(pattern, half, z, line_width)
+        return _paths_in_square.__wrapped__(pattern, half, z, line_width)
+
+
+@dataclass(frozen=True, kw_only=True)
+class FollowingPaths(LinePaths):
+    """Paths along the lines of a pattern that follows the outline of the region."""
+
+    def strands_inside(self, region: Polygon | MultiPolygon, *, cell: float, line_width: float) -> list[Path]:
+        """Return the paths inside the region; see `RegionFamily`."""
+        return separate_lines(draw_lines(with_cell(self.pattern, cell), region), cell=cell, line_width=line_width)
+
+
+def line_paths(pattern: Pattern) -> LinePaths:
+    """Return the family of paths along the lines of a pattern."""
+    return FollowingPaths(pattern=pattern) if getattr(pattern, "follows", False) else LinePaths(pattern=pattern)
+
+
+@lru_cache(maxsize=16)
+def _paths_in_square(pattern: Any, half: float, z: float, line_width: float) -> list[Path]:  # noqa: ANN401 - a Pattern
+    lines = draw_lines(pattern, shapely.box(-half, -half, half, half), z)
+    return separate_lines(lines, cell=float(getattr(pattern, "cell", 1.0)), line_width=line_width)
+
+
+def separate_lines(lines: MultiLineString, *, cell: float, line_width: float) -> list[Path]:
+    """Return paths along lines, of which no two cross or come nearer than touching beads.
+
+    >>> cross = shapely.MultiLineString([[(-5, 0), (5, 0)], [(0, -5), (0, 5)]])
+    >>> len(separate_lines(cross, cell=5, line_width=0.4)), len(separate_lines(cross.geoms[0], cell=5, line_width=0.4))
+    (1, 1)
+    """
+    touch = TOUCH * line_width
+    parts = shapely.get_parts(shapely.line_merge(shapely.union_all([lines], grid_size=SNAP * cell)))
+    alone = _meet_no_other(parts)
+    near = shapely.STRtree(parts).query(parts, predicate="dwithin", distance=NEARER * touch)
+    alone[near[0][near[0] != near[1]]] = False
+    while not alone.all():
+        walls = shapely.buffer(shapely.union_all(parts[~alone]), touch, quad_segs=ARC)
+        walls = shapely.buffer(walls, -touch / 2, quad_segs=ARC)  # gaps that are too narrow for a bead have gone
+        too_near = alone & shapely.dwithin(parts, walls, NEARER * touch)
+        if not too_near.any():
+            rings = shapely.get_rings(shapely.get_parts(shapely.simplify(walls, SIMPLER)))
+            return [shapely.get_coordinates(path) for path in (*parts[alone], *rings)]
+        alone &= ~too_near
+    return [shapely.get_coordinates(path) for path in parts]
+
+
+def _meet_no_other(parts: NDArray[np.object_]) -> NDArray[np.bool_]:
+    """Tell which lines, merged where two meet, share no end with another."""
+    ends = np.array([line.coords[end] for line in parts for end in (0, -1)]).reshape(-1, 2)
+    _, places, counts = np.unique(ends, axis=0, return_inverse=True, return_counts=True)
+    shared: NDArray[np.intp] = counts[places.ravel()].reshape(-1, 2)
+    alone: NDArray[np.bool_] = (shared == 1).all(axis=1) | (shapely.is_closed(parts) & (shared[:, 0] == 2))
+    return alone

@@ -1,0 +1,294 @@
+"""One registry of patterns for every product: a pattern of a user's makes, fills and refills, and so do all of ours."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import re
+from importlib.metadata import EntryPoint
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+from made_shapes import box
+from shapes import BUILT_IN, IN_SPACE
+from test_command_line import one_line_error, run
+
+import patterns
+from infill import ParameterError, fill, make, refill
+from infill.errors import UsageError
+from infill.lattices.choosing import choose_voids
+from infill.lattices.request import check_request
+from infill.lattices.settings import FillOptions
+from infill.making.request import instantiate_pattern
+from infill.options.resolve_pattern import resolve_pattern
+from infill.paths.families.catalogue import FAMILIES
+from infill.paths.families.lines import LinePaths, separate_lines
+from infill.paths.families.protocol import TOUCH
+from infill.refilling.placement import family_of, resolve_paths
+from infill.refilling.request import Request
+from patterns import PATTERNS, Gyroid, Honeycomb, Octet, Pattern, PatternError, Zigzag, offers
+from patterns.declared import given_parameters
+from tests.gcode_judge import judge
+from tests.handmade_prints import Dialect, written
+
+MODULE = '''
+"""A pattern of a user's: one file."""
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+import shapely
+
+from patterns import Pattern, cell_parameter, parameter
+from patterns.linework import clip
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bricks(Pattern):
+    """Rows, and walls between them, half a brick aside in every second row."""
+
+    name: ClassVar[str] = "bricks"
+    summary: ClassVar[str] = "a wall of bricks, seen from the side"
+    cell: float = cell_parameter(5.0)
+    long: float = parameter(2.0, "length of a brick over its height", unit="", low=1.0, high=5.0)
+
+    def lines(self, region, z=0.0):
+        x0, y0, x1, y1 = region.bounds
+        rows = np.arange(np.floor(y0 / self.cell), np.ceil(y1 / self.cell) + 1)
+        walls = [[(x0, row * self.cell), (x1, row * self.cell)] for row in rows]
+        step = self.long * self.cell
+        for row in rows:
+            for x in np.arange(np.floor(x0 / step) - 1, np.ceil(x1 / step) + 1) * step + row % 2 * step / 2:
+                walls.append([(x, row * self.cell), (x, (row + 1) * self.cell)])
+        return clip(shapely.linestrings(walls), region)
+
+    def line_spacing(self, region):
+        return self.cell
+'''
+WIDTH = 0.45
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A module with a pattern, a part and a print."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.syspath_prepend(tmp_path)
+    Path("bricks_module.py").write_text(MODULE)
+    box(16, 14, 12).export("part.stl")
+    Path("print.gcode").write_bytes(written(Dialect(layers=5)))
+    return tmp_path
+
+
+def installed(monkeypatch: pytest.MonkeyPatch) -> str:
+    entry = EntryPoint(name="bricks", value="bricks_module:Bricks", group="infill.patterns")
+    monkeypatch.setattr(PATTERNS, "_plugins", lambda: [entry])
+    monkeypatch.setattr(PATTERNS, "_plugged_in", None)
+    return "bricks"
+
+
+@pytest.mark.usefixtures("compiled")
+@pytest.mark.parametrize("way", ["entry point", "module"])
+def test_one_file_makes_fills_and_refills(way: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    name = installed(monkeypatch) if way == "entry point" else "bricks_module.py:Bricks"
+    made = run("make", name, "--size", "20", "--height", "1", "--set", "long=3", "-o", "a.stl", "--json", "-q")
+    assert made.exit_code == 0, made.stderr
+    assert json.loads(made.stdout)["request"]["parameters"] == {"cell": 5.0, "long": 3.0}
+    filled = run("fill", "part.stl", "--pattern", name, "--density", "30%", "--voxel", "0.5", "-o", "b.stl", "--json")
+    assert filled.exit_code == 0, filled.stderr
+    report = json.loads(filled.stdout)
+    assert report["density"] == pytest.approx(0.3, abs=0.005)
+    assert report["closed"]
+    words = ("refill", "print.gcode", "--pattern", name, "--set", "long=3", "-o", "c.gcode", "--json", "-q")
+    refilled = run(*words)
+    assert refilled.exit_code == 0, refilled.stderr
+    report = json.loads(refilled.stdout)
+    assert report["request"]["pattern"] == name
+    assert report["request"]["parameters"] == {"cell": None, "long": 3.0}
+    assert report["sections"]["replaced"] == report["sections"]["all"] > 0
+    # A region of the print has room for few bricks, so that the length of lines jumps with their size.
+    assert judge(Path("print.gcode").read_bytes(), Path("c.gcode").read_bytes(), filament=(0.8, 1.1)) == []
+
+
+def test_a_drawing_makes_too(folder: Path) -> None:
+    Path("cross.svg").write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 20 20"><path d="M0 10 H20 M10 0 V20"/></svg>'
+    )
+    result = run("make", "cross.svg", "--size", "20", "--height", "1", "--cell", "5", "-o", "a.stl", "--json", "-q")
+    assert result.exit_code == 0, result.stderr
+    assert json.loads(result.stdout)["request"]["pattern"] == "cross.svg"
+    grid = json.loads(run("make", "grid", "--size", "20", "--no-frame", "--cell", "5", "--json", "-q").stdout)
+    assert json.loads(result.stdout)["density"] == pytest.approx(grid["density"], abs=0.05)
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (
+            ("make", "gyroid", "-o", "a.stl"),
+            "gyroid offers cells and paths, and make needs lines or a level set; choose another pattern, or give it to "
+            "fill or refill",
+        ),
+        (
+            ("refill", "print.gcode", "--pattern", "octet", "-o", "a.gcode"),
+            "octet offers cells, and refill needs paths, lines or a level set; choose another pattern, or give it to "
+            "fill",
+        ),
+    ],
+)
+def test_an_offer_that_does_not_serve_is_one_clear_line(words: tuple[str, ...], says: str, folder: Path) -> None:
+    one_line_error(run(*words), re.escape(says))
+
+
+def test_a_config_file_may_not_run_code_unless_trusted(folder: Path) -> None:
+    for command, name in (("make", "a.toml"), ("refill", "b.toml")):
+        Path(name).write_text('pattern = "bricks_module.py:Bricks"\n')
+        words = (command, *(["print.gcode"] if command == "refill" else []), "--config", name, "--dry-run")
+        one_line_error(run(*words), "asks to run code: pattern = 'bricks_module.py:Bricks'; .* give --trust")
+        assert run(*words, "--trust").exit_code == 0
+
+
+# --- names and classes -------------------------------------------------------------------------------------------
+
+
+def test_every_name_of_the_list_has_a_class() -> None:
+    listed = [line.split()[0] for line in run("list").stdout.splitlines() if line.startswith("  ")]
+    assert listed == [*BUILT_IN, *IN_SPACE]
+    for name in listed:
+        kind: Any = PATTERNS[name]
+        assert getattr(patterns, kind.__name__) is kind
+        assert kind.__name__ in patterns.__all__
+        assert kind.__name__.lower() == name.replace("-", "")
+        assert kind().name == kind.name == name
+        assert offers(kind)
+        assert resolve_pattern(name, "fill")[0] in (kind, kind())
+        with pytest.raises(PatternError, match=f"cell of {name} is 0 mm; it must be a number from 0.001 to 10000 mm"):
+            kind(cell=0)
+
+
+@pytest.mark.parametrize("name", BUILT_IN)
+def test_make_takes_a_name_or_a_pattern(name: str) -> None:
+    assert instantiate_pattern(name, {"cell": 5.0}) == instantiate_pattern(PATTERNS[name](cell=5.0), {})  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("name", [*BUILT_IN, *IN_SPACE])
+def test_fill_takes_a_name_or_a_pattern(name: str) -> None:
+    """The same request, with the same voids: cell and density are as open as they are with a name."""
+    bounds = np.array([[0.0, 0.0, 0.0], [20.0, 20.0, 20.0]])
+
+    def asked(pattern: object, **options: Any) -> Any:
+        apart = ("units", "slicer", "form", "seed", "pattern")
+        values = {name: value for name, value in vars(FillOptions()).items() if name not in apart}
+        return check_request(pattern=pattern, own={}, form="solid", **{**values, **options})
+
+    one, other = asked(name), asked(PATTERNS[name]())
+    assert one.facts() == other.facts()
+    first, second = (choose_voids(request, bounds, 1) for request in (one, other))
+    assert type(first) is type(second)
+    assert getattr(first, "pattern", None) == getattr(second, "pattern", None)
+    sized, made = asked(name, cell=7.0), asked(PATTERNS[name](cell=7.0))
+    assert sized.facts() == made.facts()
+    assert made.cell == 7.0
+    with pytest.raises(UsageError, match=f"cell is 6 mm, and {name} is made with 7 mm; give one of them"):
+        asked(PATTERNS[name](cell=7.0), cell=6.0)
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_refill_takes_a_name_or_a_pattern(name: str) -> None:
+    one, other = Request(pattern=name, parameters={"cell": 5.0}), Request(pattern=PATTERNS[name](cell=5.0))
+    assert (one.pattern, one.parameters, one.lines) == (other.pattern, other.parameters, other.lines)
+    assert other.cell == 5.0
+    assert Request(pattern=PATTERNS[name]()).cell is None
+    assert family_of(other.pattern, other.parameters) == family_of(name, {"cell": 5.0})
+
+
+@pytest.mark.usefixtures("compiled")
+def test_the_same_voids_and_the_same_print(folder: Path) -> None:
+    options: dict[str, Any] = {"density": 0.3, "voxel": 0.5, "wall": 1.0}
+    part = box(16, 14, 12)
+    one, other = fill(part, "gyroid", cell=6, **{**options}), fill(part, Gyroid(cell=6), **options)
+    np.testing.assert_array_equal(one.surface.vertices, other.surface.vertices)
+    texts = []
+    for pattern, more in (("gyroid", {"cell": 6}), (Gyroid(cell=6), {})):
+        refill("print.gcode", output="out.gcode", pattern=pattern, **more)
+        texts.append(Path("out.gcode").read_bytes())
+    assert texts[0] == texts[1]
+
+
+def test_the_cell_counts_if_it_was_given() -> None:
+    assert given_parameters(Honeycomb()) == given_parameters(dataclasses.replace(Honeycomb(), angle=0)) == {}
+    assert given_parameters(Honeycomb(cell=6)) == {"cell": 6.0}
+    assert Honeycomb(cell=6) == Honeycomb()
+    assert given_parameters(Gyroid(cell=3)) == {"cell": 3.0}
+    with pytest.raises(ParameterError, match="zigzag has no parameter 'waves'; it has cell, angle, phase"):
+        Request(pattern=Zigzag(waves=3))
+    with pytest.raises(ParameterError, match="octet offers cells"):
+        Request(pattern=Octet())
+    with pytest.raises(PatternError, match="gyroid offers cells and paths, and make needs lines"):
+        make(Gyroid(cell=6))
+    with pytest.raises(UsageError, match=r"cell is 4, and gyroid is made with 5\.0; give one of them"):
+        Request(pattern=Gyroid(cell=5), parameters={"cell": 4})
+
+
+# --- paths along lines -------------------------------------------------------------------------------------------
+
+
+def test_the_families_are_those_of_patterns_that_offer_paths() -> None:
+    assert set(FAMILIES) == {name for name in PATTERNS.built_in if "paths" in offers(PATTERNS[name])}
+    for name, family in FAMILIES.items():
+        assert family.name == name
+
+
+def test_lines_that_meet_no_other_are_paths_as_they_are() -> None:
+    lines = shapely.MultiLineString([[(0, y), (10, y)] for y in range(5)])
+    paths = separate_lines(lines, cell=1.0, line_width=WIDTH)
+    assert sorted(map(shapely.LineString, paths), key=lambda line: line.bounds[1]) == list(lines.geoms)
+
+
+@pytest.mark.parametrize("name", BUILT_IN)
+@pytest.mark.parametrize("cell", [2.0, 4.0])
+def test_paths_along_lines_neither_cross_nor_come_too_near(name: str, cell: float) -> None:
+    """Whatever a pattern draws, apart from where a region cuts it: paths are simple, apart, and beside the lines."""
+    pattern: Any = PATTERNS[name](cell=cell, **({"frame": False} if hasattr(PATTERNS[name], "frame") else {}))
+    region = shapely.box(-15, -15, 15, 15)
+    lines = pattern.lines(region)
+    paths = [shapely.LineString(path) for path in separate_lines(lines, cell=cell, line_width=WIDTH)]
+    drawn = shapely.MultiLineString(paths)
+    assert drawn.is_simple
+    inside = shapely.intersection(paths, shapely.box(-10, -10, 10, 10))
+    one, other = shapely.STRtree(inside).query(inside, predicate="dwithin", distance=0.94 * TOUCH * WIDTH)
+    assert (one == other).all()
+    assert shapely.distance(shapely.points(shapely.get_coordinates(drawn)), lines).max() < 3 * TOUCH * WIDTH
+
+
+def test_paths_along_lines_lie_alike_in_every_region() -> None:
+    family = LinePaths(pattern=Honeycomb(), middle=(100.0, 80.0))
+    kinds = [((95, 75, 105, 85), 3.0), ((97, 78, 101, 84), 3.0)]
+    large, small = (
+        shapely.MultiLineString(family.strands(bounds, cell=cell, line_width=WIDTH, z=0.2, layer=0, radius=0.0))
+        for bounds, cell in kinds
+    )
+    window = shapely.box(*kinds[1][0])
+    # Rings begin elsewhere in another square, and each is simplified by up to 0.002 mm.
+    assert shapely.hausdorff_distance(large.intersection(window), small.intersection(window)) < 0.004
+
+
+@pytest.mark.parametrize("name", ["honeycomb", "rectilinear"])
+def test_the_cell_for_a_density_gives_it(name: str) -> None:
+    family = LinePaths(pattern=PATTERNS[name]())  # type: ignore[arg-type]
+    cell = family.cell_for(0.2, WIDTH)
+    half = 20 * cell
+    square = shapely.box(-half, -half, half, half)
+    paths = family.strands(square.bounds, cell=cell, line_width=WIDTH, z=0.2, layer=0, radius=0.0)
+    length = shapely.MultiLineString(paths).intersection(square).length
+    assert TOUCH * WIDTH * length / square.area == pytest.approx(0.2, rel=0.1)  # as it is found in a few cells
+
+
+def test_a_pattern_of_a_users_is_resolved_once_for_all(folder: Path) -> None:
+    name, parameters, lines = resolve_paths("bricks_module.py:Bricks", {"long": 2.5})
+    assert (name, parameters) == ("bricks_module.py:Bricks", {"long": 2.5})
+    assert lines is not None
+    made: Pattern = resolve_pattern("bricks_module.py:Bricks", "make")[0]()  # type: ignore[operator]
+    assert made.name == "bricks"
