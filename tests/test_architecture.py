@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import ast
+import dataclasses
+import importlib
+import re
 import shutil
 import subprocess
 import sys
@@ -10,6 +13,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -505,3 +509,39 @@ def test_every_public_name_is_found() -> None:
     assert set(infill.__all__) <= set(dir(infill))
     with pytest.raises(AttributeError, match="nonsense"):
         _ = infill.nonsense
+
+
+# Lists of numbers for the report, which nothing changes.
+LISTS = {"SolidMeasures"}
+
+
+def mutable_fields(module: ModuleType) -> list[str]:
+    """Return the fields of frozen dataclasses of a module that hold lists, dicts or sets, which can change."""
+    return [
+        f"{kind.__name__}.{field.name}"
+        for kind in vars(module).values()
+        if dataclasses.is_dataclass(kind)
+        and kind.__module__ == module.__name__
+        and kind.__dataclass_params__.frozen
+        and kind.__name__ not in LISTS
+        for field in dataclasses.fields(kind)
+        if re.search(r"\b(list|dict|set|defaultdict)\b", str(field.type).split("Option(")[0])
+    ]
+
+
+@pytest.mark.parametrize("name", sorted(path.stem for path in (ROOT / "infill" / "lattices").glob("[a-z]*.py")))
+def test_no_frozen_value_of_fill_can_change(name: str) -> None:
+    """What is drawn in a space belongs to the one who draws it, not to the description of the pattern."""
+    assert not mutable_fields(importlib.import_module(f"infill.lattices.{name}"))
+
+
+def test_a_field_that_can_change_is_named() -> None:
+    module = ModuleType("some")
+
+    @dataclass(frozen=True)
+    class Cache:
+        known: dict[int, float] = dataclasses.field(default_factory=dict)
+
+    Cache.__module__ = "some"
+    module.Cache = Cache  # type: ignore[attr-defined]
+    assert mutable_fields(module) == ["Cache.known"]

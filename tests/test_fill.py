@@ -962,7 +962,7 @@ def test_a_hollow_knows_its_density() -> None:
         max_triangles=None,
     )
     block = surface(box(16, 16, 16))
-    hollow = make_void_meshes(block, request, choose_voids(request, block.bounds, 1), clock=Clock(None))
+    hollow, _ = make_void_meshes(block, request, choose_voids(request, block.bounds, 1), clock=Clock(None))
     assert hollow.space.volume == pytest.approx(14**3, rel=1e-3)
     assert hollow.density == pytest.approx(0.3, abs=0.002 + 1e-9)
     assert hollow.triangles == len(hollow.surface.faces)

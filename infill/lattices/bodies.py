@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Protocol, Self
 
 import numpy as np
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from infill.interior.interior import BAND, Interior
 from infill.interior.layer_stack import LayerStack
 from infill.isosurfaces.components import shell_names
+from infill.lattices.grading import LocalWidths
 from infill.meshes.shells import select_faces, shell_volumes
 from infill.meshes.winding import winding_numbers
 
@@ -36,6 +37,19 @@ class Anchored(Protocol):
 
     def about(self, middle: NDArray[np.float64]) -> Self:
         """Return the same voids, shifted by a vector, mm, in the whole part."""
+        ...
+
+    def prepare(self, space: Interior, *, cell: float, width: float) -> Self:
+        """See `Voids`."""
+        ...
+
+    def with_widths(self, local: LocalWidths) -> Self:
+        """See `Voids`."""
+        ...
+
+    @property
+    def local(self) -> LocalWidths | None:
+        """See `Voids`."""
         ...
 
 
@@ -64,11 +78,31 @@ class Bodies:
 
     Parameters
     ----------
-    known : dict
-        The bodies of the latest space, with their voids.
+    space : Interior, optional
+        The space in which they were found.
+    drawn : tuple of (PartBody, Interior, Anchored)
+        The bodies, each with its part of the space and its voids.
     """
 
-    known: dict[int, tuple[Interior, list[tuple[PartBody, Interior, Anchored]]]] = field(default_factory=dict)
+    space: Interior | None = None
+    drawn: tuple[tuple[PartBody, Interior, Anchored], ...] = ()
+
+    def prepare(self, voids: Anchored, space: Interior, *, cell: float, width: float) -> Bodies:
+        """Find the bodies in a space; see `Voids`."""
+        drawn = self._draw_bodies(voids, space)
+        return Bodies(
+            space=space,
+            drawn=tuple((body, box, anchored.prepare(box, cell=cell, width=width)) for body, box, anchored in drawn),
+        )
+
+    def with_widths(self, local: LocalWidths) -> Bodies:
+        """Return the same with other local widths in the space."""
+        return replace(
+            self,
+            drawn=tuple(
+                (body, box, anchored.with_widths(_widths_in_box(local, box))) for body, box, anchored in self.drawn
+            ),
+        )
 
     def count(self, voids: Anchored, space: Interior, *, cell: float, width: float) -> int:
         """Count the fields of the body that needs the most."""
@@ -93,22 +127,30 @@ class Bodies:
                 np.copyto(out[body.box], in_box, where=body.cells)
         return filled
 
-    def _draw_bodies(self, voids: Anchored, space: Interior) -> list[tuple[PartBody, Interior, Anchored]]:
-        if id(space) not in self.known:
-            self.known.clear()
-            drawn = []
-            for body in find_bodies(space):
-                corner = np.array([side.start for side in body.box])
-                box_space = replace(
-                    space,
-                    layers=LayerStack.of(np.where(body.cells, space.depth[body.box], DEEP)),
-                    origin=space.origin + space.size * corner,
-                    walled=None,
-                    box_of=(space, corner),
-                )
-                drawn.append((body, box_space, voids.about(body.middle)))
-            self.known[id(space)] = space, drawn  # keeps the space alive, so that its id stays its own
-        return self.known[id(space)][1]
+    def _draw_bodies(self, voids: Anchored, space: Interior) -> tuple[tuple[PartBody, Interior, Anchored], ...]:
+        if self.space is space:
+            return self.drawn
+        drawn = []
+        for body in find_bodies(space):
+            corner = np.array([side.start for side in body.box])
+            box_space = replace(
+                space,
+                layers=LayerStack.of(np.where(body.cells, space.depth[body.box], DEEP)),
+                origin=space.origin + space.size * corner,
+                walled=None,
+                box_of=(space, corner),
+            )
+            anchored = voids.about(body.middle)
+            if voids.local is not None:
+                anchored = anchored.with_widths(_widths_in_box(voids.local, box_space))
+            drawn.append((body, box_space, anchored))
+        return tuple(drawn)
+
+
+def _widths_in_box(local: LocalWidths, box_space: Interior) -> LocalWidths:
+    """Return local widths in a box of the space that they belong to."""
+    assert box_space.box_of is not None
+    return local.in_box(box_space.box_of[1], box_space.shape)
 
 
 def find_bodies(space: Interior) -> list[PartBody]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import weakref
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -15,7 +15,7 @@ from infill.interior.interior import BAND, Interior
 from infill.kernels.threads import in_threads, thread_count
 from infill.lattices.bodies import Bodies
 from infill.lattices.fillets import find_polygon_corners, sharpest_angle
-from infill.lattices.grading import UNIFORM_WIDTH, Grading
+from infill.lattices.grading import UNIFORM_WIDTH, Grading, LocalWidths
 from infill.lattices.line_sample import (
     WIDER,
     LineSample,
@@ -23,10 +23,9 @@ from infill.lattices.line_sample import (
     faces_between,
     follows_outline,
     line_segments,
-    with_cell,
 )
 from infill.lattices.voids import FIELD, local_widths
-from patterns.protocol import Pattern, draw_lines
+from patterns.protocol import Pattern, draw_lines, with_cell
 
 LOW = 0.1  # cells: where no cell of a column lies deeper, rounding decides whether one lies inside
 SIMPLER = 0.05  # cells
@@ -53,8 +52,10 @@ class Prismatic:
     grading : Grading, optional
     bodies : Bodies, optional
         Set if the pattern starts over in each component of the part; the anchor is then relative to its middle.
-    known : dict
-        The faces between the lines, for a space and a cell.
+    local : LocalWidths, optional
+        Widths in the space, once they are computed.
+    faces : _Faces, optional
+        The faces between the lines, once they are computed.
     """
 
     pattern: Pattern
@@ -63,11 +64,23 @@ class Prismatic:
     threads: int | None = None
     grading: Grading | None = None
     bodies: Bodies | None = None
-    known: dict[tuple[weakref.ref[Interior], float], _Faces] = field(default_factory=dict)
+    local: LocalWidths | None = None
+    faces: _Faces | None = None
+
+    def prepare(self, space: Interior, *, cell: float, width: float) -> Prismatic:
+        """See `Voids`."""
+        if self.bodies is not None:
+            return dataclasses.replace(self, bodies=self.bodies.prepare(self, space, cell=cell, width=width))
+        faces = self._faces(space, cell, width)
+        return self if faces is self.faces else dataclasses.replace(self, faces=faces)
+
+    def with_widths(self, local: LocalWidths) -> Prismatic:
+        """See `Voids`."""
+        return dataclasses.replace(self, local=local, bodies=self.bodies and self.bodies.with_widths(local))
 
     def about(self, middle: NDArray[np.float64]) -> Prismatic:
         """See `Anchored`."""
-        return dataclasses.replace(self, anchor=middle + self.anchor, bodies=None, known={})
+        return dataclasses.replace(self, anchor=middle + self.anchor, bodies=None, faces=None)
 
     def count(self, space: Interior, *, cell: float, width: float) -> int:
         """Count the colours that are needed so that neighbours differ."""
@@ -82,7 +95,7 @@ class Prismatic:
         plane = self.planes(space, cell=cell, width=width)[which]
         return self.lesser(out, space.depth, plane, width / space.size, local_widths(self, space))
 
-    def planes(self, space: Interior, *, cell: float, width: float) -> list[NDArray[np.float32]]:
+    def planes(self, space: Interior, *, cell: float, width: float) -> tuple[NDArray[np.float32], ...]:
         """Return the depth of the points of a layer between the lines, (nx, ny) in cells, for each field."""
         return self._faces(space, cell, width).colours
 
@@ -131,14 +144,13 @@ class Prismatic:
         return draw_lines(with_cell(self.pattern, cell), region)
 
     def _faces(self, space: Interior, cell: float, width: float) -> _Faces:
-        """Return the faces between the lines, cached for lines of similar width."""
+        """Return the faces between the lines: those that are computed already, if lines have a similar width."""
         widest, thinnest = self._width_range(space)
-        reach, key = widest * width / 2 / space.size + 2 * BAND, (weakref.ref(space), cell)
-        width = thinnest * width
-        if key not in self.known or not self.known[key].fits(reach, width):
-            self.known.clear()
-            self.known[key] = self._make_faces(space, cell, width, WIDER_LINES * reach)
-        return self.known[key]
+        reach, width = widest * width / 2 / space.size + 2 * BAND, thinnest * width
+        known = self.faces
+        if known is not None and known.space() is space and known.cell == cell and known.fits(reach, width):
+            return known
+        return self._make_faces(space, cell, width, WIDER_LINES * reach)
 
     def _width_range(self, space: Interior) -> tuple[float, float]:
         """Return the largest and the smallest factor of the line width."""
@@ -179,7 +191,14 @@ class Prismatic:
         corners, angles = find_polygon_corners(polygons)
         at = np.round((corners - start) / space.size).astype(np.int64)
         with_room = space.deepest[tuple(np.clip(at, 0, (nx - 1, ny - 1)).T)] > 0  # there is none at the rim of the grid
-        return _Faces(colours=planes, sharpest=sharpest_angle(angles[with_room]), reach=reach, width=width)
+        return _Faces(
+            space=weakref.ref(space),
+            cell=cell,
+            colours=tuple(planes),
+            sharpest=sharpest_angle(angles[with_room]),
+            reach=reach,
+            width=width,
+        )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -188,7 +207,11 @@ class _Faces:
 
     Parameters
     ----------
-    colours : list of (nx, ny) float32
+    space : weak reference to Interior
+        For which they were made; it holds much memory, and may go once another is computed.
+    cell : float
+        mm
+    colours : tuple of (nx, ny) float32
     sharpest : float
         Degrees, at corners: few are sharper.
     reach : float
@@ -197,7 +220,9 @@ class _Faces:
         Of the lines for which the faces were made, mm: between thinner lines, fields might touch.
     """
 
-    colours: list[NDArray[np.float32]]
+    space: weakref.ref[Interior]
+    cell: float
+    colours: tuple[NDArray[np.float32], ...]
     sharpest: float
     reach: float
     width: float

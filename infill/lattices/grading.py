@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -70,6 +70,10 @@ class LocalWidths:
         ratio, shares = (map_coordinates(field, nodes, order=1, mode="nearest") for field in (self.ratio, self.shares))
         return replace(self, ratio=ratio, shares=shares, within=np.ones(ratio.shape, dtype=bool))
 
+    def widen(self, factors: Callable[[NDArray[np.float32]], NDArray[np.floating]]) -> LocalWidths:
+        """Return the same with wider walls, by the factors that a function returns for the requested shares."""
+        return replace(self, ratio=(self.ratio * factors(self.shares)).astype(np.float32))
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Grading:
@@ -84,8 +88,6 @@ class Grading:
         Of the field.
     varies : {"width", "cell"}
         Wider walls or smaller cells where it is denser.
-    known : dict
-        The widths in the latest space.
     """
 
     first: float
@@ -93,7 +95,6 @@ class Grading:
     by: Field
     name: str
     varies: Varies = "width"
-    known: dict[tuple[object, ...], LocalWidths] = field(default_factory=dict)
 
     @property
     def middle(self) -> float:
@@ -115,12 +116,7 @@ class Grading:
         if space.box_of is not None:
             parent, corner = space.box_of
             return self.over(parent, widths).in_box(corner, space.depth.shape)
-        space = space.walled or space
-        key = (space.depth.shape, space.size, *space.origin.tolist())
-        if key not in self.known:
-            self.known.clear()
-            self.known[key] = self._evaluate(space, widths)
-        return self.known[key]
+        return self._evaluate(space.walled or space, widths)
 
     def _evaluate(self, space: Interior, widths: Callable[[float], float]) -> LocalWidths:
         shape = np.array(space.depth.shape)
@@ -160,11 +156,6 @@ class Grading:
             within=inside.reshape(counts),
             spline=spline,
         )
-
-    def correct(self, factors: Callable[[NDArray[np.float32]], NDArray[np.floating]]) -> None:
-        """Make walls wider by the factors that a function returns for the requested shares."""
-        ((key, local),) = self.known.items()
-        self.known[key] = replace(local, ratio=(local.ratio * factors(local.shares)).astype(np.float32))
 
 
 def _inside(space: Interior, points: NDArray[np.float64]) -> NDArray[np.bool_]:

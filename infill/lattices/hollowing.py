@@ -15,13 +15,12 @@ from infill.interior.inside import SHARE
 from infill.interior.interior import Interior, compute_interior
 from infill.interior.root_finding import find_root
 from infill.lattices.drawn_voids import Prismatic
-from infill.lattices.grading import Grading
 from infill.lattices.local_density import densities_by_share
 from infill.lattices.request import FillSpec, Size, has_bars
 from infill.lattices.sizing import choose_sizes, choose_voxel, coarsest_voxel, enlarge, goes_by_slabs
 from infill.lattices.slabwise import count_filled_cells, defer_voids
-from infill.lattices.surfacing import choose_smoothing, drop_small_and_floating, make_surfaces
-from infill.lattices.voids import Periodic, Voids
+from infill.lattices.surfacing import choose_smoothing, drop_small_and_floating, make_surfaces, reachable_space
+from infill.lattices.voids import Periodic, Voids, find_local_widths
 from infill.machine import require_memory
 from infill.meshes.shells import split_into_batches
 from infill.meshes.simplification import simplify_surface
@@ -58,10 +57,11 @@ def make_void_meshes(
     clock: Clock,
     threads: int | None = None,
     max_memory: int | None = None,
-) -> VoidMeshes:
+) -> tuple[VoidMeshes, Voids]:
     """Make the voids that a pattern leaves in a part, on a grid as fine as their triangles allow.
 
-    If there are still too many triangles, and neither cell nor line width was requested, both are enlarged.
+    If there are still too many triangles, and neither cell nor line width was requested, both are enlarged. Return also
+    the pattern as it was drawn: where the density changes, with its local widths.
 
     Raises
     ------
@@ -91,17 +91,18 @@ def make_void_meshes(
             )
         room = request.room(len(space.part.faces))
         with clock.stage("density", progress + 0.05):
-            sizes, varied = _fit_sizes(space, voids, request, sizes, varied)
-            triangles = _estimate_triangles(space, voids, sizes) if isinstance(voids, Periodic) else 0
+            fit = DensityFit(space, voids, request, threads)
+            sizes, varied = fit.find_sizes(sizes, varied)
+            triangles = fit.estimate_triangles(sizes) if isinstance(voids, Periodic) else 0
         if is_last or triangles <= FAR_TOO_MANY * room:
             with clock.stage("voids", progress + 0.1):
-                hollow = _fit_density(space, voids, request, sizes, varied, threads)
+                hollow = fit.make_voids(sizes, varied)
             with clock.stage("simplify", progress + 0.18):
                 hollow = simplify_voids(hollow, request.tolerance)
             triangles = hollow.triangles
             if is_last or triangles <= room:
                 with clock.stage("voids", progress + 0.19):
-                    hollow = _match_width(hollow, sizes[1], voids, request, varied, threads)
+                    hollow = fit.match_width(hollow, sizes[1], varied)
                 triangles = hollow.triangles
                 if is_last or triangles <= room:
                     break
@@ -119,28 +120,7 @@ def make_void_meshes(
     if hollow.triangles > room:
         with clock.stage("simplify", 0.8):
             hollow = _simplify_to_fit(hollow, room, threads=threads, max_memory=max_memory)
-    return hollow
-
-
-def _match_width(
-    hollow: VoidMeshes, width: float, voids: Voids, request: FillSpec, varied: tuple[Size, ...], threads: int | None
-) -> VoidMeshes:
-    """Redraw voids until walls between them have the requested width, mm, unless the density fixes the width."""
-    space = hollow.space
-    if "width" in varied[:1] or voids.grading is not None or not has_uniform_width(voids):
-        return hollow
-    if not choose_smoothing(space, voids, request, (hollow.cell, width)).steps:
-        return hollow
-    for _ in range(REDRAWN):
-        median, seen = hollow.median
-        if median is None or seen < SURE or abs(median / width - 1) <= WIDTH_CLOSE:
-            break
-        sizes = (hollow.cell, hollow.width * width / median)
-        redrawn = simplify_voids(_fit_density(space, voids, request, sizes, varied, threads), request.tolerance)
-        if not redrawn.surfaces or abs(redrawn.density - (request.density or redrawn.density)) > FARTHER_OFF:
-            break
-        hollow = redrawn
-    return hollow
+    return hollow, fit.voids
 
 
 def has_uniform_width(voids: Voids) -> bool:
@@ -180,19 +160,9 @@ def simplify_voids(hollow: VoidMeshes, tolerance: float) -> VoidMeshes:
     return replace(hollow, surfaces=[surface for surface in results if surface is not None])
 
 
-def _estimate_triangles(space: Interior, voids: Voids, sizes: tuple[float, float]) -> float:
-    """Estimate the number of triangles of the voids before they are simplified."""
-    cell, width = sizes
-    out = np.empty_like(space.depth)
-    crossed = 0
-    for which in range(voids.count(space, cell=cell, width=width)):
-        voids.into(out, space, which, cell=cell, width=width)
-        crossed += sum(int((np.abs(layer) < 0.5).sum()) for layer in out)
-    return TRIANGLES_A_CELL * crossed
-
-
 def solid_share(space: Interior, voids: Voids, cell: float, width: float) -> float:
     """Return the solid share of the space inside the walls, as the pattern is drawn, before it is smoothed."""
+    voids = voids.prepare(space, cell=cell, width=width)
     if space.layers.in_slabs and isinstance(voids, Prismatic):
         return max(1 - count_filled_cells(space, voids, cell=cell, width=width) / space.cells, LEAST)
     out = np.empty_like(space.depth)
@@ -208,66 +178,132 @@ def requested_density(request: FillSpec, space: Interior, voids: Voids) -> float
     """Return the density requested inside the walls, on average; None if cell and line width fix it."""
     if request.grading is None:
         return request.density
-    return request.grading.over(space, voids.widths).mean
+    local = find_local_widths(voids, space)
+    assert local is not None
+    return local.mean
 
 
-def _fit_sizes(
-    space: Interior, voids: Voids, request: FillSpec, sizes: tuple[float, float], varied: tuple[Size, ...]
-) -> tuple[tuple[float, float], tuple[Size, ...]]:
-    """Find cell and width, mm, that leave the requested density before smoothing; return what may vary too.
+class DensityFit:
+    """Finds cell and width for a density in one space.
 
-    A cell that is larger than the space is made smaller and walls thinner, if neither was requested; in a project,
-    whose walls are to be lines of a slicer, only if the density cannot be reached otherwise.
+    Attributes
+    ----------
+    voids : Voids
+        The pattern as it was drawn last, with what that needs in the space: most changes of sizes need it again.
     """
-    if not varied:
-        return sizes, varied
-    density = requested_density(request, space, voids) or LEAST
 
-    def off(at: float, sizes: tuple[float, float], vary: Size) -> float:
-        return math.log(solid_share(space, voids, *_scale_sizes(sizes, at, vary)) / density)
+    def __init__(self, space: Interior, voids: Voids, request: FillSpec, threads: int | None) -> None:
+        local = find_local_widths(voids, space)
+        self.space, self.request, self.threads = space, request, threads
+        self.voids = voids if local is None else voids.with_widths(local)
 
-    def fit(sizes: tuple[float, float], vary: Size) -> tuple[float, float]:
-        times = find_root(lambda at: off(at, sizes, vary), CLOSE / 4 / density, TRIES)
-        return _scale_sizes(sizes, times, vary)
+    def find_sizes(
+        self, sizes: tuple[float, float], varied: tuple[Size, ...]
+    ) -> tuple[tuple[float, float], tuple[Size, ...]]:
+        """Find cell and width, mm, that leave the requested density before smoothing; return what may vary too.
 
-    if request.cell is None and request.line_width is None and sizes[0] > (most := space.across):
-        if request.form == "project":
-            fitted = fit(sizes, varied[0])
-            if abs(off(1.0, fitted, varied[0])) <= CLOSE / density:
-                return fitted, varied
-        sizes, varied = (most, sizes[1] * most / sizes[0]), ("width",)
-    return fit(sizes, varied[0]), varied
+        A cell that is larger than the space is made smaller and walls thinner, if neither was requested; in a project,
+        whose walls are to be lines of a slicer, only if the density cannot be reached otherwise.
+        """
+        if not varied:
+            return sizes, varied
+        request, density = self.request, requested_density(self.request, self.space, self.voids) or LEAST
 
+        def off(at: float, sizes: tuple[float, float], vary: Size) -> float:
+            return math.log(self._solid_share(_scale_sizes(sizes, at, vary)) / density)
 
-def _fit_density(
-    space: Interior,
-    voids: Voids,
-    request: FillSpec,
-    sizes: tuple[float, float],
-    varied: tuple[Size, ...],
-    threads: int | None,
-) -> VoidMeshes:
-    """Make voids whose meshes leave the requested density, as smoothing and the grid fill corners of voids."""
-    hollow = _make_surfaces(space, voids, request, sizes, threads)
-    if voids.grading is not None:
-        return _fit_grading(hollow, voids, voids.grading, request, threads)
-    for vary in varied:
-        start = (hollow.cell, hollow.width)
+        def fit(sizes: tuple[float, float], vary: Size) -> tuple[float, float]:
+            times = find_root(lambda at: off(at, sizes, vary), CLOSE / 4 / density, TRIES)
+            return _scale_sizes(sizes, times, vary)
 
-        def make(times: float, start: tuple[float, float] = start, vary: Size = vary) -> VoidMeshes:
-            return _make_surfaces(space, voids, request, _scale_sizes(start, times, vary), threads)
+        if request.cell is None and request.line_width is None and sizes[0] > (most := self.space.across):
+            if request.form == "project":
+                fitted = fit(sizes, varied[0])
+                if abs(off(1.0, fitted, varied[0])) <= CLOSE / density:
+                    return fitted, varied
+            sizes, varied = (most, sizes[1] * most / sizes[0]), ("width",)
+        return fit(sizes, varied[0]), varied
 
-        hollow = _closest_to_density(hollow, make, request.density or LEAST)
-    return hollow
+    def estimate_triangles(self, sizes: tuple[float, float]) -> float:
+        """Estimate the number of triangles of the voids before they are simplified."""
+        space, (cell, width) = self.space, sizes
+        self.voids = self.voids.prepare(space, cell=cell, width=width)
+        out = np.empty_like(space.depth)
+        crossed = 0
+        for which in range(self.voids.count(space, cell=cell, width=width)):
+            self.voids.into(out, space, which, cell=cell, width=width)
+            crossed += sum(int((np.abs(layer) < 0.5).sum()) for layer in out)
+        return TRIANGLES_A_CELL * crossed
 
+    def make_voids(self, sizes: tuple[float, float], varied: tuple[Size, ...]) -> VoidMeshes:
+        """Make voids whose meshes leave the requested density, as smoothing and the grid fill corners of voids."""
+        hollow = self._make_surfaces(sizes)
+        if self.voids.grading is not None:
+            return self._match_local_densities(hollow)
+        for vary in varied:
+            start = (hollow.cell, hollow.width)
 
-def _make_surfaces(
-    space: Interior, voids: Voids, request: FillSpec, sizes: tuple[float, float], threads: int | None
-) -> VoidMeshes:
-    """Make the surfaces of the voids; if they are made slab by slab, compute only their volume for now."""
-    if space.layers.in_slabs and isinstance(voids, Prismatic):
-        return defer_voids(space, voids, request, sizes, threads=threads)
-    return make_surfaces(space, voids, request, sizes, threads=threads)
+            def make(times: float, start: tuple[float, float] = start, vary: Size = vary) -> VoidMeshes:
+                return self._make_surfaces(_scale_sizes(start, times, vary))
+
+            hollow = _closest_to_density(hollow, make, self.request.density or LEAST)
+        return hollow
+
+    def match_width(self, hollow: VoidMeshes, width: float, varied: tuple[Size, ...]) -> VoidMeshes:
+        """Redraw voids until walls between them have the requested width, mm, unless the density fixes the width."""
+        request = self.request
+        if "width" in varied[:1] or self.voids.grading is not None or not has_uniform_width(self.voids):
+            return hollow
+        self._prepare((hollow.cell, width))
+        if not choose_smoothing(self.space, self.voids, request, (hollow.cell, width)).steps:
+            return hollow
+        for _ in range(REDRAWN):
+            median, seen = hollow.median
+            if median is None or seen < SURE or abs(median / width - 1) <= WIDTH_CLOSE:
+                break
+            sizes = (hollow.cell, hollow.width * width / median)
+            redrawn = simplify_voids(self.make_voids(sizes, varied), request.tolerance)
+            if not redrawn.surfaces or abs(redrawn.density - (request.density or redrawn.density)) > FARTHER_OFF:
+                break
+            hollow = redrawn
+        return hollow
+
+    def _match_local_densities(self, hollow: VoidMeshes) -> VoidMeshes:
+        """Make voids whose meshes leave the density requested at every place."""
+        sizes, power = (hollow.cell, hollow.width), 2 if has_bars(self.request.kind) else 1
+        for _ in range(GRADING_ROUNDS):
+            local = find_local_widths(self.voids, self.space)
+            assert local is not None
+            requested, measured = densities_by_share(
+                self.space, hollow.surface, local, GRADING_STEPS, mean=hollow.density
+            )
+            # Steps are thinner than cells of the pattern, so only the slope of the line through all of them counts; its
+            # height follows from the density of the whole part.
+            line = np.polynomial.Polynomial.fit(requested, np.log(requested / np.maximum(measured, LEAST)), 1)
+            line += math.log(local.mean / max(hollow.density, LEAST)) - float(
+                np.average(line(requested), weights=measured)
+            )
+            if np.abs(line(requested)).max() < GRADING_CLOSE and abs(hollow.density / local.mean - 1) < GRADING_CLOSE:
+                break
+            self.voids = self.voids.with_widths(local.widen(_width_factors(line, power)))
+            hollow = self._make_surfaces(sizes)
+        return hollow
+
+    def _solid_share(self, sizes: tuple[float, float]) -> float:
+        cell, width = sizes
+        self.voids = self.voids.prepare(self.space, cell=cell, width=width)
+        return solid_share(self.space, self.voids, cell, width)
+
+    def _prepare(self, sizes: tuple[float, float]) -> None:
+        cell, width = sizes
+        self.voids = self.voids.prepare(reachable_space(self.space, self.request), cell=cell, width=width)
+
+    def _make_surfaces(self, sizes: tuple[float, float]) -> VoidMeshes:
+        """Make the surfaces of the voids; if they are made slab by slab, compute only their volume for now."""
+        self._prepare(sizes)
+        if self.space.layers.in_slabs and isinstance(self.voids, Prismatic):
+            return defer_voids(self.space, self.voids, self.request, sizes, threads=self.threads)
+        return make_surfaces(self.space, self.voids, self.request, sizes, threads=self.threads)
 
 
 def _closest_to_density(best: VoidMeshes, make: Callable[[float], VoidMeshes], density: float) -> VoidMeshes:
@@ -284,26 +320,6 @@ def _closest_to_density(best: VoidMeshes, make: Callable[[float], VoidMeshes], d
 
     find_root(evaluate, CLOSE / density, ROUNDS)
     return best
-
-
-def _fit_grading(
-    hollow: VoidMeshes, voids: Voids, grading: Grading, request: FillSpec, threads: int | None
-) -> VoidMeshes:
-    """Make voids whose meshes leave the density requested at every place."""
-    space, sizes = hollow.space, (hollow.cell, hollow.width)
-    power = 2 if has_bars(request.kind) else 1
-    for _ in range(GRADING_ROUNDS):
-        local = grading.over(space, voids.widths)
-        requested, measured = densities_by_share(space, hollow.surface, local, GRADING_STEPS, mean=hollow.density)
-        # Steps are thinner than cells of the pattern, so only the slope of the line through all of them counts; its
-        # height follows from the density of the whole part.
-        line = np.polynomial.Polynomial.fit(requested, np.log(requested / np.maximum(measured, LEAST)), 1)
-        line += math.log(local.mean / max(hollow.density, LEAST)) - float(np.average(line(requested), weights=measured))
-        if np.abs(line(requested)).max() < GRADING_CLOSE and abs(hollow.density / local.mean - 1) < GRADING_CLOSE:
-            break
-        grading.correct(_width_factors(line, power))
-        hollow = _make_surfaces(space, voids, request, sizes, threads)
-    return hollow
 
 
 def _width_factors(line: np.polynomial.Polynomial, power: int) -> Callable[[NDArray[np.float32]], NDArray[np.floating]]:

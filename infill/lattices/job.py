@@ -82,10 +82,10 @@ def fill(
     ----------
     part : Surface or trimesh.Trimesh, mm
         Closed; holes in it are closed first, and the report says so.
-    pattern : str, Path, Pattern, Surfaces, Planes, Polyhedra, Octree, Network, Bars or callable
-        A pattern in space (gyroid, octet ...: `patterns.cellular.CELLULAR`), or one of `patterns.PATTERNS`, which is
-        the same at every height; a drawing, which is repeated; "module.py:name"; a pattern itself; or a function of x,
-        y and z, of one shape, in radians (2 pi is a cell): walls are where it is 0.
+    pattern : str, Path, Pattern, Cells or callable
+        A name in `patterns.PATTERNS`; a drawing, which is repeated; "module.py:name"; a pattern itself, such as
+        `patterns.Gyroid(cell=6)`, which has that cell; or a function of x, y and z, of one shape, in radians (2 pi is
+        a cell): walls are where it is 0.
     density : float, (float, float) or Graded, optional
         Solid share of the space inside the walls, 0.01 to 0.9. Two of density, cell and line width determine the third.
         By default 0.2 and a line width of 0.45 mm (0.9 in a project), or for bars, 0.2 and a cell of 8 mm (in a
@@ -218,7 +218,7 @@ def fill_request(
         voids, hollow = project.voids, project.hollow
     else:
         voids = choose_voids(request, part.bounds, threads)
-        hollow = make_void_meshes(part, request, voids, clock=clock, threads=threads, max_memory=max_memory)
+        hollow, voids = make_void_meshes(part, request, voids, clock=clock, threads=threads, max_memory=max_memory)
     with clock.stage("check", 0.9):
         result, report, hollow = _assemble(part, hollow, voids, request, threads, project)
     report["seconds"] = {"shift": 0.0, **clock.seconds, "total": sum(clock.seconds.values())}

@@ -6,7 +6,7 @@ Walls between two voids need no cell of the grid in them; around all of them, th
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Protocol, Self
 
 import numpy as np
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from infill.interior.interior import BAND, Interior
 from infill.kernels.threads import in_threads, thread_count
 from infill.lattices.bodies import Bodies
-from infill.lattices.grading import Grading
+from infill.lattices.grading import Grading, LocalWidths
 from infill.lattices.voids import FIELD, local_widths
 
 WIDER_LINES = 1.5  # range of line widths for which distances suffice, over the width they were made for
@@ -61,7 +61,8 @@ class LinesByLayer(Protocol):
 class _Distances:
     """Distances of cells from lines along their layer, up to a limit, in cells: negative on one of two sides."""
 
-    space: Interior  # kept alive, so that its id stays its own
+    space: Interior
+    cell: float
     away: FIELD
     reach: float
 
@@ -77,15 +78,28 @@ class NonPrismatic:
     grading : Grading, optional
     bodies : Bodies, optional
         Set if the pattern starts over in each component of the part.
-    known : dict
-        Distances, for a space and a cell.
+    local : LocalWidths, optional
+        Widths in the space, once they are computed.
+    distances : _Distances, optional
+        For a space and a cell, once they are computed.
     """
 
     layers: LinesByLayer
     threads: int | None = None
     grading: Grading | None = None
     bodies: Bodies | None = None
-    known: dict[tuple[int, float], _Distances] = field(default_factory=dict)
+    local: LocalWidths | None = None
+    distances: _Distances | None = None
+
+    def prepare(self, space: Interior, *, cell: float, width: float) -> NonPrismatic:
+        """See `Voids`."""
+        if self.bodies is not None:
+            return replace(self, bodies=self.bodies.prepare(self, space, cell=cell, width=width))
+        return replace(self, distances=self._distances(space, cell, width))
+
+    def with_widths(self, local: LocalWidths) -> NonPrismatic:
+        """See `Voids`."""
+        return replace(self, local=local, bodies=self.bodies and self.bodies.with_widths(local))
 
     @property
     def around(self) -> bool:
@@ -100,7 +114,7 @@ class NonPrismatic:
 
     def about(self, middle: Floats) -> NonPrismatic:
         """See `Anchored`."""
-        return replace(self, layers=self.layers.about(middle), bodies=None, known={})
+        return replace(self, layers=self.layers.about(middle), bodies=None, distances=None)
 
     def count(self, space: Interior, *, cell: float, width: float) -> int:
         """Count the fields: one for each side, or one around all walls."""
@@ -116,7 +130,7 @@ class NonPrismatic:
             return self.bodies.into(self, out, space, which, cell=cell, width=width)
         ratio, step = local_widths(self, space)
         half = width / 2 / space.size
-        distances = self._distances(space, cell, float(ratio.max()) * half)
+        distances = self._distances(space, cell, width)
         filled = in_threads(
             from_layers,
             space.depth,
@@ -137,22 +151,22 @@ class NonPrismatic:
         """See `Voids`."""
         return self.layers.widths(density)
 
-    def _distances(self, space: Interior, cell: float, half: float) -> _Distances:
-        """Return distances that suffice for walls whose widest half is this wide, in cells."""
+    def _distances(self, space: Interior, cell: float, width: float) -> _Distances:
+        """Return distances that suffice for walls of a width, mm, where they are widest."""
         from infill.kernels.layered import distances_to_lines
 
+        half = float(local_widths(self, space)[0].max()) * (width / 2 / space.size)
         # Along a layer, cells within the band of a leaning wall are further away by its slope.
         reach = (half + 2 * BAND) * float(np.hypot(1.0, self.layers.steepest))
-        key = id(space), cell
-        if key not in self.known or self.known[key].reach < reach:
-            self.known.clear()
-            lines = self.layers.lines(space, cell)
-            offsets = np.cumsum([0, *map(len, lines)])
-            away = np.empty(space.shape, dtype=np.float32)
-            reach *= WIDER_LINES
-            segments = np.concatenate([np.empty((0, 2, 2)), *lines])
-            in_threads(distances_to_lines, segments, offsets, reach, away, threads=thread_count(self.threads))
-            for layer, side in enumerate(self.layers.sides(space, cell)):
-                away[:, :, layer] *= np.where(side, np.float32(1), np.float32(-1))
-            self.known[key] = _Distances(space=space, away=away, reach=reach)
-        return self.known[key]
+        known = self.distances
+        if known is not None and known.space is space and known.cell == cell and known.reach >= reach:
+            return known
+        lines = self.layers.lines(space, cell)
+        offsets = np.cumsum([0, *map(len, lines)])
+        away = np.empty(space.shape, dtype=np.float32)
+        reach *= WIDER_LINES
+        segments = np.concatenate([np.empty((0, 2, 2)), *lines])
+        in_threads(distances_to_lines, segments, offsets, reach, away, threads=thread_count(self.threads))
+        for layer, side in enumerate(self.layers.sides(space, cell)):
+            away[:, :, layer] *= np.where(side, np.float32(1), np.float32(-1))
+        return _Distances(space=space, cell=cell, away=away, reach=reach)

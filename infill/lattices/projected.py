@@ -90,7 +90,7 @@ def make_project_infill(
 
     def place(request: FillSpec, clock: Clock) -> ProjectInfill:
         voids = choose_voids(request, part.bounds, threads)
-        hollow = make_void_meshes(part, request, voids, clock=clock, threads=threads, max_memory=max_memory)
+        hollow, voids = make_void_meshes(part, request, voids, clock=clock, threads=threads, max_memory=max_memory)
         infill = _subtract_voids(hollow.space, hollow.surfaces, request, threads)
         narrow = estimate_narrow(
             hollow.space.part, infill, request.wall, LINE_WIDTH, _narrowest_printed(hollow, request)

@@ -18,7 +18,7 @@ from infill.lattices.drain_holes import DrainedSolid, drain_problems, find_close
 from infill.lattices.hollowing import has_uniform_width, requested_density, solid_share
 from infill.lattices.local_density import densities_by_share
 from infill.lattices.request import GAP, LINE_WIDTH, FillSpec
-from infill.lattices.voids import Voids
+from infill.lattices.voids import Voids, find_local_widths
 from infill.meshes.distance import TriangleTree
 from infill.meshes.shells import first_vertex_of_shells, split_into_batches
 from infill.meshes.solids import FINE, coincident_vertices, manifold_status
@@ -176,9 +176,9 @@ def measure_solid(
 
 def _ranges(hollow: VoidMeshes, voids: Voids) -> dict[str, list[float]]:
     """Return the range of cell sizes, and of widths of walls, where the density changes."""
-    if voids.grading is None:
+    local = find_local_widths(voids, hollow.space)
+    if local is None:
         return {}
-    local = voids.grading.over(hollow.space, voids.widths)
     return {
         "cells": [hollow.cell * factor for factor in local.cells],
         "widths": [hollow.width * factor for factor in local.widths],
@@ -194,9 +194,9 @@ def _verdict(solid: Surface) -> str:
 
 def density_steps(hollow: VoidMeshes, voids: Voids) -> list[dict[str, float]]:
     """Group places by requested density; return the requested and the measured density of each group, rising."""
-    if voids.grading is None:
+    local = find_local_widths(voids, hollow.space)
+    if local is None:
         return []
-    local = voids.grading.over(hollow.space, voids.widths)
     requested, actual = densities_by_share(hollow.space, hollow.surface, local, STEPS, mean=hollow.density)
     pairs = zip(requested.tolist(), actual.tolist(), strict=True)
     return [{"wanted": target, "density": density} for target, density in pairs]

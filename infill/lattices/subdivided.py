@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,7 +12,7 @@ from infill.interior.interior import BAND, Interior
 from infill.interior.root_finding import find_root
 from infill.kernels.threads import in_threads, thread_count
 from infill.lattices.bodies import Bodies
-from infill.lattices.grading import Grading
+from infill.lattices.grading import Grading, LocalWidths
 from infill.lattices.voids import FIELD, local_widths
 from patterns.octree import Octree, cube_levels
 
@@ -35,6 +35,8 @@ class CubeTree:
     ----------
     space : Interior
         The space for which it was made.
+    cell : float
+        Side of the smallest, mm.
     doubled : (n, m, k) uint8
         For each of the smallest cubes, how often the cube around it is doubled.
     first : (3,) int64
@@ -44,6 +46,7 @@ class CubeTree:
     """
 
     space: Interior
+    cell: float
     doubled: NDArray[np.uint8]
     first: NDArray[np.int64]
     colours: tuple[int, ...]
@@ -69,10 +72,12 @@ class Subdivided:
     grading : Grading, optional
     bodies : Bodies, optional
         Set if the pattern starts over in each component of the part; the anchor is then relative to its middle.
-    known : dict
-        The cubes, for a space and a cell.
-    skins : dict
-        The skin that the pattern follows, for a space.
+    local : LocalWidths, optional
+        Widths in the space, once they are computed.
+    cubes : CubeTree, optional
+        The cubes, once they are computed.
+    skin : (Interior, cKDTree), optional
+        The skin that the pattern follows, with its space, once it is computed.
     """
 
     pattern: Octree
@@ -81,8 +86,20 @@ class Subdivided:
     threads: int | None = None
     grading: Grading | None = None
     bodies: Bodies | None = None
-    known: dict[tuple[int, float], CubeTree] = field(default_factory=dict)
-    skins: dict[int, tuple[Interior, cKDTree]] = field(default_factory=dict)
+    local: LocalWidths | None = None
+    cubes: CubeTree | None = None
+    skin: tuple[Interior, cKDTree] | None = None
+
+    def prepare(self, space: Interior, *, cell: float, width: float) -> Subdivided:
+        """See `Voids`."""
+        if self.bodies is not None:
+            return replace(self, bodies=self.bodies.prepare(self, space, cell=cell, width=width))
+        on_skin = replace(self, skin=(space, self._find_skin(space)))
+        return replace(on_skin, cubes=on_skin.tree(space, cell))
+
+    def with_widths(self, local: LocalWidths) -> Subdivided:
+        """See `Voids`."""
+        return replace(self, local=local, bodies=self.bodies and self.bodies.with_widths(local))
 
     def sharpest(self, space: Interior, *, cell: float, width: float) -> float:  # noqa: ARG002 - of the protocol
         """See `Voids`."""
@@ -90,7 +107,7 @@ class Subdivided:
 
     def about(self, middle: NDArray[np.float64]) -> Subdivided:
         """See `Anchored`."""
-        return replace(self, anchor=middle + self.anchor, bodies=None, known={}, skins={})
+        return replace(self, anchor=middle + self.anchor, bodies=None, cubes=None, skin=None)
 
     def count(self, space: Interior, *, cell: float, width: float) -> int:
         """Count the colours."""
@@ -135,11 +152,10 @@ class Subdivided:
 
     def tree(self, space: Interior, cell: float) -> CubeTree:
         """Return the cubes in a space; the smallest have sides of a cell, mm."""
-        key = id(space), cell
-        if key not in self.known:
-            self.known.clear()
-            self.known[key] = self._build_tree(space, cell)
-        return self.known[key]
+        known = self.cubes
+        if known is not None and known.space is space and known.cell == cell:
+            return known
+        return self._build_tree(space, cell)
 
     def _start(self, space: Interior, cell: float) -> NDArray[np.float64]:
         """Return the place of the first cell of the grid in the pattern, in sides of the smallest cubes."""
@@ -153,7 +169,7 @@ class Subdivided:
         ends = np.array(np.meshgrid(*[(0, n - 1) for n in space.depth.shape])).reshape(3, -1).T @ step.T + start
         lowest = (np.floor((ends.min(axis=0) - 1) / period) * period).astype(np.int64)
         counts = (np.floor((ends.max(axis=0) + 1) / period) * period).astype(np.int64) + period - lowest
-        depth, tree, is_whole = space.below_walls, self._skin(space), []
+        depth, tree, is_whole = space.below_walls, self._find_skin(space), []
         for level in range(1, self.pattern.levels + 1):
             side = 1 << level
             middles = np.indices(tuple((counts // side).tolist())).reshape(3, -1).T * side + side / 2 + lowest
@@ -167,9 +183,9 @@ class Subdivided:
             colours_of_cubes, space.depth, cubes, step, start - lowest, threads=thread_count(self.threads)
         )
         colours = tuple(np.flatnonzero(np.any(seen, axis=0)).tolist())
-        return CubeTree(space=space, doubled=cubes, first=lowest, colours=colours)
+        return CubeTree(space=space, cell=cell, doubled=cubes, first=lowest, colours=colours)
 
-    def _skin(self, space: Interior) -> cKDTree:
+    def _find_skin(self, space: Interior) -> cKDTree:
         """Find the cells of a grid where the pattern follows the inner side of a wall, as a search tree of places.
 
         They are the cells just outside it, or just inside it below a roof, where depths rise downwards by `FLAT` or
@@ -177,22 +193,21 @@ class Subdivided:
         """
         from scipy.spatial import cKDTree
 
-        if id(space) not in self.skins:
-            self.skins.clear()
-            depth = space.below_walls
-            rows = max(1, ONCE // depth[0].size)
-            places = []
-            for low in range(0, len(depth), rows):
-                slab = depth[low : low + rows]
-                if self.pattern.roofs:
-                    is_skin = np.zeros(slab.shape, dtype=bool)
-                    below, above = slab[:, :, :-1], slab[:, :, 1:]
-                    is_skin[:, :, :-1] = (below > 0) & (above <= 0) & (below - above >= FLAT)
-                else:
-                    is_skin = (slab <= 0) & (slab > -SHELL)
-                places.append(np.argwhere(is_skin) + np.array([low, 0, 0]))
-            self.skins[id(space)] = space, cKDTree(np.concatenate(places))
-        return self.skins[id(space)][1]
+        if self.skin is not None and self.skin[0] is space:
+            return self.skin[1]
+        depth = space.below_walls
+        rows = max(1, ONCE // depth[0].size)
+        places = []
+        for low in range(0, len(depth), rows):
+            slab = depth[low : low + rows]
+            if self.pattern.roofs:
+                is_skin = np.zeros(slab.shape, dtype=bool)
+                below, above = slab[:, :, :-1], slab[:, :, 1:]
+                is_skin[:, :, :-1] = (below > 0) & (above <= 0) & (below - above >= FLAT)
+            else:
+                is_skin = (slab <= 0) & (slab > -SHELL)
+            places.append(np.argwhere(is_skin) + np.array([low, 0, 0]))
+        return cKDTree(np.concatenate(places))
 
 
 def _are_inside(depth: NDArray[np.float32], cells: NDArray[np.float64]) -> NDArray[np.bool_]:

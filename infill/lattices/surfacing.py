@@ -30,7 +30,7 @@ SPECK = 2.0  # cells of the grid: voids smaller than a cube of this side are lef
 def choose_smoothing(space: Interior, voids: Voids, request: FillSpec, sizes: tuple[float, float]) -> Smoothing:
     """Choose the steps that round corners to the requested radius, for a cell and a width of walls or bars, mm."""
     (cell, width), smoothing = sizes, Smoothing(interface=INTERFACE, fidelity=0.0)
-    sharpest = voids.sharpest(_reachable_space(space, request), cell=cell, width=width)
+    sharpest = voids.sharpest(reachable_space(space, request), cell=cell, width=width)
     bar = width * request.thinnest if has_bars(request.kind) else None
     radius = request.radius(space.thickness)
     times = rounding_time(radius, sharpest, bar, cell=space.size) / space.size**2  # cells²
@@ -47,7 +47,7 @@ def make_surfaces(
     cell, width = sizes
     out = np.empty_like(space.depth)
     smoothing = choose_smoothing(space, voids, request, sizes)
-    inside, walls = _reachable_space(space, request), None
+    inside, walls = reachable_space(space, request), None
     if request.form == "project":
         walls = extract_inner_side(space, overlap=0.0, tolerance=request.tolerance / 4, threads=threads)
     surfaces, islands, specks = [], 0, 0
@@ -85,7 +85,7 @@ def make_surfaces(
     )
 
 
-def _reachable_space(space: Interior, request: FillSpec) -> Interior:
+def reachable_space(space: Interior, request: FillSpec) -> Interior:
     """Return the space that voids may take: in a project, through the walls and a little out of the part."""
     return space.unwalled if request.form == "project" else space
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import Protocol
+from typing import Protocol, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ from infill.interior.interior import BAND, Interior
 from infill.kernels.threads import in_threads, thread_count
 from infill.lattices.bodies import Bodies
 from infill.lattices.fillets import corner_angle_between_walls
-from infill.lattices.grading import UNIFORM_WIDTH, Grading
+from infill.lattices.grading import UNIFORM_WIDTH, Grading, LocalWidths
 from patterns.polyhedra import Polyhedra
 from patterns.unit_cells import Bars, BinnedEdges, Cellular, Network, Planes, Surfaces
 
@@ -44,9 +44,22 @@ class Voids(Protocol):
         """Return the angle of the sharpest corners of voids, degrees, where walls of the pattern meet."""
         ...
 
+    def prepare(self, space: Interior, *, cell: float, width: float) -> Self:
+        """Return the same with all that depends on the space computed, so that drawing it again takes less time."""
+        ...
+
+    def with_widths(self, local: LocalWidths) -> Self:
+        """Return the same with other local widths."""
+        ...
+
     @property
     def grading(self) -> Grading | None:
         """Variation of the width from place to place; the nominal width is that of the middle density."""
+        ...
+
+    @property
+    def local(self) -> LocalWidths | None:
+        """Widths from place to place in the space; None if they are not computed yet."""
         ...
 
 
@@ -65,6 +78,8 @@ class Periodic:
     grading : Grading, optional
     bodies : Bodies, optional
         Set if the pattern starts over in each component of the part; the anchor is then relative to its middle.
+    local : LocalWidths, optional
+        Widths in the space, once they are computed.
     """
 
     pattern: Cellular
@@ -73,6 +88,17 @@ class Periodic:
     threads: int | None = None
     grading: Grading | None = None
     bodies: Bodies | None = None
+    local: LocalWidths | None = None
+
+    def prepare(self, space: Interior, *, cell: float, width: float) -> Periodic:
+        """See `Voids`."""
+        if self.bodies is None:
+            return self
+        return replace(self, bodies=self.bodies.prepare(self, space, cell=cell, width=width))
+
+    def with_widths(self, local: LocalWidths) -> Periodic:
+        """See `Voids`."""
+        return replace(self, local=local, bodies=self.bodies and self.bodies.with_widths(local))
 
     def sharpest(self, space: Interior, *, cell: float, width: float) -> float:  # noqa: ARG002 - of the protocol
         """See `Voids`: the same for all cells."""
@@ -96,7 +122,8 @@ class Periodic:
             return self.bodies.into(self, out, space, which, cell=cell, width=width)
         start = self.turn @ (space.origin - self.anchor) / space.size
         period, half = self.pattern.cells * cell / space.size, width / 2 / space.size
-        sizes, threads = local_widths(self, space), thread_count(self.threads)
+        local, threads = find_local_widths(self, space), thread_count(self.threads)
+        sizes = UNIFORM_WIDTH if local is None else (local.ratio, local.step)
         if isinstance(self.pattern, Bars):
             filled = in_threads(
                 from_bars,
@@ -143,7 +170,7 @@ class Periodic:
                 out,
                 threads=threads,
             )
-        elif (spline := _spline(self, space)) is not None:
+        elif local is not None and local.spline is not None:
             from infill.kernels.stretched import from_stretched_period
 
             filled = in_threads(
@@ -157,7 +184,7 @@ class Periodic:
                 1.0 if which == 0 else -1.0,
                 half,
                 *sizes,
-                spline,
+                local.spline,
                 out,
                 threads=threads,
             )
@@ -185,15 +212,15 @@ class Periodic:
 
 def local_widths(voids: Voids, space: Interior) -> tuple[NDArray[np.float32], float]:
     """Return the factors of the width of walls, and the step of their nodes, as kernels take them."""
-    if voids.grading is None:
-        return UNIFORM_WIDTH
-    local = voids.grading.over(space, voids.widths)
-    return local.ratio, local.step
+    local = find_local_widths(voids, space)
+    return UNIFORM_WIDTH if local is None else (local.ratio, local.step)
 
 
-def _spline(voids: Voids, space: Interior) -> NDArray[np.float64] | None:
-    """Return the places of cells of the grid in a pattern whose cells follow a field; None without such a field."""
-    return None if voids.grading is None else voids.grading.over(space, voids.widths).spline
+def find_local_widths(voids: Voids, space: Interior) -> LocalWidths | None:
+    """Return the widths from place to place in a space; None if walls have the same width everywhere."""
+    if voids.grading is None or voids.local is not None:
+        return voids.local
+    return voids.grading.over(space, voids.widths)
 
 
 @cache
