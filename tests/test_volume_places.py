@@ -520,3 +520,19 @@ def test_a_size_that_other_formats_lack_is_told(way: str) -> None:
     assert volume.spacing == (1, 1, 1)
     assert len(said) == 1
     assert "does not say the size" in said[0]
+
+
+@pytest.mark.parametrize(
+    ("offset", "size", "fine"), [(9e4, 1.0, True), (-2e5, 1.0, False), (1e308, 1.0, False), (0.0, 1e6, False)]
+)
+def test_a_volume_that_lies_too_far_away_is_refused(offset: float, size: float, fine: bool, tmp_path: Path) -> None:
+    """Nothing that a machine makes lies there, and files of single precision lose what does."""
+    path = tmp_path / "a.mha"
+    head = f"ObjectType = Image\nNDims = 3\nDimSize = 4 4 4\nElementType = MET_UCHAR\nElementSpacing = 1 {size} 1\n"
+    head += f"Offset = 0 {offset} 0\nElementDataFile = LOCAL\n"
+    path.write_bytes(head.encode() + bytes(range(64)))
+    if fine:
+        assert read_volume(path).origin[1] == pytest.approx(offset - 0.5)
+        return
+    with pytest.raises(FormatError, match=r"from the origin; the limit is 100000 mm; check its place and units"):
+        read_volume(path)

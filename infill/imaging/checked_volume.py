@@ -6,8 +6,10 @@ import math
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
 
+from infill.checks import FARTHEST
 from infill.errors import FormatError, ParameterError
 from infill.volume import AXES, Volume
 
@@ -32,6 +34,14 @@ def checked_volume(path: Path, values: NDArray[Any], *, varied: bool = True, **p
     if varied and low == high:
         raise FormatError(f"{path} holds {low:g} in all cells, so no surface; check that it is the right file")
     try:
-        return Volume(values=values, **place)
+        volume = Volume(values=values, **place)
     except ParameterError as error:
         raise FormatError(f"{path} has no usable place in space: {error}; resample it, or save it again") from error
+    opposite = volume.origin + volume.direction @ (volume.cell_size * values.shape)
+    farthest = float(np.abs([volume.origin, opposite]).max())
+    if not farthest <= FARTHEST:
+        raise FormatError(
+            f"{path} lies up to {farthest:.3g} mm from the origin; the limit is {FARTHEST:g} mm; check its place and "
+            "units, or save it again"
+        )
+    return volume
