@@ -36,7 +36,7 @@ ROWS: tuple[tuple[str, ...], ...] = (
 )
 FLOOR = {room: floor for floor, rooms in enumerate(ROWS) for room in rooms}
 REPORTS = {"result", "report", "report_keys"}
-HALL = {"version", "errors", "checks", "machine", "ragged", "sections", "grid", "volume", "surface", "drawing"}
+HALL = {"version", "errors", "checks", "machine", "ragged", "graph", "sections", "grid", "volume", "surface", "drawing"}
 MOST_FLOORS = 12
 
 # Packages of others that only some may import: a room, or one module.

@@ -209,7 +209,7 @@ def test_values_are_scaled_as_nibabel_does(slope: tuple[float, float], dtype: st
         (lambda d: d[:40] + b"\x02\0" + d[42:], "single slice"),
         (lambda d: d[:108] + np.float32(100).tobytes() + d[112:], "begin at byte 100"),
         (lambda d: d[:108] + np.float32(np.nan).tobytes() + d[112:], "begin at byte nan"),
-        (lambda d: d[:252] + b"\1\0\0\0" + np.array([1, 1, 1], "f4").tobytes() + d[268:], "no rotation"),
+        (lambda d: d[:252] + b"\1\0\0\0" + np.array([1, 1, 1], "f4").tobytes() + d[268:], "not a rotation"),
         (lambda d: b"\0\0\0\0" + d[4:], "does not begin with a header"),
     ],
 )
@@ -522,17 +522,24 @@ def test_a_size_that_other_formats_lack_is_told(way: str) -> None:
     assert "does not say the size" in said[0]
 
 
-@pytest.mark.parametrize(
-    ("offset", "size", "fine"), [(9e4, 1.0, True), (-2e5, 1.0, False), (1e308, 1.0, False), (0.0, 1e6, False)]
-)
-def test_a_volume_that_lies_too_far_away_is_refused(offset: float, size: float, fine: bool, tmp_path: Path) -> None:
-    """Nothing that a machine makes lies there, and files of single precision lose what does."""
-    path = tmp_path / "a.mha"
-    head = f"ObjectType = Image\nNDims = 3\nDimSize = 4 4 4\nElementType = MET_UCHAR\nElementSpacing = 1 {size} 1\n"
-    head += f"Offset = 0 {offset} 0\nElementDataFile = LOCAL\n"
-    path.write_bytes(head.encode() + bytes(range(64)))
-    if fine:
-        assert read_volume(path).origin[1] == pytest.approx(offset - 0.5)
-        return
-    with pytest.raises(FormatError, match=r"from the origin; the limit is 100000 mm; check its place and units"):
-        read_volume(path)
+@pytest.mark.parametrize(("offset", "size"), [(1e6, 1.0), (-2e6, 1.0), (3.0, 1e-7), (1e11, 1e3)])
+def test_a_volume_whose_cells_single_precision_loses_is_told(offset: float, size: float, tmp_path: Path) -> None:
+    told = read_volume(far_away(tmp_path, offset, size)).warnings
+    assert any("files of 32-bit numbers, such as .stl, lose details" in warning for warning in told)
+    assert np.float32(offset) == np.float32(offset + size / 33)  # indeed
+
+
+def test_a_volume_near_enough_is_not_told(tmp_path: Path) -> None:
+    assert read_volume(far_away(tmp_path, 9e5, 1.0)).warnings == ()
+
+
+def test_a_volume_beyond_all_places_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(FormatError, match=r"lies 1e\+308 mm away; the limit is 1e\+12 mm"):
+        read_volume(far_away(tmp_path, 1e308, 1.0))
+
+
+def far_away(folder: Path, offset: float, size: float) -> Path:
+    path = folder / "a.mha"
+    head = f"ObjectType = Image\nNDims = 3\nDimSize = 4 4 4\nElementType = MET_UCHAR\nElementSpacing = {size} {size} {size}\n"
+    path.write_bytes(f"{head}Offset = 0 {offset} 0\nElementDataFile = LOCAL\n".encode() + bytes(range(64)))
+    return path

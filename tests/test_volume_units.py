@@ -77,7 +77,9 @@ def test_any_word_has_a_length_or_none(word: str) -> None:
 
 
 def warned(caplog: pytest.LogCaptureFixture) -> list[str]:
-    return [record.getMessage() for record in caplog.records if record.levelno == logging.WARNING]
+    """The warnings, without that of cells far smaller than their distance: sizes of axes differ wildly here."""
+    told = [record.getMessage() for record in caplog.records if record.levelno == logging.WARNING]
+    return [message for message in told if "files of 32-bit numbers" not in message]
 
 
 # --- ImageJ ----------------------------------------------------------------------------------------------

@@ -9,10 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.checks import FARTHEST
 from infill.errors import FormatError, ParameterError
+from infill.imaging.assumed import warn
 from infill.volume import AXES, Volume
 
+MOST_CELLS_AWAY = 1e6  # 32-bit numbers tell an eighth of a cell apart there
+FARTHEST_PLACE = 1e12  # mm: squares of distances stay exact enough
 COLOUR_CHANNELS = (2, 3, 4)  # numbers per cell of a picture that is not grey
 
 
@@ -38,10 +40,19 @@ def checked_volume(path: Path, values: NDArray[Any], *, varied: bool = True, **p
     except ParameterError as error:
         raise FormatError(f"{path} has no usable place in space: {error}; resample it, or save it again") from error
     opposite = volume.origin + volume.direction @ (volume.cell_size * values.shape)
-    farthest = float(np.abs([volume.origin, opposite]).max())
-    if not farthest <= FARTHEST:
+    farthest, cell = float(np.abs([volume.origin, opposite]).max()), float(volume.cell_size.min())
+    if not farthest <= FARTHEST_PLACE:
         raise FormatError(
-            f"{path} lies up to {farthest:.3g} mm from the origin; the limit is {FARTHEST:g} mm; check its place and "
-            "units, or save it again"
+            f"{path} lies {farthest:.3g} mm away; the limit is {FARTHEST_PLACE:g} mm; check its place and units, or "
+            "save it again"
+        )
+    if farthest > MOST_CELLS_AWAY * cell:
+        warn(
+            "%s lies up to %.3g mm from the origin: files of 32-bit numbers, such as .stl, lose details of %.2g mm "
+            "there, and its cells are %.3g mm; check its place and units",
+            path,
+            farthest,
+            farthest / 2**23,
+            cell,
         )
     return volume
