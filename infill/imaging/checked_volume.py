@@ -39,8 +39,9 @@ def checked_volume(path: Path, values: NDArray[Any], *, varied: bool = True, **p
         volume = Volume(values=values, **place)
     except ParameterError as error:
         raise FormatError(f"{path} has no usable place in space: {error}; resample it, or save it again") from error
-    opposite = volume.origin + volume.direction @ (volume.cell_size * values.shape)
-    farthest, cell = float(np.abs([volume.origin, opposite]).max()), float(volume.cell_size.min())
+    origin = np.asarray(volume.origin)
+    opposite = origin + np.asarray(volume.direction) @ (volume.cell_size * values.shape)
+    farthest, cell = float(np.abs([origin, opposite]).max()), float(volume.cell_size.min())
     if not farthest <= FARTHEST_PLACE:
         raise FormatError(
             f"{path} lies {farthest:.3g} mm away; the limit is {FARTHEST_PLACE:g} mm; check its place and units, or "
