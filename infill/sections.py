@@ -82,7 +82,7 @@ class Sections(dict[str, Any]):
         return super().values()
 
     def pop(self, name: str, *default: Any) -> Any:  # noqa: ANN401 - values of any type
-        """Remove a key and return its value."""
+        """Remove a key and return its value, computed now if it is pending."""
         if name in self:
             self[name]
         return super().pop(name, *default)

@@ -79,7 +79,7 @@ def zero_lines(
 
 
 def _nodes(low: float, high: float, step: float, offset: float) -> Floats:
-    """Return nodes from below `low` to above `high`; they do not depend on the box."""
+    """Return the nodes (k + offset) * step from below `low` to above `high`, the same for every box."""
     number = np.arange(math.floor(low / step) - 1, math.ceil(high / step) + 1, dtype=np.float64)
     return (number + offset) * step
 

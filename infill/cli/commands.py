@@ -50,7 +50,7 @@ class Command(TyperCommand):
             raise _usage_exit(ctx, _plain_message(error)) from error
 
     def invoke(self, ctx: Any) -> Any:  # noqa: ANN401
-        """Run the command; an error of the library is one line and exit status 1, or 2 with the usage."""
+        """Run the command; print an error of the library as one line and exit with 1, or with the usage and 2."""
         try:
             return super().invoke(ctx)
         except UsageException as error:

@@ -36,7 +36,7 @@ def show_plan(plan: dict[str, Any], name: str, *, as_json: bool) -> None:
 
 
 def summary(report: FillReport, files: list[str], name: str, *, verbose: bool) -> str:
-    """Return the short table for stderr."""
+    """Format the report of a fill as a short table for stderr."""
     request, mesh, voids, walls, infill = (
         report["request"],
         report["mesh"],

@@ -128,7 +128,7 @@ def refill(
 def _sliced_layer(
     gcode: Path, preview: Path, layers: tuple[int, int] | None, *, overwrite: bool
 ) -> tuple[int, dict[str, LayerSpeeds]]:
-    """Return the number of the middle layer, or of the requested one nearest to it, and that layer."""
+    """Check the preview's path; return the number of the layer to draw, the middle one by default, and its speeds."""
     from infill.files.whole_files import check_targets
     from infill.pictures.preview import check_preview
     from infill.planner.layer_speeds import layer_speeds, middle_layer

@@ -213,7 +213,7 @@ def _feature_table(plan: Motion) -> str:
 
 
 def _comparison_table(motions: Sequence[Motion]) -> str:
-    """Format times of both files by role, beside lengths, turns and flow."""
+    """Format the times of two files by role, beside lengths, turns and flow, as a table."""
     roles = list(dict.fromkeys(feature.role for motion in motions for feature in motion.features))
     roles.sort(key=lambda role: -motions[0].of_role(role))
     rows = [

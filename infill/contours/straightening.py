@@ -122,7 +122,7 @@ def _first_marked(flags: Flags, begins: Indices) -> Indices:
 
 
 def _segment_distances(points: Complexes, start: Complexes, end: Complexes) -> Floats:
-    """Return the distance of each point (N,) from its segment."""
+    """Return the distance of each point (N,) from its segment, both given as complex numbers."""
     along, offset = end - start, points - start
     squared = along.real**2 + along.imag**2
     share = (along.real * offset.real + along.imag * offset.imag) / np.where(squared > 0, squared, 1)

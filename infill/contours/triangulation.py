@@ -18,7 +18,7 @@ UNFILLED = "the outline cannot be filled with triangles; smooth less, or use wal
 
 
 def triangulate_rings(rings: Contours) -> Indices:
-    """Fill the solid inside rings with triangles (T, 3), counter-clockwise, as numbers of corners.
+    """Fill the solid inside rings with counter-clockwise triangles, (T, 3) indices of corners.
 
     Parameters
     ----------

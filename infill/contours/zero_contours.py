@@ -163,7 +163,7 @@ def _diagonal(value: Floats, corner: Flags) -> Floats:
 
 
 def permutation_cycles(ahead: Indices) -> tuple[Indices, Indices]:
-    """Split a permutation (N,) into cycles, each from its lowest number on; return the order, and where each begins.
+    """Split a permutation (N,) into cycles, each from its lowest number on; return the order and the offsets, (C + 1,).
 
     >>> [array.tolist() for array in permutation_cycles(np.array([2, 1, 3, 0]))]
     [[0, 2, 3, 1], [0, 3, 4]]

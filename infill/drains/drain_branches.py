@@ -244,7 +244,7 @@ def _push_inwards(below: TurnedPart, needs: DrainNeeds, points: Floats, void: In
 
 
 def _sample_voids(below: TurnedPart, needs: DrainNeeds) -> tuple[Floats, Integers]:
-    """Sample points inside voids, (N, 3) mm, and the void of each."""
+    """Sample points inside voids, and vertices of them, (N, 3) mm; return the void of each too."""
     lattice = below.lattice(needs, LATTICE)
     line, height, up, face = find_crossings(below.voids, lattice)
     void = below.owners[face]

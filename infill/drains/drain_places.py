@@ -153,7 +153,7 @@ class DrainPlaces:
 
     @classmethod
     def of(cls, below: TurnedPart, needs: DrainNeeds, *, void: int | None = None) -> DrainPlaces:
-        """Find the places from which a line straight down leaves the part through solid alone, of all voids or one."""
+        """Find the places, of all voids or one, from which a line straight down leaves the part through solid alone."""
         lattice = below.lattice(needs) if void is None else below.lattice_of(needs, void)
         ways = find_ways(below.part, below.voids, below.names, lattice)
         lowest = below.lowest
@@ -194,7 +194,7 @@ class DrainPlaces:
         return self._first_clear(ways[np.argsort(distance, kind="stable")][:MOST])
 
     def _first_clear(self, ways: Integers) -> Shaft | None:
-        """Return the hole along the first way that keeps the wall from other skin, or None."""
+        """Return the first of the holes along some ways that keeps a wall from other skin, or None."""
         needs = self.needs
         for up in UP:
             for way, high in islice(self._filter_ways(ways, up), TRIES):

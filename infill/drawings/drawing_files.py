@@ -61,7 +61,7 @@ def read_drawing(path: str | os.PathLike[str]) -> Drawing | Picture:
 
 
 def read_tile_family(path: str | os.PathLike[str], *, width: float | None = None) -> DrawnFamily:
-    """Read a drawing as a family of paths.
+    """Read a drawing as a tile that repeats: a family of paths.
 
     Parameters
     ----------

@@ -204,7 +204,7 @@ def _map_arrays(file: IO[bytes], entries: Mapping[str, Any]) -> dict[str, NDArra
 
 
 def _output_lines(printed: str) -> tuple[str, ...]:
-    """Split the output of the child into lines, each once, without places in the source of a library."""
+    """Split the child's output into distinct lines, without those that only name a place in a library's source."""
     lines = (ADDRESS.sub("", line.strip())[:LONGEST_LINE] for line in printed.splitlines())
     return tuple(dict.fromkeys(line for line in lines if line and not SOURCE_PLACE.match(line)))[:MOST_LINES]
 

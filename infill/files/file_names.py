@@ -13,7 +13,7 @@ MOST_BYTES = 120  # of a name in UTF-8: a file may have 255 with what stands aro
 
 
 def safe_names(names: Sequence[str], others: Sequence[str]) -> list[str]:
-    """Return a file name for each name; all differ even where case or the form of letters does not count.
+    """Return a file name for each name, or for its fallback; all differ, even where case or Unicode form is ignored.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ def safe_names(names: Sequence[str], others: Sequence[str]) -> list[str]:
 
 
 def _allowed_name(name: str) -> str:
-    """Return a name without the characters that file systems forbid; empty if nothing remains."""
+    """Return a name that every file system allows, shortened where necessary; empty if nothing remains."""
     visible = "".join(
         character
         for character in unicodedata.normalize("NFC", name)

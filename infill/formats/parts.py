@@ -36,7 +36,7 @@ def hex_colour(colour: Colour) -> str:
 
 
 def printable_name(name: str) -> str:
-    r"""Return a name without the characters that XML forbids.
+    r"""Return a name on one line, without unprintable characters, some of which XML forbids.
 
     >>> printable_name("a\x01b\u00a0c")
     'ab c'

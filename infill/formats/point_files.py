@@ -157,7 +157,7 @@ def _read_columns(path: Path, *, normals: bool) -> NDArray[np.floating]:
 
 
 def _parted_by(line: str) -> str | None:
-    """Return the separator of a line; None for blanks."""
+    """Return the separator of a line, a semicolon or a comma; None for blanks."""
     return next((mark for mark in ";," if mark in line.partition("#")[0]), None)
 
 

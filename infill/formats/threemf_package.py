@@ -88,7 +88,7 @@ class Model:
     meshes: Mapping[ElementTree.Element, Mesh]
 
     def below(self, element: ElementTree.Element, path: str) -> Iterator[ElementTree.Element]:
-        """Yield elements by a path of names of the core specification."""
+        """Yield the descendants of an element along a path of names of the core specification."""
         return element.iterfind("/".join(self.core + name for name in path.split("/")))
 
     @property

@@ -367,7 +367,7 @@ def start_part(package: zipfile.ZipFile) -> str:
 
 
 def _transform(text: str) -> Transform:
-    """Parse the 4 x 3 matrix of a transform: points are rows, multiplied from the left."""
+    """Parse the 4 x 3 matrix of a transform for points as rows: point @ matrix."""
     return _require_finite(np.array([float(number) for number in text.split()]).reshape(4, 3))
 
 

@@ -83,7 +83,7 @@ _ROLE_OF: Final = {name: role for role, names in ROLES.items() for name in names
 
 
 def role_of(name: bytes) -> str:
-    """Return the role of a slicer's name of a feature, the same word for every slicer, or "other".
+    """Return the role of a feature that a slicer names so: one word for all slicers, "other" or "untagged".
 
     An empty name is "untagged": everything before the first tag. Full names count: "Gap infill" is not sparse infill.
 

@@ -63,7 +63,7 @@ def find_data_file(header: Path, name: str) -> Path:
 
 
 def numbered_names(header: Path, pattern: str, low: int, high: int, step: int) -> list[str]:
-    """Return the names that a pattern such as `slice%03d.raw` produces for a range of numbers.
+    """Return the names that a pattern such as `slice%03d.raw` produces for the numbers from `low` to `high` inclusive.
 
     >>> numbered_names(Path("a.nhdr"), "a%02d.raw", 1, 5, 2)
     ['a01.raw', 'a03.raw', 'a05.raw']

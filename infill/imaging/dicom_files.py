@@ -490,7 +490,7 @@ def _check_pixels(pixels: Pixels, count: int, cells: int) -> None:
 
 
 def _frames(path: Path, header: Dataset, count: int, shape: tuple[int, int]) -> tuple[tuple[Frame, ...], str, bool]:
-    """Return the frames of a file, the reason why they have no place, and whether their order is their place."""
+    """Read the frames of a file; return why they have no place ("" if they have), and whether their order may serve."""
     per_frame = _items(header, "PerFrameFunctionalGroupsSequence")
     shared = _first_item(header, "SharedFunctionalGroupsSequence")
     if per_frame or shared is not None:

@@ -60,7 +60,7 @@ def read_tiff(path: Path) -> Volume:
 
 
 def _tiff_pages(path: Path, *, with_spacing: bool = True) -> tuple[NDArray[Any], tuple[float, ...]]:
-    """Read grey pages [(z,) y, x]; return them, and for the first file the cell size along x, y, z."""
+    """Read grey pages [(z,) y, x]; return them and, if asked for, the cell size along x, y, z."""
     import tifffile
 
     with _raise_complaints(path), wrap_reader_errors(path), tifffile.TiffFile(path) as tiff:

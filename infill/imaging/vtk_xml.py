@@ -194,7 +194,7 @@ def _unpack(raw: memoryview, coding: _Coding, needed: int, *, in_base64: bool) -
 
 
 def _slice_bytes(raw: memoryview, begin: int, count: int, in_base64: bool) -> bytes:
-    """Return exactly `count` bytes, or raise EOFError."""
+    """Return `count` decoded bytes from the raw position `begin` on, or raise EOFError."""
     if in_base64:
         text = raw[begin : begin + math.ceil(count / BASE64_IN) * BASE64_OUT]
         decoded = base64.b64decode(text, validate=True)[:count]

@@ -64,7 +64,7 @@ class LayerRegions:
 
     @property
     def topology(self) -> LayerTopology:
-        """Count the components."""
+        """Count the components and the holes."""
         return LayerTopology(components=int(self.solid.max()), holes=int(self.void.max()) - 1)
 
 

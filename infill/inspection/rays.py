@@ -18,7 +18,7 @@ def length_inside(
     *,
     leeway: int = 0,
 ) -> Floats:
-    """Measure the length of solid along rays, (N,) mm.
+    """Measure the length of the first stretch of solid along each ray, (N,) mm; infinite if the ray does not leave it.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def length_inside(
 
 
 def first_solid_length(values: NDArray[np.floating], distance: Floats, *, leeway: int = 0) -> Floats:
-    """Measure as `length_inside` does, given the values at all positions along the rays, (N, n).
+    """Measure the first stretch of solid, as `length_inside` does, from the values along the rays, (N, n).
 
     >>> first_solid_length(np.array([[1.0, 1.0, -1.0], [-1.0, -1.0, -1.0]]), np.arange(3.0)).tolist()
     [1.5, 0.0]

@@ -272,7 +272,7 @@ def _memory_bytes(shape: tuple[int, ...], held: int, *, slabs: bool) -> int:
 
 
 def added_length(open_: Open | None, wall: float, beyond: float, voxel: float) -> float:
-    """Return the length, mm, added to a part at its open sides, so that its ends do not matter to the voids."""
+    """Return the total length, mm, added at all open sides of a part, so that its ends do not matter to the voids."""
     return 0.0 if open_ is None else len(ENDS[open_]) * (wall + beyond + OUT * voxel)
 
 

@@ -63,7 +63,7 @@ class Opening:
         return [end for end in ENDS[self.name] if not reached[end]]
 
     def reaching(self, voids: Surface, size: float) -> Surface | None:
-        """Keep the components of a surface that reach deep enough into the part to be of use, or return None."""
+        """Keep the components that reach over one cell, of `size` mm, into the part; return None without any."""
         lowest, highest = _heights(voids)
         is_deep = (highest > self.low + LEAST * size) & (lowest < self.high - LEAST * size)
         if is_deep.all():

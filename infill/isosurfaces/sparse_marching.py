@@ -212,7 +212,7 @@ def measure_level(
 
 
 def _limits(level: float) -> tuple[np.float32, np.float32, np.float32]:
-    """Return the level and its tolerances in single precision, as the kernels take them."""
+    """Return the level, the least distance of values from it, and the factor that breaks ties, in single precision."""
     return np.float32(level), np.float32(CLEARANCE), np.float32(TIE)
 
 

@@ -109,7 +109,7 @@ def reassign_points(first_point, next_point, points, tolerance, moved, chosen, c
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def _find_near_corner_at(x, y, z, point, bound, corner, was):
-    """Return a corner of an original face that is near a place and at a point; -1 if there is none."""
+    """Return a corner at a point whose original face is near a place; -1 if there is none."""
     original_corners, twin, leaving = was
     on_edge = point >= len(leaving)
     begin = corner[point]
@@ -125,7 +125,7 @@ def _find_near_corner_at(x, y, z, point, bound, corner, was):
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def _find_near_corner(x, y, z, points, tolerance, goes, count, corner, was):
-    """Return a corner of an original face that is near a place; -1 if there is none.
+    """Return a corner, at one of some points, whose original face is near a place; -1 if there is none.
 
     Faces at the point nearest to the place are tried first, then those at all other points.
     """

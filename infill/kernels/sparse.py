@@ -153,7 +153,7 @@ def update_all_faces(bricks, data, copied, faces, flat, rows, next_rows, still, 
 
 @njit(cache=True)
 def place_beside(place, side):
-    """Return the place next to a brick: low and high along i, j, k."""
+    """Return the place of the brick at a side of another; sides 0 to 5 are low and high along i, j, k."""
     a, b, c = place[0], place[1], place[2]
     way = 1 if side % 2 else -1
     if side < 2:

@@ -228,7 +228,7 @@ class _Faces:
     width: float
 
     def fits(self, reach: float, width: float) -> bool:
-        """Tell whether the faces suffice for lines of this width."""
+        """Tell whether the faces also serve for this reach, if it is no larger, and for lines not much thinner."""
         return reach <= self.reach and width >= THINNER * self.width
 
 

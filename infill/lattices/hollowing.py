@@ -323,7 +323,7 @@ def _closest_to_density(best: VoidMeshes, make: Callable[[float], VoidMeshes], d
 
 
 def _width_factors(line: np.polynomial.Polynomial, power: int) -> Callable[[NDArray[np.float32]], NDArray[np.floating]]:
-    """Return a function from requested densities to factors of the width, for a line of errors in logarithms."""
+    """Return a function from requested densities to factors of the width: exp(line(density) / power), within limits."""
     return lambda shares: np.exp(np.clip(line(shares.astype(np.float64)), -MOST_OFF, MOST_OFF) / power)
 
 

@@ -113,7 +113,7 @@ class NonPrismatic:
         return self.layers.sharpest(space, cell)
 
     def about(self, middle: Floats) -> NonPrismatic:
-        """See `Anchored`."""
+        """Return the same lines, shifted by a vector, mm: see `Anchored`."""
         return replace(self, layers=self.layers.about(middle), bodies=None, distances=None)
 
     def count(self, space: Interior, *, cell: float, width: float) -> int:

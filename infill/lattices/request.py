@@ -126,7 +126,7 @@ class FillSpec:
 
     @property
     def default_width(self) -> float:
-        """Width of walls inside, mm; where the density changes, of its middle, so that the thinnest are this wide."""
+        """Width of walls inside, mm: of the middle density, such that the thinnest walls have the usual width."""
         sliced = SLICED_BAR if has_bars(self.kind) else SLICED_WIDTH
         return (sliced if self.form == "project" else LINE_WIDTH) / self.thinnest
 

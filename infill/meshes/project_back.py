@@ -192,7 +192,7 @@ def crossing_corners(surface: Surface) -> Floats:
 
 
 def _corners(surface: Surface, faces: Integers) -> Floats:
-    """Return the corners (N, 3) of some faces, mm."""
+    """Return the corners of some faces, three rows for each distinct face, mm."""
     corners: Floats = np.asarray(surface.vertices, dtype=np.float64)[surface.faces[np.unique(faces)]].reshape(-1, 3)
     return corners
 

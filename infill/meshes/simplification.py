@@ -59,7 +59,7 @@ def simplify_surface(
 
 
 def restore_volume(surface: Surface, volume: float) -> Surface:
-    """Move all vertices equally far along their normals, so that the surface has a volume, mm³.
+    """Move all vertices equally far along their normals to restore a volume, mm³; change nothing if that is too far.
 
     If the vertices would have to move further than a tenth of the mean edge, the surface is returned unchanged.
 

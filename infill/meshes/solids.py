@@ -61,7 +61,7 @@ def manifold_status(surface: Surface, *, single: bool = False) -> str:
 
 
 def from_manifold(solid: manifold3d.Manifold) -> Surface:
-    """Convert a solid of manifold3d to plain arrays."""
+    """Convert a solid of manifold3d to a surface."""
     mesh = solid.to_mesh64()
     return Surface(vertices=np.array(mesh.vert_properties)[:, :3], faces=np.array(mesh.tri_verts).astype(np.int64))
 

@@ -16,7 +16,7 @@ Reader = Callable[[str, object], Any]
 
 
 def parse_word(name: str, value: object) -> str:
-    """Check a word, or raise UsageError."""
+    """Return a value that must be a word, or raise UsageError."""
     if not isinstance(value, str) or not value.strip():
         raise UsageError.about(name, f"is {quote_value(value)}; it must be a word")
     if len(value) > LONGEST_WORD:
@@ -66,7 +66,7 @@ def check_fits_float(name: str, value: float) -> float:
 
 
 def parse_whole(name: str, value: object) -> int:
-    """Check a whole number, or raise UsageError."""
+    """Return a value that must be a whole number, or raise UsageError."""
     if isinstance(value, bool) or not isinstance(value, int):
         raise UsageError.about(name, f"is {quote_value(value)}; it must be a whole number")
     if abs(value) > LARGEST_WHOLE:

@@ -56,7 +56,7 @@ def _read_text(path: Path) -> str:
 
 
 def write_options(request: Mapping[str, Any], head: str) -> str:
-    """Write the request in a report as a config file that makes it again.
+    """Format the request of a report as a config file that makes it again.
 
     >>> print(write_options({"cell": 5.0, "form": "solid", "parameters": {"waves": 3}}, "again"))
     # again
@@ -73,7 +73,7 @@ def write_options(request: Mapping[str, Any], head: str) -> str:
 
 
 def write_rows(values: Mapping[str, Any]) -> list[str]:
-    """Write one line of TOML for each value that is not None.
+    """Format each value that is not None as a line of TOML.
 
     >>> write_rows({"cell": 5.0, "size": (60, 40), "frame": True, "waves": None})
     ['cell = 5.0', 'size = [60, 40]', 'frame = true']

@@ -141,7 +141,7 @@ def offset_corners(
 def _beside_others(
     points: Floats, offsets: Places, corner: Places, legs: tuple[Floats, Floats], layer: Places, line_width: float
 ) -> tuple[Floats, Places]:
-    """Compute the move, mm, of each corner before it meets other lines of the infill, and its leg.
+    """Return how far each corner may move before it meets other lines, mm, and along which leg: 1, -1 or 0 (none).
 
     See `CornerFreedom`.
     """

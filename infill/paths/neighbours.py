@@ -101,7 +101,7 @@ class LayerBeads:
 
     @cached_property
     def walls(self) -> BeadIndex:
-        """Those that are not skins."""
+        """Index of the beads that do not belong to skins."""
         return index_beads(self.points[~self.skin], half=None if self.half is None else self.half[~self.skin])
 
     @cached_property

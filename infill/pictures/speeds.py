@@ -29,7 +29,7 @@ def speed_colours(speed: NDArray[np.floating], top: float) -> NDArray[np.uint8]:
 
 
 def write_speeds(layers: Mapping[str, LayerSpeeds], file: BinaryIO) -> None:
-    """Write layers side by side as PNG.
+    """Draw the speeds of layers side by side, as PNG.
 
     Parameters
     ----------

@@ -41,7 +41,7 @@ def joint_limits(moves: Moves, bounds: BoundedMoves, limits: Sequence[Limits]) -
 
 
 def _select_limits(limit: Floats, which: slice) -> Floats:
-    """Select the limits of some moves, also of a limit that is the same for all."""
+    """Select the limits of some moves; a single limit holds for all."""
     return limit if len(limit) == 1 else limit[which]
 
 

@@ -289,7 +289,7 @@ class Timeline:
         return self._limits.index(limits)
 
     def _read_tags(self, table: GcodeTable, feature: int) -> tuple[NDArray[np.intp], NDArray[np.intp], int]:
-        """Return feature and layer of every line, and the last feature."""
+        """Count layers and add features by the tags; return feature and layer of every line, and the last feature."""
         lines, features, layers = [0], [feature], [self.layers]
         for line in _find_comments(table, TAG_PREFIXES):
             tag = parse_tag(table.text(line, line + 1)[:MAX_TAG_BYTES])
@@ -310,7 +310,7 @@ class Timeline:
         return np.repeat(features, count), np.repeat(layers, count), feature
 
     def _moves(self, table: GcodeTable, orders: _Orders, feature: NDArray[np.intp], layer: NDArray[np.intp]) -> Steps:
-        """Return the lines that move an axis; stops and pauses go to the next move."""
+        """Return the moves of the lines, arcs as chords; each move takes the stops and pauses since the one before."""
         place = np.column_stack([table.x, table.y, table.z])
         before = np.vstack([[table.before.x, table.before.y, table.before.z], place[:-1]])
         travel = np.nan_to_num(place) - np.nan_to_num(before)  # from home, where the file has not stated a position yet

@@ -113,7 +113,7 @@ class CentredParameters(SizedParameters):
     )
 
     def placed(self, family: Family) -> Family:
-        """Return a family with these parameters."""
+        """Return a family with these parameters: here, as it is."""
         from infill.paths.families.heart import ConcentricHeartPaths
         from infill.paths.families.spirals import Spirals
 

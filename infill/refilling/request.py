@@ -48,7 +48,7 @@ def parse_share_or_same(name: str, value: object) -> str | float:
 
 
 def parse_range(name: str, value: object) -> tuple[int, int]:
-    """Parse the first and the last of ``5-20``, ``5-`` or ``5``, 5 or [5, 20], or raise ParameterError.
+    """Parse ``5-20``, ``5-``, ``5``, 5 or [5, 20] as the first and the last, or raise ParameterError.
 
     >>> parse_range("layers", "5-20")
     (5, 20)

@@ -64,7 +64,7 @@ def kept_shares(old: Contact, new: Contact) -> tuple[float, float]:
 
 
 def kept_length(old: float, new: float) -> float:
-    """Scale the remaining share of the infill's length like the other shares: 0.97 of it becomes 0.94.
+    """Return the share of the infill's length that remains, scaled like the other shares: 0.97 becomes 0.94.
 
     >>> round(kept_length(100.0, 97.0), 9), kept_length(100.0, 101.0)
     (0.94, 1.0)

@@ -103,7 +103,7 @@ def _input_surface(smoothed: SmoothedInput) -> Surface:
 
 
 def _place_classifier(smoothed: SmoothedInput) -> Kinds:
-    """Return the function that classifies points of the input: those that count as lost, and those that do not.
+    """Return the function that classifies places of the input by whether a loss there counts, and if not, why.
 
     Of a mesh, points with solid on one side count; those inside the solid, and on sheets without thickness, do not.
     Slits narrower than a cell have a class of their own. Of voxels, points between solid and void more than one cell

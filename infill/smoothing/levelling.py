@@ -80,7 +80,7 @@ class Crumbs:
 
 
 def extract_surface(smoothed: SmoothedInput) -> SurfaceAtLevel:
-    """Extract the surface of a smoothed field: at the level that keeps the volume, or at the requested one.
+    """Extract the surface of a field, which may be changed: at the level that keeps the volume, or the requested one.
 
     If the field is straightened along the way, its values are overwritten.
     """

@@ -195,7 +195,7 @@ def smooth_source(
 
 
 def separate_choice(source: Source, options: SourceOptions) -> tuple[dict[str, Any], SmoothOptions]:
-    """Separate the choice of solid and grid from the options that all functions share.
+    """Check the options and split them: those that choose the solid and the grid, and those that all functions share.
 
     Parameters
     ----------

@@ -257,7 +257,7 @@ def _voxelise_solid(positions: Floats, size: float, margin: int, limit: int | No
 def _fill_shell(
     points: Floats, radius: float, shape: tuple[int, ...], lowest_share: float, threads: int
 ) -> tuple[Cells | None, float]:
-    """Fill a shell; return the solid, or None, and the ratio of points with an inside to points with an outside.
+    """Fill a shell, in cells; return the solid, or None, and the ratio of points with inside to points with outside.
 
     The solid is None if that ratio is below `lowest_share`.
     """

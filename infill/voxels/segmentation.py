@@ -270,7 +270,7 @@ def contrast(volume: Volume, level: float) -> float:
 
 
 def _interpret_values(volume: Volume, lowest: float, highest: float) -> tuple[NDArray[Any], dict[str, Any]]:
-    """Interpret the values without a criterion, or raise ParameterError that lists the options."""
+    """Find the solid in values that need no criterion, with the method for the report, or raise ParameterError."""
     values: NDArray[Any] = volume.values
     if values.dtype.itemsize == 1 and values.dtype.kind in "iu":  # two values of one byte are not copied
         if (lowest, highest) == (0, 1):

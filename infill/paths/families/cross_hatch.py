@@ -64,7 +64,7 @@ class CrossHatchPaths:
 
 
 def _share(z: float) -> tuple[float, bool]:
-    """Return the smaller weight over the larger one at a height, in radians, and True if walls run along x."""
+    """Return the smaller weight over the larger one at height `z`, radians, and True if the walls run along x."""
     from patterns.hatch import cross_hatch
 
     place, zero = np.array([0.0, math.pi / 2]), np.array([math.pi / 2, 0.0])
