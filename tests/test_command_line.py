@@ -518,9 +518,9 @@ def test_sizes_and_bytes_are_read_as_people_write_them() -> None:
 
 
 def test_toml_quotes_what_it_must() -> None:
-    from infill.options.toml import write_rows
+    from infill.options.toml import format_rows
 
-    assert write_rows({"name": 'a "b" \\ c'}) == ['name = "a \\"b\\" \\\\ c"']
+    assert format_rows({"name": 'a "b" \\ c'}) == ['name = "a \\"b\\" \\\\ c"']
 
 
 def test_cell_and_what_replaces_it(tmp_path: Path) -> None:

@@ -105,7 +105,7 @@ def refill(
             number = 0
             sliced_layers: dict[str, LayerSpeeds] = {}
             if preview is not None:
-                number, sliced_layers = _sliced_layer(gcode, preview, settings.get("layers"), overwrite=force)
+                number, sliced_layers = _read_sliced_layer(gcode, preview, settings.get("layers"), overwrite=force)
             result = refilled(
                 gcode,
                 output=output,
@@ -125,7 +125,7 @@ def refill(
         print_json({**result.report, "files": [path] if path else []})
 
 
-def _sliced_layer(
+def _read_sliced_layer(
     gcode: Path, preview: Path, layers: tuple[int, int] | None, *, overwrite: bool
 ) -> tuple[int, dict[str, LayerSpeeds]]:
     """Check the preview's path; return the number of the layer to draw, the middle one by default, and its speeds."""

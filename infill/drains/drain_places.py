@@ -185,15 +185,15 @@ class DrainPlaces:
         if taken is not None and len(taken) and len(ways):
             apart = np.linalg.norm(self.ways.at[ways][:, None] - taken, axis=2).min(axis=1)
             ways = ways[apart >= needs.diameter + needs.wall]
-        return self._first_clear(ways)
+        return self._first_clear_shaft(ways)
 
     def nearest(self, at: Floats, skin: float) -> Shaft | None:
         """Find the hole for any void that is nearest to a place of the skin, or return None."""
         ways = np.concatenate(self.order) if self.order else np.empty(0, dtype=np.int64)
         distance = np.linalg.norm(self.ways.at[ways] - at, axis=1) + np.abs(self.ways.skin[ways] - skin)
-        return self._first_clear(ways[np.argsort(distance, kind="stable")][:MOST])
+        return self._first_clear_shaft(ways[np.argsort(distance, kind="stable")][:MOST])
 
-    def _first_clear(self, ways: Integers) -> Shaft | None:
+    def _first_clear_shaft(self, ways: Integers) -> Shaft | None:
         """Return the first of the holes along some ways that keeps a wall from other skin, or None."""
         needs = self.needs
         for up in UP:

@@ -127,17 +127,17 @@ def _read_columns(path: Path, *, normals: bool) -> NDArray[np.floating]:
     with _wrap_errors(path), path.open(encoding="utf-8-sig", errors="replace") as file:
         lines = (line for line in file if line.partition("#")[0].strip(" \t\r\n,;"))
         first_line = next(lines, "")
-        separator = _parted_by(first_line)
+        separator = _find_separator(first_line)
         columns: tuple[int, ...] = ()
         count = None
         if len(_split_fields(first_line, separator)) == 1 and _is_number(_split_fields(first_line, separator)[0]):
             count = float(first_line.partition("#")[0])
             first_line = next(lines, "")
-            separator = _parted_by(first_line)
+            separator = _find_separator(first_line)
         elif not all(_is_number(field) for field in _split_fields(first_line, separator)[:AXES]):
             columns = _point_columns(_split_fields(first_line, separator))
             first_line = next(lines, "")
-            separator = _parted_by(first_line)
+            separator = _find_separator(first_line)
         if not first_line:
             raise FormatError(f"{path} holds no points; export them again")
         columns = columns or tuple(range(min(2 * AXES, max(AXES, len(_split_fields(first_line, separator))))))
@@ -156,7 +156,7 @@ def _read_columns(path: Path, *, normals: bool) -> NDArray[np.floating]:
     return points
 
 
-def _parted_by(line: str) -> str | None:
+def _find_separator(line: str) -> str | None:
     """Return the separator of a line, a semicolon or a comma; None for blanks."""
     return next((mark for mark in ";," if mark in line.partition("#")[0]), None)
 

@@ -72,7 +72,7 @@ def write_3mf_parts(parts: Sequence[Part], file: BinaryIO) -> None:
 
     def model(into: IO[bytes]) -> None:
         into.write(model_head({"Application": APPLICATION}).encode())
-        into.write(_materials([(names[k], parts[k]) for k in coloured], len(parts) + 1).encode())
+        into.write(_format_materials([(names[k], parts[k]) for k in coloured], len(parts) + 1).encode())
         for number, part in enumerate(parts):
             name = f" name={quote_attribute(names[number])}" if names[number] else ""
             material = f' pid="{len(parts) + 1}" pindex="{coloured.index(number)}"' if number in coloured else ""
@@ -143,7 +143,7 @@ def write_mesh(into: IO[bytes], vertices: NDArray[np.floating], faces: NDArray[n
     into.write(b"</triangles></mesh>")
 
 
-def _materials(coloured: Sequence[tuple[str, Part]], number: int) -> str:
+def _format_materials(coloured: Sequence[tuple[str, Part]], number: int) -> str:
     """Return the resource with the colours of named parts; empty if there are none."""
     if not coloured:
         return ""

@@ -192,7 +192,7 @@ class _Reading:
         if model.mesh_of(element) is not None:
             yield from self._volumes(model, element, name, chain, outer)
         for component in model.below(element, "components/component"):
-            inner = _transform(component.get("transform", IDENTITY))
+            inner = _parse_transform(component.get("transform", IDENTITY))
             yield from self.placed(self.reference(component, part), _compose(inner, outer), chain)
 
     def _volumes(
@@ -334,7 +334,7 @@ def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer], tup
                 if is_unprinted(item.get("printable")):
                     reading.note(f"object {excerpt(key[1])} is not to be printed: it is left out")
                     continue
-                volumes = list(reading.placed(key, _transform(item.get("transform", IDENTITY))))
+                volumes = list(reading.placed(key, _parse_transform(item.get("transform", IDENTITY))))
                 surfaces.extend(reading.without_negatives(volumes))
         notes = tuple(reading.notes)
         if len(notes) > MOST_NOTES:
@@ -366,7 +366,7 @@ def start_part(package: zipfile.ZipFile) -> str:
     return part_key(targets[0]) if targets else ""
 
 
-def _transform(text: str) -> Transform:
+def _parse_transform(text: str) -> Transform:
     """Parse the 4 x 3 matrix of a transform for points as rows: point @ matrix."""
     return _require_finite(np.array([float(number) for number in text.split()]).reshape(4, 3))
 

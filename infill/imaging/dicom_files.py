@@ -463,7 +463,7 @@ def _image(path: Path, header: Dataset, pixels: Pixels) -> Image:
     if samples > 1 or (photometric == "PALETTE COLOR" and storage != LABEL_MAP):
         return image
     _check_pixels(pixels, count, rows * columns)
-    frames, unplaced, stacked = _frames(path, header, count, (rows, columns))
+    frames, unplaced, stacked = _read_frames(path, header, count, (rows, columns))
     return Image(
         **{
             **vars(image),
@@ -489,7 +489,9 @@ def _check_pixels(pixels: Pixels, count: int, cells: int) -> None:
         raise ValueError(f"{pixels.length} bytes of pixels, of {needed}")
 
 
-def _frames(path: Path, header: Dataset, count: int, shape: tuple[int, int]) -> tuple[tuple[Frame, ...], str, bool]:
+def _read_frames(
+    path: Path, header: Dataset, count: int, shape: tuple[int, int]
+) -> tuple[tuple[Frame, ...], str, bool]:
     """Read the frames of a file; return why they have no place ("" if they have), and whether their order may serve."""
     per_frame = _items(header, "PerFrameFunctionalGroupsSequence")
     shared = _first_item(header, "SharedFunctionalGroupsSequence")

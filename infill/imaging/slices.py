@@ -55,11 +55,11 @@ def _raise_complaints(path: Path) -> Iterator[None]:
 
 def read_tiff(path: Path) -> Volume:
     """Read a stack of pages as a volume, with the stated cell size."""
-    pages, spacing = _tiff_pages(path)
+    pages, spacing = _read_tiff_pages(path)
     return checked_volume(path, pages.T, spacing=spacing)
 
 
-def _tiff_pages(path: Path, *, with_spacing: bool = True) -> tuple[NDArray[Any], tuple[float, ...]]:
+def _read_tiff_pages(path: Path, *, with_spacing: bool = True) -> tuple[NDArray[Any], tuple[float, ...]]:
     """Read grey pages [(z,) y, x]; return them and, if asked for, the cell size along x, y, z."""
     import tifffile
 
@@ -210,7 +210,9 @@ def read_slices(folder: Path, names: list[Path]) -> Volume:
     pages: NDArray[Any] | None = None
     spacing = (1.0,) * AXES
     for number, name in enumerate(names):
-        page, sizes = _read_png(name) if name.suffix.lower() == ".png" else _tiff_pages(name, with_spacing=number == 0)
+        page, sizes = (
+            _read_png(name) if name.suffix.lower() == ".png" else _read_tiff_pages(name, with_spacing=number == 0)
+        )
         if page.ndim != 2:
             raise FormatError(f"{name} has the shape {page.shape}; a folder of slices holds one grey page per file")
         if pages is None:

@@ -117,7 +117,7 @@ def extract_level(
     threads = thread_count(threads)
     cubes = cube_table()
     values = field.values.reshape(-1, CELLS)
-    limits, bits = _limits(level), rows_above(field, field.values, level, threads=threads)
+    limits, bits = _level_and_tolerances(level), rows_above(field, field.values, level, threads=threads)
     places = _crossed_bricks(field, bits, threads)
     index = np.full(field.slots.shape, -1, dtype=np.int32)
     index[tuple(places.T)] = np.arange(len(places))
@@ -189,7 +189,7 @@ def measure_level(
     if len(field.where) < LARGE:
         return None
     count = thread_count(threads)
-    values, limits, cubes = field.values.reshape(-1, CELLS), _limits(level), cube_table()
+    values, limits, cubes = field.values.reshape(-1, CELLS), _level_and_tolerances(level), cube_table()
     bits = rows_above(field, field.values, level, threads=count)
     parts = in_threads(
         kernels.measure,
@@ -211,7 +211,7 @@ def measure_level(
     return None if undecided else (volume * sixth, slope * sixth)
 
 
-def _limits(level: float) -> tuple[np.float32, np.float32, np.float32]:
+def _level_and_tolerances(level: float) -> tuple[np.float32, np.float32, np.float32]:
     """Return the level, the least distance of values from it, and the factor that breaks ties, in single precision."""
     return np.float32(level), np.float32(CLEARANCE), np.float32(TIE)
 

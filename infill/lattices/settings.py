@@ -22,7 +22,7 @@ from infill.errors import UsageError
 from infill.options.assignments import pop_table
 from infill.options.declaration import Option, by_field, drop_replaced, read_options
 from infill.options.keyword_options import parse_numbers, parse_share
-from infill.options.toml import read_toml, write_options
+from infill.options.toml import format_options, read_toml
 from infill.options.trust import check_trusted
 
 if TYPE_CHECKING:
@@ -288,7 +288,7 @@ class FillSettings:
     def to_toml(self) -> str:
         """Write all settings as a TOML document that `resolve` reads back."""
         options = {**self.request.facts(), "units": self.units, "for": self.slicer}
-        return write_options(options, "infill fill PART --config THIS_FILE -o OUT")
+        return format_options(options, "infill fill PART --config THIS_FILE -o OUT")
 
 
 def resolve(

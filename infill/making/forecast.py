@@ -84,7 +84,7 @@ def estimate_corners(
         rings = simplify_contours(
             trace_contours(layer, tuple(window.cell_size.tolist()), origin=window.origin), tolerance
         )
-        inner = _box(window, 0 if window is grid else MARGIN)
+        inner = _shrunk_box(window, 0 if window is grid else MARGIN)
         corner_count += shapely.contains_xy(inner, rings.points).sum() if window is not grid else len(rings.points)
         length += shapely.length(shapely.intersection(lines, inner))
     if not length:
@@ -107,7 +107,7 @@ def exact_width(lines: MultiLineString, grid: Grid, *, cells: int, width: float,
     counts = np.maximum(np.round(np.minimum(extents, SAMPLE_SIDE * width) / spacing), 2 * cells).astype(int)
     window = Grid(shape=tuple(counts.tolist()), spacing=spacing, origin=tuple((middle - counts * spacing / 2).tolist()))
     nearby_lines = _lines_near(lines, window, width)
-    inside = _as_lines(shapely.intersection(nearby_lines, _box(window, cells)))
+    inside = _as_lines(shapely.intersection(nearby_lines, _shrunk_box(window, cells)))
     if inside.is_empty:
         return None
     layer = smoothed_layer(nearby_lines, window, stamp="exact", cells=cells, width=width, smoothing=smoothing)
@@ -131,7 +131,7 @@ def _windows(grid: Grid) -> list[Grid]:
     return windows
 
 
-def _box(grid: Grid, margin: int) -> shapely.Polygon:
+def _shrunk_box(grid: Grid, margin: int) -> shapely.Polygon:
     """Return the box of a grid, smaller by a margin of cells on every side."""
     low = np.array(grid.origin) + margin * grid.cell_size
     high = np.array(grid.origin) + np.array(grid.extents) - margin * grid.cell_size
@@ -140,7 +140,7 @@ def _box(grid: Grid, margin: int) -> shapely.Polygon:
 
 def _lines_near(lines: MultiLineString, window: Grid, width: float) -> MultiLineString:
     """Return the parts of the lines that can mark cells of a window."""
-    return _as_lines(shapely.intersection(lines, shapely.buffer(_box(window, 0), width, join_style="mitre")))
+    return _as_lines(shapely.intersection(lines, shapely.buffer(_shrunk_box(window, 0), width, join_style="mitre")))
 
 
 def _as_lines(geometry: shapely.Geometry) -> MultiLineString:

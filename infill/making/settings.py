@@ -22,7 +22,7 @@ from infill.files.excerpts import quote_value
 from infill.options.assignments import SET, collect_parameters, pop_table
 from infill.options.declaration import Option, by_key, declared_options, read_options
 from infill.options.keyword_options import parse_number, parse_word
-from infill.options.toml import read_toml, write_rows
+from infill.options.toml import format_rows, read_toml
 from infill.options.trust import check_trusted
 
 if TYPE_CHECKING:
@@ -193,10 +193,10 @@ class MakeSettings:
         pattern_values = parameter_values(self.build_pattern())
         lines = [
             "# infill make --config THIS_FILE -o OUT",
-            *write_rows(plain),
+            *format_rows(plain),
             "",
             f"[{SET}]",
-            *write_rows(pattern_values),
+            *format_rows(pattern_values),
             "",
         ]
         return "\n".join(lines)

@@ -83,7 +83,7 @@ def project_back(
             crossing = intersecting_pairs(np.asarray(candidate.vertices), candidate.faces)
             if not len(crossing):
                 return candidate, np.empty((0, 3)), samples
-            failed = _corners(candidate, crossing)
+            failed = _corners_of_faces(candidate, crossing)
             candidate, changed = _push_apart(candidate, crossing, tolerance)
             if not len(changed):
                 break
@@ -188,10 +188,10 @@ def _push_apart(surface: Surface, pairs: Integers, tolerance: float) -> tuple[Su
 
 def crossing_corners(surface: Surface) -> Floats:
     """Return the corners (N, 3) of the triangles that pass through each other, mm."""
-    return _corners(surface, intersecting_pairs(np.asarray(surface.vertices), surface.faces))
+    return _corners_of_faces(surface, intersecting_pairs(np.asarray(surface.vertices), surface.faces))
 
 
-def _corners(surface: Surface, faces: Integers) -> Floats:
+def _corners_of_faces(surface: Surface, faces: Integers) -> Floats:
     """Return the corners of some faces, three rows for each distinct face, mm."""
     corners: Floats = np.asarray(surface.vertices, dtype=np.float64)[surface.faces[np.unique(faces)]].reshape(-1, 3)
     return corners

@@ -55,10 +55,10 @@ def _read_text(path: Path) -> str:
     return read_attached_settings(path)
 
 
-def write_options(request: Mapping[str, Any], head: str) -> str:
+def format_options(request: Mapping[str, Any], head: str) -> str:
     """Format the request of a report as a config file that makes it again.
 
-    >>> print(write_options({"cell": 5.0, "form": "solid", "parameters": {"waves": 3}}, "again"))
+    >>> print(format_options({"cell": 5.0, "form": "solid", "parameters": {"waves": 3}}, "again"))
     # again
     cell = 5.0
     as = "solid"
@@ -68,14 +68,16 @@ def write_options(request: Mapping[str, Any], head: str) -> str:
     <BLANKLINE>
     """
     plain = {OPTIONS.get(name, name): value for name, value in request.items() if name != "parameters"}
-    parameter_rows = write_rows(request.get("parameters") or {})
-    return "\n".join([f"# {head}", *write_rows(plain), *(["", "[set]", *parameter_rows] if parameter_rows else []), ""])
+    parameter_rows = format_rows(request.get("parameters") or {})
+    return "\n".join(
+        [f"# {head}", *format_rows(plain), *(["", "[set]", *parameter_rows] if parameter_rows else []), ""]
+    )
 
 
-def write_rows(values: Mapping[str, Any]) -> list[str]:
+def format_rows(values: Mapping[str, Any]) -> list[str]:
     """Format each value that is not None as a line of TOML.
 
-    >>> write_rows({"cell": 5.0, "size": (60, 40), "frame": True, "waves": None})
+    >>> format_rows({"cell": 5.0, "size": (60, 40), "frame": True, "waves": None})
     ['cell = 5.0', 'size = [60, 40]', 'frame = true']
     """
     return [f"{name} = {_format_value(value)}" for name, value in values.items() if value is not None]

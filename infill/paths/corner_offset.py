@@ -95,7 +95,7 @@ def corner_freedom(
     if not (np.abs(points) < FARTHEST).all():
         wide[:] = False
     corner, turn, before, after, leg = corner[wide], turn[wide], before[wide], after[wide], leg[wide]
-    free, along = _beside_others(points, offsets, corner, (before, after), layer, line_width)
+    free, along = _room_beside_others(points, offsets, corner, (before, after), layer, line_width)
     loose = np.flatnonzero((along == 0) & (free > 0))
     free[loose] = np.minimum(free[loose], _off_walls(points, corner[loose], layer, walls, line_width))
     return CornerFreedom(corner=corner, free=free, along=along, turn=turn, before=before, after=after, leg=leg)
@@ -138,7 +138,7 @@ def offset_corners(
     return moved, np.where(outwards, np.minimum(limit, deviation + step), deviation)
 
 
-def _beside_others(
+def _room_beside_others(
     points: Floats, offsets: Places, corner: Places, legs: tuple[Floats, Floats], layer: Places, line_width: float
 ) -> tuple[Floats, Places]:
     """Return how far each corner may move before it meets other lines, mm, and along which leg: 1, -1 or 0 (none).

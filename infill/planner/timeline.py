@@ -182,7 +182,7 @@ class Timeline:
         self.state = table.after
         orders = self._apply_commands(table)
         which, layer, self._feature = self._read_tags(table, self._feature)
-        steps = self._moves(table, orders, which, layer)
+        steps = self._take_moves(table, orders, which, layer)
         self._lines += len(table)
         self._bytes += len(table.data)
         if not len(steps):
@@ -309,7 +309,7 @@ class Timeline:
         count = np.diff([*lines, len(table)])
         return np.repeat(features, count), np.repeat(layers, count), feature
 
-    def _moves(self, table: GcodeTable, orders: _Orders, feature: NDArray[np.intp], layer: NDArray[np.intp]) -> Steps:
+    def _take_moves(self, table: GcodeTable, orders: _Orders, feature: NDArray[np.intp], layer: NDArray[np.intp]) -> Steps:
         """Return the moves of the lines, arcs as chords; each move takes the stops and pauses since the one before."""
         place = np.column_stack([table.x, table.y, table.z])
         before = np.vstack([[table.before.x, table.before.y, table.before.z], place[:-1]])

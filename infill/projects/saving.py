@@ -9,7 +9,7 @@ from typing import Any, BinaryIO
 
 from infill.errors import FormatError, UsageError
 from infill.files.whole_files import atomic_file
-from infill.options.toml import write_options
+from infill.options.toml import format_options
 from infill.projects import bambustudio, cura, plain, prusaslicer
 from infill.projects.project import INFILL, PART, SLICERS, Project, Slicer
 from infill.result import Result
@@ -40,7 +40,7 @@ def make_project(result: Result[Any, Any], *, slicer: str, title: str, units: st
         infill=result.surfaces[INFILL],
         title=title,
         thumbnail=render_thumbnail(result.surfaces[INFILL]),
-        settings=write_options(options, "infill fill PART --config THIS_FILE -o OUT.3mf"),
+        settings=format_options(options, "infill fill PART --config THIS_FILE -o OUT.3mf"),
     )
 
 

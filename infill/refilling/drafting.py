@@ -23,7 +23,7 @@ from infill.refilling.repath import LayerMemory
 from infill.refilling.request import AUTO, KEEP, Progress
 from infill.refilling.rules import RefillRules
 from infill.refilling.stats import RefillStats
-from infill.refilling.support import LEAST_SHARE, kept_length, kept_shares, smaller_deviation
+from infill.refilling.support import LEAST_SHARE, kept_length_share, kept_shares, smaller_deviation
 from infill.refilling.timing import PrintClock
 
 PROGRESS_BYTES = 1 << 22  # bytes between two reports of progress
@@ -71,7 +71,7 @@ def draft_print(
         tally = _match_filament(tally, plan, lambda new_plan: draw(rules, new_plan))
     previous = 0.0
     for _ in range(MOST_REDRAWS if rules.request.pattern == KEEP and rules.request.smooth_radius == AUTO else 0):
-        length = kept_length(tally.infill.length, tally.infill_after.length)
+        length = kept_length_share(tally.infill.length, tally.infill_after.length)
         share = min(*kept_shares(tally.before, tally.after), length)
         smaller = smaller_deviation(rules.rounding.deviation, share, previous)
         if smaller == rules.rounding.deviation:
@@ -79,7 +79,7 @@ def draft_print(
         previous, rules = share, rules.rounded_by(smaller)
         tally = draw(rules, plan)
     else:  # all redraws are used up
-        if previous and kept_length(tally.infill.length, tally.infill_after.length) < LEAST_SHARE:
+        if previous and kept_length_share(tally.infill.length, tally.infill_after.length) < LEAST_SHARE:
             rules = rules.rounded_by(0.0)
             tally = draw(rules, plan)
     return tally, rules

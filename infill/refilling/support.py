@@ -63,10 +63,10 @@ def kept_shares(old: Contact, new: Contact) -> tuple[float, float]:
     )
 
 
-def kept_length(old: float, new: float) -> float:
+def kept_length_share(old: float, new: float) -> float:
     """Return the share of the infill's length that remains, scaled like the other shares: 0.97 becomes 0.94.
 
-    >>> round(kept_length(100.0, 97.0), 9), kept_length(100.0, 101.0)
+    >>> round(kept_length_share(100.0, 97.0), 9), kept_length_share(100.0, 101.0)
     (0.94, 1.0)
     """
     lost = 1 - new / old if old else 0.0
@@ -96,7 +96,7 @@ def largest_deviation(batches: Sequence[Batch], rounding: Rounding, acceleration
     def share(deviation: float) -> float:
         trial_rounding = replace(rounding, deviation=deviation)
         contact, new = measure_all(lambda layers: layers.corners.rounded(trial_rounding))
-        return min(*kept_shares(old_contact, contact), kept_length(old, new))
+        return min(*kept_shares(old_contact, contact), kept_length_share(old, new))
 
     if share(rounding.deviation) >= AIM:
         return rounding.deviation

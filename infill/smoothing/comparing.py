@@ -59,7 +59,7 @@ def compare_with_input(surface: Surface, smoothed: SmoothedInput, *, exact: bool
         surface,
         cell=smooth_input.cell or float(smooth_input.data.cell_size.max()),
         closed=smooth_input.closed_mesh,
-        kinds=_place_classifier(smoothed),
+        kinds=_loss_classifier(smoothed),
         exact=exact,
         threads=smoothed.threads,
     )
@@ -102,7 +102,7 @@ def _input_surface(smoothed: SmoothedInput) -> Surface:
     return smooth_input.voxel_surface or raw_surface(smoothed.field, smooth_input.data, smoothed.threads)
 
 
-def _place_classifier(smoothed: SmoothedInput) -> Kinds:
+def _loss_classifier(smoothed: SmoothedInput) -> Kinds:
     """Return the function that classifies places of the input by whether a loss there counts, and if not, why.
 
     Of a mesh, points with solid on one side count; those inside the solid, and on sheets without thickness, do not.

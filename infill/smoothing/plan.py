@@ -28,7 +28,7 @@ from infill.smoothing.meshes import MARGIN, mesh_ways
 from infill.smoothing.remedies import first_sound
 from infill.smoothing.request import AUTO, SmoothInput, SmoothRequest, Way
 from infill.smoothing.scans import scan_ways, volume_ways
-from infill.smoothing.sources import AXES, Source, SourceOptions, separate_choice
+from infill.smoothing.sources import AXES, Source, SourceOptions, split_options
 from infill.surface import Surface
 from infill.volume import Volume
 from infill.voxels.from_mesh import estimate_solid_cells, grid_around
@@ -121,7 +121,7 @@ def plan_smoothing(source: Source, *, begin: float, **options: Unpack[SourceOpti
     MemoryLimitError
         If a limit is given and the work needs more.
     """
-    choice, smooth_options = separate_choice(source, options)
+    choice, smooth_options = split_options(source, options)
     request = SmoothRequest(**smooth_options)
     if isinstance(source, Volume):
         survey = _survey_volume(volume_ways(source, request, **choice))

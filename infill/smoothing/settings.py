@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
 from infill.errors import UsageError
 from infill.options.declaration import Option, by_field, by_key, drop_replaced, read_options
 from infill.options.keyword_options import parse_level, parse_numbers, parse_wholes
-from infill.options.toml import read_toml, write_rows
+from infill.options.toml import format_rows, read_toml
 from infill.options.trust import check_trusted
 
 if TYPE_CHECKING:
@@ -325,7 +325,7 @@ class SmoothSettings:
     def to_toml(self) -> str:
         """Return all settings, defaults included, as a TOML document that `resolve` reads back."""
         labels = None if self.labels is None else str(self.labels)
-        rows = write_rows({**by_key(self), "labels": labels})
+        rows = format_rows({**by_key(self), "labels": labels})
         return "\n".join(["# infill smooth INPUT --config THIS_FILE -o OUT", *rows, ""])
 
 

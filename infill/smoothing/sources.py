@@ -185,7 +185,7 @@ def smooth_source(
     """Smooth the data of `read_source`; raise ParameterError for options that do not fit their kind."""
     from infill.smoothing.job import smooth_mesh, smooth_points, smooth_volume
 
-    choice, smooth_options = separate_choice(source, options)
+    choice, smooth_options = split_options(source, options)
     if isinstance(source, Volume):
         return smooth_volume(source, **choice, **smooth_options)
     if isinstance(source, Surface):
@@ -194,7 +194,7 @@ def smooth_source(
     return smooth_points(points, normals=normals, **choice, **smooth_options)
 
 
-def separate_choice(source: Source, options: SourceOptions) -> tuple[dict[str, Any], SmoothOptions]:
+def split_options(source: Source, options: SourceOptions) -> tuple[dict[str, Any], SmoothOptions]:
     """Check the options and split them: those that choose the solid and the grid, and those that all functions share.
 
     Parameters

@@ -41,7 +41,7 @@ class CrossHatchPaths:
     ) -> list[Path]:
         """Return one wave a wall; see `Family`."""
         unit = cell / math.tau
-        share, along_x = _share(z / unit / STRETCHED)
+        share, along_x = _weight_ratio(z / unit / STRETCHED)
         share = min(share, math.cos(min(math.pi / 2, TOUCH * line_width / unit / 2)))
 
         def swing(angle: Floats) -> Floats:
@@ -54,7 +54,7 @@ class CrossHatchPaths:
         angle = np.linspace(0, math.tau, PLACES + 1)
         lengths = []
         for part in range(HEIGHTS):
-            share, _ = _share(math.pi / 2 * (part + 0.5) / HEIGHTS)
+            share, _ = _weight_ratio(math.pi / 2 * (part + 0.5) / HEIGHTS)
             lengths.append(np.hypot(np.diff(angle), np.diff(np.arccos(-share * np.cos(angle)))).sum() / math.tau)
         return 2 * float(np.mean(lengths)) * TOUCH * line_width / density
 
@@ -63,7 +63,7 @@ class CrossHatchPaths:
         return math.inf
 
 
-def _share(z: float) -> tuple[float, bool]:
+def _weight_ratio(z: float) -> tuple[float, bool]:
     """Return the smaller weight over the larger one at height `z`, radians, and True if the walls run along x."""
     from patterns.hatch import cross_hatch
 
