@@ -309,7 +309,9 @@ class Timeline:
         count = np.diff([*lines, len(table)])
         return np.repeat(features, count), np.repeat(layers, count), feature
 
-    def _take_moves(self, table: GcodeTable, orders: _Orders, feature: NDArray[np.intp], layer: NDArray[np.intp]) -> Steps:
+    def _take_moves(
+        self, table: GcodeTable, orders: _Orders, feature: NDArray[np.intp], layer: NDArray[np.intp]
+    ) -> Steps:
         """Return the moves of the lines, arcs as chords; each move takes the stops and pauses since the one before."""
         place = np.column_stack([table.x, table.y, table.z])
         before = np.vstack([[table.before.x, table.before.y, table.before.z], place[:-1]])
