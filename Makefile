@@ -52,7 +52,7 @@ $(DEMO)/%.stl $(DEMO)/%.png: .venv/demo $(SOURCES)
 
 # Without the longest cases (see tests/conftest.py).
 test: .venv/test
-	@$(BIN)/python -m pytest -q -n 2 -m "not long" -p no:cov
+	@$(BIN)/python -m pytest -q -n 2 -m "not left_out" -p no:cov
 
 # Everything, counting the lines that it reaches.
 coverage: .venv/test

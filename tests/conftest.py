@@ -14,6 +14,7 @@ from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 
 from infill import smooth_volume
+from tests.cpu_times import is_first_case
 
 settings.register_profile(
     "suite", deadline=None, max_examples=25, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
@@ -25,15 +26,6 @@ LOOKED_FOR, NONE_YET = "_get_local_constants", "_local_constants"
 if hasattr(providers, LOOKED_FOR):
     setattr(providers, LOOKED_FOR, lambda: getattr(providers, NONE_YET))
 
-
-def _names(file: str) -> tuple[str, ...]:
-    return tuple((Path(__file__).parent / file).read_text(encoding="utf-8").splitlines())
-
-
-# What `make quick` leaves out, by the beginning of a test's name, and what `make test` leaves out, case by case:
-# tools/slow_tests.py chose both from the times of a run.
-SLOW = _names("slow.txt")
-LONG = frozenset(_names("long.txt"))
 
 ROOT = Path(__file__).resolve().parents[1]
 HOMES = (ROOT / "data", ROOT.parent / "shared" / "data")
@@ -50,11 +42,12 @@ def pytest_configure() -> None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark what `make quick` and `make test` leave out; tools/mark_slow_tests.py sets the marks in the code."""
     for item in items:
-        if item.nodeid.startswith(SLOW):
+        if item.get_closest_marker("long"):
             item.add_marker("slow")
-        if item.nodeid in LONG:
-            item.add_marker("long")
+            if not is_first_case(item):
+                item.add_marker("left_out")
 
 
 def known_data() -> set[str]:
