@@ -281,6 +281,7 @@ def floors(graph: dict[str, set[str]]) -> int:
 # --- the house as it stands --------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.__name__)
 def test_the_house_keeps_the_rule(rule: object) -> None:
     assert rule(ROOT) == set()
@@ -294,6 +295,7 @@ def test_the_house_is_low(capsys: pytest.CaptureFixture[str]) -> None:
     assert floors(graph) <= len(ROWS) <= MOST_FLOORS
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("folder", ["tests", "benchmarks", "examples"])
 def test_no_private_name_comes_into_a_test(folder: str) -> None:
     paths = sorted((ROOT / folder).rglob("*.py"))
@@ -422,6 +424,7 @@ def house(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return root
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", WRONG)
 def test_one_wrong_import_is_named(kind: str, house: Path, beforehand: set[str]) -> None:
     """The file and the arrow, and nothing else."""
@@ -458,6 +461,7 @@ def test_help_loads_nothing_heavy() -> None:
     assert not HEAVY & modules_after("import infill.cli.app; infill.cli.app.build_app()")
 
 
+@pytest.mark.long
 def test_the_help_of_make_loads_no_pattern() -> None:
     """However many there are."""
     code = "import sys; sys.argv = ['infill', 'make', '--help']; import infill.cli; infill.cli.main()"
@@ -466,6 +470,7 @@ def test_the_help_of_make_loads_no_pattern() -> None:
     assert not {"patterns.catalogue", "patterns.honeycomb", "numpy", "shapely"} & loaded
 
 
+@pytest.mark.long
 def test_make_needs_neither_a_compiler_nor_trimesh(tmp_path: Path) -> None:
     code = f"from infill import make; make('honeycomb', size=20, height=2).save({str(tmp_path / 'x.stl')!r})"
     assert not {"numba", "llvmlite", "trimesh", "manifold3d", "PIL"} & modules_after(code)
@@ -476,6 +481,7 @@ def test_smoothing_without_a_choice_loads_no_compiler() -> None:
     assert not {"numba", "llvmlite", "scipy"} & modules_after(code)
 
 
+@pytest.mark.long
 def test_the_command_smooths_without_linear_algebra_and_leaves_it_to_others(tmp_path: Path) -> None:
     """Kernels multiply no matrices; whoever asks for SciPy's linear algebra afterwards finds it."""
     source, target = tmp_path / "box.npy", tmp_path / "box.stl"
@@ -489,6 +495,7 @@ def test_the_command_smooths_without_linear_algebra_and_leaves_it_to_others(tmp_
     assert "scipy.linalg.cython_blas" in modules_after(f"{code}\nimport scipy.linalg.cython_blas")
 
 
+@pytest.mark.long
 def test_a_library_leaves_numba_as_it_is() -> None:
     """Somebody else's compiled functions may multiply matrices."""
     product = "import infill.kernels.sparse, numba, numpy as np; numba.njit(lambda a: a @ a)(np.eye(2))"

@@ -250,6 +250,7 @@ def test_meatpack_as_others_may_write_it(data: str, text: bytes) -> None:
     assert meatpack.unpack_text(bytes.fromhex(data)) == text
 
 
+@pytest.mark.long
 @settings(max_examples=200)
 @given(texts, st.booleans())
 @example(TEXT, True)
@@ -308,6 +309,7 @@ def test_a_file_of_another_writer_is_read() -> None:
     assert b"".join(text_pieces(opened(a_file()))) == b"G28\nG1 X1" + PACKED_TEXT
 
 
+@pytest.mark.slow
 @given(texts, st.sampled_from(Compression), st.sampled_from(Encoding))
 @example(TEXT, Compression.HEATSHRINK_12, Encoding.MEATPACK_COMMENTS)
 def test_what_is_encoded_decodes_to_the_same(text: bytes, compression: Compression, encoding: Encoding) -> None:

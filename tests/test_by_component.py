@@ -151,6 +151,7 @@ def test_joined_surfaces_are_one_after_the_other() -> None:
 # --- smoothing -------------------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 def test_balls_that_overlap_stay_two_of_exactly_their_volumes() -> None:
     one, other = ball(10), ball(8, (9, 0, 0))
     mesh = surface(other, one)
@@ -166,6 +167,7 @@ def test_balls_that_overlap_stay_two_of_exactly_their_volumes() -> None:
     assert result.report["volume"] == pytest.approx(one.volume + other.volume, rel=VOLUME)
 
 
+@pytest.mark.long
 def test_a_shell_with_a_cavity_stays_one() -> None:
     result = smooth_mesh(surface(ball(10), ball(6, inwards=True)), resolution=60, by_component=True)
     assert list(result.surfaces) == ["component_1"]
@@ -173,6 +175,7 @@ def test_a_shell_with_a_cavity_stays_one() -> None:
     assert result.report["components"][0]["report"]["topology"]["result"]["cavities"] == 1
 
 
+@pytest.mark.slow
 def test_seven_boxes_stay_seven() -> None:
     result = smooth_mesh(merged(*map(box, CROSS)), resolution=60, by_component=True)
     assert len(result.surfaces) == 7
@@ -180,6 +183,7 @@ def test_seven_boxes_stay_seven() -> None:
         assert found.volume == pytest.approx(1000, rel=VOLUME)
 
 
+@pytest.mark.slow
 def test_one_component_is_smoothed_as_ever() -> None:
     mesh = surface(ball(10))
     one, other = smooth_mesh(mesh, resolution=40), smooth_mesh(mesh, resolution=40, by_component=True)
@@ -187,6 +191,7 @@ def test_one_component_is_smoothed_as_ever() -> None:
     assert (one.surface.faces == other.surface.faces).all()
 
 
+@pytest.mark.long
 def test_a_small_component_gets_finer_voxels_unless_their_size_was_asked_for() -> None:
     mesh = surface(ball(50), ball(0.2, (60, 0, 0)))
     spacing = smooth_mesh(mesh, by_component=True).report["components"][1]["report"]["grid"]["spacing"]
@@ -223,6 +228,7 @@ def test_progress_never_goes_back() -> None:
 # --- files -----------------------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("suffix", [".stl", ".ply", ".obj", ".3mf", ".glb"])
 def test_every_format_holds_all_components(suffix: str, tmp_path: Path) -> None:
     result = smooth_mesh(surface(ball(10), ball(8, (9, 0, 0))), resolution=40, by_component=True)
@@ -232,6 +238,7 @@ def test_every_format_holds_all_components(suffix: str, tmp_path: Path) -> None:
     assert result.save(tmp_path / "both.png").stat().st_size > 1000
 
 
+@pytest.mark.long
 def test_the_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     trimesh.util.concatenate([ball(10), ball(8, (9, 0, 0))]).export("both.stl")
@@ -253,6 +260,7 @@ def test_the_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert math.isfinite(report["seconds"]["total"])
 
 
+@pytest.mark.slow
 def test_reports_of_components_hold_on_to_nothing() -> None:
     """What is measured only when somebody asks needs the field, which for many components is much memory."""
     both = trimesh.util.concatenate([trimesh.creation.icosphere(radius=5), trimesh.creation.box((4, 4, 4))])

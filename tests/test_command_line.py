@@ -71,6 +71,7 @@ def refused(result: Any, says: str) -> None:
 # --- every command ---------------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("command", COMMANDS)
 def test_help_has_an_example_and_exits_0(command: str) -> None:
     for flag in ("--help", "-h"):
@@ -86,6 +87,7 @@ def test_help_names_every_command() -> None:
     assert "Example: infill make" in text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "words", [["nonsense"], ["make", "honeycomb", "--nonsense"], ["check"], ["make", "honeycomb", "--height", "tall"]]
 )
@@ -105,6 +107,7 @@ def test_both_names_are_the_same_program() -> None:
     assert scripts["infill"] == scripts["phasefill"] == "infill.cli:program"
 
 
+@pytest.mark.slow
 def test_completion_is_there() -> None:
     environment = {**os.environ, "_INFILL_COMPLETE": "complete_bash", "COMP_WORDS": "infill make ho", "COMP_CWORD": "2"}
     code = "import sys; sys.argv = ['infill']; from infill.cli import main; main()"
@@ -120,6 +123,7 @@ def test_the_readme_names_every_command() -> None:
         assert f"infill {command}" in readme
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("package", ["infill", "infill.cli"])
 def test_python_runs_the_package(package: str) -> None:
     for words, code, says in (
@@ -149,6 +153,7 @@ def test_list_is_one_line_a_pattern() -> None:
         assert line.split() == [name, *each.summary.split()]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["gyroid", "octet"])
 def test_list_shows_a_pattern_that_repeats_in_space(name: str, tmp_path: Path) -> None:
     assert run("list", name).stdout.startswith(f"{name}: {IN_SPACE[name].summary}\n  repeats in space")
@@ -167,6 +172,7 @@ def test_list_shows_a_pattern_that_follows_the_part(name: str) -> None:
     assert "--set levels" in text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_list_shows_one_pattern(name: str) -> None:
     text, kind = run("list", name).stdout, PATTERNS[name]
@@ -189,6 +195,7 @@ def _typed(option: str) -> str:
     return f"--{option}" if option in SHARED else f"--set {option}"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_list_draws_the_pattern(name: str) -> None:
     """Dots of braille, as dark at the left as the lines are; blanks and # where stdout has no braille."""
@@ -213,6 +220,7 @@ def test_the_drawing_is_the_right_way_up() -> None:
     assert drawn[0][0] == drawn[0][-1] == drawn[-1][-1] == BRAILLE_BLANK
 
 
+@pytest.mark.long
 def test_list_writes_a_picture(tmp_path: Path) -> None:
     path = tmp_path / "a.png"
     result = run("list", "concentric-heart", "--preview", path)
@@ -256,6 +264,7 @@ def test_list_as_json() -> None:
 # --- check -----------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_check_says_yes_and_no(tmp_path: Path) -> None:
     mesh = infill.make("honeycomb", size=20, height=2).mesh
     good, bad = infill.save(mesh, tmp_path / "good.stl"), tmp_path / "bad.stl"
@@ -320,6 +329,7 @@ def test_check_tells_of_several_meshes_in_a_list(tmp_path: Path, monkeypatch: py
 # --- make ------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "suffix"),
     [*((name, ".stl") for name in BUILT_IN), *((BUILT_IN[0], other) for other in (".3mf", ".obj", ".ply", ".glb"))],
@@ -344,6 +354,7 @@ def test_make_reports_as_json(tmp_path: Path) -> None:
     assert read_mesh(path).volume == pytest.approx(report["volume"], rel=1e-5)
 
 
+@pytest.mark.slow
 def test_make_writes_several_files_and_a_picture(tmp_path: Path) -> None:
     paths = [tmp_path / name for name in ("a.stl", "a.3mf", "a.png")]
     result = run("make", "zigzag", *SMALL, "-o", paths[0], "-o", paths[1], "--preview", paths[2], "-v")
@@ -371,6 +382,7 @@ def test_make_writes_stl_as_text(tmp_path: Path) -> None:
     assert (tmp_path / "a.stl").read_bytes().startswith(b"solid")
 
 
+@pytest.mark.long
 def test_make_tells_pinholes_and_problems(tmp_path: Path) -> None:
     words = ["make", "honeycomb", "--size", "25", "--cell", "2.5", "--height", "2", "-o", tmp_path / "a.stl"]
     assert "pinholes" in run(*words).stderr
@@ -386,6 +398,7 @@ def test_walls_that_cannot_be_measured_are_said_so(tmp_path: Path) -> None:
     assert json.loads(run("make", "honeycomb", *words, "--force", "--json").stdout)["wall_width"]["mean"] is None
 
 
+@pytest.mark.long
 def test_dry_run_writes_nothing(tmp_path: Path) -> None:
     words = ["make", "honeycomb", "--size", "250x210", "-o", tmp_path / "a.stl", "--dry-run"]
     result = run(*words)
@@ -404,6 +417,7 @@ def test_dry_run_writes_nothing(tmp_path: Path) -> None:
 # --- settings --------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_saved_config_makes_the_same_block(tmp_path: Path) -> None:
     config, one, other = tmp_path / "a.toml", tmp_path / "a.stl", tmp_path / "b.stl"
     words = [
@@ -428,6 +442,7 @@ def test_a_saved_config_makes_the_same_block(tmp_path: Path) -> None:
     assert "angle = 12.5" in config.read_text()
 
 
+@pytest.mark.long
 def test_a_config_goes_to_stdout_alone(tmp_path: Path) -> None:
     config, mesh = tmp_path / "a.toml", tmp_path / "a.stl"
     words = ["make", "honeycomb", *SMALL, "--cell", "4", "--angle", "12.5"]
@@ -462,6 +477,7 @@ def test_flags_win_over_the_file(tmp_path: Path) -> None:
     assert settings.height == 6.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("text", "says"),
     [
@@ -575,6 +591,7 @@ BAD = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("words", "says"), BAD, ids=[" ".join(words) for words, _ in BAD])
 def test_bad_input_is_one_clear_line(words: list[str], says: str, tmp_path: Path) -> None:
     refused(run("make", *words, "-o", tmp_path / "a.stl", "--preview", tmp_path / "a.png"), says)
@@ -591,6 +608,7 @@ def test_pictures_are_png(tmp_path: Path) -> None:
     one_line_error(run("make", "honeycomb", "--preview", tmp_path / "a.jpg"), r"ends in \.png")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("flag", ["-o", "--preview", "--save-config"])
 def test_existing_files_are_kept_without_force(flag: str, tmp_path: Path) -> None:
     path = tmp_path / {"-o": "a.stl", "--preview": "a.png", "--save-config": "a.toml"}[flag]
@@ -608,6 +626,7 @@ def test_two_outputs_are_two_files(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_all_outputs_appear_or_none(tmp_path: Path) -> None:
     long = tmp_path / ("x" * 300 + ".obj")
     one_line_error(run("make", "honeycomb", *SMALL, "-o", tmp_path / "a.stl", "-o", long), "cannot write|too long")
@@ -617,6 +636,7 @@ def test_all_outputs_appear_or_none(tmp_path: Path) -> None:
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.png", "a.stl", "b.obj"]
 
 
+@pytest.mark.long
 def test_names_that_a_console_cannot_show(tmp_path: Path) -> None:
     path = infill.save(infill.make("honeycomb", size=20, height=2).mesh, tmp_path / "测试.stl")
     for words in (["check", str(path)], ["check", str(path), "--json"]):
@@ -626,12 +646,14 @@ def test_names_that_a_console_cannot_show(tmp_path: Path) -> None:
         assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.long
 def test_a_limit_holds_for_a_dry_run_too(tmp_path: Path) -> None:
     words = ["make", "honeycomb", "--size", "250x210", "--stamp", "exact", "--dry-run"]
     assert run(*words).exit_code == 0
     one_line_error(run(*words, "--max-memory", "500M"), "0.49 GiB is allowed")
 
 
+@pytest.mark.slow
 def test_make_tells_its_surface_and_what_the_exact_stamp_would_give(tmp_path: Path) -> None:
     lean = run("make", "honeycomb", "--size", "30", "-o", tmp_path / "a.stl").stderr
     assert "prism, within 0.002 mm of the isosurface at mid height" in lean
@@ -649,6 +671,7 @@ def test_a_saved_config_holds_surface_and_tolerance(tmp_path: Path) -> None:
     assert resolve({"tolerance": 0.0}, config).tolerance == 0
 
 
+@pytest.mark.slow
 def test_missing_and_unwritable_folders_are_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     one_line_error(run("make", "honeycomb", *SMALL, "-o", tmp_path / "no" / "a.stl"), "there is no folder")
     (tmp_path / "d.stl").mkdir()
@@ -667,6 +690,7 @@ def test_a_full_memory_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     one_line_error(run("make", "honeycomb", "-o", tmp_path / "a.stl"), "out of memory; use larger cells")
 
 
+@pytest.mark.slow
 def test_a_broken_plugin_is_one_line_on_stderr(tmp_path: Path) -> None:
     """A real, broken distribution beside ours: the command works and names it once."""
     folder = tmp_path / "site" / "broken-1.0.dist-info"

@@ -7,6 +7,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 MODULE = """
 from infill.kernels.compiling import njit, log_compilation
 
@@ -26,6 +28,7 @@ with log_compilation("one for other numbers"):
 """
 
 
+@pytest.mark.long
 def test_compiling_is_told_once_in_a_process(tmp_path: Path) -> None:
     (tmp_path / "kernels.py").write_text(MODULE)
     root = str(Path(__file__).resolve().parents[1])

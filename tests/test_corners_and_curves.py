@@ -485,6 +485,7 @@ AREAS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kept", [0.3, 0.36, 0.42])
 @pytest.mark.parametrize("name", AREAS)
 def test_a_region_is_what_walls_leave_free(name: str, kept: float) -> None:
@@ -526,6 +527,7 @@ def around_of(area: shapely.Geometry) -> LayerBeads:
     return LayerBeads(points=middles, skin=np.zeros(len(middles), dtype=bool), half=half)
 
 
+@pytest.mark.long
 @given(st.integers(0, 2**32 - 1))
 @example(341)  # outlines cross where points were moved: left so, they end in an exception of GEOS
 @example(1157)

@@ -58,6 +58,7 @@ def assert_sound(paths: list[Path], region: Polygon | MultiPolygon) -> None:
 # --- parts filled ----------------------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("name", "part", "density"), ASKED)
 def test_parts_are_filled_as_asked(name: str, part: str, density: float) -> None:
     family, region = FAMILIES[name], PARTS[part]
@@ -81,12 +82,14 @@ def test_parts_are_filled_as_asked(name: str, part: str, density: float) -> None
         assert travel_length(paths) < closed.get(name, 0.35) * length_of(paths)
 
 
+@pytest.mark.long
 @every_family
 def test_the_same_again(name: str) -> None:
     one, other = (cover(BRACKET, FAMILIES[name], cell=4, line_width=WIDTH, z=Z, layer=LAYER) for _ in range(2))
     assert all((a == b).all() for a, b in zip(one, other, strict=True))
 
 
+@pytest.mark.slow
 def test_several_regions_and_layers_are_solved_together() -> None:
     regions = [(DISC, 0.2, 0), (BRACKET, 0.4, 1), (MultiPolygon([box(0, 0, 20, 20), box(30, 0, 50, 9)]), 0.6, 2)]
     family = FAMILIES["gyroid"]
@@ -161,6 +164,7 @@ def waves(cell: float) -> list[Path]:
     return FAMILIES["grid"].strands((-40, -40, 40, 40), cell=cell, line_width=WIDTH, z=0, layer=0, radius=0)
 
 
+@pytest.mark.long
 @given(regions(), st.floats(1.5, 9))
 @example(box(0, 0, 9, 9), 3.0)
 def test_clipping_keeps_what_is_inside_and_nothing_else(region: Polygon | MultiPolygon, cell: float) -> None:
@@ -183,6 +187,7 @@ def test_clipping_keeps_what_is_inside_and_nothing_else(region: Polygon | MultiP
             assert (path[0] == path[-1]).all()
 
 
+@pytest.mark.long
 @given(regions(), st.sampled_from(list(FAMILIES)), st.floats(1.5, 9))
 def test_any_region_is_covered_soundly(region: Polygon | MultiPolygon, name: str, cell: float) -> None:
     # A slot narrower than a bead holds no wall: no slicer leaves one between two parts of a region.
@@ -191,6 +196,7 @@ def test_any_region_is_covered_soundly(region: Polygon | MultiPolygon, name: str
     assert_sound(paths, region)
 
 
+@pytest.mark.long
 @given(regions(), st.floats(1.5, 9))
 def test_joining_only_adds_walls(region: Polygon | MultiPolygon, cell: float) -> None:
     outline = outline_of(region)
@@ -258,6 +264,7 @@ def test_free_ends_are_anchored_above_what_lies_below() -> None:
         assert (anchored[:, 1].mean() - 2) * up > 0
 
 
+@pytest.mark.long
 @given(regions(), st.sampled_from(list(FAMILIES)), st.floats(1.5, 9))
 def test_any_region_is_covered_soundly_above_another(region: Polygon | MultiPolygon, name: str, cell: float) -> None:
     region = region.buffer(WIDTH).buffer(-WIDTH)

@@ -66,12 +66,14 @@ def bolted() -> tuple[list[str], dict[str, Any]]:
     return wrong, report
 
 
+@pytest.mark.slow
 def test_drains_of_a_bolted_plate_keep_the_law(bolted: tuple[list[str], dict[str, Any]]) -> None:
     wrong, report = bolted
     assert wrong == []
     assert report["drains"]["holes"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "pattern", "drain", "options"),
     [
@@ -92,6 +94,7 @@ def test_drains_of_made_parts_keep_the_law(name: str, pattern: str, drain: float
     assert report["drains"]["holes"]
 
 
+@pytest.mark.slow
 def test_the_judge_finds_holes_where_none_may_be() -> None:
     """Holes through a corner, beside a side and through a void that is not told are planted, and each is found."""
     part, quick = box(24, 24, 16), {"voxel": 0.5, "density": 0.15}
@@ -115,6 +118,7 @@ def test_the_judge_finds_holes_where_none_may_be() -> None:
     assert any("not told" in each for each in faults(case, shut, voids))
 
 
+@pytest.mark.slow
 def test_the_wall_of_a_hole_is_what_trimesh_measures(bolted: tuple[list[str], dict[str, Any]]) -> None:
     """Exact to a hundredth: points on the mesh of the hole, against triangles of the part."""
     part, (_, report) = PARTS["bolted"](), bolted
@@ -135,6 +139,7 @@ def test_the_wall_of_a_hole_is_what_trimesh_measures(bolted: tuple[list[str], di
 # --- where drains go ---------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("diameter", [1.0, 2.0, 4.0])
 @pytest.mark.parametrize("degrees", [0, 10, 30])
 def test_a_drain_keeps_diameter_and_wall_from_every_side(diameter: float, degrees: float) -> None:
@@ -147,6 +152,7 @@ def test_a_drain_keeps_diameter_and_wall_from_every_side(diameter: float, degree
     assert hole.clearance >= WALL
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("side", range(4))
 def test_a_drain_moves_off_a_side_wall(side: int) -> None:
     """The lowest place of the void lies in a corner, where there is no room for a hole."""
@@ -162,6 +168,7 @@ def test_a_drain_moves_off_a_side_wall(side: int) -> None:
     assert hole.clearance < WALL + 3.0 / 6 + 0.1
 
 
+@pytest.mark.slow
 def test_a_drain_passes_beside_a_bolt_hole_that_lies_in_its_way() -> None:
     """Across, below all of the middle of the void: the hole goes down beside it."""
     part = less(
@@ -178,6 +185,7 @@ def test_a_drain_passes_beside_a_bolt_hole_that_lies_in_its_way() -> None:
     assert hole.clearance >= WALL
 
 
+@pytest.mark.slow
 def test_no_drain_goes_through_an_edge() -> None:
     """On its edge, a box is lowest there; a hole leaves through one of the faces beside it, a wall from the other."""
     part, void = (tilted(each, 45, (1, 0, 0)) for each in (box(26, 26, 26), inset(26, 26, 26)))
@@ -187,6 +195,7 @@ def test_no_drain_goes_through_an_edge() -> None:
     assert distances(hole.at[None], other).min() > WALL
 
 
+@pytest.mark.slow
 def test_a_high_void_gets_no_shaft_through_what_lies_below() -> None:
     """It is joined to the void below, which has a drain: one hole in the skin."""
     part, low, high = box(20, 20, 30), box(17, 17, 12, (0, 0, -7)), box(17, 17, 12, (0, 0, 7))
@@ -199,6 +208,7 @@ def test_a_high_void_gets_no_shaft_through_what_lies_below() -> None:
     assert not found.undrained
 
 
+@pytest.mark.slow
 def test_a_void_that_nothing_reaches_is_told_with_its_place() -> None:
     """Below it lies a slot of the part, nearer than a hole of this width may come to its sides."""
     part = less(box(30, 12, 24), box(40, 2, 3, (0, 0, -6)))
@@ -218,6 +228,7 @@ def numbers(words: str) -> tuple[float, float, float]:
     return x, y, z
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("part", "voids", "diameter"),
     [
@@ -240,6 +251,7 @@ def test_each_diameter_that_is_said_to_fit_fits(
     assert plan(box(9, 9, 20), inset(9, 9, 20), diameter=6.9).undrained[0].fits == pytest.approx(5.1)
 
 
+@pytest.mark.slow
 def test_a_void_that_no_diameter_drains_is_opened_from_the_place_that_is_told() -> None:
     """Nothing leads straight down, and the other void is a thick wall away; from above there is room."""
     part = less(box(30, 20, 24), box(28, 18, 4, (0, 0, -6)))
@@ -253,6 +265,7 @@ def test_a_void_that_no_diameter_drains_is_opened_from_the_place_that_is_told() 
     assert [hole.kind for hole in then.holes] == ["place"]
 
 
+@pytest.mark.slow
 def test_a_narrower_branch_is_told_with_a_place_that_has_room() -> None:
     """A thin cell at a side has room for half the width beside itself; straight in from there, for all of it."""
     part = box(70, 70, 50)
@@ -265,6 +278,7 @@ def test_a_narrower_branch_is_told_with_a_place_that_has_room() -> None:
     assert sorted(hole.void for hole in then.holes) == [0, 1]
 
 
+@pytest.mark.slow
 def test_a_void_that_is_far_from_the_middle_of_its_large_neighbour_is_joined_to_it() -> None:
     """Of 400 even samples of the large void, none is near a thin cell at its side."""
     part = box(70, 70, 50)
@@ -277,6 +291,7 @@ def test_a_void_that_is_far_from_the_middle_of_its_large_neighbour_is_joined_to_
     assert branch.clearance >= WALL
 
 
+@pytest.mark.slow
 def test_a_narrow_void_beside_a_wall_is_joined_to_its_neighbour() -> None:
     """As cells that the skin cuts off are: too narrow for a hole that keeps the wall."""
     part = box(20, 20, 20)
@@ -286,12 +301,14 @@ def test_a_narrow_void_beside_a_wall_is_joined_to_its_neighbour() -> None:
     assert all(hole.clearance >= WALL for hole in found.holes)
 
 
+@pytest.mark.slow
 def test_a_drain_does_not_leave_into_a_closed_cavity() -> None:
     part = less(box(16, 16, 20), box(14, 14, 4, (0, 0, -6)))
     void = box(12, 12, 8, (0, 0, 4))
     assert plan(part, void, diameter=2.0).undrained
 
 
+@pytest.mark.slow
 def test_a_hole_does_not_reach_what_lies_below_its_mouth() -> None:
     """Across a slot that is narrower than a wall lies another part of the skin."""
     part, void = less(box(24, 24, 30), box(30, 18, 0.8, (0, 0, -5))), box(18, 14, 10, (0, 0, 5))
@@ -303,6 +320,7 @@ def test_a_hole_does_not_reach_what_lies_below_its_mouth() -> None:
     assert found.undrained
 
 
+@pytest.mark.slow
 def test_vents_are_drains_of_the_part_turned_over() -> None:
     part, void = PARTS["stair"](), box(20, 16, 5, (5, 0, 0))
     up = plan(part, void, diameter=2.0, vent=True)
@@ -316,6 +334,7 @@ def test_vents_are_drains_of_the_part_turned_over() -> None:
     assert vent.way == pytest.approx([0, 0, 1])
 
 
+@pytest.mark.slow
 def test_a_drain_is_where_it_was_asked_for() -> None:
     part, void = box(20, 20, 20), inset(20, 20, 20)
     for place in ((3.0, -2.0, -10.0), (10.0, 1.0, 2.0), (0.0, 0.0, 10.0), (-2.0, -10.0, 4.0)):
@@ -325,6 +344,7 @@ def test_a_drain_is_where_it_was_asked_for() -> None:
         assert hole.way == pytest.approx(np.round(np.array(place) / 10 - 0.01), abs=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("place", "words"),
     [
@@ -351,6 +371,7 @@ def test_a_place_that_leaves_no_wall_is_refused(place: tuple[float, float, float
         assert thin.clearance >= WALL
 
 
+@pytest.mark.slow
 def test_a_side_without_a_place_is_said_to_have_none() -> None:
     part, void = box(20, 20, 20), box(1, 1, 16)
     with pytest.raises(GeometryError, match="leave it out: no place that was tried on that side keeps the wall"):
@@ -360,6 +381,7 @@ def test_a_side_without_a_place_is_said_to_have_none() -> None:
 # --- the command and the report ----------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_drain_wider_than_the_part_is_refused_before_anything_is_computed() -> None:
     with pytest.raises(GeometryError, match=r"drain is 40 mm, and the part is 30 mm wide.*no more than 27\.6"):
         fill(box(30, 30, 30), "grid", drain=40)
@@ -367,6 +389,7 @@ def test_a_drain_wider_than_the_part_is_refused_before_anything_is_computed() ->
         fill(box(30, 30, 30), "grid", drain=4, wall=16)
 
 
+@pytest.mark.slow
 def test_every_void_that_stays_closed_is_told_with_its_place() -> None:
     part = box(9, 40, 12)
     result = fill(part, "honeycomb", drain=6.5, wall=WALL, **QUICK)
@@ -380,6 +403,7 @@ def test_every_void_that_stays_closed_is_told_with_its_place() -> None:
         assert f"{closed[0][0]:.3g} mm³" in each
 
 
+@pytest.mark.slow
 def test_options_for_drains_need_a_diameter() -> None:
     for option in ({"vent": True}, {"drain_at": [(0, 0, -10)]}):
         with pytest.raises(UsageError, match="drain is missing"):
@@ -388,6 +412,7 @@ def test_options_for_drains_need_a_diameter() -> None:
         fill(box(20, 20, 20), "grid", drain=2, drain_at=[(0, 0)])
 
 
+@pytest.mark.slow
 def test_the_command_takes_places_and_vents(tmp_path: Path) -> None:
     box(20, 20, 20).export(tmp_path / "part.stl")
     words = ["fill", str(tmp_path / "part.stl"), "--pattern", "cubic-bars", "--cell", "12", "--voxel", "0.5"]
@@ -410,6 +435,7 @@ def test_the_command_takes_places_and_vents(tmp_path: Path) -> None:
 # --- lines through a part ----------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None)
 @given(
     corners=arrays(np.int64, st.tuples(st.integers(1, 12), st.just(3), st.just(3)), elements=st.integers(-6, 14)),
@@ -436,6 +462,7 @@ def test_lines_cross_triangles_where_arithmetic_without_rounding_has_it(
     assert (order == np.arange(len(line))).all() or (np.diff(height)[np.diff(line) == 0] >= 0).all()
 
 
+@pytest.mark.slow
 def test_a_void_without_room_for_a_hole_costs_few_distances(monkeypatch: pytest.MonkeyPatch) -> None:
     """Each hole that is tried is measured by twelve points first: there were two hundred, of every one."""
     asked = []
@@ -451,6 +478,7 @@ def test_a_void_without_room_for_a_hole_costs_few_distances(monkeypatch: pytest.
     assert sum(asked) < 1_000_000  # with four narrower diameters and five other directions; 10 million before
 
 
+@pytest.mark.slow
 def test_lines_cross_a_solid_as_often_in_as_out() -> None:
     part = union(PARTS["bracket"](), box(5, 5, 5, (-20, 0, 30)))
     lattice = LineLattice(low=np.array([-30.13, -20.27]), step=0.91, shape=(70, 45))
@@ -464,6 +492,7 @@ def test_lines_cross_a_solid_as_often_in_as_out() -> None:
     assert (-up * height).sum() * lattice.step**2 == pytest.approx(part.volume, rel=0.02)
 
 
+@pytest.mark.slow
 def test_ways_lead_through_solid_alone() -> None:
     part, voids = box(20, 20, 30), [box(17, 17, 6, (0, 0, -8)), box(17, 17, 6, (0, 0, 4)), box(2, 2, 2, (0, 0, 12))]
     hollow = surface(together(*voids))
@@ -475,11 +504,13 @@ def test_ways_lead_through_solid_alone() -> None:
     assert ways.ceiling == pytest.approx(-5.0)
 
 
+@pytest.mark.slow
 def test_a_solid_without_drains_is_left_as_it_is() -> None:
     solid = surface(box(4, 4, 4))
     assert DrainedSolid(solid=solid).facts()["holes"] == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("degrees", [20, 45, 55])
 def test_a_mouth_ends_where_its_face_does(degrees: float) -> None:
     """A hole down through a slope, or through a chamfer, is no hole through the edge beside it."""
@@ -495,6 +526,7 @@ def test_a_mouth_ends_where_its_face_does(degrees: float) -> None:
     assert shaft is None or shaft.clearance < 1.0
 
 
+@pytest.mark.slow
 def test_the_judge_measures_like_manifold() -> None:
     """Its distances are those of manifold3d, between solids."""
     one, other = box(4, 4, 4), rod(1, 4, (5, 1, 0))

@@ -295,6 +295,7 @@ BROKEN = {
 }  # fmt: skip
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", BROKEN)
 def test_a_broken_file_is_told_in_one_line(tmp_path: Path, kind: str) -> None:
     name, content, said = BROKEN[kind]
@@ -319,6 +320,7 @@ def test_a_dxf_cut_off_anywhere_is_told_in_one_line(tmp_path: Path) -> None:
         assert "\n" not in str(caught.value)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("kind", "said"),
     [
@@ -469,6 +471,7 @@ def test_crossings_are_counted() -> None:
     assert turns(np.array([[0.0, 0], [1, 0], [1, 1]])) == pytest.approx([math.pi / 2])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("make", [hearts, leaves, splines, scribble], ids=lambda make: make.__name__)
 def test_paths_of_a_drawing_keep_the_contract(folder: Path, make: object) -> None:
     family = read_tile_family(make(folder))
@@ -496,6 +499,7 @@ def test_paths_of_a_drawing_keep_the_contract(folder: Path, make: object) -> Non
     assert not ((ends > -3) & (ends < 30)).all(axis=1).any()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("make", [hearts, splines], ids=lambda make: make.__name__)
 def test_the_first_guess_of_the_cell_is_near(folder: Path, make: object) -> None:
     """Smoothing to the radius shortens paths further, which the guess leaves out: a tenth."""
@@ -568,6 +572,7 @@ def test_an_outline_is_kept(folder: Path) -> None:
     assert np.array_equal(path[0], path[-1])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("radius", [0.6, 1.0, 1.8])
 def test_right_angles_get_about_the_radius(folder: Path, radius: float) -> None:
     (path,) = strands(folder, '<rect x="5" y="5" width="10" height="10"/>', radius=radius)
@@ -668,6 +673,7 @@ def test_a_tile_is_smoothed_in_seconds(cell: float) -> None:
     assert max(grid.spacing) * 0.99 <= 0.45 / COARSEST
 
 
+@pytest.mark.slow
 def test_limits_are_told(folder: Path) -> None:
     family = read_tile_family(hearts(folder))
     with pytest.raises(GeometryError, match=r"too large .* the limit is \d+ × \d+ mm"):
@@ -686,6 +692,7 @@ def test_limits_are_told(folder: Path) -> None:
 # --- a part --------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("make", [hearts, leaves, splines], ids=lambda make: make.__name__)
 def test_a_drawing_fills_a_bracket(folder: Path, make: object) -> None:
     """Without a crossing or a path outside, and with the length asked for: to 1 %, where lengths jump with the cell."""

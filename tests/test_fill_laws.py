@@ -58,6 +58,7 @@ def farthest(one: Surface, other: Surface) -> float:
     return float(max(there, TriangleTree.of(other).nearest(np.asarray(one.vertices, np.float64))[0].max()))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", EVERY)
 def test_wider_walls_and_smaller_cells_are_denser(name: str) -> None:
     sizes = far(name)
@@ -85,6 +86,7 @@ def across(voids: Surface, reach: float, inside: float) -> float:
     return float(np.median(np.where(hit.any(axis=1), hit.argmax(axis=1), 100))) * step
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", [name for name in EVERY if not isinstance(IN_SPACE.get(name), Network)])
 def test_walls_in_the_mesh_are_as_wide_as_asked_for(name: str) -> None:
     """And bars as thick, though smoothing makes these thinner, and walls between narrow voids wider."""
@@ -96,6 +98,7 @@ def test_walls_in_the_mesh_are_as_wide_as_asked_for(name: str) -> None:
     assert across(result.stages.voids, 2.5 * width, 12 - 1 - 1.5 * width) == pytest.approx(width, rel=0.08)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", EVERY)
 def test_turning_the_part_and_the_pattern_turns_the_result(name: str) -> None:
     sizes = far(name)
@@ -106,6 +109,7 @@ def test_turning_the_part_and_the_pattern_turns_the_result(name: str) -> None:
     assert farthest(one, replace(other, vertices=np.asarray(other.vertices) @ QUARTER[:3, :3])) < 0.1
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["gyroid", "octet", "honeycomb", "cubic"])
 def test_smoothing_and_turning_may_change_places(name: str) -> None:
     """The density is met within 0.002 of it, so volumes are equal within twice that."""
@@ -118,6 +122,7 @@ def test_smoothing_and_turning_may_change_places(name: str) -> None:
     assert sharp.area > 1.01 * one.area
 
 
+@pytest.mark.long
 def test_tips_are_those_of_corners_that_stay_themselves() -> None:
     """By the equation: a curve that grows by curvature alone has, at the time 1/2, curvature = x · normal."""
     from scipy.integrate import solve_ivp
@@ -205,6 +210,7 @@ def fillets(voids: Surface, part: Surface, radius: float = RADIUS) -> np.ndarray
     return np.array(found)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", [name for name in EVERY if walls_meet(name)])
 def test_fillets_have_at_least_the_radius_asked_for(name: str) -> None:
     """At 95 % of all places where walls meet or bend, or bars meet, six radii thick."""
@@ -219,11 +225,13 @@ def test_fillets_have_at_least_the_radius_asked_for(name: str) -> None:
     assert np.quantile(found, 0.05) >= radius
 
 
+@pytest.mark.long
 def test_a_fillet_that_is_too_sharp_is_found() -> None:
     result = fill(box(24, 24, 24), "grid", smooth_radius=0.8 * RADIUS, voxel=0.2, tolerance=0, density=0.25)
     assert np.quantile(fillets(result.stages.voids, result.stages.part), 0.05) < 0.95 * RADIUS
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", EVERY)
 def test_the_mirror_image_of_part_and_pattern_is_that_of_the_result(name: str) -> None:
     sizes = far(name)
@@ -327,6 +335,7 @@ FORMS: dict[str, tuple[Any, float, Any]] = {
 TURNED: dict[str, Any] = {"voxel": 0.4, "wall": 1.0, "angle": 30}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("name", "more"),
     [("rectilinear", EXACT), ("rectilinear", TURNED), ("waved", EXACT), ("grid", EXACT), ("grid", TURNED)],
@@ -343,6 +352,7 @@ def test_lines_and_the_function_that_is_0_on_them_fill_alike(name: str, more: di
     assert max(there.max(), back.max()) < 0.04
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", EVERY)
 def test_units_are_no_matter(name: str) -> None:
     sizes = far(name)
@@ -352,6 +362,7 @@ def test_units_are_no_matter(name: str) -> None:
     assert other.volume == pytest.approx(1000 * one.volume, rel=1e-4)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", EVERY)
 def test_what_is_made_again_is_the_same(name: str) -> None:
     one, other = (fill(PART, name, density=0.3, cell=5.0, **EXACT).surface for _ in range(2))

@@ -80,6 +80,7 @@ def compared(given: SmoothInput, request: SmoothRequest) -> tuple[bool, bool]:
     return part is not None, near
 
 
+@pytest.mark.long
 def test_both_forms_agree_on_random_fields() -> None:
     decided = []
     for seed in range(FIELDS):
@@ -114,6 +115,7 @@ def is_simple(cells: NDArray[np.bool_]) -> bool:
     return touching(cells, six) == 1 and touching(~cells, eighteen) == 1
 
 
+@pytest.mark.slow
 def test_simple_cells_are_told_as_labels_tell_them() -> None:
     rng = np.random.default_rng(0)
     told = []
@@ -146,6 +148,7 @@ def test_distances_are_measured_when_they_are_asked_for() -> None:
     assert not report.pending("distance")
 
 
+@pytest.mark.long
 def test_both_forms_agree_on_real_files(data: Path) -> None:
     """Every mesh and every volume, on coarse grids: what there is to check for is how they are connected."""
     decided = []

@@ -411,6 +411,7 @@ def test_a_broken_image_of_vtk(change: Callable[[bytes], bytes], says: str, tmp_
         one_line(caught, path)
 
 
+@pytest.mark.slow
 def test_a_small_image_cannot_unpack_to_all_memory(tmp_path: Path) -> None:
     """Blocks are unpacked to one byte more than their head says, which is what the extent needs."""
     bomb = zlib.compress(bytes(10**8))
@@ -423,6 +424,7 @@ def test_a_small_image_cannot_unpack_to_all_memory(tmp_path: Path) -> None:
         read_volume(path)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["mgh", "mgz", "text.vtk", "bytes.vtk", "text.vti", "packed.vti", "raw.vti"])
 def test_damage_is_read_or_told(kind: str, tmp_path: Path, rng: np.random.Generator) -> None:
     """A flipped bit, a word more, a piece less: nothing else than our errors."""

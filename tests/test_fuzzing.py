@@ -24,6 +24,7 @@ from tests.fuzzing.worker import make_case, run_case, seeds_of
 CASES = {"meshes": 600, "volumes": 150, "points": 60, "drawings": 60, "prints": 150, "settings": 60}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", CASES)
 def test_no_mutated_file_does_what_none_may(name: str, compiled: None) -> None:
     """No traceback, no hang, no gigabytes, no half-written file, nothing that every other reader contradicts."""
@@ -45,6 +46,7 @@ found = {name: run_case(target, name, data, Random(1), Path(sys.argv[2]) / "case
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_whole_seeds_are_read(name: str, compiled: None, tmp_path: Path) -> None:
     """Each is a file that its command takes, and reads as others do: mutations begin from what works."""

@@ -77,6 +77,7 @@ DIALECTS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", DIALECTS)
 def test_moves_cut_in_two_are_lawful(name: str) -> None:
     dialect, sparse = DIALECTS[name]
@@ -243,6 +244,7 @@ def without_a_row(lines: Lines) -> Lines:
     return left
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_planted_fault_is_found_by_its_name(fault: str) -> None:
     plant, name = FAULTS[fault]
@@ -341,6 +343,7 @@ def test_a_layer_that_was_slowed_is_not_made_shorter() -> None:
     assert any(line.startswith("cooling") for line in judge(old, b"\n".join(fewer)))
 
 
+@pytest.mark.long
 def test_the_region_is_what_other_beads_leave_free(sliced: bytes) -> None:
     """As far as the slicer's own infill reaches, and 0.02 mm."""
     new = halves(sliced)
@@ -403,6 +406,7 @@ def test_it_reads_no_code_of_ours() -> None:
         assert "infill import" not in Path(__file__).with_name(name).read_text(encoding="utf-8")
 
 
+@pytest.mark.long
 @given(prints())
 def test_prints_of_any_dialect_are_valid_and_may_be_cut(old: bytes) -> None:
     """What the strategy makes breaks no law itself: so what a refill breaks is its own."""
@@ -437,6 +441,7 @@ SLICED = (
 )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", [name for name, entry in CORPUS.items() if entry.missing is str or name in SLICED])
 def test_a_plain_refill_of_the_corpus_is_lawful(name: str, prints_of_all_kinds: Made) -> None:
     """Each print is valid itself, and has infill if it should: so what a refill breaks is its own."""

@@ -119,6 +119,7 @@ NUMBERS = st.one_of(
 )
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(st.lists(st.tuples(NUMBERS, NUMBERS), max_size=8), st.integers(0, 6), st.integers(0, 5))
 @example([(9e9, -9e9), (0.0, -0.0)], 5, 3)
@@ -287,6 +288,7 @@ COLUMNS = ("kind", "x", "y", "z", "e", "f", "extruded", "relative_e")
 BEGIN = MachineState(x=1.0, y=2.0, z=3.0, e=4.0, f=600.0)
 
 
+@pytest.mark.long
 @settings(max_examples=120)
 @given(
     print_text(),
@@ -308,6 +310,7 @@ def test_a_table_is_what_reading_line_by_line_gives(lines: list[bytes], state: M
         assert codes == kind_of(line)[1]
 
 
+@pytest.mark.long
 @settings(max_examples=60)
 @given(print_text(), st.integers(0, 14))
 def test_a_print_read_in_two_batches_is_the_same(lines: list[bytes], cut: int) -> None:

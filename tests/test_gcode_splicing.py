@@ -148,6 +148,7 @@ def is_drawn(line: bytes) -> bool:
 # Laws of splicing.
 
 
+@pytest.mark.long
 @settings(max_examples=50)
 @given(prints(), st.data())
 def test_whatever_is_redrawn_all_else_stays(text: bytes, data: st.DataObject) -> None:
@@ -184,6 +185,7 @@ def _copied(done: SplicedText) -> set[int]:
     return set((old + done.shift[old]).tolist())
 
 
+@pytest.mark.long
 @settings(max_examples=50)
 @given(prints(), st.data())
 def test_the_counter_is_reset_only_where_it_is_needed(text: bytes, data: st.DataObject) -> None:
@@ -202,6 +204,7 @@ def test_the_counter_is_reset_only_where_it_is_needed(text: bytes, data: st.Data
     assert resets == off.sum()
 
 
+@pytest.mark.long
 @settings(max_examples=50)
 @given(prints())
 def test_nothing_redrawn_is_the_same_text(text: bytes) -> None:
@@ -214,6 +217,7 @@ def test_nothing_redrawn_is_the_same_text(text: bytes) -> None:
     assert verify_replay(table, infill, new, done) == ""
 
 
+@pytest.mark.slow
 @given(prints())
 def test_a_stroke_redrawn_as_it_was_has_as_many_lines_and_the_same_places(text: bytes) -> None:
     table, infill = looked_at(text)
@@ -425,6 +429,7 @@ def one_body(text: bytes) -> tuple[GcodeTable, InfillSection]:
     return table, body
 
 
+@pytest.mark.long
 @settings(max_examples=60)
 @given(sections(), PATHS, WAYS, st.lists(st.booleans(), min_size=5, max_size=5))
 def test_a_section_drawn_anew_leaves_all_as_it_was(

@@ -99,6 +99,7 @@ def test_defaults_are_told_in_one_way(command: str) -> None:
         assert ("default:" in text) == bool(DEFAULT.search(text)), text
 
 
+@pytest.mark.long
 def test_summaries_keep_mathematics_for_verbose(tmp_path: Path) -> None:
     words = ["make", "honeycomb", *SMALL, "--force", "-o", tmp_path / "a.stl"]
     assert not MATHEMATICS.search(run(*words).stderr)

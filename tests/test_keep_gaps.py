@@ -43,6 +43,7 @@ CASES += [("prusa", "octagramspiral", 40), ("prusa", "3dhoneycomb", 40), ("prusa
 CASES += [("cura", pattern, 20) for pattern in CURA] + [("cura", "cross", 40)]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("engine", "pattern", "density"), CASES)
 def test_gaps_filament_and_touch_stay(engine: str, pattern: str, density: int, tmp_path: Path) -> None:
     missing = missing_prusa() if engine == "prusa" else missing_cura()
@@ -75,6 +76,7 @@ def test_the_judge_sees_an_arm_that_is_cut_off(tmp_path: Path) -> None:
     assert (gaps[:, 1] > 2 * gaps[:, 0]).all()
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(bool(missing_cura()), reason=missing_cura())
 def test_a_loss_of_filament_is_a_problem_with_a_remedy_that_was_tried(tmp_path: Path) -> None:
     """Of a cross, arcs as large as gaps allow cut off 5 % and more; what the problem names is what it then takes."""
@@ -89,6 +91,7 @@ def test_a_loss_of_filament_is_a_problem_with_a_remedy_that_was_tried(tmp_path: 
     assert problem.endswith(f"and it takes {remedied:+.1%}")
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(bool(missing_cura()), reason=missing_cura())
 def test_what_density_same_would_leave_is_what_it_leaves(tmp_path: Path) -> None:
     path = sliced("cura", "cross", 20, tmp_path)

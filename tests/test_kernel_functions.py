@@ -177,6 +177,7 @@ def lattice_of_names(field: SparseField, every: Components) -> np.ndarray:
     return whole
 
 
+@pytest.mark.slow
 def test_cells_take_the_nearest_component_and_its_level(field: SparseField) -> None:
     every = find_components(field, data_bits(field))
     names = lattice_of_names(field, every)
@@ -215,6 +216,7 @@ def test_cells_take_the_nearest_component_and_its_level(field: SparseField) -> N
         assert out[s, t] == (values[s, t] if abs(values[s, t]) == 1 else lowered)
 
 
+@pytest.mark.slow
 def test_cells_of_a_component(field: SparseField) -> None:
     every = find_components(field, data_bits(field))
     names = of_bricks(field, lattice_of_names(field, every))
@@ -250,6 +252,7 @@ def test_faces_are_copied_and_flat_ones_are_noted(value: float | None) -> None:
         assert [int(each) for each in rows] == [sum(1 << int(n) for n in np.flatnonzero(each)) for each in noted]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("where", [(0, 0, 0), (1, 0, 2), (2, 1, 3), (1, 1, 1)])
 def test_cells_beyond_the_grid_repeat_its_edge(where: tuple[int, int, int]) -> None:
     shape = (19, 9, 50)
@@ -330,6 +333,7 @@ def test_gates_open_by_the_means_around_a_cell(size: int, field: SparseField) ->
 # --- triangles -------------------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 def test_volumes_and_slopes_of_faces() -> None:
     """Against the determinant, and, of all faces together, against moving every vertex by a little of its rate."""
     rng = np.random.default_rng(12)
@@ -391,6 +395,7 @@ def test_states_of_bricks(shape: tuple[int, int, int], kind: str) -> None:
     assert (found[-1] == OUTER).all() == (shape[0] == 15)  # which ends a cell before a brick begins
 
 
+@pytest.mark.slow
 def test_bricks_repeat_the_edge_of_what_they_are_taken_from() -> None:
     whole = np.random.default_rng(3).uniform(-1, 1, (19, 9, 50)).astype(np.float32)
     where = np.array([(0, 0, 0), (2, 1, 3), (1, 1, 1)], dtype=np.int32)
@@ -466,6 +471,7 @@ def test_how_many_threads_there_are(monkeypatch: pytest.MonkeyPatch) -> None:
     assert thread_count(10**6) == MAX_THREADS
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["any", "slender", "line", "point", "upright"])
 def test_cells_are_lowered_to_the_exact_distance_from_the_nearest_triangle(kind: str) -> None:
     """The form without branches, against the distance of each cell from each triangle by its regions."""

@@ -87,6 +87,7 @@ def cases() -> list[Any]:
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("f", "spacing", "options"), cases())
 def test_the_reference_is_the_scheme(f: np.ndarray, spacing: tuple[float, ...], options: dict[str, Any]) -> None:
     smoothing = Smoothing(steps=5, fidelity=0.3)
@@ -103,6 +104,7 @@ def test_the_comparison_can_fail() -> None:
 fast_kernels = pytest.mark.parametrize("method", [method for method in KERNELS if method != "numpy"])
 
 
+@pytest.mark.long
 @fast_kernels
 @pytest.mark.parametrize(("f", "spacing", "options"), cases())
 def test_fast_kernels_agree(method: str, f: np.ndarray, spacing: tuple[float, ...], options: dict[str, Any]) -> None:
@@ -123,6 +125,7 @@ def test_fast_kernels_agree_on_any_shape(
     assert np.abs(smooth(f, smoothing, method=method) - smooth(f, smoothing, method="numpy")).max() < FAST
 
 
+@pytest.mark.long
 @given(
     shape=st.one_of(
         st.tuples(st.integers(1, 150)),
@@ -253,6 +256,7 @@ class TestLaws:
             other = smooth(f, spacing=tuple(size * unit for size in spacing), method=method)
             assert np.abs(other - in_mm).max() < 1e-6
 
+    @pytest.mark.long
     def test_the_input_is_left_alone(self, method: str, shape: tuple[int, ...], rng: np.random.Generator) -> None:
         f, mask = rng.uniform(-1, 1, shape), rng.random(shape) > 0.3
         before = f.copy(), mask.copy()
@@ -277,6 +281,7 @@ class TestLaws:
         assert np.allclose(whole[:3], smooth(f[:3], method=method), atol=1e-6)
         assert np.allclose(whole[4:], smooth(f[4:], method=method), atol=1e-6)
 
+    @pytest.mark.long
     @pytest.mark.parametrize("kind", [bool, np.int8, np.uint8, np.float16, np.float32, ">f8"])
     def test_takes_any_real_type(
         self, method: str, shape: tuple[int, ...], kind: Any, rng: np.random.Generator
@@ -460,6 +465,7 @@ def test_an_interrupt_is_an_interrupt(monkeypatch: pytest.MonkeyPatch) -> None:
         smooth(np.ones((80, 80)), Smoothing(steps=50), method="inplace")
 
 
+@pytest.mark.long
 def test_the_log_tells_of_compiling(tmp_path: Path) -> None:
     """Once on a machine: here in a process with an empty folder for compiled code."""
     code = "import infill; infill.smooth([[[True, False]]], method='dense')"

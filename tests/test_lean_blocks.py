@@ -85,6 +85,7 @@ def assert_lean(lean: Result[Any], raw: Result[Any], tolerance: float) -> None:
     assert mesh.volume == pytest.approx(area * height, rel=2e-5)  # 32-bit vertices
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("name", "stamp", "options"), CASES)
 def test_a_prism_is_the_isosurface_with_fewer_triangles(name: str, stamp: str, options: dict[str, Any]) -> None:
     lean = make(name, stamp=stamp, **options)
@@ -96,6 +97,7 @@ def test_a_prism_is_the_isosurface_with_fewer_triangles(name: str, stamp: str, o
     assert lean.report["mesh"]["tolerance"] == 0.002
 
 
+@pytest.mark.long
 @settings(max_examples=4, deadline=None)
 @given(
     name=st.sampled_from(BUILT_IN),
@@ -120,6 +122,7 @@ def test_any_block_is_lean(
     assert_lean(make(name, tolerance=tolerance, allow_broken=True, **options), raw, tolerance)
 
 
+@pytest.mark.slow
 def test_the_default_honeycomb_is_small(tmp_path: Any) -> None:
     result = make("honeycomb")
     assert result.report["triangles"] <= 45_000
@@ -129,6 +132,7 @@ def test_the_default_honeycomb_is_small(tmp_path: Any) -> None:
 # --- the isosurface, as it was ---------------------------------------------------------------------------
 
 
+@pytest.mark.long
 def test_the_grid_is_the_isosurface_as_it_is() -> None:
     result = make("honeycomb", surface="grid", tolerance=0)
     stages, surface = result.stages, result.surface
@@ -141,6 +145,7 @@ def test_the_grid_is_the_isosurface_as_it_is() -> None:
         assert np.array_equal(make("honeycomb", **options).surface.vertices, surface.vertices)
 
 
+@pytest.mark.slow
 def test_a_prism_without_tolerance_has_the_whole_contour() -> None:
     lean = make("zigzag", size=20, surface="prism", tolerance=0)
     assert_lean(lean, make("zigzag", size=20, surface="grid"), 0.0)
@@ -191,6 +196,7 @@ any_layer = st.builds(
 )
 
 
+@pytest.mark.long
 @settings(max_examples=60)
 @given(layer=any_layer, tolerance=st.sampled_from([0.0, 0.01, 0.1, 0.3]))
 def test_any_layer_keeps_its_topology(layer: np.ndarray, tolerance: float) -> None:
@@ -205,6 +211,7 @@ def test_any_layer_keeps_its_topology(layer: np.ndarray, tolerance: float) -> No
     assert (int((found.areas > 0).sum()), int((found.areas < 0).sum())) == (counts.components, counts.holes)
 
 
+@pytest.mark.slow
 @settings(max_examples=30)
 @given(layer=any_layer)
 def test_contours_are_the_cut_of_the_isosurface(layer: np.ndarray) -> None:
@@ -215,6 +222,7 @@ def test_contours_are_the_cut_of_the_isosurface(layer: np.ndarray) -> None:
     assert farthest(there, here) < 1e-6
 
 
+@pytest.mark.slow
 @settings(max_examples=30)
 @given(layer=any_layer, tolerance=st.sampled_from([0.01, 0.1, 0.3]))
 def test_straightening_keeps_every_area_and_stays_near(layer: np.ndarray, tolerance: float) -> None:
@@ -270,6 +278,7 @@ def test_what_cannot_be_filled_is_an_error() -> None:
 # --- what it will cost, and what the exact stamp would give -------------------------------------------------
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("name", "stamp"), [("concentric-heart", "block"), ("honeycomb", "exact")])
 def test_a_large_block_is_expected_from_samples(name: str, stamp: Any) -> None:
     block = plan_block(
@@ -278,6 +287,7 @@ def test_a_large_block_is_expected_from_samples(name: str, stamp: Any) -> None:
     assert block.triangles == pytest.approx(make(name, size=(120, 90), stamp=stamp).report["triangles"], rel=0.25)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_the_report_tells_what_the_exact_stamp_would_give(name: str) -> None:
     report = make(name, size=40).report

@@ -52,6 +52,7 @@ def test_the_distance_to_the_zero_set_can_be_large() -> None:
     assert far == pytest.approx([0.01, 0], abs=1e-6)
 
 
+@pytest.mark.slow
 @every_level_set
 @every_region
 def test_corners_lie_on_the_zero_set_inside_the_region(pattern: Pattern, z: float, region: shapely.Polygon) -> None:
@@ -65,6 +66,7 @@ def test_corners_lie_on_the_zero_set_inside_the_region(pattern: Pattern, z: floa
     assert distance_to_the_zero_set(pattern, corners[cut], z).max(initial=0) < pattern.line_spacing(region) / 500
 
 
+@pytest.mark.slow
 @every_level_set
 @every_region
 def test_lines_end_at_the_region_only_and_never_cross(pattern: Pattern, z: float, region: shapely.Polygon) -> None:
@@ -76,6 +78,7 @@ def test_lines_end_at_the_region_only_and_never_cross(pattern: Pattern, z: float
     )
 
 
+@pytest.mark.slow
 @every_level_set
 def test_lines_part_the_colours(pattern: Pattern, z: float, rng: np.random.Generator) -> None:
     """Between two places of different sign runs a line, and an odd number of them; else an even number."""
@@ -93,6 +96,7 @@ def test_lines_part_the_colours(pattern: Pattern, z: float, rng: np.random.Gener
     assert np.array_equal(odd, signs[0] != signs[1])
 
 
+@pytest.mark.slow
 @given(
     z=st.floats(-20, 20),
     x=st.floats(-20, 20),

@@ -37,6 +37,7 @@ def predicted_components_and_holes(stamp: np.ndarray) -> tuple[int, int, int]:
     return ndimage.label(solid)[1], wide, inner + narrow
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("size", "cell", "stamp"),
     [((60, 60), 6, "block"), *((*each, "block") for each in SIZES), *((*each, "exact") for each in SIZES[::5])],
@@ -74,6 +75,7 @@ def plan_of(name: str, size: Any, cell: float) -> Any:
     )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_the_defaults_keep_every_hole_of_the_stamp(name: str) -> None:
     report = make(name).report
@@ -85,11 +87,13 @@ def test_the_defaults_keep_every_hole_of_the_stamp(name: str) -> None:
     assert not any(report["changes"].values())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "change"), [("honeycomb", 0.0265), ("zigzag", 0.0315), ("concentric-heart", -0.0158)])
 def test_the_default_change_of_volume(name: str, change: float) -> None:
     assert make(name).report["volume_change"] == pytest.approx(change, abs=1e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_the_report_tells_the_truth(name: str) -> None:
     result = make(name, size=(30, 40), height=5)
@@ -140,6 +144,7 @@ def test_the_block_stamp_shows_its_true_widths() -> None:
     assert width["p95"] / 0.45 == pytest.approx(1.38, abs=0.04)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("degrees", [0, 7, 15, 22.5, 45])
 def test_the_exact_stamp_keeps_its_width(degrees: float) -> None:
     width = make(Honeycomb(angle=degrees), stamp="exact", cells=5).report["wall_width"]
@@ -148,6 +153,7 @@ def test_the_exact_stamp_keeps_its_width(degrees: float) -> None:
     assert width["p95"] < 1.02 * 0.45
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("unit", [1 / 25.4, 0.001])
 def test_the_unit_of_length_does_not_matter(unit: float) -> None:
     for surface, tolerance in (("grid", 0), ("prism", 0.002)):
@@ -289,6 +295,7 @@ def test_memory_is_refused_for_triangles_too() -> None:
         make("honeycomb", cell=1.4, max_memory=between)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("options", "says"),
     [
@@ -392,6 +399,7 @@ def test_an_open_surface_is_never_written(monkeypatch: pytest.MonkeyPatch) -> No
 # --- what it will cost -----------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("surface", ["prism", "grid"])
 @pytest.mark.parametrize("stamp", ["block", "exact"])
 @pytest.mark.parametrize("name", BUILT_IN)

@@ -416,6 +416,7 @@ def test_arcs_are_driven(tmp_path: Path) -> None:
 # --- what is no G-code -----------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("content", "says"),
     [
@@ -509,6 +510,7 @@ def test_two_files_are_compared(tmp_path: Path) -> None:
     assert [each["seconds"] for each in told] == [motion(path).seconds for path in paths]
 
 
+@pytest.mark.long
 def test_a_layer_is_drawn(tmp_path: Path) -> None:
     path, plot = written(tmp_path, SQUARE), tmp_path / "speeds.png"
     assert "wrote" in run(path, path, "--plot", plot, "--layer", 1).stderr
@@ -563,6 +565,7 @@ def test_every_limiting_code_does_something() -> None:
 CONTROLLED = {"acceleration_enabled": "true", "jerk_enabled": "true", "acceleration_infill": 1000, "jerk_infill": 8}
 
 
+@pytest.mark.slow
 @needs_prusa
 @pytest.mark.parametrize(
     "settings",
@@ -593,6 +596,7 @@ def test_prusaslicer_estimates_the_same(tmp_path: Path, settings: dict[str, obje
     assert found.layers == 20
 
 
+@pytest.mark.slow
 @needs_cura
 @pytest.mark.parametrize(("pattern", "settings"), [("gyroid", {}), ("cross", CONTROLLED)], ids=["gyroid", "controlled"])
 def test_curaengine_estimates_the_same(tmp_path: Path, pattern: str, settings: dict[str, object]) -> None:

@@ -220,6 +220,7 @@ def test_the_tables_have_every_option_that_takes_a_value(command: str) -> None:
     assert known <= {name_of(option) for option in options_of(command)}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("case", OUT_OF_RANGE)
 def test_what_is_out_of_range_is_told_by_the_option_that_was_typed(case: str, folder: Path) -> None:
     before = sorted(folder.iterdir())
@@ -229,6 +230,7 @@ def test_what_is_out_of_range_is_told_by_the_option_that_was_typed(case: str, fo
             assert sorted(folder.iterdir()) == before
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("case", dict.fromkeys([*OUT_OF_RANGE, *UNREAD]))
 def test_what_cannot_be_read_is_wrong_usage(case: str, folder: Path) -> None:
     """A word where numbers are wanted, for every option with a range, and what else cannot be read."""
@@ -240,6 +242,7 @@ def test_what_cannot_be_read_is_wrong_usage(case: str, folder: Path) -> None:
         assert sorted(folder.iterdir()) == before
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("command", COMMANDS)
 def test_a_value_that_is_missing_is_wrong_usage(command: str) -> None:
     for option in options_of(command):
@@ -254,6 +257,7 @@ def test_an_unknown_option_is_wrong_usage(command: str) -> None:
         usage_error(run(command, "x", "y", "z", "more"), "more|unexpected")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "line",
     [
@@ -288,6 +292,7 @@ def test_what_excludes_each_other_or_leaves_nothing_to_do_is_wrong_usage(line: s
     assert sorted(folder.iterdir()) == before
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "line",
     [

@@ -72,6 +72,7 @@ def binary(tmp_path: Path) -> Path:
 # --- refill ----------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_every_plate_is_refilled_and_nothing_else(archive: Path) -> None:
     old = members(archive)
     report = refill(archive).report
@@ -90,6 +91,7 @@ def test_every_plate_is_refilled_and_nothing_else(archive: Path) -> None:
     assert [path.name for path in archive.parent.iterdir()] == [NAME]
 
 
+@pytest.mark.slow
 def test_a_plate_comes_out_as_its_text_alone(archive: Path, tmp_path: Path) -> None:
     """And the report sums up what those of the texts say."""
     report = refill(archive).report
@@ -121,6 +123,7 @@ def test_a_plate_comes_out_as_its_text_alone(archive: Path, tmp_path: Path) -> N
     assert ratios[0] <= report["filament"]["print_ratio"] <= ratios[1]
 
 
+@pytest.mark.slow
 def test_a_second_run_does_nothing(archive: Path) -> None:
     assert run("refill", archive).exit_code == 0
     once = archive.read_bytes()
@@ -129,6 +132,7 @@ def test_a_second_run_does_nothing(archive: Path) -> None:
     assert archive.read_bytes() == once
 
 
+@pytest.mark.slow
 def test_a_plate_that_was_refilled_stays_while_others_are(archive: Path) -> None:
     """As where Bambu Studio ran the script on one plate, and another was sliced later."""
     refill(archive)
@@ -141,6 +145,7 @@ def test_a_plate_that_was_refilled_stays_while_others_are(archive: Path) -> None
     assert STAMP in text_of(archive, 2)
 
 
+@pytest.mark.long
 def test_the_command_names_the_plates(archive: Path, tmp_path: Path) -> None:
     output = tmp_path / "new.gcode.3mf"
     old = archive.read_bytes()
@@ -171,6 +176,7 @@ def spoilt(name: str) -> bytes:
     return bytes(data)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "says"),
     [
@@ -200,6 +206,7 @@ def test_a_name_that_stands_twice_is_refused(archive: Path) -> None:
     assert archive.read_bytes() == data
 
 
+@pytest.mark.long
 @POSIX
 def test_ctrl_c_leaves_the_old_archive(archive: Path) -> None:
     """Late in its work, and while it writes."""
@@ -216,6 +223,7 @@ def test_ctrl_c_leaves_the_old_archive(archive: Path) -> None:
         assert list(archive.parent.iterdir()) == [archive]
 
 
+@pytest.mark.slow
 @POSIX
 def test_a_full_disk_leaves_the_old_archive(archive: Path) -> None:
     from test_command_line_posix import limited
@@ -277,6 +285,7 @@ def test_a_layer_of_a_plate(archive: Path, binary: Path, tmp_path: Path) -> None
         layer_speeds(archive, 5, plate=2)
 
 
+@pytest.mark.long
 def test_the_command_says_which_plate_it_took(archive: Path, binary: Path, tmp_path: Path) -> None:
     assert "1 of 1, 2; --plate chooses" in run("motion", archive).stdout
     told = json.loads(run("motion", archive, "--plate", 2, "--json").stdout)

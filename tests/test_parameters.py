@@ -150,6 +150,7 @@ def test_a_parameter_survives_the_file(kind: str, name: str, tmp_path: Path) -> 
         assert again.steps == 7
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_list_shows_every_parameter_with_its_help(kind: str) -> None:
     text = plain(run("list", kind).stdout)
@@ -245,6 +246,7 @@ def test_what_is_typed_wins_over_the_file(tmp_path: Path) -> None:
 # --- at the command line ---------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 def test_the_flags_of_the_designs_still_work(tmp_path: Path) -> None:
     for kind, flag, text in (("zigzag", "waves", "2.5"), ("concentric-heart", "hearts", "2")):
         paths = [tmp_path / f"{kind}-{i}.stl" for i in (0, 1)]
@@ -279,6 +281,7 @@ def test_a_plugin_may_name_its_parameters_as_it_likes(tmp_path: Path) -> None:
     assert again.to_toml() == config.read_text()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("words", "says"),
     [
@@ -337,6 +340,7 @@ def test_names_of_patterns_are_completed() -> None:
     assert offered("infill make ri") == offered("infill list ri") == {"rings", "ripples"}
 
 
+@pytest.mark.slow
 def test_names_of_parameters_are_completed_then_flags_among_them() -> None:
     assert offered("infill make zigzag --set ") == {"cell=", "waves=", "angle=", "phase=", "frame="}
     assert offered("infill make rings --set ") == {"size=", "steps=", "pattern=", "line-fit=", "free="}
@@ -404,6 +408,7 @@ def said(words: list[str], environment: dict[str, str]) -> str:
     ).stdout
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("columns", ["80", "100"])
 def test_the_help_of_make_stays_short(sixty: dict[str, str], columns: str) -> None:
     environment = {**sixty, "COLUMNS": columns}
@@ -416,6 +421,7 @@ def test_the_help_of_make_stays_short(sixty: dict[str, str], columns: str) -> No
     assert text == said(["-m", "infill.cli", "make", "--help"], {**environment, "PYTHONPATH": str(ROOT)})
 
 
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform == "win32", reason="children have no times of their own there")
 def test_the_help_of_make_stays_fast(sixty: dict[str, str]) -> None:
     """Under 0.4 s; 0.25 of them are what any program with typer, rich and pydantic takes to begin.

@@ -45,6 +45,7 @@ every_design = pytest.mark.parametrize("pattern", [*DESIGNS, *LEVEL_SETS], ids=r
 every_region = pytest.mark.parametrize("region", REGIONS, ids=["square", "rectangle", "disc", "notched"])
 
 
+@pytest.mark.slow
 @every_design
 @every_region
 def test_lines_and_points_lie_inside_the_region(pattern: Pattern, region: shapely.Polygon) -> None:
@@ -58,6 +59,7 @@ def test_lines_and_points_lie_inside_the_region(pattern: Pattern, region: shapel
     assert shapely.contains_xy(region.buffer(ROUNDING), points).all()
 
 
+@pytest.mark.long
 @every_design
 def test_points_follow_the_lines_closely(pattern: Pattern) -> None:
     lines, spacing = pattern.lines(REGIONS[0]), 0.25
@@ -71,6 +73,7 @@ def test_points_follow_the_lines_closely(pattern: Pattern) -> None:
     assert distance.max() <= spacing / 2 + ROUNDING
 
 
+@pytest.mark.slow
 @every_design
 def test_height_does_not_matter_to_prismatic_patterns(pattern: Pattern) -> None:
     assert pattern.prismatic
@@ -91,6 +94,7 @@ def test_every_design_is_in_the_catalogue() -> None:
     assert {type(pattern) for pattern in DESIGNS} == {PATTERNS[name] for name in BUILT_IN}
 
 
+@pytest.mark.slow
 @every_design
 @pytest.mark.parametrize("spacing", [0, -1, math.nan, math.inf])
 def test_a_bad_spacing_of_points_is_refused(pattern: Pattern, spacing: float) -> None:
@@ -117,6 +121,7 @@ def test_framed_designs_hang_together() -> None:
         assert body_numbers(PATTERNS[name]().lines(REGIONS[0])).max() == 0
 
 
+@pytest.mark.long
 @given(
     cell=st.floats(2, 15),
     angle=st.floats(-180, 180),
@@ -164,6 +169,7 @@ def test_phase_and_angle_move_the_honeycomb_rigidly() -> None:
     assert shapely.hausdorff_distance(plain, period) < ROUNDING
 
 
+@pytest.mark.long
 def test_zigzag_is_the_papers_design() -> None:
     """In the square |x|, |y| <= 1.5 / sqrt 2, 7.5 waves are y = 1.5 sin(5 pi x) turned by 45 degrees."""
     half = 1.5 / math.sqrt(2)
@@ -519,6 +525,7 @@ def test_cross_ends_where_numbers_do() -> None:
 RING = shapely.Point(0, 0).buffer(20, quad_segs=256).difference(shapely.Point(0, 0).buffer(6, quad_segs=256))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("region", "chords"), [(box(0, 0, 41, 27), 0.0), (RING, 2e-3)], ids=["box", "ring"])
 @pytest.mark.parametrize("frame", [False, True])
 def test_concentric_lines_are_parallel_to_the_outline(region: shapely.Polygon, chords: float, frame: bool) -> None:

@@ -103,6 +103,7 @@ def test_a_turn_keeps_the_lines(name: str) -> None:
     assert apart(plain, other) > 0.1
 
 
+@pytest.mark.long
 @every_turning
 def test_a_turned_pattern_takes_the_length_asked_for(name: str) -> None:
     """Within 1 % on a disc, inside it, without crossing, beads apart as those of the pattern are."""
@@ -240,6 +241,7 @@ def test_a_mistake_in_the_file_is_one_line(text: str, tmp_path: Path) -> None:
     assert "\n" not in said
 
 
+@pytest.mark.long
 @given(st.one_of(st.text(), st.integers(), st.floats(), st.lists(st.integers(), max_size=3), st.booleans(), st.none()))
 @example("9" * 5000)
 @example("5-" + "9" * 5000)
@@ -262,6 +264,7 @@ def test_ranges_are_read_as_written(first: int, last: int) -> None:
     assert parse_range("layers", f"{first}") == parse_range("layers", first) == (first, first)
 
 
+@pytest.mark.long
 @given(st.floats(-180, 180), st.floats(-1e4, 1e4), st.floats(-1e4, 1e4))
 def test_parameters_are_read_as_written(angle: float, x: float, y: float) -> None:
     kind = default_parameters("gyroid")
@@ -274,6 +277,7 @@ def test_parameters_are_read_as_written(angle: float, x: float, y: float) -> Non
 # --- a print refilled ------------------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["honeycomb", "rectilinear", "gyroid", "drawing"])
 def test_a_turned_pattern_takes_the_filament_that_was_there(name: str, gcode: Path, tile: Path) -> None:
     """Within 1 %; an independent judge finds nothing else changed, and paths lie elsewhere than those of the pattern."""
@@ -292,6 +296,7 @@ def test_a_turned_pattern_takes_the_filament_that_was_there(name: str, gcode: Pa
     assert gcode.read_bytes() == texts[1]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["rectilinear", "gyroid", "concentric", "drawing"])
 def test_the_cell_decides_the_filament(name: str, gcode: Path, tile: Path) -> None:
     """Beads are as wide as the slicer's: half the cell takes twice the filament.
@@ -309,6 +314,7 @@ def test_the_cell_decides_the_filament(name: str, gcode: Path, tile: Path) -> No
     assert taken[2.0] / taken[4.0] == pytest.approx(2, rel=0.25)
 
 
+@pytest.mark.long
 def test_hearts_lie_about_the_middle_that_is_given(gcode: Path) -> None:
     """Two middles a cell apart and more give other paths; none given gives those of the part."""
     texts = []
@@ -321,6 +327,7 @@ def test_hearts_lie_about_the_middle_that_is_given(gcode: Path) -> None:
 # --- from the command, and from Python ---------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("words", "says"),
     [
@@ -352,6 +359,7 @@ def test_a_mistake_is_one_line_and_the_print_stays(words: list[str], says: str, 
     assert gcode.read_bytes() == PRINT
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("words", "says"),
     [
@@ -372,6 +380,7 @@ def test_hostile_layers_and_objects_are_one_line(words: list[str], says: str, gc
     assert gcode.read_bytes() == PRINT
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("words", [["--layers", "6-"], ["--layers", "999999999"], ["--object", "näht \x1b[31m"]])
 def test_what_is_not_in_the_print_leaves_it_and_is_said(words: list[str], gcode: Path) -> None:
     result = run("refill", gcode, *words, "--json", "-q")
@@ -381,6 +390,7 @@ def test_what_is_not_in_the_print_leaves_it_and_is_said(words: list[str], gcode:
     assert gcode.read_bytes() == PRINT
 
 
+@pytest.mark.long
 def test_python_gives_parameters_by_name(gcode: Path) -> None:
     result = refill(gcode, dry_run=True, pattern="concentric-heart", angle=30, middle=(100, 100))
     assert result.report["request"]["parameters"] == {"cell": None, "angle": 30.0, "middle": [100.0, 100.0]}
@@ -396,6 +406,7 @@ def test_python_gives_parameters_by_name(gcode: Path) -> None:
         refill(gcode, dry_run=True, angle=1.0)
 
 
+@pytest.mark.long
 def test_a_shell_completes_the_parameters_of_the_pattern() -> None:
     assert offered("infill refill a.gcode --pattern honeycomb --set ") == {"cell=", "angle=", "phase=", "flats="}
     assert offered("infill refill a.gcode --pattern concentric-heart --set m") == {"middle="}

@@ -42,6 +42,7 @@ def cloud(mesh: trimesh.Trimesh, count: int) -> tuple[np.ndarray, np.ndarray]:
     return np.asarray(points), np.asarray(mesh.face_normals[faces])
 
 
+@pytest.mark.long
 @given(seed=st.integers(0, 10_000), count=st.integers(1, 60), threads=st.integers(1, 3))
 def test_the_kernel_does_what_the_formula_says(seed: int, count: int, threads: int) -> None:
     rng = np.random.default_rng(seed)
@@ -58,6 +59,7 @@ def test_the_kernel_does_what_the_formula_says(seed: int, count: int, threads: i
     assert found == pytest.approx(expected, abs=1e-5, nan_ok=True)
 
 
+@pytest.mark.long
 @given(seed=st.integers(0, 10_000))
 def test_planes_are_exact_and_spheres_to_the_second_order(seed: int) -> None:
     rng = np.random.default_rng(seed)
@@ -76,6 +78,7 @@ def test_a_place_without_points_near_has_no_distance() -> None:
     assert np.isnan(distance_from_points(np.array([[9.0, 0, 0]]), np.zeros((1, 3)), np.array([[0.0, 0, 1]]), 1.0)[0])
 
 
+@pytest.mark.long
 def test_normals_may_point_either_way_have_any_length_or_be_missing() -> None:
     points, rng = on_ball(2000), np.random.default_rng(2)
     solid = voxelise_points(points, voxel=1.0)
@@ -87,6 +90,7 @@ def test_normals_may_point_either_way_have_any_length_or_be_missing() -> None:
         assert np.abs(estimated - exact).max() < 0.1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("factor", [1 / 64, 64])
 def test_units_change_nothing(factor: float) -> None:
     points = on_ball(1000)
@@ -104,6 +108,7 @@ def test_points_in_half_a_cell_become_one_and_opposite_ones_none() -> None:
     assert normals == pytest.approx(np.array([[0.0, 0, 1]]))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("known", [True, False])
 def test_noise_does_not_move_the_surface_outwards(known: bool) -> None:
     mesh = trimesh.creation.torus(8, 3, major_sections=128, minor_sections=64)
@@ -119,6 +124,7 @@ def test_noise_does_not_move_the_surface_outwards(known: bool) -> None:
     assert result.mesh.is_watertight
 
 
+@pytest.mark.long
 def test_edges_of_a_turned_box_stay_within_a_voxel() -> None:
     mesh = trimesh.creation.box((20, 14, 9))
     mesh.apply_transform(trimesh.transformations.rotation_matrix(0.7, [1, 2, 3]))
@@ -141,6 +147,7 @@ def test_normals_that_do_not_fit_are_refused() -> None:
     assert smooth_points(points, voxel=2.0, normals=broken).report["verdict"]["word"] == "kept"
 
 
+@pytest.mark.long
 def test_normals_of_a_file_are_used_and_a_shell_leaves_them_out(tmp_path: Path) -> None:
     points = on_ball(2000)
     path = tmp_path / "ball.xyz"
@@ -153,6 +160,7 @@ def test_normals_of_a_file_are_used_and_a_shell_leaves_them_out(tmp_path: Path) 
     assert np.array_equal(metres, source * [1000, 1000, 1000, 1, 1, 1])  # type: ignore[operator]
 
 
+@pytest.mark.slow
 def test_all_that_is_far_from_points_stays_as_the_cells_are() -> None:
     points = on_ball(2000)
     solid = voxelise_points(points, voxel=1.0, margin=8)

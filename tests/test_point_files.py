@@ -247,6 +247,7 @@ def test_missing_and_unreadable_files(tmp_path: Path, monkeypatch: pytest.Monkey
         read_points(path)
 
 
+@pytest.mark.long
 def test_real_points(data: Path) -> None:
     kitten = read_points(data / "models" / "kitten_points.xyz")
     assert kitten.shape == (5210, 3)

@@ -74,12 +74,14 @@ def test_the_margin_is_empty_and_no_more(shell: float | None) -> None:
     assert values.shape == ((46,) * 3 if shell is None else (50,) * 3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("count", "voxel"), [(1000, 0.5), (5000, 1.0), (5000, 0.5), (20_000, 1.0), (20_000, 0.5)])
 def test_the_solid_of_a_ball_is_the_ball(count: int, voxel: float) -> None:
     # The plane triangles between 1000 points of the ball would lose 0.7 %.
     assert size(voxelise_points(on_ball(count), voxel=voxel)) == pytest.approx(BALL, rel=0.01)
 
 
+@pytest.mark.slow
 def test_points_that_are_not_even_do_as_well(rng: np.random.Generator) -> None:
     points = rng.normal(size=(5000, 3))
     points *= RADIUS / np.linalg.norm(points, axis=1)[:, None]
@@ -150,6 +152,7 @@ def test_a_plane_has_a_shell() -> None:
     assert voxelise_points(points, voxel=1, shell=4).values.any()
 
 
+@pytest.mark.long
 def test_the_kitten_is_solid(data: Path) -> None:
     points = np.loadtxt(data / "models/kitten_points.xyz")[:, :3]
     coarse, fine = (size(voxelise_points(points, voxel=voxel)) for voxel in (0.01, 0.006))
@@ -157,6 +160,7 @@ def test_the_kitten_is_solid(data: Path) -> None:
     assert fine == pytest.approx(0.1245, rel=0.01)  # by cells of 0.0025
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("name", "voxel"), [("medical/femur.stl", 2.0), ("models/armadillo_52k.off", 1.2), ("models/horse_97k.ply", 0.0015)]
 )

@@ -36,6 +36,7 @@ def refilled(text: str, pattern: str = "keep", **asked: object) -> tuple[str, di
     return "".join(done.lines), done.report
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pattern", ["keep", "honeycomb"])
 @pytest.mark.parametrize("stray", STRAY)
 def test_what_is_purged_stays_and_all_else_is_refilled(stray: str, pattern: str) -> None:
@@ -50,6 +51,7 @@ def test_what_is_purged_stays_and_all_else_is_refilled(stray: str, pattern: str)
         assert judge(text.encode(), new.encode()) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stray", STRAY[1:])
 def test_stray_tags_change_nothing_of_what_is_drawn(stray: str) -> None:
     """Beside the tag itself, the two outputs are the same, line by line."""
@@ -121,6 +123,7 @@ def two_boxes(extruders: tuple[int, int]) -> str:
     return "\n".join([*found, "</amf>"])
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(bool(missing_prusa()), reason=missing_prusa())
 def test_a_print_of_two_colours_by_the_slicer(tmp_path: Path) -> None:
     """Every layer purges into the infill of one object, and prints that of the other: as many sections of each."""

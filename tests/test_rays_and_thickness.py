@@ -33,6 +33,7 @@ def ball(radius: float) -> NDArray[np.bool_]:
     return ((np.indices((side,) * 3) - (side - 1) / 2) ** 2).sum(axis=0) < radius**2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("cells", range(1, 31))
 def test_a_slab_is_as_thick_as_it_is(cells: int) -> None:
     """To the last digit up to 16 cells; what is thicker is no wall."""
@@ -59,17 +60,20 @@ def test_a_small_ball_is_as_thick_as_it_is_wide(radius: float) -> None:
     assert thinnest(ball(radius), steps=3) == pytest.approx(2 * radius, abs=1.5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("radius", [10, 12, 16, 17, 20, 33, 60])
 def test_a_large_ball_has_no_walls(radius: float) -> None:
     assert thinnest(ball(radius), steps=5) is None
     assert thinnest(ball(radius), (0.2, 0.2, 0.3), steps=5) is None
 
 
+@pytest.mark.slow
 def test_a_ball_of_320_mm_has_no_walls() -> None:
     report = smooth_mesh(trimesh.creation.icosphere(4, radius=160), voxel=4.0).report
     assert report["walls"]["thinnest"] == {"data": None, "result": None}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("cells", [4, 8, 12, 14, 18, 24])
 @pytest.mark.parametrize("scale", [1.0, 0.05])
 def test_a_shell_around_a_void(cells: int, scale: float) -> None:

@@ -55,6 +55,7 @@ def refilled(path: Path, output: Path, pattern: str) -> bytes:
     return output.read_bytes()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("pattern", FILAMENT)
 @pytest.mark.parametrize("name", CORPUS)
 def test_nothing_else_changes(name: str, pattern: str, prints_of_all_kinds: Mapping[str, Path], tmp_path: Path) -> None:
@@ -81,6 +82,7 @@ def test_nothing_else_changes(name: str, pattern: str, prints_of_all_kinds: Mapp
     assert output.read_bytes() == new
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("pattern", FILAMENT)
 def test_in_place_is_as_beside(pattern: str, prints_of_all_kinds: Mapping[str, Path], tmp_path: Path) -> None:
     path = tmp_path / "print.gcode"
@@ -102,6 +104,7 @@ def test_a_kept_path_is_shorter(prints_of_all_kinds: Mapping[str, Path], tmp_pat
     assert 0.85 * infill < kept[0] < infill
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "name", ["prusa", "prusa-absolute", "prusa-grid", "prusa-gyroid", "cura-slowed", "cura", "orca"]
 )
@@ -119,6 +122,7 @@ def test_kept_paths_lie_as_near_as_is_asked(
     assert judge(old, new, deviation=deviation + 0.02, filament=FILAMENT["keep"]) == []
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "name",
     [
@@ -143,6 +147,7 @@ def test_what_holds_infill_together_stays(name: str, prints_of_all_kinds: Mappin
 
 
 # What fails is a whole print, which to shrink takes minutes.
+@pytest.mark.long
 @settings(max_examples=12, phases=[Phase.explicit, Phase.generate])
 @given(data=prints())
 @pytest.mark.parametrize("pattern", FILAMENT)
@@ -162,6 +167,7 @@ def test_nothing_else_changes_in_any_dialect(
         assert new.count(b"G92 E") >= data.count(b"G92 E")
 
 
+@pytest.mark.long
 def test_one_object_of_two(prints_of_all_kinds: Mapping[str, Path], tmp_path: Path) -> None:
     """The sections of the other one are as they were; a name that no object bears changes nothing."""
     path, output = prints_of_all_kinds["prusa-labels"], tmp_path / "out.gcode"

@@ -62,6 +62,7 @@ def layers_of(data: bytes) -> list[bytes]:
 # --- where it writes -------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_without_an_output_the_print_itself_is_replaced(gcode: Path) -> None:
     result = run("refill", gcode)
     assert result.exit_code == 0
@@ -74,6 +75,7 @@ def test_without_an_output_the_print_itself_is_replaced(gcode: Path) -> None:
     assert "3 of 3 sections in 5 layers" in result.stderr
 
 
+@pytest.mark.slow
 def test_an_output_leaves_the_print_as_it_was(gcode: Path, tmp_path: Path) -> None:
     """And has the bytes that the print has when it is replaced in place."""
     output = tmp_path / "new" / "smooth.gcode"
@@ -104,6 +106,7 @@ def test_a_dry_run_writes_nothing(gcode: Path) -> None:
     assert names(gcode.parent) == [gcode.name]
 
 
+@pytest.mark.slow
 def test_a_second_run_says_that_there_is_nothing_to_do(gcode: Path) -> None:
     assert run("refill", gcode).exit_code == 0
     once = gcode.read_bytes()
@@ -135,6 +138,7 @@ def test_a_link_is_followed(gcode: Path, tmp_path: Path) -> None:
     assert names(folder) == [target.name]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["1234.gcode.pp", ".PrusaSlicer.upload.1a2b-3c4d", "größe (2).gcode"])
 def test_names_as_slicers_give_them(name: str, gcode: Path) -> None:
     """A file that is exported ends in .pp, one that is uploaded in anything."""
@@ -143,6 +147,7 @@ def test_names_as_slicers_give_them(name: str, gcode: Path) -> None:
     assert STAMP in path.read_bytes()
 
 
+@pytest.mark.slow
 def test_binary_gcode_stays_binary(tmp_path: Path) -> None:
     """Under a name that says nothing of it, as PrusaSlicer hands it to a script: as MeatPack within Heatshrink."""
     text = normalise_text(PRINT, comments=True)
@@ -183,6 +188,7 @@ def test_json_is_alone_on_stdout(gcode: Path, tmp_path: Path) -> None:
     assert report["problems"] == []
 
 
+@pytest.mark.slow
 def test_the_summary_names_the_density_to_set(gcode: Path) -> None:
     report = json.loads(run("refill", gcode, "--dry-run", "--json", "-q").stdout)
     density = report["filament"]["density_for_the_same_percent"]
@@ -195,6 +201,7 @@ def test_nothing_is_said_when_asked_to_be_quiet(gcode: Path) -> None:
     assert STAMP in gcode.read_bytes()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("words", "layers"), [("2-3", {2, 3}), ("4-", {4}), ("3", {3}), ("1-1", set())])
 def test_only_the_layers_that_are_asked_for_change(words: str, layers: set[int], gcode: Path, tmp_path: Path) -> None:
     """Of five layers, the first and the last are solid."""
@@ -208,6 +215,7 @@ def test_only_the_layers_that_are_asked_for_change(words: str, layers: set[int],
     assert different - {5} == layers  # after the last layer, the print tells its time and its filament
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("words", "layer"), [([], 2), (["--layers", "3-4"], 3), (["--layers", "1-1"], 1)])
 def test_the_preview_shows_a_layer_that_is_asked_for(
     words: list[str], layer: int, gcode: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -237,6 +245,7 @@ def test_a_picture_that_is_in_the_way_leaves_the_print_alone(gcode: Path, tmp_pa
 # --- mistakes --------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("words", "says"),
     [
@@ -281,6 +290,7 @@ def test_the_log_lies_beside_what_the_slicer_is_about_to_write(
     assert names(target.parent) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["part.gcode", "{0}/no such folder/part.gcode", "/", ""])
 def test_the_log_lies_beside_the_file_where_the_slicer_names_no_folder(
     name: str, gcode: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -301,6 +311,7 @@ def test_the_log_lies_beside_the_file_where_it_cannot_lie_beside_the_other(
     logged(run("refill", gcode, "--layers", "ten"), log_of(gcode))
 
 
+@pytest.mark.slow
 def test_a_run_that_succeeds_removes_the_log_of_one_that_failed(gcode: Path) -> None:
     run("refill", gcode, "--layers", "ten")
     assert log_of(gcode).exists()
@@ -327,6 +338,7 @@ def test_wrong_usage_exits_2(words: list[str]) -> None:
 # --- how it starts ---------------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 def test_keeping_paths_needs_no_compiler(gcode: Path) -> None:
     """Nor the libraries of geometry and pictures, which take longer to load than a small print."""
     code = f"import sys; sys.argv = ['infill', 'refill', {str(gcode)!r}, '-q']; import infill.cli; infill.cli.main()"
@@ -345,6 +357,7 @@ def test_a_command_builds_no_other() -> None:
         assert [command.name for command in build_app(name).registered_commands] == list(COMMANDS)
 
 
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform == "win32", reason="times of the processor as POSIX has them")
 def test_it_starts_fast(tmp_path: Path) -> None:
     """Little more until it reads than what any program with typer, pydantic and NumPy takes to begin.
@@ -396,6 +409,7 @@ def program(tmp_path_factory: pytest.TempPathFactory) -> str:
     return f"'{path}' refill"
 
 
+@pytest.mark.long
 @pytest.mark.skipif(bool(missing_prusa()), reason=missing_prusa())
 def test_prusaslicer_runs_it(program: str, tmp_path: Path) -> None:
     done = sliced(tmp_path, script=program)
@@ -407,6 +421,7 @@ def test_prusaslicer_runs_it(program: str, tmp_path: Path) -> None:
     assert replaced == sections == 16  # of 20 layers, four are solid
 
 
+@pytest.mark.long
 @pytest.mark.skipif(bool(missing_prusa()), reason=missing_prusa())
 def test_a_settings_file_has_quotes_within_quotes(program: str, tmp_path: Path) -> None:
     """As on Windows, where only double quotes keep a path with blanks together."""
@@ -416,6 +431,7 @@ def test_a_settings_file_has_quotes_within_quotes(program: str, tmp_path: Path) 
     assert (tmp_path / "out.gcode").read_bytes().count(STAMP) == 1
 
 
+@pytest.mark.long
 @pytest.mark.skipif(bool(missing_prusa()), reason=missing_prusa())
 def test_prusaslicer_tells_what_went_wrong(program: str, tmp_path: Path) -> None:
     done = sliced(tmp_path, script=program + " --layers ten")

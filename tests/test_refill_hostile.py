@@ -51,6 +51,7 @@ def told(path: Path, old: bytes, **options: Any) -> None:
     whole_or_new(path, old)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(8))
 @pytest.mark.parametrize("data", [PRINT, ABSOLUTE], ids=["relative", "absolute"])
 def test_a_truncated_print(data: bytes, seed: int, tmp_path: Path) -> None:
@@ -159,6 +160,7 @@ SPOILT: dict[str, Callable[[bytes], bytes]] = {
 OURS = ("NaN", "1e308", "far away", "relative moves", "a tool", "a full circle", "a megabyte line")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("name", "pattern"), [*((name, "keep") for name in SPOILT), *((name, "honeycomb") for name in OURS)]
 )
@@ -198,6 +200,7 @@ def test_the_mode_of_the_file_is_kept(tmp_path: Path) -> None:
     assert path.stat().st_mode & 0o777 == 0o640
 
 
+@pytest.mark.slow
 def test_one_line_on_stderr_and_exit_1(tmp_path: Path) -> None:
     path = put(tmp_path, b"\x89PNG\r\n\x1a\n" + bytes(2000))
     done = subprocess.run([*RUN, "refill", path], capture_output=True, encoding="utf-8", check=False)
@@ -207,6 +210,7 @@ def test_one_line_on_stderr_and_exit_1(tmp_path: Path) -> None:
     assert done.stdout == ""
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("size", [0, 3000, len(PRINT) - 10])
 def test_a_full_disk_leaves_the_old_print_whole(size: int, tmp_path: Path) -> None:
     path = put(tmp_path, PRINT)
@@ -223,6 +227,7 @@ def calls_of_refill(tmp_path_factory: pytest.TempPathFactory) -> int:
     return calls_of(["refill", str(put(folder, PRINT))])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("moment", MOMENTS[2:5:2])
 def test_ctrl_c_at_any_moment_leaves_the_old_print(moment: float, calls_of_refill: int, tmp_path: Path) -> None:
     path = put(tmp_path, PRINT)
@@ -231,6 +236,7 @@ def test_ctrl_c_at_any_moment_leaves_the_old_print(moment: float, calls_of_refil
     assert list(tmp_path.iterdir()) == [path]
 
 
+@pytest.mark.long
 def test_ctrl_c_while_it_writes_leaves_the_old_print(tmp_path: Path) -> None:
     path = put(tmp_path, PRINT)
     interrupted(["refill", str(path)], calls=5, writing=tmp_path)
@@ -259,6 +265,7 @@ main()
 """
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("moment", [0.5, 0.97, 0.999])
 def test_a_kill_at_any_moment_leaves_the_old_print_or_the_new_one(
     moment: float, calls_of_refill: int, tmp_path: Path

@@ -92,6 +92,7 @@ def room(path: Path) -> float:
 # --- patterns --------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", FAMILIES)
 def test_a_pattern_takes_the_filament_that_was_there(name: str, taller: Path, tmp_path: Path) -> None:
     """Within 1 %, with no more retractions; an independent judge finds nothing else changed."""
@@ -103,6 +104,7 @@ def test_a_pattern_takes_the_filament_that_was_there(name: str, taller: Path, tm
     assert len(RETRACTION.findall(new)) <= len(RETRACTION.findall(old))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("part", "name"), [("far_out_ring", "honeycomb"), ("spur_gear", "honeycomb")])
 def test_what_small_regions_owe_is_paid(part: str, name: str, data: Path, tmp_path: Path) -> None:
     """Cells that lay 15 % too little, in column upon column, are chosen anew; and what is off is told."""
@@ -140,6 +142,7 @@ def test_filament_that_is_off_is_told(asked: dict[str, Any], ratio: float, told:
     assert [f"{ratio - 1:+.1%} filament" in problem for problem in problems] == [True] * told
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("density", [0.05, 0.2, 0.4])
 @pytest.mark.parametrize("name", ["honeycomb", "rectilinear", "grid"])
 def test_density_is_the_share_that_lines_fill(name: str, density: float, wide: Path, tmp_path: Path) -> None:
@@ -169,6 +172,7 @@ def test_hearts_lie_about_the_middle_of_the_part(looked_at: list[Batch]) -> None
 # --- what holds infill up --------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_support_and_contact_are_as_reported(honeycomb: Path, kept: Path) -> None:
     """By areas and by pairs of points, within 0.01 of the infill's length."""
     found = refill(honeycomb, dry_run=True).report["contact"]
@@ -179,6 +183,7 @@ def test_support_and_contact_are_as_reported(honeycomb: Path, kept: Path) -> Non
     assert found["measured_mm"] == pytest.approx(length_of(honeycomb), rel=1e-3)
 
 
+@pytest.mark.long
 def test_rounding_leaves_what_it_promises(honeycomb: Path, kept: Path) -> None:
     """At least 0.94 of what was held before; another measure may err by a hundredth, on 700 mm of infill."""
     old, new = honeycomb.read_bytes(), kept.read_bytes()
@@ -186,6 +191,7 @@ def test_rounding_leaves_what_it_promises(honeycomb: Path, kept: Path) -> None:
     assert bonded(new) >= LEAST_SHARE * bonded(old) - 0.01
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("chosen", [0.15, 0.3, float("inf")])
 def test_a_print_that_lost_too_much_is_drawn_again(
     chosen: float, honeycomb: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -203,6 +209,7 @@ def test_a_print_that_lost_too_much_is_drawn_again(
     assert asked["problems"]
 
 
+@pytest.mark.long
 def test_a_dense_print_gets_no_cell_that_beads_do_not_fit_into(tmp_path: Path) -> None:
     """Drawn again with more lines, it would take one."""
     dense = prusa_print(
@@ -231,6 +238,7 @@ def test_the_first_deviation_that_is_enough_is_found(candidates: list[float], sl
     assert len(set(tried)) == len(tried) <= 14  # none twice; by halves after a few
 
 
+@pytest.mark.slow
 def test_the_largest_deviation(looked_at: list[Batch]) -> None:
     """It is one of those tried, not above the one asked for, and larger ones hold less."""
     best = largest_deviation(looked_at, Rounding(), 1000.0)
@@ -265,6 +273,7 @@ def same(report: dict[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in report.items() if name != "request"}
 
 
+@pytest.mark.long
 def test_lines_are_refilled_as_a_file_is(honeycomb: Path, kept: Path) -> None:
     text = honeycomb.read_bytes().decode()
     wanted = kept.read_bytes().decode()
@@ -276,6 +285,7 @@ def test_lines_are_refilled_as_a_file_is(honeycomb: Path, kept: Path) -> None:
         assert all(line.endswith("\n") and line.count("\n") == 1 for line in done.lines)
 
 
+@pytest.mark.slow
 def test_lines_end_where_they_did(honeycomb: Path) -> None:
     """Some characters end a line for Python, but not in G-code."""
     lines = honeycomb.read_text().splitlines(keepends=True)
@@ -287,6 +297,7 @@ def test_lines_end_where_they_did(honeycomb: Path) -> None:
     assert odd in done
 
 
+@pytest.mark.long
 def test_a_dry_run_writes_nothing(honeycomb: Path, tmp_path: Path) -> None:
     path = tmp_path / "print.gcode"
     path.write_bytes(honeycomb.read_bytes())
@@ -320,6 +331,7 @@ def test_a_copy_that_cannot_be_written_is_told(kept: Path, tmp_path: Path) -> No
     assert "\n" not in str(error.value)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("pattern", ["keep", "honeycomb"])
 def test_layers_asked_for(pattern: str, honeycomb: Path, tmp_path: Path) -> None:
     """Only these change, counted from 1; corners are counted where they were rounded."""
@@ -348,6 +360,7 @@ def test_radius_0_changes_nothing_of_honeycomb(honeycomb: Path, tmp_path: Path) 
     assert done.report["rounding"]["corners"] == 0
 
 
+@pytest.mark.slow
 def test_radii_are_as_asked(honeycomb: Path, kept: Path) -> None:
     """Reported by tenths of an octave, 4 % to either side."""
     report = refill(honeycomb, dry_run=True, smooth_radius=0.5).report
@@ -356,6 +369,7 @@ def test_radii_are_as_asked(honeycomb: Path, kept: Path) -> None:
     assert length_of(kept) < length_of(honeycomb)
 
 
+@pytest.mark.long
 def test_same_filament_widens_beads(honeycomb: Path, tmp_path: Path) -> None:
     new = tmp_path / "new.gcode"
     filament = refill(honeycomb, output=new, density="same").report["filament"]

@@ -77,6 +77,7 @@ def test_uniform_data_are_fixed(solid: bool) -> None:
     assert filter_reference(data * 2.0 - 1, TWENTY)[2] == pytest.approx(sign)
 
 
+@pytest.mark.long
 def test_far_cells_are_plus_and_minus_one_to_the_last_bit() -> None:
     ball = sum(x**2 for x in grid(70, 70, 70)) < 20**2
     field = refine_bricks(ball, TWENTY).to_dense()
@@ -86,6 +87,7 @@ def test_far_cells_are_plus_and_minus_one_to_the_last_bit() -> None:
     assert np.abs(field).max() == 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("data", ["bits", "signs", "grey"])
 def test_bricks_filter_as_the_specification(data: str) -> None:
     solid = blobs((37, 30, 50))
@@ -181,6 +183,7 @@ def comb() -> np.ndarray:
     return (walls | plates) & (np.abs(u) < 17.5) & (np.abs(v) < 22)
 
 
+@pytest.mark.long
 def test_thin_walls_survive_that_plain_smoothing_breaks() -> None:
     solid, thirty = comb(), Smoothing(steps=30)
     plain = smooth_volume(solid, smoothing=thirty, method="plain", allow_broken=True).report

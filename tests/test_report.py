@@ -154,6 +154,7 @@ def test_the_page_lists_exactly_the_keys_of_all_reports(results: dict[str, Resul
     assert differences(page, {name: result.report for name, result in results.items()}) == []
 
 
+@pytest.mark.long
 def test_the_page_lists_exactly_the_keys_of_a_refill(tmp_path: Path) -> None:
     page = described(PAGE.read_text(encoding="utf-8").partition(REFILL)[2].partition(ALL_LABELS)[0])
     assert len(page) > 30
@@ -294,11 +295,13 @@ def test_the_types_are_those_of_the_page(product: str) -> None:
     assert set(typed) == set(expected)
 
 
+@pytest.mark.slow
 def test_every_report_is_of_its_type(results: dict[str, Result[Any, Any]]) -> None:
     for name, result in results.items():
         assert list(misfits(result.report, TYPED[result.report["product"]])) == [], name
 
 
+@pytest.mark.long
 def test_a_misfit_is_found(results: dict[str, Result[Any, Any]]) -> None:
     report = results["block"].report
     for wrong, said in (

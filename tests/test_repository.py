@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import datetime
+import doctest
 import importlib.metadata
+import importlib.util
 import re
 import subprocess
 import sys
@@ -13,7 +15,6 @@ from typing import Any
 
 import pytest
 import yaml
-from conftest import SLOW
 
 import infill
 
@@ -120,6 +121,7 @@ def test_only_a_tag_publishes() -> None:
     assert publish["needs"] == "build"
 
 
+@pytest.mark.long
 def test_the_schemas_hold() -> None:
     """`make lint` does the same; here it is shown that it can fail."""
     pytest.importorskip("check_jsonschema")
@@ -207,11 +209,36 @@ def test_make_help_names_every_target() -> None:
     assert named == set(targets.split()) - {"help"}
 
 
-def test_what_is_slow_is_there() -> None:
-    """A name in the list of slow tests that means nothing any more is found."""
-    for start in SLOW:
-        file, _, test = start.partition("::")
-        names = [part.split("[")[0] for part in test.split("::") if part]
-        assert (ROOT / file).exists(), start
-        for name in names:
-            assert re.search(rf"(def|class) {name}", text(file)), start
+def test_the_tool_that_marks_slow_tests_does_what_it_says() -> None:
+    spec = importlib.util.spec_from_file_location("mark_slow_tests", ROOT / "tools" / "mark_slow_tests.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    assert doctest.testmod(module) == (0, 3)
+
+
+def test_make_test_runs_one_case_of_each_long_test(pytester: pytest.Pytester) -> None:
+    pytester.makeconftest((ROOT / "tests" / "conftest.py").read_text(encoding="utf-8"))
+    pytester.makepyfile(
+        """
+        import pytest
+
+        @pytest.mark.long
+        @pytest.mark.parametrize("b", "xy")
+        @pytest.mark.parametrize("a", [1, 2])
+        def test_cases(a, b): ...
+
+        @pytest.mark.long
+        def test_alone(): ...
+
+        @pytest.mark.slow
+        def test_slow(): ...
+
+        def test_quick(): ...
+        """
+    )
+    markers = ["-o", "markers=slow\nlong\nleft_out", "-p", "no:cacheprovider", "-p", "no:randomly"]
+    for chosen, count in (("not left_out", 3), ("not slow", 1), ("slow or not slow", 7)):
+        result = pytester.runpytest_subprocess("-q", "-m", chosen, *markers)
+        result.assert_outcomes(passed=count, deselected=7 - count)

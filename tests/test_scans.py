@@ -597,6 +597,7 @@ def test_rubbish_is_one_clear_line(suffix: str, content: bytes, tmp_path: Path) 
     assert str(path) in one_line(caught)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", [".npy", ".npz", ".tif", ".png"])
 def test_a_file_with_a_flipped_byte_is_read_or_told(suffix: str, tmp_path: Path, rng: np.random.Generator) -> None:
     """No damage may raise anything else than our errors."""

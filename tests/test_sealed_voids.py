@@ -125,6 +125,7 @@ def test_an_open_mesh_has_no_voids_that_can_be_counted(tmp_path: Path) -> None:
     assert not any("sealed" in each for each in check(path).warnings)
 
 
+@pytest.mark.slow
 def test_smooth_says_so(tmp_path: Path) -> None:
     for name, mesh, voids in (("shell", together(ball(10), turned(ball(6))), 1), ("ball", together(ball(10)), 0)):
         path = save(mesh, tmp_path / f"{name}.stl")

@@ -93,6 +93,7 @@ def lines_outside_infill(text: str) -> list[str]:
 PLACES = st.floats(0, 1, allow_nan=False)
 
 
+@pytest.mark.slow
 @settings(max_examples=30)
 @given(st.lists(st.tuples(PLACES, st.sampled_from(MARKERS)), min_size=1, max_size=5))
 @example([(0.5, "; PURGING FINISHED")])
@@ -110,6 +111,7 @@ def test_stray_markers_are_forgotten(markers: list[tuple[float, str]]) -> None:
     assert sorted(lines_outside_infill(new)) == sorted(lines_outside_infill(text))
 
 
+@pytest.mark.slow
 @settings(max_examples=15)
 @given(st.sets(st.integers(0, 10**4), min_size=1, max_size=6))
 def test_missing_markers_are_forgotten(places: set[int]) -> None:
@@ -125,6 +127,7 @@ def test_missing_markers_are_forgotten(places: set[int]) -> None:
     assert layers_of(new)[STREWN:] == layers_of(CLEAN_NEW)[STREWN:]
 
 
+@pytest.mark.slow
 @settings(max_examples=15)
 @given(st.lists(st.tuples(PLACES, st.sampled_from([*MARKERS, ";LAYER_CHANGE", ";LAYER:7"])), min_size=1, max_size=4))
 def test_nothing_that_is_purged_is_touched(markers: list[tuple[float, str]]) -> None:

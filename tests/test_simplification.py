@@ -80,6 +80,7 @@ def components(surface: Surface) -> int:
     return len(trimesh.Trimesh(surface.vertices, surface.faces, process=False).split(only_watertight=False))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("tolerance", [0.02, 0.1, 0.4])
 def test_a_simplified_surface_is_closed_near_and_as_connected_and_large_as_before(shape: str, tolerance: float) -> None:
@@ -96,6 +97,7 @@ def test_a_simplified_surface_is_closed_near_and_as_connected_and_large_as_befor
     assert_printable(trimesh.Trimesh(found.vertices, found.faces, process=False))
 
 
+@pytest.mark.long
 @settings(max_examples=12)
 @given(
     waves=st.tuples(*[st.floats(3, 9)] * 3),
@@ -128,12 +130,14 @@ def test_flat_faces_become_as_few_triangles_as_they_need() -> None:
     np.testing.assert_allclose(found.bounds, [[-1.5, -1, -0.5], [1.5, 1, 0.5]], atol=1e-4)
 
 
+@pytest.mark.slow
 def test_ten_times_fewer_triangles_on_a_smooth_ring() -> None:
     surface = made("torus", 80)
     found = simplify_surface(surface, tolerance=0.1)
     assert len(found.faces) * 10 <= len(surface.faces)
 
 
+@pytest.mark.long
 def test_the_number_of_triangles_asked_for_is_kept() -> None:
     surface = made("gyroid", 24)
     for count in (2000, 501):
@@ -192,6 +196,7 @@ def test_what_is_not_closed_or_shares_an_edge_four_times_is_refused() -> None:
             simplify_surface(broken, tolerance=0.1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("far", [0.3, -0.3])
 def test_a_surface_that_strays_is_bent_back(far: float) -> None:
     ball = trimesh.creation.icosphere(4, 10)
@@ -208,6 +213,7 @@ def test_a_surface_that_strays_is_bent_back(far: float) -> None:
     assert farthest(surface, back, 3) <= 0.16
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("threads", [1, 3])
 def test_places_lie_on_their_faces_and_tell_how_far_those_are(threads: int) -> None:
     surface, other = made("noise", 20), made("gyroid", 20)
@@ -253,6 +259,7 @@ def test_faces_that_two_surfaces_share_are_known_whatever_their_order() -> None:
     np.testing.assert_array_equal(match_faces(other, surface), np.where(gone, -1, chosen))
 
 
+@pytest.mark.long
 def test_what_was_measured_is_handed_to_a_surface_that_differs_in_a_place() -> None:
     surface = made("gyroid", 24)
     first = collapse_edges(surface, tolerance=0.1)
@@ -270,6 +277,7 @@ def test_what_was_measured_is_handed_to_a_surface_that_differs_in_a_place() -> N
     assert max(farthest(again, surface), farthest(surface, again, 3)) <= 0.11
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", ["ball", "plate", "gyroid", "box with a hole"])
 @pytest.mark.parametrize("tolerance", [0.05, 0.3, 1.0])
 def test_a_level_face_has_nothing_near_that_faces_elsewhere(shape: str, tolerance: float) -> None:
@@ -291,6 +299,7 @@ def test_a_level_face_has_nothing_near_that_faces_elsewhere(shape: str, toleranc
         assert not level.any()
 
 
+@pytest.mark.slow
 def test_a_vertex_that_strayed_where_all_is_level_is_brought_back() -> None:
     surface, tolerance = made("ball", 40), 0.1
     first = collapse_edges(surface, tolerance=tolerance)
@@ -306,6 +315,7 @@ def test_a_vertex_that_strayed_where_all_is_level_is_brought_back() -> None:
     assert max(farthest(again, surface), farthest(surface, again, 3)) <= 1.01 * tolerance
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("shape", SHAPES)
 def test_patches_keep_the_laws_and_do_not_depend_on_threads(shape: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(collapsing, "PATCH", 100)

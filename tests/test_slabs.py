@@ -170,6 +170,7 @@ def test_a_large_part_is_measured_slab_by_slab(monkeypatch: pytest.MonkeyPatch) 
 # --- surfaces ---------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("radius", [0.0, 0.25, 1.5])
 @pytest.mark.parametrize("pattern", ["honeycomb", "rectilinear", "concentric-heart", "concentric"])
 def test_slabs_make_the_surfaces_of_the_whole(pattern: str, radius: float, space: Interior) -> None:
@@ -236,6 +237,7 @@ def test_corners_outside_of_the_walls_are_none() -> None:
     assert found == [90, pytest.approx(53.13, abs=0.01)]
 
 
+@pytest.mark.slow
 def test_too_few_layers_beside_a_slab_are_seen(space: Interior, monkeypatch: pytest.MonkeyPatch) -> None:
     """The comparison can fail: without them, pieces do not meet, or surfaces differ."""
     from infill.lattices import slabwise
@@ -257,6 +259,7 @@ def test_too_few_layers_beside_a_slab_are_seen(space: Interior, monkeypatch: pyt
         surfaces_by_slabs(in_slabs(space), voids, request, SIZES, tolerance=0.0, threads=None)
 
 
+@pytest.mark.slow
 def test_pieces_that_do_not_meet_are_refused() -> None:
     whole = surface(trimesh.creation.box((4, 4, 4)).subdivide().subdivide())
     pieces = [cut_slab_piece(whole, low, high) for low, high in ((-3, 0), (0, 3))]
@@ -293,6 +296,7 @@ def test_open_edges_stay_to_the_last_bit() -> None:
     assert TriangleTree.of(few).nearest(half.vertices)[0].max() <= 0.1
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("pattern", ["honeycomb", "rectilinear", "concentric-heart"])
 def test_simplified_slabs_stay_within_the_tolerance(pattern: str, space: Interior) -> None:
     request = asked(pattern)
@@ -313,6 +317,7 @@ def test_simplified_slabs_stay_within_the_tolerance(pattern: str, space: Interio
             assert TriangleTree.of(far).nearest(points)[0].max() <= request.tolerance
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("pattern", ["honeycomb", "concentric-heart", "concentric"])
 def test_a_part_filled_in_slabs_keeps_all_promises(pattern: str, monkeypatch: pytest.MonkeyPatch) -> None:
     from infill.interior import interior as module

@@ -44,6 +44,7 @@ def design(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFact
     return result, result.save(tmp_path_factory.mktemp("slicers") / f"{request.param}.stl")
 
 
+@pytest.mark.slow
 @needs_prusa
 def test_a_slicer_reads_the_mesh_without_repair(design: tuple[Result, Path]) -> None:
     result, path = design
@@ -54,6 +55,7 @@ def test_a_slicer_reads_the_mesh_without_repair(design: tuple[Result, Path]) -> 
     assert info["volume"] == pytest.approx(result.report["volume"], rel=READ)
 
 
+@pytest.mark.long
 @both_slicers
 def test_a_slicer_prints_every_layer_without_a_warning(
     design: tuple[Result, Path], slice_mesh: Slicer, request: pytest.FixtureRequest
@@ -79,6 +81,7 @@ def without_a_triangle(mesh: trimesh.Trimesh) -> trimesh.Trimesh:
     return trimesh.Trimesh(mesh.vertices, np.delete(mesh.faces, len(mesh.faces) // 2, axis=0), process=False)
 
 
+@pytest.mark.long
 @needs_prusa
 def test_a_missing_triangle_is_read_as_open_edges(tmp_path: Path) -> None:
     mesh = make("honeycomb", size=20, height=3).mesh
@@ -96,6 +99,7 @@ def test_a_triangle_turned_over_is_read_as_repaired(tmp_path: Path) -> None:
     assert info["repairs"] == {"facets_reversed": 1}
 
 
+@pytest.mark.slow
 @needs_cura
 def test_a_missing_triangle_is_a_message(tmp_path: Path) -> None:
     mesh = make("honeycomb", size=20, height=3).mesh
@@ -103,6 +107,7 @@ def test_a_missing_triangle_is_a_message(tmp_path: Path) -> None:
     assert "disconnected faces" in message
 
 
+@pytest.mark.slow
 @both_slicers
 def test_a_gap_between_layers_is_a_message(slice_mesh: Slicer, tmp_path: Path) -> None:
     lower, upper = (trimesh.creation.box(bounds=[[0, 0, z], [20, 20, z + 2]]) for z in (0, 4))
@@ -112,6 +117,7 @@ def test_a_gap_between_layers_is_a_message(slice_mesh: Slicer, tmp_path: Path) -
         assert sliced["layers"] < round(6 / slicers.LAYER_HEIGHT)
 
 
+@pytest.mark.long
 @needs_prusa
 @pytest.mark.parametrize("refine", [False, True])
 def test_a_slicer_reads_a_smoothed_scan_without_repair(refine: bool, tmp_path: Path) -> None:

@@ -50,6 +50,7 @@ def test_every_nasty_file_is_named_here(data: Path) -> None:
     assert {path.name for path in (data / "nasty").iterdir() if path.suffix != ".md"} == set(NASTY)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", NASTY)
 def test_nasty_meshes_are_closed_or_told(name: str, data: Path, tmp_path: Path) -> None:
     says, volume, near = NASTY[name]
@@ -70,6 +71,7 @@ def test_nasty_meshes_are_closed_or_told(name: str, data: Path, tmp_path: Path) 
         assert mesh.volume == pytest.approx(volume, rel=near)
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("log_heard")
 @pytest.mark.parametrize(
     "name", ["unit_cube_1mm.stl", "metres_part_47um.stl", "nonmanifold.stl", "multibody_ascii.stl"]
@@ -81,6 +83,7 @@ def test_what_may_be_in_metres_is_told(name: str, data: Path, tmp_path: Path) ->
     assert read_mesh(tmp_path / "a.stl").closed
 
 
+@pytest.mark.slow
 def test_components_that_face_two_ways_are_both_solid(data: Path) -> None:
     mesh = trimesh.load(data / "nasty" / "multibody_ascii.stl", force="mesh")
     volume = sum(abs(component.convex_hull.volume) for component in mesh.split(only_watertight=False))
@@ -126,6 +129,7 @@ def saved(folder: Path, suffix: str, values: np.ndarray) -> Path:
     return path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", SAVERS)
 def test_every_format_of_volumes_gives_the_same_mesh(suffix: str, tmp_path: Path) -> None:
     path = saved(tmp_path, suffix, BALL.astype(np.uint8))
@@ -135,6 +139,7 @@ def test_every_format_of_volumes_gives_the_same_mesh(suffix: str, tmp_path: Path
     assert read_mesh(tmp_path / "a.stl").closed
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("suffix", SAVERS)
 def test_volumes_cut_off_anywhere_are_told_or_whole(suffix: str, tmp_path: Path) -> None:
     """Where the end is missing nothing may be made up: cells that are not there are not void."""
@@ -148,6 +153,7 @@ def test_volumes_cut_off_anywhere_are_told_or_whole(suffix: str, tmp_path: Path)
         assert list(tmp_path.iterdir()) == [path]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "suffix", [*SAVERS, ".stl", ".obj", ".off", ".ply", ".glb", ".3mf", ".xyz", ".csv", ".dcm", ".tiff"]
 )
@@ -173,6 +179,7 @@ ABSURD: dict[str, tuple[np.ndarray, str]] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("suffix", "kind"),
     [
@@ -191,6 +198,7 @@ def test_absurd_volumes_are_told(suffix: str, kind: str, tmp_path: Path) -> None
     assert list(tmp_path.iterdir()) == [path]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", [(2, 1, 1), (1, 2, 1), (1, 1, 2), (2, 2, 2), (1, 3, 3), (3, 3, 3)])
 def test_one_solid_voxel_gives_a_closed_mesh(shape: tuple[int, int, int], tmp_path: Path) -> None:
     solid = np.zeros(shape, dtype=bool)
@@ -202,6 +210,7 @@ def test_one_solid_voxel_gives_a_closed_mesh(shape: tuple[int, int, int], tmp_pa
     assert mesh.volume == pytest.approx(1, rel=0.01)
 
 
+@pytest.mark.long
 def test_folders_of_slices(tmp_path: Path) -> None:
     (tmp_path / "scan").mkdir()
     for k in range(BALL.shape[2]):
@@ -215,6 +224,7 @@ def test_folders_of_slices(tmp_path: Path) -> None:
 # --- meshes and points -----------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("suffix", [".stl", ".obj", ".off", ".ply", ".glb"])
 def test_meshes_cut_off_are_told_or_closed(suffix: str, tmp_path: Path) -> None:
     """Text without its last lines may be read as a mesh with a hole; what comes out is closed, or told."""
@@ -252,6 +262,7 @@ TEXT: list[tuple[str, str, str]] = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "text", "says"), TEXT, ids=[f"{i}-{name}" for i, (name, _, _) in enumerate(TEXT)])
 def test_small_texts_of_nonsense_are_told(name: str, text: str, says: str, tmp_path: Path) -> None:
     (tmp_path / name).write_text(text)
@@ -259,6 +270,7 @@ def test_small_texts_of_nonsense_are_told(name: str, text: str, says: str, tmp_p
     assert list(tmp_path.iterdir()) == [tmp_path / name]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "values",
     [

@@ -105,6 +105,7 @@ def solids(draw: st.DrawFn) -> Solid:
 # --- laws ------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 @given(solids(), st.sampled_from([0, 1, 5, 20, 60]))
 @example(np.array([[[True, False]]]), 20)
 @example(brick((1, 12, 12), (0, 1), (2, 9), (3, 10)), 20)
@@ -136,6 +137,7 @@ def test_every_solid_gives_a_closed_mesh_and_an_honest_report(solid: Solid, step
     json.dumps(report, allow_nan=False)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("turned", [(0, 2, 1), (2, 0, 1), (2, 1, 0)])
 def test_transposing_the_axes_transposes_the_mesh(turned: tuple[int, int, int]) -> None:
     spacing = (1.0, 0.7, 1.3)
@@ -149,6 +151,7 @@ def test_transposing_the_axes_transposes_the_mesh(turned: tuple[int, int, int]) 
     assert farthest(one.surface, Surface(vertices=other.surface.vertices[:, back], faces=other.surface.faces)) < 1e-2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("axis", [0, 1, 2])
 def test_mirroring_the_data_mirrors_the_mesh(axis: int) -> None:
     one = smooth_volume(pear(), method="plain", allow_broken=True)
@@ -159,6 +162,7 @@ def test_mirroring_the_data_mirrors_the_mesh(axis: int) -> None:
     assert other.mesh.volume > 0
 
 
+@pytest.mark.long
 @settings(max_examples=8)
 @given(st.tuples(*[st.integers(0, 20)] * 3), st.tuples(*[st.integers(0, 20)] * 3))
 @example((1, 0, 0), (0, 0, 0))
@@ -174,6 +178,7 @@ def test_void_around_the_data_moves_the_mesh_and_nothing_else(before: tuple[int,
     assert other.report["topology"]["result"] == one.report["topology"]["result"]
 
 
+@pytest.mark.long
 @settings(max_examples=8)
 @given(st.floats(1e-3, 1e3))
 @example(0.3)
@@ -202,6 +207,7 @@ def test_the_origin_and_the_direction_move_the_mesh() -> None:
     assert np.allclose(moved.surface.vertices, plain.surface.vertices + np.array((100, -20, 3)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("axes", [(-1, 1, 1), (1, -1, 1), (1, 1, -1), (-1, -1, -1)])
 def test_mirrored_axes_keep_the_outside_outside(axes: tuple[int, int, int]) -> None:
     result = smooth_volume(Volume(values=pear(), direction=np.diag(np.array(axes, float))), allow_broken=True)
@@ -218,6 +224,7 @@ def test_mirrored_axes_keep_the_outside_outside(axes: tuple[int, int, int]) -> N
 # --- threads, memory, types ------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 def test_threads_and_runs_give_the_same_bits() -> None:
     rng = np.random.default_rng(7)
     solid = smooth_noise(rng, (48, 40, 36)) > 0.1
@@ -273,6 +280,7 @@ KINDS: dict[str, tuple[Any, dict[str, Any]]] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_type_of_data_gives_the_mesh_of_its_solid(kind: str) -> None:
     make, options = KINDS[kind]
@@ -289,6 +297,7 @@ def phase() -> NDArray[np.float32]:
     return np.tanh((8.2 - away) / 1.4).astype(np.float32)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", ["bool", "uint8", "int16", "float32", "float64"])
 def test_memory_does_not_matter_and_nothing_is_changed(kind: str, tmp_path: Path) -> None:
     options: dict[str, Any] = {"allow_broken": True}
@@ -337,6 +346,7 @@ def test_grey_levels_place_the_surface_between_the_cells() -> None:
 # --- the volume ------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("steps", [5, 20, 60])
 @pytest.mark.parametrize("radius", [5, 9, 14])
 def test_level_volume_keeps_a_ball_and_level_0_shrinks_it(radius: int, steps: int) -> None:
@@ -388,6 +398,7 @@ def near(gap: int) -> Solid:
     return brick(shape, (10, 30), (10, 30), (10, 30)) | second
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("gap", [0, 1, 2, 3, 4, 6])
 def test_components_close_to_one_another_do_not_grow(gap: int) -> None:
     """They may fuse, and the report says so; but the volume is that of the data."""
@@ -497,6 +508,7 @@ def test_a_speck_that_vanishes_is_told_and_no_error() -> None:
     assert result.mesh.volume == pytest.approx(solid.sum(), rel=VOLUME)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "options",
     [
@@ -526,6 +538,7 @@ def test_simplified_meshes_stay_closed_and_close(options: dict[str, Any]) -> Non
     assert result.mesh.euler_number == full.mesh.euler_number
 
 
+@pytest.mark.slow
 def test_simplifying_keeps_the_space_and_what_it_cannot_do_is_told() -> None:
     volume = Volume(values=ball((20, 20, 20), (9.5,) * 3, 7), space="LPS", direction=np.diag([-1.0, 1, 1]))
     result = smooth_volume(volume, max_triangles=300)
@@ -553,6 +566,7 @@ def test_simplifying_keeps_the_space_and_what_it_cannot_do_is_told() -> None:
     assert rough.report["verdict"]["word"] == "lost"
 
 
+@pytest.mark.long
 def test_points_of_a_groove_that_is_filled_are_lost_and_strays_are_told() -> None:
     box, slot = trimesh.creation.box((20, 20, 10)), trimesh.creation.box((1, 30, 5))
     slot.apply_translation((0, 0, 3.5))
@@ -577,6 +591,7 @@ def test_points_of_a_groove_that_is_filled_are_lost_and_strays_are_told() -> Non
     assert stray["verdict"]["word"] == "changed a little"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["mask", "phase", "grey", "labels", "whole numbers"])
 def test_masked_cells_are_void(kind: str) -> None:
     solid = np.zeros((30, 30, 30), dtype=bool)
@@ -614,6 +629,7 @@ def plate(cells: int) -> Solid:
     return blocks | brick(shape, (16, 44), (6, 24), (14, 14 + cells))
 
 
+@pytest.mark.slow
 def test_a_thin_plate_that_breaks_is_an_error_and_allowed_on_request() -> None:
     smoothing = Smoothing(steps=60)
     with pytest.raises(GeometryError, match=r"mm² of the input is missing, up to .* mm away, at .*--strict"):
@@ -627,6 +643,7 @@ def test_a_thin_plate_that_breaks_is_an_error_and_allowed_on_request() -> None:
     assert smooth_volume(plate(8), method="plain").report["problems"] == []
 
 
+@pytest.mark.slow
 def test_remedies_are_tried_before_anything_is_refused() -> None:
     result = smooth_volume(plate(2), smoothing=Smoothing(steps=60), method="plain")
     assert result.report["verdict"]["word"] != "lost"
@@ -706,6 +723,7 @@ def sphere(subdivisions: int = 4) -> Any:
     return trimesh.creation.icosphere(subdivisions=subdivisions, radius=10.0)
 
 
+@pytest.mark.long
 def test_a_mesh_comes_back_in_its_place() -> None:
     mesh = sphere()
     mesh.apply_translation([5, -100, 30])
@@ -726,6 +744,7 @@ def test_a_mesh_comes_back_in_its_place() -> None:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scale", [1e-3, 1 / 25.4, 1000.0])
 def test_scaling_a_mesh_scales_the_result(scale: float) -> None:
     mesh = sphere(3)
@@ -736,6 +755,7 @@ def test_scaling_a_mesh_scales_the_result(scale: float) -> None:
     assert farthest(Surface(vertices=other.surface.vertices / scale, faces=other.surface.faces), one.surface) < 1e-3
 
 
+@pytest.mark.long
 def test_finer_cells_come_closer_to_the_mesh() -> None:
     errors = [smooth_mesh(sphere(), resolution=n).report["distance"]["result"]["rms"] for n in (15, 30, 60)]
     assert errors[0] > errors[1] > errors[2]
@@ -743,6 +763,7 @@ def test_finer_cells_come_closer_to_the_mesh() -> None:
     assert errors[2] < 0.5 * errors[0]
 
 
+@pytest.mark.long
 def test_points_of_a_sphere_give_a_ball_or_a_shell() -> None:
     points = np.asarray(sphere(4).vertices)
     solid = smooth_points(points, voxel=0.5)
@@ -843,6 +864,7 @@ def test_despeckling_a_phase_field_of_any_float(kind: str) -> None:
     assert (result.report["input"]["despeckled"], result.report["topology"]["result"]["components"]) == (1, 1)
 
 
+@pytest.mark.long
 def test_tolerance_and_triangles_are_both_kept_or_it_is_told() -> None:
     solid = ball((40, 40, 40), (19.5,) * 3, 13)
     with pytest.raises(GeometryError, match=r"at most 300 triangles and 0.02 mm of leeway"):
@@ -853,6 +875,7 @@ def test_tolerance_and_triangles_are_both_kept_or_it_is_told() -> None:
     assert both["mesh"]["simplified"]["shells"] == 1
 
 
+@pytest.mark.slow
 def test_a_volume_that_no_level_mends_is_a_problem(rng: np.random.Generator) -> None:
     noise = rng.random((20, 20, 20)) < 0.5
     result = smooth_volume(noise, method="plain", allow_broken=True)
@@ -867,6 +890,7 @@ def test_otsu_of_half_precision_and_of_a_narrow_range() -> None:
         assert found.report["topology"]["result"]["components"] == 1
 
 
+@pytest.mark.long
 def test_more_threads_than_make_sense_still_work() -> None:
     solid = ball((30, 30, 30), (14.5,) * 3, 9)
     assert smooth_volume(solid, threads=100_000).report["volume"] == pytest.approx(
@@ -888,6 +912,7 @@ def test_what_was_lost_is_told_where_it_was_in_space() -> None:
     assert any("1 wall vanished" in problem for problem in report["problems"])
 
 
+@pytest.mark.slow
 def test_the_log_tells_once_of_compiling(caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch) -> None:
     """What is compiled inside of what is compiled is not told again, nor is what is compiled later."""
     import numba
@@ -903,6 +928,7 @@ def test_the_log_tells_once_of_compiling(caplog: pytest.LogCaptureFixture, monke
     assert caplog.messages == ["compiling all: up to a minute, and kept for later runs"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("function", [smooth_volume, smooth_bricks])
 def test_nobody_waits_for_a_compiler_untold(
     function: Any, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
@@ -935,6 +961,7 @@ def test_how_far_edges_may_draw_back_goes_with_the_diffusion() -> None:
     assert Smoothing(steps=20).blur == pytest.approx(Smoothing(steps=80, alpha=1 / 28).blur)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tolerance", [0.05, 0.5])
 def test_changes_of_the_volume_say_what_they_compare(tolerance: float) -> None:
     """One is that of the mesh that is written over the data, in all places; the other is that of simplifying alone."""

@@ -36,6 +36,7 @@ def printed(*words: str) -> dict[str, Any]:
     return dict(json.loads(result.stdout))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "words",
     [
@@ -83,6 +84,7 @@ def test_it_is_told_in_words(folder: Path) -> None:
         assert words in result.stdout
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("words", "says"),
     [

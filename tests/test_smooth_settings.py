@@ -30,6 +30,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "words",
     [
@@ -47,6 +48,7 @@ def test_a_saved_config_gives_the_same_bytes(words: list[str], folder: Path) -> 
     assert (folder / "a.toml").read_text() == (folder / "b.toml").read_text()
 
 
+@pytest.mark.slow
 def test_every_label_by_a_saved_config(folder: Path) -> None:
     np.save("labels.npy", ((BALL < 64) * 3).astype(np.uint8))
     (folder / "names.txt").write_text("3 Rib 255 0 0 0\n")
@@ -57,6 +59,7 @@ def test_every_label_by_a_saved_config(folder: Path) -> None:
     assert b"Rib" in (folder / "b.glb").read_bytes()
 
 
+@pytest.mark.slow
 def test_a_config_alone_is_written_and_shown(folder: Path) -> None:
     """Nothing is smoothed for it, but what it says must make sense."""
     shown = run("smooth", "ct.npy", "--threshold", "300", "--save-config", "-", "-q")
@@ -96,6 +99,7 @@ def test_a_flag_that_is_typed_wins_even_if_it_is_the_default(folder: Path) -> No
     assert (kept["steps"], kept["grey"], kept["level"], kept["threshold"]) == (7, True, 0, 300)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("text", "says"),
     [

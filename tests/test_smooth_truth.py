@@ -56,6 +56,7 @@ def test_there_are_a_hundred() -> None:
     assert len(SHAPES) >= 100
 
 
+@pytest.mark.long
 def test_volumes_are_exact_and_not_biased() -> None:
     """Walls of two voxels and more; only what overlaps is counted on rows, and not to the last digit."""
     errors = {
@@ -68,6 +69,7 @@ def test_volumes_are_exact_and_not_biased() -> None:
     assert abs(np.mean(list(errors.values()))) < 2e-4
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", SHAPES)
 def test_nothing_is_lost_untold(name: str) -> None:
     made, result = SHAPES[name], smoothed(name)
@@ -90,6 +92,7 @@ def test_nothing_is_lost_untold(name: str) -> None:
         assert report["volume"] == pytest.approx(made.volume, rel=0.01)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("cells", [50, 100, 200])
 @pytest.mark.parametrize("turn", [False, True])
 def test_faces_of_boxes_keep_their_place(cells: int, *, turn: bool, rng: np.random.Generator) -> None:
@@ -111,6 +114,7 @@ def test_faces_of_boxes_keep_their_place(cells: int, *, turn: bool, rng: np.rand
             assert abs((side * own[face, axis] - sides[axis] / 2).mean()) < 0.03
 
 
+@pytest.mark.slow
 def test_walls_of_one_voxel_and_holes_of_one_and_a_half_survive() -> None:
     plate = smooth_mesh(surface_of(box(50, 40, 1.0)), voxel=1.0).report
     assert (plate["verdict"]["word"], plate["topology"]["result"]["tunnels"]) == ("kept", 0)
@@ -137,6 +141,7 @@ def assemblies(draw: st.DrawFn) -> trimesh.Trimesh:
     return union(box(8, 8, 8), *parts)
 
 
+@pytest.mark.long
 @settings(max_examples=16)
 @given(assemblies())
 def test_no_loss_is_called_kept(mesh: trimesh.Trimesh) -> None:
@@ -206,6 +211,7 @@ def test_faces_hidden_inside_are_no_loss_and_sheets_are_told() -> None:
     assert any("of faces that bound no solid are left out" in change for change in report["verdict"]["changes"])
 
 
+@pytest.mark.long
 def test_finer_voxels_are_tried_where_something_thin_would_be_lost() -> None:
     """A fin of half a voxel at 200 voxels: kept at 400, and told."""
     part = union(box(100, 20, 20), box(0.4, 20, 30, (0, 0, 20)))
@@ -217,6 +223,7 @@ def test_finer_voxels_are_tried_where_something_thin_would_be_lost() -> None:
         smooth_mesh(surface_of(union(box(100, 20, 20), box(0.1, 20, 30, (0, 0, 20)))), resolution=50, strict=True)
 
 
+@pytest.mark.slow
 def test_crumbs_are_taken_out_and_real_parts_stay() -> None:
     """Balls of one voxel beside a plate that breaks up into crumbs: each is a part of the mesh, and stays."""
     plate = turned(box(50, 40, 0.9), np.random.default_rng(1))
@@ -242,6 +249,7 @@ def test_thick_slices_are_interpolated() -> None:
     assert off.std() < 0.7 * (np.linalg.norm(stretched, axis=1) - 20).std()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("share", "method"), [(0.0, "refine"), (0.1, "plain")])
 def test_noise_is_measured_and_smoothed_plainly(share: float, method: str, rng: np.random.Generator) -> None:
     solid = ((np.indices((60, 60, 60)) - 29.5) ** 2).sum(axis=0) < 22**2

@@ -52,6 +52,7 @@ def test_the_comparison_can_fail(rng: np.random.Generator) -> None:
     assert not same(Surface(vertices=one.vertices, faces=one.faces[1:]), other)
 
 
+@pytest.mark.slow
 @settings(max_examples=40, deadline=None)
 @given(
     shape=st.tuples(*[st.integers(1, 20)] * 2, st.integers(1, 40)),
@@ -77,6 +78,7 @@ def test_it_is_the_surface_of_the_whole_field(
     assert one.volume > 0
 
 
+@pytest.mark.slow
 def test_thousands_of_saddles_leave_no_gap(rng: np.random.Generator) -> None:
     """Noise, in which a cube in ten has a saddle: each is decided as exactly as the first."""
     field = smooth_bricks(rng.normal(0, 0.3, (60, 60, 60)).clip(-1, 1).astype(np.float32), Smoothing(steps=0))
@@ -94,6 +96,7 @@ def test_solid_up_to_the_edge_is_closed_there(shape: tuple[int, int, int]) -> No
     assert np.allclose(one.bounds, [[0, 0, 0], shape], atol=1e-4)  # solid is a little weaker: see `TIE`
 
 
+@pytest.mark.slow
 def test_spacing_and_origin_place_it(rng: np.random.Generator) -> None:
     field = smooth_bricks(rng.random((20, 20, 20)) < 0.3, Smoothing(steps=2), spacing=(0.25, 0.5, 0.75))
     plain = extract_bricks(field, spacing=UNIT)

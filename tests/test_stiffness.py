@@ -27,6 +27,7 @@ def octet(count: int, density: float) -> np.ndarray:
     return (away <= np.quantile(away, density)).reshape(count, count, count)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("poisson", [0.0, 0.3, 0.45])
 def test_a_solid_cell_is_the_solid(poisson: float) -> None:
     found = homogenise_stiffness(np.ones((2, 3, 4), dtype=bool), poisson)
@@ -48,6 +49,7 @@ def test_what_stands_upright_is_as_stiff_upwards_as_there_is_of_it() -> None:
     assert homogenise_stiffness(upright).modulus(AXES)[2] == pytest.approx(shape.mean(), rel=1e-4)
 
 
+@pytest.mark.slow
 def test_nothing_is_stiffer_than_theory_allows() -> None:
     """The bulk modulus of an isotropic solid with voids: Hashin & Shtrikman, J. Mech. Phys. Solids 11 (1963) 127-140."""
     cell, poisson = octet(16, 0.4), 0.3
@@ -66,6 +68,7 @@ def test_turning_the_cell_turns_its_stiffness() -> None:
     assert turned.modulus(directions) == pytest.approx(homogenise_stiffness(cell).modulus(back), rel=1e-4)
 
 
+@pytest.mark.long
 def test_more_is_stiffer_and_a_shift_or_a_second_cell_changes_nothing() -> None:
     thin, thick = (octet(16, density) for density in (0.1, 0.3))
     assert thick[thin].all()
@@ -81,6 +84,7 @@ def test_what_floats_is_worth_nothing() -> None:
     assert homogenise_stiffness(island).modulus(AXES) == pytest.approx(0, abs=1e-6)
 
 
+@pytest.mark.long
 def test_the_octet_is_as_stiff_as_published() -> None:
     """E = density / 9 along the axes of the cube, and density / 5 along its diagonals, for slender bars.
 

@@ -119,6 +119,7 @@ def test_a_layer_has_two_axes() -> None:
             stack(bad, 1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("layers", [1, 2, 5, 40])
 @pytest.mark.parametrize("kind", ["smoothed", "binary", "saddles"])
 def test_extruding_is_stacking(layers: int, kind: str, rng: np.random.Generator) -> None:
@@ -154,6 +155,7 @@ def test_the_cap_of_a_weak_wall_is_rounded() -> None:
     assert mesh.bounds[:, 2] == pytest.approx([0.5 - 1 / 3, 1.5 + 1 / 3], abs=1e-4)
 
 
+@pytest.mark.slow
 @given(seed=st.integers(0, 2**32 - 1))
 def test_the_layer_predicts_the_euler_number_of_the_mesh(seed: int) -> None:
     rng = np.random.default_rng(seed)

@@ -183,6 +183,7 @@ def wall(angle: float, width: float) -> tuple[shapely.MultiLineString, Grid]:
     return shapely.MultiLineString([[tuple(-along), tuple(along)]]), grid
 
 
+@pytest.mark.long
 @given(angle=st.floats(0, math.pi), width=st.floats(0.3, 2.0))
 def test_a_straight_wall_has_its_width(angle: float, width: float) -> None:
     lines, grid = wall(angle, width)
@@ -233,6 +234,7 @@ def test_the_layer_must_be_the_grids() -> None:
         wall_width(lines, np.ones((3, 3)), grid, requested=0.5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("degrees", [0, 7, 15, 22.5, 45])
 def test_the_exact_stamp_keeps_the_width_through_smoothing(degrees: float) -> None:
     """Five cells across, ten steps: 1 % in the mean, 2 % from the 5th to the 95th percentile."""

@@ -126,6 +126,7 @@ def test_a_unit_that_is_given_stands_above_the_format(tmp_path: Path) -> None:
     assert np.ptp(read_source(tmp_path / "a.glb", units="mm").vertices, axis=0).max() == pytest.approx(60)
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("log_heard")
 def test_smooth_takes_a_small_glb_and_writes_one(tmp_path: Path) -> None:
     save(trimesh.creation.icosphere(3, radius=0.7), tmp_path / "a.glb")

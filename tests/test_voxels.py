@@ -81,6 +81,7 @@ def closed_mesh(seed: int, points: int) -> Surface:
     return Surface(vertices=rng.uniform(-1, 1, size=hull.vertices.shape), faces=np.array(hull.faces))
 
 
+@pytest.mark.slow
 @given(seed=st.integers(0, 10_000), points=st.integers(4, 20))
 def test_every_cell_is_what_the_winding_number_says(seed: int, points: int) -> None:
     mesh = closed_mesh(seed, points)
@@ -115,6 +116,7 @@ def test_moving_by_whole_cells_moves_the_grid(steps: tuple[int, ...]) -> None:
     assert np.allclose(np.array(there.origin) - here.origin, steps, atol=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("axis", [0, 1, 2])
 def test_a_mirrored_mesh_has_mirrored_cells(axis: int) -> None:
     mesh = closed_mesh(5, 15)
@@ -124,6 +126,7 @@ def test_a_mirrored_mesh_has_mirrored_cells(axis: int) -> None:
     assert np.array_equal(voxelise(mirrored, resolution=30).values, np.flip(voxelise(mesh, resolution=30).values, axis))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("order", [(1, 2, 0), (2, 0, 1), (1, 0, 2)])
 def test_axes_are_all_alike(order: tuple[int, ...]) -> None:
     mesh = closed_mesh(6, 15)
@@ -131,6 +134,7 @@ def test_axes_are_all_alike(order: tuple[int, ...]) -> None:
     assert np.array_equal(voxelise(turned, resolution=30).values, voxelise(mesh, resolution=30).values.transpose(order))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("scale", [1e-3, 25.4, 1e4])
 def test_units_scale_the_grid_and_change_no_cell(scale: float) -> None:
     mesh = closed_mesh(7, 15)
@@ -170,6 +174,7 @@ def test_a_ball_has_its_volume() -> None:
         assert size(voxelise(surface(ball()), resolution=resolution)) == pytest.approx(BALL.volume, rel=within)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("turned", [(False, False), (True, True), (False, True), (True, False)])
 def test_overlapping_balls_are_united(turned: tuple[bool, bool]) -> None:
     one, other = ball(inward=turned[0]), ball(at=(12, 0, 0), inward=turned[1])
@@ -188,6 +193,7 @@ def test_a_ball_that_faces_against_the_one_around_it_is_a_cavity(all_inward: boo
     assert size(voxelise(mesh, resolution=100)) == pytest.approx(mesh.volume * (-1 if all_inward else 1), rel=0.002)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("inward", [False, True])
 def test_a_ball_that_faces_as_the_one_around_it_adds_nothing(inward: bool) -> None:
     mesh = surface(ball(inward=inward), ball(5, inward=inward))
@@ -221,6 +227,7 @@ def test_a_box_without_a_triangle_is_the_box(missing: int) -> None:
     assert 0 < repairs.hole_share < 0.2
 
 
+@pytest.mark.long
 @given(seed=st.integers(0, 10_000))
 def test_triangles_turned_over_or_doubled_change_nothing(seed: int) -> None:
     rng = np.random.default_rng(seed)
@@ -333,6 +340,7 @@ def test_errors_say_what_to_do(mesh: Surface, options: dict[str, float], error: 
     assert ";" in str(caught.value)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "name",
     [
@@ -352,6 +360,7 @@ def test_closed_meshes_have_their_volume(data: Path, name: str) -> None:
     assert size(voxelise(mesh)) == pytest.approx(abs(mesh.volume), rel=1e-3)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("name", "expected", "within"),
     [
@@ -378,6 +387,7 @@ def test_an_open_mesh_is_the_same_mesh_filled(data: Path) -> None:
     assert np.array_equal(volume.values, voxelise(read_mesh(data / "models/pig_filled.stl")).values)
 
 
+@pytest.mark.long
 def test_overlapping_bones_are_united(data: Path) -> None:
     mesh = read_mesh(data / "medical/foot_right_bodyparts3d.stl")
     found = voxelise_with_report(mesh, resolution=40)
@@ -406,6 +416,7 @@ def test_the_mesh_that_was_voxelised_is_closed_and_encloses_what_was_told() -> N
         assert found.closed.bounds == pytest.approx(mesh.bounds)
 
 
+@pytest.mark.slow
 def test_a_mesh_with_holes_is_capped_once(monkeypatch: pytest.MonkeyPatch) -> None:
     from infill import smooth_mesh
     from infill.voxels import from_mesh

@@ -59,6 +59,7 @@ def farthest(path: np.ndarray, other: np.ndarray) -> float:
     return max(float(shapely.distance(shapely.points(points), line).max()) for points, line in ways)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("deviation", [0.1, 0.2])
 def test_length_is_kept_and_arcs_are_larger(deviation: float) -> None:
     """On Hilbert's curve, at the same distance from it; arcs inside the corners lose a tenth of it."""
@@ -95,6 +96,7 @@ def waves(apart: float, count: int = 8, side: float = 2.7) -> list[np.ndarray]:
     return [np.stack([x, y], axis=1) for y in (low, -low, -2 * step - apart - low)]
 
 
+@pytest.mark.slow
 @given(
     deviation=st.floats(0.02, 0.1),
     angle=st.floats(0, 2 * math.pi),
