@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -33,7 +34,13 @@ from patterns import (
     parameter,
     phase_parameter,
 )
+from patterns.foam import VoronoiFoam
+from patterns.hatch import CrossHatch
 from patterns.linework import to_pattern_coordinates
+from patterns.octree import Octree
+from patterns.polyhedra import Polyhedra
+from patterns.protocol import gives
+from patterns.unit_cells import Bars, Network, Planes, Surfaces
 
 DESIGNS: list[Pattern] = [
     Honeycomb(),
@@ -116,6 +123,25 @@ LEVEL_SETS: list[Pattern] = [
 ]
 BUILT_IN = [name for name in PATTERNS.built_in if PATTERNS[name].prismatic]
 IN_SPACE = {name: PATTERNS[name]() for name in PATTERNS.built_in if name not in BUILT_IN}
+
+
+def one_of_each_kind(names: Iterable[str]) -> list[str]:
+    """Return the first pattern of each kind, by name: patterns of a kind have their voids from the same code.
+
+    In space: surfaces, one side of them, planes, polyhedra, octrees, bars, and each pattern that is a kind of its own.
+    Of lines: those with a level set, those that follow the part, and the others.
+    """
+    first: dict[object, str] = {}
+    for name in names:
+        pattern = IN_SPACE.get(name)
+        kinds = (Network, CrossHatch, Surfaces, Planes, Polyhedra, Octree, VoronoiFoam, Bars)
+        kind = next((kind for kind in kinds if isinstance(pattern, kind)), type(pattern))
+        if pattern is None:
+            kind = (PATTERNS[name].follows, gives(PATTERNS[name]))
+        first.setdefault(kind, name)
+    return list(first.values())
+
+
 OF_THE_PAPER = ("honeycomb", "zigzag", "concentric-heart")  # walls a cell apart, or more, everywhere
 REGIONS: list[Polygon] = [
     box(-30, -30, 30, 30),
