@@ -61,8 +61,15 @@ class InfillError(Exception):
 
     @classmethod
     def about(cls, parameters: str | tuple[str, ...], problem: str) -> Self:
-        """Return an error about one or several arguments; the message is their names and the problem."""
-        names = (parameters,) if isinstance(parameters, str) else parameters
+        """Return an error about one or several arguments; the message is their names and the problem.
+
+        >>> ParameterError.about("size x", "is -3 mm").parameter  # a part of an argument
+        'size'
+        """
+        if isinstance(parameters, str):
+            parameters, _, part = parameters.partition(" ")
+            parameters, problem = (parameters,), f"{part} {problem}" if part else problem
+        names = parameters
         error = cls(f"{join_names(names)} {problem}")
         error.parameters, error._problem = names, problem
         return error

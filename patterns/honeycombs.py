@@ -67,7 +67,7 @@ class LateralHoneycomb(Polyhedra):
     )
 
     def faces(self) -> tuple[Floats, Floats]:
-        """See `Polyhedra`."""
+        """Return a normal for each pair of faces, and its distance from the middle, in cells."""
         import numpy as np
 
         width, rise = self._wall()

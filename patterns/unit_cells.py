@@ -204,6 +204,7 @@ class Network(Cells):
         return shortfall
 
     def _deep(self, points: Floats) -> Floats:
+        """Return the depth of points on the chosen side of the surfaces, in cells; negative on the other side."""
         return self.side * self.surfaces.distance(points)
 
 

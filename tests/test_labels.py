@@ -411,7 +411,7 @@ def test_files_that_exist_are_kept(folder: Path) -> None:
         ("-o {label}.stl -o all.obj", "all.obj can hold one mesh"),
         ("-o no/{label}.stl", "there is no folder no"),
         ("-o {label}.stl --labels gone.txt", "there is no file gone.txt"),
-        ("-o {label}.stl --labels bones.npy", "no table of labels"),
+        ("-o {label}.stl --labels bones.npy", "not a table of labels"),
         ("-o {label}.stl --as mesh", "labels are those of a volume, and bones.npy is read as mesh"),
         ("-o {label}.obj --ascii", "only .stl can be written as text"),
         ("-o {label}.stl --roi 0,9,0,9,0", "roi is '0,9,0,9,0'; give 6 number"),

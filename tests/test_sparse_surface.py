@@ -18,7 +18,7 @@ from infill.isosurfaces.sparse_marching import (
     extract_bricks,
     extract_level,
     measure_level,
-    raw_counts,
+    raw_cube_counts,
 )
 from infill.kernels.sparse_marching import UNDECIDED
 from infill.phasefield.sparse import SparseField, smooth_bricks
@@ -127,7 +127,7 @@ def test_the_table_knows_the_cubes_that_signs_do_not_decide() -> None:
         assert (counts[signs] == UNDECIDED) == (counts[mirrored] == UNDECIDED)
     assert counts[0] == counts[255] == 0
     assert (counts == UNDECIDED).sum() == 128
-    assert (raw_counts() != UNDECIDED).all()
+    assert (raw_cube_counts() != UNDECIDED).all()
     # An edge that is crossed is a corner of some triangle.
     for signs in np.flatnonzero(counts > 0):
         edges = {int(e) for t in cube_table().triangles[signs, : counts[signs]] for e in t}

@@ -9,7 +9,7 @@ import pytest
 import shapely
 from hypothesis import example, given
 from hypothesis import strategies as st
-from shapes import DESIGNS
+from shapes import BUILT_IN, DESIGNS
 
 from infill import Grid, Smoothing, stamp
 from infill.making.request import plan_block
@@ -51,7 +51,7 @@ def straight_pieces(lines: shapely.MultiLineString, shortest: float) -> list[np.
     return found
 
 
-DEFAULTS = [PATTERNS[name]() for name in PATTERNS]
+DEFAULTS = [PATTERNS[name]() for name in BUILT_IN]
 
 
 @pytest.mark.parametrize("pattern", [*DEFAULTS, *DESIGNS], ids=lambda pattern: repr(pattern)[:60])

@@ -20,16 +20,14 @@ from patterns.errors import PatternError, PatternUsageError
 FAILED, USAGE = 1, 2
 UsageException: type[Exception] = typer.BadParameter.__mro__[1]  # the root of usage errors, which typer does not export
 ADVANCED = "Advanced"  # the panel of options that need the mathematics
-# Names of an argument of the library as a parameter of a command, where they differ.
-PARAMETERS_OF_ARGUMENT = {
-    "threshold": ("threshold", "between"),
-    "radius": ("smooth_radius",),
-    "object": ("part",),
-    "as": ("kind",),
-    "for": ("slicer",),
-    "open": ("open_",),
-    "range": ("between",),
-    "smooth": ("method",),
+# Options, by flag, that stand for an argument of the library with another name.
+FLAGS_OF_ARGUMENT = {
+    "threshold": ("--threshold", "--range"),
+    "between": ("--range",),
+    "radius": ("--smooth-radius",),
+    "method": ("--smooth",),
+    "kind": ("--as",),
+    "slicer": ("--for",),
 }
 
 
@@ -98,10 +96,11 @@ def use_typed_options(error: InfillError | PatternError, context: typer.Context)
 
 def _typed_option(word: str, context: typer.Context) -> str:
     """Return the option that was typed for an argument of the library, or the word itself."""
+    flags = FLAGS_OF_ARGUMENT.get(word, (f"--{word.replace('_', '-')}",))
     for option in context.command.params:
         source = context.get_parameter_source(str(option.name))
         if (
-            option.name in PARAMETERS_OF_ARGUMENT.get(word, (word,))
+            (option.name == word or set(flags) & set(option.opts))
             and source is not None
             and source.name == "COMMANDLINE"
         ):

@@ -51,7 +51,7 @@ class SmoothOutput:
 
 
 def wants_every_label(outputs: Sequence[Path], *, each_label: bool, labels: Path | None, keep_going: bool) -> bool:
-    """Tell whether every label is requested; raise BadParameter for options that make no sense otherwise."""
+    """Tell whether --each-label is given, or {label} in an output; raise BadParameter for options that need it."""
     from infill.imaging.label_tables import is_template
 
     if each_label or any(is_template(path) for path in outputs):

@@ -161,12 +161,11 @@ def _log_errors(gcode: Path, context: typer.Context, *, in_place: bool) -> Itera
     try:
         yield
     except (InfillError, PatternError) as error:
-        error.args = (use_typed_options(error, context),)
+        message = use_typed_options(error, context)
         for log in logs if gcode.is_file() else []:
             with contextlib.suppress(OSError):
-                log.write_text(f"error: {error}\n", encoding="utf-8")
-                error.args = (f"{error} (log: {log})",)
-                break
+                log.write_text(f"error: {message}\n", encoding="utf-8")
+                raise type(error)(f"{message} (log: {log})") from error
         raise
     for log in logs:
         with contextlib.suppress(OSError):

@@ -194,6 +194,7 @@ def _volumetric_note(plan: Motion) -> str:
 
 
 def _plate_text(plan: Motion) -> str:
+    """Describe the plate that was timed, among those of the archive, and how to choose another."""
     if len(plan.plates) == 1:
         return f"{plan.plate}, the only one"
     return f"{plan.plate} of {', '.join(map(str, plan.plates))}; --plate chooses"

@@ -198,7 +198,7 @@ def _find_goals(
 
 
 def _find_faces_near(below: TurnedPart, starts: BranchEnds, drained: set[int], distance: float) -> Integers:
-    """Find the faces of drained voids within a distance of the box of the starts of any void."""
+    """Find faces of drained voids near the starts of at least one void: within a distance of their own box."""
     faces = np.flatnonzero(np.isin(below.owners, list(drained)))
     low, high = below.boxes[:, faces]
     is_near = np.zeros(len(faces), dtype=bool)

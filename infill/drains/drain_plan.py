@@ -211,7 +211,7 @@ class _Wish:
 
 
 def _plan_holes(views: _Views, volume: Floats, needs: DrainNeeds, wish: _Wish) -> DrainPlan:
-    """Plan holes of one diameter, without remedies for voids that have none."""
+    """Plan the wished holes, and drains and vents of one diameter; leave voids that have no place without one."""
     names, opening, count = views.names, wish.opening, views.count
     is_open = np.zeros(count, dtype=bool)
     if opening is not None:
@@ -272,7 +272,7 @@ def _record_fits(voids: list[SealedVoid], width: float, without: set[int]) -> li
 
 
 def _narrower_diameters(diameter: float) -> list[float]:
-    """List the diameters to try in place of one, mm, in steps of drill sizes.
+    """List the diameters to try instead, mm: the shares `NARROWER` of one, rounded down to 0.1 mm.
 
     >>> _narrower_diameters(3.0), _narrower_diameters(0.6)
     ([2.2, 1.5, 1.0, 0.7], [0.5])
@@ -411,7 +411,7 @@ def _make_hole_at(
     place: tuple[float, float, float], views: _Views, needs: DrainNeeds, *, remedies: bool = True
 ) -> Hole:
     """Make the hole at a place of the skin, straight in from there, or raise GeometryError."""
-    request = "drain_at is ({:g}, {:g}, {:g})".format(*place)
+    request = "is ({:g}, {:g}, {:g})".format(*place)
     point, face, distance = _nearest_on_skin(np.array(place), views.part)
     below = views.along(_rotation_down(_normal(views.part, face)))
     x, y, z = below.turned @ point
@@ -445,7 +445,7 @@ def _make_hole_at(
             (narrower.diameter for narrower in widths if _is_possible(place, None, views, narrower, None)), None
         )
         remedy = remedy if fits is None else f"{remedy}, or give drains of {fits:g} mm"
-    raise GeometryError(f"{fault}; {remedy}")
+    raise GeometryError.about("drain_at", f"{fault}; {remedy}")
 
 
 def _measure_shaft(below: TurnedPart, ways: DrainWays, way: int, needs: DrainNeeds) -> Shaft | None:

@@ -36,7 +36,7 @@ def read_grey(path: Path) -> NDArray[np.float32]:
 
 
 def read_bitmap(path: Path) -> Picture:
-    """Read a picture as a field from -1, light, to +1, dark; transparent pixels are light.
+    """Read a picture as a field [x, y]: 0 at the Otsu threshold of its greys, -1 light or transparent, +1 dark.
 
     The threshold separates its greys best (Otsu, IEEE Transactions on Systems, Man, and Cybernetics 9 (1979) 62).
     """

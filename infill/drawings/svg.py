@@ -170,7 +170,7 @@ class _Reader:
                 yield line @ matrix[:, :2].T + matrix[:, 2]
 
     def _nested_matrix(self, element: ElementTree.Element, sized: ElementTree.Element) -> Matrix:
-        """Return the matrix of a nested view box."""
+        """Return the matrix that fits the view box of `element` into the width and height that `sized` states."""
         width, height = (
             parse_length(sized.get(name), full_size, full_size)
             for name, full_size in zip(("width", "height"), self.view, strict=True)
@@ -191,7 +191,7 @@ class _Reader:
             yield from self._lines_of(target, matrix, depth + 1)
 
     def _shape_lines(self, element: ElementTree.Element, tag: str) -> list[Line]:
-        """Return the lines of a shape in its own coordinates."""
+        """Return the lines of a shape in its own coordinates; count a background rectangle as left out instead."""
         width, height = self.view
         mean = math.hypot(width, height) / math.sqrt(2)
 

@@ -62,7 +62,7 @@ def require_not_empty(path: Path) -> Path:
 
 @contextlib.contextmanager
 def wrap_reader_errors(path: Path, what: str | None = None, advice: str = "save it again") -> Iterator[None]:
-    """Turn the exception of a reader about a broken file into a FormatError; errors of this package pass unchanged.
+    """Turn errors of a reader about a broken file into FormatError, and MemoryError into MemoryLimitError.
 
     Parameters
     ----------

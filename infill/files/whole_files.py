@@ -159,7 +159,7 @@ def _move_to_targets(moves: Sequence[tuple[Path, Path]]) -> None:
 
 
 def _back_up(target: Path, backup: Path) -> bool:
-    """Give the file at a target a second name; return False if there is none."""
+    """Keep the file at a target under a second name, by a link or else a copy; return False if there is none."""
     if not target.exists():
         return False
     try:

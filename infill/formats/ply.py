@@ -148,7 +148,7 @@ def _header(path: Path, data: bytes) -> tuple[str, list[Element], int]:
     order, elements, place = None, [], line_end + len(line_break)
     while place < len(head):
         line, terminator, _ = (
-            head[place:].partition(line_break) if len(head) < 4096 else _split_line(head, place, line_break)
+            head[place:].partition(line_break) if len(head) < 4096 else _partition_line(head, place, line_break)
         )
         place += len(line) + len(line_break)
         words = line.decode("utf-8", errors="replace").split()
@@ -184,8 +184,8 @@ def _check_names(path: Path, elements: list[Element]) -> None:
         raise FormatError(f"{path} has a header in which two elements or properties have one name; export it again")
 
 
-def _split_line(head: bytes, place: int, end: bytes) -> tuple[bytes, bytes, bytes]:
-    """Return a line, its end if it has one, and an empty rest."""
+def _partition_line(head: bytes, place: int, end: bytes) -> tuple[bytes, bytes, bytes]:
+    """Partition the text from `place` at the first `end`, as bytes.partition does, but leave the rest empty."""
     position = head.find(end, place)
     return (head[place:], b"", b"") if position < 0 else (head[place:position], end, b"")
 

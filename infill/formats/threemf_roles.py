@@ -92,7 +92,7 @@ def metadata_of(element: ElementTree.Element) -> dict[str, str]:
 
 
 def prusa_role(volume: ElementTree.Element) -> str:
-    """Return the role of a volume as PrusaSlicer reads it: the last entry with a role counts.
+    """Return this package's role of a PrusaSlicer volume: the last row with a role counts; otherwise a part.
 
     >>> prusa_role(ElementTree.fromstring('<volume><metadata key="modifier" value="1"/></volume>'))
     'modifier'

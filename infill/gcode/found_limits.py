@@ -280,7 +280,7 @@ def _parse_settings(settings: Mapping[str, str], start: Limits) -> dict[str, Any
 
 
 def _first_number(text: str | None) -> float | None:
-    """Return the first number of a list, or None if it cannot be a limit."""
+    """Return the first number of a list; None if it is missing, unreadable, negative or infinite."""
     try:
         number = float((text or "").split(",")[0])
     except ValueError:

@@ -175,6 +175,7 @@ class _Lines(NamedTuple):
 
 
 def _survey_lines(code: Bytes, starts: NDArray[np.int64]) -> _Lines:
+    """Find the first character and semicolon of each line, and whether it is a comment, a G command or odd."""
     count = len(code)
     place = np.arange(count)
 

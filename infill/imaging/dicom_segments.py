@@ -93,7 +93,7 @@ def segment_layers(
 
 
 def segment_volume(path: Path, images: Sequence[Image], frame: int | None) -> tuple[Volume, tuple[str, ...]]:
-    """Return a layer of segment numbers, or the share of each cell in the only segment, and warnings."""
+    """Return the volume of segment numbers that `frame` chooses, or the shares of a lone segment; and warnings."""
     segment_info = _require_segments(images[0])
     numbers = {slice_frame.segment for slice_frame in images[0].frames}
     if len(images) == 1 and segment_info.kind == "FRACTIONAL" and len(numbers) == 1:

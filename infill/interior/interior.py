@@ -128,7 +128,7 @@ class Interior:
 
     @property
     def below_walls(self) -> NDArray[np.float32]:
-        """Depths of all cells below the walls, (nx, ny, nz) in cells, also where voids reach through the walls."""
+        """Depths below the walls, (nx, ny, nz) in cells: `depth`, less what lets voids reach through the walls."""
         return self.depth - np.float32(self.through) if self.through else self.depth
 
     @cached_property
@@ -208,12 +208,12 @@ def compute_interior(
     further = added_length(open_, wall, beyond, voxel)
     sides = " x ".join(f"{side:.3g}" for side in extents)
     nowhere = (
-        f"wall is {wall:g} mm, and the part, {sides} mm, is nowhere thicker than two of those; "
+        f"is {wall:g} mm, and the part, {sides} mm, is nowhere thicker than two of those; "
         f"give a thinner wall{', or the right unit' if extents.max() < TINY else ''}"
     )
     # Checked first, as measuring may take long; a flat sheet has a separate message.
     if extents.min() > 0 and (extents + further * UP).min() <= 2 * wall:
-        raise GeometryError(nowhere)
+        raise GeometryError.about("wall", nowhere)
     grid = grid_for_part(part, voxel=voxel, further=further)
     advice = f"the grid has {' x '.join(map(str, grid.shape))} cells; give larger voxels or larger cells"
     require_memory(_memory_bytes(grid.shape, held, slabs=slabs), max_memory, advice)
@@ -241,7 +241,7 @@ def compute_interior(
     else:
         layers = LayerStack.of(depths_of(cells))
     if not any((slab > 0).any() for _, slab in layers.each()):
-        raise GeometryError(nowhere)
+        raise GeometryError.about("wall", nowhere)
     space = Interior(
         layers=layers,
         size=voxel,

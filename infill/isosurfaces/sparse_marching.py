@@ -301,8 +301,8 @@ def cube_table() -> CubeTable:
 
 
 @cache
-def raw_counts() -> NDArray[np.int8]:
-    """Return, for the signs of every cube of +-1 data, its triangles minus two for each vertex inside it."""
+def raw_cube_counts() -> NDArray[np.int8]:
+    """Return for each of 256 sign patterns the triangles of a +-1 cube, minus two for each vertex inside it."""
     counts = cube_table().counts.copy()
     unsure = np.flatnonzero(counts == kernels.UNDECIDED)
     corners = np.where(unsure[:, None] >> np.arange(CORNERS) & 1, np.float32(TIE), np.float32(-1)).astype(np.float32)
@@ -315,7 +315,9 @@ def raw_counts() -> NDArray[np.int8]:
 
 def euler_number_of_bits(field: SparseField, bits: NDArray[np.uint16], *, threads: int | None = None) -> int:
     """Return the Euler number of the surface of the bricks if the cells in `bits` were +1 and all others -1."""
-    return _euler_number(_count_per_brick(field, bits, _crossed_bricks(field, bits, threads), raw_counts(), threads))
+    return _euler_number(
+        _count_per_brick(field, bits, _crossed_bricks(field, bits, threads), raw_cube_counts(), threads)
+    )
 
 
 def doubt_and_euler_number(

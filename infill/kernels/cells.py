@@ -98,7 +98,7 @@ def from_period(depth, threshold, table, turn, start, period, sign, half, ratio,
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def from_bars(depth, threshold, edges, bar_start, which, turn, start, period, half, ratio, step, out, thread, threads):
-    """Fill `out` with the lesser of the depth and the distance from periodic round bars, in cells.
+    """Fill `out` with the lesser of depth and distance from the bars' skin; return how many cells it fills.
 
     Parameters
     ----------

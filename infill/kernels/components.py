@@ -88,7 +88,7 @@ def run_at(bits, bricks, starts, s, row, k):
 
 @njit(cache=True)
 def node_at(alone, slots, p, q, r, row, k, bits, bricks, starts):
-    """Return the node of a cell of any brick of the lattice, or -1 if the cell is not of the kind to label."""
+    """Return the node of cell `k` of a row of the brick (p, q, r), or -1 if it is not of the kind to label."""
     slot = slots[p, q, r]
     if slot < 0:
         return np.int64(alone[p, q, r])

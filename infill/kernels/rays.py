@@ -13,7 +13,7 @@ from infill.kernels.sparse import B0, B1, B2, SOLID_BRICK
 
 @njit(nogil=True, cache=True)
 def sample_rays(slots, values, shape, start, direction, distance, size, level, out):
-    """Set out[ray, place] to 1 where `values` of the bricks are above a level, else to -1; beyond the grid is void."""
+    """Set out[ray, place] to 1 where the cell that holds a place, mm, is above a level, else to -1."""
     n0, n1, n2 = shape
     for ray in range(len(start)):
         x, y, z = start[ray, 0] / size[0], start[ray, 1] / size[1], start[ray, 2] / size[2]

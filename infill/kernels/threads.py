@@ -65,6 +65,7 @@ def run_together(*works: Callable[[], Any], threads: int) -> list[Any]:
 
 @cache
 def _pool(threads: int, process: int) -> ThreadPoolExecutor:  # noqa: ARG001 - a forked process has no threads yet
+    """Return the pool of `threads` - 1 workers beside the calling thread, kept for each process."""
     return ThreadPoolExecutor(threads - 1, thread_name_prefix="infill")
 
 

@@ -96,12 +96,15 @@ def check_drain_width(request: FillSpec, bounds: NDArray[np.floating]) -> None:
     width = float(np.ptp(np.asarray(bounds, dtype=np.float64), axis=0)[:2].min())
     room = width - 2 * request.wall
     if request.drain > room:
-        fault = f"drain is {request.drain:g} mm, and the part is {width:.4g} mm wide"
+        fault = f"is {request.drain:g} mm, and the part is {width:.4g} mm wide"
         if room <= 0:
-            raise GeometryError(f"{fault}, no more than two walls of {request.wall:g} mm; leave drain out")
-        raise GeometryError(
+            raise GeometryError.about(
+                "drain", f"{fault}, no more than two walls of {request.wall:g} mm; leave drain out"
+            )
+        raise GeometryError.about(
+            "drain",
             f"{fault}: between walls of {request.wall:g} mm there is room for no more than {room:.3g}; give a thinner "
-            "drain or wall"
+            "drain or wall",
         )
 
 

@@ -290,6 +290,7 @@ class DensityFit:
         return hollow
 
     def _solid_share(self, sizes: tuple[float, float]) -> float:
+        """Prepare the voids for a cell and a line width, keep them, and return the solid share."""
         cell, width = sizes
         self.voids = self.voids.prepare(self.space, cell=cell, width=width)
         return solid_share(self.space, self.voids, cell, width)

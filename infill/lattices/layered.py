@@ -49,7 +49,7 @@ class LinesByLayer(Protocol):
         ...
 
     def sharpest(self, space: Interior, cell: float) -> float:
-        """See `Voids`."""
+        """Return the angle of the sharpest corners between lines, degrees: see `Voids`."""
         ...
 
     def about(self, middle: Floats) -> Self:

@@ -203,7 +203,7 @@ def density_steps(hollow: VoidMeshes, voids: Voids) -> list[dict[str, float]]:
 
 
 def is_width_ok(width: float, requested: float) -> bool:
-    """Tell whether walls or bars are as wide as requested, or nearly."""
+    """Tell whether the width of walls or bars is nearly the requested one, neither less nor more."""
     return abs(width / requested - 1) <= OFF_WIDTH
 
 

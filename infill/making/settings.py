@@ -156,6 +156,7 @@ class MakeSettings:
         return with_parameters(resolve_lines(self.pattern), self.parameters)
 
     def _request(self) -> dict[str, Any]:
+        """Return the settings as keyword arguments of `infill.make`."""
         from infill.phasefield.allen_cahn import Smoothing
 
         smoothing = Smoothing(steps=self.steps, fidelity=self.fidelity, interface=self.interface, alpha=self.alpha)

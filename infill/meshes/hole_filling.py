@@ -59,7 +59,7 @@ def orient_faces(faces: Integers) -> Integers:
 
 
 def weld_boundary(vertices: Floats, faces: Integers) -> Integers:
-    """Merge corners on open edges that are closer than `WELD`, which closes cracks; return the faces."""
+    """Merge corners on open edges that are closer than `WELD`, vertices in cells; return the faces."""
     from scipy.spatial import KDTree
 
     border = np.unique(open_edges(faces))

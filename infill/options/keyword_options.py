@@ -57,7 +57,7 @@ def parse_number(name: str, value: object) -> float:
 
 
 def check_fits_float(name: str, value: float) -> float:
-    """Check that a floating-point number can hold a number, or raise ParameterError."""
+    """Return a number unchanged, or raise ParameterError if it is too large for a float."""
     try:
         float(value)
     except OverflowError:
@@ -75,7 +75,7 @@ def parse_whole(name: str, value: object) -> int:
 
 
 def parse_wholes(name: str, value: object) -> tuple[int, ...]:
-    """Check one or more whole numbers, or raise UsageError.
+    """Return an integer, or a list or tuple of integers, as a tuple, or raise UsageError.
 
     >>> parse_wholes("label", [3, 4]), parse_wholes("label", 3)
     ((3, 4), (3,))

@@ -14,7 +14,7 @@ OPTIONS = {"form": "as"}  # names of options that reports call otherwise
 
 
 def read_toml(path: Path, *, example: str) -> dict[str, Any]:
-    """Read a TOML file, with dashes in the names of options turned into underscores.
+    """Read a TOML file, or the one attached to a 3MF; dashes in its outermost names become underscores.
 
     Parameters
     ----------

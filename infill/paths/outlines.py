@@ -55,7 +55,7 @@ class Outline:
         return np.stack([np.interp(places, corner_places, points[:, axis]) for axis in (0, 1)], axis=-1)
 
     def between(self, ring: int, begin: float, length: float) -> Path:
-        """Return the corners of a ring on the `length` mm, at most once around, after the place `begin`: (N, 2), mm."""
+        """Return only the corners that a ring has within `length` mm after `begin`, without the ends: (N, 2), mm."""
         first_edge, count = int(self.first[ring]), int(self.first[ring + 1] - self.first[ring])
         corner_places, around = self.place[first_edge : first_edge + count], float(self.around[ring])
         begin %= around

@@ -53,7 +53,7 @@ def on_three_axes(field: NDArray[Any]) -> NDArray[Any]:
 
 
 def step_coefficients(smoothing: Smoothing, spacing: float | tuple[float, ...], dimensions: int) -> StepCoefficients:
-    """Return the weights of the three axes, E, 1 - E and p / (1 + p)."""
+    """Return three weights, decay E, 1 - E and p / (1 + p) of pull p, as float32; 0 for a missing axis."""
     weights = smoothing.weights(spacing_of(spacing, dimensions))
     w0, w1, w2 = (np.float32(weight) for weight in (0.0,) * (3 - dimensions) + weights)
     hold = np.float32(smoothing.pull / (1 + smoothing.pull))

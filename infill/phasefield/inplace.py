@@ -38,7 +38,7 @@ def smooth_inplace(
     mask: NDArray[np.bool_] | None = None,
     threads: int | None = None,
 ) -> NDArray[np.float32]:
-    """Smooth like `smooth_reference`, to 2e-5, in float32; benchmarks/make.py measures how much faster."""
+    """Return a field smoothed as by `smooth_reference`, to 2e-5, in float32; `f` itself is not changed."""
     weights = smoothing.weights(spacing_of(spacing, f.ndim))
     start = f if initial is None else initial
     if smoothing.steps == 0:

@@ -48,7 +48,7 @@ class Profile:
         return math.tanh(level * self.scale)
 
     def distance_level(self, level: float) -> float:
-        """Return the level of distance that corresponds to a level of phi, which must be within `steepest`."""
+        """Return the distance at a level of phi, over the cut-off distance; a level within `steepest`, unchecked."""
         return math.atanh(level) / self.scale
 
     def phase(

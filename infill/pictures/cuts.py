@@ -30,7 +30,7 @@ VIEWS = ((AZIMUTH + math.pi / 2, ELEVATION), (AZIMUTH, ELEVATION), (AZIMUTH, ABO
 def draw_cuts(
     surface: Surface, report: Mapping[str, Any], *, part: Surface | None = None, given: Sequence[Cut] = ()
 ) -> Image.Image:
-    """Draw a closed surface without its front half, and without its upper half.
+    """Draw a closed surface cut open, upright and level: where requested, or where its inside shows best.
 
     Parameters
     ----------

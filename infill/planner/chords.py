@@ -22,7 +22,7 @@ PLANES = {17: [0, 1, 2], 18: [2, 0, 1], 19: [1, 2, 0]}  # the axes of the plane 
 def arc_chords(
     table: GcodeTable, arcs: NDArray[np.intp], start: Floats, end: Floats
 ) -> tuple[NDArray[np.intp], Floats, Floats]:
-    """Cut arcs of a table into chords, in any plane, by their centre or by their radius.
+    """Cut arcs into chords; return the arc, begin and vector of each, stretched to the length of its arc.
 
     Parameters
     ----------

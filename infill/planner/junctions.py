@@ -142,7 +142,8 @@ def _vector_rest_speed(bounds: BoundedMoves, limit: Limit) -> Floats:
     return np.asarray(np.minimum(bounds.speed, np.where(meets, half, np.inf).min(axis=1)))
 
 
-def _zero_speed(bounds: BoundedMoves, limit: Limit) -> Floats:  # noqa: ARG001 - no limit matters
+def _zero_rest_speed(bounds: BoundedMoves, limit: Limit) -> Floats:  # noqa: ARG001 - no limit matters
+    """Return the speed with which moves begin and end at rest, mm/s: 0, as these models have no jerk."""
     return np.zeros(len(bounds.speed))
 
 
@@ -150,6 +151,6 @@ def _zero_speed(bounds: BoundedMoves, limit: Limit) -> Floats:  # noqa: ARG001 -
 _MODELS: Final[dict[str, tuple[Callable[[BoundedMoves, Limit], Floats], Callable[[BoundedMoves, Limit], Floats]]]] = {
     "jerk": (_jerk, _rest_speed),
     "vector-jerk": (_vector_jerk, _vector_rest_speed),
-    "junction": (_junction_deviation, _zero_speed),
-    "klipper": (_square_corner, _zero_speed),
+    "junction": (_junction_deviation, _zero_rest_speed),
+    "klipper": (_square_corner, _zero_rest_speed),
 }

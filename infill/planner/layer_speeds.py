@@ -76,14 +76,17 @@ def layer_speeds(
         for steps, plan in timeline:
             begin, end = np.searchsorted(steps.layer, (layer, layer + 1))  # layers only ever rise
             rows = slice(int(begin), int(end))
-            batches_of_pieces.append(_cut_pieces(slice_rows(steps, rows), slice_rows(plan, rows), timeline.features))
+            batches_of_pieces.append(
+                _find_piece_speeds(slice_rows(steps, rows), slice_rows(plan, rows), timeline.features)
+            )
     pieces = concatenate_rows(batches_of_pieces)
     if not len(pieces.speed):
         raise ParameterError.about("layer", f"is {layer}; {Path(path).name} has moves in layers 1 to {timeline.layers}")
     return pieces
 
 
-def _cut_pieces(steps: Steps, plan: MotionPlan, features: list[bytes]) -> LayerSpeeds:
+def _find_piece_speeds(steps: Steps, plan: MotionPlan, features: list[bytes]) -> LayerSpeeds:
+    """Cut moves into pieces of `PIECE_LENGTH`; return the ends, role and planned speed of each piece."""
     delta, start = steps.moves.delta[:, :3], steps.start
     distance = np.linalg.norm(delta, axis=1)
     count = np.where(plan.peak > np.minimum(plan.entry, plan.exit), np.ceil(distance / PIECE_LENGTH), 1).astype(np.intp)

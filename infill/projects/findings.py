@@ -140,7 +140,7 @@ def check_fill_settings(
 def check_shells(
     volumes: list[PrintedVolume], common: Mapping[str, str], keys: tuple[str, str], slicer: str, again: str
 ) -> Iterator[Finding]:
-    """Yield the parts around an infill whose settings lose the solid layers of slopes, or fill small rooms.
+    """Yield findings on parts around an infill: 0% density, or below 1% with a limit that fills small rooms.
 
     Parameters
     ----------

@@ -290,6 +290,7 @@ def _key_of_reference(element: ElementTree.Element, part: str, main: str) -> str
 
 
 def _read_body(model: Model, element: ElementTree.Element, part: str, main: str, path: Path) -> PackageObject:
+    """Read an object, its mesh or components, and its settings; raise FormatError for a faulty mesh."""
     read_mesh = model.mesh_of(element)
     mesh = None
     foreign = list(model.foreign(element))

@@ -32,7 +32,7 @@ NEIGHBOURS = 6  # of a point on a surface: if all of them are as far away as it 
 def points_ways(
     points: NDArray[np.float64], request: SmoothRequest, *, voxel: float, shell: float | None, normals: ArrayLike | None
 ) -> list[Way]:
-    """List the ways to smooth a cloud of points, the preferred one first.
+    """Voxelise a cloud of points, and list the ways to smooth it, the preferred one first.
 
     Parameters
     ----------

@@ -122,7 +122,7 @@ class SmoothRequest:
         return self.smoothing.steps * (SNAPSHOT_QUARTERS[-1] / 4 if self.refined else 1)
 
     def at(self, cell: float) -> SmoothRequest:
-        """Return the request with its lengths in cells of a size, mm: a radius becomes steps, `auto` a tolerance.
+        """Return the request for cells of a size, mm: the radius becomes steps, and an `auto` tolerance one in mm.
 
         n steps blur a field about as much as a Gaussian with a standard deviation of sqrt(2 n / 7) cells.
         """

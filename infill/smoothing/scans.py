@@ -92,7 +92,7 @@ def scan_ways(
     phase: bool = False,
     volume: float | None = None,
 ) -> list[Way]:
-    """List the ways to smooth a scan, the preferred one first.
+    """List the ways to smooth a scan: the best method by its noise, the same with fewer steps, and others.
 
     Parameters
     ----------

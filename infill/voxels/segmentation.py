@@ -89,11 +89,12 @@ def segment_volume(
     count = count_solid_cells(solid)
     if count in (0, solid.size):
         amount = "no cell" if count == 0 else "every cell"
-        raise ParameterError(
-            f"{_describe(used)}, and {amount} would be solid; "
-            f"the values go from {lowest:g} to {highest:g}{_labels(values)}; "
-            "choose within them"
+        problem = (
+            f"{_describe(used)}, and {amount} would be solid; the values go from {lowest:g} to {highest:g}"
+            f"{_labels(values)}; choose within them"
         )
+        parameter = {"label": "label", "range": "threshold"}.get(used["method"])
+        raise ParameterError(problem) if parameter is None else ParameterError.about(parameter, problem)
     used |= {"values": [+lowest, +highest], "solid": count / solid.size}  # of booleans, 0 and 1
     return replace(volume, values=solid), used
 
@@ -367,13 +368,13 @@ def _labels(values: NDArray[Any]) -> str:
 
 
 def _describe(used: dict[str, Any]) -> str:
-    """Describe the criterion, for a message."""
+    """Describe the criterion, for a message that begins with its option if it has one."""
     if used["method"] == "label":
-        return f"label is {', '.join(str(label) for label in used['label'])}"
+        return f"is {', '.join(str(label) for label in used['label'])}"
     if used["method"] != "range":
         threshold_text = f", {used['low']:g}" if "low" in used else ""
         return f"what is solid is found by {used['method']}{threshold_text}"
     low, high = (used.get(end) for end in ("low", "high"))
     if low is None or high is None:
-        return f"threshold is {f'{low:g}' if high is None else f'up to {high:g}'}"
-    return f"threshold is {low:g} to {high:g}"
+        return f"is {f'{low:g}' if high is None else f'up to {high:g}'}"
+    return f"is {low:g} to {high:g}"

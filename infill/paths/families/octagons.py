@@ -80,6 +80,7 @@ class OctagonsPaths:
         return max(0.0, HALF_SIDE * self._width(cell, line_width) - BOND * line_width / 2)
 
     def _width(self, cell: float, line_width: float) -> float:
+        """Return the distance between opposite sides of an octagon, mm: the cell, or the smallest that can be drawn."""
         return max(cell, LEAST * TOUCH * line_width)
 
     def _waves(self, cell: float, line_width: float) -> list[Path]:

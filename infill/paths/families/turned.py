@@ -40,7 +40,7 @@ class TurnedFamily:
     def strands(
         self, bounds: Bounds, *, cell: float, line_width: float, z: float, layer: int, radius: float
     ) -> list[Path]:
-        """Return the lines of the family in the box, turned; see `Family`."""
+        """Return the lines of the family in the box, turned by `angle` and then shifted by `phase`."""
         from patterns.linework import turn
 
         corners = np.array([[x, y] for x in bounds[::2] for y in bounds[1::2]], dtype=np.float64)
