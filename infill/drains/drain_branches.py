@@ -102,8 +102,8 @@ def find_branches(below: TurnedPart, needs: DrainNeeds, drained: Iterable[int], 
         if not len(goals) or not len(starts):
             break
         count = min(NEAREST, len(goals))
-        distance, number = cKDTree(reach.at[goals]).query(reach.at[starts], k=count)
-        distance, number = distance.reshape(len(starts), count), number.reshape(len(starts), count)
+        nearest = cKDTree(reach.at[goals]).query(reach.at[starts], k=count)
+        distance, number = (np.asarray(part).reshape(len(starts), count) for part in nearest)
         cost = distance + reach.cost[starts][:, None] + reach.cost[goals][number]
         best = _find_cheapest(needs, tree, reach, starts, goals[number], cost)
         if not best:

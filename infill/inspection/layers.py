@@ -102,7 +102,7 @@ def compare_layers(before: LayerRegions, after: LayerRegions, *, line_cells: int
 
     void_overlaps = count_overlaps(before.void, after.void)
     solid, voids = compare_components(count_overlaps(before.solid, after.solid)), compare_components(void_overlaps)
-    open_void = ndimage.binary_opening(before.void > 0, np.ones((min(PINHOLE, line_cells),) * 2))
+    open_void = ndimage.binary_opening(before.void > 0, np.ones((min(PINHOLE, line_cells),) * 2, dtype=bool))
     cores = _label_cells(open_void, np.empty((0, 2), dtype=np.intp))
     has_room = np.zeros(void_overlaps.before, dtype=bool)
     has_room[np.unique(before.void[open_void]) - 1] = True

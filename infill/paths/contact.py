@@ -150,7 +150,7 @@ def layer_contact(infill: Samples, below: Samples, line_width: float) -> Contact
         _, candidates = cKDTree(below.points, balanced_tree=False).query(
             points, k=3, distance_upper_bound=reach + STEP / 2
         )
-        supported |= (_nearest(points, below, candidates)[0] <= reach).any(axis=1)
+        supported |= (_nearest(points, below, np.asarray(candidates))[0] <= reach).any(axis=1)
     bonded = _beside(points, infill.path[chosen], along, infill, TOUCHING * line_width)
     return Contact(
         length=float(infill.weight.sum()),

@@ -191,7 +191,7 @@ class BeadIndex:
         """
         shifted = _shift_to_layer(points, np.searchsorted(self.layers, layer), self.pitch)
         distances, number = self.tree.query(shifted, k=list(places), distance_upper_bound=distance)
-        return distances, number
+        return np.asarray(distances), np.asarray(number)
 
 
 def project_to_beads(points: Floats, walls: BeadIndex) -> tuple[Floats, Floats]:

@@ -300,7 +300,7 @@ def _adjacent_cells(cells: Cells, neighbours: Cells) -> NDArray[np.int64]:
 
 def _roll_balls(tree: KDTree, cells: NDArray[np.int64], radius: float, threads: int) -> tuple[Floats, int]:
     """Roll balls over the points from the side of the cells; return their centres, and how many points they touch."""
-    distance, nearest = tree.query(cells, workers=threads)
+    distance, nearest = map(np.asarray, tree.query(cells, workers=threads))
     # On the ball around the nearest point, not at the cell: no part of a cell is lost.
     centres = tree.data[nearest] + (cells - tree.data[nearest]) * (radius / distance)[:, None]
     # Between balls s apart, a ridge of s² / 8 R remains: large balls need not be placed in every cell.

@@ -27,7 +27,7 @@ NARROWEST = 0.9  # line widths: narrower places are widened, or merged into thei
 RIDGE = 0.5  # slope of a distance on its ridge, at most: between lines, or in a corner of less than 60°
 MOST_BLUR = 0.35  # of the thickest place of a colour: the limit of smoothing
 COARSE = 4  # cells
-EIGHT = np.ones((3, 3))  # neighbours
+EIGHT = np.ones((3, 3), dtype=bool)  # neighbours
 
 
 def two_colour_field(borders: Borders, grid: TileGrid, *, line_width: float, blur: float) -> NDArray[np.float64]:
