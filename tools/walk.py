@@ -1,7 +1,7 @@
 """Write docs/design/walks.md: the way of each product through the rooms, as it runs: `python tools/walk.py`.
 
 A move is a call from a function of one room to a function of another. Each called function counts once, where it is
-called first. Kernels and the hall are left out: they are leaves. So are properties of results and generated code.
+called first. Kernels and the hall are left out: they are leaves.
 """
 
 from __future__ import annotations
