@@ -177,7 +177,7 @@ def test_the_bars_of_a_cell_repeat_and_none_that_is_near_is_missing(name: str) -
     # It does not matter in which period an edge is given.
     moved = pattern.axes() + np.random.default_rng(6).integers(-3, 4, (len(pattern.axes()), 1, 3))
     elsewhere = Bars(
-        name="", summary="", edges=tuple((tuple(a), tuple(b)) for a, b in moved.tolist()), cells=pattern.cells
+        name="elsewhere", summary="", edges=tuple((tuple(a), tuple(b)) for a, b in moved.tolist()), cells=pattern.cells
     )
     assert to_edges(points, elsewhere.around_cell().edges) == pytest.approx(to_edges(points, every), abs=1e-12)
     exact = to_edges(points, every)
