@@ -30,7 +30,7 @@ def make(
         str | None,
         typer.Argument(
             metavar="PATTERN",
-            help="Name of the pattern: 'infill list' shows all. Or a drawing, or module.py:name.",
+            help="Name ('infill list' shows all), drawing, or module.py:name.",
             autocompletion=pattern_names,
         ),
     ] = None,
@@ -83,8 +83,7 @@ def make(
         typer.Option(
             "--set",
             metavar="NAME=VALUE",
-            help="Any parameter of the pattern; may be given again. 'infill list PATTERN' shows them all, with their "
-            "ranges and defaults.",
+            help="A parameter of the pattern; may be given again. 'infill list PATTERN' shows all.",
             autocompletion=pattern_assignments,
             rich_help_panel=PATTERN,
         ),

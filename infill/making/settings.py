@@ -104,7 +104,7 @@ class MakeSettings:
     cells: Annotated[
         int | None,
         Option(
-            "Grid cells across a line: more are finer and take longer.",
+            "Grid cells across a line: more are finer.",
             BLOCK,
             unit="N",
             default="3 for block, 5 for exact",
@@ -142,7 +142,7 @@ class MakeSettings:
         ),
     ] = 0.01
     interface: Annotated[
-        float, Option("Distance from the surface to phi = 0.9.", ADVANCED, unit="CELLS", default="2")
+        float, Option("Distance from surface to phi = 0.9.", ADVANCED, unit="CELLS", default="2")
     ] = 2.0
     alpha: Annotated[
         float, Option("Time step over the cell size squared, up to 0.25.", ADVANCED, unit="NUMBER", default="1/7")
