@@ -163,9 +163,11 @@ def _log_errors(gcode: Path, context: typer.Context, *, in_place: bool) -> Itera
     except (InfillError, PatternError) as error:
         message = use_typed_options(error, context)
         for log in logs if gcode.is_file() else []:
-            with contextlib.suppress(OSError):
+            try:
                 log.write_text(f"error: {message}\n", encoding="utf-8")
-                raise type(error)(f"{message} (log: {log})") from error
+            except OSError:
+                continue
+            raise type(error)(f"{message} (log: {log})") from error
         raise
     for log in logs:
         with contextlib.suppress(OSError):
