@@ -44,9 +44,10 @@ def pytest_configure() -> None:
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark what `make quick` and `make test` leave out; tools/mark_slow_tests.py sets the marks in the code."""
     for item in items:
-        if item.get_closest_marker("long"):
+        longest = item.get_closest_marker("longest")
+        if longest or item.get_closest_marker("long"):
             item.add_marker("slow")
-            if not is_first_case(item):
+            if longest or not is_first_case(item):
                 item.add_marker("left_out")
 
 

@@ -229,7 +229,7 @@ def test_make_test_runs_one_case_of_each_long_test(pytester: pytest.Pytester) ->
         @pytest.mark.parametrize("a", [1, 2])
         def test_cases(a, b): ...
 
-        @pytest.mark.long
+        @pytest.mark.longest
         def test_alone(): ...
 
         @pytest.mark.slow
@@ -238,7 +238,7 @@ def test_make_test_runs_one_case_of_each_long_test(pytester: pytest.Pytester) ->
         def test_quick(): ...
         """
     )
-    markers = ["-o", "markers=slow\nlong\nleft_out", "-p", "no:cacheprovider", "-p", "no:randomly"]
+    markers = ["-o", "markers=slow\nlong\nlongest\nleft_out", "-p", "no:cacheprovider", "-p", "no:randomly"]
     for chosen, count in (("not left_out", 3), ("not slow", 1), ("slow or not slow", 7)):
         result = pytester.runpytest_subprocess("-q", "-m", chosen, *markers)
         result.assert_outcomes(passed=count, deselected=7 - count)

@@ -141,9 +141,9 @@ class MakeSettings:
             "How strongly the stamp constrains the result, 0 to 1 or more.", ADVANCED, unit="NUMBER", default="0.01"
         ),
     ] = 0.01
-    interface: Annotated[
-        float, Option("Distance from surface to phi = 0.9.", ADVANCED, unit="CELLS", default="2")
-    ] = 2.0
+    interface: Annotated[float, Option("Distance from surface to phi = 0.9.", ADVANCED, unit="CELLS", default="2")] = (
+        2.0
+    )
     alpha: Annotated[
         float, Option("Time step over the cell size squared, up to 0.25.", ADVANCED, unit="NUMBER", default="1/7")
     ] = 1 / 7

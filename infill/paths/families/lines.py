@@ -16,7 +16,6 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from infill.paths.families.protocol import TOUCH, Bounds, Path
@@ -113,6 +112,8 @@ def line_paths(pattern: Pattern) -> LinePaths:
 
 @lru_cache(maxsize=16)
 def _paths_in_square(pattern: Any, half: float, z: float, line_width: float) -> list[Path]:  # noqa: ANN401 - a Pattern
+    import shapely
+
     lines = draw_lines(pattern, shapely.box(-half, -half, half, half), z)
     return separate_lines(lines, cell=float(getattr(pattern, "cell", 1.0)), line_width=line_width)
 
@@ -120,10 +121,13 @@ def _paths_in_square(pattern: Any, half: float, z: float, line_width: float) -> 
 def separate_lines(lines: MultiLineString, *, cell: float, line_width: float) -> list[Path]:
     """Return paths along lines, of which no two cross or come nearer than touching beads.
 
+    >>> import shapely
     >>> cross = shapely.MultiLineString([[(-5, 0), (5, 0)], [(0, -5), (0, 5)]])
     >>> len(separate_lines(cross, cell=5, line_width=0.4)), len(separate_lines(cross.geoms[0], cell=5, line_width=0.4))
     (1, 1)
     """
+    import shapely
+
     touch = TOUCH * line_width
     parts = shapely.get_parts(shapely.line_merge(shapely.union_all([lines], grid_size=SNAP * cell)))
     alone = _meet_no_other(parts)
@@ -142,6 +146,8 @@ def separate_lines(lines: MultiLineString, *, cell: float, line_width: float) ->
 
 def _meet_no_other(parts: NDArray[np.object_]) -> NDArray[np.bool_]:
     """Tell which lines, merged where two meet, share no end with another."""
+    import shapely
+
     ends = np.array([line.coords[end] for line in parts for end in (0, -1)]).reshape(-1, 2)
     _, places, counts = np.unique(ends, axis=0, return_inverse=True, return_counts=True)
     shared: NDArray[np.intp] = counts[places.ravel()].reshape(-1, 2)
