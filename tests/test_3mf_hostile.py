@@ -149,6 +149,7 @@ ENCODINGS = [
 ]  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("encoding", ENCODINGS)
 @pytest.mark.parametrize("written", ["utf-8", "utf-16", "spaced"])
 def test_encodings_of_no_text_are_refused(encoding: str, written: str, tmp_path: Path) -> None:
@@ -195,6 +196,7 @@ XMLS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fault", XMLS)
 def test_models_that_are_none_are_refused(fault: str, tmp_path: Path) -> None:
     text, says = XMLS[fault]
@@ -224,6 +226,7 @@ def test_transforms_that_grow_are_refused(tmp_path: Path) -> None:
 # --- more than there is -----------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_circles_and_multitudes_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Thirty groups of two of one another are a billion boxes; the limits are lowered, so that the test is quick."""
     monkeypatch.setattr("infill.formats.threemf_reading.MOST_PLACED", 500)
@@ -294,6 +297,7 @@ OPTIONS = [
 ]  # fmt: skip
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("value", VALUES, ids=lambda value: value[:12].encode("unicode_escape").decode())
 def test_options_that_are_none_are_told_on_one_line(value: str, tmp_path: Path) -> None:
     """By every command that reads a config file, from TOML and from a project."""
@@ -347,6 +351,7 @@ def mutated(rng: random.Random, files: dict[str, bytes]) -> bytes:
     return bytes(whole)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4))
 def test_files_changed_at_random_are_read_or_refused(seed: int, tmp_path: Path) -> None:
     rng = random.Random(seed)

@@ -186,6 +186,7 @@ def extents(surface: Surface) -> list[float]:
 # --- roles ------------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dialect", ASIDE)
 def test_what_is_no_part_is_left_out_and_said(dialect: str, tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     write, role = ASIDE[dialect]
@@ -285,6 +286,7 @@ def test_volumes_of_triangles_that_are_not_there_are_refused(first: str, last: s
 # --- types, and what is printed ---------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["support", "solidsupport", "surface", "other", "lattice", " Support "])
 def test_objects_of_other_types_are_no_parts(kind: str, tmp_path: Path) -> None:
     things = thing(1, PART) + thing(2, COLUMN, kind=kind)
@@ -361,6 +363,7 @@ READ = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("space", UNREAD)
 @pytest.mark.parametrize("prefix", ["b", "p", "m", "x1-y.z"])
 def test_a_required_extension_that_is_not_read_is_refused_by_name(space: str, prefix: str, tmp_path: Path) -> None:
@@ -458,6 +461,7 @@ def random_tree(seed: int) -> tuple[str, str]:
     return resources, "".join(f'<item objectid="{each}" {placed()}/>' for each in built)
 
 
+@pytest.mark.slow
 @settings(max_examples=30, deadline=None)
 @given(st.integers(0, 2**32 - 1), st.sampled_from(["millimeter", "inch", "micron"]))
 def test_lib3mf_puts_the_same_where_we_do(tmp_path_factory: pytest.TempPathFactory, seed: int, unit: str) -> None:
@@ -505,6 +509,7 @@ JUDGED: dict[str, Callable[[Path], Path]] = {
 }  # fmt: skip
 
 
+@pytest.mark.long
 @prusa
 @pytest.mark.parametrize("trait", JUDGED)
 def test_the_doctor_says_what_prusaslicer_does(trait: str, tmp_path: Path) -> None:
@@ -526,6 +531,7 @@ def test_the_doctor_says_what_prusaslicer_does(trait: str, tmp_path: Path) -> No
 # --- the command line -------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.longest
 @pytest.mark.parametrize(
     ("words", "keys"),
     [

@@ -281,12 +281,12 @@ def floors(graph: dict[str, set[str]]) -> int:
 # --- the house as it stands --------------------------------------------------------------------------------
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.__name__)
 def test_the_house_keeps_the_rule(rule: object) -> None:
     assert rule(ROOT) == set()
 
 
+@pytest.mark.longest
 def test_the_house_is_low(capsys: pytest.CaptureFixture[str]) -> None:
     graph = rooms(ROOT)
     with capsys.disabled():
@@ -295,7 +295,7 @@ def test_the_house_is_low(capsys: pytest.CaptureFixture[str]) -> None:
     assert floors(graph) <= len(ROWS) <= MOST_FLOORS
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("folder", ["tests", "benchmarks", "examples"])
 def test_no_private_name_comes_into_a_test(folder: str) -> None:
     paths = sorted((ROOT / folder).rglob("*.py"))
@@ -457,11 +457,12 @@ def modules_after(code: str) -> set[str]:
     return set(done.stdout.split())
 
 
+@pytest.mark.slow
 def test_help_loads_nothing_heavy() -> None:
     assert not HEAVY & modules_after("import infill.cli.app; infill.cli.app.build_app()")
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_the_help_of_make_loads_no_pattern() -> None:
     """However many there are."""
     code = "import sys; sys.argv = ['infill', 'make', '--help']; import infill.cli; infill.cli.main()"
@@ -470,18 +471,19 @@ def test_the_help_of_make_loads_no_pattern() -> None:
     assert not {"patterns.catalogue", "patterns.honeycomb", "numpy", "shapely"} & loaded
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_make_needs_neither_a_compiler_nor_trimesh(tmp_path: Path) -> None:
     code = f"from infill import make; make('honeycomb', size=20, height=2).save({str(tmp_path / 'x.stl')!r})"
     assert not {"numba", "llvmlite", "trimesh", "manifold3d", "PIL"} & modules_after(code)
 
 
+@pytest.mark.slow
 def test_smoothing_without_a_choice_loads_no_compiler() -> None:
     code = "import numpy as np; from infill import smooth; smooth(np.ones((9, 9))); smooth(np.ones((5, 5, 5)))"
     assert not {"numba", "llvmlite", "scipy"} & modules_after(code)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_the_command_smooths_without_linear_algebra_and_leaves_it_to_others(tmp_path: Path) -> None:
     """Kernels multiply no matrices; whoever asks for SciPy's linear algebra afterwards finds it."""
     source, target = tmp_path / "box.npy", tmp_path / "box.stl"
@@ -495,7 +497,7 @@ def test_the_command_smooths_without_linear_algebra_and_leaves_it_to_others(tmp_
     assert "scipy.linalg.cython_blas" in modules_after(f"{code}\nimport scipy.linalg.cython_blas")
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_a_library_leaves_numba_as_it_is() -> None:
     """Somebody else's compiled functions may multiply matrices."""
     product = "import infill.kernels.sparse, numba, numpy as np; numba.njit(lambda a: a @ a)(np.eye(2))"

@@ -250,7 +250,7 @@ def test_meatpack_as_others_may_write_it(data: str, text: bytes) -> None:
     assert meatpack.unpack_text(bytes.fromhex(data)) == text
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @settings(max_examples=200)
 @given(texts, st.booleans())
 @example(TEXT, True)

@@ -102,6 +102,7 @@ READERS: dict[str, tuple[Callable[[Path], Path], Callable[[Path], object], str]]
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("error", [AttributeError, AssertionError, NameError, TypeError, KeyError, RuntimeError])
 @pytest.mark.parametrize("name", READERS)
 def test_a_bug_of_ours_does_not_read_as_a_broken_file(

@@ -151,7 +151,7 @@ def test_joined_surfaces_are_one_after_the_other() -> None:
 # --- smoothing -------------------------------------------------------------------------------------------
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_balls_that_overlap_stay_two_of_exactly_their_volumes() -> None:
     one, other = ball(10), ball(8, (9, 0, 0))
     mesh = surface(other, one)
@@ -167,7 +167,7 @@ def test_balls_that_overlap_stay_two_of_exactly_their_volumes() -> None:
     assert result.report["volume"] == pytest.approx(one.volume + other.volume, rel=VOLUME)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_a_shell_with_a_cavity_stays_one() -> None:
     result = smooth_mesh(surface(ball(10), ball(6, inwards=True)), resolution=60, by_component=True)
     assert list(result.surfaces) == ["component_1"]
@@ -191,7 +191,7 @@ def test_one_component_is_smoothed_as_ever() -> None:
     assert (one.surface.faces == other.surface.faces).all()
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_a_small_component_gets_finer_voxels_unless_their_size_was_asked_for() -> None:
     mesh = surface(ball(50), ball(0.2, (60, 0, 0)))
     spacing = smooth_mesh(mesh, by_component=True).report["components"][1]["report"]["grid"]["spacing"]
@@ -217,6 +217,7 @@ def test_mistakes_are_told_in_one_line() -> None:
         smooth_mesh(surface(ball(0.3), ball(0.2, (9, 0, 0))), voxel=4.0, by_component=True, allow_broken=True)
 
 
+@pytest.mark.slow
 def test_progress_never_goes_back() -> None:
     told: list[float] = []
     mesh = surface(ball(10), ball(8, (9, 0, 0)))
@@ -238,7 +239,7 @@ def test_every_format_holds_all_components(suffix: str, tmp_path: Path) -> None:
     assert result.save(tmp_path / "both.png").stat().st_size > 1000
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_the_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     trimesh.util.concatenate([ball(10), ball(8, (9, 0, 0))]).export("both.stl")
@@ -260,7 +261,6 @@ def test_the_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert math.isfinite(report["seconds"]["total"])
 
 
-@pytest.mark.slow
 def test_reports_of_components_hold_on_to_nothing() -> None:
     """What is measured only when somebody asks needs the field, which for many components is much memory."""
     both = trimesh.util.concatenate([trimesh.creation.icosphere(radius=5), trimesh.creation.box((4, 4, 4))])

@@ -111,6 +111,7 @@ class Twisting(Leaning):
         return shapely.union(super().lines(region, z), shapely.intersection(across, region))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("turn", [0.0, 1.5, 3.0])
 def test_fillets_suit_the_height_at_which_walls_meet_at_the_sharpest_angles(turn: float) -> None:
     part = box(24, 20, 22)
@@ -125,7 +126,7 @@ def to_walls(points: np.ndarray, cell: float, slope: float) -> np.ndarray:
     return np.abs(off - cell * np.round(off / cell)) / np.hypot(1, slope)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("kind", [Leaning, LeaningSurface])
 @pytest.mark.parametrize("slope", [0.0, 0.6])
 def test_walls_of_lines_that_change_are_as_wide_as_asked_for_however_they_lean(kind: Any, slope: float) -> None:
@@ -145,7 +146,7 @@ def test_walls_of_lines_that_change_are_as_wide_as_asked_for_however_they_lean(k
     assert not solid[near > 0.47].any()
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_a_level_set_makes_two_voids_that_share_no_field_and_lines_make_one() -> None:
     """So the grid may be as coarse as the voids allow with the one, and must resolve walls with the other."""
     part = box(30, 30, 30)
@@ -167,7 +168,7 @@ def test_the_density_is_that_asked_for_and_nothing_hangs_free(kind: Any) -> None
     assert result.report["voids"]["islands"] == 0
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_the_pattern_rises_with_align_and_phase() -> None:
     part = box(20, 20, 20)
     given = {"cell": 6.0, "voxel": 0.4, **GIVEN}

@@ -71,7 +71,7 @@ def refused(result: Any, says: str) -> None:
 # --- every command ---------------------------------------------------------------------------------------
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("command", COMMANDS)
 def test_help_has_an_example_and_exits_0(command: str) -> None:
     for flag in ("--help", "-h"):
@@ -87,7 +87,6 @@ def test_help_names_every_command() -> None:
     assert "Example: infill make" in text
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     "words", [["nonsense"], ["make", "honeycomb", "--nonsense"], ["check"], ["make", "honeycomb", "--height", "tall"]]
 )
@@ -123,7 +122,7 @@ def test_the_readme_names_every_command() -> None:
         assert f"infill {command}" in readme
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("package", ["infill", "infill.cli"])
 def test_python_runs_the_package(package: str) -> None:
     for words, code, says in (
@@ -220,7 +219,7 @@ def test_the_drawing_is_the_right_way_up() -> None:
     assert drawn[0][0] == drawn[0][-1] == drawn[-1][-1] == BRAILLE_BLANK
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_list_writes_a_picture(tmp_path: Path) -> None:
     path = tmp_path / "a.png"
     result = run("list", "concentric-heart", "--preview", path)
@@ -329,7 +328,7 @@ def test_check_tells_of_several_meshes_in_a_list(tmp_path: Path, monkeypatch: py
 # --- make ------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("name", "suffix"),
     [*((name, ".stl") for name in BUILT_IN), *((BUILT_IN[0], other) for other in (".3mf", ".obj", ".ply", ".glb"))],
@@ -382,7 +381,7 @@ def test_make_writes_stl_as_text(tmp_path: Path) -> None:
     assert (tmp_path / "a.stl").read_bytes().startswith(b"solid")
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_make_tells_pinholes_and_problems(tmp_path: Path) -> None:
     words = ["make", "honeycomb", "--size", "25", "--cell", "2.5", "--height", "2", "-o", tmp_path / "a.stl"]
     assert "pinholes" in run(*words).stderr
@@ -398,7 +397,7 @@ def test_walls_that_cannot_be_measured_are_said_so(tmp_path: Path) -> None:
     assert json.loads(run("make", "honeycomb", *words, "--force", "--json").stdout)["wall_width"]["mean"] is None
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_dry_run_writes_nothing(tmp_path: Path) -> None:
     words = ["make", "honeycomb", "--size", "250x210", "-o", tmp_path / "a.stl", "--dry-run"]
     result = run(*words)
@@ -442,7 +441,7 @@ def test_a_saved_config_makes_the_same_block(tmp_path: Path) -> None:
     assert "angle = 12.5" in config.read_text()
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_a_config_goes_to_stdout_alone(tmp_path: Path) -> None:
     config, mesh = tmp_path / "a.toml", tmp_path / "a.stl"
     words = ["make", "honeycomb", *SMALL, "--cell", "4", "--angle", "12.5"]
@@ -591,7 +590,7 @@ BAD = [
 ]
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(("words", "says"), BAD, ids=[" ".join(words) for words, _ in BAD])
 def test_bad_input_is_one_clear_line(words: list[str], says: str, tmp_path: Path) -> None:
     refused(run("make", *words, "-o", tmp_path / "a.stl", "--preview", tmp_path / "a.png"), says)
@@ -636,7 +635,7 @@ def test_all_outputs_appear_or_none(tmp_path: Path) -> None:
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.png", "a.stl", "b.obj"]
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_names_that_a_console_cannot_show(tmp_path: Path) -> None:
     path = infill.save(infill.make("honeycomb", size=20, height=2).mesh, tmp_path / "测试.stl")
     for words in (["check", str(path)], ["check", str(path), "--json"]):
@@ -646,7 +645,7 @@ def test_names_that_a_console_cannot_show(tmp_path: Path) -> None:
         assert done.returncode == 0, done.stderr
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_a_limit_holds_for_a_dry_run_too(tmp_path: Path) -> None:
     words = ["make", "honeycomb", "--size", "250x210", "--stamp", "exact", "--dry-run"]
     assert run(*words).exit_code == 0
@@ -671,7 +670,6 @@ def test_a_saved_config_holds_surface_and_tolerance(tmp_path: Path) -> None:
     assert resolve({"tolerance": 0.0}, config).tolerance == 0
 
 
-@pytest.mark.slow
 def test_missing_and_unwritable_folders_are_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     one_line_error(run("make", "honeycomb", *SMALL, "-o", tmp_path / "no" / "a.stl"), "there is no folder")
     (tmp_path / "d.stl").mkdir()

@@ -50,7 +50,7 @@ def test_a_full_disk_leaves_the_old_file_whole(suffix: str, tmp_path: Path) -> N
     assert list(tmp_path.iterdir()) == [path]
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_a_disk_that_is_full_at_the_last_byte_leaves_no_other_file(tmp_path: Path) -> None:
     words = [
         "make",
@@ -149,7 +149,7 @@ def calls_of_make(tmp_path_factory: pytest.TempPathFactory) -> int:
     return calls_of([*SMALL, "-o", str(tmp_path_factory.mktemp("calls") / "a.stl")])
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("moment", MOMENTS)
 def test_ctrl_c_at_any_moment_leaves_no_file(moment: float, calls_of_make: int, tmp_path: Path) -> None:
     assert calls_of_make > 100
@@ -157,7 +157,7 @@ def test_ctrl_c_at_any_moment_leaves_no_file(moment: float, calls_of_make: int, 
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_a_command_that_is_left_alone_leaves_its_file(tmp_path: Path) -> None:
     """So that the tests above and below would see one."""
     done = watched([*SMALL, "-o", str(tmp_path / "a.stl")], calls=10**9, writing=tmp_path)
@@ -185,7 +185,7 @@ def test_a_full_stdout_is_told() -> None:
     assert "cannot write to stdout: No space left" in done.stderr
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_a_bar_moves_where_somebody_sees_it(tmp_path: Path) -> None:
     """On a terminal there is a bar on stderr; stdout stays clean."""
     leader, follower = pty.openpty()
@@ -207,7 +207,7 @@ def test_a_bar_moves_where_somebody_sees_it(tmp_path: Path) -> None:
     assert math.isfinite(json.loads((tmp_path / "report.json").read_text())["volume"])
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_a_link_that_leads_nowhere_is_not_replaced_without_force(tmp_path: Path) -> None:
     link = tmp_path / "a.stl"
     link.symlink_to(tmp_path / "gone.stl")

@@ -28,7 +28,7 @@ with log_compilation("one for other numbers"):
 """
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_compiling_is_told_once_in_a_process(tmp_path: Path) -> None:
     (tmp_path / "kernels.py").write_text(MODULE)
     root = str(Path(__file__).resolve().parents[1])

@@ -39,6 +39,7 @@ def count(bits: np.ndarray) -> int:
     return int(np.unpackbits(bits.view(np.uint8)).sum())
 
 
+@pytest.mark.slow
 @settings(max_examples=30, deadline=None)
 @given(
     shape=st.tuples(*[st.integers(1, 24)] * 2, st.integers(1, 50)),
@@ -163,6 +164,7 @@ def test_a_ball_keeps_its_volume_and_comes_nearer_to_the_truth(steps: int) -> No
     assert distance(kept.surface.vertices) < distance(raw.surface.vertices)
 
 
+@pytest.mark.slow
 def test_every_component_keeps_its_own_volume_and_its_cavity() -> None:
     f = ball(90, (30, 30, 30), 22) | ball(90, (68, 68, 68), 9) | ball(90, (68, 25, 25), 14) & ~ball(90, (68, 25, 25), 8)
     field = smooth_bricks(f, Smoothing(steps=20))
@@ -198,6 +200,7 @@ def test_the_straight_profile_has_the_same_zero_and_sign() -> None:
     assert PLAIN_PROFILE.phase_level(0.0) == 0
 
 
+@pytest.mark.slow
 def test_erasing_components() -> None:
     f = ball(40, (15, 15, 15), 8) | ball(40, (33, 33, 33), 2)
     field = smooth_bricks(f, Smoothing(steps=0))
@@ -215,6 +218,7 @@ def judged(f: np.ndarray, steps: int) -> TopologyCheck:
     return check_topology(found, data, spacing=UNIT, blur=smoothing.blur, levels=np.zeros(data.count))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("thickness", "steps", "lost"), [(6, 20, False), (3, 5, False), (3, 40, True), (2, 20, True), (1, 10, False)]
 )

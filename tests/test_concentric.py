@@ -110,7 +110,7 @@ def astray(result: Result[Any, Any], inside: shapely.Polygon, away: float, *, he
     return np.array([(~solid[wall]).mean(), solid[void].mean()])
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("name", ["box", "ring", "ball", "torus"])
 def test_walls_lie_at_whole_cells_from_the_wall_of_the_part(name: str) -> None:
     """So that every void is as wide; a fifth of a line width is left for the grid and for chords of circles."""
@@ -119,14 +119,14 @@ def test_walls_lie_at_whole_cells_from_the_wall_of_the_part(name: str) -> None:
     assert astray(result, inside, 0.1, height=0.0).max() < 0.01
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_walls_that_lie_elsewhere_are_found() -> None:
     mesh, inside = INSIDE["box"]
     result = fill(mesh, "concentric", **SHARP)
     assert astray(result, inside.buffer(-0.3, join_style="mitre"), 0.1, height=0.0).max() > 0.2
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_voids_for_a_slicer_lie_between_the_same_walls() -> None:
     mesh, inside = INSIDE["box"]
     for align in ("part", "body"):
@@ -134,7 +134,7 @@ def test_voids_for_a_slicer_lie_between_the_same_walls() -> None:
         assert astray(result, inside, 0.1, height=0.0).max() < 0.01
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_turning_the_part_turns_the_result() -> None:
     one = fill(angled(), "concentric", **EXACT).stages.voids
     other = fill(turned_by(angled(), 33, (0, 0, 1)), "concentric", **EXACT).stages.voids
@@ -145,7 +145,7 @@ def test_turning_the_part_turns_the_result() -> None:
     assert away.max() < 0.5  # in corners
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("name", PARTS)
 def test_walls_stand_upright_from_skin_to_skin(name: str) -> None:
     """Straight above and below what is solid deep inside, all is solid: nothing hangs, nothing needs support."""
@@ -188,7 +188,7 @@ def test_lines_are_about_as_dense_as_their_share_of_a_cell() -> None:
     assert voids.sample.sharpest == pytest.approx(90)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_every_body_has_its_own_outline() -> None:
     """One above the other: aligned by part, both have that of the two; by body, each has what it has alone."""
     low, high = box(30, 30, 8), box(14, 20, 10, (4, 3, 12))
@@ -207,7 +207,7 @@ def test_every_body_has_its_own_outline() -> None:
     assert farthest(own) < 0.15 < 0.8 < farthest(shared)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_a_density_that_rises_makes_walls_wider() -> None:
     report = fill(box(40, 40, 30), "concentric", density=(0.1, 0.4), by="z").report
     assert report["problems"] == []

@@ -297,6 +297,7 @@ def test_the_bulge_is_kept_point_by_point() -> None:
     assert (done.points[done.source > 5] == path[6:]).all()
 
 
+@pytest.mark.slow
 @given(paths=st.lists(walks(50, 0.1, 2.0), min_size=2, max_size=4), machine=machines)
 def test_paths_are_recut_each_for_itself(paths: list[np.ndarray], machine: Machine) -> None:
     first = ends_of(paths)
@@ -527,7 +528,7 @@ def around_of(area: shapely.Geometry) -> LayerBeads:
     return LayerBeads(points=middles, skin=np.zeros(len(middles), dtype=bool), half=half)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @given(st.integers(0, 2**32 - 1))
 @example(341)  # outlines cross where points were moved: left so, they end in an exception of GEOS
 @example(1157)
@@ -659,6 +660,7 @@ def test_a_right_angle_is_passed_at_the_square_corner_velocity() -> None:
     assert seconds(walk([(20, 0), (20, 90)])) == pytest.approx(2 * one_leg, rel=1e-6)
 
 
+@pytest.mark.slow
 @given(paths=st.lists(walks(150), min_size=1, max_size=4))
 def test_times_of_paths(paths: list[np.ndarray]) -> None:
     """Each for itself, and the same the other way."""

@@ -164,7 +164,7 @@ def waves(cell: float) -> list[Path]:
     return FAMILIES["grid"].strands((-40, -40, 40, 40), cell=cell, line_width=WIDTH, z=0, layer=0, radius=0)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @given(regions(), st.floats(1.5, 9))
 @example(box(0, 0, 9, 9), 3.0)
 def test_clipping_keeps_what_is_inside_and_nothing_else(region: Polygon | MultiPolygon, cell: float) -> None:
@@ -187,7 +187,7 @@ def test_clipping_keeps_what_is_inside_and_nothing_else(region: Polygon | MultiP
             assert (path[0] == path[-1]).all()
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @given(regions(), st.sampled_from(list(FAMILIES)), st.floats(1.5, 9))
 def test_any_region_is_covered_soundly(region: Polygon | MultiPolygon, name: str, cell: float) -> None:
     # A slot narrower than a bead holds no wall: no slicer leaves one between two parts of a region.
@@ -196,7 +196,7 @@ def test_any_region_is_covered_soundly(region: Polygon | MultiPolygon, name: str
     assert_sound(paths, region)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @given(regions(), st.floats(1.5, 9))
 def test_joining_only_adds_walls(region: Polygon | MultiPolygon, cell: float) -> None:
     outline = outline_of(region)
@@ -264,7 +264,7 @@ def test_free_ends_are_anchored_above_what_lies_below() -> None:
         assert (anchored[:, 1].mean() - 2) * up > 0
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @given(regions(), st.sampled_from(list(FAMILIES)), st.floats(1.5, 9))
 def test_any_region_is_covered_soundly_above_another(region: Polygon | MultiPolygon, name: str, cell: float) -> None:
     region = region.buffer(WIDTH).buffer(-WIDTH)

@@ -129,7 +129,7 @@ def assert_refilled(old: list[str], new: list[str]) -> None:
         assert before.startswith(";LAYER:")
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_the_print_is_refilled(plugin: ModuleType, program: Path, messages: list[str]) -> None:
     data = items_of(PRINT)
     assert "".join(data) == PRINT
@@ -141,7 +141,7 @@ def test_the_print_is_refilled(plugin: ModuleType, program: Path, messages: list
     assert run(plugin, new, program=str(program)) == new  # it is stamped
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.skipif(bool(missing_cura()), reason=missing_cura())
 def test_a_print_of_curas(plugin: ModuleType, program: Path, messages: list[str], tmp_path: Path) -> None:
     path = cura_print(box(tmp_path, (16, 16, 3)), tmp_path / "cura.gcode", {"infill_pattern": "gyroid"})
@@ -151,7 +151,7 @@ def test_a_print_of_curas(plugin: ModuleType, program: Path, messages: list[str]
     assert messages == []
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_characters_and_line_ends_stay(plugin: ModuleType, program: Path) -> None:
     data = items_of(PRINT.replace("\n", "\r\n").replace(";FLAVOR", ";größe \udcff 🂡\r\n;FLAVOR"))
     new = run(plugin, data, program=str(program))
@@ -215,6 +215,7 @@ def test_a_program_that_fails_leaves_the_print_and_says_why(
     assert says in message
 
 
+@pytest.mark.slow
 def test_an_error_of_the_program_itself(plugin: ModuleType, program: Path, messages: list[str]) -> None:
     data = items_of(PRINT)
     assert run(plugin, data, program=str(program), smooth_radius="wide") is data
@@ -230,7 +231,6 @@ def test_a_missing_program(plugin: ModuleType, messages: list[str]) -> None:
     ]
 
 
-@pytest.mark.long
 def test_a_program_that_hangs_is_stopped(plugin: ModuleType, messages: list[str], tmp_path: Path) -> None:
     """Also where a program that it started lives on."""
     name = scripted(tmp_path, f"echo $$ > {shlex.quote(str(tmp_path / 'number'))}\nsleep 20 &\nwait")

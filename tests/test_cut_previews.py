@@ -50,6 +50,7 @@ def void_at(mesh: trimesh.Trimesh, cut: Cut) -> float:
     return float(1 - area / SIDE**2)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("cells", [2, 4, 5, 6, 12])
 @pytest.mark.parametrize("axes", [(0, 1), (0, 1, 2), (2,), (0, 2)])
 def test_no_cut_runs_along_a_wall(axes: tuple[int, ...], cells: int) -> None:
@@ -58,6 +59,7 @@ def test_no_cut_runs_along_a_wall(axes: tuple[int, ...], cells: int) -> None:
         assert void_at(mesh, cut) > 0.5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("cells", [4, 6])
 def test_the_middle_shows_a_solid_part(cells: int) -> None:
     """What was drawn before: the law above can fail."""
@@ -100,6 +102,7 @@ def test_given_cuts_take_the_place_of_their_kind() -> None:
     assert choose_cuts(mesh, given=[side, low]) == [side, low]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("axis", range(3))
 def test_the_cut_face_is_seen(axis: int) -> None:
     """In the colour of cuts, from every side that one is looked at from."""
@@ -146,6 +149,7 @@ def test_a_cut_beside_the_part_is_told_with_where_it_is() -> None:
             check_cuts([Cut(axis=2, at=at)], bounds)
 
 
+@pytest.mark.longest
 def test_the_command_cuts_where_it_is_told(tmp_path: Path) -> None:
     part, picture = tmp_path / "part.stl", tmp_path / "cut.png"
     box(20, 20, 20).export(part)

@@ -133,6 +133,7 @@ SEEDS: dict[str, tuple[str, bytes, list[Damage]]] = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SEEDS)
 def test_a_damaged_file_is_read_or_refused_in_one_line(name: str, tmp_path: Path) -> None:
     suffix, data, kinds = SEEDS[name]

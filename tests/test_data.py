@@ -55,7 +55,7 @@ def left(tmp_path: Path) -> list[str]:
     return sorted(path.name for path in (tmp_path / "here").rglob("*") if path.is_file())
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_a_file_comes_once(server: str, tmp_path: Path) -> None:
     cube = ("models/cube.stl", f"{server}/models/cube.stl", CONTENT)
     first = fetch(tmp_path, cube)
@@ -72,7 +72,7 @@ def test_a_file_comes_once(server: str, tmp_path: Path) -> None:
     assert "[1/1]" not in again.stderr
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_another_file_under_the_name_is_fetched_anew(server: str, tmp_path: Path) -> None:
     (tmp_path / "here" / "models").mkdir(parents=True)
     (tmp_path / "here" / "models" / "cube.stl").write_bytes(b"of old")
@@ -80,7 +80,7 @@ def test_another_file_under_the_name_is_fetched_anew(server: str, tmp_path: Path
     assert (tmp_path / "here" / "models" / "cube.stl").read_bytes() == CONTENT
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_another_hash_is_refused_and_the_rest_is_fetched(server: str, tmp_path: Path) -> None:
     url = f"{server}/models/cube.stl"
     done = fetch(tmp_path, ("models/changed.stl", url, b"as it was"), ("models/cube.stl", url, CONTENT))
@@ -90,7 +90,7 @@ def test_another_hash_is_refused_and_the_rest_is_fetched(server: str, tmp_path: 
     assert left(tmp_path) == ["cube.stl"]
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("address", "reason"), [("{}/gone.stl", "answers 404"), ("http://127.0.0.1:9/a", "be reached")]
 )

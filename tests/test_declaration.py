@@ -150,6 +150,7 @@ def test_the_keywords_of_fill_are_its_options() -> None:
     assert set(python) == {"part", "shell", "meshing", "threads", "max_memory", "progress"}
 
 
+@pytest.mark.longest
 def test_keywords_in_groups_are_those_alone() -> None:
     box = trimesh.creation.box((20, 20, 20))
     alone = infill.fill(box, wall=1.5, drain=3, vent=True, density=(0.15, 0.4), by="x", voxel=0.5, tolerance=0.05)

@@ -84,18 +84,21 @@ def busy_processes(count: int) -> Iterator[None]:
             process.wait()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", SOURCES)
 @pytest.mark.parametrize("threads", [2, 3])
 def test_threads_change_nothing(name: str, threads: int, folder: Path) -> None:
     assert stl(name, folder, threads=threads) == expected(name, folder)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", SOURCES)
 def test_load_changes_nothing(name: str, folder: Path) -> None:
     with busy_processes(2):
         assert stl(name, folder, threads=2) == expected(name, folder)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", SOURCES)
 @pytest.mark.parametrize("times", [1000.0, 0.001])
 def test_clocks_change_nothing(name: str, times: float, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -107,6 +110,7 @@ def test_clocks_change_nothing(name: str, times: float, folder: Path, monkeypatc
     assert stl(name, folder, threads=2) == expected(name, folder)
 
 
+@pytest.mark.longest
 def test_the_order_of_hashes_changes_nothing(folder: Path) -> None:
     script = (
         "import sys, pathlib, hashlib, test_determinism as t\n"

@@ -113,6 +113,7 @@ def refusal(path: Path, **options: Any) -> str:
 # --- one volume ------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @given(
     order=st.permutations(range(COUNT)),
     noise=npst.arrays(np.float64, (COUNT, 3), elements=st.floats(-0.02, 0.02)),
@@ -138,6 +139,7 @@ def test_frames_lie_where_they_say(
         assert volume.spacing == (1.0, 0.5, STEP)
 
 
+@pytest.mark.slow
 @settings(max_examples=5)
 @given(
     order=st.permutations(range(COUNT)),
@@ -156,6 +158,7 @@ def test_a_file_and_a_folder_of_its_slices_are_one_volume(order: list[int], quat
     assert np.allclose(one.direction, each.direction, atol=ROUNDING)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("syntax", SYNTAXES)
 @pytest.mark.parametrize("shared", [True, False])
 def test_every_way_to_write_elements(syntax: str, shared: bool, tmp_path: Path) -> None:
@@ -196,6 +199,7 @@ UNEVEN: Mapping[str, tuple[np.ndarray, str]] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", UNEVEN)
 def test_uneven_frames_are_refused_in_a_file_and_in_a_folder(kind: str, tmp_path: Path) -> None:
     at, says = UNEVEN[kind]
@@ -209,6 +213,7 @@ def test_uneven_frames_are_refused_in_a_file_and_in_a_folder(kind: str, tmp_path
             read_volume(each)
 
 
+@pytest.mark.slow
 @given(at=st.integers(1, COUNT - 2), by=st.floats(0.3, 1.2), axis=st.integers(0, 2))
 def test_no_frame_off_by_a_tenth_of_a_step_goes_unseen(at: int, by: float, axis: int) -> None:
     moved = shifted(at, by * np.eye(3)[axis])
@@ -295,6 +300,7 @@ def phases(mark: str, order: Sequence[int]) -> Any:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mark", [*CONTENT, *GROUPS])
 def test_phases_want_a_choice(mark: str, tmp_path: Path, rng: np.random.Generator) -> None:
     path = save(phases(mark, rng.permutation(2 * COUNT)), tmp_path / "a.dcm")
@@ -327,6 +333,7 @@ def test_a_mark_of_each_frame_makes_no_volumes(tmp_path: Path) -> None:
     agrees(read_volume(path), body(), places(), AXIAL, ROUNDING)
 
 
+@pytest.mark.slow
 def test_two_marks_together_tell_volumes_apart(tmp_path: Path, rng: np.random.Generator) -> None:
     """Neither the echo nor the moment does alone."""
     order = rng.permutation(4 * COUNT)
@@ -389,6 +396,7 @@ def test_stacks_of_two_orientations_want_a_choice(tmp_path: Path) -> None:
 # --- folders ---------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_folder_of_slices_has_phases_too(tmp_path: Path, rng: np.random.Generator) -> None:
     stored, at = np.concatenate([body(), body() // 2]), np.concatenate([places(), places()])
     each = [{"TriggerTime": "0" if k < COUNT else "350"} for k in range(2 * COUNT)]
@@ -558,6 +566,7 @@ def test_every_frame_has_its_scale(tmp_path: Path) -> None:
     assert np.array_equal(found, true.astype(np.float32))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("stored", "scale", "kind"),
     [
@@ -612,6 +621,7 @@ def test_a_table_of_values_is_used(tmp_path: Path) -> None:
     assert np.array_equal(np.asarray(read_volume(save(made, tmp_path / "a.dcm")).values).T, table[body()])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("packing", ["RLE", "JPEG2000", "JPEG"])
 def test_packed_frames_are_the_same(packing: str, tmp_path: Path) -> None:
     """Packed by what is at hand: RLE by pydicom; for the others, single slices that ITK writes."""
@@ -634,6 +644,7 @@ def test_packed_frames_are_the_same(packing: str, tmp_path: Path) -> None:
     assert found.warnings == ()
 
 
+@pytest.mark.slow
 def test_packed_slices_of_a_folder_are_unpacked_together(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Not one by one, each in a process: two ways of packing are two."""
     called = []
@@ -679,6 +690,7 @@ def packed(stored: np.ndarray, packing: str, folder: Path, broken: float = 1.0) 
     return encapsulate(frames), read.file_meta.TransferSyntaxUID
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("packing", ["JPEG2000", "JPEG"])
 @pytest.mark.parametrize("part", [0.2, 0.5, 0.8])
 def test_a_broken_frame_is_told(packing: str, part: float, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
@@ -704,6 +716,7 @@ def test_a_broken_frame_is_told(packing: str, part: float, tmp_path: Path, capfd
 # --- the command -----------------------------------------------------------------------------------------------
 
 
+@pytest.mark.longest
 def test_warnings_reach_the_report(tmp_path: Path, compiled: None) -> None:
     made = base(CAPTURE, body())
     made.PixelSpacing, made.SpacingBetweenSlices = ["0.5", "1"], "3"

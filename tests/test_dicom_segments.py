@@ -84,6 +84,7 @@ def agrees(found: Segmentation, truth: dict[int, np.ndarray], axes: Sequence[flo
     assert seen == {n: true_centres(mask, axes) for n, mask in truth.items() if mask.any()}
 
 
+@pytest.mark.slow
 @given(
     data=st.data(),
     count=st.integers(1, 4),
@@ -113,6 +114,7 @@ def test_segments_lie_where_they_say(
         assert len(found.layers) == 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("syntax", SYNTAXES)
 @pytest.mark.parametrize("stated", [STEP, None, -STEP])
 def test_every_way_to_write_segments(syntax: str, stated: float | None, tmp_path: Path) -> None:
@@ -159,6 +161,7 @@ def test_names_and_colours(tmp_path: Path) -> None:
     assert smooth_labels(found).report["absent"] == ["Nowhere"]
 
 
+@pytest.mark.longest
 def test_segments_become_files_with_their_names(tmp_path: Path, compiled: None) -> None:
     path = written(OVERLAPPING, tmp_path / "a.dcm")
     words = [sys.executable, "-m", "infill", "smooth", str(path), "-o", str(tmp_path / "{label}.stl"), "--json"]

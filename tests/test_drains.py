@@ -73,7 +73,7 @@ def test_drains_of_a_bolted_plate_keep_the_law(bolted: tuple[list[str], dict[str
     assert report["drains"]["holes"]
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @pytest.mark.parametrize(
     ("name", "pattern", "drain", "options"),
     [
@@ -139,7 +139,6 @@ def test_the_wall_of_a_hole_is_what_trimesh_measures(bolted: tuple[list[str], di
 # --- where drains go ---------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("diameter", [1.0, 2.0, 4.0])
 @pytest.mark.parametrize("degrees", [0, 10, 30])
 def test_a_drain_keeps_diameter_and_wall_from_every_side(diameter: float, degrees: float) -> None:
@@ -152,7 +151,6 @@ def test_a_drain_keeps_diameter_and_wall_from_every_side(diameter: float, degree
     assert hole.clearance >= WALL
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("side", range(4))
 def test_a_drain_moves_off_a_side_wall(side: int) -> None:
     """The lowest place of the void lies in a corner, where there is no room for a hole."""
@@ -185,7 +183,6 @@ def test_a_drain_passes_beside_a_bolt_hole_that_lies_in_its_way() -> None:
     assert hole.clearance >= WALL
 
 
-@pytest.mark.slow
 def test_no_drain_goes_through_an_edge() -> None:
     """On its edge, a box is lowest there; a hole leaves through one of the faces beside it, a wall from the other."""
     part, void = (tilted(each, 45, (1, 0, 0)) for each in (box(26, 26, 26), inset(26, 26, 26)))
@@ -195,7 +192,6 @@ def test_no_drain_goes_through_an_edge() -> None:
     assert distances(hole.at[None], other).min() > WALL
 
 
-@pytest.mark.slow
 def test_a_high_void_gets_no_shaft_through_what_lies_below() -> None:
     """It is joined to the void below, which has a drain: one hole in the skin."""
     part, low, high = box(20, 20, 30), box(17, 17, 12, (0, 0, -7)), box(17, 17, 12, (0, 0, 7))
@@ -251,7 +247,6 @@ def test_each_diameter_that_is_said_to_fit_fits(
     assert plan(box(9, 9, 20), inset(9, 9, 20), diameter=6.9).undrained[0].fits == pytest.approx(5.1)
 
 
-@pytest.mark.slow
 def test_a_void_that_no_diameter_drains_is_opened_from_the_place_that_is_told() -> None:
     """Nothing leads straight down, and the other void is a thick wall away; from above there is room."""
     part = less(box(30, 20, 24), box(28, 18, 4, (0, 0, -6)))
@@ -265,7 +260,6 @@ def test_a_void_that_no_diameter_drains_is_opened_from_the_place_that_is_told() 
     assert [hole.kind for hole in then.holes] == ["place"]
 
 
-@pytest.mark.slow
 def test_a_narrower_branch_is_told_with_a_place_that_has_room() -> None:
     """A thin cell at a side has room for half the width beside itself; straight in from there, for all of it."""
     part = box(70, 70, 50)
@@ -278,7 +272,6 @@ def test_a_narrower_branch_is_told_with_a_place_that_has_room() -> None:
     assert sorted(hole.void for hole in then.holes) == [0, 1]
 
 
-@pytest.mark.slow
 def test_a_void_that_is_far_from_the_middle_of_its_large_neighbour_is_joined_to_it() -> None:
     """Of 400 even samples of the large void, none is near a thin cell at its side."""
     part = box(70, 70, 50)
@@ -291,7 +284,6 @@ def test_a_void_that_is_far_from_the_middle_of_its_large_neighbour_is_joined_to_
     assert branch.clearance >= WALL
 
 
-@pytest.mark.slow
 def test_a_narrow_void_beside_a_wall_is_joined_to_its_neighbour() -> None:
     """As cells that the skin cuts off are: too narrow for a hole that keeps the wall."""
     part = box(20, 20, 20)
@@ -301,7 +293,6 @@ def test_a_narrow_void_beside_a_wall_is_joined_to_its_neighbour() -> None:
     assert all(hole.clearance >= WALL for hole in found.holes)
 
 
-@pytest.mark.slow
 def test_a_drain_does_not_leave_into_a_closed_cavity() -> None:
     part = less(box(16, 16, 20), box(14, 14, 4, (0, 0, -6)))
     void = box(12, 12, 8, (0, 0, 4))
@@ -320,7 +311,6 @@ def test_a_hole_does_not_reach_what_lies_below_its_mouth() -> None:
     assert found.undrained
 
 
-@pytest.mark.slow
 def test_vents_are_drains_of_the_part_turned_over() -> None:
     part, void = PARTS["stair"](), box(20, 16, 5, (5, 0, 0))
     up = plan(part, void, diameter=2.0, vent=True)
@@ -334,7 +324,6 @@ def test_vents_are_drains_of_the_part_turned_over() -> None:
     assert vent.way == pytest.approx([0, 0, 1])
 
 
-@pytest.mark.slow
 def test_a_drain_is_where_it_was_asked_for() -> None:
     part, void = box(20, 20, 20), inset(20, 20, 20)
     for place in ((3.0, -2.0, -10.0), (10.0, 1.0, 2.0), (0.0, 0.0, 10.0), (-2.0, -10.0, 4.0)):
@@ -371,7 +360,6 @@ def test_a_place_that_leaves_no_wall_is_refused(place: tuple[float, float, float
         assert thin.clearance >= WALL
 
 
-@pytest.mark.slow
 def test_a_side_without_a_place_is_said_to_have_none() -> None:
     part, void = box(20, 20, 20), box(1, 1, 16)
     with pytest.raises(GeometryError, match="leave it out: no place that was tried on that side keeps the wall"):
@@ -381,7 +369,6 @@ def test_a_side_without_a_place_is_said_to_have_none() -> None:
 # --- the command and the report ----------------------------------------------------------------------------------------
 
 
-@pytest.mark.slow
 def test_a_drain_wider_than_the_part_is_refused_before_anything_is_computed() -> None:
     with pytest.raises(GeometryError, match=r"drain is 40 mm, and the part is 30 mm wide.*no more than 27\.6"):
         fill(box(30, 30, 30), "grid", drain=40)
@@ -403,7 +390,6 @@ def test_every_void_that_stays_closed_is_told_with_its_place() -> None:
         assert f"{closed[0][0]:.3g} mm³" in each
 
 
-@pytest.mark.slow
 def test_options_for_drains_need_a_diameter() -> None:
     for option in ({"vent": True}, {"drain_at": [(0, 0, -10)]}):
         with pytest.raises(UsageError, match="drain is missing"):
@@ -478,7 +464,6 @@ def test_a_void_without_room_for_a_hole_costs_few_distances(monkeypatch: pytest.
     assert sum(asked) < 1_000_000  # with four narrower diameters and five other directions; 10 million before
 
 
-@pytest.mark.slow
 def test_lines_cross_a_solid_as_often_in_as_out() -> None:
     part = union(PARTS["bracket"](), box(5, 5, 5, (-20, 0, 30)))
     lattice = LineLattice(low=np.array([-30.13, -20.27]), step=0.91, shape=(70, 45))
@@ -492,7 +477,6 @@ def test_lines_cross_a_solid_as_often_in_as_out() -> None:
     assert (-up * height).sum() * lattice.step**2 == pytest.approx(part.volume, rel=0.02)
 
 
-@pytest.mark.slow
 def test_ways_lead_through_solid_alone() -> None:
     part, voids = box(20, 20, 30), [box(17, 17, 6, (0, 0, -8)), box(17, 17, 6, (0, 0, 4)), box(2, 2, 2, (0, 0, 12))]
     hollow = surface(together(*voids))
@@ -504,13 +488,11 @@ def test_ways_lead_through_solid_alone() -> None:
     assert ways.ceiling == pytest.approx(-5.0)
 
 
-@pytest.mark.slow
 def test_a_solid_without_drains_is_left_as_it_is() -> None:
     solid = surface(box(4, 4, 4))
     assert DrainedSolid(solid=solid).facts()["holes"] == []
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("degrees", [20, 45, 55])
 def test_a_mouth_ends_where_its_face_does(degrees: float) -> None:
     """A hole down through a slope, or through a chamfer, is no hole through the edge beside it."""
@@ -526,7 +508,6 @@ def test_a_mouth_ends_where_its_face_does(degrees: float) -> None:
     assert shaft is None or shaft.clearance < 1.0
 
 
-@pytest.mark.slow
 def test_the_judge_measures_like_manifold() -> None:
     """Its distances are those of manifold3d, between solids."""
     one, other = box(4, 4, 4), rod(1, 4, (5, 1, 0))

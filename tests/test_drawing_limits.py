@@ -95,7 +95,7 @@ DXF = {
 }  # fmt: skip
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", SVG)
 def test_a_large_svg_is_refused_by_its_limit(name: str, tmp_path: Path) -> None:
     text, limit = SVG[name]
@@ -118,7 +118,7 @@ def test_a_deep_or_long_wkt_is_refused_by_its_limit(name: str, tmp_path: Path) -
     assert f"{limit}; the limit is" in done.stderr.splitlines()[-1]
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", DXF)
 def test_a_large_dxf_is_refused_by_its_limit(name: str, tmp_path: Path) -> None:
     make, limit = DXF[name]
@@ -128,7 +128,6 @@ def test_a_large_dxf_is_refused_by_its_limit(name: str, tmp_path: Path) -> None:
         read_drawing(path)
 
 
-@pytest.mark.slow
 def test_a_block_in_itself_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "a.dxf"
     repeated(lambda block: block.add_blockref("A", (1, 1))).saveas(path)
@@ -136,7 +135,6 @@ def test_a_block_in_itself_is_refused(tmp_path: Path) -> None:
         read_drawing(path)
 
 
-@pytest.mark.slow
 def test_what_is_below_the_limits_is_read(tmp_path: Path) -> None:
     path = tmp_path / "a.dxf"
     repeated(
@@ -151,7 +149,6 @@ def test_what_is_below_the_limits_is_read(tmp_path: Path) -> None:
     assert len(read_drawing(svg).lines) == 100
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("unit", ["99", "-1", "25"])
 def test_an_unknown_unit_says_what_to_do(unit: str, tmp_path: Path) -> None:
     path = tmp_path / "a.dxf"
@@ -168,7 +165,6 @@ def test_an_unknown_unit_says_what_to_do(unit: str, tmp_path: Path) -> None:
     assert read_drawing(path).bounds == pytest.approx((0, 0, 9, 9))
 
 
-@pytest.mark.slow
 def test_lines_that_vanish_in_a_small_tile_are_an_error_of_ours() -> None:
     with pytest.raises(
         GeometryError, match=r"every line of the drawing is shorter than 0\.113 mm in tiles of 1 × 1 mm"

@@ -245,6 +245,7 @@ def test_arcs_are_those_of_the_formula(
     assert away.max() < 2e-4 * max(radii) + 1e-5
 
 
+@pytest.mark.slow
 @given(points=st.lists(point, min_size=6, max_size=6))
 def test_relative_and_smooth_letters_are_short_for_absolute_ones(points: list[tuple[float, float]]) -> None:
     p = np.array(points)
@@ -542,6 +543,7 @@ def test_what_is_repeated(folder: Path, body: str, head: str, tile: tuple[float,
     assert found == pytest.approx(tile, abs=0.01)
 
 
+@pytest.mark.slow
 def test_beads_have_room(folder: Path) -> None:
     """Wherever lines come close, other paths stay 0.8 line widths away; a hundredth may be nearer, at crossings."""
     paths = read_tile_family(scribble(folder)).strands((0, 0, 20, 20), cell=18, line_width=WIDTH, radius=0.6)
@@ -591,6 +593,7 @@ def test_the_largest_radius_is_a_tenth_of_the_tile(folder: Path) -> None:
     assert np.array_equal(one, other)
 
 
+@pytest.mark.slow
 def test_parallel_lines_stay_where_they_are(folder: Path) -> None:
     """Half a millimetre apart, or more: to a tenth of a grid cell, by which they settle on its lines."""
     paths = strands(folder, '<path d="M0 5h20M0 5.5h20M0 12h20"/>', radius=1.0)
@@ -614,6 +617,7 @@ def test_a_honeycomb_drawn_once_becomes_touching_waves(folder: Path) -> None:
     assert gaps == pytest.approx([0.905 * WIDTH] * len(gaps), abs=0.02)  # a third of a grid cell
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("body", "loops"),
     [

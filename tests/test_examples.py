@@ -141,7 +141,7 @@ def numbers_in(title: str) -> list[int]:
     return list(range(found[0], found[-1] + 1)) if " to " in title else found
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_a_page_without_models_says_so(tmp_path: Path) -> None:
     (tmp_path / "paper").mkdir()
     main_of(page.SCRIPTS[0])(tmp_path / "paper", small=True)
@@ -150,7 +150,7 @@ def test_a_page_without_models_says_so(tmp_path: Path) -> None:
     assert "## fig06\n\nNot run: " in text
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.skipif(shutil.which("prusa-slicer") is None, reason="prusa-slicer is not installed: make slicers")
 def test_the_example_before_the_slicer_slices(tmp_path: Path) -> None:
     done = subprocess.run(
@@ -162,7 +162,7 @@ def test_the_example_before_the_slicer_slices(tmp_path: Path) -> None:
     assert float(used[1]) == pytest.approx(0.714, rel=0.15)  # the mesh; slicers draw such walls only roughly
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_without_models_a_script_says_so(tmp_path: Path) -> None:
     done = subprocess.run(
         [sys.executable, "-m", "examples.paper.fig06_silhouettes", tmp_path, "--small"],
@@ -235,7 +235,7 @@ def test_every_script_for_slicers_is_tried() -> None:
     assert "not run on Windows" in (SLICERS / "slice_and_refill.ps1").read_text(encoding="utf-8")
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @needs_prusa
 def test_a_part_is_sliced_and_refilled_by_python(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     part, ini = part_and_settings(tmp_path)
@@ -246,7 +246,7 @@ def test_a_part_is_sliced_and_refilled_by_python(tmp_path: Path, capsys: pytest.
     assert b"; refilled by" not in (tmp_path / "my part.gcode").read_bytes()
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @needs_prusa
 @needs_bash
 def test_a_part_is_sliced_and_refilled_by_bash(tmp_path: Path) -> None:

@@ -112,7 +112,7 @@ def test_lines_are_finite_paths_that_cover_the_box(family: Family, cell: float) 
         assert away.max() <= cell * (1 / (2 * SIDE) if family.name == "cross" else 1)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @every_family
 @every_cell
 @pytest.mark.parametrize("rounded", [False, True])
@@ -162,7 +162,7 @@ def test_prismatic_families_repeat_in_every_layer(family: Family) -> None:
     assert all(equal) == family.prismatic
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @every_family
 @pytest.mark.parametrize("density", [0.05, 0.15, 0.4])
 def test_the_guess_of_the_cell_is_near(family: Family, density: float) -> None:

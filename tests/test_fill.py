@@ -63,7 +63,7 @@ def part() -> trimesh.Trimesh:
 # --- every pattern ----------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("pattern", EVERY)
 def test_a_filled_part_is_the_part_without_voids_that_keep_their_distance(pattern: str, part: trimesh.Trimesh) -> None:
     result = fill(part, pattern, density=0.25, wall=1.2)
@@ -111,7 +111,7 @@ def test_a_shift_by_a_period_changes_nothing(name: str) -> None:
     assert len(other.faces) == pytest.approx(len(one.faces), rel=0.01)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_both_sides_of_a_gyroid_are_alike() -> None:
     """Turning it inside out at the middle of a block swaps them."""
     result = fill(box(20, 20, 20), "gyroid", cell=7, line_width=0.6, wall=1, voxel=0.4)
@@ -147,7 +147,7 @@ def test_distances_to_a_surface_are_those_to_its_mesh(name: str) -> None:
     assert (np.sign(found) == np.sign(pattern.value(*(2 * np.pi * points.T))))[exact > 1e-3].all()
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_cross_hatch_is_upright_at_half_of_all_heights_and_turned_half_a_period_up() -> None:
     pattern = IN_SPACE["cross-hatch"]
     assert isinstance(pattern, Surfaces)
@@ -197,7 +197,7 @@ def to_edges(points: np.ndarray, edges: np.ndarray) -> np.ndarray:
     return np.linalg.norm(beside - share[..., None] * along, axis=2).min(axis=1)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("name", [name for name, each in IN_SPACE.items() if isinstance(each, Planes)])
 def test_every_point_is_in_one_class_of_cells_and_no_two_of_a_class_touch(name: str) -> None:
     """Not even at a corner: cells grown by 0.02 still have pieces with one number in every family of planes each."""
@@ -250,6 +250,7 @@ def test_polyhedra_fill_space_and_no_two_of_a_class_touch(name: str) -> None:
         assert ((away > 0).any(axis=0) == (deep > 0)).all()
 
 
+@pytest.mark.slow
 def test_the_cells_of_honeycomb_3d_are_those_of_voronoi_around_a_body_centred_lattice() -> None:
     points = np.random.default_rng(5).random((3000, 3))
     whole = np.stack(np.meshgrid(*[np.arange(-2.0, 4.0)] * 3), axis=-1).reshape(-1, 3)
@@ -262,6 +263,7 @@ def test_the_cells_of_honeycomb_3d_are_those_of_voronoi_around_a_body_centred_la
     assert IN_SPACE["honeycomb-3d"].distance(points) == pytest.approx(exact, abs=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("overhang", [30.0, 45.0, 60.0, 75.0])
 def test_the_walls_of_the_lateral_honeycomb_lean_as_asked(overhang: float) -> None:
     """By hexagons drawn anew, corner by corner, their six sides as long as one another."""
@@ -337,7 +339,7 @@ def test_a_network_hangs_together_from_its_lowest_density_on(name: str) -> None:
     assert away.max() - away.min() < 0.0201
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_the_edges_of_foam_are_as_far_from_three_seeds_as_from_no_other() -> None:
     from patterns.foam import voronoi_centroids, voronoi_edges
 
@@ -358,7 +360,7 @@ def test_the_edges_of_foam_are_as_far_from_three_seeds_as_from_no_other() -> Non
         seeds = voronoi_centroids(seeds, period)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_foam_of_another_seed_is_another() -> None:
     given = {"density": 0.2, "cell": 5.0, "voxel": 0.4, "wall": 1.0}
     block = box(15, 15, 15)
@@ -378,7 +380,7 @@ def test_a_network_that_would_break_is_refused() -> None:
         fill(box(15, 15, 15), "schwarz-p-network", density=(0.3, 0.03))
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_kernels_are_their_definitions() -> None:
     from infill.kernels.cells import from_bars, from_period, from_plane, from_planes, from_polyhedra, lower_to_segments
 
@@ -492,7 +494,7 @@ def test_no_radius_is_no_fillet() -> None:
 # --- parts -------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_a_cavity_keeps_its_wall() -> None:
     part = less(box(24, 24, 24), ball(5))
     result = fill(part, "gyroid", **FEW)
@@ -500,7 +502,7 @@ def test_a_cavity_keeps_its_wall() -> None:
     assert TriangleTree.of(result.stages.voids).nearest(ball(5).vertices)[0].min() >= 0.9 * 1.5
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_what_overlaps_is_united_and_what_touches_is_not() -> None:
     two = together(box(14, 14, 14), box(14, 14, 14, (7, 3, 2)))
     result = fill(two, "gyroid", **FEW)
@@ -516,7 +518,7 @@ def test_what_overlaps_is_united_and_what_touches_is_not() -> None:
     assert result.report["problems"] == []  # the wall along the gap, too
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_what_is_inside_out_or_has_a_hole_is_repaired_and_told() -> None:
     block = box(16, 16, 16)
     inverted = Surface(vertices=block.vertices, faces=block.faces[:, ::-1])
@@ -530,7 +532,7 @@ def test_what_is_inside_out_or_has_a_hole_is_repaired_and_told() -> None:
     assert result.stages.part.volume == pytest.approx(16**3)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_boxes_that_share_an_edge_are_told_apart() -> None:
     two = together(box(14, 14, 14), box(14, 14, 14, (14, 14, 0)))
     two.merge_vertices()
@@ -539,7 +541,7 @@ def test_boxes_that_share_an_edge_are_told_apart() -> None:
     assert result.report["problems"] == []
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_far_from_the_origin() -> None:
     block = box(16, 12, 10)
     here = fill(block, "gyroid", **FEW).report
@@ -548,7 +550,7 @@ def test_far_from_the_origin() -> None:
     assert there["problems"] == []
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("voxel", [0.01, 0.02, 0.023])
 def test_fillets_are_small_in_small_parts_however_their_walls_lie_on_the_grid(voxel: float) -> None:
     """Walls that lie between two layers of cells, as near to one as to the other, have an area too."""
@@ -558,7 +560,7 @@ def test_fillets_are_small_in_small_parts_however_their_walls_lie_on_the_grid(vo
     assert report["walls"]["least"] == pytest.approx(0.1, abs=0.01)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_a_part_smaller_than_a_cell_has_thinner_walls_instead() -> None:
     result = fill(box(6, 5, 4), "gyroid", density=0.1, wall=0.8)
     assert result.report["problems"] == []
@@ -574,7 +576,7 @@ def test_bars_that_reach_the_wall_leave_one_void_around_them() -> None:
     assert len(result.surface.to_trimesh().split(only_watertight=True)) == 2  # the skin, and one void
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_what_hangs_free_is_left_out_and_what_is_lost_is_told() -> None:
     """Bars as thin as a cell of the grid break into pieces; those that vanish leave none."""
     broken = fill(box(20, 20, 20), "bcc", cell=8, line_width=0.5, voxel=0.4)
@@ -587,6 +589,7 @@ def test_what_hangs_free_is_left_out_and_what_is_lost_is_told() -> None:
     assert fill(box(20, 20, 20), BAR, cell=8, line_width=1.2).report["problems"] == []
 
 
+@pytest.mark.slow
 def test_a_part_far_thinner_than_the_wall_is_refused_at_once() -> None:
     """In millimetres where metres were meant: no distance is measured over thousands of cells."""
     with pytest.raises(GeometryError, match=r"0\.04 mm, is nowhere thicker .* a thinner wall, or the right unit$"):
@@ -611,7 +614,7 @@ def test_the_infill_alone_reaches_into_the_wall(form: str) -> None:
         )  # its edges are cut
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("pattern", ["gyroid", BAR, "honeycomb", "adaptive-cubic"])
 def test_every_void_drains_or_is_listed(pattern: str, part: trimesh.Trimesh) -> None:
     shut = fill(part, pattern, **FEW)
@@ -679,7 +682,7 @@ def test_equal_bodies_are_filled_alike(pattern: str) -> None:
     assert TriangleTree.of(surface(other)).nearest(moved.vertices + np.array([20, 3.5, 0]))[0].max() > 0.5
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("more", [{"density": (0.2, 0.4), "by": "x"}, {"as_": "project"}, {"open_": "top"}])
 def test_bodies_keep_all_other_promises(more: dict[str, Any]) -> None:
     """Also one in a cavity of another, and two that touch."""
@@ -705,7 +708,7 @@ def waves(x: Any, y: Any, z: Any) -> Any:
     return np.sin(z / 2 - 0.8 * (np.cos(x) + np.cos(y)))
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize(
     ("pattern", "open_"),
     [
@@ -751,7 +754,7 @@ def test_an_open_part_is_one_solid_with_its_own_skin_but_for_the_side(pattern: s
     assert report["density"] == pytest.approx(1 - report["voids"]["volume"] / report["part"]["inside"])
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_an_open_part_stays_closed_in_a_file(tmp_path: Path) -> None:
     for pattern in ("honeycomb", "gyroid", "triangles"):
         result = fill(STEPPED, pattern, open_="both", **FEW)
@@ -760,7 +763,7 @@ def test_an_open_part_stays_closed_in_a_file(tmp_path: Path) -> None:
         assert manifold_status(read_mesh(tmp_path / f"{pattern}.stl")) == FINE
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_what_hung_on_what_is_cut_off_is_left_out() -> None:
     result = fill(box(24, 24, 14), waves, open_="top", **WAVES)
     solid = result.surface.to_trimesh().split(only_watertight=False)
@@ -771,7 +774,7 @@ def test_what_hung_on_what_is_cut_off_is_left_out() -> None:
     assert result.surface.volume == pytest.approx(24 * 24 * 14 - result.report["voids"]["volume"], rel=1e-3)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_open_voids_need_no_drain() -> None:
     # At 1.5 mm, voids that the step cuts off drain through narrower branches, and that is told.
     upright = fill(STEPPED, "honeycomb", open_="top", drain=1.2, **FEW).report
@@ -785,7 +788,7 @@ def test_open_voids_need_no_drain() -> None:
     assert (every["drains"]["count"], every["voids"]["open"]) == (0, every["voids"]["count"])
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_a_part_lower_than_two_walls_may_be_open() -> None:
     with pytest.raises(GeometryError, match="nowhere thicker"):
         fill(box(20, 20, 2.2), "grid")
@@ -805,7 +808,7 @@ def test_the_infill_alone_reaches_an_open_side(open_: str) -> None:
     assert result.surface.bounds[0] == pytest.approx(np.array([-8.9, -8.9, -6 if open_ == "both" else -4.9]), abs=0.03)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("by", ["z", "skin"])
 def test_a_density_that_changes_ends_at_an_open_side(by: str) -> None:
     result = fill(box(20, 20, 20), "gyroid", density=(0.15, 0.35), by=by, open_="top", voxel=0.4, wall=1.0)
@@ -821,7 +824,7 @@ def test_a_density_that_changes_ends_at_an_open_side(by: str) -> None:
         assert solid == pytest.approx(np.mean(winding_numbers(middle, result.surface) > 0), abs=0.05)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_a_side_that_cannot_be_open_is_one_clear_line(tmp_path: Path) -> None:
     bar = less(box(20, 20, 12), box(17.8, 17.8, 12, (0, 0, 2)))  # a rim of 1.1 mm
     with pytest.raises(
@@ -860,7 +863,7 @@ def test_volumes_between_open_sides_are_those_of_cut_solids() -> None:
 # --- what is told ------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_a_thin_wall_and_a_void_outside_are_found(monkeypatch: pytest.MonkeyPatch) -> None:
     """Planted: voids that are moved towards the skin, and through it."""
     part = surface(box(20, 20, 20))
@@ -923,7 +926,7 @@ REFUSED = {
 }
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_files_that_are_broken_are_filled_or_one_clear_line(data: Path, tmp_path: Path) -> None:
     for path in sorted(each for each in (data / "nasty").iterdir() if each.suffix in (".stl", ".obj")):
         out = tmp_path / f"{path.stem}.stl"
@@ -943,7 +946,7 @@ def test_a_sheet_is_no_part() -> None:
         fill(sheet)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_too_many_triangles_are_fewer_however_that_is_done(part: trimesh.Trimesh) -> None:
     """By a coarser grid; by larger cells; where both were asked for, by moving the surface, which is told."""
     given = {"cell": 5.0, "line_width": 0.8, "max_triangles": 3000}
@@ -957,7 +960,7 @@ def test_too_many_triangles_are_fewer_however_that_is_done(part: trimesh.Trimesh
     assert moved["mesh"]["manifold"] == FINE
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_triangles_are_no_more_than_asked_for(part: trimesh.Trimesh) -> None:
     many = fill(part, "gyroid", density=0.25)
     few = fill(part, "gyroid", density=0.25, max_triangles=30_000)
@@ -967,7 +970,7 @@ def test_triangles_are_no_more_than_asked_for(part: trimesh.Trimesh) -> None:
     assert few.report["density"] == pytest.approx(0.25, abs=0.01)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_simplified_voids_stay_closed_in_single_precision(part: trimesh.Trimesh) -> None:
     """Files of most formats have no more: two vertices in one place would be one, and an edge between two such, four."""
     voids = fill(part, BAR, density=0.25, tolerance=0).stages.voids
@@ -981,7 +984,7 @@ def test_simplified_voids_stay_closed_in_single_precision(part: trimesh.Trimesh)
     assert coincident_vertices(twice).sum() == 2
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_a_hollow_knows_its_density() -> None:
     request = check_request(
         pattern="gyroid",
@@ -1019,7 +1022,7 @@ def spires() -> trimesh.Trimesh:
     return together(up, down)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_the_page_lists_exactly_the_keys_of_a_fill(part: trimesh.Trimesh) -> None:
     text = PAGE.read_text(encoding="utf-8").partition(FILL)[2]
     results = {
@@ -1042,7 +1045,7 @@ def test_the_page_lists_exactly_the_keys_of_a_fill(part: trimesh.Trimesh) -> Non
 # --- files -------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_the_command_writes_what_python_makes(tmp_path: Path, part: trimesh.Trimesh) -> None:
     given, out, picture = tmp_path / "part.stl", tmp_path / "out.stl", tmp_path / "out.png"
     part.export(given)
@@ -1063,7 +1066,7 @@ def test_the_command_writes_what_python_makes(tmp_path: Path, part: trimesh.Trim
     one_line_error(command("fill", given, "-o", out), "exists")
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_a_dry_run_says_what_it_would_take(tmp_path: Path, part: trimesh.Trimesh) -> None:
     given = tmp_path / "part.stl"
     part.export(given)
@@ -1076,7 +1079,7 @@ def test_a_dry_run_says_what_it_would_take(tmp_path: Path, part: trimesh.Trimesh
     assert sorted(tmp_path.iterdir()) == [given]
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.skipif(bool(slicers.missing_prusa()), reason=slicers.missing_prusa() or "there")
 def test_prusaslicer_slices_it_without_repairs(tmp_path: Path, part: trimesh.Trimesh) -> None:
     path = tmp_path / "filled.stl"
@@ -1087,7 +1090,7 @@ def test_prusaslicer_slices_it_without_repairs(tmp_path: Path, part: trimesh.Tri
     assert slicers.prusa_slice(path)["layers"] > 20
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize(
     ("name", "pattern", "density"),
     [
@@ -1122,7 +1125,7 @@ def test_a_resolution_is_a_size_of_voxels_along_the_longest_side() -> None:
         fill(part, BAR, resolution=0)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_large_fillets_do_not_draw_voids_into_the_wall_where_the_skin_bends_inwards(part: trimesh.Trimesh) -> None:
     """Around a corner that points inwards, curvature alone would leave half of the wall: R^2 - 4 t = 0.3 of 1.0 mm^2."""
     report = fill(part, "cubic", density=0.25, wall=1.0, smooth_radius=0.8, voxel=0.25).report

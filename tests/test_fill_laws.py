@@ -91,7 +91,7 @@ def across(voids: Surface, reach: float, inside: float) -> float:
     return float(np.median(np.where(hit.any(axis=1), hit.argmax(axis=1), 100))) * step
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("name", [name for name in EVERY if not isinstance(IN_SPACE.get(name), Network)])
 def test_walls_in_the_mesh_are_as_wide_as_asked_for(name: str) -> None:
     """And bars as thick, though smoothing makes these thinner, and walls between narrow voids wider."""
@@ -127,7 +127,7 @@ def test_smoothing_and_turning_may_change_places(name: str) -> None:
     assert sharp.area > 1.01 * one.area
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_tips_are_those_of_corners_that_stay_themselves() -> None:
     """By the equation: a curve that grows by curvature alone has, at the time 1/2, curvature = x · normal."""
     from scipy.integrate import solve_ivp
@@ -145,6 +145,7 @@ def test_tips_are_those_of_corners_that_stay_themselves() -> None:
         assert brentq(lambda at, end=end: slope(at) - end, 0.1, 3.0) == pytest.approx(tip, abs=2e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "corners"), [("honeycomb", 6), ("triangles", 3)])
 @hypothesis.given(cell=st.floats(2.0, 9.0), half=st.floats(20, 30))
 def test_no_wall_is_lost_between_voids(name: str, corners: int, cell: float, half: float) -> None:
@@ -215,7 +216,7 @@ def fillets(voids: Surface, part: Surface, radius: float = RADIUS) -> np.ndarray
     return np.array(found)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("name", [name for name in EVERY if walls_meet(name)])
 def test_fillets_have_at_least_the_radius_asked_for(name: str) -> None:
     """At 95 % of all places where walls meet or bend, or bars meet, six radii thick."""
@@ -230,7 +231,7 @@ def test_fillets_have_at_least_the_radius_asked_for(name: str) -> None:
     assert np.quantile(found, 0.05) >= radius
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_a_fillet_that_is_too_sharp_is_found() -> None:
     result = fill(box(24, 24, 24), "grid", smooth_radius=0.8 * RADIUS, voxel=0.2, tolerance=0, density=0.25)
     assert np.quantile(fillets(result.stages.voids, result.stages.part), 0.05) < 0.95 * RADIUS

@@ -65,7 +65,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_a_drawing_is_repeated(folder: Path) -> None:
     """A tile of `cell` by half of it, with a line along each side: 1 / cell + 2 / cell mm of it per mm^2."""
     pattern = read_tiled(folder / "cross.svg")
@@ -103,7 +103,7 @@ def test_a_part_is_filled_with_what_a_module_holds(folder: Path, name: str) -> N
     assert one.surface.volume == pytest.approx(other.surface.volume, rel=1e-3)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_what_a_name_stands_for_may_be_given_itself(folder: Path) -> None:
     def waves(x: Any, y: Any, z: Any) -> Any:
         return np.cos(x) + np.cos(y) + np.cos(z)
@@ -122,7 +122,7 @@ def test_what_a_name_stands_for_may_be_given_itself(folder: Path) -> None:
     assert volumes["function"] == pytest.approx(volumes["surfaces"], rel=1e-3)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_a_pattern_that_is_turned_itself_is_turned_by_both_angles() -> None:
     one, other = fill(PART, Honeycomb(angle=170.0), angle=40.0, **GIVEN), fill(PART, "honeycomb", angle=-150.0, **GIVEN)
     np.testing.assert_array_equal(one.surface.vertices, other.surface.vertices)
@@ -169,7 +169,7 @@ def test_what_is_no_pattern_is_one_clear_line(folder: Path, pattern: str, error:
     assert not Path("a.stl").exists()
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_a_seed_on_the_command_line(folder: Path) -> None:
     def volume(*words: str) -> float:
         given = ("fill", "part.stl", "-o", "a.stl", "--force", "--pattern", "voronoi", "--cell", "6", "--json", "-q")

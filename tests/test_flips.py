@@ -80,7 +80,7 @@ def compared(given: SmoothInput, request: SmoothRequest) -> tuple[bool, bool]:
     return part is not None, near
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_both_forms_agree_on_random_fields() -> None:
     decided = []
     for seed in range(FIELDS):
@@ -148,7 +148,7 @@ def test_distances_are_measured_when_they_are_asked_for() -> None:
     assert not report.pending("distance")
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_both_forms_agree_on_real_files(data: Path) -> None:
     """Every mesh and every volume, on coarse grids: what there is to check for is how they are connected."""
     decided = []
@@ -183,6 +183,7 @@ def test_what_was_taken_out_as_a_crumb_is_measured() -> None:
     assert report["verdict"]["word"] == "lost"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("moved", [0.2, 1.0, 1.6, 2.6, 7.0])
 def test_what_is_near_need_not_be_measured(moved: float) -> None:
     """Word, phrases and places are the same whether distances of what is near are exact or not."""

@@ -336,6 +336,7 @@ WAYS = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("way", WAYS, ids=lambda way: " ".join(f"{key}={each}" for key, each in way.items()))
 @pytest.mark.parametrize("dtype", list(VTI_TYPES))
 def test_an_image_of_vtk_in_every_coding(dtype: str, way: dict[str, Any], tmp_path: Path) -> None:

@@ -24,7 +24,7 @@ from tests.fuzzing.worker import make_case, run_case, seeds_of
 CASES = {"meshes": 600, "volumes": 150, "points": 60, "drawings": 60, "prints": 150, "settings": 60}
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("name", CASES)
 def test_no_mutated_file_does_what_none_may(name: str, compiled: None) -> None:
     """No traceback, no hang, no gigabytes, no half-written file, nothing that every other reader contradicts."""
@@ -46,7 +46,7 @@ found = {name: run_case(target, name, data, Random(1), Path(sys.argv[2]) / "case
 """
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", CASES)
 def test_whole_seeds_are_read(name: str, compiled: None, tmp_path: Path) -> None:
     """Each is a file that its command takes, and reads as others do: mutations begin from what works."""
@@ -64,6 +64,7 @@ print(json.dumps({name: hashlib.md5(text).hexdigest() for name, text in seeds.it
 """
 
 
+@pytest.mark.longest
 def test_seeds_are_the_same_in_every_run() -> None:
     """Whatever the time of day, and whatever the order of sets: a finding can be made again by its numbers."""
     answers = []
@@ -84,6 +85,7 @@ def test_a_case_is_the_same_for_the_same_numbers() -> None:
     assert len(others) > 30
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", TARGETS)
 def test_mutations_break_files(name: str) -> None:
     """Most are unlike their seed, and none takes a generator elsewhere."""
@@ -132,6 +134,7 @@ print(run_case(TARGETS["meshes"], "box.stl", sys.stdin.buffer.read(), Random(1),
 """
 
 
+@pytest.mark.slow
 def test_a_size_that_every_other_reader_contradicts_is_a_fault(tmp_path: Path) -> None:
     words = [sys.executable, "-c", LIE, str(tmp_path / "case")]
     answer = subprocess.run(words, cwd=ROOT, check=True, capture_output=True, input=BOX, timeout=100)

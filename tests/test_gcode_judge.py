@@ -97,6 +97,7 @@ def sliced(tmp_path_factory: pytest.TempPathFactory) -> bytes:
     return prusa_print(box(folder, (14, 14, 2.4)), folder / "box.gcode").read_bytes()
 
 
+@pytest.mark.slow
 def test_a_real_print_with_its_moves_cut_in_two_is_lawful(sliced: bytes) -> None:
     new = halves(sliced)
     assert changed(sliced, new) == infilled(sliced) > 0
@@ -244,7 +245,7 @@ def without_a_row(lines: Lines) -> Lines:
     return left
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_planted_fault_is_found_by_its_name(fault: str) -> None:
     plant, name = FAULTS[fault]
@@ -275,6 +276,7 @@ ABSOLUTE_FAULTS: dict[str, tuple[Callable[[Lines], Lines], str]] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fault", ABSOLUTE_FAULTS)
 def test_a_fault_of_absolute_filament_is_found(fault: str) -> None:
     plant, name = ABSOLUTE_FAULTS[fault]
@@ -321,6 +323,7 @@ def test_a_counter_that_is_no_longer_set_is_found() -> None:
     assert judge(old, head + b"\nG92 E1\n" + tail) != []
 
 
+@pytest.mark.slow
 def test_times_may_be_told_anew_and_nothing_else() -> None:
     old = written(FULL)
     new = re.sub(rb"M73 P\d+ R\d+", b"M73 P7 R3", halves(old))
@@ -343,7 +346,7 @@ def test_a_layer_that_was_slowed_is_not_made_shorter() -> None:
     assert any(line.startswith("cooling") for line in judge(old, b"\n".join(fewer)))
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_the_region_is_what_other_beads_leave_free(sliced: bytes) -> None:
     """As far as the slicer's own infill reaches, and 0.02 mm."""
     new = halves(sliced)
@@ -406,7 +409,7 @@ def test_it_reads_no_code_of_ours() -> None:
         assert "infill import" not in Path(__file__).with_name(name).read_text(encoding="utf-8")
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @given(prints())
 def test_prints_of_any_dialect_are_valid_and_may_be_cut(old: bytes) -> None:
     """What the strategy makes breaks no law itself: so what a refill breaks is its own."""

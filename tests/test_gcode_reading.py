@@ -39,6 +39,7 @@ def same(one: float, other: float) -> bool:
     return one == other and np.signbit(one) == np.signbit(other)
 
 
+@pytest.mark.slow
 @settings(max_examples=200)
 @given(st.text("0123456789.-+eE_,", max_size=22))
 @example("-0")
@@ -288,7 +289,7 @@ COLUMNS = ("kind", "x", "y", "z", "e", "f", "extruded", "relative_e")
 BEGIN = MachineState(x=1.0, y=2.0, z=3.0, e=4.0, f=600.0)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @settings(max_examples=120)
 @given(
     print_text(),
@@ -310,7 +311,7 @@ def test_a_table_is_what_reading_line_by_line_gives(lines: list[bytes], state: M
         assert codes == kind_of(line)[1]
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(print_text(), st.integers(0, 14))
 def test_a_print_read_in_two_batches_is_the_same(lines: list[bytes], cut: int) -> None:
@@ -620,6 +621,7 @@ def test_nothing_is_drawn_where_moves_mean_something_else(mode: str) -> None:
     assert read_all(text)[2].line.tolist() == [1, 2]
 
 
+@pytest.mark.slow
 @given(st.lists(st.tuples(EIGHTHS, EIGHTHS), min_size=2, max_size=9, unique=True), st.booleans(), st.data())
 def test_strokes_are_the_runs_of_one_rate(points: list[tuple[int, int]], absolute: bool, data: st.DataObject) -> None:
     """A path with changes of the filament per mm of 5 % or of nothing, in absolute or relative E."""

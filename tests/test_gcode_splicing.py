@@ -148,7 +148,7 @@ def is_drawn(line: bytes) -> bool:
 # Laws of splicing.
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @settings(max_examples=50)
 @given(prints(), st.data())
 def test_whatever_is_redrawn_all_else_stays(text: bytes, data: st.DataObject) -> None:
@@ -185,7 +185,7 @@ def _copied(done: SplicedText) -> set[int]:
     return set((old + done.shift[old]).tolist())
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @settings(max_examples=50)
 @given(prints(), st.data())
 def test_the_counter_is_reset_only_where_it_is_needed(text: bytes, data: st.DataObject) -> None:
@@ -204,7 +204,7 @@ def test_the_counter_is_reset_only_where_it_is_needed(text: bytes, data: st.Data
     assert resets == off.sum()
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @settings(max_examples=50)
 @given(prints())
 def test_nothing_redrawn_is_the_same_text(text: bytes) -> None:
@@ -298,6 +298,7 @@ def cut_corner(text: str) -> tuple[GcodeTable, InfillStrokes, NewPaths, SplicedT
     return table, infill, new, splice_paths(table, infill, new)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mode", OLD)
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_planted_fault_is_named(mode: str, fault: str) -> None:
@@ -429,7 +430,7 @@ def one_body(text: bytes) -> tuple[GcodeTable, InfillSection]:
     return table, body
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(sections(), PATHS, WAYS, st.lists(st.booleans(), min_size=5, max_size=5))
 def test_a_section_drawn_anew_leaves_all_as_it_was(

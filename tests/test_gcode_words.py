@@ -68,6 +68,7 @@ def of(folder: Path, text: str, head: str = HEAD, **given: Any) -> Motion:
     return motion(path, **given)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", LAID)
 def test_what_firmware_obeys_is_planned(name: str, tmp_path: Path) -> None:
     text, length = LAID[name]
@@ -119,6 +120,7 @@ COUNTED = {  # what cannot be planned, though it may move or extrude
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", COUNTED)
 def test_what_cannot_be_planned_is_counted(name: str, tmp_path: Path) -> None:
     found = of(tmp_path, f"G1 X60 E1\n{COUNTED[name]}\n;\n{COUNTED[name]}\nG1 X50 Y50 E1\n")
@@ -160,6 +162,7 @@ QUIET += ("(G1 X5)", "; /G1 X5", "/", "//", "/ (G1 X5)", "/; G1 X5", "M117 /G1 X
 QUIET += ("EXCLUDE_OBJECT_START NAME=g1_x5", "SET_PRESSURE_ADVANCE ADVANCE=0.1", "M106 S255", "G92 E0", "G10", "%", "")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("line", QUIET)
 def test_what_moves_nothing_is_not_counted(line: str, tmp_path: Path) -> None:
     assert of(tmp_path, f"G1 X70 E1\n{line}\nG1 X90 E1\n").unread_lines == 0
@@ -174,6 +177,7 @@ def test_macros_are_named(tmp_path: Path) -> None:
     assert "PRINT_START, END_PRINT: what the printer does there is not known" in result.stdout
 
 
+@pytest.mark.slow
 @settings(max_examples=80)
 @given(
     st.dictionaries(st.sampled_from("XYZEF"), st.integers(-4000, 4000).map(lambda value: value / 8), min_size=1),
@@ -314,6 +318,7 @@ MODES = {  # Marlin, Klipper, RepRapFirmware
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("modes", MODES)
 @pytest.mark.parametrize(("at", "flavour"), list(enumerate(["marlin", "klipper", "reprapfirmware"])))
 def test_whether_e_counts_from_the_last_move(modes: str, at: int, flavour: str, tmp_path: Path) -> None:
@@ -333,6 +338,7 @@ def test_klipper_is_known_by_its_commands(tmp_path: Path) -> None:
     assert of(tmp_path, text, "SET_VELOCITY_LIMIT ACCEL=900\nG1 X50 Y50 F600\n").filament == RELATIVE
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", ["motion", "refill"])
 def test_lines_that_end_with_cr_alone_are_told(command: str, tmp_path: Path) -> None:
     old = written(Dialect())
@@ -369,6 +375,7 @@ def test_where_the_nozzle_is_behind_what_may_move_it_is_not_known(line: str) -> 
     assert table.unsure.tolist() == [False, False, False, False, True, True, False]
 
 
+@pytest.mark.slow
 def test_infill_beside_lines_that_cannot_be_read_stays(tmp_path: Path) -> None:
     """What follows such a line begins nobody knows where: not before x and y are said again is anything drawn anew."""
     text = b"M83\n;TYPE:FILL\nG1 X10 Y0 E1 F900\nG1 X{a} Y9 E1\nG1 X20 E1\nG1 Y20 E1\nG1 X30 E1\n"

@@ -108,6 +108,7 @@ def needs(*names: str) -> dict[str, list[str]]:
 # --- numbers ---------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "top"), [(5120, 127), (5121, 255), (5122, 32767), (5123, 65535)])
 @pytest.mark.parametrize("normalised", [True, False])
 @pytest.mark.parametrize("required", [True, False])
@@ -551,6 +552,7 @@ BROKEN = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", BROKEN)
 def test_what_is_broken_is_said(name: str, tmp_path: Path) -> None:
     change, says = BROKEN[name]
@@ -589,6 +591,7 @@ def test_a_glb_that_is_cut_off(cut: int, tmp_path: Path) -> None:
         read_mesh(tmp_path / "a.glb")
 
 
+@pytest.mark.slow
 def test_a_text_that_is_nested_without_end(tmp_path: Path) -> None:
     (tmp_path / "a.gltf").write_text("[" * 200_000)
     with pytest.raises(InfillError, match="is broken"):

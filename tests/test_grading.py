@@ -24,7 +24,7 @@ SIDE = 2 * CELL
 LOW, HIGH = 0.1, 0.4
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize(
     ("pattern", "voxel"), [("gyroid", None), ("schwarz-p", 0.4), ("octet", 0.36), ("honeycomb", None)]
 )
@@ -61,7 +61,7 @@ def by_x() -> Any:
     return quick("x")
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_every_field_that_is_linear_is_the_same(by_x: Any, tmp_path: Path) -> None:
     ends = np.array([[x, y, z, 3 * x] for x in (-12, 12) for y in (-10, 10) for z in (-8, 8)])
     (tmp_path / "stress.csv").write_text("x,y,z,MPa\n" + "\n".join(",".join(map(str, row)) for row in ends))
@@ -87,7 +87,7 @@ def test_every_field_that_is_linear_is_the_same(by_x: Any, tmp_path: Path) -> No
     assert quick("x", pattern="gyroid").surface.volume == by_x.surface.volume
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_the_other_way_round_is_the_mirror_image() -> None:
     """The gyroid is its own mirror image only with its hand changed; Schwarz P is in every plane through its middle."""
     one = fill(box(24, 20, 16), "schwarz-p", density=(0.15, 0.4), by="x", wall=1, voxel=0.5, cell=8.0, tolerance=0)
@@ -99,7 +99,7 @@ def test_the_other_way_round_is_the_mirror_image() -> None:
     assert left.volume() == pytest.approx(right.volume(), rel=1e-2)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_the_skin_is_where_its_field_begins() -> None:
     result = fill(box(30, 30, 30), density=(0.4, 0.12), by="skin", wall=1, voxel=0.5, cell=5.0)
     assert result.report["problems"] == []
@@ -115,7 +115,7 @@ def test_the_skin_is_where_its_field_begins() -> None:
     assert rings[-1] > rings[0] + 0.12
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("form", ["infill", "project"])
 def test_other_forms_are_graded_too(form: str) -> None:
     report = quick("z", as_=form, pattern="honeycomb").report
@@ -123,7 +123,7 @@ def test_other_forms_are_graded_too(form: str) -> None:
     assert all(abs(step["density"] - step["wanted"]) < 0.03 for step in report["graded"])
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize(
     ("given", "width"),
     [
@@ -160,7 +160,7 @@ def test_fields_that_say_nothing_are_refused(given: dict[str, Any], error: type[
         fill(box(20, 20, 20), voxel=0.5, **given)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_the_command_grades_and_remembers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     box(20, 16, 14).export("part.stl")

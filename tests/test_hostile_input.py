@@ -42,7 +42,6 @@ def test_a_folder_is_no_mesh(folder: Path) -> None:
     one_line_error(run("refill", ".", "-o", "-"), r"^error: (?!.*tmp)")
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("words", [[], ["--dry-run"]])
 def test_a_flat_sheet_encloses_nothing(words: list[str]) -> None:
     trimesh.Trimesh([[0, 0, 0], [9, 0, 0], [0, 9, 0]], [[0, 1, 2]]).export("sheet.stl")

@@ -149,7 +149,7 @@ def crossing_segments(one: np.ndarray, other: np.ndarray) -> bool:
     return False
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @given(seed=st.integers(0, 2**32 - 1), size=st.floats(0.1, 3))
 def test_crossing_triangles_are_counted_as_by_brute_force(seed: int, size: float) -> None:
     rng = np.random.default_rng(seed)
@@ -162,7 +162,7 @@ def test_crossing_triangles_are_counted_as_by_brute_force(seed: int, size: float
     assert count_self_intersections(corners.reshape(-1, 3), np.arange(54).reshape(-1, 3)) == expected
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_many_pairs_are_tried_some_at_a_time(monkeypatch: pytest.MonkeyPatch) -> None:
     sphere = trimesh.creation.icosphere(subdivisions=3)
     both = joined(sphere, moved(sphere, 0.5, 0.2, 0.1))
@@ -212,6 +212,7 @@ def test_real_files(name: str, printable: bool, data: Path) -> None:
     assert check(data / name).printable is printable
 
 
+@pytest.mark.slow
 def test_metres_are_noticed(data: Path) -> None:
     found = check(data / "nasty" / "metres_part_47um.stl")
     assert found.unit_guess == "m"

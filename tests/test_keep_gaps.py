@@ -63,6 +63,7 @@ def test_gaps_filament_and_touch_stay(engine: str, pattern: str, density: int, t
     assert told == pytest.approx(filament(new) / filament(old), abs=1e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(bool(missing_prusa()), reason=missing_prusa())
 def test_the_judge_sees_an_arm_that_is_cut_off(tmp_path: Path) -> None:
     """A spiral without half of its infill has a gap that is wider by far."""

@@ -301,6 +301,7 @@ def test_coarse_cells_are_averaged_along_each_axis(size: int, field: SparseField
         assert np.abs(out[:, m] - of_bricks(field, whole, sums.shape[2:])).max() < SINGLE
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", [2, 4])
 def test_gates_open_by_the_means_around_a_cell(size: int, field: SparseField) -> None:
     """The means are linear between the middles of coarse cells, and 0 where no brick is kept."""
@@ -333,7 +334,7 @@ def test_gates_open_by_the_means_around_a_cell(size: int, field: SparseField) ->
 # --- triangles -------------------------------------------------------------------------------------------
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_volumes_and_slopes_of_faces() -> None:
     """Against the determinant, and, of all faces together, against moving every vertex by a little of its rate."""
     rng = np.random.default_rng(12)

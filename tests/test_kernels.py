@@ -104,7 +104,7 @@ def test_the_comparison_can_fail() -> None:
 fast_kernels = pytest.mark.parametrize("method", [method for method in KERNELS if method != "numpy"])
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @fast_kernels
 @pytest.mark.parametrize(("f", "spacing", "options"), cases())
 def test_fast_kernels_agree(method: str, f: np.ndarray, spacing: tuple[float, ...], options: dict[str, Any]) -> None:
@@ -115,6 +115,7 @@ def test_fast_kernels_agree(method: str, f: np.ndarray, spacing: tuple[float, ..
         assert np.abs(fast - reference).max() < FAST
 
 
+@pytest.mark.slow
 @fast_kernels
 @given(shape=shapes, seed=st.integers(0, 2**32 - 1), steps=st.integers(0, 30), fidelity=st.floats(0, 1))
 def test_fast_kernels_agree_on_any_shape(
@@ -125,7 +126,7 @@ def test_fast_kernels_agree_on_any_shape(
     assert np.abs(smooth(f, smoothing, method=method) - smooth(f, smoothing, method="numpy")).max() < FAST
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @given(
     shape=st.one_of(
         st.tuples(st.integers(1, 150)),
@@ -239,6 +240,7 @@ class TestLaws:
         f = rng.uniform(-1, 1, shape)
         assert np.allclose(smooth(f.T, method=method), smooth(f, method=method).T, atol=1e-6)
 
+    @pytest.mark.slow
     @pytest.mark.parametrize("value", [-1.0, 0.0, 1.0])
     def test_pure_phases_are_fixed(self, method: str, shape: tuple[int, ...], value: float) -> None:
         assert np.abs(smooth(np.full(shape, value), Smoothing(steps=30), method=method) - value).max() < 1e-6
@@ -329,6 +331,7 @@ def test_diffusion_keeps_the_sum(rng: np.random.Generator) -> None:
     assert laplacian(phi, (0.1, 0.2), mask).sum() == pytest.approx(0, abs=1e-13)
 
 
+@pytest.mark.slow
 @every_kernel
 @pytest.mark.parametrize(
     ("width", "steps", "fidelity", "expected"),
@@ -433,6 +436,7 @@ def test_rescaling_is_equation_2() -> None:
             rescale(bad)
 
 
+@pytest.mark.slow
 @every_kernel
 @pytest.mark.parametrize("interface", [0.25, 1000.0])
 @pytest.mark.parametrize("alpha", [1e-4, 0.25])
@@ -465,7 +469,7 @@ def test_an_interrupt_is_an_interrupt(monkeypatch: pytest.MonkeyPatch) -> None:
         smooth(np.ones((80, 80)), Smoothing(steps=50), method="inplace")
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_the_log_tells_of_compiling(tmp_path: Path) -> None:
     """Once on a machine: here in a process with an empty folder for compiled code."""
     code = "import infill; infill.smooth([[[True, False]]], method='dense')"

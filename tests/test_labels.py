@@ -62,7 +62,6 @@ def test_an_extent_holds_all_of_its_label_and_no_less(values: np.ndarray) -> Non
             assert each.high == tuple(where.max(axis=0) + 1)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     "dtype", [bool, np.int8, np.uint8, np.uint16, np.int32, np.int64, np.uint64, np.float32, float]
 )
@@ -147,7 +146,7 @@ def test_names_and_colours_come_from_the_table_or_else_from_the_segmentation() -
     assert result.stages.segments["same_200"] == Segment(value=200, name="same", colour=(0, 0, 1))
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_names_stay_different_whatever_they_are() -> None:
     layer = Volume(values=bones())
     names = [Segment(value=value, name="a", layer=k) for k in range(3) for value in (3, 7, 200)]
@@ -160,6 +159,7 @@ SPECK = bones()
 SPECK[10:14, 40:44, 5:9] = 9  # 64 cells, all of them despeckled
 
 
+@pytest.mark.slow
 def test_one_that_fails_is_named_and_nothing_is_returned() -> None:
     with pytest.raises(ParameterError, match=r"^label 9 \(Scapula\): despeckle is 100 mm³") as caught:
         smooth_labels(SPECK, table=[Segment(value=9, name="Scapula")], despeckle=100)
@@ -191,6 +191,7 @@ def test_what_cannot_be_is_told(values: np.ndarray, options: dict[str, Any], say
         smooth_labels(values, **options)
 
 
+@pytest.mark.slow
 def test_progress_goes_from_nothing_to_all() -> None:
     seen: list[float] = []
     smooth_labels(bones(), progress=lambda stage, share: seen.append(share))
@@ -199,7 +200,7 @@ def test_progress_goes_from_nothing_to_all() -> None:
     assert 0.9 < seen[-1] <= 1
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @settings(max_examples=15, deadline=None)
 @given(arrays.arrays(np.uint8, (9, 8, 7), elements=st.integers(0, 3)))
 def test_any_labels_give_closed_surfaces_or_one_line(values: np.ndarray) -> None:
@@ -224,6 +225,7 @@ def result(compiled: None) -> Result[Any, Any]:
     return smooth_labels(bones(), table=TABLE)
 
 
+@pytest.mark.slow
 def test_a_3mf_has_an_object_for_each_with_name_and_colour(result: Result[Any, Any], tmp_path: Path) -> None:
     lib3mf = pytest.importorskip("lib3mf", reason="lib3mf is not installed (extra test)")
     path = result.save(tmp_path / "all.3mf")
@@ -263,14 +265,13 @@ def test_a_glb_has_a_node_for_each_with_name_and_colour(result: Result[Any, Any]
     assert shades[1].tolist() == [0, 0, 255, 255]
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", [".3mf", ".glb"])
 def test_several_objects_are_read_back_as_one_mesh(suffix: str, result: Result[Any, Any], tmp_path: Path) -> None:
     back = read_mesh(result.save(tmp_path / f"all{suffix}"))
     assert back.volume == pytest.approx(sum(each.volume for each in result.surfaces.values()), rel=1e-5)
 
 
-@pytest.mark.long
 def test_a_format_of_one_mesh_is_told(result: Result[Any, Any], tmp_path: Path) -> None:
     with pytest.raises(FormatError, match=r"can hold one mesh .*; use .3mf or .glb, or \{label\} in the name"):
         result.save(tmp_path / "all.stl")
@@ -311,7 +312,7 @@ def names(folder: Path) -> set[str]:
     return {each.name for each in folder.iterdir()} - {"bones.npy", "speck.npy", "names.txt"}
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_a_file_for_each_label(folder: Path) -> None:
     done = run("smooth", "bones.npy", "-o", "{label}.stl", "-o", "{number}.ply")
     assert done.exit_code == 0, done.output
@@ -326,7 +327,7 @@ def test_a_file_for_each_label(folder: Path) -> None:
     assert Path("alone.stl").read_bytes() == Path("label_7.stl").read_bytes()
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_names_of_a_table_and_one_file_for_all(folder: Path) -> None:
     done = run("smooth", "bones.npy", "-o", "x_{label}.stl", "-o", "all.3mf", "--labels", "names.txt", "--json")
     assert done.exit_code == 0, done.output
@@ -347,13 +348,13 @@ def test_names_of_a_table_and_one_file_for_all(folder: Path) -> None:
     ]
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_each_label_into_one_file(folder: Path) -> None:
     assert run("smooth", "bones.npy", "-o", "all.glb", "--each-label", "-q").stderr == ""
     assert len(trimesh.load_scene("all.glb").geometry) == 3
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_a_segmentation_of_slicer_with_layers(folder: Path) -> None:
     pytest.importorskip("SimpleITK", reason="SimpleITK is not installed (extra medical)")
     seg_nrrd(folder / "a.seg.nrrd", FIELDS + "Segment11_Name:=plan\nSegment11_LabelValue:=7\nSegment11_Layer:=1\n")
@@ -370,7 +371,7 @@ def test_a_segmentation_of_slicer_with_layers(folder: Path) -> None:
     assert read_mesh("b.stl").volume == pytest.approx(VALUES[1].sum() * 0.5, rel=0.05)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_only_some_labels(folder: Path) -> None:
     assert run("smooth", "bones.npy", "-o", "{label}.stl", "--label", "7", "--label", "3").exit_code == 0
     assert names(folder) == {"label_3.stl", "label_7.stl"}
@@ -379,7 +380,7 @@ def test_only_some_labels(folder: Path) -> None:
     )
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_nothing_is_written_if_one_fails_unless_it_is_told_to_go_on(folder: Path) -> None:
     words = ("smooth", "speck.npy", "--despeckle", "100", "-o", "{label}.stl")
     one_line_error(run(*words), "label 9: --despeckle is 100")
@@ -392,7 +393,7 @@ def test_nothing_is_written_if_one_fails_unless_it_is_told_to_go_on(folder: Path
     assert "error: 1 of 4 labels failed; the others were written" in done.stderr
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_files_that_exist_are_kept(folder: Path) -> None:
     Path("label_7.stl").write_text("precious")
     one_line_error(run("smooth", "bones.npy", "-o", "{label}.stl"), "label_7.stl exists; .* --force")
@@ -401,7 +402,7 @@ def test_files_that_exist_are_kept(folder: Path) -> None:
     assert read_mesh("label_7.stl").closed
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("words", "says"),
     [
@@ -443,7 +444,7 @@ def test_options_that_make_no_sense_together(words: str, folder: Path) -> None:
     assert names(folder) == set()
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_a_box_of_a_volume_closes_the_surface_where_it_cuts(folder: Path) -> None:
     done = run("smooth", "bones.npy", "--label", "3", "--roi", "0,90,0,60,0,35", "-o", "half.ply", "--json")
     assert done.exit_code == 0, done.output
@@ -475,7 +476,7 @@ def test_a_mask_of_any_value_is_a_mask(folder: Path) -> None:
     assert read_mesh("mask.stl").volume == pytest.approx((bones() == 3).sum(), rel=1e-3)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_a_real_segmentation(data: Path, tmp_path: Path) -> None:
     skull = read_volume(data / "volumes" / "seg_skull_label_seg3d.npz")
     result = smooth_labels(skull, allow_broken=True)

@@ -97,7 +97,7 @@ def test_a_prism_is_the_isosurface_with_fewer_triangles(name: str, stamp: str, o
     assert lean.report["mesh"]["tolerance"] == 0.002
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @settings(max_examples=4, deadline=None)
 @given(
     name=st.sampled_from(BUILT_IN),
@@ -132,7 +132,7 @@ def test_the_default_honeycomb_is_small(tmp_path: Any) -> None:
 # --- the isosurface, as it was ---------------------------------------------------------------------------
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_the_grid_is_the_isosurface_as_it_is() -> None:
     result = make("honeycomb", surface="grid", tolerance=0)
     stages, surface = result.stages, result.surface
@@ -196,7 +196,7 @@ any_layer = st.builds(
 )
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(layer=any_layer, tolerance=st.sampled_from([0.0, 0.01, 0.1, 0.3]))
 def test_any_layer_keeps_its_topology(layer: np.ndarray, tolerance: float) -> None:
@@ -278,7 +278,7 @@ def test_what_cannot_be_filled_is_an_error() -> None:
 # --- what it will cost, and what the exact stamp would give -------------------------------------------------
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "stamp"), [("concentric-heart", "block"), ("honeycomb", "exact")])
 def test_a_large_block_is_expected_from_samples(name: str, stamp: Any) -> None:
     block = plan_block(
@@ -287,7 +287,7 @@ def test_a_large_block_is_expected_from_samples(name: str, stamp: Any) -> None:
     assert block.triangles == pytest.approx(make(name, size=(120, 90), stamp=stamp).report["triangles"], rel=0.25)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_the_report_tells_what_the_exact_stamp_would_give(name: str) -> None:
     report = make(name, size=40).report

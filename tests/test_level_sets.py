@@ -118,6 +118,7 @@ def test_a_ball_is_cut_in_circles(z: float, x: float, y: float) -> None:
     assert circle.length == pytest.approx(2 * math.pi * cut, rel=2e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "function", [lambda x, y, z: np.sin(math.pi * x / 3), lambda x, y, z: np.sin(math.pi * x / 3) + 0 * y]
 )
@@ -163,6 +164,7 @@ def test_turned_and_shifted_waves_are_turned_and_shifted() -> None:
     assert shapely.hausdorff_distance(moved.intersection(small), expected) < 2e-3
 
 
+@pytest.mark.slow
 def test_the_frame_is_added_to_the_lines_of_a_level_set() -> None:
     for region in REGIONS:
         bare, framed = (Ripples(frame=frame).lines(region) for frame in (False, True))
@@ -191,6 +193,7 @@ def test_a_bad_spacing_of_lines_is_refused(spacing: float) -> None:
         zero_lines(lambda x, y, z: x, (-1, -1, 1, 1), 0.0, spacing)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stamp", ["block", "exact"])
 def test_a_block_is_made_of_a_level_set(stamp: str) -> None:
     result = make(Ripples(), size=30, height=3, stamp=stamp)

@@ -124,7 +124,7 @@ def branches_in(part: trimesh.Trimesh, **more: Any) -> tuple[Interior, list[np.n
     return space, voids.layers.lines(space, CELL)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("overhang", [30.0, 45.0, 60.0])
 @pytest.mark.parametrize("name", PARTS)
 def test_every_branch_lies_on_a_branch_or_a_wall_not_much_further_out(name: str, overhang: float) -> None:
@@ -173,6 +173,7 @@ def test_roofs_are_carried_about_every_cell(name: str) -> None:
     assert looked > 100
 
 
+@pytest.mark.slow
 def test_steep_roofs_need_none() -> None:
     for height in (30, 60):
         _, layers = branches_in(trimesh.creation.cone(16, height))
@@ -181,7 +182,7 @@ def test_steep_roofs_need_none() -> None:
     assert sum(map(len, layers)) > 100
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("name", PARTS)
 def test_nothing_hangs_free_and_it_is_light(name: str) -> None:
     given: dict[str, Any] = {"cell": CELL, "line_width": 0.8, "wall": 1.0, "voxel": 0.25}
@@ -191,7 +192,7 @@ def test_nothing_hangs_free_and_it_is_light(name: str) -> None:
     assert result.report["density"] < 0.4 * fill(PARTS[name](), "cubic", **given).report["density"]
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_without_a_density_it_is_as_roofs_need_it_and_lighter_than_all_others() -> None:
     part = box(24, 24, 24)
     free = fill(part, "lightning").report
@@ -259,7 +260,7 @@ def test_a_wall_that_leans_is_as_wide_as_one_that_does_not(lean: float) -> None:
     assert out[:, 4][near] == pytest.approx(exact[near], abs=1e-4)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_in_a_project_branches_go_through_the_walls_to_the_skin() -> None:
     part = box(40, 40, 30)
     result = fill(part, "lightning", as_="project")

@@ -93,7 +93,7 @@ def test_the_default_change_of_volume(name: str, change: float) -> None:
     assert make(name).report["volume_change"] == pytest.approx(change, abs=1e-4)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_the_report_tells_the_truth(name: str) -> None:
     result = make(name, size=(30, 40), height=5)
@@ -137,6 +137,7 @@ def test_the_block_stands_on_the_bed_about_the_origin() -> None:
     assert lean[:, 2].tolist() == [0, 5]
 
 
+@pytest.mark.slow
 def test_the_block_stamp_shows_its_true_widths() -> None:
     """Up to 41 % wide on diagonals: said, not hidden."""
     width = make("honeycomb", angle=7).report["wall_width"]
@@ -179,6 +180,7 @@ def test_numpy_numbers_are_numbers() -> None:
     assert result.report["request"]["parameters"]["phase"] == [1.0, 2.0]
 
 
+@pytest.mark.slow
 def test_height_costs_nothing() -> None:
     low, high = make("honeycomb", size=30, height=6), make("honeycomb", size=30, height=600)
     assert low.report["triangles"] == high.report["triangles"]
@@ -312,6 +314,7 @@ def test_broken_walls_are_an_error_that_says_what_to_change(options: dict[str, A
         assert advice in str(caught.value)
 
 
+@pytest.mark.slow
 def test_many_narrow_holes_are_no_pinholes() -> None:
     with pytest.raises(GeometryError, match="68 hole.s. narrower than a line, 10% of all void, closed"):
         make("zigzag", size=20, cell=1.35)

@@ -240,7 +240,7 @@ def test_one_part_may_raise_the_energy_of_another() -> None:
     assert problem.reaction(phi) > problem.reaction(problem.f)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @settings(max_examples=80)
 @given(problem=problems())
 @example(Problem(f=np.sign(np.arange(-8, 8) + 0.5), smoothing=Smoothing(), spacing=(1.0,)))
@@ -326,7 +326,7 @@ def measured_energy(fidelity: float, steps: int = 500) -> tuple[str, str, str]:
     return (f"{len(first)} of 19", str(min(first)), f"{max(share):.0e}") if first else ("0 of 19", NEVER, "0")
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_the_table_of_the_energy() -> None:
     told = table("fidelity λh²")
     assert [row[0] for row in told] == ["0", "0.01", "0.1", "1", "10"]
@@ -334,7 +334,7 @@ def test_the_table_of_the_energy() -> None:
         assert tuple(row[1:]) == measured_energy(float(row[0]))
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_the_rise_is_of_second_order() -> None:
     """The rises of the disc at fidelity 0.1 that the page tells."""
     shares = []
@@ -477,7 +477,7 @@ def test_the_attraction_of_two_faces() -> None:
     assert (f"{speed:.4f}", f"{sizes[n - 1] - sizes[n]:.4f}") == ("0.0046", "0.0036")
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_how_thick_a_wall_must_be_to_last() -> None:
     """(M17), (M18), and the walls on either side of it."""
     e = width_over_root_two(Smoothing())
@@ -513,7 +513,7 @@ def wall_history(fidelity: float, steps: int) -> np.ndarray:
     return walls.history(walls.whole_walls(range(1, 7)), fidelity, steps)[:, 0]
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_the_table_of_walls() -> None:
     told = table("fidelity")
     assert len(told) == 18
@@ -524,7 +524,7 @@ def test_the_table_of_walls() -> None:
         assert end == (NEVER if gone is None else str(gone))
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_the_table_of_pins() -> None:
     told = table("pin, cells")
     f = walls.bars([int(row[0]) for row in told], [(0, 0), (0, 0.5), (0.5, 0.5)])
@@ -550,7 +550,7 @@ def test_widths_are_those_of_marching_cubes() -> None:
     assert walls.widths(phi) == pytest.approx(sum(b - a for a, b in zip(ends[::2], ends[1::2], strict=True)))
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_the_script_of_walls(tmp_path: Path) -> None:
     entry = walls.main(tmp_path, small=True)
     assert entry.numbers["width of a 3-cell wall after 10 steps"] == pytest.approx(

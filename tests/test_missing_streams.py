@@ -48,7 +48,7 @@ def closed(words: list[str], redirection: str) -> subprocess.CompletedProcess[st
     )
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("redirection", ["2>&-", "<&- >&- 2>&-"])
 @pytest.mark.parametrize("name", COMMANDS)
 def test_a_command_does_its_work_without_streams(name: str, redirection: str, folder: Path) -> None:
@@ -66,7 +66,7 @@ def test_a_command_does_its_work_without_streams(name: str, redirection: str, fo
         assert json.loads(done.stdout)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("redirection", ["2>&-", ">&-", "<&- >&- 2>&-"])
 def test_an_error_ends_with_its_status_and_leaves_nothing(redirection: str, folder: Path) -> None:
     before = sorted(folder.iterdir())
@@ -83,7 +83,6 @@ def test_what_should_go_to_a_stdout_that_is_none_is_an_error() -> None:
     assert done.stderr == "error: '-' is stdout, and this process has none; name a file\n"
 
 
-@pytest.mark.slow
 def test_streams_that_are_none_are_replaced(monkeypatch: pytest.MonkeyPatch) -> None:
     """As under pythonw, which has no numbers of files either."""
     from infill.cli import main

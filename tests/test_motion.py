@@ -330,6 +330,7 @@ def test_what_does_not_move_costs_nothing(tmp_path: Path) -> None:
     assert motion(written(tmp_path, lines)).seconds == pytest.approx(motion(written(tmp_path, SQUARE)).seconds)
 
 
+@pytest.mark.slow
 def test_batches_change_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Read in pieces of a few lines, the same comes out: nothing is lost between them."""
     turn = np.cumsum(np.random.default_rng(3).normal(0, 0.7, 600))
@@ -510,7 +511,7 @@ def test_two_files_are_compared(tmp_path: Path) -> None:
     assert [each["seconds"] for each in told] == [motion(path).seconds for path in paths]
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_a_layer_is_drawn(tmp_path: Path) -> None:
     path, plot = written(tmp_path, SQUARE), tmp_path / "speeds.png"
     assert "wrote" in run(path, path, "--plot", plot, "--layer", 1).stderr

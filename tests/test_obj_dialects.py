@@ -96,6 +96,7 @@ def assert_box(path: Path) -> None:
     assert np.array_equal(mesh.bounds, [[0, 0, 0], [20, 30, 40]])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", DIALECTS)
 def test_a_box_in_every_dialect(name: str, tmp_path: Path) -> None:
     assert_box(write(tmp_path, DIALECTS[name]))

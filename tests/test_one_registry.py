@@ -89,6 +89,7 @@ def installed(monkeypatch: pytest.MonkeyPatch) -> str:
     return "bricks"
 
 
+@pytest.mark.longest
 @pytest.mark.usefixtures("compiled")
 @pytest.mark.parametrize("way", ["entry point", "module"])
 def test_one_file_makes_fills_and_refills(way: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -142,6 +143,7 @@ def test_an_offer_that_does_not_serve_is_one_clear_line(words: tuple[str, ...], 
     one_line_error(run(*words), re.escape(says))
 
 
+@pytest.mark.longest
 def test_a_config_file_may_not_run_code_unless_trusted(folder: Path) -> None:
     for command, name in (("make", "a.toml"), ("refill", "b.toml")):
         Path(name).write_text('pattern = "bricks_module.py:Bricks"\n')
@@ -204,6 +206,7 @@ def test_refill_takes_a_name_or_a_pattern(name: str) -> None:
     assert family_of(other.pattern, other.parameters) == family_of(name, {"cell": 5.0})
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("compiled")
 def test_the_same_voids_and_the_same_print(folder: Path) -> None:
     options: dict[str, Any] = {"density": 0.3, "voxel": 0.5, "wall": 1.0}
@@ -247,6 +250,7 @@ def test_lines_that_meet_no_other_are_paths_as_they_are() -> None:
     assert sorted(map(shapely.LineString, paths), key=lambda line: line.bounds[1]) == list(lines.geoms)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", BUILT_IN)
 @pytest.mark.parametrize("cell", [2.0, 4.0])
 def test_paths_along_lines_neither_cross_nor_come_too_near(name: str, cell: float) -> None:
@@ -263,6 +267,7 @@ def test_paths_along_lines_neither_cross_nor_come_too_near(name: str, cell: floa
     assert shapely.distance(shapely.points(shapely.get_coordinates(drawn)), lines).max() < 3 * TOUCH * WIDTH
 
 
+@pytest.mark.slow
 def test_paths_along_lines_lie_alike_in_every_region() -> None:
     family = LinePaths(pattern=Honeycomb(), middle=(100.0, 80.0))
     kinds = [((95, 75, 105, 85), 3.0), ((97, 78, 101, 84), 3.0)]
@@ -275,6 +280,7 @@ def test_paths_along_lines_lie_alike_in_every_region() -> None:
     assert shapely.hausdorff_distance(large.intersection(window), small.intersection(window)) < 0.004
 
 
+@pytest.mark.longest
 @pytest.mark.parametrize("name", ["honeycomb", "rectilinear"])
 def test_the_cell_for_a_density_gives_it(name: str) -> None:
     family = LinePaths(pattern=PATTERNS[name]())  # type: ignore[arg-type]

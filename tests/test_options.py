@@ -230,7 +230,7 @@ def test_what_is_out_of_range_is_told_by_the_option_that_was_typed(case: str, fo
             assert sorted(folder.iterdir()) == before
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("case", dict.fromkeys([*OUT_OF_RANGE, *UNREAD]))
 def test_what_cannot_be_read_is_wrong_usage(case: str, folder: Path) -> None:
     """A word where numbers are wanted, for every option with a range, and what else cannot be read."""
@@ -242,7 +242,7 @@ def test_what_cannot_be_read_is_wrong_usage(case: str, folder: Path) -> None:
         assert sorted(folder.iterdir()) == before
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("command", COMMANDS)
 def test_a_value_that_is_missing_is_wrong_usage(command: str) -> None:
     for option in options_of(command):
@@ -257,7 +257,7 @@ def test_an_unknown_option_is_wrong_usage(command: str) -> None:
         usage_error(run(command, "x", "y", "z", "more"), "more|unexpected")
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(
     "line",
     [

@@ -145,7 +145,7 @@ def test_a_plate_that_was_refilled_stays_while_others_are(archive: Path) -> None
     assert STAMP in text_of(archive, 2)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_the_command_names_the_plates(archive: Path, tmp_path: Path) -> None:
     output = tmp_path / "new.gcode.3mf"
     old = archive.read_bytes()
@@ -206,7 +206,7 @@ def test_a_name_that_stands_twice_is_refused(archive: Path) -> None:
     assert archive.read_bytes() == data
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @POSIX
 def test_ctrl_c_leaves_the_old_archive(archive: Path) -> None:
     """Late in its work, and while it writes."""
@@ -285,7 +285,7 @@ def test_a_layer_of_a_plate(archive: Path, binary: Path, tmp_path: Path) -> None
         layer_speeds(archive, 5, plate=2)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_the_command_says_which_plate_it_took(archive: Path, binary: Path, tmp_path: Path) -> None:
     assert "1 of 1, 2; --plate chooses" in run("motion", archive).stdout
     told = json.loads(run("motion", archive, "--plate", 2, "--json").stdout)

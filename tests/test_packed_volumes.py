@@ -46,6 +46,7 @@ def flip(data: bytes, at: int, bit: int = 0) -> bytes:
     return data[:at] + bytes([data[at] ^ (1 << bit)]) + data[at + 1 :]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("way", WAYS)
 def test_a_whole_file_is_read(way: str, tmp_path: Path) -> None:
     volume = read_volume(save(tmp_path, WAYS[way](VALUES)))
@@ -53,6 +54,7 @@ def test_a_whole_file_is_read(way: str, tmp_path: Path) -> None:
     assert volume.values.dtype == VALUES.dtype
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("way", WAYS)
 def test_a_file_that_is_cut_off_anywhere_is_refused(way: str, tmp_path: Path) -> None:
     """Whichever of its files: all but a few last bytes, that say nothing, are needed.
@@ -73,6 +75,7 @@ def test_a_file_that_is_cut_off_anywhere_is_refused(way: str, tmp_path: Path) ->
         (tmp_path / name).write_bytes(data)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("way", PACKED)
 def test_a_bit_that_is_flipped_in_packed_cells_is_seen_by_its_checksum(way: str, tmp_path: Path) -> None:
     """In 40 places, the last bytes too, which are the checksum; nothing but the true cells may be read."""
@@ -106,6 +109,7 @@ def is_seen(way: str, shape: tuple[int, ...]) -> bool:
     return not way.startswith(("mgh", "mgz", "vtk")) or np.prod(shape) > VALUES.size  # more may follow its cells
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("way", "shape"), [(way, shape) for way in WAYS for shape in SHAPES if is_seen(way, shape)])
 def test_other_sizes_than_the_cells_have_are_refused(way: str, shape: tuple[int, ...], tmp_path: Path) -> None:
     """More or fewer: the header of another volume, and these cells."""
@@ -151,6 +155,7 @@ def test_sizes_that_no_file_could_hold_are_refused_at_once(way: str, tmp_path: P
         read_volume(path)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "way", ["nrrd raw", "nhdr raw", "mha", "mhd", "nii", "nrrd gzip", "nhdr bzip2", "nii.gz", "npy"]
 )
@@ -231,6 +236,7 @@ def test_a_size_of_packed_data_parts_them_from_what_follows(tmp_path: Path) -> N
     refused(tmp_path / "a.mha", "more")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["gzip", "bzip2"])
 def test_a_small_file_cannot_unpack_to_all_memory(name: str, tmp_path: Path) -> None:
     """A stream of 50 MB of zeros behind a header of 336 cells: unpacking stops soon after these."""
@@ -312,6 +318,7 @@ def test_an_npy_that_announces_other_sizes(shape: bytes, tmp_path: Path) -> None
     refused(tmp_path / "a.npy")
 
 
+@pytest.mark.slow
 def test_a_bomb_in_an_npz_is_not_unpacked(tmp_path: Path) -> None:
     """A member that announces a few bytes and holds 50 MB is left unread behind these."""
     with zipfile.ZipFile(tmp_path / "a.npz", "w", zipfile.ZIP_DEFLATED) as archive:
@@ -393,6 +400,7 @@ CHECKSUMMED = {"nii.gz", "nii.gz 2 big", "nhdr gzip", "nhdr skipping gzip", "nrr
 CHECKSUMMED |= {"npz", "npz stored"}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("way", WAYS)
 def test_a_file_that_is_changed_anywhere_is_read_or_told(way: str, tmp_path: Path) -> None:
     """Nothing else than our errors, each one line that a terminal can show, and never for long."""

@@ -106,6 +106,7 @@ def test_patterns_that_differ_are_not_the_same() -> None:
 # --- every parameter of every pattern --------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @every_parameter
 def test_a_parameter_can_be_set_to_all_of_its_range(kind: str, name: str) -> None:
     for value in good_values(kind, name):
@@ -115,6 +116,7 @@ def test_a_parameter_can_be_set_to_all_of_its_range(kind: str, name: str) -> Non
         assert made == pytest.approx(list(value) if isinstance(value, tuple) else value)
 
 
+@pytest.mark.slow
 @every_parameter
 def test_what_a_parameter_cannot_be_is_told_with_range_and_unit(kind: str, name: str) -> None:
     field, described = parameters(KINDS[kind])[name]
@@ -132,6 +134,7 @@ def test_what_a_parameter_cannot_be_is_told_with_range_and_unit(kind: str, name:
         assert (field.default is None) == said.endswith(", or none")
 
 
+@pytest.mark.slow
 @every_parameter
 def test_a_parameter_misspelt_is_told_the_nearest(kind: str, name: str) -> None:
     for typo in (f"{name}x", name[0] + name):
@@ -139,6 +142,7 @@ def test_a_parameter_misspelt_is_told_the_nearest(kind: str, name: str) -> None:
             resolve({"pattern": kind}, assigned=[f"{typo}=1"])
 
 
+@pytest.mark.slow
 @every_parameter
 def test_a_parameter_survives_the_file(kind: str, name: str, tmp_path: Path) -> None:
     for value in good_values(kind, name):
@@ -246,7 +250,7 @@ def test_what_is_typed_wins_over_the_file(tmp_path: Path) -> None:
 # --- at the command line ---------------------------------------------------------------------------------
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_the_flags_of_the_designs_still_work(tmp_path: Path) -> None:
     for kind, flag, text in (("zigzag", "waves", "2.5"), ("concentric-heart", "hearts", "2")):
         paths = [tmp_path / f"{kind}-{i}.stl" for i in (0, 1)]
@@ -257,6 +261,7 @@ def test_the_flags_of_the_designs_still_work(tmp_path: Path) -> None:
         assert f"--{flag}" not in run("make", "--help").stdout
 
 
+@pytest.mark.slow
 def test_shared_parameters_are_flags_and_can_be_set(tmp_path: Path) -> None:
     flags = ["--cell", "4", "--angle", "12.5", "--phase", "0.5", "1", "--no-frame"]
     texts = ["cell=4", "angle=12.5", "phase=0.5,1", "frame=no"]
@@ -266,6 +271,7 @@ def test_shared_parameters_are_flags_and_can_be_set(tmp_path: Path) -> None:
     assert (tmp_path / "a.stl").read_bytes() == (tmp_path / "b.stl").read_bytes()
 
 
+@pytest.mark.slow
 def test_a_plugin_may_name_its_parameters_as_it_likes(tmp_path: Path) -> None:
     config, mesh = tmp_path / "a.toml", tmp_path / "a.stl"
     words = ["--set", "size=2", "--set", "steps=3,1", "--set", "pattern=10", "--steps", "8"]
@@ -421,7 +427,7 @@ def test_the_help_of_make_stays_short(sixty: dict[str, str], columns: str) -> No
     assert text == said(["-m", "infill.cli", "make", "--help"], {**environment, "PYTHONPATH": str(ROOT)})
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.skipif(sys.platform == "win32", reason="children have no times of their own there")
 def test_the_help_of_make_stays_fast(sixty: dict[str, str]) -> None:
     """Under 0.4 s; 0.25 of them are what any program with typer, rich and pydantic takes to begin.

@@ -45,7 +45,7 @@ every_design = pytest.mark.parametrize("pattern", [*DESIGNS, *LEVEL_SETS], ids=r
 every_region = pytest.mark.parametrize("region", REGIONS, ids=["square", "rectangle", "disc", "notched"])
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @every_design
 @every_region
 def test_lines_and_points_lie_inside_the_region(pattern: Pattern, region: shapely.Polygon) -> None:
@@ -121,7 +121,7 @@ def test_framed_designs_hang_together() -> None:
         assert body_numbers(PATTERNS[name]().lines(REGIONS[0])).max() == 0
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @given(
     cell=st.floats(2, 15),
     angle=st.floats(-180, 180),
@@ -169,7 +169,7 @@ def test_phase_and_angle_move_the_honeycomb_rigidly() -> None:
     assert shapely.hausdorff_distance(plain, period) < ROUNDING
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_zigzag_is_the_papers_design() -> None:
     """In the square |x|, |y| <= 1.5 / sqrt 2, 7.5 waves are y = 1.5 sin(5 pi x) turned by 45 degrees."""
     half = 1.5 / math.sqrt(2)

@@ -136,7 +136,7 @@ def bluish(picture: np.ndarray) -> int:
     return int((picture[..., 2] > picture[..., 0] + 60).sum())
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.usefixtures("compiled")
 def test_what_is_lost_is_red_before_and_nothing_is_marked_after() -> None:
     """A fin of half a voxel on a plate: far too thin to last."""
@@ -148,7 +148,7 @@ def test_what_is_lost_is_red_before_and_nothing_is_marked_after() -> None:
     assert reddish(after) == bluish(before) == bluish(after) == 0
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.usefixtures("compiled")
 def test_what_is_kept_is_not_marked_and_stays_in_its_place() -> None:
     result = smooth_mesh(trimesh.creation.icosphere(subdivisions=4, radius=10), resolution=60)
@@ -158,7 +158,7 @@ def test_what_is_kept_is_not_marked_and_stays_in_its_place() -> None:
     assert (one != other).mean() < 0.01
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.usefixtures("compiled")
 def test_before_and_after_have_one_scale() -> None:
     """At the level 0 a ball shrinks, and so does its picture."""
@@ -206,7 +206,7 @@ def test_winding_counts_bodies() -> None:
 # --- of a result -----------------------------------------------------------------------------------------
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_a_notebook_shows_what_is_saved_and_what_the_command_writes(tmp_path: Path) -> None:
     result = make("honeycomb", size=20, height=3)
     shown = result._repr_png_()
@@ -218,6 +218,7 @@ def test_a_notebook_shows_what_is_saved_and_what_the_command_writes(tmp_path: Pa
     assert (tmp_path / "b.png").read_bytes() == shown
 
 
+@pytest.mark.slow
 def test_all_labels_are_one_picture() -> None:
     labels = np.zeros((40, 20, 20), dtype=np.uint8)
     labels[4:16, 4:16, 4:16], labels[24:36, 4:16, 4:16] = 1, 2
@@ -227,7 +228,7 @@ def test_all_labels_are_one_picture() -> None:
     assert panel.mean() > 0.1
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_an_existing_file_is_replaced_unless_it_may_not_be(tmp_path: Path) -> None:
     """As other Python libraries do, and as the command does."""
     result, path = make("honeycomb", size=20, height=3), tmp_path / "a.stl"

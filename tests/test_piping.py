@@ -47,7 +47,7 @@ def test_a_block_goes_to_stdout_in_the_format_that_is_named(output: str, folder:
         assert piped.read_bytes() == file.read_bytes()
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.usefixtures("compiled", "silent_compiler")
 def test_a_solid_and_its_field_go_to_stdout(ball: str, folder: Path) -> None:
     for output, name in (("-", "a.stl"), ("-.npz", "a.npz")):
@@ -60,7 +60,7 @@ def test_a_solid_and_its_field_go_to_stdout(ball: str, folder: Path) -> None:
     assert read_mesh(folder / "labels.3mf").volume == pytest.approx(read_mesh(folder / "a.stl").volume)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_a_refilled_print_goes_to_stdout(folder: Path) -> None:
     (folder / "print.gcode").write_bytes(written(Dialect(layers=4)))
     result = run("refill", "print.gcode", "-o", "-")
@@ -106,7 +106,7 @@ def test_an_error_leaves_stdout_empty(words: list[str], says: str) -> None:
     assert says in result.stderr
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_a_reader_that_is_gone_leaves_no_file(folder: Path) -> None:
     """More than a pipe holds."""
     pipe = subprocess.Popen([*RUN, *SMALL, "-o", "-", "-o", "a.stl"], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
@@ -119,7 +119,7 @@ def test_a_reader_that_is_gone_leaves_no_file(folder: Path) -> None:
     assert list(folder.iterdir()) == []
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_a_stream_without_a_buffer_takes_everything(folder: Path) -> None:
     """Such a one may take only a part of what it is given at once."""
     command = [*RUN, *SMALL, "-o", "-", "-o", "a.stl"]

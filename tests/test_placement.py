@@ -91,6 +91,7 @@ def test_what_can_be_turned() -> None:
     assert not parameters(default_parameters("keep"))
 
 
+@pytest.mark.slow
 @every_turning
 def test_a_turn_keeps_the_lines(name: str) -> None:
     """They are those of the pattern, turned: as long within a disc about (0, 0), and where they should be."""
@@ -159,6 +160,7 @@ def test_hearts_stand_on_a_point() -> None:
         assert path[:, 0].min() + path[:, 0].max() == pytest.approx(100, abs=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("flats", [0.25, 4.0])
 def test_flats_of_the_honeycomb(flats: float) -> None:
     """At both ends of the range lines neither cross nor overlap, and the guess of the cell holds."""
@@ -241,7 +243,7 @@ def test_a_mistake_in_the_file_is_one_line(text: str, tmp_path: Path) -> None:
     assert "\n" not in said
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @given(st.one_of(st.text(), st.integers(), st.floats(), st.lists(st.integers(), max_size=3), st.booleans(), st.none()))
 @example("9" * 5000)
 @example("5-" + "9" * 5000)
@@ -264,7 +266,7 @@ def test_ranges_are_read_as_written(first: int, last: int) -> None:
     assert parse_range("layers", f"{first}") == parse_range("layers", first) == (first, first)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @given(st.floats(-180, 180), st.floats(-1e4, 1e4), st.floats(-1e4, 1e4))
 def test_parameters_are_read_as_written(angle: float, x: float, y: float) -> None:
     kind = default_parameters("gyroid")
@@ -314,7 +316,7 @@ def test_the_cell_decides_the_filament(name: str, gcode: Path, tile: Path) -> No
     assert taken[2.0] / taken[4.0] == pytest.approx(2, rel=0.25)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_hearts_lie_about_the_middle_that_is_given(gcode: Path) -> None:
     """Two middles a cell apart and more give other paths; none given gives those of the part."""
     texts = []
@@ -390,7 +392,7 @@ def test_what_is_not_in_the_print_leaves_it_and_is_said(words: list[str], gcode:
     assert gcode.read_bytes() == PRINT
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_python_gives_parameters_by_name(gcode: Path) -> None:
     result = refill(gcode, dry_run=True, pattern="concentric-heart", angle=30, middle=(100, 100))
     assert result.report["request"]["parameters"] == {"cell": None, "angle": 30.0, "middle": [100.0, 100.0]}
@@ -406,7 +408,7 @@ def test_python_gives_parameters_by_name(gcode: Path) -> None:
         refill(gcode, dry_run=True, angle=1.0)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_a_shell_completes_the_parameters_of_the_pattern() -> None:
     assert offered("infill refill a.gcode --pattern honeycomb --set ") == {"cell=", "angle=", "phase=", "flats="}
     assert offered("infill refill a.gcode --pattern concentric-heart --set m") == {"middle="}

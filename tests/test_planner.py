@@ -152,7 +152,7 @@ def test_a_stop_in_between_is_two_paths(limits: Limits) -> None:
 # --- laws ------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @given(paths(), st.sampled_from(EVERY), st.floats(1, 3))
 @settings(deadline=None, max_examples=60)
 def test_time_falls_when_limits_rise(moves: Moves, limits: Limits, factor: float) -> None:
@@ -164,6 +164,7 @@ def test_time_falls_when_limits_rise(moves: Moves, limits: Limits, factor: float
     assert plan_moves(moves, [limits]).seconds.sum() <= before * (1 + 1e-9)
 
 
+@pytest.mark.slow
 @given(st.lists(st.floats(0.05, 20), min_size=1, max_size=30), st.floats(10, 300), st.sampled_from(EVERY))
 @settings(deadline=None, max_examples=60)
 def test_splitting_a_straight_move_changes_nothing(pieces: list[float], speed: float, limits: Limits) -> None:
@@ -174,7 +175,7 @@ def test_splitting_a_straight_move_changes_nothing(pieces: list[float], speed: f
     assert split == pytest.approx(total(whole * direction, speed, limits), rel=1e-6)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @given(paths(), st.sampled_from([PLAIN, VECTOR, STEADY, JUNCTION]))
 @settings(deadline=None, max_examples=60)
 def test_the_way_back_takes_as_long(moves: Moves, limits: Limits) -> None:
@@ -233,7 +234,7 @@ def slow_times(joints: list[float], length: list[float], speed: list[float], a: 
     return seconds
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @given(paths(), st.floats(1, 20), st.floats(100, 20000))
 @settings(deadline=None, max_examples=80)
 @example(moves_of([[3, 4], [3, 4], [-3, -4], [0, 1]], [50, 100, 20, 200]), 5.0, 1000.0)
@@ -245,7 +246,7 @@ def test_it_agrees_with_a_slow_planner(moves: Moves, corner: float, acceleration
     assert plan_moves(moves, [limits]).seconds == pytest.approx(expected, rel=1e-5, abs=1e-9)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @given(paths(), st.sampled_from(EVERY))
 @settings(deadline=None, max_examples=60)
 def test_a_plan_keeps_to_its_limits(moves: Moves, limits: Limits) -> None:
@@ -274,7 +275,7 @@ def test_look_ahead_is_its_definition(rows: list[tuple[float, float]]) -> None:
     assert look_ahead(joints, reach) == pytest.approx(expected, abs=1e-9)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @given(paths(), st.sampled_from(EVERY), st.integers(1, 7))
 @settings(deadline=None, max_examples=60)
 def test_moves_in_pieces_are_planned_as_one(moves: Moves, limits: Limits, size: int) -> None:
@@ -319,6 +320,7 @@ def settings_of(limits: Limits) -> list[Limits]:
     ]
 
 
+@pytest.mark.slow
 @given(wild_paths(), st.sampled_from([PLAIN, VECTOR, STEADY, JUNCTION]), st.integers(1, 45))
 @settings(deadline=None, max_examples=150)
 @example(

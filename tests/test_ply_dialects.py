@@ -92,6 +92,7 @@ def test_faces_of_any_number_of_corners(form: str, solid: Solid, name: str, tmp_
     assert_is(write(tmp_path, ply(form, [points(solid), faces(solid, kind)])), solid)
 
 
+@pytest.mark.slow
 @every_form
 @pytest.mark.parametrize("count", [*list(CODES)[:6], "float"])
 def test_lists_of_any_type(form: str, count: str, tmp_path: Path) -> None:
@@ -100,6 +101,7 @@ def test_lists_of_any_type(form: str, count: str, tmp_path: Path) -> None:
         assert_is(write(tmp_path, data), solid)
 
 
+@pytest.mark.slow
 @every_form
 @pytest.mark.parametrize("kind", CODES)
 def test_coordinates_of_any_type_in_any_order(form: str, kind: str, tmp_path: Path) -> None:
@@ -182,6 +184,7 @@ def test_strips(form: str, tmp_path: Path) -> None:
         assert (abs(mesh.volume), mesh.area) == (pytest.approx(24000), pytest.approx(5200))
 
 
+@pytest.mark.slow
 @every_form
 @pytest.mark.parametrize("name", [each for each in SOLIDS if each != "pentagon"])
 def test_polygons(form: str, name: str, tmp_path: Path) -> None:

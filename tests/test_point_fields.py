@@ -42,7 +42,7 @@ def cloud(mesh: trimesh.Trimesh, count: int) -> tuple[np.ndarray, np.ndarray]:
     return np.asarray(points), np.asarray(mesh.face_normals[faces])
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @given(seed=st.integers(0, 10_000), count=st.integers(1, 60), threads=st.integers(1, 3))
 def test_the_kernel_does_what_the_formula_says(seed: int, count: int, threads: int) -> None:
     rng = np.random.default_rng(seed)
@@ -59,7 +59,7 @@ def test_the_kernel_does_what_the_formula_says(seed: int, count: int, threads: i
     assert found == pytest.approx(expected, abs=1e-5, nan_ok=True)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @given(seed=st.integers(0, 10_000))
 def test_planes_are_exact_and_spheres_to_the_second_order(seed: int) -> None:
     rng = np.random.default_rng(seed)
@@ -78,7 +78,7 @@ def test_a_place_without_points_near_has_no_distance() -> None:
     assert np.isnan(distance_from_points(np.array([[9.0, 0, 0]]), np.zeros((1, 3)), np.array([[0.0, 0, 1]]), 1.0)[0])
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_normals_may_point_either_way_have_any_length_or_be_missing() -> None:
     points, rng = on_ball(2000), np.random.default_rng(2)
     solid = voxelise_points(points, voxel=1.0)
@@ -124,7 +124,7 @@ def test_noise_does_not_move_the_surface_outwards(known: bool) -> None:
     assert result.mesh.is_watertight
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_edges_of_a_turned_box_stay_within_a_voxel() -> None:
     mesh = trimesh.creation.box((20, 14, 9))
     mesh.apply_transform(trimesh.transformations.rotation_matrix(0.7, [1, 2, 3]))
@@ -136,6 +136,7 @@ def test_edges_of_a_turned_box_stay_within_a_voxel() -> None:
     assert abs(result.mesh.volume / mesh.volume - 1) < 0.001
 
 
+@pytest.mark.slow
 def test_normals_that_do_not_fit_are_refused() -> None:
     points = on_ball(500)
     with pytest.raises(ParameterError, match=r"normals have the shape \(3,\) and the points \(500, 3\); give one each"):
@@ -147,7 +148,7 @@ def test_normals_that_do_not_fit_are_refused() -> None:
     assert smooth_points(points, voxel=2.0, normals=broken).report["verdict"]["word"] == "kept"
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_normals_of_a_file_are_used_and_a_shell_leaves_them_out(tmp_path: Path) -> None:
     points = on_ball(2000)
     path = tmp_path / "ball.xyz"

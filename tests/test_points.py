@@ -88,6 +88,7 @@ def test_points_that_are_not_even_do_as_well(rng: np.random.Generator) -> None:
     assert size(voxelise_points(points, voxel=0.5)) == pytest.approx(BALL, rel=0.01)
 
 
+@pytest.mark.slow
 def test_the_surface_of_the_solid_runs_through_the_points() -> None:
     points = on_ball(5000)
     volume = voxelise_points(points, voxel=0.5)
@@ -105,6 +106,7 @@ def test_a_box_keeps_its_corners() -> None:
     assert size(voxelise_points(points, voxel=0.2)) == pytest.approx(1000, rel=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shell", [None, 0.25])
 def test_units_scale_the_grid_and_change_no_cell(shell: float | None) -> None:
     # A power of two, so that rounding is the same.
@@ -152,7 +154,7 @@ def test_a_plane_has_a_shell() -> None:
     assert voxelise_points(points, voxel=1, shell=4).values.any()
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_the_kitten_is_solid(data: Path) -> None:
     points = np.loadtxt(data / "models/kitten_points.xyz")[:, :3]
     coarse, fine = (size(voxelise_points(points, voxel=voxel)) for voxel in (0.01, 0.006))

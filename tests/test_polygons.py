@@ -51,6 +51,7 @@ def test_the_comparison_can_fail() -> None:
     assert Surface(vertices=solid.vertices, faces=fans).area > 1.1 * solid.area
 
 
+@pytest.mark.slow
 @given(
     radii=st.lists(st.floats(0.2, 5), min_size=4, max_size=40),
     turn=st.integers(0, 39),

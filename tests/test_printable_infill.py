@@ -57,7 +57,7 @@ def volume_in(infill: Surface, size: Size, wall: float = slicers.PERIMETERS - sl
     return float((to_manifold(infill) ^ to_manifold(surface(room))).volume())
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @cut_by_walls
 @prusa
 def test_a_pattern_is_shifted_to_where_slicers_print_it(
@@ -75,7 +75,7 @@ def test_a_pattern_is_shifted_to_where_slicers_print_it(
     assert laid > 1.1 * printed(filled(pattern, density, size, phase=HARDLY_SHIFTED), size, tmp_path)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @cut_by_walls
 @prusa
 def test_infill_that_slicers_do_not_print_is_left_out_and_told(
@@ -134,7 +134,7 @@ def test_what_is_kept_is_not_touched() -> None:
     ).volume()
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_a_part_without_room_keeps_its_infill_and_that_is_told() -> None:
     found = fill(surface(box(30, 2.1, 12)), "honeycomb", as_="project", density=0.3, line_width=0.9)
     assert found.report["infill"]["left_out"] == 0
@@ -142,7 +142,7 @@ def test_a_part_without_room_keeps_its_infill_and_that_is_told() -> None:
     assert any("slicers print none of it; shift" in each for each in found.report["problems"])
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("more", [{"align": "bed"}, {"density": (0.1, 0.3)}])
 def test_a_pattern_stays_where_it_was_asked_for(more: dict[str, Any]) -> None:
     asked: dict[str, Any] = {"density": 0.2, "line_width": 0.9, **more}
@@ -151,7 +151,7 @@ def test_a_pattern_stays_where_it_was_asked_for(more: dict[str, Any]) -> None:
     assert report["seconds"]["shift"] == 0
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_the_command_says_where_a_pattern_is_and_makes_it_again_there(tmp_path: Path) -> None:
     standing((6, 6, 10)).export(tmp_path / "part.stl")
     words = ["--for", "prusaslicer", "--pattern", "gyroid", "--density", "20%"]

@@ -41,6 +41,7 @@ def seconds(text: bytes, name: bytes) -> int:
     return 3600 * hours + 60 * minutes + rest
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("slow", [1, 20])
 @pytest.mark.parametrize("pattern", ["keep", "honeycomb"])
 def test_there_is_one_figure_of_time(pattern: str, slow: int, tmp_path: Path) -> None:
@@ -71,6 +72,7 @@ def test_there_is_one_figure_of_time(pattern: str, slow: int, tmp_path: Path) ->
         assert left[-1] == 0
 
 
+@pytest.mark.slow
 def test_each_line_tells_what_is_left_behind_it(tmp_path: Path) -> None:
     """Cut a print off at each of its lines of progress: what lies before takes the share that the line tells."""
     old, new = tmp_path / "old.gcode", tmp_path / "new.gcode"
@@ -88,6 +90,7 @@ def test_each_line_tells_what_is_left_behind_it(tmp_path: Path) -> None:
         assert share == pytest.approx(100 * motion(part).seconds / whole, abs=1 + 100 * 0.3 / whole)
 
 
+@pytest.mark.slow
 def test_a_layer_and_grams_are_told(tmp_path: Path) -> None:
     old, new = tmp_path / "old.gcode", tmp_path / "new.gcode"
     old.write_bytes(long_print(layers=8))
@@ -108,6 +111,7 @@ def test_a_layer_and_grams_are_told(tmp_path: Path) -> None:
     assert "the slicer said 0:59:59" in result.stderr
 
 
+@pytest.mark.slow
 def test_curas_times_are_planned_too(tmp_path: Path) -> None:
     text = written(Dialect(slicer="cura", progress="", layers=8))
     text = re.sub(rb"(?m)^;TIME(_ELAPSED)?:.*\n", b"", text)
@@ -129,6 +133,7 @@ def test_curas_times_are_planned_too(tmp_path: Path) -> None:
     assert after.estimate == pytest.approx(report["time"]["print_after_s"], abs=1e-6)
 
 
+@pytest.mark.slow
 def test_a_head_of_bambu_studio(tmp_path: Path) -> None:
     text = written(Dialect(slicer="bambu", progress="P{done} R{left}", layers=8))
     text = re.sub(rb"; (?:model printing time|total estimated time)[^\n]*\n", b"", text)

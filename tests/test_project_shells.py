@@ -127,7 +127,7 @@ def sliced(path: Path, folder: Path, **more: object) -> Sliced:
     return read_gcode(folder / "out.gcode")
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @prusa
 @pytest.mark.parametrize("shape", SHAPES)
 def test_prusaslicer_makes_the_shell_of_slopes(
@@ -199,7 +199,6 @@ def cura_sliced(folder: Path, distance: float, *more: str) -> Sliced:
 BELOW: dict[float, dict[str, Lines]] = {-float(z): {} for z in range(4)}
 
 
-@pytest.mark.slow
 def test_the_comparison_sees_a_missing_shell() -> None:
     """Lines 0.45 mm apart cover a square; every second one covers half of it."""
     rows = np.array([[(0.0, y), (10.0, y)] for y in np.arange(20) * LINE])

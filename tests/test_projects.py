@@ -102,7 +102,7 @@ def to(old: str, new: str, count: int = 1) -> Callable[[str], str]:
 # --- what a project holds ---------------------------------------------------------------------------------------------
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_the_infill_of_a_project_goes_through_the_walls_and_lies_in_the_part(filled: Result[Any, FillReport]) -> None:
     part, infill, report = filled.surfaces["part"], filled.surfaces["infill"], filled.report
     assert report["problems"] == []
@@ -120,7 +120,7 @@ def test_the_infill_of_a_project_goes_through_the_walls_and_lies_in_the_part(fil
     assert report["triangles"] == len(infill.faces)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("pattern", ["octet", "honeycomb", "concentric-heart"])
 def test_other_patterns_are_as_dense_as_asked_too(pattern: str) -> None:
     result = fill(box(24, 20, 12), pattern, as_="project", density=0.25)
@@ -131,13 +131,13 @@ def test_other_patterns_are_as_dense_as_asked_too(pattern: str) -> None:
     assert result.report["problems"] == []
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_walls_that_are_one_line_are_told() -> None:
     report = fill(box(20, 20, 10), as_="project", line_width=0.45).report
     assert any("less than two lines" in each for each in report["problems"])
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("side", [6.0, 8.0])
 def test_walls_in_small_parts_stay_as_wide_as_two_lines(side: float) -> None:
     """As in a screw that two perimeters all but fill: narrower walls would not be printed."""
@@ -147,7 +147,7 @@ def test_walls_in_small_parts_stay_as_wide_as_two_lines(side: float) -> None:
     assert report["problems"] == []
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_walls_that_slicers_leave_out_are_told() -> None:
     report = fill(box(6, 6, 10), as_="project", density=0.2, line_width=0.3).report
     assert report["infill"]["line_width"] == pytest.approx(0.3, rel=0.06)
@@ -156,14 +156,14 @@ def test_walls_that_slicers_leave_out_are_told() -> None:
     )
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize(("width", "told"), [(0.9, False), (1.2, True), (1.6, False)])
 def test_walls_between_two_and_three_lines_are_told(width: float, told: bool) -> None:
     report = fill(box(24, 24, 10), as_="project", line_width=width).report
     assert any("slicers leave gaps in them" in each for each in report["problems"]) == told
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize(("thick", "told"), [(2.1, True), (10.0, False)])
 def test_room_that_is_narrower_than_a_line_is_told(thick: float, told: bool) -> None:
     report = fill(box(30, thick, 12), "honeycomb", as_="project", density=0.3, line_width=0.9).report
@@ -182,7 +182,7 @@ def test_larger_walls_of_a_project_leave_no_gap_between_two_lines() -> None:
     assert enlarge(solid, (12.0, 0.9), 0.5) == (12.0, 0.9)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("slicer", SLICERS)
 def test_readers_take_every_flavour(slicer: Slicer, filled: Result[Any, FillReport], tmp_path: Path) -> None:
     path = save_project(filled, tmp_path / "part.3mf", slicer=slicer)
@@ -215,6 +215,7 @@ def test_what_is_for_another_slicer_is_told(slicer: str, other: Slicer, project:
     assert any(f"make it again with --for {other}" in each for each in found.problems)
 
 
+@pytest.mark.longest
 def test_only_a_project_is_saved_as_one(filled: Result[Any, FillReport], tmp_path: Path) -> None:
     with pytest.raises(FormatError, match=r"part\.stl is to hold a project"):
         save_project(filled, tmp_path / "part.stl", slicer="cura")
@@ -292,6 +293,7 @@ WARNED: dict[str, tuple[str, str, Callable[[str], str | None], str]] = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rule", RULES)
 def test_a_broken_rule_is_found(rule: str, project: Project, tmp_path: Path) -> None:
     slicer, name, change, says = RULES[rule]
@@ -356,7 +358,7 @@ def test_a_profile_and_components_are_told(project: Project, tmp_path: Path) -> 
 # --- PrusaSlicer and Cura themselves ----------------------------------------------------------------------------------
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @prusa
 def test_prusaslicer_prints_the_infill_and_no_wall_more(filled: Result[Any, FillReport], tmp_path: Path) -> None:
     path = save_project(filled, tmp_path / "part.3mf", slicer="prusaslicer")
@@ -393,7 +395,7 @@ def test_prusaslicer_does_what_the_doctor_says(rule: str, project: Project, tmp_
     assert sum(slicers.prusa_volumes(broken, tmp_path, fill_density="0%")[0].values()) < 0.9 * right
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @cura
 def test_cura_prints_the_infill(filled: Result[Any, FillReport], tmp_path: Path) -> None:
     """By its engine, which reads no 3MF: with the settings that the project has."""
@@ -441,7 +443,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     return tmp_path
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_a_project_makes_itself_again(folder: Path) -> None:
     words = ["fill", "part.stl", "--for", "cura", "--pattern", "concentric-heart", "--set", "hearts=3", "-q"]
     assert command(*words, "--phase", "1", "0.5", "0", "-o", "a.3mf").exit_code == 0
@@ -479,7 +481,6 @@ def test_what_is_typed_wins_over_the_file(folder: Path) -> None:
     assert sorted(each.name for each in folder.iterdir()) == ["a.toml", "b.toml", "part.stl"]
 
 
-@pytest.mark.slow
 def test_wrong_combinations_are_told(folder: Path) -> None:
     usage_error(command("fill", "part.stl", "--as", "project", "-o", "a.3mf"), "--as is 'project', and for is missing")
     usage_error(command("fill", "part.stl", "--for", "cura", "--as", "solid", "-o", "a.3mf"), "--for is 'cura'")
@@ -520,7 +521,7 @@ def packaged(path: Path, model: str, **more: str | bytes) -> Path:
 START = '<model xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"><resources>'
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_hostile_packages_are_refused_in_a_line(tmp_path: Path) -> None:
     laughs = "".join(f'<!ENTITY a{n} "{f"&a{n - 1};" * 10}">' for n in range(1, 12))
     entities = f'<?xml version="1.0"?><!DOCTYPE m [<!ENTITY a0 "ha">{laughs}]>{START}&a11;</resources><build/></model>'

@@ -36,7 +36,7 @@ def refilled(text: str, pattern: str = "keep", **asked: object) -> tuple[str, di
     return "".join(done.lines), done.report
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("pattern", ["keep", "honeycomb"])
 @pytest.mark.parametrize("stray", STRAY)
 def test_what_is_purged_stays_and_all_else_is_refilled(stray: str, pattern: str) -> None:
@@ -64,6 +64,7 @@ def test_stray_tags_change_nothing_of_what_is_drawn(stray: str) -> None:
     assert plain(new) == plain(once)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dialect", TOOL_COMMANDS)
 def test_every_command_that_changes_the_tool_begins_purging(dialect: str) -> None:
     text = colours(LAYERS, stray="at the beginning of a layer", tools=TOOL_COMMANDS[dialect])
@@ -72,6 +73,7 @@ def test_every_command_that_changes_the_tool_begins_purging(dialect: str) -> Non
     assert sections_of(new, "o1") == sections_of(text, "o1")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dialect", ["orca", "bambu"])
 def test_other_dialects(dialect: str) -> None:
     text = colours(LAYERS, stray="at the beginning of a layer", dialect=dialect)

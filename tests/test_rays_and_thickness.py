@@ -43,6 +43,7 @@ def test_a_slab_is_as_thick_as_it_is(cells: int) -> None:
     assert thinnest(slab, (0.25,) * 3) == (cells / 4 if cells <= 16 else None)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("axis", range(3))
 @pytest.mark.parametrize("cells", [3, 7, 12, 20])
 def test_a_slab_of_cells_of_three_lengths(cells: int, axis: int) -> None:

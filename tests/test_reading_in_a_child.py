@@ -25,6 +25,7 @@ SCAN = Path("scan.dcm")
 posix = pytest.mark.skipif(os.name != "posix", reason="signals and limits of POSIX")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["u1", "<i2", ">f4", "f8"])
 def test_arrays_and_data_come_back(kind: str) -> None:
     reply = read_in_child(f"{READERS}arrays", 60, kind, path=SCAN)
@@ -36,6 +37,7 @@ def test_arrays_and_data_come_back(kind: str) -> None:
     assert reply.said == ()
 
 
+@pytest.mark.slow
 def test_an_array_outlives_all_that_brought_it() -> None:
     values = read_in_child(f"{READERS}arrays", 10**6, "f8", path=SCAN).arrays["values"]
     for _ in range(3):
@@ -43,11 +45,13 @@ def test_an_array_outlives_all_that_brought_it() -> None:
     assert values[-1, 1] == 10**6 - 1
 
 
+@pytest.mark.slow
 def test_what_is_printed_comes_back_once_and_without_places_in_the_source() -> None:
     said = read_in_child(f"{READERS}says", "slices are missing", path=SCAN).said
     assert set(said) == {"slices are missing", "Reader: slices are missing", "from below"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("kind", "error", "says"),
     [
@@ -62,12 +66,14 @@ def test_an_error_of_the_reader_is_one_of_ours(kind: str, error: type[InfillErro
         read_in_child(f"{READERS}raises", kind, "a text; so", path=SCAN)
 
 
+@pytest.mark.slow
 def test_the_last_line_of_a_library_counts() -> None:
     text = "sitk::ERROR: at length\nitk::ERROR: Reader(0x55aa): no pixels"
     with pytest.raises(FormatError, match=r"cannot read scan.dcm \(no pixels\)"):
         read_in_child(f"{READERS}raises", "RuntimeError", text, path=SCAN)
 
 
+@pytest.mark.slow
 @posix
 @pytest.mark.parametrize("number", [signal.SIGSEGV, signal.SIGABRT, signal.SIGKILL])
 def test_a_reader_that_crashes_is_one_line(number: signal.Signals) -> None:
@@ -77,12 +83,14 @@ def test_a_reader_that_crashes_is_one_line(number: signal.Signals) -> None:
         read_in_child(f"{READERS}dies", int(number), path=SCAN)
 
 
+@pytest.mark.slow
 @posix
 def test_a_pointer_to_nowhere_is_one_line() -> None:
     with pytest.raises(FormatError, match="SIGSEGV"):
         read_in_child(f"{READERS}stack_overflow", path=SCAN)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("status", [0, 3])
 def test_a_reader_that_ends_without_an_answer_is_one_line(status: int) -> None:
     with pytest.raises(FormatError, match=f"exit status {status}"):
@@ -108,6 +116,7 @@ def wait_until(condition: object, seconds: float = 20.0) -> bool:
     return False
 
 
+@pytest.mark.slow
 @posix
 def test_a_reader_that_hangs_is_ended(tmp_path: Path) -> None:
     with pytest.raises(FormatError, match="scan.dcm takes over 3 s to read; check"):
@@ -115,6 +124,7 @@ def test_a_reader_that_hangs_is_ended(tmp_path: Path) -> None:
     assert wait_until(lambda: not alive(int((tmp_path / "pid").read_text())))
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="the limit is that of Linux")
 def test_a_reader_that_takes_all_memory_is_refused() -> None:
     with pytest.raises(MemoryLimitError, match="needs more memory than there is"):
@@ -122,6 +132,7 @@ def test_a_reader_that_takes_all_memory_is_refused() -> None:
     assert read_in_child(f"{READERS}greedy", 1, path=SCAN, memory=2**31).data == {"held": 1}
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="looks at processes of Linux")
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
 def test_no_child_and_no_file_outlives_its_parent(number: signal.Signals, tmp_path: Path) -> None:
@@ -145,6 +156,7 @@ def test_no_child_and_no_file_outlives_its_parent(number: signal.Signals, tmp_pa
     assert list(scratch.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_nothing_is_left_in_the_folder_for_temporary_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     for without in (False, True):
@@ -156,6 +168,7 @@ def test_nothing_is_left_in_the_folder_for_temporary_files(tmp_path: Path, monke
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_a_system_whose_files_have_names_works_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """As on Windows, which passes no numbers of files and removes no file that is mapped."""
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
@@ -171,6 +184,7 @@ def test_a_frozen_application_reads_in_its_own_process(monkeypatch: pytest.Monke
     assert read_in_child(f"{READERS}arrays", 60, "u1", path=SCAN).arrays["values"].sum() == 1770
 
 
+@pytest.mark.slow
 def test_the_child_loads_little(monkeypatch: pytest.MonkeyPatch) -> None:
     """NumPy and a few modules of ours; the reader loads its library."""
     modules = set(read_in_child(f"{READERS}loaded", path=SCAN).data["modules"])
@@ -178,6 +192,7 @@ def test_the_child_loads_little(monkeypatch: pytest.MonkeyPatch) -> None:
     assert not {"scipy", "trimesh", "numba", "skimage", "manifold3d", "typer", "shapely", "SimpleITK"} & modules
 
 
+@pytest.mark.slow
 def test_a_file_in_the_working_directory_does_not_stand_in_for_a_module(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

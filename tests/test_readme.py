@@ -136,7 +136,7 @@ def test_every_line_runs_or_installs(page: str) -> None:
         assert set(lines) >= SKIPPED
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("page", PAGES)
 def test_the_blocks_of_a_page_run_in_their_order(page: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """And a block of text shows rows that the block before it printed."""
@@ -165,14 +165,13 @@ def test_the_blocks_of_a_page_run_in_their_order(page: str, folder: Path, capsys
             assert {without_numbers(name) for name in rows} <= printed_rows
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_every_label_of_the_segmentation_was_written(folder: Path) -> None:
     (line,) = [line for _, block in page_blocks("docs/smooth.md") for line in block.splitlines() if "{label}" in line]
     assert done(line).exit_code == 0
     assert {"Femur, left_right.stl", "Cartilage.stl"} & {path.name for path in folder.iterdir()}
 
 
-@pytest.mark.slow
 def test_a_command_that_fails_leaves_no_report(folder: Path) -> None:
     """What is redirected is JSON or nothing."""
     assert done("infill make honeycomb -o part.stl --json > report.json").exit_code == 1

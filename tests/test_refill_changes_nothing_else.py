@@ -95,6 +95,7 @@ def test_in_place_is_as_beside(pattern: str, prints_of_all_kinds: Mapping[str, P
     assert sorted(p.name for p in tmp_path.iterdir()) == ["beside.gcode", "print.gcode"]
 
 
+@pytest.mark.slow
 def test_a_kept_path_is_shorter(prints_of_all_kinds: Mapping[str, Path], tmp_path: Path) -> None:
     """Filament, as the judge counts it: of the infill, and of all else."""
     path = prints_of_all_kinds["bambu"]
@@ -147,7 +148,7 @@ def test_what_holds_infill_together_stays(name: str, prints_of_all_kinds: Mappin
 
 
 # What fails is a whole print, which to shrink takes minutes.
-@pytest.mark.long
+@pytest.mark.longest
 @settings(max_examples=12, phases=[Phase.explicit, Phase.generate])
 @given(data=prints())
 @pytest.mark.parametrize("pattern", FILAMENT)
@@ -167,7 +168,7 @@ def test_nothing_else_changes_in_any_dialect(
         assert new.count(b"G92 E") >= data.count(b"G92 E")
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_one_object_of_two(prints_of_all_kinds: Mapping[str, Path], tmp_path: Path) -> None:
     """The sections of the other one are as they were; a name that no object bears changes nothing."""
     path, output = prints_of_all_kinds["prusa-labels"], tmp_path / "out.gcode"

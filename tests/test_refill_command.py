@@ -106,7 +106,6 @@ def test_a_dry_run_writes_nothing(gcode: Path) -> None:
     assert names(gcode.parent) == [gcode.name]
 
 
-@pytest.mark.slow
 def test_a_second_run_says_that_there_is_nothing_to_do(gcode: Path) -> None:
     assert run("refill", gcode).exit_code == 0
     once = gcode.read_bytes()
@@ -116,6 +115,7 @@ def test_a_second_run_says_that_there_is_nothing_to_do(gcode: Path) -> None:
     assert gcode.read_bytes() == once
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="permissions as POSIX has them")
 @pytest.mark.parametrize("mode", [0o600, 0o755])
 def test_permissions_are_kept(mode: int, gcode: Path) -> None:
@@ -232,6 +232,7 @@ def test_the_preview_shows_a_layer_that_is_asked_for(
     assert shown == [f"layer {layer}, as sliced", f"layer {layer}, refilled"]
 
 
+@pytest.mark.slow
 def test_a_picture_that_is_in_the_way_leaves_the_print_alone(gcode: Path, tmp_path: Path) -> None:
     picture = tmp_path / "layer.png"
     picture.write_bytes(PICTURE)
@@ -275,6 +276,7 @@ def test_what_is_no_print_is_one_line_and_a_log(gcode: Path) -> None:
     logged(result, log_of(gcode))
 
 
+@pytest.mark.slow
 def test_the_log_lies_beside_what_the_slicer_is_about_to_write(
     gcode: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -290,7 +292,6 @@ def test_the_log_lies_beside_what_the_slicer_is_about_to_write(
     assert names(target.parent) == []
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", ["part.gcode", "{0}/no such folder/part.gcode", "/", ""])
 def test_the_log_lies_beside_the_file_where_the_slicer_names_no_folder(
     name: str, gcode: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -338,7 +339,7 @@ def test_wrong_usage_exits_2(words: list[str]) -> None:
 # --- how it starts ---------------------------------------------------------------------------------------
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_keeping_paths_needs_no_compiler(gcode: Path) -> None:
     """Nor the libraries of geometry and pictures, which take longer to load than a small print."""
     code = f"import sys; sys.argv = ['infill', 'refill', {str(gcode)!r}, '-q']; import infill.cli; infill.cli.main()"
@@ -357,7 +358,7 @@ def test_a_command_builds_no_other() -> None:
         assert [command.name for command in build_app(name).registered_commands] == list(COMMANDS)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.skipif(sys.platform == "win32", reason="times of the processor as POSIX has them")
 def test_it_starts_fast(tmp_path: Path) -> None:
     """Little more until it reads than what any program with typer, pydantic and NumPy takes to begin.
@@ -409,7 +410,7 @@ def program(tmp_path_factory: pytest.TempPathFactory) -> str:
     return f"'{path}' refill"
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.skipif(bool(missing_prusa()), reason=missing_prusa())
 def test_prusaslicer_runs_it(program: str, tmp_path: Path) -> None:
     done = sliced(tmp_path, script=program)
@@ -421,7 +422,7 @@ def test_prusaslicer_runs_it(program: str, tmp_path: Path) -> None:
     assert replaced == sections == 16  # of 20 layers, four are solid
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.skipif(bool(missing_prusa()), reason=missing_prusa())
 def test_a_settings_file_has_quotes_within_quotes(program: str, tmp_path: Path) -> None:
     """As on Windows, where only double quotes keep a path with blanks together."""
@@ -431,7 +432,7 @@ def test_a_settings_file_has_quotes_within_quotes(program: str, tmp_path: Path) 
     assert (tmp_path / "out.gcode").read_bytes().count(STAMP) == 1
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.skipif(bool(missing_prusa()), reason=missing_prusa())
 def test_prusaslicer_tells_what_went_wrong(program: str, tmp_path: Path) -> None:
     done = sliced(tmp_path, script=program + " --layers ten")

@@ -227,7 +227,7 @@ def calls_of_refill(tmp_path_factory: pytest.TempPathFactory) -> int:
     return calls_of(["refill", str(put(folder, PRINT))])
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("moment", MOMENTS[2:5:2])
 def test_ctrl_c_at_any_moment_leaves_the_old_print(moment: float, calls_of_refill: int, tmp_path: Path) -> None:
     path = put(tmp_path, PRINT)
@@ -236,7 +236,7 @@ def test_ctrl_c_at_any_moment_leaves_the_old_print(moment: float, calls_of_refil
     assert list(tmp_path.iterdir()) == [path]
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_ctrl_c_while_it_writes_leaves_the_old_print(tmp_path: Path) -> None:
     path = put(tmp_path, PRINT)
     interrupted(["refill", str(path)], calls=5, writing=tmp_path)
@@ -265,7 +265,7 @@ main()
 """
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("moment", [0.5, 0.97, 0.999])
 def test_a_kill_at_any_moment_leaves_the_old_print_or_the_new_one(
     moment: float, calls_of_refill: int, tmp_path: Path

@@ -104,7 +104,7 @@ def test_a_pattern_takes_the_filament_that_was_there(name: str, taller: Path, tm
     assert len(RETRACTION.findall(new)) <= len(RETRACTION.findall(old))
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize(("part", "name"), [("far_out_ring", "honeycomb"), ("spur_gear", "honeycomb")])
 def test_what_small_regions_owe_is_paid(part: str, name: str, data: Path, tmp_path: Path) -> None:
     """Cells that lay 15 % too little, in column upon column, are chosen anew; and what is off is told."""
@@ -117,6 +117,7 @@ def test_what_small_regions_owe_is_paid(part: str, name: str, data: Path, tmp_pa
     assert not any("filament" in problem for problem in report["problems"])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("asked", "ratio", "told"),
     [
@@ -162,6 +163,7 @@ def test_a_whole_number_is_a_density_too(honeycomb: Path) -> None:
             refill(honeycomb, dry_run=True, pattern="rectilinear", density=density)
 
 
+@pytest.mark.slow
 def test_hearts_lie_about_the_middle_of_the_part(looked_at: list[Batch]) -> None:
     """Half a node of the grid that regions are found on is 0.1 mm."""
     plan = plan_refill(FAMILIES["concentric-heart"], looked_at, Rounding(), density=None, acceleration=1000.0)
@@ -183,7 +185,7 @@ def test_support_and_contact_are_as_reported(honeycomb: Path, kept: Path) -> Non
     assert found["measured_mm"] == pytest.approx(length_of(honeycomb), rel=1e-3)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_rounding_leaves_what_it_promises(honeycomb: Path, kept: Path) -> None:
     """At least 0.94 of what was held before; another measure may err by a hundredth, on 700 mm of infill."""
     old, new = honeycomb.read_bytes(), kept.read_bytes()
@@ -209,7 +211,7 @@ def test_a_print_that_lost_too_much_is_drawn_again(
     assert asked["problems"]
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_a_dense_print_gets_no_cell_that_beads_do_not_fit_into(tmp_path: Path) -> None:
     """Drawn again with more lines, it would take one."""
     dense = prusa_print(
@@ -273,7 +275,7 @@ def same(report: dict[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in report.items() if name != "request"}
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_lines_are_refilled_as_a_file_is(honeycomb: Path, kept: Path) -> None:
     text = honeycomb.read_bytes().decode()
     wanted = kept.read_bytes().decode()
@@ -297,7 +299,7 @@ def test_lines_end_where_they_did(honeycomb: Path) -> None:
     assert odd in done
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_a_dry_run_writes_nothing(honeycomb: Path, tmp_path: Path) -> None:
     path = tmp_path / "print.gcode"
     path.write_bytes(honeycomb.read_bytes())
@@ -309,6 +311,7 @@ def test_a_dry_run_writes_nothing(honeycomb: Path, tmp_path: Path) -> None:
     assert path.read_bytes() != honeycomb.read_bytes()
 
 
+@pytest.mark.slow
 def test_what_is_refilled_already_is_copied(kept: Path, tmp_path: Path) -> None:
     copy = tmp_path / "copy.gcode"
     done = refill(kept, output=copy)
@@ -360,7 +363,6 @@ def test_radius_0_changes_nothing_of_honeycomb(honeycomb: Path, tmp_path: Path) 
     assert done.report["rounding"]["corners"] == 0
 
 
-@pytest.mark.slow
 def test_radii_are_as_asked(honeycomb: Path, kept: Path) -> None:
     """Reported by tenths of an octave, 4 % to either side."""
     report = refill(honeycomb, dry_run=True, smooth_radius=0.5).report
@@ -369,7 +371,7 @@ def test_radii_are_as_asked(honeycomb: Path, kept: Path) -> None:
     assert length_of(kept) < length_of(honeycomb)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_same_filament_widens_beads(honeycomb: Path, tmp_path: Path) -> None:
     new = tmp_path / "new.gcode"
     filament = refill(honeycomb, output=new, density="same").report["filament"]

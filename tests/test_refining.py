@@ -77,7 +77,6 @@ def test_uniform_data_are_fixed(solid: bool) -> None:
     assert filter_reference(data * 2.0 - 1, TWENTY)[2] == pytest.approx(sign)
 
 
-@pytest.mark.long
 def test_far_cells_are_plus_and_minus_one_to_the_last_bit() -> None:
     ball = sum(x**2 for x in grid(70, 70, 70)) < 20**2
     field = refine_bricks(ball, TWENTY).to_dense()
@@ -102,6 +101,7 @@ def test_bricks_filter_as_the_specification(data: str) -> None:
             assert np.abs(ours.to_dense() - theirs).max() < 1e-5  # rounding of float32, some 1e-6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", [(48, 45, 50), (90, 70)])
 def test_bricks_refine_nearly_as_the_specification(shape: tuple[int, ...]) -> None:
     """Averages come from a coarse lattice: the surface differs by some hundredths of a cell, no more."""
@@ -159,6 +159,7 @@ def test_a_sphere_is_round() -> None:
     assert np.abs(distance).max() < 0.45  # at the poles, where the voxels are flat
 
 
+@pytest.mark.slow
 def test_a_box_keeps_its_edges() -> None:
     """0.08 cells off, where plain smoothing is 0.27 off."""
     half, radius = (28.0, 20.0, 13.0), 5.0
@@ -183,7 +184,7 @@ def comb() -> np.ndarray:
     return (walls | plates) & (np.abs(u) < 17.5) & (np.abs(v) < 22)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_thin_walls_survive_that_plain_smoothing_breaks() -> None:
     solid, thirty = comb(), Smoothing(steps=30)
     plain = smooth_volume(solid, smoothing=thirty, method="plain", allow_broken=True).report
@@ -198,6 +199,7 @@ def test_thin_walls_survive_that_plain_smoothing_breaks() -> None:
     assert result.mesh.is_volume
 
 
+@pytest.mark.slow
 def test_levels_and_fields_of_a_result_are_those_of_phi() -> None:
     ball = sum(x**2 for x in grid(40, 40, 40)) < 12.2**2
     at_half = smooth_volume(ball, refine=True, level=0.5)

@@ -148,13 +148,14 @@ def differences(
     return found
 
 
+@pytest.mark.slow
 def test_the_page_lists_exactly_the_keys_of_all_reports(results: dict[str, Result[Any, Any]]) -> None:
     page = described(PAGE.read_text(encoding="utf-8").partition(REFILL)[0])
     assert len(page) > 100
     assert differences(page, {name: result.report for name, result in results.items()}) == []
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_the_page_lists_exactly_the_keys_of_a_refill(tmp_path: Path) -> None:
     page = described(PAGE.read_text(encoding="utf-8").partition(REFILL)[2].partition(ALL_LABELS)[0])
     assert len(page) > 30
@@ -181,6 +182,7 @@ def test_the_page_lists_exactly_the_keys_of_a_refill(tmp_path: Path) -> None:
         assert json.loads(json.dumps(report, allow_nan=False)) == report
 
 
+@pytest.mark.slow
 def test_the_page_lists_exactly_the_keys_of_all_labels(results: dict[str, Result[Any, Any]]) -> None:
     """But for the report of each label, which is that of smoothing."""
     page = described(PAGE.read_text(encoding="utf-8").partition(ALL_LABELS)[2].partition(ALL_COMPONENTS)[0])
@@ -301,7 +303,6 @@ def test_every_report_is_of_its_type(results: dict[str, Result[Any, Any]]) -> No
         assert list(misfits(result.report, TYPED[result.report["product"]])) == [], name
 
 
-@pytest.mark.long
 def test_a_misfit_is_found(results: dict[str, Result[Any, Any]]) -> None:
     report = results["block"].report
     for wrong, said in (

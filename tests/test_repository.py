@@ -121,7 +121,7 @@ def test_only_a_tag_publishes() -> None:
     assert publish["needs"] == "build"
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_the_schemas_hold() -> None:
     """`make lint` does the same; here it is shown that it can fail."""
     pytest.importorskip("check_jsonschema")
@@ -218,21 +218,19 @@ def test_the_tool_that_marks_slow_tests_does_what_it_says() -> None:
     assert doctest.testmod(module) == (0, 3)
 
 
+@pytest.mark.longest
 def test_make_test_runs_one_case_of_each_long_test(pytester: pytest.Pytester) -> None:
     pytester.makeconftest((ROOT / "tests" / "conftest.py").read_text(encoding="utf-8"))
     pytester.makepyfile(
         """
         import pytest
 
-        @pytest.mark.long
         @pytest.mark.parametrize("b", "xy")
         @pytest.mark.parametrize("a", [1, 2])
         def test_cases(a, b): ...
 
-        @pytest.mark.longest
         def test_alone(): ...
 
-        @pytest.mark.slow
         def test_slow(): ...
 
         def test_quick(): ...

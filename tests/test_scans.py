@@ -356,6 +356,7 @@ def image_of(sitk: Any, values: np.ndarray) -> Any:
     return image
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", MEDICAL)
 @pytest.mark.parametrize("dtype", [np.uint8, np.int16, np.float32, float])
 def test_a_marked_cell_lies_where_simpleitk_says(suffix: str, dtype: Any, sitk: Any, tmp_path: Path) -> None:
@@ -433,6 +434,7 @@ def test_a_skewed_image_is_told(sitk: Any, tmp_path: Path) -> None:
         read_volume(tmp_path / "a.nrrd")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", MEDICAL)
 @pytest.mark.parametrize("part", [0.0, 0.1, 0.5, 0.8])
 def test_a_medical_file_that_is_cut_off(
@@ -573,6 +575,7 @@ def test_a_dicom_slice_at_the_end_that_is_cut_off_is_told(end: str, sitk: Any, t
 # --- every suffix ----------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", list(READERS))
 @pytest.mark.parametrize(
     "content",
@@ -644,6 +647,7 @@ def test_an_unreadable_file_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPa
         read_volume(tmp_path / "a.npy")
 
 
+@pytest.mark.slow
 def test_reading_arrays_loads_nothing_medical() -> None:
     import subprocess
 

@@ -75,6 +75,7 @@ CASES = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_voids_are_counted(name: str) -> None:
     """Also with vertices merged where shells touch in a point, and with all of it in another place."""
@@ -100,6 +101,7 @@ def test_any_voids_in_a_block(places: list[tuple[int, int, int]], filled: list[i
     assert count_sealed_voids(together(*(turned(each) if whole else each for each in meshes))) == len(places)
 
 
+@pytest.mark.slow
 def test_check_says_so(tmp_path: Path) -> None:
     path = save(together(*CASES["nine voids"][0]), tmp_path / "a.stl")
     found = check(path)

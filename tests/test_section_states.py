@@ -93,7 +93,7 @@ def lines_outside_infill(text: str) -> list[str]:
 PLACES = st.floats(0, 1, allow_nan=False)
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @settings(max_examples=30)
 @given(st.lists(st.tuples(PLACES, st.sampled_from(MARKERS)), min_size=1, max_size=5))
 @example([(0.5, "; PURGING FINISHED")])
@@ -159,6 +159,7 @@ def test_an_empty_layer_with_a_number_is_one() -> None:
     assert mark_lines(read_table(text, MachineState()), TagState()).after.layer == 3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("slicer", ["prusa", "orca", "bambu"])
 def test_a_role_that_is_said_once_lasts(slicer: str) -> None:
     """PrusaSlicer says it once if all layers are of infill alone, or if a layer begins with what the last ended with."""

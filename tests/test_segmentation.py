@@ -252,7 +252,6 @@ def test_grey_keeps_the_sign_and_the_bounds(dtype: Any) -> None:
     assert np.array_equal(values, before)
 
 
-@pytest.mark.slow
 def test_grey_of_a_flipped_and_scaled_scan_is_the_same() -> None:
     """Grey values have no unit: another zero and another scale change nothing but rounding to 32 bits."""
     values = 200 * np.clip(ball(), -3, 3)
@@ -313,6 +312,7 @@ def test_a_level_or_window_that_cannot_be(level: float, window: float | None, sa
 # --- real ones -------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_real_scans(data: Path) -> None:
     folder = data / "volumes"
     head = read_volume(folder / "ct_head_cranium_int16.npz")

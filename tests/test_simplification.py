@@ -97,7 +97,7 @@ def test_a_simplified_surface_is_closed_near_and_as_connected_and_large_as_befor
     assert_printable(trimesh.Trimesh(found.vertices, found.faces, process=False))
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @settings(max_examples=12)
 @given(
     waves=st.tuples(*[st.floats(3, 9)] * 3),
@@ -137,7 +137,7 @@ def test_ten_times_fewer_triangles_on_a_smooth_ring() -> None:
     assert len(found.faces) * 10 <= len(surface.faces)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_the_number_of_triangles_asked_for_is_kept() -> None:
     surface = made("gyroid", 24)
     for count in (2000, 501):
@@ -213,7 +213,7 @@ def test_a_surface_that_strays_is_bent_back(far: float) -> None:
     assert farthest(surface, back, 3) <= 0.16
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("threads", [1, 3])
 def test_places_lie_on_their_faces_and_tell_how_far_those_are(threads: int) -> None:
     surface, other = made("noise", 20), made("gyroid", 20)
@@ -259,7 +259,7 @@ def test_faces_that_two_surfaces_share_are_known_whatever_their_order() -> None:
     np.testing.assert_array_equal(match_faces(other, surface), np.where(gone, -1, chosen))
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_what_was_measured_is_handed_to_a_surface_that_differs_in_a_place() -> None:
     surface = made("gyroid", 24)
     first = collapse_edges(surface, tolerance=0.1)
@@ -339,6 +339,7 @@ def test_patches_keep_the_laws_and_do_not_depend_on_threads(shape: str, monkeypa
     assert max(farthest(whole, surface), farthest(surface, whole, 3)) <= tolerance
 
 
+@pytest.mark.slow
 def test_the_nearest_triangle_is_found_whatever_came_before_and_any_that_is_near_enough() -> None:
     surface = made("noise", 16)
     points = np.random.default_rng(3).uniform(-2, 18, (500, 3))

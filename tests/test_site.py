@@ -51,7 +51,7 @@ def test_nothing_else_is(site: Path) -> None:
         assert public & set(name.split(".")), f"{name} is not public"
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_every_command_is_described(site: Path) -> None:
     page = (site / "commands.html").read_text(encoding="utf-8")
     for command in build_app().registered_commands:

@@ -200,6 +200,7 @@ def sharpest(mesh: Any, pattern: str, **more: Any) -> float:
     return voids.sharpest(inside, cell=7.8, width=0.8)
 
 
+@pytest.mark.slow
 def test_corners_are_those_of_the_part_at_hand() -> None:
     """The waves of a zigzag are as long as the part: in a small one they meet at sharper angles than in a large one."""
     small, large = (box(side, side, 6) for side in (24.0, 96.0))
@@ -317,7 +318,7 @@ def test_simplified_slabs_stay_within_the_tolerance(pattern: str, space: Interio
             assert TriangleTree.of(far).nearest(points)[0].max() <= request.tolerance
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("pattern", ["honeycomb", "concentric-heart", "concentric"])
 def test_a_part_filled_in_slabs_keeps_all_promises(pattern: str, monkeypatch: pytest.MonkeyPatch) -> None:
     from infill.interior import interior as module
@@ -356,6 +357,7 @@ def test_slabs_are_planned_for_upright_voids_alone() -> None:
         assert goes_by_slabs(request, choose_voids(request, bounds, None)) is expected, (pattern, more)
 
 
+@pytest.mark.slow
 def test_a_tall_part_has_voxels_as_fine_as_a_low_one() -> None:
     from infill.lattices.sizing import choose_sizes, choose_voxel
 

@@ -55,7 +55,7 @@ def test_a_slicer_reads_the_mesh_without_repair(design: tuple[Result, Path]) -> 
     assert info["volume"] == pytest.approx(result.report["volume"], rel=READ)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @both_slicers
 def test_a_slicer_prints_every_layer_without_a_warning(
     design: tuple[Result, Path], slice_mesh: Slicer, request: pytest.FixtureRequest
@@ -81,7 +81,7 @@ def without_a_triangle(mesh: trimesh.Trimesh) -> trimesh.Trimesh:
     return trimesh.Trimesh(mesh.vertices, np.delete(mesh.faces, len(mesh.faces) // 2, axis=0), process=False)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @needs_prusa
 def test_a_missing_triangle_is_read_as_open_edges(tmp_path: Path) -> None:
     mesh = make("honeycomb", size=20, height=3).mesh
@@ -90,6 +90,7 @@ def test_a_missing_triangle_is_read_as_open_edges(tmp_path: Path) -> None:
     assert info["repairs"] == {"open_edges": 3}
 
 
+@pytest.mark.slow
 @needs_prusa
 def test_a_triangle_turned_over_is_read_as_repaired(tmp_path: Path) -> None:
     mesh = make("honeycomb", size=20, height=3).mesh

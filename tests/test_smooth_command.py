@@ -96,7 +96,7 @@ def test_every_kind_is_smoothed_and_every_format_written(source: str, suffix: st
     assert mesh.volume == pytest.approx(volume, rel=0.001 if source == "ball.npy" else 0.05)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_the_report_is_one_object_on_stdout_and_talk_goes_to_stderr(folder: Path) -> None:
     result = run("smooth", "ball.npy", "-o", "a.stl", "-o", "b.ply", "--preview", "c.png", "--json", "-v")
     assert result.exit_code == 0, result.output
@@ -118,7 +118,7 @@ def test_quiet_means_quiet(folder: Path) -> None:
     assert (result.exit_code, result.stdout, result.stderr) == (0, "", "")
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_a_real_process_says_the_same(folder: Path) -> None:
     """Nothing of a library comes onto the streams, and no number depends on who calls."""
     done = subprocess.run(
@@ -134,7 +134,7 @@ def test_a_real_process_says_the_same(folder: Path) -> None:
 # --- units -----------------------------------------------------------------------------------------------
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_one_part_in_four_units_gives_one_mesh(folder: Path) -> None:
     part = trimesh.creation.box(extents=(40, 20, 10))
     volumes, meshes = [], []
@@ -148,7 +148,7 @@ def test_one_part_in_four_units_gives_one_mesh(folder: Path) -> None:
         assert np.allclose(vertices, meshes[0], atol=1e-3)  # 32-bit coordinates in the file
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.usefixtures("log_heard")
 @pytest.mark.parametrize("name", ["nasty/metres_part_47um.stl", "medical/mandible_raw_m.stl"])
 def test_a_part_in_metres_is_questioned(name: str, data: Path, folder: Path) -> None:
@@ -163,7 +163,7 @@ def test_a_part_in_metres_is_questioned(name: str, data: Path, folder: Path) -> 
     assert 10 < max(large["extents"]) < 200
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.usefixtures("log_heard")
 def test_a_fine_closed_mesh_is_told_of_filters_and_nothing_else_is(folder: Path) -> None:
     """A ball of 1280 triangles whose edges are 1.4 mm long, on the average."""
@@ -191,7 +191,7 @@ def test_a_fine_closed_mesh_is_told_of_filters_and_nothing_else_is(folder: Path)
         assert hints(*words) == 0, words
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.usefixtures("log_heard")
 def test_points_in_metres_are_questioned_too(folder: Path) -> None:
     np.savetxt("m.xyz", np.loadtxt("p.xyz") / 1000)
@@ -212,7 +212,7 @@ def turn() -> np.ndarray:
     return about_z @ about_x
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("mirror", [(1, 1, 1), (-1, 1, 1), (1, 1, -1), (-1, -1, 1)])
 def test_a_ball_in_a_turned_scan_lies_at_its_physical_point(mirror: tuple[int, ...], folder: Path) -> None:
     """Written by SimpleITK, with uneven cells; the mesh stands where SimpleITK says the middle is."""
@@ -299,13 +299,13 @@ def test_spacing_may_differ_by_axis(folder: Path) -> None:
     assert found["extents"][2] > 3.5 * found["extents"][0]
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_a_named_array(folder: Path) -> None:
     assert report("two.npz", "--array", "a")["solid"]["data"] == BALL.sum()
     assert report("two.npz", "--array", "b")["solid"]["data"] == (~BALL).sum()
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_specks_are_taken_out_and_counted(folder: Path) -> None:
     solid = BALL.copy()
     solid[0, 0, 0] = solid[-1, 0, 0] = True
@@ -344,7 +344,7 @@ def test_simplified_meshes_are_closed(words: list[str], folder: Path) -> None:
     assert "simplified" in result.stderr
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_broken_walls_are_an_error_and_allowed_on_request(folder: Path) -> None:
     solid = np.zeros((60, 30, 30), dtype=bool)
     solid[4:16, 6:24, 6:24] = solid[44:56, 6:24, 6:24] = solid[16:44, 6:24, 14:16] = True
@@ -361,7 +361,6 @@ def test_broken_walls_are_an_error_and_allowed_on_request(folder: Path) -> None:
     assert_printable(read_mesh(folder / "a.stl").to_trimesh())
 
 
-@pytest.mark.slow
 def test_a_speck_that_vanishes_is_told(folder: Path) -> None:
     solid = BALL.copy()
     solid[0, 0, 0] = True
@@ -458,7 +457,7 @@ BAD = [
 ]
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(("words", "says"), BAD, ids=[words for words, _ in BAD])
 def test_bad_input_is_one_clear_line(words: str, says: str, folder: Path) -> None:
     before = sorted(folder.iterdir())
@@ -478,7 +477,7 @@ def test_an_unknown_suffix_is_told_before_the_work(name: str, folder: Path) -> N
     assert not (folder / name).exists()
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_outputs_are_checked_before_the_work(folder: Path) -> None:
     one_line_error(run("smooth", "gone.stl", "-o", "old.stl"), "old.stl exists; .* --force")
     one_line_error(run("smooth", "gone.stl", "-o", "no/a.stl"), "there is no folder no")
@@ -490,7 +489,7 @@ def test_outputs_are_checked_before_the_work(folder: Path) -> None:
     assert (folder / "old.stl").read_text() == "precious"
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_force_overwrites_even_the_input(folder: Path) -> None:
     """The input is read as a whole before the output takes its place."""
     assert run("smooth", "s.stl", "-o", "old.stl", "--resolution", "20", "--force").exit_code == 0
@@ -518,7 +517,7 @@ def test_text_is_written_on_request(folder: Path) -> None:
     assert read_mesh(folder / "a.stl").closed
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_names_that_a_console_cannot_show(folder: Path) -> None:
     (folder / "ball.npy").rename(folder / "球 ü.npy")
     done = subprocess.run(

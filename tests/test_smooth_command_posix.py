@@ -24,7 +24,7 @@ def small(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("suffix", ["npz", "nrrd"])
 def test_a_full_disk_leaves_the_old_file_whole(suffix: str, small: Path, tmp_path: Path) -> None:
     """Of fields; meshes are written as those of `make` are."""
@@ -38,7 +38,7 @@ def test_a_full_disk_leaves_the_old_file_whole(suffix: str, small: Path, tmp_pat
     assert list(tmp_path.iterdir()) == [path]
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_a_disk_that_is_full_at_the_last_byte_leaves_no_other_file(small: Path, tmp_path: Path) -> None:
     words = ["smooth", str(small), "--ascii", "--preview", str(tmp_path / "a.png"), "-o", str(tmp_path / "a.npz")]
     whole = tmp_path / "whole.stl"
@@ -58,7 +58,7 @@ def calls_of_smooth(small: Path, tmp_path_factory: pytest.TempPathFactory) -> in
     return calls_of(["smooth", str(small), "-q", "-o", str(folder / "a.stl"), "-o", str(folder / "b.obj")])
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("moment", MOMENTS[1::2])
 def test_ctrl_c_at_any_moment_leaves_the_old_file(
     moment: float, calls_of_smooth: int, small: Path, tmp_path: Path
@@ -72,7 +72,7 @@ def test_ctrl_c_at_any_moment_leaves_the_old_file(
     assert path.read_text() == "precious"
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_ctrl_c_while_it_writes_leaves_no_file(small: Path, tmp_path: Path) -> None:
     interrupted(["smooth", str(small), "-q", "-o", str(tmp_path / "a.obj")], calls=20, writing=tmp_path)
     assert list(tmp_path.iterdir()) == []
@@ -89,7 +89,7 @@ def test_a_device_as_output(small: Path) -> None:
     assert not Path(os.devnull).is_file()
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full on this system")
 def test_a_full_stdout_is_told(small: Path) -> None:
     with open("/dev/full", "w") as full:
@@ -104,7 +104,7 @@ def test_a_full_stdout_is_told(small: Path) -> None:
     assert done.stderr.count("\n") == 1
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_the_memory_of_a_small_job_is_small(small: Path) -> None:
     """512 MiB hold Python, its compiled kernels and a small volume."""
     code = (

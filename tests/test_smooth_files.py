@@ -139,7 +139,7 @@ def test_every_format_of_volumes_gives_the_same_mesh(suffix: str, tmp_path: Path
     assert read_mesh(tmp_path / "a.stl").closed
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", SAVERS)
 def test_volumes_cut_off_anywhere_are_told_or_whole(suffix: str, tmp_path: Path) -> None:
     """Where the end is missing nothing may be made up: cells that are not there are not void."""
@@ -153,7 +153,7 @@ def test_volumes_cut_off_anywhere_are_told_or_whole(suffix: str, tmp_path: Path)
         assert list(tmp_path.iterdir()) == [path]
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(
     "suffix", [*SAVERS, ".stl", ".obj", ".off", ".ply", ".glb", ".3mf", ".xyz", ".csv", ".dcm", ".tiff"]
 )
@@ -210,7 +210,6 @@ def test_one_solid_voxel_gives_a_closed_mesh(shape: tuple[int, int, int], tmp_pa
     assert mesh.volume == pytest.approx(1, rel=0.01)
 
 
-@pytest.mark.long
 def test_folders_of_slices(tmp_path: Path) -> None:
     (tmp_path / "scan").mkdir()
     for k in range(BALL.shape[2]):
@@ -224,7 +223,7 @@ def test_folders_of_slices(tmp_path: Path) -> None:
 # --- meshes and points -----------------------------------------------------------------------------------
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", [".stl", ".obj", ".off", ".ply", ".glb"])
 def test_meshes_cut_off_are_told_or_closed(suffix: str, tmp_path: Path) -> None:
     """Text without its last lines may be read as a mesh with a hole; what comes out is closed, or told."""

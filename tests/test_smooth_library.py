@@ -105,7 +105,7 @@ def solids(draw: st.DrawFn) -> Solid:
 # --- laws ------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @given(solids(), st.sampled_from([0, 1, 5, 20, 60]))
 @example(np.array([[[True, False]]]), 20)
 @example(brick((1, 12, 12), (0, 1), (2, 9), (3, 10)), 20)
@@ -162,7 +162,7 @@ def test_mirroring_the_data_mirrors_the_mesh(axis: int) -> None:
     assert other.mesh.volume > 0
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @settings(max_examples=8)
 @given(st.tuples(*[st.integers(0, 20)] * 3), st.tuples(*[st.integers(0, 20)] * 3))
 @example((1, 0, 0), (0, 0, 0))
@@ -178,7 +178,7 @@ def test_void_around_the_data_moves_the_mesh_and_nothing_else(before: tuple[int,
     assert other.report["topology"]["result"] == one.report["topology"]["result"]
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @settings(max_examples=8)
 @given(st.floats(1e-3, 1e3))
 @example(0.3)
@@ -224,7 +224,7 @@ def test_mirrored_axes_keep_the_outside_outside(axes: tuple[int, int, int]) -> N
 # --- threads, memory, types ------------------------------------------------------------------------------
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_threads_and_runs_give_the_same_bits() -> None:
     rng = np.random.default_rng(7)
     solid = smooth_noise(rng, (48, 40, 36)) > 0.1
@@ -438,6 +438,7 @@ def test_all_solid_but_one_cell(place: tuple[int, int, int]) -> None:
     assert result.report["problems"] == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "shape", [(1, 16, 12), (16, 1, 12), (16, 12, 1), (1, 1, 20), (1, 20, 1), (20, 1, 1), (2, 16, 12)]
 )
@@ -508,7 +509,7 @@ def test_a_speck_that_vanishes_is_told_and_no_error() -> None:
     assert result.mesh.volume == pytest.approx(solid.sum(), rel=VOLUME)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "options",
     [
@@ -566,7 +567,7 @@ def test_simplifying_keeps_the_space_and_what_it_cannot_do_is_told() -> None:
     assert rough.report["verdict"]["word"] == "lost"
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_points_of_a_groove_that_is_filled_are_lost_and_strays_are_told() -> None:
     box, slot = trimesh.creation.box((20, 20, 10)), trimesh.creation.box((1, 30, 5))
     slot.apply_translation((0, 0, 3.5))
@@ -723,7 +724,7 @@ def sphere(subdivisions: int = 4) -> Any:
     return trimesh.creation.icosphere(subdivisions=subdivisions, radius=10.0)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_a_mesh_comes_back_in_its_place() -> None:
     mesh = sphere()
     mesh.apply_translation([5, -100, 30])
@@ -755,7 +756,7 @@ def test_scaling_a_mesh_scales_the_result(scale: float) -> None:
     assert farthest(Surface(vertices=other.surface.vertices / scale, faces=other.surface.faces), one.surface) < 1e-3
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_finer_cells_come_closer_to_the_mesh() -> None:
     errors = [smooth_mesh(sphere(), resolution=n).report["distance"]["result"]["rms"] for n in (15, 30, 60)]
     assert errors[0] > errors[1] > errors[2]
@@ -763,7 +764,7 @@ def test_finer_cells_come_closer_to_the_mesh() -> None:
     assert errors[2] < 0.5 * errors[0]
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_points_of_a_sphere_give_a_ball_or_a_shell() -> None:
     points = np.asarray(sphere(4).vertices)
     solid = smooth_points(points, voxel=0.5)
@@ -802,6 +803,7 @@ def distance_from_triangle(points: NDArray[np.float64], corners: NDArray[np.floa
     return np.hypot(beside, away[:, 2])
 
 
+@pytest.mark.slow
 def test_distances_are_those_of_the_nearest_triangle() -> None:
     """Needles, tiny triangles and large ones side by side, as CAD makes them; against every triangle in turn."""
     rng = np.random.default_rng(5)
@@ -864,7 +866,7 @@ def test_despeckling_a_phase_field_of_any_float(kind: str) -> None:
     assert (result.report["input"]["despeckled"], result.report["topology"]["result"]["components"]) == (1, 1)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_tolerance_and_triangles_are_both_kept_or_it_is_told() -> None:
     solid = ball((40, 40, 40), (19.5,) * 3, 13)
     with pytest.raises(GeometryError, match=r"at most 300 triangles and 0.02 mm of leeway"):
@@ -890,7 +892,7 @@ def test_otsu_of_half_precision_and_of_a_narrow_range() -> None:
         assert found.report["topology"]["result"]["components"] == 1
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_more_threads_than_make_sense_still_work() -> None:
     solid = ball((30, 30, 30), (14.5,) * 3, 9)
     assert smooth_volume(solid, threads=100_000).report["volume"] == pytest.approx(
@@ -947,6 +949,7 @@ def test_nobody_waits_for_a_compiler_untold(
     assert caplog.messages[0].startswith("compiling ")
 
 
+@pytest.mark.slow
 def test_how_far_edges_may_draw_back_goes_with_the_diffusion() -> None:
     """Four steps of a quarter of the length blur as one does: the same wall is lost, wherever it begins to count."""
     fin = np.zeros((40, 60, 40), dtype=bool)

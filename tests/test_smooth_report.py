@@ -194,7 +194,7 @@ class TestTheJudge:
         assert judge_points(outlier, sphere(), VOXEL, samples=SAMPLES).lost
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_a_surface_winds_once_around_what_is_inside_it() -> None:
     from benchmarks.smooth_geometry import winding
 
@@ -256,7 +256,7 @@ def test_wins_are_counted_where_all_can_be_compared() -> None:
     assert "(mean of both ways) in 1 of 2; best normals in 0 of 1; best volume in 1 of 2" in text
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_the_peak_of_a_process_is_not_that_of_the_one_that_starts_it(tmp_path: Path) -> None:
     """What was allocated here does not count for a command that takes next to nothing."""
     large = np.ones(2**26)  # 512 MiB, each page touched

@@ -56,7 +56,7 @@ def test_there_are_a_hundred() -> None:
     assert len(SHAPES) >= 100
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_volumes_are_exact_and_not_biased() -> None:
     """Walls of two voxels and more; only what overlaps is counted on rows, and not to the last digit."""
     errors = {
@@ -141,7 +141,7 @@ def assemblies(draw: st.DrawFn) -> trimesh.Trimesh:
     return union(box(8, 8, 8), *parts)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @settings(max_examples=16)
 @given(assemblies())
 def test_no_loss_is_called_kept(mesh: trimesh.Trimesh) -> None:
@@ -151,6 +151,7 @@ def test_no_loss_is_called_kept(mesh: trimesh.Trimesh) -> None:
         assert apart(mesh, result.mesh) < FAR + DENSE
 
 
+@pytest.mark.slow
 @settings(max_examples=8)
 @given(st.floats(2.5, 12), st.floats(2, 9), st.integers(0, 99))
 def test_a_planted_loss_is_found(long: float, wide: float, seed: int) -> None:
@@ -178,6 +179,7 @@ def test_every_place_that_is_lost_counts() -> None:
     assert sum(patch.area for patch in found.lost) == pytest.approx(8 * (4 * 2 * 2 + 4), rel=0.1)
 
 
+@pytest.mark.slow
 def test_a_loss_planted_in_the_field_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """As if smoothing had eaten a corner: the report compares with what was given, not with a stage in between."""
     eaten = surface_of(box(40, 30, 20))
@@ -198,6 +200,7 @@ def test_a_loss_planted_in_the_field_is_refused(monkeypatch: pytest.MonkeyPatch)
     assert result.report["verdict"]["lost"][0]["distance"] > 2
 
 
+@pytest.mark.slow
 def test_faces_hidden_inside_are_no_loss_and_sheets_are_told() -> None:
     both = together(box(20, 16, 12), box(10, 30, 6, (2, 3, 1)))
     report = smooth_mesh(surface_of(both), voxel=1.0).report
@@ -211,7 +214,7 @@ def test_faces_hidden_inside_are_no_loss_and_sheets_are_told() -> None:
     assert any("of faces that bound no solid are left out" in change for change in report["verdict"]["changes"])
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_finer_voxels_are_tried_where_something_thin_would_be_lost() -> None:
     """A fin of half a voxel at 200 voxels: kept at 400, and told."""
     part = union(box(100, 20, 20), box(0.4, 20, 30, (0, 0, 20)))
@@ -249,7 +252,7 @@ def test_thick_slices_are_interpolated() -> None:
     assert off.std() < 0.7 * (np.linalg.norm(stretched, axis=1) - 20).std()
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize(("share", "method"), [(0.0, "refine"), (0.1, "plain")])
 def test_noise_is_measured_and_smoothed_plainly(share: float, method: str, rng: np.random.Generator) -> None:
     solid = ((np.indices((60, 60, 60)) - 29.5) ** 2).sum(axis=0) < 22**2

@@ -96,7 +96,6 @@ def test_solid_up_to_the_edge_is_closed_there(shape: tuple[int, int, int]) -> No
     assert np.allclose(one.bounds, [[0, 0, 0], shape], atol=1e-4)  # solid is a little weaker: see `TIE`
 
 
-@pytest.mark.slow
 def test_spacing_and_origin_place_it(rng: np.random.Generator) -> None:
     field = smooth_bricks(rng.random((20, 20, 20)) < 0.3, Smoothing(steps=2), spacing=(0.25, 0.5, 0.75))
     plain = extract_bricks(field, spacing=UNIT)

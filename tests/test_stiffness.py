@@ -68,7 +68,7 @@ def test_turning_the_cell_turns_its_stiffness() -> None:
     assert turned.modulus(directions) == pytest.approx(homogenise_stiffness(cell).modulus(back), rel=1e-4)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_more_is_stiffer_and_a_shift_or_a_second_cell_changes_nothing() -> None:
     thin, thick = (octet(16, density) for density in (0.1, 0.3))
     assert thick[thin].all()
@@ -84,7 +84,7 @@ def test_what_floats_is_worth_nothing() -> None:
     assert homogenise_stiffness(island).modulus(AXES) == pytest.approx(0, abs=1e-6)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_the_octet_is_as_stiff_as_published() -> None:
     """E = density / 9 along the axes of the cube, and density / 5 along its diagonals, for slender bars.
 

@@ -54,6 +54,7 @@ def straight_pieces(lines: shapely.MultiLineString, shortest: float) -> list[np.
 DEFAULTS = [PATTERNS[name]() for name in BUILT_IN]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("pattern", [*DEFAULTS, *DESIGNS], ids=lambda pattern: repr(pattern)[:60])
 def test_walls_along_an_axis_have_no_kink(pattern) -> None:
     """By the default block, whose lines lie on borders of cells as often as not; turned by a quarter too."""
@@ -88,6 +89,7 @@ def test_a_kink_would_be_seen() -> None:
     assert np.unique(low).size == 2
 
 
+@pytest.mark.slow
 def test_default_grid_keeps_its_walls_straight_in_the_mesh() -> None:
     """`infill make grid`, all defaults: away from the crossings, every upright wall has one place and one width."""
     from infill import make

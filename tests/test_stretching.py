@@ -31,7 +31,7 @@ WALL, CELL = 1.2, 7.0
 LOW, HIGH = 0.15, 0.4
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @given(scale=st.floats(0.2, 5), shape=st.tuples(*[st.integers(2, 6)] * 3))
 @settings(max_examples=20, deadline=None)
 def test_one_scale_everywhere_is_a_scale(scale: float, shape: tuple[int, int, int]) -> None:
@@ -53,7 +53,7 @@ def test_coordinates_are_as_their_slopes_say() -> None:
         np.testing.assert_allclose(found, slopes, atol=1e-8)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_walls_in_a_volume_are_those_of_the_ellipsoid() -> None:
     """The mean of sqrt(1 - u² + b² u²) over u from 0 to 1 has a closed form."""
     for long in (0.25, 0.9, 1.7, 4.0):
@@ -77,6 +77,7 @@ def test_no_cell_is_torn_or_folded_over(data: st.DataObject) -> None:
     assert np.isfinite(more).all()
 
 
+@pytest.mark.slow
 def test_a_step_that_would_fold_cells_is_evened_out() -> None:
     up = np.linspace(0, 1, 24)
     scales = np.broadcast_to(np.where(up > 0.5, 4.0, 0.2), (12, 12, 24))
@@ -167,7 +168,7 @@ def ramp() -> Any:
     )
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_the_local_density_follows_a_linear_field(ramp: Any) -> None:
     """In slabs of the inside, to two percentage points, and walls are as wide where cells are small as where large."""
     report, voids = ramp.report, to_manifold(ramp.stages.voids)
@@ -188,7 +189,7 @@ def test_the_local_density_follows_a_linear_field(ramp: Any) -> None:
     assert report["request"]["grade"] == "cell"
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_densities_that_are_told_are_those_of_the_mesh() -> None:
     """Of thin walls too, in cells of the grid as wide as they are: which centres are solid says something else."""
     found = fill(box(90, 24, 24), density=(0.1, 0.4), by="x", grade="cell", voxel=0.9, wall=WALL)
@@ -200,7 +201,7 @@ def test_densities_that_are_told_are_those_of_the_mesh() -> None:
         assert step["density"] == pytest.approx(1 - (voids ^ slab).volume() / slab.volume(), abs=0.006)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_walls_are_as_wide_above_as_below(ramp: Any) -> None:
     """Measured across them in the finished mesh, in the lowest and in the highest third."""
     part, voids, third = ramp.stages.part, ramp.stages.voids, 2 * CELL
@@ -216,6 +217,7 @@ def test_walls_are_as_wide_above_as_below(ramp: Any) -> None:
     assert widths[1] == pytest.approx(ramp.report["infill"]["line_width"], rel=0.1)
 
 
+@pytest.mark.longest
 def test_a_width_is_measured_with_little_of_the_voids_at_a_time(monkeypatch: pytest.MonkeyPatch) -> None:
     found = fill(box(20, 24, 30), density=0.3, voxel=0.6, wall=WALL).stages
     whole = median_width(found.part, found.voids, wall=WALL, width=0.6)
@@ -224,7 +226,7 @@ def test_a_width_is_measured_with_little_of_the_voids_at_a_time(monkeypatch: pyt
     assert median_width(found.part, found.voids, wall=WALL, width=0.6) == whole
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_a_flat_part_leaves_the_rest_to_the_widths_and_says_so() -> None:
     report = fill(box(40, 40, 12), density=(LOW, HIGH), by="z", grade="cell", wall=WALL, voxel=0.5, cell=8.0).report
     assert any("cells cannot follow the density alone" in problem for problem in report["problems"])
@@ -246,7 +248,7 @@ def test_what_cells_cannot_follow_is_refused(words: dict[str, Any], says: str) -
         fill(box(20, 20, 20), voxel=0.5, **words)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_the_command_takes_and_remembers_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     box(24, 24, 30).export("part.stl")

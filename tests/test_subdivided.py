@@ -120,7 +120,7 @@ def _block_any(flags: np.ndarray, tree: np.ndarray) -> np.ndarray:
     return found
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_the_kernel_is_its_definition() -> None:
     """By every cube: within it, the least distance to its faces; outside, the largest along an axis, up to `reach`."""
     rng = np.random.default_rng(7)
@@ -172,7 +172,7 @@ def at_cells(
     return level, (at >> level[..., None]) << level[..., None], 1 << level
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_cubes_larger_than_the_smallest_keep_half_their_side_from_the_walls_and_are_large_far_inside() -> None:
     cell = 2.0
     space, tree, voids = tree_in(box(60, 50, 70), "adaptive-cubic", cell)
@@ -192,6 +192,7 @@ def test_cubes_larger_than_the_smallest_keep_half_their_side_from_the_walls_and_
     assert (level[(away < 1.0) & inside] == 0).mean() > 0.6
 
 
+@pytest.mark.slow
 def test_support_follows_roofs_alone() -> None:
     """Below a roof, and not at a floor, at walls, or where it is as steep as a cone's of 30 degrees."""
     cell = 2.0
@@ -212,7 +213,7 @@ def test_support_follows_roofs_alone() -> None:
     assert small[68] > 0.4
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_where_no_cube_may_be_doubled_it_is_cubic() -> None:
     """A plate so thin that walls run through all larger cubes: the same voids, in fields of their own."""
     plate = box(30, 24, 7)
@@ -221,7 +222,7 @@ def test_where_no_cube_may_be_doubled_it_is_cubic() -> None:
     assert other.report["voids"]["count"] == one.report["voids"]["count"] > 20
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_a_core_is_lighter_than_that_of_cubic_and_the_skin_is_not() -> None:
     part = box(44, 44, 44)
     core, roof, floor = [], [], []
@@ -240,7 +241,7 @@ def test_a_core_is_lighter_than_that_of_cubic_and_the_skin_is_not() -> None:
     assert floor[2] < 0.65 * floor[0]
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_levels_say_how_much_larger_cubes_may_be() -> None:
     part, given, sizes = box(50, 50, 50), {**GIVEN, "cell": 8.0}, []
     for levels in (1, 2, 3):
@@ -253,7 +254,7 @@ def test_levels_say_how_much_larger_cubes_may_be() -> None:
         fill(part, "adaptive-cubic", level=2, **given)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("name", NAMES)
 def test_the_tree_is_that_of_the_inner_side_of_the_wall_in_a_project_too(name: str) -> None:
     """So a cut through the middle, away from the walls, is the same."""
@@ -264,7 +265,7 @@ def test_the_tree_is_that_of_the_inner_side_of_the_wall_in_a_project_too(name: s
     assert alike.mean() > 0.995
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("name", NAMES)
 def test_a_part_far_from_the_origin_has_the_same_tree(name: str) -> None:
     part = box(40, 40, 40)

@@ -183,7 +183,7 @@ def wall(angle: float, width: float) -> tuple[shapely.MultiLineString, Grid]:
     return shapely.MultiLineString([[tuple(-along), tuple(along)]]), grid
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @given(angle=st.floats(0, math.pi), width=st.floats(0.3, 2.0))
 def test_a_straight_wall_has_its_width(angle: float, width: float) -> None:
     lines, grid = wall(angle, width)

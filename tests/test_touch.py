@@ -63,6 +63,7 @@ def touching(path: np.ndarray, reach: float = REACH * WIDTH) -> float:
     return float(shapely.intersection(shapely.linestrings(path), near).length)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(12))
 @pytest.mark.parametrize("deviation", [math.inf, 0.1])
 def test_a_path_touches_a_wall_along_as_much_of_its_length(seed: int, deviation: float) -> None:

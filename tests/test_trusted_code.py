@@ -74,6 +74,7 @@ def plain(text: str) -> str:
     return "theirs.toml"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("write", [attached, plain])
 @pytest.mark.parametrize("where", SAYS)
 @pytest.mark.parametrize("words", [["-o", "a.stl"], ["--dry-run"], ["--save-config", "-"]])
@@ -97,6 +98,7 @@ def test_code_is_run_if_it_is_typed_or_the_file_is_trusted(write: object) -> Non
         Path("RAN").unlink()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("words", [["make"], ["smooth", "part.stl"], ["refill", "part.gcode"]])
 def test_other_commands_run_no_code_at_all(words: list[str]) -> None:
     Path("part.gcode").write_text("G1 X0 Y0\n")

@@ -24,6 +24,7 @@ def box(size: float) -> trimesh.Trimesh:
     return trimesh.creation.box((size, size / 2, size / 3))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("suffix", [".stl", ".ply", ".xyz"])
 def test_check_and_smooth_say_the_same(
@@ -52,6 +53,7 @@ def test_check_and_smooth_say_the_same(
     ).max() == pytest.approx(size)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("suffix", sorted(set(STATED_UNITS) & set(WRITERS)))
 def test_a_format_that_says_its_unit_is_not_questioned(
@@ -126,7 +128,7 @@ def test_a_unit_that_is_given_stands_above_the_format(tmp_path: Path) -> None:
     assert np.ptp(read_source(tmp_path / "a.glb", units="mm").vertices, axis=0).max() == pytest.approx(60)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.usefixtures("log_heard")
 def test_smooth_takes_a_small_glb_and_writes_one(tmp_path: Path) -> None:
     save(trimesh.creation.icosphere(3, radius=0.7), tmp_path / "a.glb")

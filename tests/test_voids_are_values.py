@@ -28,6 +28,7 @@ def asked(**options: Any) -> FillSpec:
     return resolve({"density": "20%:40%", "voxel": 0.6, "wall": 1.0, **options}).request
 
 
+@pytest.mark.longest
 @pytest.mark.parametrize("options", [{"by": "skin"}, {"by": "z", "pattern": "grid", "align": "body"}])
 def test_a_grading_for_two_parts_gives_what_fresh_ones_give(options: dict[str, Any]) -> None:
     """In boxes of one size, so that both have the same grid."""
@@ -38,6 +39,7 @@ def test_a_grading_for_two_parts_gives_what_fresh_ones_give(options: dict[str, A
         assert used.report["graded"] == fresh.report["graded"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("align", ["part", "body"])
 @pytest.mark.parametrize("pattern", ["gyroid", "honeycomb", "cross-3d", "adaptive-cubic", "lightning"])
 def test_voids_that_are_prepared_are_the_same(pattern: str, align: str) -> None:

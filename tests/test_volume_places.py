@@ -100,6 +100,7 @@ def affines(draw: st.DrawFn) -> np.ndarray:
 # --- NIfTI -----------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @given(affines(), affines(), st.integers(0, 4), st.integers(0, 4), st.booleans(), st.sampled_from([0, 1, 2, 3]))
 @example(np.diag([2.0, 3, 4, 1]), np.diag([2.0, 3, 4, 1]), 0, 0, False, 2)
 @example(np.diag([-1.0, -1, 1, 1]), np.diag([1.0, 1, -1, 1]), 1, 1, True, 3)
@@ -187,6 +188,7 @@ def test_units_of_time_are_no_units_of_length(unit: int) -> None:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("slope", [(2.0, 0.0), (0.5, -7.0), (1.0, 3.0), (0.0, 5.0), (math.nan, math.nan), (1.0, 0.0)])
 @pytest.mark.parametrize("dtype", ["u1", "i2", "i4", "f4", "f8"])
 def test_values_are_scaled_as_nibabel_does(slope: tuple[float, float], dtype: str, tmp_path: Path, nib: Any) -> None:
@@ -230,6 +232,7 @@ def vectors(affine: np.ndarray) -> dict[str, str]:
     }
 
 
+@pytest.mark.slow
 @given(affines(), st.sampled_from(["RAS", "LPS", "LAS", "right-anterior-superior", "left-posterior-superior"]))
 def test_nrrd_lies_where_simpleitk_says(affine: np.ndarray, space: str) -> None:
     sitk = pytest.importorskip("SimpleITK", reason="SimpleITK is not installed (extra medical)")
@@ -259,6 +262,7 @@ def test_a_space_that_is_mirrored_or_unknown_is_refused(space: str) -> None:
         read(w.nrrd(VALUES, space=space))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("at", [0, 1, 2, 3])
 @pytest.mark.parametrize("kind", ["list", "vector", "time", "RGB-color", "2-vector"])
 def test_axes_that_are_not_of_space_are_frames_wherever_they_stand(at: int, kind: str) -> None:
@@ -410,6 +414,7 @@ def test_meta_images_lie_where_simpleitk_says(affine: np.ndarray, matrix: str, o
     assert said == []
 
 
+@pytest.mark.slow
 @given(affines())
 def test_what_simpleitk_writes_is_read_in_its_place_without_a_word(affine: np.ndarray) -> None:
     """AnatomicalOrientation too, which it writes beside the matrix."""

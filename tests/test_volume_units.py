@@ -94,6 +94,7 @@ def imagej(path: Path, metadata: dict[str, Any], resolution: tuple[float, float]
 ASCII = [(word, scale) for word, scale in WORDS if word.isascii() and word.strip() == word and word.isprintable()]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("word", "scale"), ASCII)
 def test_units_of_imagej(word: str, scale: float, tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     volume = read_volume(imagej(tmp_path / "a.tif", {"unit": word, "spacing": 3.0}))
@@ -236,6 +237,7 @@ def test_a_folder_of_slices_has_the_sizes_of_the_first_and_tells_once(
 BARE: dict[str, str | None] = {"space": None, "space_directions": None, "space_origin": None}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("word", "scale"), [(word, scale) for word, scale in WORDS if '"' not in word and "\0" not in word]
 )

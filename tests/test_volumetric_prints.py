@@ -34,6 +34,7 @@ TELLING = {  # how programs say it
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", TELLING)
 def test_the_same_print_in_other_units_is_the_same(name: str, tmp_path: Path) -> None:
     linear, telling = TELLING[name]

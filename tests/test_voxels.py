@@ -108,6 +108,7 @@ def test_the_signs_of_every_row_add_up_to_nothing(seed: int, points: int, scale:
     assert not total.any()
 
 
+@pytest.mark.slow
 @given(steps=st.tuples(*[st.integers(-40, 40)] * 3))
 def test_moving_by_whole_cells_moves_the_grid(steps: tuple[int, ...]) -> None:
     mesh = moved(surface(ball()), by=SHIFT)
@@ -134,7 +135,7 @@ def test_axes_are_all_alike(order: tuple[int, ...]) -> None:
     assert np.array_equal(voxelise(turned, resolution=30).values, voxelise(mesh, resolution=30).values.transpose(order))
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("scale", [1e-3, 25.4, 1e4])
 def test_units_scale_the_grid_and_change_no_cell(scale: float) -> None:
     mesh = closed_mesh(7, 15)
@@ -143,11 +144,13 @@ def test_units_scale_the_grid_and_change_no_cell(scale: float) -> None:
     assert there.spacing == pytest.approx(np.array(here.spacing) * scale)
 
 
+@pytest.mark.slow
 def test_an_inverted_mesh_is_the_mesh() -> None:
     mesh = closed_mesh(8, 15)
     assert np.array_equal(voxelise(inverted(mesh), resolution=30).values, voxelise(mesh, resolution=30).values)
 
 
+@pytest.mark.slow
 def test_the_order_of_faces_and_merged_vertices_do_not_matter() -> None:
     mesh = closed_mesh(9, 15)
     rng = np.random.default_rng(0)
@@ -227,7 +230,7 @@ def test_a_box_without_a_triangle_is_the_box(missing: int) -> None:
     assert 0 < repairs.hole_share < 0.2
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @given(seed=st.integers(0, 10_000))
 def test_triangles_turned_over_or_doubled_change_nothing(seed: int) -> None:
     rng = np.random.default_rng(seed)
@@ -242,6 +245,7 @@ def test_triangles_turned_over_or_doubled_change_nothing(seed: int) -> None:
     assert np.array_equal(voxelise(doubled, voxel=1.0).values, voxelise(whole, voxel=1.0).values)
 
 
+@pytest.mark.slow
 def test_half_a_ball_is_closed_by_a_disc_as_by_the_generalised_winding_number() -> None:
     dome = trimesh.intersections.slice_mesh_plane(BALL, plane_normal=(0, 0, 1), plane_origin=(0, 0, 0.1))
     mesh = merge_vertices(np.round(dome.vertices, 9), np.array(dome.faces))  # the cut leaves cracks of 1e-15 mm
@@ -340,7 +344,7 @@ def test_errors_say_what_to_do(mesh: Surface, options: dict[str, float], error: 
     assert ";" in str(caught.value)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name",
     [
@@ -387,7 +391,7 @@ def test_an_open_mesh_is_the_same_mesh_filled(data: Path) -> None:
     assert np.array_equal(volume.values, voxelise(read_mesh(data / "models/pig_filled.stl")).values)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_overlapping_bones_are_united(data: Path) -> None:
     mesh = read_mesh(data / "medical/foot_right_bodyparts3d.stl")
     found = voxelise_with_report(mesh, resolution=40)

@@ -59,7 +59,7 @@ def farthest(path: np.ndarray, other: np.ndarray) -> float:
     return max(float(shapely.distance(shapely.points(points), line).max()) for points, line in ways)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("deviation", [0.1, 0.2])
 def test_length_is_kept_and_arcs_are_larger(deviation: float) -> None:
     """On Hilbert's curve, at the same distance from it; arcs inside the corners lose a tenth of it."""
