@@ -225,12 +225,15 @@ def test_make_test_runs_one_case_of_each_long_test(pytester: pytest.Pytester) ->
         """
         import pytest
 
+        @pytest.mark.long
         @pytest.mark.parametrize("b", "xy")
         @pytest.mark.parametrize("a", [1, 2])
         def test_cases(a, b): ...
 
+        @pytest.mark.longest
         def test_alone(): ...
 
+        @pytest.mark.slow
         def test_slow(): ...
 
         def test_quick(): ...

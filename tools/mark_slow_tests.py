@@ -23,7 +23,7 @@ ROOT = Path(__file__).resolve().parents[1]
 QUICK, TEST = 60.0, 560.0  # CPU seconds of what is left for each; imports and collecting come on top
 LEAST_SAVED = 2.0  # CPU seconds of the cases after the first
 UNMARKED = ("tests/test_architecture.py::test_the_house_keeps_the_rule",)  # what a change breaks first
-MARK = re.compile(r"\s*@pytest\.mark\.(?:slow|long|longest)\n")
+MARKS = ("pytest.mark.slow", "pytest.mark.long", "pytest.mark.longest")
 
 
 def read_times(text: str) -> dict[str, tuple[float, float]]:
@@ -91,7 +91,14 @@ def mark_module(source: str, marks: Mapping[str, str]) -> str:
     def test_b(): ...
     <BLANKLINE>
     """
-    lines = [line for line in source.splitlines(keepends=True) if not MARK.fullmatch(line)]
+    marked = {
+        decorator.lineno
+        for node in ast.walk(ast.parse(source))
+        if isinstance(node, ast.FunctionDef)
+        for decorator in node.decorator_list
+        if ast.unparse(decorator) in MARKS
+    }
+    lines = [line for number, line in enumerate(source.splitlines(keepends=True), 1) if number not in marked]
     for name, number in sorted(test_functions(ast.parse("".join(lines))), key=lambda test: -test[1]):
         if name in marks:
             line = lines[number - 1]
