@@ -5,30 +5,25 @@ Pattern parameters are given as ``--set name=value``, so a new pattern needs no 
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Callable
 from typing import Annotated, Any
 
 import typer
 
-from infill.cli.checking import check
 from infill.cli.commands import Command, Group
-from infill.cli.filling import fill
-from infill.cli.listing import list_patterns
-from infill.cli.making import make
-from infill.cli.refilling import refill
-from infill.cli.smoothing import smooth
-from infill.cli.timing import motion
 from infill.version import __version__
 
-# By name: the function, and an example. All but `list` show their help when nothing is given.
-COMMANDS: dict[str, tuple[Callable[..., Any], str]] = {
-    "make": (make, "infill make zigzag --size 60x40 --cell 5 -o zigzag.3mf"),
-    "smooth": (smooth, "infill smooth scan.nrrd --threshold 226 -o bone.stl"),
-    "fill": (fill, "infill fill part.stl --density 20% -o filled.stl"),
-    "refill": (refill, "infill refill print.gcode -o smooth.gcode"),
-    "list": (list_patterns, "infill list honeycomb --preview honeycomb.png"),
-    "check": (check, "infill check part.stl smooth.stl --json"),
-    "motion": (motion, "infill motion part.gcode smooth.gcode --plot speeds.png"),
+# By name: module and function, which are loaded when the command is built, and an example. All but `list` show their
+# help when nothing is given.
+COMMANDS: dict[str, tuple[str, str, str]] = {
+    "make": ("making", "make", "infill make zigzag --size 60x40 --cell 5 -o zigzag.3mf"),
+    "smooth": ("smoothing", "smooth", "infill smooth scan.nrrd --threshold 226 -o bone.stl"),
+    "fill": ("filling", "fill", "infill fill part.stl --density 20% -o filled.stl"),
+    "refill": ("refilling", "refill", "infill refill print.gcode -o smooth.gcode"),
+    "list": ("listing", "list_patterns", "infill list honeycomb --preview honeycomb.png"),
+    "check": ("checking", "check", "infill check part.stl smooth.stl --json"),
+    "motion": ("timing", "motion", "infill motion part.gcode smooth.gcode --plot speeds.png"),
 }
 
 
@@ -52,7 +47,8 @@ def build_app(command_name: str = "") -> typer.Typer:
     ) -> None: ...
 
     for name in [command_name] if command_name in COMMANDS else COMMANDS:
-        function, example = COMMANDS[name]
+        module, attribute, example = COMMANDS[name]
+        function: Callable[..., Any] = getattr(importlib.import_module(f"infill.cli.{module}"), attribute)
         app.command(name, cls=Command, no_args_is_help=name != "list", epilog=f"Example: {example}")(function)
     return app
 
