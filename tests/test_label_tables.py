@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 from infill import Segment, read_labels, read_segmentation
 from infill.errors import FormatError
-from infill.files.file_names import MOST_BYTES, safe_names
-from infill.imaging.label_tables import fill_template, is_template, segments_of_nrrd
+from infill.files.file_names import MOST_BYTES, fill_template, is_template, safe_names
+from infill.imaging.label_tables import segments_of_nrrd
 
 SNAP = """################################################
 # ITK-SnAP Label Description File
@@ -218,11 +218,19 @@ def test_names_that_are_safe_stay() -> None:
 
 def test_a_template_takes_name_and_number(tmp_path: Path) -> None:
     segments = [Segment(value=3, name="A/B"), Segment(value=12)]
-    assert [str(each) for each in fill_template(Path("x/{number}-{label}.stl"), ["A/B", "label_12"], segments)] == [
+    assert [
+        str(each)
+        for each in fill_template(
+            Path("x/{number}-{label}.stl"), ["A/B", "label_12"], [segment.value for segment in segments]
+        )
+    ] == [
         str(Path("x/3-A_B.stl")),
         str(Path("x/12-label_12.stl")),
     ]
-    assert [str(each) for each in fill_template(Path("{number}.stl"), ["{number}", "b"], segments)] == [
+    assert [
+        str(each)
+        for each in fill_template(Path("{number}.stl"), ["{number}", "b"], [segment.value for segment in segments])
+    ] == [
         "3.stl",
         "12.stl",
     ]

@@ -52,7 +52,7 @@ class SmoothOutput:
 
 def wants_every_label(outputs: Sequence[Path], *, each_label: bool, labels: Path | None, keep_going: bool) -> bool:
     """Tell whether --each-label is given, or {label} in an output; raise BadParameter for options that need it."""
-    from infill.imaging.label_tables import is_template
+    from infill.files.file_names import is_template
 
     if each_label or any(is_template(path) for path in outputs):
         return True
@@ -78,8 +78,8 @@ def refuse_options(settings: SmoothSettings, output: SmoothOutput) -> None:
 def smooth_every_label(source: Path, settings: SmoothSettings, output: SmoothOutput, options: SmoothOptions) -> None:
     """Smooth every label, write the files and print a summary."""
     from infill.cli.piping import check_outputs, deliver_all
+    from infill.files.file_names import is_template
     from infill.formats.mesh_files import mesh_writer, parts_writer
-    from infill.imaging.label_tables import is_template
 
     single = [path for path in output.outputs if not is_template(path)]
     for path in output.outputs:
@@ -133,19 +133,20 @@ def _parts(
 ) -> dict[Path, Callable[[BinaryIO], object]]:
     """Return a function for each file that writes it."""
     from infill.errors import OutputError
+    from infill.files.file_names import fill_template, is_template
     from infill.formats.mesh_files import mesh_writer, parts_writer
-    from infill.imaging.label_tables import fill_template, is_template
     from infill.result import parts_of
 
     # All names, also of labels that failed: the name of a file does not depend on the other labels.
     names = list(result.stages.segments)
+    numbers = [segment.value for segment in result.stages.segments.values()]
     parts: dict[Path, Callable[[BinaryIO], object]] = {}
     for output in written.outputs:
         if not is_template(output):
             parts[output] = partial(parts_writer(output), parts_of(result))
             continue
         write = mesh_writer(output, ascii=written.ascii_stl)
-        for name, path in zip(names, fill_template(output, names, list(result.stages.segments.values())), strict=True):
+        for name, path in zip(names, fill_template(output, names, numbers), strict=True):
             if name not in result.surfaces:
                 continue
             if path in parts:

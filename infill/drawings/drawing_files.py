@@ -60,6 +60,14 @@ def read_drawing(path: str | os.PathLike[str]) -> Drawing | Picture:
         raise FormatError(f"cannot read {source}: {error.strerror or error}; check the file") from error
 
 
+def read_tile(path: str | os.PathLike[str]) -> Drawing:
+    """Read a drawing whose page is the tile that repeats; raise FormatError as `read_drawing` does."""
+    content = read_drawing(path)
+    if isinstance(content, Picture):
+        return trace_picture(content, Path(path))
+    return replace(content, page=repeating_box(content))
+
+
 def read_tile_family(path: str | os.PathLike[str], *, width: float | None = None) -> DrawnFamily:
     """Read a drawing as a tile that repeats: a family of paths.
 
@@ -77,12 +85,7 @@ def read_tile_family(path: str | os.PathLike[str], *, width: float | None = None
     FormatError
         See `read_drawing`.
     """
-    content = read_drawing(path)
-    drawing = (
-        trace_picture(content, Path(path))
-        if isinstance(content, Picture)
-        else replace(content, page=repeating_box(content))
-    )
+    drawing = read_tile(path)
     if width is not None:
         drawing = _scale_to_width(drawing, check_length("width", width))
     return DrawnFamily(name=Path(path).name, drawing=drawing)

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import math
 import os
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from infill.drawing import Picture
-from infill.drawings.drawing_files import read_drawing
-from infill.paths.tiles.tiling import repeating_box, trace_picture
+from infill.drawings.drawing_files import read_tile
 from patterns.linework import clip, turn
 from patterns.protocol import Pattern
 from patterns.shared import angle_parameter, cell_parameter
@@ -76,12 +74,7 @@ def read_tiled(path: str | os.PathLike[str]) -> Tiled:
     FormatError
         See `read_drawing`.
     """
-    picture_or_drawing = read_drawing(path)
-    drawing = (
-        trace_picture(picture_or_drawing, Path(path))
-        if isinstance(picture_or_drawing, Picture)
-        else replace(picture_or_drawing, page=repeating_box(picture_or_drawing))
-    )
+    drawing = read_tile(path)
     assert drawing.page is not None
     x0, y0, x1, y1 = drawing.page
     middle, width = np.array([(x0 + x1) / 2, (y0 + y1) / 2]), x1 - x0

@@ -11,15 +11,11 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from pathlib import Path
 
 from infill.errors import FormatError
-from infill.files.file_names import safe_names
-
-NAME, NUMBER = "{label}", "{number}"
 
 LARGEST_TABLE = 10 * 2**20  # bytes of a table, or of the header of an image
 SNAP_LINE = re.compile(r'(-?\d+)\s+(\d+)\s+(\d+)\s+(\d+)\s+[\d.]+\s+\d+\s+\d+\s+"([^"]*)"')
@@ -169,25 +165,3 @@ def _decode(content: bytes) -> str:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError:
         return content.decode("latin-1")
-
-
-def is_template(path: Path) -> bool:
-    """Tell whether a path has a placeholder for a label.
-
-    >>> is_template(Path("bones/{label}.stl")), is_template(Path("bones.stl"))
-    (True, False)
-    """
-    return NAME in str(path) or NUMBER in str(path)
-
-
-def fill_template(path: Path, names: Sequence[str], segments: Sequence[Segment]) -> list[Path]:
-    """Return the path of each label, with its name, made safe for every file system, and its number.
-
-    >>> [path.name for path in fill_template(Path("{number}_{label}.stl"), ["L1/L2"], [Segment(value=4)])]
-    ['4_L1_L2.stl']
-    """
-    safe = safe_names(names, [f"label_{segment.value}" for segment in segments])
-    return [
-        Path(str(path).replace(NUMBER, str(segment.value)).replace(NAME, name))
-        for name, segment in zip(safe, segments, strict=True)
-    ]

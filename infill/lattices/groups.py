@@ -66,7 +66,7 @@ def add_group(keywords: dict[str, Any], name: str, group: Shell | Meshing) -> di
         if value == field.default:
             continue
         if keywords[flat] != field.default:
-            raise UsageError(f"{field.name} is given alone and in {name}; give it once")
+            raise UsageError.about(field.name, f"is given alone and in {name}; give it once")
         merged[flat] = value
     return merged
 
