@@ -61,8 +61,6 @@ class Interior:
         Number of cells by which they do.
     opening : Opening or None
         Sides where the part has no wall: the depth there is that of a part that goes on.
-    box_of : (Interior, (3,) int) or None
-        The space of which this is a box, and the first cell of the box in it.
     """
 
     layers: LayerStack
@@ -76,7 +74,6 @@ class Interior:
     walled: Interior | None = None
     through: float = 0.0
     opening: Opening | None = None
-    box_of: tuple[Interior, NDArray[np.int64]] | None = None
 
     @property
     def depth(self) -> NDArray[np.float32]:

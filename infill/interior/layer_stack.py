@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 import zlib
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +24,7 @@ AT_ONCE = 1_000_000  # bytes that are unpacked at a time
 BITS = 8  # in a byte
 
 Field = NDArray[np.float32]
+Outcome = TypeVar("Outcome")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -87,6 +89,33 @@ class LayerStack:
             start, end = max(low, begin), min(high, begin + self.thick)
             layers[:, :, start - low : end - low] = self._read_slab(number)[:, :, start - begin : end - begin]
         return layers
+
+    def map_slabs(
+        self, function: Callable[[Field, int, int], Outcome], *, below: int = 0, above: int = 0
+    ) -> list[tuple[int, Outcome]]:
+        """Apply a function to each slab with some layers beside it, once for all that are alike.
+
+        Parameters
+        ----------
+        function : callable
+            Takes layers (nx, ny, n), and the numbers of the first layer of the slab in them and of the first above it.
+        below, above : int
+            Number of layers beside the slab.
+
+        Returns
+        -------
+        list of (int, outcome)
+            With the number of the first layer of each slab.
+        """
+        outcomes: dict[tuple[object, ...], Outcome] = {}
+        results = []
+        for low, high in self.bounds():
+            first, last = max(0, low - below), min(self.shape[2], high + above)
+            key = (low - first, high - first, *self.alike(first, last))
+            if key not in outcomes:
+                outcomes[key] = function(self.between(first, last), low - first, high - first)
+            results.append((low, outcomes[key]))
+        return results
 
     def alike(self, low: int, high: int) -> tuple[object, ...]:
         """Return a key that is equal for equal layers, so that these are computed once."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
 from typing import Literal
@@ -56,7 +56,7 @@ class Opening:
         lowest, highest = _heights(voids)
         return (lowest < self.low) | (highest > self.high)
 
-    def closed_ends(self, voids: list[Surface]) -> list[str]:
+    def closed_ends(self, voids: Sequence[Surface]) -> list[str]:
         """List the open sides that no void reaches out of."""
         lowest, highest = (np.concatenate(heights) for heights in zip(*map(_heights, voids), strict=True))
         reached = {"bottom": bool((lowest < self.low).any()), "top": bool((highest > self.high).any())}
@@ -183,7 +183,7 @@ def _move_out(part: Surface, flat: NDArray[np.bool_], distance: float) -> Surfac
 
 
 def cut_open(
-    solid: Surface, voids: list[Surface], opening: Opening, size: float, *, threads: int | None = None
+    solid: Surface, voids: Sequence[Surface], opening: Opening, size: float, *, threads: int | None = None
 ) -> tuple[Surface, int, float]:
     """Subtract voids that reach out of the open sides of a solid; return it with the count and mm³ of dropped pieces.
 
@@ -192,7 +192,7 @@ def cut_open(
     Parameters
     ----------
     solid : Surface, mm
-    voids : list of Surface, mm
+    voids : sequence of Surface, mm
     opening : Opening
     size : float
         Of a cell of the grid, mm.
@@ -226,7 +226,7 @@ def clip_to_opening(surface: Surface, opening: Opening, size: float) -> Surface:
     return cut
 
 
-def _cut_variants(body: object, voids: list[Surface], opening: Opening, size: float) -> Iterator[Surface]:
+def _cut_variants(body: object, voids: Sequence[Surface], opening: Opening, size: float) -> Iterator[Surface]:
     import manifold3d
 
     assert isinstance(body, manifold3d.Manifold)

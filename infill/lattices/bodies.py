@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Protocol, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,45 +11,11 @@ from numpy.typing import NDArray
 from infill.interior.interior import BAND, Interior
 from infill.interior.layer_stack import LayerStack
 from infill.isosurfaces.components import shell_names
-from infill.lattices.grading import LocalWidths
+from infill.lattices.voids import Field, Layout, VoidFields, VoidPattern
 from infill.meshes.shells import select_faces, shell_volumes
 from infill.meshes.winding import winding_numbers
 
 DEEP = np.float32(-1e6)  # cells: where no void is
-Field = NDArray[np.float32]
-
-
-class Anchored(Protocol):
-    """The voids of a pattern that begins at a point."""
-
-    def count(self, space: Interior, *, cell: float, width: float) -> int:
-        """Count the fields that the voids need."""
-        ...
-
-    def sharpest(self, space: Interior, *, cell: float, width: float) -> float:
-        """Return the angle of the sharpest corners of the voids, degrees; few are sharper."""
-        ...
-
-    def into(self, out: Field, space: Interior, which: int, *, cell: float, width: float) -> float:
-        """Write one field; return how many cells it fills."""
-        ...
-
-    def about(self, middle: NDArray[np.float64]) -> Self:
-        """Return the same voids, shifted by a vector, mm, in the whole part."""
-        ...
-
-    def prepare(self, space: Interior, *, cell: float, width: float) -> Self:
-        """See `Voids`."""
-        ...
-
-    def with_widths(self, local: LocalWidths) -> Self:
-        """See `Voids`."""
-        ...
-
-    @property
-    def local(self) -> LocalWidths | None:
-        """See `Voids`."""
-        ...
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -71,86 +36,73 @@ class PartBody:
     box: tuple[slice, ...]
     cells: NDArray[np.bool_]
 
+    @property
+    def corner(self) -> NDArray[np.int64]:
+        """The first cell of the box, (3,)."""
+        return np.array([side.start for side in self.box])
+
+    def crop(self, space: Interior) -> Interior:
+        """Return the box of a space; there is no room in it except in the body."""
+        return replace(
+            space,
+            layers=LayerStack.of(np.where(self.cells, space.depth[self.box], DEEP)),
+            origin=space.origin + space.size * self.corner,
+            walled=None,
+        )
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Bodies:
-    """Draws a pattern body by body.
+class BodyFields:
+    """The voids of a pattern that starts over in every body.
 
     Parameters
     ----------
-    space : Interior, optional
-        The space in which they were found.
-    drawn : tuple of (PartBody, Interior, Anchored)
-        The bodies, each with its part of the space and its voids.
+    layout : Layout
+    bodies : tuple of (PartBody, VoidFields)
+        The bodies, each with its voids in its box.
     """
 
-    space: Interior | None = None
-    drawn: tuple[tuple[PartBody, Interior, Anchored], ...] = ()
+    layout: Layout
+    bodies: tuple[tuple[PartBody, VoidFields], ...]
 
-    def prepare(self, voids: Anchored, space: Interior, *, cell: float, width: float) -> Bodies:
-        """Find the bodies in a space; see `Voids`."""
-        drawn = self._draw_bodies(voids, space)
-        return Bodies(
-            space=space,
-            drawn=tuple((body, box, anchored.prepare(box, cell=cell, width=width)) for body, box, anchored in drawn),
-        )
+    @property
+    def count(self) -> int:
+        """Number of fields of the body that needs the most."""
+        return max((fields.count for _, fields in self.bodies), default=0)
 
-    def with_widths(self, local: LocalWidths) -> Bodies:
-        """Return the same with other local widths in the space."""
-        return replace(
-            self,
-            drawn=tuple(
-                (body, box, anchored.with_widths(_widths_in_box(local, box))) for body, box, anchored in self.drawn
-            ),
-        )
+    def find_sharpest(self) -> float:
+        """Find the angle of the sharpest corners in any body, degrees; few are sharper, and it is 90 at most."""
+        return min((fields.find_sharpest() for _, fields in self.bodies), default=90.0)
 
-    def count(self, voids: Anchored, space: Interior, *, cell: float, width: float) -> int:
-        """Count the fields of the body that needs the most."""
-        drawn = self._draw_bodies(voids, space)
-        return max((anchored.count(box_space, cell=cell, width=width) for _, box_space, anchored in drawn), default=0)
-
-    def sharpest(self, voids: Anchored, space: Interior, *, cell: float, width: float) -> float:
-        """Return the angle of the sharpest corners in any body, degrees; few are sharper, and it is 90 at most."""
-        drawn = self._draw_bodies(voids, space)
-        return min(
-            (anchored.sharpest(box_space, cell=cell, width=width) for _, box_space, anchored in drawn), default=90.0
-        )
-
-    def into(self, voids: Anchored, out: Field, space: Interior, which: int, *, cell: float, width: float) -> float:
-        """Write a field of all bodies; return how many cells it fills."""
-        np.minimum(space.depth, np.float32(-BAND), out=out)
+    def write_sdf(self, out: Field, which: int, depth: Field) -> float:
+        """Write a field of all bodies; return the number of cells it fills."""
+        np.minimum(depth, np.float32(-BAND), out=out)
         filled = 0.0
-        for body, box_space, anchored in self._draw_bodies(voids, space):
-            if which < anchored.count(box_space, cell=cell, width=width):
-                in_box = np.empty_like(box_space.depth)
-                filled += anchored.into(in_box, box_space, which, cell=cell, width=width)
+        for body, fields in self.bodies:
+            if which < fields.count:
+                in_box = np.empty_like(body.cells, dtype=np.float32)
+                filled += fields.write_sdf(in_box, which, fields.layout.space.depth)
                 np.copyto(out[body.box], in_box, where=body.cells)
         return filled
 
-    def _draw_bodies(self, voids: Anchored, space: Interior) -> tuple[tuple[PartBody, Interior, Anchored], ...]:
-        if self.space is space:
-            return self.drawn
-        drawn = []
-        for body in find_bodies(space):
-            corner = np.array([side.start for side in body.box])
-            box_space = replace(
-                space,
-                layers=LayerStack.of(np.where(body.cells, space.depth[body.box], DEEP)),
-                origin=space.origin + space.size * corner,
-                walled=None,
-                box_of=(space, corner),
-            )
-            anchored = voids.about(body.middle)
-            if voids.local is not None:
-                anchored = anchored.with_widths(_widths_in_box(voids.local, box_space))
-            drawn.append((body, box_space, anchored))
-        return tuple(drawn)
+
+Fields = VoidFields | BodyFields
 
 
-def _widths_in_box(local: LocalWidths, box_space: Interior) -> LocalWidths:
-    """Return local widths in a box of the space that they belong to."""
-    assert box_space.box_of is not None
-    return local.in_box(box_space.box_of[1], box_space.shape)
+def draw_in_bodies(pattern: VoidPattern, layout: Layout, known: BodyFields | None = None) -> BodyFields:
+    """Draw a pattern about the middle of each body; what suits of an earlier drawing is used again."""
+    space, local = layout.space, layout.local
+    if known is not None and known.layout.space is space:
+        boxes: list[tuple[PartBody, Interior, VoidFields | None]] = [
+            (body, fields.layout.space, fields) for body, fields in known.bodies
+        ]
+    else:
+        boxes = [(body, body.crop(space), None) for body in find_bodies(space)]
+    bodies = []
+    for body, box, fields in boxes:
+        in_box = replace(layout, space=box, local=local and local.in_box(body.corner, box.shape))
+        bodies.append((body, pattern.about(body.middle).draw(in_box, fields)))
+    return BodyFields(layout=layout, bodies=tuple(bodies))
 
 
 def find_bodies(space: Interior) -> list[PartBody]:

@@ -1,4 +1,4 @@
-"""The voids that a request asks for: those of its pattern, with its parameters, in their place."""
+"""The pattern that a request asks for, with its parameters, in its place."""
 
 from __future__ import annotations
 
@@ -11,16 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import ParameterError
-from infill.lattices.bodies import Bodies
 from infill.lattices.branching import BranchLines
 from infill.lattices.density_fields import SKIN
 from infill.lattices.drawn_voids import Prismatic
-from infill.lattices.layer_lines import LayerLines
-from infill.lattices.layered import NonPrismatic
+from infill.lattices.layered import LayerLines, NonPrismatic
 from infill.lattices.line_sample import follows_outline
 from infill.lattices.request import FillSpec
 from infill.lattices.subdivided import Subdivided
-from infill.lattices.voids import Periodic, Voids
+from infill.lattices.voids import Periodic, VoidPattern
 from infill.options.assignments import ParameterSource, merge_parameters, parse_assignments, parse_values
 from infill.options.resolve_pattern import resolve_pattern, with_parameters
 from patterns.cellular import Cells
@@ -35,13 +33,12 @@ SEED = "seed"
 HELD = ("cell", "angle", "phase", "frame")  # parameters of patterns that `fill` has arguments for, or does not use
 
 
-def choose_voids(request: FillSpec, bounds: NDArray[np.floating], threads: int | None) -> Voids:
-    """Make the voids of the requested pattern, in a part with these bounds (2, 3), mm."""
+def choose_voids(request: FillSpec, bounds: NDArray[np.floating]) -> VoidPattern:
+    """Put the requested pattern in its place in a part with these bounds (2, 3), mm; by body, about (0, 0, 0)."""
     middle = np.asarray(bounds, dtype=np.float64).mean(axis=0)
     if request.align == "bed":
         middle = np.array([0.0, 0.0, float(bounds[0][2])])
-    bodies, grading = Bodies() if request.align == "body" else None, request.grading
-    anchor = request.phase + (middle if bodies is None else np.zeros(3))
+    anchor = request.phase + (np.zeros(3) if request.align == "body" else middle)
     radians = np.radians(request.angle)
     turn = np.array(
         [[np.cos(radians), np.sin(radians), 0.0], [-np.sin(radians), np.cos(radians), 0.0], [0.0, 0.0, 1.0]]
@@ -49,21 +46,17 @@ def choose_voids(request: FillSpec, bounds: NDArray[np.floating], threads: int |
     if isinstance(request.kind, Cells):
         pattern = configure_cellular(request.kind, request)
         if isinstance(pattern, Lightning):
-            branches = BranchLines(pattern=pattern, turn=turn, anchor=anchor)
-            return NonPrismatic(layers=branches, threads=threads, grading=grading, bodies=bodies)
+            return NonPrismatic(layers=BranchLines(pattern=pattern, turn=turn, anchor=anchor))
         if isinstance(pattern, (Planes, Octree)):
             turn = np.array(pattern.upright) @ turn
         if isinstance(pattern, Octree):
-            return Subdivided(
-                pattern=pattern, turn=turn, anchor=anchor, threads=threads, grading=grading, bodies=bodies
-            )
+            return Subdivided(pattern=pattern, turn=turn, anchor=anchor)
         assert isinstance(pattern, Cellular)
-        return Periodic(pattern=pattern, turn=turn, anchor=anchor, threads=threads, grading=grading, bodies=bodies)
+        return Periodic(pattern=pattern, turn=turn, anchor=anchor)
     lines = configure_lines(request.kind, request)
     if not lines.prismatic:
-        layer_lines = LayerLines(pattern=lines, anchor=anchor)
-        return NonPrismatic(layers=layer_lines, threads=threads, grading=grading, bodies=bodies)
-    return Prismatic(pattern=lines, anchor=anchor, share=request.share, threads=threads, grading=grading, bodies=bodies)
+        return NonPrismatic(layers=LayerLines(pattern=lines, anchor=anchor))
+    return Prismatic(pattern=lines, anchor=anchor, share=request.share)
 
 
 def read_own_parameters(
@@ -102,12 +95,11 @@ def add_seed(pattern: object, own: Mapping[str, Any], seed: int) -> dict[str, An
 
 def configure_cellular(kind: Cells, request: FillSpec) -> Cells:
     """Make the requested pattern in space, or raise ParameterError."""
-    names = [name for name in parameters(kind) if name not in HELD]
     for name in request.parameters:
-        if not names:
-            raise ParameterError(f"{request.pattern} has no parameter {name!r}; it has none but cell and line width")
+        names = [declared for declared in parameters(kind) if declared not in HELD]
         if name not in names:
-            raise ParameterError(f"{request.pattern} has no parameter {name!r}; {suggest_name(name, names)}")
+            hint = suggest_name(name, names) if names else "it has none but cell and line width"
+            raise ParameterError(f"{request.pattern} has no parameter {name!r}; {hint}")
     if isinstance(kind, Network) and (request.lowest or 1.0) < kind.thinnest:
         raise ParameterError.about(
             "density",

@@ -15,9 +15,10 @@ from numpy.typing import NDArray
 from infill.drains.drain_places import DrainNeeds
 from infill.drains.drain_plan import DrainPlan, Hole, SealedVoid, plan_drains
 from infill.errors import GeometryError
-from infill.interior.hollow import VoidMeshes
 from infill.isosurfaces.components import shell_names
+from infill.lattices.fill_job import Job
 from infill.lattices.request import FillSpec
+from infill.lattices.void_meshes import VoidMeshes
 from infill.meshes.shells import select_faces, shell_volumes
 from infill.meshes.solids import FINE, coincident_vertices, from_manifold, solid_status, to_manifold
 from infill.surface import Surface
@@ -108,26 +109,25 @@ def check_drain_width(request: FillSpec, bounds: NDArray[np.floating]) -> None:
         )
 
 
-def drill_drains(solid: Surface, hollow: VoidMeshes, request: FillSpec, *, threads: int | None = None) -> DrainedSolid:
+def drill_drains(job: Job, solid: Surface, hollow: VoidMeshes) -> DrainedSolid:
     """Drill the requested drains; return the solid with its plan.
 
     Parameters
     ----------
+    job : Job
     solid : Surface, mm
         The part without its voids.
     hollow : VoidMeshes
-    request : FillSpec
-    threads : int, optional
 
     Raises
     ------
     GeometryError
         If there cannot be a drain at a requested place.
     """
+    request, space = job.request, hollow.space
     if request.drain is None or not hollow.surfaces:
         return DrainedSolid(solid=solid)
-    space = hollow.space
-    needs = DrainNeeds(diameter=request.drain, wall=request.wall, cell=hollow.cell, threads=threads)
+    needs = DrainNeeds(diameter=request.drain, wall=request.wall, cell=hollow.cell, threads=job.threads)
     plan = plan_drains(
         space.part, hollow.surface, needs, vent=request.vent, places=request.drain_at, opening=space.opening
     )

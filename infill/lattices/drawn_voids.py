@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import weakref
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -12,19 +11,9 @@ import shapely
 from numpy.typing import NDArray
 
 from infill.interior.interior import BAND, Interior
-from infill.kernels.threads import in_threads, thread_count
-from infill.lattices.bodies import Bodies
 from infill.lattices.fillets import find_polygon_corners, sharpest_angle
-from infill.lattices.grading import UNIFORM_WIDTH, Grading, LocalWidths
-from infill.lattices.line_sample import (
-    WIDER,
-    LineSample,
-    centred_square,
-    faces_between,
-    follows_outline,
-    line_segments,
-)
-from infill.lattices.voids import FIELD, local_widths
+from infill.lattices.line_sample import WIDER, LineSample, centred_square, faces_between, follows_outline, line_segments
+from infill.lattices.voids import Layout, VoidFields
 from patterns.protocol import Pattern, draw_lines, with_cell
 
 LOW = 0.1  # cells: where no cell of a column lies deeper, rounding decides whether one lies inside
@@ -38,7 +27,7 @@ ROUND = 16  # segments in a quarter of a circle
 
 @dataclass(frozen=True, kw_only=True)
 class Prismatic:
-    """The voids between the lines of a pattern.
+    """Lines of a pattern that are the same at every height.
 
     Parameters
     ----------
@@ -48,114 +37,41 @@ class Prismatic:
         The point of the part that is (0, 0) of the pattern, mm; its height does not matter.
     share : float
         Width of the lines over the cell, roughly: it places lines that follow the part.
-    threads : int, optional
-    grading : Grading, optional
-    bodies : Bodies, optional
-        Set if the pattern starts over in each component of the part; the anchor is then relative to its middle.
-    local : LocalWidths, optional
-        Widths in the space, once they are computed.
-    faces : _Faces, optional
-        The faces between the lines, once they are computed.
     """
 
     pattern: Pattern
     anchor: NDArray[np.float64]
     share: float
-    threads: int | None = None
-    grading: Grading | None = None
-    bodies: Bodies | None = None
-    local: LocalWidths | None = None
-    faces: _Faces | None = None
-
-    def prepare(self, space: Interior, *, cell: float, width: float) -> Prismatic:
-        """See `Voids`."""
-        if self.bodies is not None:
-            return dataclasses.replace(self, bodies=self.bodies.prepare(self, space, cell=cell, width=width))
-        faces = self._faces(space, cell, width)
-        return self if faces is self.faces else dataclasses.replace(self, faces=faces)
-
-    def with_widths(self, local: LocalWidths) -> Prismatic:
-        """See `Voids`."""
-        return dataclasses.replace(self, local=local, bodies=self.bodies and self.bodies.with_widths(local))
 
     def about(self, middle: NDArray[np.float64]) -> Prismatic:
-        """See `Anchored`."""
-        return dataclasses.replace(self, anchor=middle + self.anchor, bodies=None, faces=None)
-
-    def count(self, space: Interior, *, cell: float, width: float) -> int:
-        """Count the colours that are needed so that neighbours differ."""
-        if self.bodies is not None:
-            return self.bodies.count(self, space, cell=cell, width=width)
-        return len(self._faces(space, cell, width).colours)
-
-    def into(self, out: FIELD, space: Interior, which: int, *, cell: float, width: float) -> float:
-        """See `Voids`."""
-        if self.bodies is not None:
-            return self.bodies.into(self, out, space, which, cell=cell, width=width)
-        plane = self.planes(space, cell=cell, width=width)[which]
-        return self.lesser(out, space.depth, plane, width / space.size, local_widths(self, space))
-
-    def planes(self, space: Interior, *, cell: float, width: float) -> tuple[NDArray[np.float32], ...]:
-        """Return the depth of the points of a layer between the lines, (nx, ny) in cells, for each field."""
-        return self._faces(space, cell, width).colours
-
-    def lesser(
-        self,
-        out: FIELD,
-        depth: FIELD,
-        plane: NDArray[np.float32],
-        width: float,
-        ratio: tuple[NDArray[np.float32], float] = UNIFORM_WIDTH,
-    ) -> float:
-        """Write the lesser of the depth and the distance into a void; return the number of cells it fills.
-
-        Parameters
-        ----------
-        out, depth : (nx, ny, n) float32
-            Consecutive layers.
-        plane : (nx, ny) float32
-            One of `planes`.
-        width : float
-            Of the lines, in cells.
-        ratio
-            Factor of the width from place to place: see `local_widths`.
-        """
-        from infill.kernels.cells import from_plane
-
-        threads = thread_count(self.threads)
-        return float(sum(in_threads(from_plane, depth, plane, width / 2, *ratio, out, threads=threads)))
+        """See `VoidPattern`."""
+        return dataclasses.replace(self, anchor=middle + self.anchor)
 
     @cached_property
     def sample(self) -> LineSample:
         """A sample of such lines far from any skin."""
         return LineSample(pattern=self.pattern)
 
-    def sharpest(self, space: Interior, *, cell: float, width: float) -> float:
-        """See `Voids`: of the lines in this space."""
-        if self.bodies is not None:
-            return self.bodies.sharpest(self, space, cell=cell, width=width)
-        return self._faces(space, cell, width).sharpest
-
     def widths(self, density: float) -> float:
-        """See `Voids`."""
+        """See `VoidPattern`."""
         return self.sample.widths(density)
 
-    def _lines(self, region: shapely.Polygon, cell: float) -> shapely.MultiLineString:
-        return draw_lines(with_cell(self.pattern, cell), region)
+    def draw(self, layout: Layout, known: VoidFields | None = None) -> VoidFields:
+        """Draw a field for each colour of the faces between lines; known faces do for lines of a similar width."""
+        from infill.kernels.cells import from_plane
 
-    def _faces(self, space: Interior, cell: float, width: float) -> _Faces:
-        """Return the faces between the lines: those that are computed already, if lines have a similar width."""
-        widest, thinnest = self._width_range(space)
-        reach, width = widest * width / 2 / space.size + 2 * BAND, thinnest * width
-        known = self.faces
-        if known is not None and known.space() is space and known.cell == cell and known.fits(reach, width):
-            return known
-        return self._make_faces(space, cell, width, WIDER_LINES * reach)
-
-    def _width_range(self, space: Interior) -> tuple[float, float]:
-        """Return the largest and the smallest factor of the line width."""
-        ratio, _ = local_widths(self, space)
-        return float(ratio.max()), float(ratio.min())
+        ratio, _ = layout.ratio
+        reach = float(ratio.max()) * layout.width / 2 / layout.space.size + 2 * BAND
+        thinnest = float(ratio.min()) * layout.width
+        faces = layout.basis_of(known)
+        if not (isinstance(faces, _Faces) and reach <= faces.reach and thinnest >= THINNER * faces.width):
+            faces = self._make_faces(layout.space, layout.cell, thinnest, WIDER_LINES * reach)
+        return VoidFields(
+            layout=layout,
+            kernels=tuple((from_plane, (plane, layout.half, *layout.ratio)) for plane in faces.colours),
+            find_sharpest=lambda: faces.sharpest,
+            basis=faces,
+        )
 
     def _room(self, space: Interior, cell: float) -> shapely.Geometry:
         """Return the region to draw in for lines that follow it; lines half a cell inside leave room at the wall."""
@@ -172,7 +88,7 @@ class Prismatic:
             room = self._room(space, cell)
         else:
             room = centred_square(WIDER * float(np.linalg.norm(np.abs([low, high]).max(axis=0))))
-        lines = shapely.intersection(self._lines(room, cell), region)
+        lines = shapely.intersection(draw_lines(with_cell(self.pattern, cell), room), region)
         polygons = faces_between(lines, region, cell=cell)
         polygons = polygons[shapely.intersects(polygons, box)]
         nx, ny, _ = space.shape
@@ -191,14 +107,7 @@ class Prismatic:
         corners, angles = find_polygon_corners(polygons)
         at = np.round((corners - start) / space.size).astype(np.int64)
         with_room = space.deepest[tuple(np.clip(at, 0, (nx - 1, ny - 1)).T)] > 0  # there is none at the rim of the grid
-        return _Faces(
-            space=weakref.ref(space),
-            cell=cell,
-            colours=tuple(planes),
-            sharpest=sharpest_angle(angles[with_room]),
-            reach=reach,
-            width=width,
-        )
+        return _Faces(colours=tuple(planes), sharpest=sharpest_angle(angles[with_room]), reach=reach, width=width)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -207,10 +116,6 @@ class _Faces:
 
     Parameters
     ----------
-    space : weak reference to Interior
-        For which they were made; it holds much memory, and may go once another is computed.
-    cell : float
-        mm
     colours : tuple of (nx, ny) float32
     sharpest : float
         Degrees, at corners: few are sharper.
@@ -220,16 +125,10 @@ class _Faces:
         Of the lines for which the faces were made, mm: between thinner lines, fields might touch.
     """
 
-    space: weakref.ref[Interior]
-    cell: float
     colours: tuple[NDArray[np.float32], ...]
     sharpest: float
     reach: float
     width: float
-
-    def fits(self, reach: float, width: float) -> bool:
-        """Tell whether the faces also serve for this reach, if it is no larger, and for lines not much thinner."""
-        return reach <= self.reach and width >= THINNER * self.width
 
 
 def _distance_to_lines(

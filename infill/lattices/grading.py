@@ -13,12 +13,23 @@ from infill.errors import GeometryError
 from infill.interior.conformal_map import fit_conformal_map, spline_slopes
 from infill.interior.interior import Interior
 from infill.lattices.density_fields import Field
+from infill.surface import Surface
+from infill.voxels.scanlines import fill_rows, intersect_rows
 
 Varies = Literal["width", "cell"]
 NODES = 48  # along the longest side of a part, where the field is evaluated; it is linear in between
 TABLE = 9  # densities for which widths are computed; they are linear in between
 AT_ONCE = 100_000
 SAMPLES = 20_000  # cells at which a field is evaluated, to find its lowest and highest values
+POINTS = 200_000  # at which the density of a filled part is measured
+SHIFTS = (  # of a cell: along every axis, the middles of its four quarters
+    (-0.375, -0.125, 0.125),
+    (0.125, 0.375, -0.375),
+    (-0.125, 0.125, 0.375),
+    (0.375, -0.375, -0.125),
+)
+Floats = NDArray[np.float64]
+UNIFORM_WIDTH = (np.ones((1, 1, 1), dtype=np.float32), 1.0)  # walls of one width everywhere, as kernels take it
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -45,7 +56,7 @@ class LocalWidths:
     mean: float
     shares: NDArray[np.float32]
     within: NDArray[np.bool_]
-    spline: NDArray[np.float64] | None = None
+    spline: Floats | None = None
 
     @property
     def widths(self) -> tuple[float, float]:
@@ -70,9 +81,9 @@ class LocalWidths:
         ratio, shares = (map_coordinates(field, nodes, order=1, mode="nearest") for field in (self.ratio, self.shares))
         return replace(self, ratio=ratio, shares=shares, within=np.ones(ratio.shape, dtype=bool))
 
-    def widen(self, factors: Callable[[NDArray[np.float32]], NDArray[np.floating]]) -> LocalWidths:
-        """Return the same with wider walls, by the factors that a function returns for the requested shares."""
-        return replace(self, ratio=(self.ratio * factors(self.shares)).astype(np.float32))
+    def widen(self, factors: NDArray[np.floating]) -> LocalWidths:
+        """Return the same with wider walls, by factors (n, m, k)."""
+        return replace(self, ratio=(self.ratio * factors).astype(np.float32))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -113,12 +124,6 @@ class Grading:
 
     def over(self, space: Interior, widths: Callable[[float], float]) -> LocalWidths:
         """Return the widths of walls in a space; `widths` gives the width for a density, in cells of the pattern."""
-        if space.box_of is not None:
-            parent, corner = space.box_of
-            return self.over(parent, widths).in_box(corner, space.depth.shape)
-        return self._evaluate(space.walled or space, widths)
-
-    def _evaluate(self, space: Interior, widths: Callable[[float], float]) -> LocalWidths:
         shape = np.array(space.depth.shape)
         step = max(1.0, float((shape.max() - 1) / NODES))
         counts = np.ceil((shape - 1) / step).astype(int) + 1
@@ -158,14 +163,14 @@ class Grading:
         )
 
 
-def _inside(space: Interior, points: NDArray[np.float64]) -> NDArray[np.bool_]:
+def _inside(space: Interior, points: Floats) -> NDArray[np.bool_]:
     """Test which points, in cells, lie inside the walls; all are, if none are because the part is too thin."""
     at = tuple(np.minimum(points.round().astype(int), np.array(space.depth.shape) - 1).T)
     inside = (space.depth[at] > 0) & (space.shares[at[2]] >= 0.5)
     return inside if inside.any() else np.ones(len(points), dtype=bool)
 
 
-def _sample_cells(space: Interior) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _sample_cells(space: Interior) -> tuple[Floats, Floats]:
     """Draw random cells inside the walls, (N, 3); return also the outermost along each axis and the deepest."""
     cells = np.argwhere(space.within)
     if not len(cells):
@@ -176,4 +181,37 @@ def _sample_cells(space: Interior) -> tuple[NDArray[np.float64], NDArray[np.floa
     return drawn.astype(np.float64), np.concatenate([outermost, deepest]).astype(np.float64)
 
 
-UNIFORM_WIDTH = (np.ones((1, 1, 1), dtype=np.float32), 1.0)  # walls of one width everywhere, as kernels take it
+def densities_by_share(
+    space: Interior, voids: Surface, local: LocalWidths, count: int, *, mean: float
+) -> tuple[Floats, Floats]:
+    """Return requested and measured densities, averaged over equal numbers of random cells: (count,) each.
+
+    Whether a place is solid is tested on the meshes of the voids, on grids that are shifted by parts of a cell:
+    vertices of the meshes lie between the centres of cells, and unshifted centres would make thin walls look thicker or
+    thinner. Voids are scaled so that the mean density is exact, which removes the chance that remains.
+    """
+    depth, corners = space.depth, (np.asarray(voids.vertices, dtype=np.float64) - space.origin) / space.size
+    candidates = np.argwhere((depth > -1) & (space.shares >= 0.5))  # at most a cell outside the walls
+    cells = candidates[np.random.default_rng(0).integers(len(candidates), size=POINTS)]
+    places, solid = cells.astype(np.float64), np.empty(POINTS, dtype=bool)
+    for shift, indices in zip(SHIFTS, np.array_split(np.arange(POINTS), len(SHIFTS)), strict=True):
+        void = fill_rows(intersect_rows(corners - shift, voids.faces, depth.shape), depth.shape)
+        solid[indices] = ~void[tuple(cells[indices].T)]
+        places[indices] += shift
+    inside = _interpolate(depth, places) > 0
+    places, solid = places[inside], solid[inside]
+    shares = _interpolate(local.shares, places / local.step)
+    groups = np.array_split(np.argsort(shares), count)
+    scale = (1 - mean) / max(1 - float(solid.mean()), 1e-9)
+    return (
+        np.array([shares[group].mean() for group in groups]),
+        np.array([1 - scale * (1 - solid[group].mean()) for group in groups]),
+    )
+
+
+def _interpolate(nodes: NDArray[np.float32], at: Floats) -> Floats:
+    """Interpolate linearly between nodes."""
+    from scipy.ndimage import map_coordinates
+
+    interpolated: Floats = map_coordinates(nodes, at.T, output=np.float64, order=1, mode="nearest")
+    return interpolated

@@ -13,20 +13,20 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from infill.interior.hollow import VoidMeshes
-from infill.interior.inside import SHARE, extract_inner_side
-from infill.interior.interior import Interior
+from infill.interior.interior import BYTES_PER_CELL, Interior, added_length, grid_for_part
 from infill.interior.opening import clip_to_opening, cut_open
-from infill.lattices.choosing import choose_voids
+from infill.lattices.bodies import Fields
 from infill.lattices.drain_holes import DrainedSolid, check_drain_width, drill_drains
+from infill.lattices.fill_job import Job
 from infill.lattices.groups import Graded, Meshing, Shell, add_grading, add_group
 from infill.lattices.hollowing import make_void_meshes
 from infill.lattices.projected import ProjectInfill, make_project_infill
 from infill.lattices.quality_checks import SolidMeasures, find_problems, measure_solid
 from infill.lattices.request import TOLERANCE, FillSpec, check_request
-from infill.lattices.sizing import resolve_voxel
+from infill.lattices.sizing import choose_sizes, choose_voxel
 from infill.lattices.stages import FillStages
-from infill.lattices.voids import Voids
+from infill.lattices.surfacing import SHARE, extract_inner_side
+from infill.lattices.void_meshes import VoidMeshes
 from infill.meshes.measuring import measure_surface
 from infill.meshes.merging import surface_of
 from infill.meshes.split_components import concatenate_surfaces
@@ -39,10 +39,6 @@ if TYPE_CHECKING:
     import trimesh
 
     from infill.report_keys import FillReport
-import numpy as np
-
-from infill.interior.interior import BYTES_PER_CELL, added_length, grid_for_part
-from infill.lattices.sizing import choose_sizes, choose_voxel
 
 
 def fill(
@@ -211,50 +207,39 @@ def fill_request(
 ) -> Result[FillStages, FillReport]:
     """Fill a part as a request says: see `fill`."""
     check_drain_width(request, part.bounds)
-    clock, request = Clock(progress), resolve_voxel(request, part.bounds)
-    project = None
-    if request.form == "project":
-        project = make_project_infill(part, request, clock=clock, threads=threads, max_memory=max_memory)
-        voids, hollow = project.voids, project.hollow
-    else:
-        voids = choose_voids(request, part.bounds, threads)
-        hollow, voids = make_void_meshes(part, request, voids, clock=clock, threads=threads, max_memory=max_memory)
-    with clock.stage("check", 0.9):
-        result, report, hollow = _assemble(part, hollow, voids, request, threads, project)
-    report["seconds"] = {"shift": 0.0, **clock.seconds, "total": sum(clock.seconds.values())}
+    job = Job.of(part, request, clock=Clock(progress), threads=threads, max_memory=max_memory)
+    project = make_project_infill(job) if request.form == "project" else None
+    hollow, fields = make_void_meshes(job) if project is None else (project.hollow, project.fields)
+    with job.clock.stage("check", 0.9):
+        result, report, hollow = _assemble(job, hollow, fields, project)
+    seconds = job.clock.seconds
+    report["seconds"] = {"shift": 0.0, **seconds, "total": sum(seconds.values())}
     stages = FillStages(part=hollow.space.part, voids=hollow.surface, shown=result, opening=hollow.space.opening)
     surfaces = {"part": hollow.space.part, "infill": result} if request.form == "project" else {request.form: result}
     return Result(surfaces=surfaces, report=report, stages=stages)  # type: ignore[arg-type]
 
 
 def _assemble(
-    part: Surface,
-    hollow: VoidMeshes,
-    pattern: Voids,
-    request: FillSpec,
-    threads: int | None,
-    project: ProjectInfill | None,
+    job: Job, hollow: VoidMeshes, fields: Fields, project: ProjectInfill | None
 ) -> tuple[Surface, dict[str, Any], VoidMeshes]:
     """Return the requested surface, the report, and the voids, with counts of the pieces that were left out."""
-    space = hollow.space
+    request, space = job.request, hollow.space
     if project is not None:
         solid = outer = project.infill
     else:
-        outer = space.part if request.form == "solid" else _inner_surface(space, request, threads)
+        outer = space.part if request.form == "solid" else _inner_surface(job, space)
         if space.opening is None:
             solid = concatenate_surfaces(
                 [outer, *(replace(surface, faces=surface.faces[:, ::-1]) for surface in hollow.surfaces)]
             )
         else:
-            solid, pieces, loose = cut_open(outer, hollow.surfaces, space.opening, space.size, threads=threads)
+            solid, pieces, loose = cut_open(outer, hollow.surfaces, space.opening, space.size, threads=job.threads)
             hollow = replace(hollow, islands=hollow.islands + pieces, loose=loose)
-    drained = DrainedSolid(solid=solid)
-    if request.drain is not None:
-        drained = drill_drains(solid, hollow, request, threads=threads)
-        hollow = replace(hollow, islands=hollow.islands + drained.pieces)
-    solid = measure_surface(drained.solid, threads=threads)
-    facts = measure_solid(solid, outer, hollow, pattern, request, drained, threads=threads)
-    return solid, _fill_report(part, solid, hollow, request, facts, drained, project), hollow
+    drained = drill_drains(job, solid, hollow)
+    hollow = replace(hollow, islands=hollow.islands + drained.pieces)
+    solid = measure_surface(drained.solid, threads=job.threads)
+    facts = measure_solid(job, solid, outer, hollow, fields, drained)
+    return solid, _fill_report(job.part, solid, hollow, request, facts, drained, project), hollow
 
 
 def _fill_report(
@@ -329,20 +314,19 @@ def _fill_report(
     }
 
 
-def _inner_surface(space: Interior, request: FillSpec, threads: int | None) -> Surface:
+def _inner_surface(job: Job, space: Interior) -> Surface:
     """Return the surface of the space inside the walls, extended into them by the overlap."""
-    tolerance = min(SHARE * request.tolerance, request.overlap / 2)
-    inner = extract_inner_side(space, overlap=request.overlap, tolerance=tolerance, threads=threads)
+    overlap = job.request.overlap
+    tolerance = min(SHARE * job.request.tolerance, overlap / 2)
+    inner = extract_inner_side(space, overlap=overlap, tolerance=tolerance, threads=job.threads)
     return inner if space.opening is None else clip_to_opening(inner, space.opening, space.size)
 
 
 def plan_fill(part: Surface, request: FillSpec, *, threads: int | None = None) -> dict[str, Any]:
     """Return cell, line width, grid and memory, as the report of `fill` has them."""
-    request = resolve_voxel(request, part.bounds)
-    voids = choose_voids(request, part.bounds, threads)
-    extents = np.ptp(part.bounds, axis=0)
-    cell, width = choose_sizes(request, voids, extents)
-    voxel = choose_voxel(request, voids, extents, cell, width)
+    job = Job.of(part, request, threads=threads)
+    request, (cell, width) = job.request, choose_sizes(job)
+    voxel = choose_voxel(job, cell, width)
     grid = grid_for_part(part, voxel=voxel, further=added_length(request.open_, request.wall, request.beyond, voxel))
     return {
         "request": request.facts(),

@@ -1,4 +1,4 @@
-"""The voids beside walls that change from layer to layer: one on either side, or one around all of them.
+"""Walls that change from layer to layer: a void on either side of them, or one around all of them.
 
 Walls between two voids need no cell of the grid in them; around all of them, the grid resolves the walls.
 """
@@ -7,17 +7,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property, partial
 from typing import Protocol, Self
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from infill.interior.interior import BAND, Interior
 from infill.kernels.threads import in_threads, thread_count
-from infill.lattices.bodies import Bodies
-from infill.lattices.grading import Grading, LocalWidths
-from infill.lattices.voids import FIELD, local_widths
+from infill.lattices.fillets import sharpest_angle
+from infill.lattices.line_sample import SAMPLE, LineSample, centred_square, corner_angles, line_segments
+from infill.lattices.voids import Layout, VoidFields
+from patterns.protocol import LEVEL_SET, LevelSet, Pattern, draw_lines, gives, with_cell
 
+LOOKED_AT = 8  # heights at which corners are looked at
+STEEPEST = 1.75  # slope of a wall, 60 degrees: lines that move by more from layer to layer belong to another wall
 WIDER_LINES = 1.5  # range of line widths for which distances suffice, over the width they were made for
 
 Floats = NDArray[np.float64]
@@ -61,112 +66,137 @@ class LinesByLayer(Protocol):
 class _Distances:
     """Distances of cells from lines along their layer, up to a limit, in cells: negative on one of two sides."""
 
-    space: Interior
-    cell: float
-    away: FIELD
+    away: NDArray[np.float32]
     reach: float
 
 
 @dataclass(frozen=True, kw_only=True)
 class NonPrismatic:
-    """The voids beside walls along lines that change from layer to layer.
+    """Walls along lines that change from layer to layer.
 
     Parameters
     ----------
     layers : LinesByLayer
-    threads : int, optional
-    grading : Grading, optional
-    bodies : Bodies, optional
-        Set if the pattern starts over in each component of the part.
-    local : LocalWidths, optional
-        Widths in the space, once they are computed.
-    distances : _Distances, optional
-        For a space and a cell, once they are computed.
     """
 
     layers: LinesByLayer
-    threads: int | None = None
-    grading: Grading | None = None
-    bodies: Bodies | None = None
-    local: LocalWidths | None = None
-    distances: _Distances | None = None
-
-    def prepare(self, space: Interior, *, cell: float, width: float) -> NonPrismatic:
-        """See `Voids`."""
-        if self.bodies is not None:
-            return replace(self, bodies=self.bodies.prepare(self, space, cell=cell, width=width))
-        return replace(self, distances=self._distances(space, cell, width))
-
-    def with_widths(self, local: LocalWidths) -> NonPrismatic:
-        """See `Voids`."""
-        return replace(self, local=local, bodies=self.bodies and self.bodies.with_widths(local))
 
     @property
     def around(self) -> bool:
         """True if one void lies around all walls, so that cells of the grid must resolve the walls."""
         return not self.layers.two_sided
 
-    def sharpest(self, space: Interior, *, cell: float, width: float) -> float:
-        """See `Voids`."""
-        if self.bodies is not None:
-            return self.bodies.sharpest(self, space, cell=cell, width=width)
-        return self.layers.sharpest(space, cell)
-
     def about(self, middle: Floats) -> NonPrismatic:
-        """Return the same lines, shifted by a vector, mm: see `Anchored`."""
-        return replace(self, layers=self.layers.about(middle), bodies=None, distances=None)
-
-    def count(self, space: Interior, *, cell: float, width: float) -> int:
-        """Count the fields: one for each side, or one around all walls."""
-        if self.bodies is not None:
-            return self.bodies.count(self, space, cell=cell, width=width)
-        return 1 if self.around else 2
-
-    def into(self, out: FIELD, space: Interior, which: int, *, cell: float, width: float) -> float:
-        """See `Voids`."""
-        from infill.kernels.layered import from_layers
-
-        if self.bodies is not None:
-            return self.bodies.into(self, out, space, which, cell=cell, width=width)
-        ratio, step = local_widths(self, space)
-        half = width / 2 / space.size
-        distances = self._distances(space, cell, width)
-        filled = in_threads(
-            from_layers,
-            space.depth,
-            -BAND,
-            distances.away,
-            distances.reach,
-            self.layers.steepest,
-            1.0 if which == 0 else -1.0,
-            half,
-            ratio,
-            step,
-            out,
-            threads=thread_count(self.threads),
-        )
-        return float(sum(filled))
+        """See `VoidPattern`."""
+        return replace(self, layers=self.layers.about(middle))
 
     def widths(self, density: float) -> float:
-        """See `Voids`."""
+        """See `VoidPattern`."""
         return self.layers.widths(density)
 
-    def _distances(self, space: Interior, cell: float, width: float) -> _Distances:
-        """Return distances that suffice for walls of a width, mm, where they are widest."""
+    def draw(self, layout: Layout, known: VoidFields | None = None) -> VoidFields:
+        """Draw a field for each side, or one around all walls."""
+        from infill.kernels.layered import from_layers
+
+        layers, (ratio, step) = self.layers, layout.ratio
+        # Along a layer, cells within the band of a leaning wall are further away by its slope.
+        reach = (float(ratio.max()) * layout.half + 2 * BAND) * float(np.hypot(1.0, layers.steepest))
+        distances = layout.basis_of(known)
+        if not (isinstance(distances, _Distances) and distances.reach >= reach):
+            distances = self._measure(layout, WIDER_LINES * reach)
+        walls, signs = (-BAND, distances.away, distances.reach, layers.steepest), (1.0,) if self.around else (1.0, -1.0)
+        return VoidFields(
+            layout=layout,
+            kernels=tuple((from_layers, (*walls, sign, layout.half, ratio, step)) for sign in signs),
+            find_sharpest=partial(layers.sharpest, layout.space, layout.cell),
+            basis=distances,
+        )
+
+    def _measure(self, layout: Layout, reach: float) -> _Distances:
         from infill.kernels.layered import distances_to_lines
 
-        half = float(local_widths(self, space)[0].max()) * (width / 2 / space.size)
-        # Along a layer, cells within the band of a leaning wall are further away by its slope.
-        reach = (half + 2 * BAND) * float(np.hypot(1.0, self.layers.steepest))
-        known = self.distances
-        if known is not None and known.space is space and known.cell == cell and known.reach >= reach:
-            return known
-        lines = self.layers.lines(space, cell)
-        offsets = np.cumsum([0, *map(len, lines)])
+        space, lines = layout.space, self.layers.lines(layout.space, layout.cell)
         away = np.empty(space.shape, dtype=np.float32)
-        reach *= WIDER_LINES
         segments = np.concatenate([np.empty((0, 2, 2)), *lines])
-        in_threads(distances_to_lines, segments, offsets, reach, away, threads=thread_count(self.threads))
-        for layer, side in enumerate(self.layers.sides(space, cell)):
+        offsets = np.cumsum([0, *map(len, lines)])
+        in_threads(distances_to_lines, segments, offsets, reach, away, threads=thread_count(layout.threads))
+        for layer, side in enumerate(self.layers.sides(space, layout.cell)):
             away[:, :, layer] *= np.where(side, np.float32(1), np.float32(-1))
-        return _Distances(space=space, cell=cell, away=away, reach=reach)
+        return _Distances(away=away, reach=reach)
+
+
+@dataclass(frozen=True, kw_only=True)
+class LayerLines:
+    """The lines of a pattern in every layer of a space.
+
+    Parameters
+    ----------
+    pattern : Pattern
+        Its cell does not matter.
+    anchor : (3,) float64
+        The point of the part that is (0, 0, 0) of the pattern, mm.
+    """
+
+    pattern: Pattern
+    anchor: Floats
+
+    @cached_property
+    def sample(self) -> LineSample:
+        """A sample of the lines at one height, far from any skin."""
+        return LineSample(pattern=self.pattern)
+
+    @property
+    def two_sided(self) -> bool:
+        """True if a level set gives the side of the lines on which a point lies."""
+        return LEVEL_SET in gives(self.pattern)
+
+    @property
+    def steepest(self) -> float:
+        """See `LinesByLayer`."""
+        return STEEPEST
+
+    def sharpest(self, space: Interior, cell: float) -> float:
+        """See `Voids`: corners of a few cells at several heights inside the walls."""
+        pattern, heights = with_cell(self.pattern, cell), self._heights(space)[(space.depth > 0).any(axis=(0, 1))]
+        region = centred_square(SAMPLE / 2 * cell)
+        sampled = np.linspace(heights[0], heights[-1], min(LOOKED_AT, len(heights)))
+        angles = [corner_angles(draw_lines(pattern, region, float(z)), region, cell=cell) for z in sampled]
+        return sharpest_angle(np.concatenate(angles))
+
+    def widths(self, density: float) -> float:
+        """See `Voids`: those of one height."""
+        return self.sample.widths(density)
+
+    def about(self, middle: Floats) -> LayerLines:
+        """See `Anchored`."""
+        return replace(self, anchor=middle + self.anchor)
+
+    def lines(self, space: Interior, cell: float) -> list[Floats]:
+        """See `LinesByLayer`."""
+        pattern, start = with_cell(self.pattern, cell), space.origin[:2] - self.anchor[:2]
+        depth, segments = space.depth, []
+        for layer, z in enumerate(self._heights(space)):
+            used = np.argwhere(depth[:, :, layer] > -BAND)
+            if not len(used):
+                segments.append(np.empty((0, 2, 2)))
+                continue
+            low, high = (start + space.size * end for end in (used.min(axis=0), used.max(axis=0)))
+            lines = draw_lines(pattern, shapely.box(*(low - cell), *(high + cell)), float(z))
+            segments.append(line_segments(shapely.get_parts(lines), start, space.size))
+        return segments
+
+    def sides(self, space: Interior, cell: float) -> Iterator[NDArray[np.bool_]]:
+        """See `LinesByLayer`."""
+        pattern = with_cell(self.pattern, cell)
+        if not isinstance(pattern, LevelSet):
+            return
+        nx, ny, _ = space.shape
+        x, y = (space.origin[i] - self.anchor[i] + space.size * np.arange(n) for i, n in enumerate((nx, ny)))
+        across, along = np.meshgrid(x, y, indexing="ij")
+        for z in self._heights(space):
+            yield pattern.level_set(across, along, np.full_like(across, z)) > 0
+
+    def _heights(self, space: Interior) -> Floats:
+        """Return the heights of the middles of layers in the pattern, mm."""
+        heights: Floats = space.origin[2] - self.anchor[2] + space.size * np.arange(space.shape[2])
+        return heights

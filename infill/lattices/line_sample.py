@@ -10,8 +10,8 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from infill.interior.root_finding import find_root
 from infill.lattices.fillets import find_polygon_corners, sharpest_angle
+from infill.lattices.root_finding import find_root
 from patterns.errors import PatternError
 from patterns.protocol import Pattern, draw_lines, with_cell
 

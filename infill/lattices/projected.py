@@ -8,21 +8,19 @@ still too narrow is left out.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import chain
 
 from infill.errors import GeometryError, ParameterError
-from infill.interior.hollow import VoidMeshes
-from infill.interior.inside import SHARE, extract_inner_side
-from infill.interior.interior import Interior
 from infill.interior.narrow import NARROW, NarrowShares, drop_narrow, estimate_narrow
-from infill.lattices.choosing import choose_voids
+from infill.lattices.bodies import Fields
+from infill.lattices.fill_job import Job
 from infill.lattices.hollowing import make_void_meshes
 from infill.lattices.request import LINE_WIDTH, FillSpec
-from infill.lattices.voids import Voids
+from infill.lattices.surfacing import SHARE, extract_inner_side
+from infill.lattices.void_meshes import VoidMeshes
 from infill.meshes.solids import shared_volume, simplify_solid, subtract
-from infill.result import Clock
 from infill.surface import Surface
 
 SHORT = 1e-3  # mm: edges of the infill of a project are longer than that, or nearly
@@ -55,8 +53,8 @@ class ProjectInfill:
     ----------
     infill : Surface, mm
     hollow : VoidMeshes
-    voids : Voids
-        Of the pattern, in its place.
+    fields : VoidFields or BodyFields
+        Of the voids, as they were drawn last.
     phase : (x, y, z)
         mm by which it is shifted.
     narrow : NarrowShares or None
@@ -65,7 +63,7 @@ class ProjectInfill:
 
     infill: Surface
     hollow: VoidMeshes
-    voids: Voids
+    fields: Fields
     phase: tuple[float, float, float]
     narrow: NarrowShares | None
 
@@ -75,9 +73,7 @@ class ProjectInfill:
         return 1.0 if self.narrow is None else self.narrow.all
 
 
-def make_project_infill(
-    part: Surface, request: FillSpec, *, clock: Clock, threads: int | None = None, max_memory: int | None = None
-) -> ProjectInfill:
+def make_project_infill(job: Job) -> ProjectInfill:
     """Make the infill of a project for a part, mm.
 
     Raises
@@ -87,42 +83,37 @@ def make_project_infill(
     MemoryLimitError
         If memory will not suffice.
     """
-
-    def place(request: FillSpec, clock: Clock) -> ProjectInfill:
-        voids = choose_voids(request, part.bounds, threads)
-        hollow, voids = make_void_meshes(part, request, voids, clock=clock, threads=threads, max_memory=max_memory)
-        infill = _subtract_voids(hollow.space, hollow.surfaces, request, threads)
-        narrow = estimate_narrow(
-            hollow.space.part, infill, request.wall, LINE_WIDTH, _narrowest_printed(hollow, request)
-        )
-        return ProjectInfill(infill=infill, hollow=hollow, voids=voids, phase=request.phase, narrow=narrow)
-
-    project = place(request, clock)
-    if _can_shift(project, request):
-        project = min(
-            chain([project], _try_shifts(project, request, place, clock)), key=lambda candidate: candidate.lost
-        )
+    project = _make_infill(job)
+    if _can_shift(job, project):
+        project = min(chain([project], _try_shifts(job, project)), key=lambda candidate: candidate.lost)
     # A shifted pattern may have little infill in a part, and soon loses a twentieth of it.
-    limit = NARROW if project.phase == request.phase else HARDLY
-    return _drop_unprintable(project, request) if project.narrow is not None and project.narrow.all > limit else project
+    limit = NARROW if project.phase == job.request.phase else HARDLY
+    is_printed = project.narrow is None or project.narrow.all <= limit
+    return project if is_printed else _drop_unprintable(project, job.request)
 
 
-def _can_shift(project: ProjectInfill, request: FillSpec) -> bool:
+def _make_infill(job: Job) -> ProjectInfill:
+    """Make the infill with the pattern where the job has it."""
+    hollow, fields = make_void_meshes(job)
+    infill, narrowest = _subtract_voids(job, hollow), _narrowest_printed(hollow, job.request)
+    narrow = estimate_narrow(hollow.space.part, infill, job.request.wall, LINE_WIDTH, narrowest)
+    return ProjectInfill(infill=infill, hollow=hollow, fields=fields, phase=job.request.phase, narrow=narrow)
+
+
+def _can_shift(job: Job, project: ProjectInfill) -> bool:
     """Tell whether shifting a pattern may help: its place was not requested, and more is lost than the lack of room."""
-    narrow, size = project.narrow, math.prod(project.hollow.space.shape)
+    request, narrow, size = job.request, project.narrow, math.prod(project.hollow.space.shape)
     is_placed = any(request.phase) or request.align == "bed" or request.grading is not None
     return narrow is not None and not is_placed and size <= MOST_CELLS and narrow.all - narrow.room > MUCH
 
 
-def _try_shifts(
-    project: ProjectInfill, request: FillSpec, place: Callable[[FillSpec, Clock], ProjectInfill], clock: Clock
-) -> Iterator[ProjectInfill]:
+def _try_shifts(job: Job, project: ProjectInfill) -> Iterator[ProjectInfill]:
     """Yield the infill with the pattern in other places."""
     cell = project.hollow.cell
     for attempt, (x, y, z) in enumerate(SHIFTS):
-        with clock.stage("shift", FIRST + (SHIFTED - FIRST) * attempt / len(SHIFTS)):
+        with job.clock.stage("shift", FIRST + (SHIFTED - FIRST) * attempt / len(SHIFTS)):
             try:
-                candidate = place(replace(request, phase=(x * cell, y * cell, z * cell)), Clock(None))
+                candidate = _make_infill(job.shift((x * cell, y * cell, z * cell)))
             except (GeometryError, ParameterError):  # no void is left, or the pattern follows the part
                 continue
         yield candidate
@@ -150,17 +141,17 @@ def _narrowest_printed(hollow: VoidMeshes, request: FillSpec) -> float:
     return min(max(narrowest, LEAST_LINE * LINE_WIDTH), LEAST_LINES * LINE_WIDTH)
 
 
-def _subtract_voids(space: Interior, voids: list[Surface], request: FillSpec, threads: int | None) -> Surface:
+def _subtract_voids(job: Job, hollow: VoidMeshes) -> Surface:
     """Subtract the voids from the part, or from most of it if manifold3d rejects that; return the surface.
 
     Where voids meet the skin, they leave edges so short that both ends are one point in single precision, as in files:
     such edges are collapsed.
     """
+    space, voids, tolerance = hollow.space, hollow.surfaces, SHARE * job.request.tolerance
     infill = subtract(space.part, voids)
     if infill is None:
-        inside = extract_inner_side(
-            space, overlap=INTO_WALL * request.wall, tolerance=SHARE * request.tolerance, threads=threads
-        )
+        overlap = INTO_WALL * job.request.wall
+        inside = extract_inner_side(space, overlap=overlap, tolerance=tolerance, threads=job.threads)
         infill = subtract(inside, voids)
     if infill is None or not len(infill.faces):
         raise GeometryError("manifold3d rejects the voids as solids; give another cell or smaller voxels")

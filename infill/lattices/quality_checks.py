@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain
 
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.interior.hollow import VoidMeshes
 from infill.interior.interior import LEAST_OVERLAP
 from infill.interior.narrow import NARROW, NarrowShares
 from infill.interior.opening import Opening
 from infill.isosurfaces.components import shell_names
+from infill.lattices.bodies import Fields
+from infill.lattices.density_search import has_uniform_width, requested_density, solid_share
 from infill.lattices.drain_holes import DrainedSolid, drain_problems, find_closed_voids
-from infill.lattices.hollowing import has_uniform_width, requested_density, solid_share
-from infill.lattices.local_density import densities_by_share
+from infill.lattices.fill_job import Job
+from infill.lattices.grading import LocalWidths, densities_by_share
 from infill.lattices.request import GAP, LINE_WIDTH, FillSpec
-from infill.lattices.voids import Voids, find_local_widths
+from infill.lattices.void_meshes import VoidMeshes
 from infill.meshes.distance import TriangleTree
 from infill.meshes.shells import first_vertex_of_shells, split_into_batches
 from infill.meshes.solids import FINE, coincident_vertices, manifold_status
@@ -38,7 +39,7 @@ LEAST_WALL = 0.9  # of the requested wall
 
 
 def measure_least_wall(
-    part: Surface, voids: list[Surface], threads: int | None, opening: Opening | None = None
+    part: Surface, voids: Sequence[Surface], threads: int | None, opening: Opening | None = None
 ) -> tuple[float, list[float]]:
     """Measure the least distance of the voids from the skin, mm, at corners and centres of triangles; return its place.
 
@@ -65,7 +66,7 @@ def _point_batches(surface: Surface) -> Iterator[NDArray[np.float64]]:
         yield corners[faces[begin : begin + AT_ONCE]].mean(axis=1)
 
 
-def count_outside(part: Surface, voids: list[Surface], threads: int | None, middle: float | None = None) -> int:
+def count_outside(part: Surface, voids: Sequence[Surface], threads: int | None, middle: float | None = None) -> int:
     """Count the voids outside the part, as no void crosses its skin.
 
     Where a part is open, the points nearest to a height in its middle, mm, decide.
@@ -137,27 +138,21 @@ class SolidMeasures:
 
 
 def measure_solid(
-    solid: Surface,
-    outer: Surface,
-    hollow: VoidMeshes,
-    voids: Voids,
-    request: FillSpec,
-    drained: DrainedSolid,
-    *,
-    threads: int | None,
+    job: Job, solid: Surface, outer: Surface, hollow: VoidMeshes, fields: Fields, drained: DrainedSolid
 ) -> SolidMeasures:
     """Measure a solid with an outer surface, voids and drains."""
+    request, space, local = job.request, hollow.space, hollow.layout.local
     least: float | None = None
     place: list[float] | None = None
     astray, crowded = 0, int(coincident_vertices(solid).sum())
     if request.form != "project":
-        part, opening = hollow.space.part, hollow.space.opening
+        part, opening = space.part, space.opening
         middle = None if opening is None else float(part.bounds[:, 2].mean())
-        least, place = measure_least_wall(part, hollow.surfaces, threads, opening)
+        least, place = measure_least_wall(part, hollow.surfaces, job.threads, opening)
         for hole in drained.plan.holes:
             if hole.clearance < least:
                 least, place = hole.clearance, hole.near.tolist()
-        astray = count_outside(part, hollow.surfaces, threads, middle)
+        astray = count_outside(part, hollow.surfaces, job.threads, middle)
         crowded -= int(coincident_vertices(outer).sum())
     return SolidMeasures(
         least=least,
@@ -165,38 +160,18 @@ def measure_solid(
         astray=astray,
         closed=find_closed_voids(solid) if request.form == "solid" else [],
         crowded=max(0, crowded),
-        verdict=_verdict(solid),
-        width=(hollow.median[0] if has_uniform_width(voids) else None) or hollow.width,
-        drawn=solid_share(hollow.space, voids, hollow.cell, hollow.width),
-        wanted=requested_density(request, hollow.space, voids),
-        graded=[] if voids.grading is None else density_steps(hollow, voids),
-        **_ranges(hollow, voids),
+        verdict=next((word for word in map(manifold_status, split_into_batches(solid, AT_ONCE)) if word != FINE), FINE),
+        width=(hollow.median[0] if has_uniform_width(job) else None) or hollow.width,
+        drawn=solid_share(job.draw(hollow.layout, fields)),
+        wanted=requested_density(job, local),
+        graded=[] if local is None else density_steps(hollow, local),
+        cells=None if local is None else [hollow.cell * factor for factor in local.cells],
+        widths=None if local is None else [hollow.width * factor for factor in local.widths],
     )
 
 
-def _ranges(hollow: VoidMeshes, voids: Voids) -> dict[str, list[float]]:
-    """Return the range of cell sizes, and of widths of walls, where the density changes."""
-    local = find_local_widths(voids, hollow.space)
-    if local is None:
-        return {}
-    return {
-        "cells": [hollow.cell * factor for factor in local.cells],
-        "widths": [hollow.width * factor for factor in local.widths],
-    }
-
-
-def _verdict(solid: Surface) -> str:
-    """Return the verdict of manifold3d on a solid: fine if all of its components are, some of which at a time."""
-    return next(
-        (verdict for verdict in map(manifold_status, split_into_batches(solid, AT_ONCE)) if verdict != FINE), FINE
-    )
-
-
-def density_steps(hollow: VoidMeshes, voids: Voids) -> list[dict[str, float]]:
+def density_steps(hollow: VoidMeshes, local: LocalWidths) -> list[dict[str, float]]:
     """Group places by requested density; return the requested and the measured density of each group, rising."""
-    local = find_local_widths(voids, hollow.space)
-    if local is None:
-        return []
     requested, actual = densities_by_share(hollow.space, hollow.surface, local, STEPS, mean=hollow.density)
     pairs = zip(requested.tolist(), actual.tolist(), strict=True)
     return [{"wanted": target, "density": density} for target, density in pairs]

@@ -59,8 +59,7 @@ class FillOptions:
     """The options of a fill, as typed or as a config file has them; None for those left to the request."""
 
     units: Annotated[
-        Literal["um", "mm", "cm", "m", "in"] | None,
-        Option("Unit of the mesh.", FILES, default="as in the file, or mm"),
+        Literal["um", "mm", "cm", "m", "in"] | None, Option("Unit of the mesh.", FILES, default="as in the file, or mm")
     ] = None
     pattern: Annotated[
         str,
@@ -104,13 +103,7 @@ class FillOptions:
         ),
     ] = None
     cell: Annotated[
-        float | None,
-        Option(
-            "Period of the pattern.",
-            PATTERN,
-            unit="MM",
-            default="by density and line width",
-        ),
+        float | None, Option("Period of the pattern.", PATTERN, unit="MM", default="by density and line width")
     ] = None
     line_width: Annotated[
         float | None,
@@ -131,13 +124,7 @@ class FillOptions:
         ),
     ] = "part"
     angle: Annotated[
-        float,
-        Option(
-            "Turns the pattern counter-clockwise about z.",
-            PATTERN,
-            unit="DEG",
-            default="0",
-        ),
+        float, Option("Turns the pattern counter-clockwise about z.", PATTERN, unit="DEG", default="0")
     ] = 0.0
     phase: Annotated[
         tuple[float, ...],
@@ -151,13 +138,7 @@ class FillOptions:
         ),
     ] = (0.0, 0.0, 0.0)
     seed: Annotated[
-        int | None,
-        Option(
-            "Seed of the random patterns, voronoi and voronoi-foam.",
-            PATTERN,
-            unit="N",
-            default="0",
-        ),
+        int | None, Option("Seed of the random patterns, voronoi and voronoi-foam.", PATTERN, unit="N", default="0")
     ] = None
     wall: Annotated[
         float | None,
@@ -179,11 +160,7 @@ class FillOptions:
         ),
     ] = None
     vent: Annotated[
-        bool,
-        Option(
-            "With --drain, also a hole up from the highest place of every void, for air.",
-            SOLID,
-        ),
+        bool, Option("With --drain, also a hole up from the highest place of every void, for air.", SOLID)
     ] = False
     drain_at: Annotated[
         tuple[tuple[float, ...], ...],
@@ -239,13 +216,7 @@ class FillOptions:
         ),
     ] = 0.03
     max_triangles: Annotated[
-        int | None,
-        Option(
-            "Most triangles of the mesh.",
-            SOLID,
-            unit="N",
-            default="a million",
-        ),
+        int | None, Option("Most triangles of the mesh.", SOLID, unit="N", default="a million")
     ] = None
     resolution: Annotated[
         int | None,
@@ -258,13 +229,7 @@ class FillOptions:
         ),
     ] = None
     voxel: Annotated[
-        float | None,
-        Option(
-            "Size of these cells instead.",
-            SOLID,
-            unit="MM",
-            replaces=("resolution",),
-        ),
+        float | None, Option("Size of these cells instead.", SOLID, unit="MM", replaces=("resolution",))
     ] = None
 
 

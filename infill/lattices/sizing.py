@@ -4,38 +4,49 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import GeometryError
 from infill.lattices.drawn_voids import Prismatic
+from infill.lattices.fill_job import Job
 from infill.lattices.layered import NonPrismatic
 from infill.lattices.request import GAP, FillSpec, has_bars
-from infill.lattices.voids import Voids
+
+
+class Fineness(NamedTuple):
+    """Cells of the grid across a wall of the part, along a cell of lines and of bars, across a bar, and in a wall.
+
+    The wall is one of a pattern in space with a density of a fifth.
+    """
+
+    across: float
+    lines: float
+    bars: float
+    across_bar: float
+    walls: float
+
 
 BAR_CELL, BRANCHES_CELL = 8.0, 5.0  # mm: bars get their thickness from the density; twigs are this far apart
-# Cells of the grid: in a wall of a pattern with a density of a fifth, and along a cell of lines and of bars; across a
-# wall of the part and a bar; in all.
-FINE, FINE_LINES, FINE_BARS = 0.9, 6.0, 14.0
-ACROSS, ACROSS_BAR = 2.5, 4.0
-LEAST_FINE, LEAST_FINE_LINES, LEAST_FINE_BARS = 0.58, 2.5, 9.0
-LEAST_ACROSS, LEAST_ACROSS_BAR = 1.5, 3.0
+FINE = Fineness(across=2.5, lines=6.0, bars=14.0, across_bar=4.0, walls=0.9)
+LEAST_FINE = Fineness(across=1.5, lines=2.5, bars=9.0, across_bar=3.0, walls=0.58)
 SLACK = 1.01
 FIFTH = 0.2
-FEWEST, MOST, MOST_IN_SLABS = 1e6, 25e6, 1e8
+FEWEST, MOST, MOST_IN_SLABS = 1e6, 25e6, 1e8  # cells of the grid in all
 COARSEST_LINES = 0.3  # mm: corners between lines are rounded on cells no larger than this
 
 
-def choose_sizes(request: FillSpec, voids: Voids, extents: NDArray[np.floating]) -> tuple[float, float]:
-    """Return cell and width, mm: as requested, or as the density requires far from any skin.
+def choose_sizes(job: Job) -> tuple[float, float]:
+    """Choose cell and width, mm: as requested, or as the density requires far from any skin.
 
     In a part too large for a grid as fine as they need, both are enlarged, unless one of them was requested.
     """
-    cell, width = _nominal_sizes(request, voids)
+    request, (cell, width) = job.request, _nominal_sizes(job)
     if request.cell is None and request.line_width is None:
-        finest = _finest_voxel(extents, slabs=goes_by_slabs(request, voids))
-        times = SLACK * finest / coarsest_voxel(replace(request, wall=math.inf), voids, cell, width)
+        without_wall = replace(job, request=replace(request, wall=math.inf))
+        times = SLACK * _finest_voxel(job) / coarsest_voxel(without_wall, cell, width)
         return enlarge(request, (cell, width), times)
     return cell, width
 
@@ -51,10 +62,11 @@ def enlarge(request: FillSpec, sizes: tuple[float, float], times: float) -> tupl
     return sizes[0] * times, width * times
 
 
-def _nominal_sizes(request: FillSpec, voids: Voids) -> tuple[float, float]:
+def _nominal_sizes(job: Job) -> tuple[float, float]:
+    request = job.request
     if request.density is None:
         return request.cell or BRANCHES_CELL, request.line_width or request.default_width
-    share = voids.widths(request.density)
+    share = job.pattern.widths(request.density)
     if request.line_width is None and request.cell is not None:
         return request.cell, share * request.cell
     if request.line_width is None and "cell" not in request.varied and not request.lined:
@@ -64,37 +76,23 @@ def _nominal_sizes(request: FillSpec, voids: Voids) -> tuple[float, float]:
     return width / share, width
 
 
-def resolve_voxel(request: FillSpec, bounds: NDArray[np.floating]) -> FillSpec:
-    """Replace the resolution of a request by the side of its cells, mm, for a part within bounds (2, 3), mm."""
-    if request.resolution is None:
-        return request
-    return replace(request, voxel=float(np.ptp(bounds, axis=0).max()) / request.resolution)
-
-
-def choose_voxel(request: FillSpec, voids: Voids, extents: NDArray[np.floating], cell: float, width: float) -> float:
-    """Return the side of the cells of the grid, mm."""
+def choose_voxel(job: Job, cell: float, width: float) -> float:
+    """Choose the side of the cells of the grid, mm."""
+    request, extents = job.request, job.extents
     if request.voxel is not None:
         return request.voxel
-    width *= request.thinnest
-    size = request.wall / ACROSS
-    if isinstance(voids, Prismatic):
-        size = min(size, voids.sample.apart * cell / FINE_LINES, COARSEST_LINES)
-    elif has_bars(request.kind):
-        size = min(size, cell / FINE_BARS, width / ACROSS_BAR)
-    elif isinstance(voids, NonPrismatic) and voids.around:
-        size = min(size, width / ACROSS_BAR)
-    else:
-        size = min(size, voids.widths(FIFTH) * cell * request.smallest / FINE)
-    size = min(
-        max(size, _finest_voxel(extents, slabs=goes_by_slabs(request, voids))), math.cbrt(_box_volume(extents) / FEWEST)
-    )
-    if size > request.wall / LEAST_ACROSS:
+    size = _largest_voxel(job, cell, width, FINE)
+    if isinstance(job.pattern, Prismatic):
+        size = min(size, COARSEST_LINES)
+    size = min(max(size, _finest_voxel(job)), math.cbrt(_box_volume(extents) / FEWEST))
+    if size > request.wall / LEAST_FINE.across:
         raise GeometryError.about(
             "wall",
             f"is {request.wall:g} mm, and the part {extents.max():.4g} mm long: a grid as fine as such a wall "
-            f"needs has more than {MOST:,.0f} cells; give a wall of {LEAST_ACROSS * size:.2g} mm, or the right unit",
+            f"needs has more than {MOST:,.0f} cells; give a wall of {LEAST_FINE.across * size:.2g} mm, or the right "
+            "unit",
         )
-    if size > (most := coarsest_voxel(request, voids, cell, width / request.thinnest)):
+    if size > (most := coarsest_voxel(job, cell, width)):
         raise GeometryError.about(
             "cell",
             f"is {cell:.3g} mm, and the part {extents.max():.4g} mm long: a grid as fine as such cells need has "
@@ -103,36 +101,42 @@ def choose_voxel(request: FillSpec, voids: Voids, extents: NDArray[np.floating],
     return size
 
 
+def coarsest_voxel(job: Job, cell: float, width: float) -> float:
+    """Return the largest side of the cells of a grid that still resolves the pattern, mm."""
+    return _largest_voxel(job, cell, width, LEAST_FINE) if job.request.voxel is None else job.request.voxel
+
+
+def _largest_voxel(job: Job, cell: float, width: float, fineness: Fineness) -> float:
+    """Return the largest side of the cells of a grid that is so fine, mm."""
+    request, pattern = job.request, job.pattern
+    width *= request.thinnest
+    size = request.wall / fineness.across
+    if isinstance(pattern, Prismatic):
+        return min(size, pattern.sample.apart * cell / fineness.lines)
+    if has_bars(request.kind):
+        return min(size, cell / fineness.bars, width / fineness.across_bar)
+    if isinstance(pattern, NonPrismatic) and pattern.around:
+        return min(size, width / fineness.across_bar)
+    return min(size, pattern.widths(FIFTH) * cell * request.smallest / fineness.walls)
+
+
 def _box_volume(extents: NDArray[np.floating]) -> float:
     """Return the volume of the box around a part, mm³; a flat one is as thick as a thousandth of its length."""
     return float(math.prod(np.maximum(extents, extents.max() / 1000).tolist()))
 
 
-def _finest_voxel(extents: NDArray[np.floating], *, slabs: bool) -> float:
+def _finest_voxel(job: Job) -> float:
     """Return the side of the cells of the finest grid around a part, mm: in slabs, height costs only time."""
+    extents = job.extents
     size = math.cbrt(_box_volume(extents) / MOST)
-    if not slabs:
+    if not goes_by_slabs(job):
         return size
     low = np.array([*extents[:2], min(extents[2], max(extents[:2]))])
     return max(math.cbrt(_box_volume(low) / MOST), math.cbrt(_box_volume(extents) / MOST_IN_SLABS))
 
 
-def coarsest_voxel(request: FillSpec, voids: Voids, cell: float, width: float) -> float:
-    """Return the largest side of the cells of a grid that still resolves the pattern, mm."""
-    if request.voxel is not None:
-        return request.voxel
-    width *= request.thinnest
-    size = request.wall / LEAST_ACROSS
-    if isinstance(voids, Prismatic):
-        return min(size, voids.sample.apart * cell / LEAST_FINE_LINES)
-    if has_bars(request.kind):
-        return min(size, cell / LEAST_FINE_BARS, width / LEAST_ACROSS_BAR)
-    if isinstance(voids, NonPrismatic) and voids.around:
-        return min(size, width / LEAST_ACROSS_BAR)
-    return min(size, voids.widths(FIFTH) * cell * request.smallest / LEAST_FINE)
-
-
-def goes_by_slabs(request: FillSpec, voids: Voids) -> bool:
+def goes_by_slabs(job: Job) -> bool:
     """Tell whether voids may be made slab by slab: upright, of one width, closed, in a part taken as one."""
-    upright = isinstance(voids, Prismatic) and voids.grading is None and voids.bodies is None
-    return upright and request.form == "solid" and request.open_ is None
+    request = job.request
+    is_plain = request.grading is None and request.align != "body" and request.form == "solid" and request.open_ is None
+    return is_plain and isinstance(job.pattern, Prismatic)

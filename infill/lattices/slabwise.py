@@ -13,9 +13,6 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.interior.hollow import DeferredVoids, VoidMeshes
-from infill.interior.inside import SHARE
-from infill.interior.interior import Interior
 from infill.isosurfaces.components import shell_names
 from infill.isosurfaces.slabs import (
     SlabPiece,
@@ -26,106 +23,70 @@ from infill.isosurfaces.slabs import (
     sum_shell_volumes,
 )
 from infill.isosurfaces.sparse_marching import extract_bricks
-from infill.lattices.drawn_voids import Prismatic
-from infill.lattices.request import FillSpec
-from infill.lattices.surfacing import SPECK, choose_smoothing, drop_inside_pieces, drop_small_and_floating, smooth_void
+from infill.lattices.bodies import Fields
+from infill.lattices.fill_job import Job
+from infill.lattices.surfacing import SHARE, SPECK, choose_smoothing, drop_useless, smooth_void
+from infill.lattices.void_meshes import DeferredVoids, VoidMeshes
 from infill.meshes.shells import select_faces
 from infill.surface import Surface
 
 Outcome = TypeVar("Outcome")
 
 
-def count_filled_cells(space: Interior, voids: Prismatic, *, cell: float, width: float) -> float:
+def count_filled_cells(fields: Fields) -> float:
     """Count the cells that voids fill before they are smoothed, parts of cells counted as such."""
-    planes = voids.planes(space, cell=cell, width=width)
-    filled_by_slab: dict[tuple[object, ...], float] = {}
-    filled = 0.0
-    for low, high in space.layers.bounds():
-        if (key := space.layers.alike(low, high)) not in filled_by_slab:
-            depth = space.layers.between(low, high)
-            out = np.empty_like(depth)
-            filled_by_slab[key] = sum(voids.lesser(out, depth, plane, width / space.size) for plane in planes)
-        filled += filled_by_slab[key]
-    return filled
+
+    def count(depth: NDArray[np.float32], *_: int) -> float:
+        out = np.empty_like(depth)
+        return sum(fields.write_sdf(out, which, depth) for which in range(fields.count))
+
+    return sum(filled for _, filled in fields.layout.space.layers.map_slabs(count))
 
 
-def defer_voids(
-    space: Interior, voids: Prismatic, request: FillSpec, sizes: tuple[float, float], *, threads: int | None
-) -> VoidMeshes:
-    """Defer the making of voids: compute only their volume, and keep the function that makes their surfaces."""
+def defer_voids(job: Job, fields: Fields) -> VoidMeshes:
+    """Defer the making of voids: compute only their volume."""
     least, volume = SPECK**3, 0.0
-    for slabs in _map_pieces(space, voids, request, sizes, measure_slab_shells, threads):
+    for slabs in _map_pieces(job, fields, measure_slab_shells):
         volumes = sum_shell_volumes([shells for _, shells in slabs])
-        volume += float(volumes[volumes >= least].sum()) * space.size**3
-
-    def make(tolerance: float) -> VoidMeshes:
-        return surfaces_by_slabs(space, voids, request, sizes, tolerance=tolerance, threads=threads)
-
-    cell, width = sizes
-    return VoidMeshes(
-        space=space,
-        cell=cell,
-        width=width,
-        surfaces=[],
-        tolerance=0.0,
-        islands=0,
-        specks=0,
-        unmade=DeferredVoids(volume=volume, made=make),
-    )
+        volume += float(volumes[volumes >= least].sum()) * fields.layout.space.size**3
+    return VoidMeshes(layout=fields.layout, deferred=DeferredVoids(volume=volume, fields=fields))
 
 
-def surfaces_by_slabs(
-    space: Interior,
-    voids: Prismatic,
-    request: FillSpec,
-    sizes: tuple[float, float],
-    *,
-    tolerance: float,
-    threads: int | None,
-) -> VoidMeshes:
-    """Make the surfaces of the voids; those of a slab are simplified before the next slab is made.
+def surfaces_by_slabs(job: Job, fields: Fields, *, tolerance: float) -> VoidMeshes:
+    """Make the surfaces of voids; those of a slab are simplified before the next slab is made.
 
     Parameters
     ----------
+    job : Job
+    fields : VoidFields or BodyFields
     tolerance : float
         mm; where slabs meet, all triangles stay, and with 0 everywhere.
     """
-    cell, width = sizes
+    size, origin = fields.layout.space.size, fields.layout.space.origin
     counts = np.zeros(2, dtype=np.int64)  # of pieces of solid that hang free, and of voids that are too small
-    lost: list[Surface] = []
 
     def simplify(piece: SlabPiece) -> _CleanPiece:
         cleaned = _clean_piece(piece)
         if cleaned.piece is None or tolerance == 0:
             return cleaned
-        return replace(cleaned, piece=simplify_piece(cleaned.piece, SHARE * tolerance / space.size))
+        return replace(cleaned, piece=simplify_piece(cleaned.piece, SHARE * tolerance / size))
 
-    surfaces = []
-    fields = _map_pieces(space, voids, request, sizes, simplify, threads)
-    while fields:  # popped, so that pieces are freed once they are stitched
-        slabs = fields.pop(0)
-        counts += np.sum([cleaned.counts for _, cleaned in slabs if cleaned is not None] or [(0, 0)], axis=0)
-        if all(cleaned is None or cleaned.piece is None for _, cleaned in slabs):
-            continue
-        void_surface, islands, specks, loose = drop_small_and_floating(
-            _scale_in_place(stitch_pieces(_pop_pieces(slabs)), space), (SPECK * space.size) ** 3
-        )
-        counts += (islands, specks)
-        lost.extend(loose)
-        if void_surface is not None:
-            surfaces.append(void_surface)
+    def stitch() -> Iterator[Surface]:
+        results = _map_pieces(job, fields, simplify)
+        while results:  # popped, so that pieces are freed once they are stitched
+            slabs = results.pop(0)
+            for _, cleaned in slabs:
+                counts[:] += (0, 0) if cleaned is None else cleaned.counts
+            if any(cleaned is not None and cleaned.piece is not None for _, cleaned in slabs):
+                surface = stitch_pieces(_pop_pieces(slabs))
+                vertices = surface.vertices
+                vertices *= size
+                vertices += origin
+                yield replace(surface, vertices=vertices)
+
+    hollow = drop_useless(stitch(), fields.layout)
     islands, specks = counts.tolist()
-    return VoidMeshes(
-        space=space,
-        cell=cell,
-        width=width,
-        surfaces=[
-            void for void in (drop_inside_pieces(surface, lost, threads) for surface in surfaces) if void is not None
-        ],
-        tolerance=0.0,
-        islands=islands,
-        specks=specks,
-    )
+    return replace(hollow, islands=hollow.islands + islands, specks=hollow.specks + specks)
 
 
 def _pop_pieces(slabs: list[tuple[int, _CleanPiece | None]]) -> Iterator[tuple[int, SlabPiece | None]]:
@@ -133,14 +94,6 @@ def _pop_pieces(slabs: list[tuple[int, _CleanPiece | None]]) -> Iterator[tuple[i
     while slabs:
         low, cleaned = slabs.pop(0)
         yield low, None if cleaned is None else cleaned.piece
-
-
-def _scale_in_place(surface: Surface, space: Interior) -> Surface:
-    """Convert a surface from cells to mm; its vertices are overwritten."""
-    vertices = surface.vertices
-    vertices *= space.size
-    vertices += space.origin
-    return replace(surface, vertices=vertices)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -167,38 +120,21 @@ def _clean_piece(piece: SlabPiece) -> _CleanPiece:
 
 
 def _map_pieces(
-    space: Interior,
-    voids: Prismatic,
-    request: FillSpec,
-    sizes: tuple[float, float],
-    function: Callable[[SlabPiece], Outcome | None],
-    threads: int | None,
+    job: Job, fields: Fields, function: Callable[[SlabPiece], Outcome | None]
 ) -> list[list[tuple[int, Outcome | None]]]:
     """Apply a function to each piece; return the results with the first layer of each slab, a list for each field."""
-    (cell, width), layers = sizes, space.layers
-    smoothing = choose_smoothing(space, voids, request, sizes)
-    planes = voids.planes(space, cell=cell, width=width)
-    beside = smoothing.steps + 1
+    smoothing, threads = choose_smoothing(job, fields), job.threads
 
-    def process(depth: NDArray[np.float32], plane: NDArray[np.float32], low: int, high: int) -> Outcome | None:
-        distance = np.empty_like(depth)
-        voids.lesser(distance, depth, plane, width / space.size)
-        field = smooth_void(distance, depth, smoothing, threads=threads)
-        if field is None:
-            return None
-        surface = extract_bricks(field, spacing=(1.0,) * 3, origin=(-0.5,) * 3, threads=threads)
-        piece = cut_slab_piece(surface, low, high)
-        return None if piece is None else function(piece)
+    def process(depth: NDArray[np.float32], low: int, high: int) -> list[Outcome | None]:
+        outcomes: list[Outcome | None] = []
+        for which in range(fields.count):
+            distance, piece = np.empty_like(depth), None
+            fields.write_sdf(distance, which, depth)
+            if (field := smooth_void(distance, depth, smoothing, threads=threads)) is not None:
+                surface = extract_bricks(field, spacing=(1.0,) * 3, origin=(-0.5,) * 3, threads=threads)
+                piece = cut_slab_piece(surface, low, high)
+            outcomes.append(None if piece is None else function(piece))
+        return outcomes
 
-    results_by_slab: dict[tuple[object, ...], list[Outcome | None]] = {}
-    fields: list[list[tuple[int, Outcome | None]]] = [[] for _ in planes]
-    for low, high in layers.bounds():
-        low_layer, high_layer = max(0, low - beside), min(space.shape[2], high + 1 + beside)
-        key = (low - low_layer, high - low_layer, *layers.alike(low_layer, high_layer))
-        if key not in results_by_slab:
-            depth = layers.between(low_layer, high_layer)
-            results_by_slab[key] = [process(depth, plane, low - low_layer, high - low_layer) for plane in planes]
-            del depth
-        for field, result in zip(fields, results_by_slab[key], strict=True):
-            field.append((low, result))
-    return fields
+    slabs = fields.layout.space.layers.map_slabs(process, below=smoothing.steps + 1, above=smoothing.steps + 2)
+    return [[(low, outcomes[which]) for low, outcomes in slabs] for which in range(fields.count)]

@@ -9,11 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.interior.interior import BAND, Interior
-from infill.interior.root_finding import find_root
 from infill.kernels.threads import in_threads, thread_count
-from infill.lattices.bodies import Bodies
-from infill.lattices.grading import Grading, LocalWidths
-from infill.lattices.voids import FIELD, local_widths
+from infill.lattices.root_finding import find_root
+from infill.lattices.voids import Layout, VoidFields
 from patterns.octree import Octree, cube_levels
 
 if TYPE_CHECKING:
@@ -33,23 +31,20 @@ class CubeTree:
 
     Parameters
     ----------
-    space : Interior
-        The space for which it was made.
-    cell : float
-        Side of the smallest, mm.
     doubled : (n, m, k) uint8
         For each of the smallest cubes, how often the cube around it is doubled.
     first : (3,) int64
         The number of the first of these, along each axis of the pattern.
     colours : tuple of int
         Of cubes that lie in the part: see `infill.kernels.cells.from_cubes`.
+    skin : cKDTree
+        The skin that the cubes follow.
     """
 
-    space: Interior
-    cell: float
     doubled: NDArray[np.uint8]
     first: NDArray[np.int64]
     colours: tuple[int, ...]
+    skin: cKDTree
 
     @property
     def reach(self) -> float:
@@ -59,7 +54,7 @@ class CubeTree:
 
 @dataclass(frozen=True, kw_only=True)
 class Subdivided:
-    """The voids in cubes that are split where the skin of a part is near.
+    """Cubes that are split where the skin of a part is near.
 
     Parameters
     ----------
@@ -68,79 +63,36 @@ class Subdivided:
         From the part to the pattern.
     anchor : (3,) float64
         The point of the part in the middle of a cube of twice the smallest side, mm.
-    threads : int, optional
-    grading : Grading, optional
-    bodies : Bodies, optional
-        Set if the pattern starts over in each component of the part; the anchor is then relative to its middle.
-    local : LocalWidths, optional
-        Widths in the space, once they are computed.
-    cubes : CubeTree, optional
-        The cubes, once they are computed.
-    skin : (Interior, cKDTree), optional
-        The skin that the pattern follows, with its space, once it is computed.
     """
 
     pattern: Octree
     turn: NDArray[np.float64]
     anchor: NDArray[np.float64]
-    threads: int | None = None
-    grading: Grading | None = None
-    bodies: Bodies | None = None
-    local: LocalWidths | None = None
-    cubes: CubeTree | None = None
-    skin: tuple[Interior, cKDTree] | None = None
-
-    def prepare(self, space: Interior, *, cell: float, width: float) -> Subdivided:
-        """See `Voids`."""
-        if self.bodies is not None:
-            return replace(self, bodies=self.bodies.prepare(self, space, cell=cell, width=width))
-        on_skin = replace(self, skin=(space, self._find_skin(space)))
-        return replace(on_skin, cubes=on_skin.tree(space, cell))
-
-    def with_widths(self, local: LocalWidths) -> Subdivided:
-        """See `Voids`."""
-        return replace(self, local=local, bodies=self.bodies and self.bodies.with_widths(local))
-
-    def sharpest(self, space: Interior, *, cell: float, width: float) -> float:  # noqa: ARG002 - of the protocol
-        """See `Voids`."""
-        return 90.0
 
     def about(self, middle: NDArray[np.float64]) -> Subdivided:
-        """See `Anchored`."""
-        return replace(self, anchor=middle + self.anchor, bodies=None, cubes=None, skin=None)
+        """See `VoidPattern`."""
+        return replace(self, anchor=middle + self.anchor)
 
-    def count(self, space: Interior, *, cell: float, width: float) -> int:
-        """Count the colours."""
-        if self.bodies is not None:
-            return self.bodies.count(self, space, cell=cell, width=width)
-        return len(self.tree(space, cell).colours)
-
-    def into(self, out: FIELD, space: Interior, which: int, *, cell: float, width: float) -> float:
-        """See `Voids`."""
+    def draw(self, layout: Layout, known: VoidFields | None = None) -> VoidFields:
+        """Draw a field for each colour; the cubes depend on the space and the cell alone."""
         from infill.kernels.cells import from_cubes
 
-        if self.bodies is not None:
-            return self.bodies.into(self, out, space, which, cell=cell, width=width)
-        tree, period = self.tree(space, cell), cell / space.size
-        filled = in_threads(
-            from_cubes,
-            space.depth,
-            -BAND,
-            tree.doubled,
-            self.turn / period,
-            self._start(space, cell) - tree.first,
-            period,
-            min(tree.reach, BAND / period),
-            tree.colours[which],
-            width / 2 / space.size,
-            *local_widths(self, space),
-            out,
-            threads=thread_count(self.threads),
+        space, period = layout.space, layout.cell / layout.space.size
+        tree = layout.basis_of(known)
+        if not isinstance(tree, CubeTree):
+            earlier = known.basis if known is not None and known.layout.space is space else None
+            tree = self._build_tree(layout, earlier.skin if isinstance(earlier, CubeTree) else self._find_skin(space))
+        cubes = tree.doubled, self.turn / period, self._start(space, layout.cell) - tree.first, period
+        reach, sizes = min(tree.reach, BAND / period), (layout.half, *layout.ratio)
+        return VoidFields(
+            layout=layout,
+            kernels=tuple((from_cubes, (-BAND, *cubes, reach, colour, *sizes)) for colour in tree.colours),
+            find_sharpest=lambda: 90.0,
+            basis=tree,
         )
-        return float(sum(filled))
 
     def widths(self, density: float) -> float:
-        """See `Voids`: a guess that does not depend on the part."""
+        """See `VoidPattern`: a guess that does not depend on the part."""
         shares = np.array(SHARES[: self.pattern.levels + 1])
         shares, sides = shares / shares.sum(), 2.0 ** np.arange(len(shares))
 
@@ -150,40 +102,32 @@ class Subdivided:
 
         return density / 3 * find_root(off, NEAR, TRIES)
 
-    def tree(self, space: Interior, cell: float) -> CubeTree:
-        """Return the cubes in a space; the smallest have sides of a cell, mm."""
-        known = self.cubes
-        if known is not None and known.space is space and known.cell == cell:
-            return known
-        return self._build_tree(space, cell)
-
     def _start(self, space: Interior, cell: float) -> NDArray[np.float64]:
         """Return the place of the first cell of the grid in the pattern, in sides of the smallest cubes."""
         start: NDArray[np.float64] = self.turn @ (space.origin - self.anchor) / cell + self.pattern.middle
         return start
 
-    def _build_tree(self, space: Interior, cell: float) -> CubeTree:
+    def _build_tree(self, layout: Layout, skin: cKDTree) -> CubeTree:
         from infill.kernels.cells import colours_of_cubes
 
+        space, cell, threads = layout.space, layout.cell, thread_count(layout.threads)
         start, step, period = self._start(space, cell), self.turn * space.size / cell, self.pattern.cells
         ends = np.array(np.meshgrid(*[(0, n - 1) for n in space.depth.shape])).reshape(3, -1).T @ step.T + start
         lowest = (np.floor((ends.min(axis=0) - 1) / period) * period).astype(np.int64)
         counts = (np.floor((ends.max(axis=0) + 1) / period) * period).astype(np.int64) + period - lowest
-        depth, tree, is_whole = space.below_walls, self._find_skin(space), []
+        depth, is_whole = space.below_walls, list[NDArray[np.bool_]]()
         for level in range(1, self.pattern.levels + 1):
             side = 1 << level
             middles = np.indices(tuple((counts // side).tolist())).reshape(3, -1).T * side + side / 2 + lowest
             cells = (middles - start) @ np.linalg.inv(step).T
             reach = side / 2 * cell / space.size
             reaches = np.where(_are_inside(depth, cells), reach, DIAGONAL * reach)
-            distances, _ = tree.query(cells, distance_upper_bound=DIAGONAL * reach, workers=thread_count(self.threads))
+            distances, _ = skin.query(cells, distance_upper_bound=DIAGONAL * reach, workers=threads)
             is_whole.append((distances >= reaches).reshape(counts // side))
         cubes = cube_levels(is_whole)
-        seen = in_threads(
-            colours_of_cubes, space.depth, cubes, step, start - lowest, threads=thread_count(self.threads)
-        )
+        seen = in_threads(colours_of_cubes, space.depth, cubes, step, start - lowest, threads=threads)
         colours = tuple(np.flatnonzero(np.any(seen, axis=0)).tolist())
-        return CubeTree(space=space, cell=cell, doubled=cubes, first=lowest, colours=colours)
+        return CubeTree(doubled=cubes, first=lowest, colours=colours, skin=skin)
 
     def _find_skin(self, space: Interior) -> cKDTree:
         """Find the cells of a grid where the pattern follows the inner side of a wall, as a search tree of places.
@@ -193,8 +137,6 @@ class Subdivided:
         """
         from scipy.spatial import cKDTree
 
-        if self.skin is not None and self.skin[0] is space:
-            return self.skin[1]
         depth = space.below_walls
         rows = max(1, ONCE // depth[0].size)
         places = []

@@ -3,91 +3,102 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.interior.hollow import VoidMeshes
-from infill.interior.inside import INTERFACE, extract_inner_side
 from infill.interior.interior import Interior
 from infill.isosurfaces.components import shell_names
 from infill.isosurfaces.sparse_marching import extract_bricks
+from infill.lattices.bodies import Fields
+from infill.lattices.fill_job import Job
 from infill.lattices.fillets import rounding_time
-from infill.lattices.request import FillSpec, has_bars
-from infill.lattices.voids import Voids
+from infill.lattices.request import has_bars
+from infill.lattices.void_meshes import VoidMeshes
+from infill.lattices.voids import Layout
 from infill.meshes.shells import first_vertex_of_shells, select_faces, shell_volumes
+from infill.meshes.solids import simplify_solid
 from infill.meshes.winding import winding_numbers
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.refining import phase_from_distance
 from infill.phasefield.sparse import SparseField, smooth_bricks
 from infill.surface import Surface
 
+INTERFACE = 2.0  # cells: in a thinner interface, curvature moves the surface slower than it should
+SHARE = 0.8  # of the tolerance for simplifying; the rest covers the error of the grid
 SHORTEST = 1e-3  # cells²: motion by curvature in a shorter time is invisible
 SPECK = 2.0  # cells of the grid: voids smaller than a cube of this side are left solid
 
 
-def choose_smoothing(space: Interior, voids: Voids, request: FillSpec, sizes: tuple[float, float]) -> Smoothing:
-    """Choose the steps that round corners to the requested radius, for a cell and a width of walls or bars, mm."""
-    (cell, width), smoothing = sizes, Smoothing(interface=INTERFACE, fidelity=0.0)
-    sharpest = voids.sharpest(reachable_space(space, request), cell=cell, width=width)
-    bar = width * request.thinnest if has_bars(request.kind) else None
-    radius = request.radius(space.thickness)
-    times = rounding_time(radius, sharpest, bar, cell=space.size) / space.size**2  # cells²
+def choose_smoothing(job: Job, fields: Fields) -> Smoothing:
+    """Choose the steps that round the corners of voids to the requested radius."""
+    request, layout, space = job.request, fields.layout, fields.layout.space
+    smoothing = Smoothing(interface=INTERFACE, fidelity=0.0)
+    bar = layout.width * request.thinnest if has_bars(request.kind) else None
+    radius = request.radius((space.walled or space).thickness)
+    times = rounding_time(radius, fields.find_sharpest(), bar, cell=space.size) / space.size**2  # cells²
     if times < SHORTEST:
         return replace(smoothing, steps=0)
     steps = math.ceil(times / smoothing.alpha)
     return replace(smoothing, steps=steps, alpha=times / steps)
 
 
-def make_surfaces(
-    space: Interior, voids: Voids, request: FillSpec, sizes: tuple[float, float], threads: int | None
-) -> VoidMeshes:
-    """Make the surfaces of the voids: smoothed, without pieces of no use."""
-    cell, width = sizes
-    out = np.empty_like(space.depth)
-    smoothing = choose_smoothing(space, voids, request, sizes)
-    inside, walls = reachable_space(space, request), None
-    if request.form == "project":
-        walls = extract_inner_side(space, overlap=0.0, tolerance=request.tolerance / 4, threads=threads)
-    surfaces, islands, specks = [], 0, 0
+def make_surfaces(job: Job, fields: Fields) -> VoidMeshes:
+    """Make the surfaces of voids: smoothed, without pieces of no use."""
+    threads, inside = job.threads, fields.layout.space
+    space, smoothing = inside.walled or inside, choose_smoothing(job, fields)
+    out, walls = np.empty_like(space.depth), None
+    if job.request.form == "project":
+        walls = extract_inner_side(space, overlap=0.0, tolerance=job.request.tolerance / 4, threads=threads)
+
+    def trace() -> Iterator[Surface]:
+        for which in range(fields.count):
+            fields.write_sdf(out, which, inside.depth)
+            field = smooth_void(out, inside.depth, smoothing, threads=threads)
+            surface = None if field is None else extract_surface(field, space, threads)
+            if surface is not None and space.opening is not None:
+                surface = space.opening.reaching(surface, space.size)
+            if surface is not None:
+                yield surface
+
+    return replace(drop_useless(trace(), replace(fields.layout, space=space)), walls=walls)
+
+
+def drop_useless(surfaces: Iterable[Surface], layout: Layout) -> VoidMeshes:
+    """Drop small voids and floating solid; return the other voids, with the counts of both."""
+    least, islands, specks = (SPECK * layout.space.size) ** 3, 0, 0
+    voids: list[Surface] = []
     lost: list[Surface] = []
-    for which in range(voids.count(inside, cell=cell, width=width)):
-        voids.into(out, inside, which, cell=cell, width=width)
-        field = smooth_void(out, inside.depth, smoothing, threads=threads)
-        if field is None:
-            continue
-        surface = extract_bricks(
-            field, spacing=(space.size,) * 3, origin=tuple((space.origin - space.size / 2).tolist()), threads=threads
-        )
-        if space.opening is not None:
-            reaching = space.opening.reaching(surface, space.size)
-            if reaching is None:
-                continue
-            surface = reaching
-        useful_surface, floating, tiny, loose = drop_small_and_floating(surface, (SPECK * space.size) ** 3)
-        islands, specks = islands + floating, specks + tiny
+    for surface in surfaces:
+        useful, floating, small, loose = drop_small_and_floating(surface, least)
+        islands, specks = islands + floating, specks + small
         lost.extend(loose)
-        if useful_surface is not None:
-            surfaces.append(useful_surface)
-    surfaces = [
-        void for void in (drop_inside_pieces(surface, lost, threads) for surface in surfaces) if void is not None
-    ]
+        if useful is not None:
+            voids.append(useful)
+    rest = (drop_inside_pieces(surface, lost, layout.threads) for surface in voids)
     return VoidMeshes(
-        space=space,
-        cell=cell,
-        width=width,
-        surfaces=surfaces,
-        tolerance=0.0,
-        islands=islands,
-        specks=specks,
-        walls=walls,
+        layout=layout, surfaces=tuple(void for void in rest if void is not None), islands=islands, specks=specks
     )
 
 
-def reachable_space(space: Interior, request: FillSpec) -> Interior:
-    """Return the space that voids may take: in a project, through the walls and a little out of the part."""
-    return space.unwalled if request.form == "project" else space
+def extract_surface(field: SparseField, space: Interior, threads: int | None) -> Surface:
+    """Extract the surface of a field in a space, mm."""
+    origin = tuple((space.origin - space.size / 2).tolist())
+    return extract_bricks(field, spacing=(space.size,) * 3, origin=origin, threads=threads)
+
+
+def extract_inner_side(space: Interior, *, overlap: float, tolerance: float, threads: int | None) -> Surface:
+    """Extract the surface of the space inside the walls, extended into them by the overlap, mm."""
+    field = smooth_bricks(
+        phase_from_distance(space.depth + np.float32(overlap / space.size), INTERFACE, threads=threads),
+        Smoothing(steps=0),
+        spacing=(space.size,) * 3,
+        threads=threads,
+    )
+    surface = extract_surface(field, space, threads)
+    return simplify_solid(surface, tolerance) if tolerance > 0 else surface
 
 
 def smooth_void(

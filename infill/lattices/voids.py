@@ -1,71 +1,131 @@
-"""The voids that a pattern leaves in a part, each as a field of distances, in cells of the grid.
+"""The voids that a pattern leaves in a space, each as a field of distances, in cells of the grid.
 
 Voids that lie next to each other are in separate fields, so a wall between them needs no cell of the grid in it.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cache
-from typing import Protocol, Self
+from functools import cache, partial
+from typing import Any, Protocol, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from infill.interior.interior import BAND, Interior
 from infill.kernels.threads import in_threads, thread_count
-from infill.lattices.bodies import Bodies
 from infill.lattices.fillets import corner_angle_between_walls
-from infill.lattices.grading import UNIFORM_WIDTH, Grading, LocalWidths
+from infill.lattices.grading import UNIFORM_WIDTH, LocalWidths
+from infill.lattices.request import Size
 from patterns.polyhedra import Polyhedra
 from patterns.unit_cells import Bars, BinnedEdges, Cellular, Network, Planes, Surfaces
 
 WIDE = 1000.0  # cells, in which planes at odd angles to each other lie in all relative positions
 NODES = 48  # of the table of a period, along each axis
-FIELD = NDArray[np.float32]
+Field = NDArray[np.float32]
 
 
-class Voids(Protocol):
-    """The voids of a pattern."""
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Layout:
+    """A space in which a pattern is drawn, and the sizes of the pattern there.
 
-    def count(self, space: Interior, *, cell: float, width: float) -> int:
-        """Count the fields that the voids need."""
-        ...
+    Parameters
+    ----------
+    space : Interior
+    cell, width : float
+        Period of the pattern, and width of its walls or bars, mm.
+    local : LocalWidths, optional
+        Factors of the width from place to place, where the density changes.
+    threads : int, optional
+    """
 
-    def into(self, out: FIELD, space: Interior, which: int, *, cell: float, width: float) -> float:
-        """Write the lesser of the depth in the void and below the wall; return the number of cells it fills."""
-        ...
+    space: Interior
+    cell: float
+    width: float
+    local: LocalWidths | None = None
+    threads: int | None = None
+
+    @property
+    def half(self) -> float:
+        """Half of the width, in cells of the grid."""
+        return self.width / 2 / self.space.size
+
+    @property
+    def ratio(self) -> tuple[Field, float]:
+        """Factors of the width, and the step of their nodes, as kernels take them."""
+        return UNIFORM_WIDTH if self.local is None else (self.local.ratio, self.local.step)
+
+    def scale(self, times: float, vary: Size) -> Layout:
+        """Change one of the sizes so that walls are several times as dense."""
+        return replace(self, width=self.width * times) if vary == "width" else replace(self, cell=self.cell / times)
+
+    def basis_of(self, known: VoidFields | None) -> object:
+        """Return the basis of an earlier drawing, if that was in the same space with the same cell, or None."""
+        if known is None or known.layout.space is not self.space or known.layout.cell != self.cell:
+            return None
+        return known.basis
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class VoidFields:
+    """The voids of a pattern in a layout: each field is computed by a kernel.
+
+    Parameters
+    ----------
+    layout : Layout
+    kernels : tuple of (callable, tuple)
+        The kernel of each field, and its arguments between the depths and the output.
+    find_sharpest : callable
+        Finds the angle of the sharpest corners of voids, degrees, where walls of the pattern meet; few are sharper.
+    basis : object
+        What a layout with other sizes uses again.
+    """
+
+    layout: Layout
+    kernels: tuple[tuple[Callable[..., Any], tuple[Any, ...]], ...]
+    find_sharpest: Callable[[], float]
+    basis: object = None
+
+    @property
+    def count(self) -> int:
+        """Number of fields."""
+        return len(self.kernels)
+
+    def write_sdf(self, out: Field, which: int, depth: Field) -> float:
+        """Write the lesser of the depth in a void and below the wall, in cells; return the number of cells it fills.
+
+        Parameters
+        ----------
+        out : (nx, ny, n) float32
+        which : int
+            Number of the field.
+        depth : (nx, ny, n) float32
+            Depths in the space; of some of its layers, if the pattern is the same in all of them.
+        """
+        kernel, arguments = self.kernels[which]
+        return float(sum(in_threads(kernel, depth, *arguments, out, threads=thread_count(self.layout.threads))))
+
+
+class VoidPattern(Protocol):
+    """A pattern in its place in a part."""
 
     def widths(self, density: float) -> float:
         """Return the width of walls or bars, in cells of the pattern, that gives a density far from any skin."""
         ...
 
-    def sharpest(self, space: Interior, *, cell: float, width: float) -> float:
-        """Return the angle of the sharpest corners of voids, degrees, where walls of the pattern meet."""
+    def about(self, middle: NDArray[np.float64]) -> Self:
+        """Return the same pattern, shifted by a vector, mm."""
         ...
 
-    def prepare(self, space: Interior, *, cell: float, width: float) -> Self:
-        """Return the same with all that depends on the space computed, so that drawing it again takes less time."""
-        ...
-
-    def with_widths(self, local: LocalWidths) -> Self:
-        """Return the same with other local widths."""
-        ...
-
-    @property
-    def grading(self) -> Grading | None:
-        """Variation of the width from place to place; the nominal width is that of the middle density."""
-        ...
-
-    @property
-    def local(self) -> LocalWidths | None:
-        """Widths from place to place in the space; None if they are not computed yet."""
+    def draw(self, layout: Layout, known: VoidFields | None = None) -> VoidFields:
+        """Draw the voids beside the pattern; what suits of an earlier drawing is used again."""
         ...
 
 
 @dataclass(frozen=True, kw_only=True)
 class Periodic:
-    """The voids beside walls or bars that repeat along x, y and z.
+    """Walls or bars that repeat along x, y and z.
 
     Parameters
     ----------
@@ -74,153 +134,53 @@ class Periodic:
         From the part to the pattern.
     anchor : (3,) float64
         The point of the part at which a cell of the pattern begins, mm.
-    threads : int, optional
-    grading : Grading, optional
-    bodies : Bodies, optional
-        Set if the pattern starts over in each component of the part; the anchor is then relative to its middle.
-    local : LocalWidths, optional
-        Widths in the space, once they are computed.
     """
 
     pattern: Cellular
     turn: NDArray[np.float64]
     anchor: NDArray[np.float64]
-    threads: int | None = None
-    grading: Grading | None = None
-    bodies: Bodies | None = None
-    local: LocalWidths | None = None
-
-    def prepare(self, space: Interior, *, cell: float, width: float) -> Periodic:
-        """See `Voids`."""
-        if self.bodies is None:
-            return self
-        return replace(self, bodies=self.bodies.prepare(self, space, cell=cell, width=width))
-
-    def with_widths(self, local: LocalWidths) -> Periodic:
-        """See `Voids`."""
-        return replace(self, local=local, bodies=self.bodies and self.bodies.with_widths(local))
-
-    def sharpest(self, space: Interior, *, cell: float, width: float) -> float:  # noqa: ARG002 - of the protocol
-        """See `Voids`: the same for all cells."""
-        return _sharpest_angle(self.pattern)
 
     def about(self, middle: NDArray[np.float64]) -> Periodic:
-        """See `Anchored`."""
-        return replace(self, anchor=middle + self.anchor, bodies=None)
+        """See `VoidPattern`."""
+        return replace(self, anchor=middle + self.anchor)
 
-    def count(self, space: Interior, *, cell: float, width: float) -> int:  # noqa: ARG002 - of the protocol
-        """Count the fields: two beside a surface, one for each class of closed cells, one around bars."""
-        if isinstance(self.pattern, (Planes, Polyhedra)):
-            return self.pattern.classes
-        return 1 if self.pattern.bars else 2
-
-    def into(self, out: FIELD, space: Interior, which: int, *, cell: float, width: float) -> float:
-        """See `Voids`."""
+    def draw(self, layout: Layout, known: VoidFields | None = None) -> VoidFields:  # noqa: ARG002 - of the protocol
+        """Draw two fields beside a surface, one for each class of closed cells, or one around bars."""
         from infill.kernels.cells import from_bars, from_period, from_planes, from_polyhedra
 
-        if self.bodies is not None:
-            return self.bodies.into(self, out, space, which, cell=cell, width=width)
-        start = self.turn @ (space.origin - self.anchor) / space.size
-        period, half = self.pattern.cells * cell / space.size, width / 2 / space.size
-        local, threads = find_local_widths(self, space), thread_count(self.threads)
-        sizes = UNIFORM_WIDTH if local is None else (local.ratio, local.step)
-        if isinstance(self.pattern, Bars):
-            filled = in_threads(
-                from_bars,
-                space.depth,
-                -BAND,
-                *_bin_bars(self.pattern),
-                self.turn,
-                start,
-                period,
-                half,
-                *sizes,
-                out,
-                threads=threads,
-            )
-        elif isinstance(self.pattern, Planes):
-            normals, offsets = self.pattern.families()
-            filled = in_threads(
-                from_planes,
-                space.depth,
-                -BAND,
-                normals @ self.turn / period,
-                normals @ start / period + offsets,
-                period / np.linalg.norm(normals, axis=1),
-                which,
-                half,
-                *sizes,
-                out,
-                threads=threads,
-            )
-        elif isinstance(self.pattern, Polyhedra):
-            (normals, halves), (box, middles) = self.pattern.faces(), self.pattern.lattice()
-            filled = in_threads(
-                from_polyhedra,
-                space.depth,
-                -BAND,
-                self.turn,
-                start,
-                normals,
-                halves * period,
-                box * period,
-                middles[which] * period,
-                half,
-                *sizes,
-                out,
-                threads=threads,
-            )
-        elif local is not None and local.spline is not None:
-            from infill.kernels.stretched import from_stretched_period
-
-            filled = in_threads(
-                from_stretched_period,
-                space.depth,
-                -BAND,
-                period_table(self.pattern),
-                self.turn,
-                start,
-                period,
-                1.0 if which == 0 else -1.0,
-                half,
-                *sizes,
-                local.spline,
-                out,
-                threads=threads,
-            )
+        pattern, turn, space = self.pattern, self.turn, layout.space
+        start = turn @ (space.origin - self.anchor) / space.size
+        period, sizes = pattern.cells * layout.cell / space.size, (layout.half, *layout.ratio)
+        kernel: Callable[..., Any]
+        fields: list[tuple[Any, ...]]
+        if isinstance(pattern, Bars):
+            kernel, fields = from_bars, [(*_bin_bars(pattern), turn, start, period, *sizes)]
+        elif isinstance(pattern, Planes):
+            normals, offsets = pattern.families()
+            apart = period / np.linalg.norm(normals, axis=1)
+            planes = normals @ turn / period, normals @ start / period + offsets, apart
+            kernel, fields = from_planes, [(*planes, which, *sizes) for which in range(pattern.classes)]
+        elif isinstance(pattern, Polyhedra):
+            (normals, halves), (box, middles) = pattern.faces(), pattern.lattice()
+            faces = turn, start, normals, halves * period, box * period
+            kernel, fields = from_polyhedra, [(*faces, middle * period, *sizes) for middle in middles]
         else:
-            filled = in_threads(
-                from_period,
-                space.depth,
-                -BAND,
-                period_table(self.pattern),
-                self.turn,
-                start,
-                period,
-                1.0 if which == 0 else -1.0,
-                half,
-                *sizes,
-                out,
-                threads=threads,
-            )
-        return float(sum(filled))
+            signs = (1.0,) if pattern.bars else (1.0, -1.0)
+            kernel, last = from_period, tuple[Any, ...]()
+            if layout.local is not None and layout.local.spline is not None:
+                from infill.kernels.stretched import from_stretched_period
+
+                kernel, last = from_stretched_period, (layout.local.spline,)
+            fields = [(period_table(pattern), turn, start, period, sign, *sizes, *last) for sign in signs]
+        return VoidFields(
+            layout=layout,
+            kernels=tuple((kernel, (-BAND, *arguments)) for arguments in fields),
+            find_sharpest=partial(_sharpest_angle, pattern),
+        )
 
     def widths(self, density: float) -> float:
-        """See `Voids`."""
+        """See `VoidPattern`."""
         return float(2 * np.quantile(_sample_distances(self.pattern), density))
-
-
-def local_widths(voids: Voids, space: Interior) -> tuple[NDArray[np.float32], float]:
-    """Return the factors of the width of walls, and the step of their nodes, as kernels take them."""
-    local = find_local_widths(voids, space)
-    return UNIFORM_WIDTH if local is None else (local.ratio, local.step)
-
-
-def find_local_widths(voids: Voids, space: Interior) -> LocalWidths | None:
-    """Return the widths from place to place in a space; None if walls have the same width everywhere."""
-    if voids.grading is None or voids.local is not None:
-        return voids.local
-    return voids.grading.over(space, voids.widths)
 
 
 @cache

@@ -1,0 +1,170 @@
+"""The cell and the width of a pattern that leave the requested density in a space."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from infill.lattices.bodies import Fields
+from infill.lattices.fill_job import Job
+from infill.lattices.grading import LocalWidths, densities_by_share
+from infill.lattices.request import Size, has_bars
+from infill.lattices.root_finding import find_root
+from infill.lattices.simplifying import simplify_voids
+from infill.lattices.slabwise import count_filled_cells, defer_voids
+from infill.lattices.surfacing import choose_smoothing, make_surfaces
+from infill.lattices.void_meshes import VoidMeshes
+from infill.lattices.voids import Layout, Periodic
+from patterns.unit_cells import Network
+
+CLOSE = 0.002  # of the density: a cell and a width nearer to it than this are good enough
+LEAST = 1e-6  # densities below this count as none
+TRIES, ROUNDS = 8, 9
+WIDTH_CLOSE, REDRAWN = 0.03, 2  # of the line width: good enough; and how often walls are redrawn otherwise
+SURE = 400  # points from which a median width is sure enough to redraw walls
+FARTHER_OFF = 0.005  # of the density: error that the right width of walls may not cost
+TRIANGLES_A_CELL = 2.5
+GRADING_STEPS, GRADING_ROUNDS, GRADING_CLOSE, MOST_OFF = 24, 4, 0.01, 0.5  # of a density that changes
+
+
+def make_voids(job: Job, layout: Layout, known: Fields | None = None) -> tuple[VoidMeshes, Fields]:
+    """Make the voids of a layout inside the walls; return them, and their fields for later drawings.
+
+    In a large space that is kept in slabs, only their volume is computed for now.
+    """
+    fields = job.draw(replace(layout, space=job.reach(layout.space)), known)
+    make = defer_voids if layout.space.layers.in_slabs else make_surfaces
+    return make(job, fields), fields
+
+
+def solid_share(fields: Fields) -> float:
+    """Compute the solid share of the space inside the walls, as the pattern is drawn, before it is smoothed."""
+    space = fields.layout.space
+    if space.layers.in_slabs:
+        filled = count_filled_cells(fields)
+    else:
+        depth, filled = space.depth, 0.0
+        out = np.empty_like(depth)
+        for which in range(fields.count):
+            in_field = fields.write_sdf(out, which, depth)
+            filled += in_field if space.opening is None else space.cells_in(out)
+    return max(1 - filled / space.cells, LEAST)
+
+
+def requested_density(job: Job, local: LocalWidths | None) -> float | None:
+    """Return the density requested inside the walls, on average; None if cell and line width fix it."""
+    return job.request.density if local is None else local.mean
+
+
+def has_uniform_width(job: Job) -> bool:
+    """Tell whether walls or bars have the same width everywhere, as all have except those of a network."""
+    return not isinstance(job.request.kind, Network)
+
+
+def find_sizes(job: Job, layout: Layout, varied: tuple[Size, ...]) -> tuple[Layout, tuple[Size, ...], Fields | None]:
+    """Find cell and width that leave the requested density before smoothing; return what may vary, and fields, too.
+
+    A cell that is larger than the space is made smaller and walls thinner, if neither was requested; in a project,
+    whose walls are to be lines of a slicer, only if the density cannot be reached otherwise.
+    """
+    fields: Fields | None = None
+    if not varied:
+        return layout, varied, fields
+    request, density = job.request, requested_density(job, layout.local) or LEAST
+
+    def off(layout: Layout) -> float:
+        nonlocal fields
+        fields = job.draw(layout, fields)
+        return math.log(solid_share(fields) / density)
+
+    def fit(start: Layout, vary: Size) -> Layout:
+        return start.scale(find_root(lambda times: off(start.scale(times, vary)), CLOSE / 4 / density, TRIES), vary)
+
+    if request.cell is None and request.line_width is None and layout.cell > (most := layout.space.across):
+        if request.form == "project":
+            fitted = fit(layout, varied[0])
+            if abs(off(fitted)) <= CLOSE / density:
+                return fitted, varied, fields
+        layout, varied = replace(layout, cell=most, width=layout.width * most / layout.cell), ("width",)
+    return fit(layout, varied[0]), varied, fields
+
+
+def estimate_triangles(job: Job, layout: Layout, known: Fields | None) -> tuple[float, Fields | None]:
+    """Estimate the number of triangles of voids before they are simplified; return their fields too."""
+    if not isinstance(job.pattern, Periodic):
+        return 0, known
+    fields, depth, crossed = job.draw(layout, known), layout.space.depth, 0
+    out = np.empty_like(depth)
+    for which in range(fields.count):
+        fields.write_sdf(out, which, depth)
+        crossed += sum(int((np.abs(layer) < 0.5).sum()) for layer in out)
+    return TRIANGLES_A_CELL * crossed, fields
+
+
+def fit_density(job: Job, layout: Layout, varied: tuple[Size, ...], fields: Fields | None) -> tuple[VoidMeshes, Fields]:
+    """Make voids whose meshes leave the requested density, as smoothing and the grid fill corners of voids."""
+    hollow, fields = make_voids(job, layout, fields)
+    if job.request.grading is not None:
+        return _match_local_densities(job, hollow, fields)
+    density = job.request.density or LEAST
+
+    def off(hollow: VoidMeshes) -> float:
+        return math.log(max(hollow.density, LEAST) / density)
+
+    def evaluate(times: float, start: Layout, vary: Size) -> float:
+        nonlocal hollow, fields
+        candidate = hollow
+        if times != 1:
+            candidate, fields = make_voids(job, start.scale(times, vary), fields)
+        hollow = min(hollow, candidate, key=lambda hollow: abs(off(hollow)))  # two are kept at most
+        return off(candidate)
+
+    for vary in varied:
+        find_root(partial(evaluate, start=hollow.layout, vary=vary), CLOSE / density, ROUNDS)
+    return hollow, fields
+
+
+def _match_local_densities(job: Job, hollow: VoidMeshes, fields: Fields) -> tuple[VoidMeshes, Fields]:
+    """Make voids whose meshes leave the density requested at every place."""
+    power = 2 if has_bars(job.request.kind) else 1
+    for _ in range(GRADING_ROUNDS):
+        layout, local = hollow.layout, hollow.layout.local
+        assert local is not None
+        requested, measured = densities_by_share(
+            layout.space, hollow.surface, local, GRADING_STEPS, mean=hollow.density
+        )
+        # Steps are thinner than cells of the pattern, so only the slope of the line through all of them counts; its
+        # height follows from the density of the whole part.
+        line = np.polynomial.Polynomial.fit(requested, np.log(requested / np.maximum(measured, LEAST)), 1)
+        line += math.log(local.mean / max(hollow.density, LEAST)) - float(np.average(line(requested), weights=measured))
+        if np.abs(line(requested)).max() < GRADING_CLOSE and abs(hollow.density / local.mean - 1) < GRADING_CLOSE:
+            break
+        factors = np.exp(np.clip(line(local.shares.astype(np.float64)), -MOST_OFF, MOST_OFF) / power)
+        hollow, fields = make_voids(job, replace(layout, local=local.widen(factors)), fields)
+    return hollow, fields
+
+
+def match_width(
+    job: Job, hollow: VoidMeshes, width: float, varied: tuple[Size, ...], fields: Fields
+) -> tuple[VoidMeshes, Fields]:
+    """Redraw voids until walls between them have the requested width, mm, unless the density fixes the width."""
+    request = job.request
+    if "width" in varied[:1] or request.grading is not None or not has_uniform_width(job):
+        return hollow, fields
+    fields = job.draw(replace(hollow.layout, space=job.reach(hollow.space)), fields)
+    if not choose_smoothing(job, fields).steps:
+        return hollow, fields
+    for _ in range(REDRAWN):
+        median, seen = hollow.median
+        if median is None or seen < SURE or abs(median / width - 1) <= WIDTH_CLOSE:
+            break
+        layout = replace(hollow.layout, width=hollow.width * width / median)
+        redrawn, fields = fit_density(job, layout, varied, fields)
+        redrawn = simplify_voids(job, redrawn, request.tolerance)
+        if not redrawn.surfaces or abs(redrawn.density - (request.density or redrawn.density)) > FARTHER_OFF:
+            break
+        hollow = redrawn
+    return hollow, fields

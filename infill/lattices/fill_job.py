@@ -1,0 +1,82 @@
+"""A part to fill, with all that making its infill takes: the request, the pattern in its place, and the means."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.interior.interior import Interior
+from infill.lattices.bodies import BodyFields, Fields, draw_in_bodies
+from infill.lattices.choosing import choose_voids
+from infill.lattices.request import FillSpec
+from infill.lattices.voids import Layout, VoidFields, VoidPattern
+from infill.result import Clock
+from infill.surface import Surface
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Job:
+    """A part to fill as requested.
+
+    Parameters
+    ----------
+    part : Surface, mm
+    request : FillSpec
+        With the side of the cells of the grid in place of a resolution.
+    pattern : VoidPattern
+        The requested pattern, in its place in the part.
+    clock : Clock
+    threads, max_memory : int, optional
+    """
+
+    part: Surface
+    request: FillSpec
+    pattern: VoidPattern
+    clock: Clock
+    threads: int | None = None
+    max_memory: int | None = None
+
+    @classmethod
+    def of(
+        cls,
+        part: Surface,
+        request: FillSpec,
+        *,
+        clock: Clock | None = None,
+        threads: int | None = None,
+        max_memory: int | None = None,
+    ) -> Job:
+        """Make the job of a request; raise ParameterError if the pattern cannot be had as requested."""
+        if request.resolution is not None:
+            request = replace(request, voxel=float(np.ptp(part.bounds, axis=0).max()) / request.resolution)
+        return cls(
+            part=part,
+            request=request,
+            pattern=choose_voids(request, part.bounds),
+            clock=clock or Clock(None),
+            threads=threads,
+            max_memory=max_memory,
+        )
+
+    def shift(self, phase: tuple[float, float, float]) -> Job:
+        """Return the same job with the pattern shifted by a phase, mm, and a clock of its own."""
+        request = replace(self.request, phase=phase)
+        return replace(self, request=request, pattern=choose_voids(request, self.part.bounds), clock=Clock(None))
+
+    @property
+    def extents(self) -> NDArray[np.floating]:
+        """Sides of the box around the part, (3,) mm."""
+        extents: NDArray[np.floating] = np.ptp(self.part.bounds, axis=0)
+        return extents
+
+    def reach(self, space: Interior) -> Interior:
+        """Return the space that voids may take: in a project, through the walls and a little out of the part."""
+        return space.unwalled if self.request.form == "project" else space
+
+    def draw(self, layout: Layout, known: Fields | None = None) -> Fields:
+        """Draw the pattern; what suits of an earlier drawing is used again."""
+        if self.request.align == "body":
+            return draw_in_bodies(self.pattern, layout, known if isinstance(known, BodyFields) else None)
+        return self.pattern.draw(layout, known if isinstance(known, VoidFields) else None)
