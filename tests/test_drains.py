@@ -23,9 +23,10 @@ from benchmarks.fill_drains import PARTS, Case, distances, faults, mouth_of, run
 from infill import GeometryError, Surface, UsageError, fill
 from infill.cli.app import build_app
 from infill.drains.drain_clearance import Skin
-from infill.drains.drain_columns import LineLattice, find_crossings, find_ways
-from infill.drains.drain_places import TURN_OVER, DrainNeeds
+from infill.drains.drain_columns import DrainWays, LineLattice, find_crossings, find_ways
+from infill.drains.drain_places import TURN_OVER
 from infill.drains.drain_plan import DrainPlan, plan_drains
+from infill.drains.holes import DrainNeeds
 from infill.isosurfaces.components import shell_names
 from infill.lattices.drain_holes import DrainedSolid, find_closed_voids
 from infill.meshes.distance import TriangleTree
@@ -502,9 +503,18 @@ def test_a_mouth_ends_where_its_face_does(degrees: float) -> None:
     faces = np.flatnonzero(skin.leaving)
     assert len(faces)
     at = lowest[:2] + np.array([0.0, 15.0 if lowest[1] < 0 else -15.0])
-    shaft = skin.shaft(
-        at, int(faces[0]), float(lowest[2]), float(lowest[2]) + 4, float(lowest[2]) + 6, radius=2.0, wall=1.0, threads=1
-    )
+    low = float(lowest[2])
+    way = {
+        "line": [0],
+        "at": [at],
+        "skin": [low],
+        "face": faces[:1],
+        "void": [0],
+        "floor": [low + 4],
+        "ceiling": [low + 9],
+    }
+    ways = DrainWays(**{name: np.asarray(value) for name, value in way.items()})
+    shaft = skin.shaft(ways, 0, low + 6, DrainNeeds(diameter=4.0, wall=1.0, cell=4.0, threads=1))
     assert shaft is None or shaft.clearance < 1.0
 
 

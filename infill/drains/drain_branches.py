@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.drains.drain_columns import find_crossings
-from infill.drains.drain_places import DrainNeeds, TurnedPart
+from infill.drains.drain_places import TurnedPart
+from infill.drains.holes import DrainNeeds, Hole
 from infill.meshes.distance import TriangleTree
 from infill.surface import Surface
 
@@ -27,34 +28,6 @@ ALONG = 0.2  # mm: largest distance between the points at which a branch is meas
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Branch:
-    """A hole with round ends from a void into another.
-
-    Parameters
-    ----------
-    start, end : (3,) float64, mm
-        Of its axis.
-    void, into : int
-    diameter : float, mm
-    clearance : float
-        Least distance of the hole from the skin, mm.
-    near : (3,) float64, mm
-        The place of that distance on the axis.
-    above : float
-        Height of its start above the lowest place of its void, mm.
-    """
-
-    start: Floats
-    end: Floats
-    void: int
-    into: int
-    diameter: float
-    clearance: float
-    near: Floats
-    above: float
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -78,8 +51,8 @@ class BranchEnds:
     above: Floats
 
 
-def find_branches(below: TurnedPart, needs: DrainNeeds, drained: Iterable[int], wanting: Iterable[int]) -> list[Branch]:
-    """Find branches that join voids to drained ones, or to other voids on the way there.
+def find_branches(below: TurnedPart, needs: DrainNeeds, drained: Iterable[int], wanting: Iterable[int]) -> list[Hole]:
+    """Find branches, in the turned part, that join voids to drained ones, or to other voids on the way there.
 
     Parameters
     ----------
@@ -95,7 +68,7 @@ def find_branches(below: TurnedPart, needs: DrainNeeds, drained: Iterable[int], 
         return []
     tree = below.skin.whole
     reach = _find_ends(below, needs, open_, shut)
-    branches: list[Branch] = []
+    branches: list[Hole] = []
     while shut:
         goals = np.flatnonzero(np.isin(reach.void, list(open_)))
         starts = np.flatnonzero(np.isin(reach.void, list(shut)))
@@ -119,7 +92,7 @@ def find_branches(below: TurnedPart, needs: DrainNeeds, drained: Iterable[int], 
 
 def _find_cheapest(
     needs: DrainNeeds, tree: TriangleTree, reach: BranchEnds, starts: Integers, goals: Integers, cost: Floats
-) -> list[tuple[float, Branch]]:
+) -> list[tuple[float, Hole]]:
     """Find the cheapest branch of every void that keeps the wall; return each with its cost."""
     branches = []
     order = np.argsort(cost, axis=None, kind="stable")
@@ -131,9 +104,12 @@ def _find_cheapest(
             start, end = int(starts[row[index]]), int(goals[row[index], column[index]])
             clearance, place = _measure_clearance(tree, reach.at[start], reach.at[end], needs)
             if clearance >= needs.wall:
-                branch = Branch(
-                    start=reach.at[start],
-                    end=reach.at[end],
+                axis = reach.at[start] - reach.at[end]
+                branch = Hole(
+                    kind="branch",
+                    at=reach.at[start],
+                    to=reach.at[end],
+                    way=axis / max(float(np.linalg.norm(axis)), 1e-300),
                     void=name,
                     into=int(reach.void[end]),
                     diameter=needs.diameter,

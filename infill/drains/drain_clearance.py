@@ -13,6 +13,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.drains.drain_columns import DrainWays
+from infill.drains.holes import DrainNeeds, Shaft
 from infill.graph import label_connected
 from infill.isosurfaces.components import shell_names
 from infill.meshes.distance import TriangleTree
@@ -31,34 +33,6 @@ OUT = 0.25, 0.4  # of the diameter and of the wall; the lesser is the length of 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 Integers = NDArray[np.int64]
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Shaft:
-    """A round hole along z.
-
-    Parameters
-    ----------
-    at : (2,) float64, mm
-    low, high : float
-        Heights of its ends, mm.
-    skin : float
-        Height at which its axis leaves the part, mm.
-    floor : float
-        Height at which its axis enters the void, mm.
-    clearance : float
-        Least distance of the hole from the other skin, mm.
-    near : (3,) float64, mm
-        The place of that distance on the hole.
-    """
-
-    at: Floats
-    low: float
-    high: float
-    skin: float
-    floor: float
-    clearance: float
-    near: Floats
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -142,75 +116,43 @@ class Skin:
         """Tell whether the tree of a mouth is built already."""
         return mouth in self._trees
 
-    def may_keep(
-        self,
-        at: Floats,
-        face: Integers,
-        low: Floats,
-        high: Floats,
-        *,
-        radius: float,
-        wall: float,
-        mouth: int,
-        threads: int | None,
-    ) -> Bools:
+    def may_keep(self, ways: DrainWays, numbers: Integers, high: Floats, needs: DrainNeeds, mouth: int) -> Bools:
         """Test which holes may keep the wall from the skin outside a mouth, (N,), by points on them, few at first.
 
         Parameters
         ----------
-        at : (N, 2) float64, mm
-        face : (N,) int64
-            The face through which the axis leaves.
-        low, high : (N,) float64, mm
-            Heights at which the axis leaves, and at which the hole ends.
-        radius, wall : float, mm
+        ways : DrainWays
+        numbers : (N,) int64
+            Of the ways along which the holes lead.
+        high : (N,) float64, mm
+            Heights at which they end.
+        needs : DrainNeeds
         mouth : int
-        threads : int, optional
         """
-        tree = self.tree(mouth)
+        tree, at, low = self.tree(mouth), ways.at[numbers], ways.skin[numbers]
         remaining = np.arange(len(at))
         if tree is not None:
-            z = -self.normals[face, 2]
-            slope = radius * np.sqrt(np.clip(1 - z**2, 0, None)) / z
+            z = -self.normals[ways.face[numbers], 2]
+            slope = needs.radius * np.sqrt(np.clip(1 - z**2, 0, None)) / z
             for around, along, ends in (FEW, COARSE):
                 points = _surface_points(
-                    at[remaining], (low - slope)[remaining], high[remaining], radius, around, along, ends
+                    at[remaining], (low - slope)[remaining], high[remaining], needs.radius, around, along, ends
                 )
-                distances, _ = tree.nearest(points.reshape(-1, 3), enough=CERTAIN * wall, threads=threads)
-                remaining = remaining[distances.reshape(points.shape[:2]).min(axis=1, initial=np.inf) >= wall]
+                distances, _ = tree.nearest(points.reshape(-1, 3), enough=CERTAIN * needs.wall, threads=needs.threads)
+                nearest = distances.reshape(points.shape[:2]).min(axis=1, initial=np.inf)
+                remaining = remaining[nearest >= needs.wall]
         may_keep = np.zeros(len(at), dtype=bool)
         may_keep[remaining] = True
         return may_keep
 
-    def shaft(
-        self,
-        at: Floats,
-        face: int,
-        low: float,
-        floor: float,
-        high: float,
-        *,
-        radius: float,
-        wall: float,
-        threads: int | None,
-    ) -> Shaft | None:
-        """Measure a hole: the heights at which its rim leaves the part, and its distance from the other skin.
+    def shaft(self, ways: DrainWays, way: int, high: float, needs: DrainNeeds) -> Shaft | None:
+        """Measure the hole along a way, up to a height, mm.
 
-        Parameters
-        ----------
-        at : (2,) float64, mm
-        face : int
-            The face through which the axis leaves.
-        low, floor, high : float
-            Heights at which the axis leaves the part and enters the void, and at which the hole ends, mm.
-        radius, wall : float, mm
-        threads : int, optional
-
-        Returns
-        -------
-        Shaft or None
-            None if the hole runs over the edge of the face that it leaves through.
+        Return the heights at which its rim leaves the part, and its distance from the other skin; None if the hole runs
+        over the edge of the face that it leaves through.
         """
+        at, face, low = ways.at[way], int(ways.face[way]), float(ways.skin[way])
+        radius, wall, threads = needs.radius, needs.wall, needs.threads
         reach = NEAR * (2 * radius + wall)
         mouth_faces, stray = self._split_mouth(at, face, low - reach, high, radius + reach)
         rim = self._find_rim(at, mouth_faces, low, radius)
@@ -240,7 +182,7 @@ class Skin:
             low=lowest - min(OUT[0] * 2 * radius, OUT[1] * wall),
             high=high,
             skin=low,
-            floor=floor,
+            floor=float(ways.floor[way]),
             clearance=clearance,
             near=points[nearest],
         )

@@ -11,8 +11,9 @@ from itertools import islice, pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.drains.drain_clearance import Shaft, Skin
+from infill.drains.drain_clearance import Skin
 from infill.drains.drain_columns import DrainWays, LineLattice, find_ways
+from infill.drains.holes import DrainNeeds, Shaft
 from infill.surface import Surface
 
 ACROSS, IN_A_CELL = 6, 10  # lines in the diameter of a drain, and in a cell of the pattern
@@ -28,32 +29,6 @@ TURN_OVER = np.diag([1.0, -1.0, -1.0])  # half a turn about x: up becomes down
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
-
-
-@dataclass(frozen=True, kw_only=True)
-class DrainNeeds:
-    """Requirements of a drain.
-
-    Parameters
-    ----------
-    diameter, wall : float, mm
-    cell : float
-        Of the pattern, mm.
-    closed_at : float or None
-        Height of a side of the part that is open already, through which no drain leaves, mm.
-    threads : int or None
-    """
-
-    diameter: float
-    wall: float
-    cell: float
-    closed_at: float | None = None
-    threads: int | None = None
-
-    @property
-    def radius(self) -> float:
-        """Of a drain, mm."""
-        return self.diameter / 2
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -198,16 +173,7 @@ class DrainPlaces:
         needs = self.needs
         for up in UP:
             for way, high in islice(self._filter_ways(ways, up), TRIES):
-                shaft = self.below.skin.shaft(
-                    self.ways.at[way],
-                    int(self.ways.face[way]),
-                    float(self.ways.skin[way]),
-                    float(self.ways.floor[way]),
-                    high,
-                    radius=needs.radius,
-                    wall=needs.wall,
-                    threads=needs.threads,
-                )
+                shaft = self.below.skin.shaft(self.ways, way, high, needs)
                 if shaft is not None and shaft.clearance >= needs.wall:
                     return shaft
         return None
@@ -223,16 +189,7 @@ class DrainPlaces:
             mouths = np.where([skin.knows(name) for name in mouths.tolist()], mouths, -1)
             for mouth in np.unique(mouths).tolist():
                 at_mouth = mouths == mouth
-                is_passing[at_mouth] = skin.may_keep(
-                    self.ways.at[batch[at_mouth]],
-                    self.ways.face[batch[at_mouth]],
-                    self.ways.skin[batch[at_mouth]],
-                    high[at_mouth],
-                    radius=needs.radius,
-                    wall=needs.wall,
-                    mouth=mouth,
-                    threads=needs.threads,
-                )
+                is_passing[at_mouth] = skin.may_keep(self.ways, batch[at_mouth], high[at_mouth], needs, mouth)
             for index in np.flatnonzero(is_passing).tolist():
                 yield int(batch[index]), float(high[index])
 

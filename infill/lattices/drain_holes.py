@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.drains.drain_places import DrainNeeds
-from infill.drains.drain_plan import DrainPlan, Hole, SealedVoid, plan_drains
+from infill.drains.drain_plan import DrainPlan, SealedVoid, plan_drains
+from infill.drains.holes import DrainNeeds, Hole
 from infill.errors import GeometryError
 from infill.isosurfaces.components import shell_names
 from infill.lattices.fill_job import Job
