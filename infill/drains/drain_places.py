@@ -116,36 +116,30 @@ class DrainPlaces:
     ways : DrainWays
     order : list of (N,) int64
         Numbers of the ways of each void, the best first.
-    lowest : (V,) float64
-        mm
     """
 
     below: TurnedPart
     needs: DrainNeeds
     ways: DrainWays
     order: list[Integers]
-    lowest: Floats
 
     @classmethod
     def of(cls, below: TurnedPart, needs: DrainNeeds, *, void: int | None = None) -> DrainPlaces:
         """Find the places, of all voids or one, from which a line straight down leaves the part through solid alone."""
         lattice = below.lattice(needs) if void is None else below.lattice_of(needs, void)
         ways = find_ways(below.part, below.voids, below.names, lattice)
-        lowest = below.lowest
         free = below.skin.leaving[ways.face]
         if needs.closed_at is not None:
             level = 1e-5 * float(np.ptp(below.part.bounds, axis=0).max())
             free &= np.abs(ways.skin - needs.closed_at) > level
         room = _room_around(ways, lattice, needs.radius)
-        cost = ways.floor - lowest[ways.void] + CENTRED * np.clip(needs.radius - room, 0, None)
+        cost = ways.floor - below.lowest[ways.void] + CENTRED * np.clip(needs.radius - room, 0, None)
         selected = np.flatnonzero(free)
         selected = selected[np.lexsort((cost[selected], ways.void[selected]))]
         ends = np.searchsorted(ways.void[selected], np.arange(below.count + 1))
         order = [selected[begin:end] for begin, end in pairwise(ends.tolist())]
         _build_trees(below.skin, ways.face[selected])
-        return cls(
-            below=below, needs=needs, ways=ways, order=[_select_ways(numbers) for numbers in order], lowest=lowest
-        )
+        return cls(below=below, needs=needs, ways=ways, order=[_select_ways(numbers) for numbers in order])
 
     def shaft(self, void: int, taken: Floats | None) -> Shaft | None:
         """Find the best hole for a void that keeps the wall from other skin, or return None.

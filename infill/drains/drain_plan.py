@@ -215,7 +215,7 @@ def _drain_one_way(
         shaft = places.shaft(void, np.array(taken).reshape(-1, 2) if apart else None)
         if shaft is not None:
             taken.append(shaft.at)
-            lowest = float(places.lowest[void])
+            lowest = float(below.lowest[void])
             new_holes.append(Hole.of(shaft, kind, void, diameter=needs.diameter, lowest=lowest))
             drained.add(void)
         return shaft is not None

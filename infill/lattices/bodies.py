@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 from infill.interior.interior import BAND, Interior
 from infill.interior.layer_stack import LayerStack
 from infill.isosurfaces.components import shell_names
-from infill.lattices.voids import Field, Layout, VoidFields, VoidPattern
+from infill.lattices.choosing import choose_voids
+from infill.lattices.request import FillSpec
+from infill.lattices.voids import Field, Layout, VoidFields
 from infill.meshes.shells import select_faces, shell_volumes
 from infill.meshes.winding import winding_numbers
 
@@ -24,15 +26,14 @@ class PartBody:
 
     Parameters
     ----------
-    middle : (3,) float64
-        Of the box around it, mm.
+    bounds : (2, 3) float64, mm
     box : three slices
         Of the grid.
     cells : (nx, ny, nz) bool
         True for the cells of this box that belong to the component.
     """
 
-    middle: NDArray[np.float64]
+    bounds: NDArray[np.float64]
     box: tuple[slice, ...]
     cells: NDArray[np.bool_]
 
@@ -89,8 +90,8 @@ class BodyFields:
 Fields = VoidFields | BodyFields
 
 
-def draw_in_bodies(pattern: VoidPattern, layout: Layout, known: BodyFields | None = None) -> BodyFields:
-    """Draw a pattern about the middle of each body; what suits of an earlier drawing is used again."""
+def draw_in_bodies(request: FillSpec, layout: Layout, known: BodyFields | None = None) -> BodyFields:
+    """Draw the requested pattern about the middle of each body; what suits of an earlier drawing is used again."""
     space, local = layout.space, layout.local
     if known is not None and known.layout.space is space:
         boxes: list[tuple[PartBody, Interior, VoidFields | None]] = [
@@ -101,7 +102,7 @@ def draw_in_bodies(pattern: VoidPattern, layout: Layout, known: BodyFields | Non
     bodies = []
     for body, box, fields in boxes:
         in_box = replace(layout, space=box, local=local and local.in_box(body.corner, box.shape))
-        bodies.append((body, pattern.about(body.middle).draw(in_box, fields)))
+        bodies.append((body, choose_voids(request, body.bounds).draw(in_box, fields)))
     return BodyFields(layout=layout, bodies=tuple(bodies))
 
 
@@ -115,28 +116,28 @@ def find_bodies(space: Interior) -> list[PartBody]:
     walled = space.walled or space
     regions, count = label(walled.depth > 0)
     deepest = np.array(maximum_position(walled.depth, regions, np.arange(1, count + 1))).reshape(-1, 3)
-    owner, middles = _find_owners(walled, walled.origin + walled.size * deepest)
+    owner, bounds = _find_owners(walled, walled.origin + walled.size * deepest)
     body_number = np.concatenate([[0], owner + 1]).astype(np.uint16)[regions]
     del regions
     for _ in range(math.ceil(BAND + float((space.depth - walled.depth).max()))):
         wider = grey_dilation(body_number, size=(3, 3, 3))
         np.copyto(body_number, wider, where=body_number == 0)
     return [
-        PartBody(middle=middles[number], box=box, cells=body_number[box] == number + 1)
+        PartBody(bounds=bounds[number], box=box, cells=body_number[box] == number + 1)
         for number, box in enumerate(find_objects(body_number))
         if box is not None
     ]
 
 
-def _find_owners(space: Interior, points: NDArray[np.float64]) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
-    """Find the component of a part that encloses each point (N, 3): its number (N,), and all middles, (M, 3) mm."""
+def _find_owners(space: Interior, points: NDArray[np.float64]) -> tuple[NDArray[np.intp], list[NDArray[np.float64]]]:
+    """Find the component of a part that encloses each point (N, 3): its number (N,), and the bounds of each, mm."""
     part = space.part
     names, count = shell_names(part)
     volume, shell = shell_volumes(part, names, count), names[part.faces[:, 0]]
-    owner, middles = np.zeros(len(points), dtype=np.intp), []
+    owner, bounds = np.zeros(len(points), dtype=np.intp), []
     # The smaller ones last: they may lie in a cavity of a larger one.
     for number, outer in enumerate(sorted(np.flatnonzero(volume > 0).tolist(), key=lambda name: -volume[name])):
         body = select_faces(part, shell == outer)
         owner[winding_numbers(points, body) > 0] = number
-        middles.append(np.asarray(body.bounds, dtype=np.float64).mean(axis=0))
-    return owner, np.array(middles)
+        bounds.append(np.asarray(body.bounds, dtype=np.float64))
+    return owner, bounds

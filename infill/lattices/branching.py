@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,33 +40,20 @@ class BranchLines:
     anchor: Floats
 
     @property
-    def two_sided(self) -> bool:
-        """False, as branches have ends."""
-        return False
-
-    def sides(self, space: Interior, cell: float) -> Iterator[NDArray[np.bool_]]:  # noqa: ARG002 - of the protocol
-        """See `LinesByLayer`: none."""
-        return iter(())
-
-    @property
     def steepest(self) -> float:
         """Distance by which tips draw back in a layer, in cells, and its uncertainty."""
         return math.tan(math.radians(self.pattern.overhang)) + SLACK
 
-    def sharpest(self, space: Interior, cell: float) -> float:  # noqa: ARG002 - of the protocol
-        """See `Voids`."""
+    def sharpest(self, space: Interior, cell: float) -> float:  # noqa: ARG002 - as of `LayerLines`
+        """Return the angle of the corners where branches meet walls, degrees."""
         return 90.0
 
-    def about(self, middle: Floats) -> BranchLines:
-        """See `Anchored`."""
-        return replace(self, anchor=middle + self.anchor)
-
     def widths(self, density: float) -> float:
-        """See `Voids`: a guess that does not depend on the part."""
+        """See `VoidPattern`: a guess that does not depend on the part."""
         return SHARE * density
 
     def lines(self, space: Interior, cell: float) -> list[Floats]:
-        """See `LinesByLayer`."""
+        """Draw the branches in each layer, for cells of a size, mm: (S, 2, 2), in cells from the first centre."""
         step = math.tan(math.radians(self.pattern.overhang))
         walls = _Walls(depth=space.below_walls, step=step, deeper=DEEPER + space.through)
         reach = cell / 2 / space.size

@@ -34,12 +34,10 @@ HELD = ("cell", "angle", "phase", "frame")  # parameters of patterns that `fill`
 
 
 def choose_voids(request: FillSpec, bounds: NDArray[np.floating]) -> VoidPattern:
-    """Put the requested pattern in its place in a part with these bounds (2, 3), mm; by body, about (0, 0, 0)."""
-    middle = np.asarray(bounds, dtype=np.float64).mean(axis=0)
-    if request.align == "bed":
-        middle = np.array([0.0, 0.0, float(bounds[0][2])])
-    anchor = request.phase + (np.zeros(3) if request.align == "body" else middle)
-    radians = np.radians(request.angle)
+    """Put the requested pattern in its place in a part, or in a body of it, with these bounds (2, 3), mm."""
+    is_on_bed = request.align == "bed"
+    origin = np.array([0.0, 0.0, float(bounds[0][2])]) if is_on_bed else np.asarray(bounds, np.float64).mean(axis=0)
+    anchor, radians = request.phase + origin, np.radians(request.angle)
     turn = np.array(
         [[np.cos(radians), np.sin(radians), 0.0], [-np.sin(radians), np.cos(radians), 0.0], [0.0, 0.0, 1.0]]
     )
@@ -124,17 +122,11 @@ def configure_lines(kind: Pattern | type[Pattern], request: FillSpec) -> Pattern
     rotation = {"angle": math.remainder(own_angle + request.angle, 360.0)} if "angle" in declared else {}
     values = {**request.parameters, **rotation}
     made_pattern = with_parameters(kind, values)
-    if follows_outline(made_pattern):
-        _check_follower(request)
-    return made_pattern
-
-
-def _check_follower(request: FillSpec) -> None:
-    """Raise ParameterError if a pattern that follows the part is to be shifted, or to be denser at a depth."""
-    if any(request.phase):
+    if follows_outline(made_pattern) and any(request.phase):
         shift = ", ".join(f"{step:g}" for step in request.phase)
         raise ParameterError.about("phase", f"is {shift} mm, and {request.pattern} follows the part; leave it out")
-    if request.grading is not None and request.grading.name == SKIN:
+    if follows_outline(made_pattern) and request.grading is not None and request.grading.name == SKIN:
         raise ParameterError.about(
             "by", f"is 'skin', and every wall of {request.pattern} lies at one depth; choose x, y, z or another pattern"
         )
+    return made_pattern

@@ -164,7 +164,10 @@ def resolve_field(by: object) -> tuple[Field, str]:
     path = Path(text)
     suffix = path.suffix.lower()
     if names_code(text):
-        return FunctionField(function=_load_function(text), name=text), text
+        loaded = load_object(text)
+        if not callable(loaded):
+            raise FormatError(f"{text} is not a function; check the name")
+        return FunctionField(function=loaded, name=text), text
     if suffix in PICTURES:
         grey = read_grey(require_readable(path, PICTURES, "a picture"))
         return BoxedField(values=grey[::-1].T[:, :, None].astype(np.float64)), text
@@ -200,11 +203,3 @@ def _read_table(path: Path) -> Floats:
             if number or rows:
                 raise
     return np.array(rows)
-
-
-def _load_function(text: str) -> Callable[[Floats], Any]:
-    """Load a function by the file and the name in ``module.py:name``."""
-    loaded = load_object(text)
-    if not callable(loaded):
-        raise FormatError(f"{text} is not a function; check the name")
-    return loaded

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -42,10 +41,6 @@ class Prismatic:
     pattern: Pattern
     anchor: NDArray[np.float64]
     share: float
-
-    def about(self, middle: NDArray[np.float64]) -> Prismatic:
-        """See `VoidPattern`."""
-        return dataclasses.replace(self, anchor=middle + self.anchor)
 
     @cached_property
     def sample(self) -> LineSample:

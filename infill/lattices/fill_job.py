@@ -78,5 +78,5 @@ class Job:
     def draw(self, layout: Layout, known: Fields | None = None) -> Fields:
         """Draw the pattern; what suits of an earlier drawing is used again."""
         if self.request.align == "body":
-            return draw_in_bodies(self.pattern, layout, known if isinstance(known, BodyFields) else None)
+            return draw_in_bodies(self.request, layout, known if isinstance(known, BodyFields) else None)
         return self.pattern.draw(layout, known if isinstance(known, VoidFields) else None)

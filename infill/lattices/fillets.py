@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import shapely
 from numpy.typing import NDArray
@@ -74,6 +76,7 @@ def sharpest_angle(angles: Floats) -> float:
     return min(90.0, float(np.quantile(angles, FEW))) if len(angles) else 90.0
 
 
+@cache
 def corner_angle_between_walls(pattern: Cellular) -> float:
     """Return the angle of the sharpest corners of voids in a pattern in space, degrees.
 

@@ -51,7 +51,7 @@ class Forest:
         length = np.linalg.norm(direction, axis=1)
         longer = length > step + SURE
         self.at[tips[longer]] += direction[longer] * (step / length[longer])[:, None]
-        self._keep(~self._mask_of(tips[~longer]))
+        self._keep(~np.isin(np.arange(len(self.to)), tips[~longer]))
         self._drop_bare_feet()
 
     def stand(self, inside: Flags) -> None:
@@ -119,11 +119,6 @@ class Forest:
         is_tip = np.ones(len(self.to), dtype=bool)
         is_tip[self.to[self.to != NONE]] = False
         return is_tip
-
-    def _mask_of(self, numbers: NDArray[np.intp]) -> Flags:
-        flags = np.zeros(len(self.to), dtype=bool)
-        flags[numbers] = True
-        return flags
 
     def _drop_bare_feet(self) -> None:
         self._keep(~(self._is_tip() & (self.to == NONE)))

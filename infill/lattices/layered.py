@@ -6,9 +6,8 @@ Walls between two voids need no cell of the grid in them; around all of them, th
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import Protocol, Self
 
 import numpy as np
 import shapely
@@ -16,6 +15,7 @@ from numpy.typing import NDArray
 
 from infill.interior.interior import BAND, Interior
 from infill.kernels.threads import in_threads, thread_count
+from infill.lattices.branching import BranchLines
 from infill.lattices.fillets import sharpest_angle
 from infill.lattices.line_sample import SAMPLE, LineSample, centred_square, corner_angles, line_segments
 from infill.lattices.voids import Layout, VoidFields
@@ -26,40 +26,6 @@ STEEPEST = 1.75  # slope of a wall, 60 degrees: lines that move by more from lay
 WIDER_LINES = 1.5  # range of line widths for which distances suffice, over the width they were made for
 
 Floats = NDArray[np.float64]
-
-
-class LinesByLayer(Protocol):
-    """Lines in every layer of a space."""
-
-    def lines(self, space: Interior, cell: float) -> list[Floats]:
-        """Return the lines in each layer, for cells of a size, mm: (S, 2, 2), in cells from the first centre."""
-        ...
-
-    def sides(self, space: Interior, cell: float) -> Iterator[NDArray[np.bool_]]:
-        """Yield a mask of the cells (nx, ny) on one side of the lines for each layer; nothing without sides."""
-        ...
-
-    def widths(self, density: float) -> float:
-        """See `Voids`."""
-        ...
-
-    @property
-    def two_sided(self) -> bool:
-        """True if lines have two sides, and no ends."""
-        ...
-
-    @property
-    def steepest(self) -> float:
-        """Largest distance of a line from that of the layer above, in cells."""
-        ...
-
-    def sharpest(self, space: Interior, cell: float) -> float:
-        """Return the angle of the sharpest corners between lines, degrees: see `Voids`."""
-        ...
-
-    def about(self, middle: Floats) -> Self:
-        """See `Anchored`."""
-        ...
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -76,19 +42,15 @@ class NonPrismatic:
 
     Parameters
     ----------
-    layers : LinesByLayer
+    layers : LayerLines or BranchLines
     """
 
-    layers: LinesByLayer
+    layers: LayerLines | BranchLines
 
     @property
     def around(self) -> bool:
         """True if one void lies around all walls, so that cells of the grid must resolve the walls."""
-        return not self.layers.two_sided
-
-    def about(self, middle: Floats) -> NonPrismatic:
-        """See `VoidPattern`."""
-        return replace(self, layers=self.layers.about(middle))
+        return isinstance(self.layers, BranchLines) or LEVEL_SET not in gives(self.layers.pattern)
 
     def widths(self, density: float) -> float:
         """See `VoidPattern`."""
@@ -120,7 +82,8 @@ class NonPrismatic:
         segments = np.concatenate([np.empty((0, 2, 2)), *lines])
         offsets = np.cumsum([0, *map(len, lines)])
         in_threads(distances_to_lines, segments, offsets, reach, away, threads=thread_count(layout.threads))
-        for layer, side in enumerate(self.layers.sides(space, layout.cell)):
+        sides = () if isinstance(self.layers, BranchLines) else self.layers.sides(space, layout.cell)
+        for layer, side in enumerate(sides):
             away[:, :, layer] *= np.where(side, np.float32(1), np.float32(-1))
         return _Distances(away=away, reach=reach)
 
@@ -146,17 +109,12 @@ class LayerLines:
         return LineSample(pattern=self.pattern)
 
     @property
-    def two_sided(self) -> bool:
-        """True if a level set gives the side of the lines on which a point lies."""
-        return LEVEL_SET in gives(self.pattern)
-
-    @property
     def steepest(self) -> float:
-        """See `LinesByLayer`."""
+        """Largest distance of a line from that of the layer above, in cells."""
         return STEEPEST
 
     def sharpest(self, space: Interior, cell: float) -> float:
-        """See `Voids`: corners of a few cells at several heights inside the walls."""
+        """Find the angle of the sharpest corners, degrees, in a few cells at several heights inside the walls."""
         pattern, heights = with_cell(self.pattern, cell), self._heights(space)[(space.depth > 0).any(axis=(0, 1))]
         region = centred_square(SAMPLE / 2 * cell)
         sampled = np.linspace(heights[0], heights[-1], min(LOOKED_AT, len(heights)))
@@ -164,15 +122,11 @@ class LayerLines:
         return sharpest_angle(np.concatenate(angles))
 
     def widths(self, density: float) -> float:
-        """See `Voids`: those of one height."""
+        """See `VoidPattern`: those of one height."""
         return self.sample.widths(density)
 
-    def about(self, middle: Floats) -> LayerLines:
-        """See `Anchored`."""
-        return replace(self, anchor=middle + self.anchor)
-
     def lines(self, space: Interior, cell: float) -> list[Floats]:
-        """See `LinesByLayer`."""
+        """Draw the lines in each layer, for cells of a size, mm: (S, 2, 2), in cells from the first centre."""
         pattern, start = with_cell(self.pattern, cell), space.origin[:2] - self.anchor[:2]
         depth, segments = space.depth, []
         for layer, z in enumerate(self._heights(space)):
@@ -186,7 +140,7 @@ class LayerLines:
         return segments
 
     def sides(self, space: Interior, cell: float) -> Iterator[NDArray[np.bool_]]:
-        """See `LinesByLayer`."""
+        """Yield a mask of the cells (nx, ny) on one side of the lines for each layer; nothing without sides."""
         pattern = with_cell(self.pattern, cell)
         if not isinstance(pattern, LevelSet):
             return

@@ -10,7 +10,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from infill.lattices.fillets import find_polygon_corners, sharpest_angle
+from infill.lattices.fillets import find_polygon_corners
 from infill.lattices.root_finding import find_root
 from patterns.errors import PatternError
 from patterns.protocol import Pattern, draw_lines, with_cell
@@ -41,14 +41,8 @@ class LineSample:
         region, lines = self._lines_in_square
         return min(1.0, float(2 * region.area / lines.length))
 
-    @cached_property
-    def sharpest(self) -> float:
-        """See `Voids`."""
-        region, lines = self._lines_in_square
-        return sharpest_angle(corner_angles(lines, region))
-
     def widths(self, density: float) -> float:
-        """See `Voids`."""
+        """See `VoidPattern`."""
         region, lines = self._lines_in_square
 
         def off(times: float) -> float:

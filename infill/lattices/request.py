@@ -170,7 +170,7 @@ class FillSpec:
             return ("width",) if thick else ("cell",)
         if self.cell is not None or self.line_width is not None:
             return ("cell",) if self.cell is None else ("width",)
-        return ("width",) if varies_by_width(self.kind) and not self.lined else ("cell", "width")
+        return ("width",) if isinstance(self.kind, (Network, Bars, Lightning)) and not self.lined else ("cell", "width")
 
     def room(self, taken: int) -> int:
         """Return the number of triangles that voids may have beside those of the part.
@@ -222,11 +222,6 @@ class FillSpec:
 def has_bars(kind: Kind) -> bool:
     """Tell whether a pattern is made of bars; their thickness follows from the density."""
     return isinstance(kind, (Network, Bars))
-
-
-def varies_by_width(kind: Kind) -> bool:
-    """Tell whether a pattern reaches a density by the width of its walls, as bars and branches below roofs do."""
-    return has_bars(kind) or isinstance(kind, Lightning)
 
 
 def check_request(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -68,10 +68,6 @@ class Subdivided:
     pattern: Octree
     turn: NDArray[np.float64]
     anchor: NDArray[np.float64]
-
-    def about(self, middle: NDArray[np.float64]) -> Subdivided:
-        """See `VoidPattern`."""
-        return replace(self, anchor=middle + self.anchor)
 
     def draw(self, layout: Layout, known: VoidFields | None = None) -> VoidFields:
         """Draw a field for each colour; the cubes depend on the space and the cell alone."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache, partial
-from typing import Any, Protocol, Self
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -114,10 +114,6 @@ class VoidPattern(Protocol):
         """Return the width of walls or bars, in cells of the pattern, that gives a density far from any skin."""
         ...
 
-    def about(self, middle: NDArray[np.float64]) -> Self:
-        """Return the same pattern, shifted by a vector, mm."""
-        ...
-
     def draw(self, layout: Layout, known: VoidFields | None = None) -> VoidFields:
         """Draw the voids beside the pattern; what suits of an earlier drawing is used again."""
         ...
@@ -139,10 +135,6 @@ class Periodic:
     pattern: Cellular
     turn: NDArray[np.float64]
     anchor: NDArray[np.float64]
-
-    def about(self, middle: NDArray[np.float64]) -> Periodic:
-        """See `VoidPattern`."""
-        return replace(self, anchor=middle + self.anchor)
 
     def draw(self, layout: Layout, known: VoidFields | None = None) -> VoidFields:  # noqa: ARG002 - of the protocol
         """Draw two fields beside a surface, one for each class of closed cells, or one around bars."""
@@ -175,7 +167,7 @@ class Periodic:
         return VoidFields(
             layout=layout,
             kernels=tuple((kernel, (-BAND, *arguments)) for arguments in fields),
-            find_sharpest=partial(_sharpest_angle, pattern),
+            find_sharpest=partial(corner_angle_between_walls, pattern),
         )
 
     def widths(self, density: float) -> float:
@@ -189,11 +181,6 @@ def period_table(pattern: Surfaces | Network) -> NDArray[np.float32]:
     line = np.arange(NODES) / NODES
     points = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
     return pattern.distance(points).reshape(NODES, NODES, NODES).astype(np.float32)
-
-
-@cache
-def _sharpest_angle(pattern: Cellular) -> float:
-    return corner_angle_between_walls(pattern)
 
 
 @cache
