@@ -30,8 +30,8 @@ from infill.lattices import density_search
 from infill.lattices.density_search import solid_share
 from infill.lattices.drawn_voids import Prismatic
 from infill.lattices.fill_job import Job
+from infill.lattices.hollowing import simplify_voids
 from infill.lattices.request import FillSpec, check_request
-from infill.lattices.simplifying import simplify_voids
 from infill.lattices.slabwise import defer_voids, surfaces_by_slabs
 from infill.lattices.surfacing import choose_smoothing, make_surfaces
 from infill.lattices.voids import Layout, VoidFields

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import islice, pairwise
 
@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 from infill.drains.drain_clearance import Skin
 from infill.drains.drain_columns import DrainWays, LineLattice, find_ways
 from infill.drains.holes import DrainNeeds, Shaft
+from infill.interior.opening import Opening
+from infill.isosurfaces.components import shell_names
 from infill.surface import Surface
 
 ACROSS, IN_A_CELL = 6, 10  # lines in the diameter of a drain, and in a cell of the pattern
@@ -103,6 +105,55 @@ class TurnedPart:
         """Void of every face of the voids, (F,)."""
         owners: Integers = self.names[self.voids.faces[:, 0]].astype(np.int64)
         return owners
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class DrainTask:
+    """The holes to plan for the voids of a part: see `infill.drains.drain_plan.plan_drains`.
+
+    Parameters
+    ----------
+    part, voids : Surface, mm
+    needs : DrainNeeds
+    vent : bool
+    places : tuple of (x, y, z), mm
+    opening : Opening or None
+    names : (V,) int64
+        The void of every vertex of the voids: they are numbered by falling volume.
+    volumes : tuple of float
+        Of the voids, mm³.
+    """
+
+    part: Surface
+    voids: Surface
+    needs: DrainNeeds
+    vent: bool
+    places: tuple[tuple[float, float, float], ...]
+    opening: Opening | None
+    names: NDArray[np.int64]
+    volumes: tuple[float, ...]
+    _views: dict[bytes, TurnedPart] = field(default_factory=dict)
+
+    def narrow(self, diameter: float) -> DrainTask:
+        """Return the same task with holes of another diameter, mm."""
+        return replace(self, needs=replace(self.needs, diameter=diameter))
+
+    def along(self, turned: NDArray[np.float64]) -> TurnedPart:
+        """Return the part and its voids turned by a rotation (3, 3), from a cache."""
+        key = turned.round(12).tobytes()
+        if key not in self._views:
+            self._views[key] = TurnedPart.of(self.part, self.voids, self.names, len(self.volumes), turned)
+        return self._views[key]
+
+    @property
+    def opened(self) -> set[int]:
+        """The voids that reach out of an open side of the part."""
+        if self.opening is None:
+            return set()
+        shells, _ = shell_names(self.voids)
+        starts = np.unique(shells, return_index=True)[1]
+        numbers = self.names[starts[shells[starts] >= 0]]
+        return set(numbers[self.opening.opened(self.voids)].tolist())
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.drains.drain_branches import find_branches
-from infill.drains.drain_places import TURN_OVER, DrainPlaces, TurnedPart
-from infill.drains.drain_task import DrainTask
+from infill.drains.drain_places import TURN_OVER, DrainPlaces, DrainTask, TurnedPart
 from infill.drains.holes import DrainNeeds, Hole, Kind
 from infill.drains.requested_places import find_place, make_hole_at, narrower_diameters
 from infill.errors import GeometryError

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.drains.drain_columns import LineLattice, find_ways
-from infill.drains.drain_places import UP, DrainPlaces, TurnedPart
-from infill.drains.drain_task import DrainTask
+from infill.drains.drain_places import UP, DrainPlaces, DrainTask, TurnedPart
 from infill.drains.holes import Hole, Shaft
 from infill.errors import GeometryError
 from infill.meshes.distance import TriangleTree

@@ -85,11 +85,6 @@ class Interior:
         """Cells of the grid along each axis."""
         return self.layers.shape
 
-    @property
-    def shell(self) -> Surface:
-        """The skin of the part that has a wall, mm."""
-        return self.part if self.opening is None else self.opening.shell
-
     @cached_property
     def shares(self) -> NDArray[np.float64]:
         """Share of each layer of the grid that lies between the open sides of the part, (nz,)."""
@@ -100,16 +95,6 @@ class Interior:
         low, high = np.clip((ends - middle) / self.size, -0.5, 0.5)
         shares: NDArray[np.float64] = high - low
         return shares
-
-    @property
-    def within(self) -> NDArray[np.bool_]:
-        """True for cells whose centre lies inside the walls, and between the open sides."""
-        return (self.depth > 0) & (self.shares >= 0.5)
-
-    def reaches(self, end: str) -> bool:
-        """Tell whether there is room inside the walls at an end, top or bottom, of the part."""
-        layers = np.flatnonzero(self.shares > 0)
-        return bool((self.depth[:, :, layers[-1 if end == "top" else 0]] > 0).any())
 
     def cells_in(self, field: NDArray[np.float32], *, first: int = 0) -> float:
         """Count the cells in a void from its field, parts of cells counted as such.
@@ -251,7 +236,8 @@ def compute_interior(
         opening=opening,
     )
     for end in () if open_ is None else ENDS[open_]:
-        if not space.reaches(end):
+        layer = np.flatnonzero(space.shares > 0)[-1 if end == "top" else 0]
+        if not (space.depth[:, :, layer] > 0).any():
             raise GeometryError.about(
                 "open",
                 f"is {open_!r}, and the flat {end} of the part is nowhere wider than two walls of {wall:g} mm; "

@@ -84,7 +84,7 @@ def estimate_narrow(part: Surface, infill: Surface, wall: float, line: float, le
 
     Returns
     -------
-    Narrow or None
+    NarrowShares or None
         Of horizontal sections; 0 without infill inside the walls.
 
     >>> import trimesh

@@ -13,9 +13,8 @@ from infill.lattices.fill_job import Job
 from infill.lattices.grading import LocalWidths, densities_by_share
 from infill.lattices.request import Size, has_bars
 from infill.lattices.root_finding import find_root
-from infill.lattices.simplifying import simplify_voids
 from infill.lattices.slabwise import count_filled_cells, defer_voids
-from infill.lattices.surfacing import choose_smoothing, make_surfaces
+from infill.lattices.surfacing import make_surfaces
 from infill.lattices.void_meshes import VoidMeshes
 from infill.lattices.voids import Layout, Periodic
 from patterns.unit_cells import Network
@@ -23,9 +22,6 @@ from patterns.unit_cells import Network
 CLOSE = 0.002  # of the density: a cell and a width nearer to it than this are good enough
 LEAST = 1e-6  # densities below this count as none
 TRIES, ROUNDS = 8, 9
-WIDTH_CLOSE, REDRAWN = 0.03, 2  # of the line width: good enough; and how often walls are redrawn otherwise
-SURE = 400  # points from which a median width is sure enough to redraw walls
-FARTHER_OFF = 0.005  # of the density: error that the right width of walls may not cost
 TRIANGLES_A_CELL = 2.5
 GRADING_STEPS, GRADING_ROUNDS, GRADING_CLOSE, MOST_OFF = 24, 4, 0.01, 0.5  # of a density that changes
 
@@ -143,28 +139,6 @@ def _match_local_densities(job: Job, hollow: VoidMeshes, fields: Fields) -> tupl
         if np.abs(line(requested)).max() < GRADING_CLOSE and abs(hollow.density / local.mean - 1) < GRADING_CLOSE:
             break
         factors = np.exp(np.clip(line(local.shares.astype(np.float64)), -MOST_OFF, MOST_OFF) / power)
-        hollow, fields = make_voids(job, replace(layout, local=local.widen(factors)), fields)
-    return hollow, fields
-
-
-def match_width(
-    job: Job, hollow: VoidMeshes, width: float, varied: tuple[Size, ...], fields: Fields
-) -> tuple[VoidMeshes, Fields]:
-    """Redraw voids until walls between them have the requested width, mm, unless the density fixes the width."""
-    request = job.request
-    if "width" in varied[:1] or request.grading is not None or not has_uniform_width(job):
-        return hollow, fields
-    fields = job.draw(replace(hollow.layout, space=job.reach(hollow.space)), fields)
-    if not choose_smoothing(job, fields).steps:
-        return hollow, fields
-    for _ in range(REDRAWN):
-        median, seen = hollow.median
-        if median is None or seen < SURE or abs(median / width - 1) <= WIDTH_CLOSE:
-            break
-        layout = replace(hollow.layout, width=hollow.width * width / median)
-        redrawn, fields = fit_density(job, layout, varied, fields)
-        redrawn = simplify_voids(job, redrawn, request.tolerance)
-        if not redrawn.surfaces or abs(redrawn.density - (request.density or redrawn.density)) > FARTHER_OFF:
-            break
-        hollow = redrawn
+        local = replace(local, ratio=(local.ratio * factors).astype(np.float32))
+        hollow, fields = make_voids(job, replace(layout, local=local), fields)
     return hollow, fields

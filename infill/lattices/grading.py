@@ -81,10 +81,6 @@ class LocalWidths:
         ratio, shares = (map_coordinates(field, nodes, order=1, mode="nearest") for field in (self.ratio, self.shares))
         return replace(self, ratio=ratio, shares=shares, within=np.ones(ratio.shape, dtype=bool))
 
-    def widen(self, factors: NDArray[np.floating]) -> LocalWidths:
-        """Return the same with wider walls, by factors (n, m, k)."""
-        return replace(self, ratio=(self.ratio * factors).astype(np.float32))
-
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Grading:
@@ -172,7 +168,7 @@ def _inside(space: Interior, points: Floats) -> NDArray[np.bool_]:
 
 def _sample_cells(space: Interior) -> tuple[Floats, Floats]:
     """Draw random cells inside the walls, (N, 3); return also the outermost along each axis and the deepest."""
-    cells = np.argwhere(space.within)
+    cells = np.argwhere((space.depth > 0) & (space.shares >= 0.5))
     if not len(cells):
         cells = np.argwhere(np.ones(space.depth.shape, dtype=bool))
     deepest = np.array(np.unravel_index(int(space.depth.argmax()), space.depth.shape))[None]

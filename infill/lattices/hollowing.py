@@ -2,23 +2,40 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 from infill.errors import GeometryError
 from infill.interior.interior import compute_interior
 from infill.lattices.bodies import Fields
-from infill.lattices.density_search import estimate_triangles, find_sizes, fit_density, match_width
+from infill.lattices.density_search import estimate_triangles, find_sizes, fit_density, has_uniform_width
 from infill.lattices.fill_job import Job
-from infill.lattices.simplifying import simplify_to_fit, simplify_voids
+from infill.lattices.request import Size
 from infill.lattices.sizing import choose_sizes, choose_voxel, coarsest_voxel, enlarge, goes_by_slabs
+from infill.lattices.slabwise import surfaces_by_slabs
+from infill.lattices.surfacing import SHARE, choose_smoothing, drop_small_and_floating
 from infill.lattices.void_meshes import VoidMeshes
 from infill.lattices.voids import Layout
+from infill.machine import require_memory
+from infill.meshes.shells import split_into_batches
+from infill.meshes.simplification import simplify_surface
+from infill.meshes.solids import simplify_solid
+from infill.meshes.split_components import concatenate_surfaces
 
 REFITS = 3
 MOST_LARGER = 3.0  # most that cells and walls grow at a time, where there are too many triangles
 FEWER = 1.04  # margin on the size of cells, as triangles fall with its square
 FAR_TOO_MANY = 4.0  # triangles, over the room for them: more are not even made
+WIDTH_CLOSE, REDRAWN = 0.03, 2  # of the line width: good enough; and how often walls are redrawn otherwise
+SURE = 400  # points from which a median width is sure enough to redraw walls
+FARTHER_OFF = 0.005  # of the density: error that the right width of walls may not cost
 LEAST_THICK = 1.5  # cells of the grid in the thickness of what lies inside the walls
+FINEST, DOUBLINGS = 0.01, 4  # of a cell: where tolerances begin; how often they are doubled for fewer triangles
+FIRST = 0.75  # of a tolerance, for the pieces of a surface that is made slab by slab; the rest is for all of it
+AT_ONCE = 500_000  # triangles that are simplified at a time, if they are of several voids: this bounds memory
+FEW_AT_ONCE = 30_000  # the same for voids made slab by slab, with few triangles from the beginning
+COLLAPSE_BYTES = 4000  # for each triangle, at most
+FLAT = 0.01  # cells: the triangles of a void smaller than a cube of this side coincide
 
 
 def make_void_meshes(job: Job) -> tuple[VoidMeshes, Fields]:
@@ -97,3 +114,63 @@ def _coarsen(job: Job, layout: Layout, voxel: float, excess: float) -> tuple[flo
         cell, width = enlarge(request, (cell, width), min(MOST_LARGER, max(1.2, target / coarsest)))
         coarsest = coarsest_voxel(job, cell, width)
     return cell, width, min(target, coarsest)
+
+
+def match_width(
+    job: Job, hollow: VoidMeshes, width: float, varied: tuple[Size, ...], fields: Fields
+) -> tuple[VoidMeshes, Fields]:
+    """Redraw voids until walls between them have the requested width, mm, unless the density fixes the width."""
+    request = job.request
+    if "width" in varied[:1] or request.grading is not None or not has_uniform_width(job):
+        return hollow, fields
+    fields = job.draw(replace(hollow.layout, space=job.reach(hollow.space)), fields)
+    if not choose_smoothing(job, fields).steps:
+        return hollow, fields
+    for _ in range(REDRAWN):
+        median, seen = hollow.median
+        if median is None or seen < SURE or abs(median / width - 1) <= WIDTH_CLOSE:
+            break
+        layout = replace(hollow.layout, width=hollow.width * width / median)
+        redrawn, fields = fit_density(job, layout, varied, fields)
+        redrawn = simplify_voids(job, redrawn, request.tolerance)
+        if not redrawn.surfaces or abs(redrawn.density - (request.density or redrawn.density)) > FARTHER_OFF:
+            break
+        hollow = redrawn
+    return hollow, fields
+
+
+def simplify_voids(job: Job, hollow: VoidMeshes, tolerance: float) -> VoidMeshes:
+    """Simplify the voids: drop triangles that flat places do not need, and voids that this flattens."""
+    budget, at_once = tolerance, AT_ONCE
+    if hollow.deferred is not None:
+        hollow = surfaces_by_slabs(job, hollow.deferred.fields, tolerance=FIRST * tolerance)
+        budget, at_once = (1 - FIRST) * tolerance, FEW_AT_ONCE
+    if tolerance == 0:
+        return hollow
+    surfaces, results = list(hollow.surfaces[::-1]), []
+    hollow = replace(hollow, surfaces=(), tolerance=tolerance)
+    while surfaces:  # popped, so that memory is freed as soon as possible
+        simple = concatenate_surfaces(
+            [simplify_solid(batch, SHARE * budget) for batch in split_into_batches(surfaces.pop(), at_once)]
+        )
+        results.append(drop_small_and_floating(simple, (FLAT * hollow.space.size) ** 3)[0])
+    return replace(hollow, surfaces=tuple(surface for surface in results if surface is not None))
+
+
+def simplify_to_fit(job: Job, hollow: VoidMeshes, room: int) -> VoidMeshes:
+    """Simplify the voids until few enough triangles remain, even beyond the requested tolerance."""
+    tolerance = max(hollow.tolerance, FINEST * hollow.space.size)
+    for _ in range(DOUBLINGS):
+        tolerance *= 2
+        simple = simplify_voids(job, hollow, tolerance)
+        if simple.triangles <= room:
+            return simple
+    needed = COLLAPSE_BYTES * max(len(surface.faces) for surface in simple.surfaces)
+    advice = f"the voids have {hollow.triangles:,} triangles; give larger cells or voxels"
+    require_memory(needed, job.max_memory, advice)
+    share = room / simple.triangles
+    fewest = [
+        simplify_surface(surface, triangles=max(4, int(share * len(surface.faces))), threads=job.threads)
+        for surface in simple.surfaces
+    ]
+    return replace(hollow, surfaces=tuple(fewest), tolerance=math.inf)

@@ -15,7 +15,6 @@ from infill.lattices.bodies import Fields
 from infill.lattices.voids import Layout
 from infill.meshes.distance import TriangleTree
 from infill.meshes.measuring import face_areas, volume_and_area
-from infill.meshes.shells import select_faces
 from infill.meshes.solids import shared_volume
 from infill.meshes.split_components import concatenate_surfaces
 from infill.surface import Surface
@@ -105,19 +104,6 @@ class VoidMeshes:
         """Number of voids that reach out of an open side of the part."""
         opening = self.space.opening
         return 0 if opening is None else sum(int(opening.opened(surface).sum()) for surface in self.surfaces)
-
-    @cached_property
-    def shut(self) -> Surface:
-        """Surface of the voids that do not reach out of an open side of the part, mm."""
-        opening = self.space.opening
-        if opening is None:
-            return self.surface
-        return concatenate_surfaces(
-            [
-                select_faces(surface, ~opening.opened(surface)[shell_names(surface)[0][surface.faces[:, 0]]])
-                for surface in self.surfaces
-            ]
-        )
 
     @property
     def triangles(self) -> int:
