@@ -236,7 +236,8 @@ def _assemble(
             solid, pieces, loose = cut_open(outer, hollow.surfaces, space.opening, space.size, threads=job.threads)
             hollow = replace(hollow, islands=hollow.islands + pieces, loose=loose)
     drained = drill_drains(job, solid, hollow)
-    hollow = replace(hollow, islands=hollow.islands + drained.pieces)
+    if drained.pieces:
+        hollow = replace(hollow, islands=hollow.islands + drained.pieces)
     solid = measure_surface(drained.solid, threads=job.threads)
     facts = measure_solid(job, solid, outer, hollow, fields, drained)
     return solid, _fill_report(job.part, solid, hollow, request, facts, drained, project), hollow

@@ -79,7 +79,7 @@ class VoidFields:
     find_sharpest : callable
         Finds the angle of the sharpest corners of voids, degrees, where walls of the pattern meet; few are sharper.
     basis : object
-        What a layout with other sizes uses again.
+        What a drawing of other sizes uses again.
     """
 
     layout: Layout
