@@ -31,7 +31,7 @@ from infill.lattices.request import check_request
 from infill.meshes.distance import TriangleTree
 from infill.meshes.solids import FINE, coincident_vertices, manifold_status, simplify_solid, to_manifold
 from infill.meshes.winding import winding_numbers
-from infill.report_keys import FillReport
+from infill.reports.filling import FillReport
 from infill.result import Clock
 from patterns import PATTERNS
 from patterns.cross import Cross3D

@@ -27,8 +27,9 @@ from infill import (
     smooth_points,
     smooth_volume,
 )
-from infill.report import FORM
-from infill.report_keys import ComponentsReport, LabelsReport, MakeReport, SmoothReport
+from infill.reports.common import FORM
+from infill.reports.making import MakeReport
+from infill.reports.smoothing import ComponentsReport, LabelsReport, SmoothReport
 from tests.handmade_prints import Dialect, written
 
 pytestmark = pytest.mark.usefixtures("compiled")

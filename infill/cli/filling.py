@@ -31,7 +31,7 @@ from infill.lattices.settings import FillOptions, resolve
 if TYPE_CHECKING:
     from infill.lattices.settings import FillSettings
     from infill.pictures.sections import Cut
-    from infill.report_keys import FillReport
+    from infill.reports.filling import FillReport
     from infill.result import Result
 
 PATTERN = "Pattern"

@@ -13,6 +13,7 @@ from infill.cli.console import format_table, print_json, say
 
 if TYPE_CHECKING:
     from infill.planner.printing_time import FeatureMotion, Motion
+    from infill.reports.timing import MotionReports
 
 MACHINE, FILES = "The machine, instead of the limits in the file", "Files"
 UNITS = {"feedrate": "mm/s", "axis_acceleration": "mm/s²", "acceleration": "mm/s²", "jerk": "mm/s"}
@@ -122,8 +123,10 @@ def motion(
         chosen = layer if layer is not None else max(motions[0].layers // 2, 1)
         _write_plot(paths, chosen, planner_options, plot)
     if as_json:
-        results = [{"file": str(path), **plan.to_dict()} for path, plan in zip(paths, motions, strict=True)]
-        print_json(results[0] if other is None else {"files": results})
+        reports: MotionReports = {
+            "files": [{"file": str(path), **plan.to_dict()} for path, plan in zip(paths, motions, strict=True)]
+        }
+        print_json(reports["files"][0] if other is None else reports)
         return
     for path, plan in zip(paths, motions, strict=True):
         typer.echo(_summary(path, plan))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,8 @@ from infill.meshes.intersections import count_self_intersections
 from infill.meshes.merging import merge_unless_closed, merge_vertices, surface_of
 from infill.meshes.sealed_voids import count_sealed_voids
 from infill.meshes.shells import vertex_components
+from infill.reports.checking import CheckReport
+from infill.reports.common import declare
 from infill.surface import Edges, Surface
 
 if TYPE_CHECKING:
@@ -77,9 +79,9 @@ class Inspection:
     bounds: list[list[float]]
     unit_guess: str
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> CheckReport:
         """Return plain numbers and strings, as ``--json`` prints them."""
-        return asdict(self)
+        return declare(CheckReport, asdict(self))
 
 
 def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspection:

@@ -28,7 +28,7 @@ from infill.options.trust import check_trusted
 if TYPE_CHECKING:
     from infill.making.request import Block
     from infill.making.stages import MakeStages
-    from infill.report_keys import MakeReport
+    from infill.reports.making import MakeReport
     from infill.result import Progress, Result
     from patterns import Pattern
 

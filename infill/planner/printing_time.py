@@ -17,6 +17,8 @@ from infill.gcode.limits import Limits, Model
 from infill.gcode.sliced_file import SlicedFile, SlicedText, open_sliced
 from infill.planner.strokes import FeatureSums
 from infill.planner.timeline import Timeline
+from infill.reports.common import declare
+from infill.reports.timing import MotionReport
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -118,9 +120,9 @@ class Motion:
     volumetric: bool = False
     filament_diameter: float = 1.75
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> MotionReport:
         """Return plain numbers and strings, as printed by ``--json``."""
-        return asdict(self)
+        return declare(MotionReport, asdict(self))
 
     def of_role(self, role: str) -> float:
         """Return the seconds of all features of a role.

@@ -6,7 +6,6 @@ import os
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Any
 
 from infill.errors import UsageError
 from infill.projects import bambustudio, cura, prusaslicer
@@ -16,6 +15,8 @@ from infill.projects.reading import RELATIONS, Package, read_package
 from infill.projects.rules_bambustudio import volumes_for_bambustudio
 from infill.projects.rules_cura import volumes_for_cura
 from infill.projects.rules_prusaslicer import volumes_for_prusaslicer
+from infill.reports.checking import ProjectReport
+from infill.reports.common import declare
 
 MOST_ON_COMMAND_LINE = 1_000_000  # triangles that OrcaSlicer takes from a command line
 
@@ -45,9 +46,9 @@ class Diagnosis:
     unit: str
     volumes: tuple[PrintedVolume, ...] = field(default_factory=tuple)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> ProjectReport:
         """Convert the diagnosis to plain values, as ``--json`` prints it."""
-        return asdict(self)
+        return declare(ProjectReport, asdict(self))
 
 
 def check_project(path: str | os.PathLike[str], slicer: Slicer) -> Diagnosis:

@@ -26,7 +26,7 @@ from infill.voxels.cropping import crop
 from infill.voxels.from_mesh import voxel_size
 
 if TYPE_CHECKING:
-    from infill.report_keys import ComponentsReport, SmoothReport
+    from infill.reports.smoothing import ComponentsReport, SmoothReport
     from infill.result import Result
     from infill.smoothing.by_component import ComponentStages
     from infill.smoothing.stages import SmoothStages
