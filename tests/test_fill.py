@@ -17,7 +17,6 @@ from PIL import Image
 from shapes import IN_SPACE, one_of_each_kind
 from test_command_line import one_line_error
 from test_command_line import run as command
-from test_report import FILL, PAGE, described, differences, misfits
 
 from infill import GeometryError, MemoryLimitError, ParameterError, Surface, UsageError, fill, read_mesh
 from infill.interior.opening import Opening
@@ -31,7 +30,6 @@ from infill.lattices.request import check_request
 from infill.meshes.distance import TriangleTree
 from infill.meshes.solids import FINE, coincident_vertices, manifold_status, simplify_solid, to_manifold
 from infill.meshes.winding import winding_numbers
-from infill.reports.filling import FillReport
 from infill.result import Clock
 from patterns import PATTERNS
 from patterns.cross import Cross3D
@@ -1011,35 +1009,6 @@ def test_a_hollow_knows_its_density() -> None:
     assert hollow.space.volume == pytest.approx(14**3, rel=1e-3)
     assert hollow.density == pytest.approx(0.3, abs=0.002 + 1e-9)
     assert hollow.triangles == len(hollow.surface.faces)
-
-
-def spires() -> trimesh.Trimesh:
-    """Two, so steep that holes leave the first by its base alone, and the second, which stands on its tip, not at all."""
-    up = trimesh.creation.cone(radius=7, height=26, sections=12)
-    down = up.copy()
-    down.apply_transform(trimesh.transformations.rotation_matrix(np.pi, (1, 0, 0), (0, 0, 13)))
-    down.apply_translation((16, 0, 0))
-    return together(up, down)
-
-
-@pytest.mark.longest
-def test_the_page_lists_exactly_the_keys_of_a_fill(part: trimesh.Trimesh) -> None:
-    text = PAGE.read_text(encoding="utf-8").partition(FILL)[2]
-    results = {
-        "plain": fill(part, **FEW),
-        "lines": fill(part, "zigzag", waves=5, cell=5, line_width=0.5, voxel=0.5, max_triangles=10**6),
-        "drained": fill(part, drain=2, **FEW),
-        "closed": fill(spires(), "grid", drain=2, vent=True, **FEW),
-        "infill": fill(part, BAR, as_="infill", smooth_radius=0.3, voxel=0.5, density=0.3),
-        "graded": fill(part, density=(0.2, 0.4), by="x", voxel=0.5, wall=1.5),
-        "project": fill(part, as_="project", voxel=0.5),
-        "open": fill(STEPPED, open_="top", **FEW),
-    }
-    reports = {name: result.report for name, result in results.items()}
-    assert differences(described(text), reports, ("fill",)) == []
-    for report in reports.values():
-        assert json.loads(json.dumps(report, allow_nan=False)) == report
-        assert list(misfits(report, FillReport)) == []
 
 
 # --- files -------------------------------------------------------------------------------------------------------------

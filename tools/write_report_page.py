@@ -13,6 +13,7 @@ import textwrap
 import types
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Annotated, Any, NotRequired, Union, get_args, get_origin, get_type_hints, is_typeddict
 
@@ -221,6 +222,7 @@ def read_key(hint: Any) -> Key:  # noqa: ANN401 - a type
     return Key(kind=hint, meaning=" ".join(first_line.split()).rstrip("."), length=key.length, required=required)
 
 
+@cache
 def read_keys(declaration: Any) -> dict[str, Key]:  # noqa: ANN401 - a TypedDict
     """Read the declarations of all keys of a section or a report, by name."""
     return {name: read_key(hint) for name, hint in get_type_hints(declaration, include_extras=True).items()}

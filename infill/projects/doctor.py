@@ -23,19 +23,9 @@ MOST_ON_COMMAND_LINE = 1_000_000  # triangles that OrcaSlicer takes from a comma
 
 @dataclass(frozen=True, kw_only=True)
 class Diagnosis:
-    """The findings of `check_project`.
+    """Result of `check_project`.
 
-    Parameters
-    ----------
-    slicer : str
-    fine : bool
-        True if there are no problems.
-    problems, warnings : tuple of str
-        Things that the slicer would lose or refuse, and surprising things that it does.
-    application, unit : str
-        As the file says.
-    volumes : tuple of PrintedVolume
-        The volumes that the slicer prints, in its order.
+    The attributes are the keys of `infill.reports.checking.ProjectReport`, which docs/report.md explains.
     """
 
     slicer: str

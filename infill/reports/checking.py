@@ -14,13 +14,16 @@ class CheckReport(TypedDict):
     printable: Annotated[bool, "Whether there are no problems"]
     problems: Annotated[tuple[str, ...], "Reasons why the mesh is not printable, one phrase each"]
     warnings: Annotated[
-        tuple[str, ...], "Flaws that slicers handle, and objects of a 3MF that were left out, one phrase each"
+        tuple[str, ...],
+        "Objects of a 3MF that are not parts and were left out, and flaws that slicers handle, one phrase each",
     ]
     triangles: Annotated[int, "Number of triangles"]
     components: Annotated[int, "Number of connected surfaces: a solid with a sealed void has two"]
     closed: Annotated[bool, "Whether every edge has two faces that run along it in opposite directions"]
     outward: Annotated[bool, "Whether every component faces outwards, and every cavity inwards"]
-    sealed_voids: Annotated[int | None, "Number of voids without a way out; null if the mesh is not closed"]
+    sealed_voids: Annotated[
+        int | None, "Number of voids without a way out, in which resin and powder stay; null if the mesh is open"
+    ]
     open_edges: Annotated[int, "Number of edges that do not have exactly two faces"]
     manifold: Annotated[str, "Verdict of manifold3d: `NoError` if it accepts the mesh"]
     self_intersections: Annotated[int, "Number of pairs of triangles that pass through each other"]

@@ -29,8 +29,8 @@ class SolidRequest(SmoothingKeys):
     despeckle: Annotated[float, "Largest volume of components to remove beforehand, mm³"]
     tolerance: Annotated[
         float | str | None,
-        "Largest distance by which simplification may move the surface, mm; `auto` if it follows from the voxels of each "
-        "label or component",
+        "Largest distance by which simplification may move the surface, mm; `auto` if it follows from the voxels of "
+        "each label or component",
     ]
     max_triangles: Annotated[int | None, "Largest number of triangles after simplification"]
 
