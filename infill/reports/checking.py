@@ -74,8 +74,8 @@ class ParameterKeys(TypedDict):
     help: Annotated[str, "Meaning of the parameter"]
     unit: Annotated[str, "Its unit; empty without one"]
     default: Annotated[Any, "Its default; angles in degrees"]
-    low: NotRequired[Annotated[float, "Lowest value"]]
-    high: NotRequired[Annotated[float, "Highest value"]]
+    low: NotRequired[Annotated[int | float, "Lowest value"]]
+    high: NotRequired[Annotated[int | float, "Highest value"]]
 
 
 class PatternKeys(TypedDict):
