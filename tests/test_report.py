@@ -274,7 +274,7 @@ def misfits(value: Any, key: Key, place: str = "report") -> Iterator[str]:
     if is_union(kind):
         if all(any(True for _ in misfits(value, read_key(each), place)) for each in get_args(kind)):
             yield f"{place} is {value!r}, not {kind}"
-    elif is_typeddict(kind):
+    elif is_typeddict(kind) and isinstance(value, dict):
         keys = read_keys(kind)
         yield from (f"{place}.{name} is not declared" for name in value if name not in keys)
         yield from (f"{place}.{name} is missing" for name in keys if keys[name].required and name not in value)
@@ -370,6 +370,7 @@ def test_a_difference_is_found(results: Results) -> None:
         ({**report, "closed": 1}, "report.closed is 1, not <class 'bool'>"),
         ({key: value for key, value in report.items() if key != "mesh"}, "report.mesh is missing"),
         ({**report, "mesh": {**report["mesh"], "planted": 1}}, "report.mesh.planted is not declared"),
+        ({**report, "mesh": None}, "report.mesh is None, not"),
         ({**report, "walls": {"width": {**report["walls"]["width"], "mean": "thin"}, "exact": None}}, "mean is 'thin'"),
     ):
         (found,) = misfits(wrong, read_key(CHAPTER["make"].report))

@@ -238,7 +238,7 @@ def spell_type(kind: Any, length: int | None = None) -> str:  # noqa: ANN401 - a
         key = read_key(kind)
         return spell_type(key.kind, key.length)
     if is_union(kind):
-        return " or ".join(spell_type(each, length) for each in get_args(kind))
+        return " or ".join(map(spell_type, get_args(kind)))
     if get_origin(kind) in (list, tuple):
         number = "" if length is None else f"{length} "
         inner = re.sub(r"^(list|object)\b", r"\1s", spell_type(get_args(kind)[0]))
