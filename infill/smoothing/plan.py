@@ -23,7 +23,7 @@ from infill.machine import require_memory
 from infill.meshes.merging import merge_unless_closed
 from infill.phasefield.schedule import MIN_STEPS
 from infill.reports.common import declare
-from infill.reports.smoothing import PlannedInput, SmoothForecast
+from infill.reports.smoothing import InputKeys, PlannedInput, SmoothForecast
 from infill.smoothing.attempt import bytes_per_surface_cell
 from infill.smoothing.meshes import BYTES_PER_CELL as MESH_BYTES_PER_CELL
 from infill.smoothing.meshes import MARGIN, mesh_ways
@@ -229,12 +229,12 @@ def _survey_points(
     seconds = time.perf_counter() - begin
     cells, vertices = _count_cells(np.asarray(solid.values))
     phase = shell is None and request.method != "plain"
-    facts: PlannedInput = {"source": "points", "points": len(points), "shell": shell}
+    facts: InputKeys = {"source": "points", "points": len(points), "shell": shell}
     ways = scan_ways(solid, solid, {"method": "points"}, facts, request, phase=phase)
     return _InputSurvey(
         request=ways[0].request,
         grid=grid_around_points(points, voxel=cell, shell=shell, margin=MARGIN),
-        facts=facts,
+        facts=declare(PlannedInput, facts),
         solid=cells * coarsening**3,
         vertices=vertices * coarsening**2,
         ways=tuple(way.name for way in ways),
