@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import doctest
 import json
 import re
 import zipfile
@@ -36,6 +37,7 @@ from infill.reports.checking import FailedCheck
 from infill.reports.common import FORM
 from infill.reports.timing import MotionReports
 from tests.handmade_prints import Dialect, written
+from tools import write_report_page
 from tools.write_report_page import CHAPTERS, PAGE, Chapter, Key, is_union, read_key, read_keys, write_page
 
 pytestmark = pytest.mark.usefixtures("compiled")
@@ -338,6 +340,7 @@ def test_every_chapter_is_under_the_law() -> None:
 def test_the_page_is_the_one_of_the_declarations() -> None:
     """`python tools/write_report_page.py` writes it again."""
     assert PAGE.read_text(encoding="utf-8") == write_page()
+    assert doctest.testmod(write_report_page) == (0, 2)
 
 
 def test_every_key_has_a_meaning() -> None:

@@ -34,8 +34,9 @@ A key that may be `missing` is not in every report; `null` stands for a value th
 of the form of the reports: it increases when a key is renamed or changes its type or meaning. New keys leave it
 unchanged.
 
-Editors and type checkers know all keys: [`infill.reports`](../infill/reports) declares each with its type and its
-meaning, and `python tools/write_report_page.py` writes this page from there.
+[`infill.reports`](../infill/reports) declares each key with its type and its meaning, so that editors and type checkers
+know all of them: `from infill.reports.making import MakeReport`. This page is written from there, by `python
+tools/write_report_page.py`.
 """
 
 
@@ -285,9 +286,19 @@ def write_chapter(chapter: Chapter) -> str:
     return "\n\n".join(parts)
 
 
+def write_anchor(title: str) -> str:
+    """Write the anchor of a heading as a forge does.
+
+    >>> write_anchor("Check: a mesh")
+    'check-a-mesh'
+    """
+    return re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-")
+
+
 def write_page() -> str:
     """Write the page."""
-    return "\n\n".join([HEAD.rstrip(), *map(write_chapter, CHAPTERS)]) + "\n"
+    contents = (f"* [{chapter.title}](#{write_anchor(chapter.title)})" for chapter in CHAPTERS)
+    return "\n\n".join([HEAD.rstrip(), "\n".join(contents), *map(write_chapter, CHAPTERS)]) + "\n"
 
 
 if __name__ == "__main__":
