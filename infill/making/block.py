@@ -29,7 +29,7 @@ from infill.making.request import DEFAULT_CELLS, Block, StampMethod, SurfaceMeth
 from infill.making.stages import MakeStages
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.methods import smooth
-from infill.reports.common import CountKeys, declare, mesh_keys, report_head, surface_keys
+from infill.reports.common import Topology, declare, mesh_keys, report_head, surface_keys
 from infill.reports.making import BlockChanges, BlockSeconds, MakeReport, Width
 from infill.result import Clock, Progress, Result
 from infill.voxels.stamping import stamp as stamp_points
@@ -186,10 +186,9 @@ def make(
             "density": mesh.volume / layer,
             "level": {"method": "fixed", "common": 0.0, "lowest": 0.0, "highest": 0.0, "components": components},
         },
-        "topology": {
-            "data": declare(CountKeys, asdict(before.topology.extruded)),
-            "result": declare(CountKeys, asdict(after.topology.extruded)),
-        },
+        "topology": declare(
+            Topology, {"data": asdict(before.topology.extruded), "result": asdict(after.topology.extruded)}
+        ),
         "changes": declare(BlockChanges, differences.facts()),
         "walls": {"width": widths, "exact": exact},
         "seconds": clock.timings(BlockSeconds),

@@ -32,7 +32,7 @@ from infill.meshes.simplification import restore_volume, simplify_surface
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.refining import refine_bricks
 from infill.phasefield.sparse import smooth_bricks
-from infill.reports.common import CountKeys, declare, mesh_keys, report_head, surface_keys
+from infill.reports.common import Topology, declare, mesh_keys, report_head, surface_keys
 from infill.reports.sections import with_late_sections
 from infill.reports.smoothing import Distance, SmoothReport, SolidChanges, SolidMesh, SolidSeconds
 from infill.result import Clock, Result
@@ -328,10 +328,7 @@ def finish_attempt(
             "data": target,
             "level": _level_facts(surfaced, request),
         },
-        "topology": {
-            "data": declare(CountKeys, asdict(topology.data)),
-            "result": declare(CountKeys, asdict(topology.result)),
-        },
+        "topology": declare(Topology, {"data": asdict(topology.data), "result": asdict(topology.result)}),
         "changes": declare(SolidChanges, topology.changes.facts()),
         "walls": _wall_facts(best),
         "seconds": clock.timings(SolidSeconds),
