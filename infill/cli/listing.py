@@ -71,6 +71,7 @@ def _show_in_space(kind: PatternClass, *, pictured: bool, as_json: bool) -> None
 
 
 def _write_preview(kind: type[Pattern], path: Path, *, overwrite: bool) -> None:
+    """Draw a pattern with its defaults into a picture file."""
     from infill.files.whole_files import check_targets, write_all_files
     from infill.pictures.drawing import write_drawing
     from infill.pictures.preview import check_preview

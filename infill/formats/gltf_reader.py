@@ -245,6 +245,7 @@ class Gltf:
         return values
 
     def _kind(self, description: JsonObject) -> np.dtype[Any]:
+        """Return the NumPy type of an accessor's components."""
         kind = description.get("componentType")
         if type(kind) is not int or kind not in KINDS:
             self.fail(f"a component type is {_quote(kind)}, not one of {', '.join(map(str, KINDS))}")

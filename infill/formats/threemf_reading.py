@@ -94,6 +94,7 @@ class _Reading:
 
     @cached_property
     def parts(self) -> dict[str, zipfile.ZipInfo]:
+        """The members of the archive by their case-insensitive names."""
         return entries_by_key(self.package)
 
     @cached_property

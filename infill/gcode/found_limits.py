@@ -225,6 +225,7 @@ def extrusion_rule(head: bytes, settings: Mapping[str, str]) -> str:
 
 
 def _mentions(line: bytes, name: str) -> bool:
+    """Tell whether a line names a limit."""
     return name in _SAYS and _SAYS[name].search(line.upper()) is not None
 
 

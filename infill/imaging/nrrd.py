@@ -121,6 +121,7 @@ class _NrrdFields:
         return self.known[name]
 
     def get(self, name: str, default: str = "") -> str:
+        """Return the value of a field, or a default."""
         return self.known.get(name, default)
 
 

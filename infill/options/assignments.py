@@ -174,6 +174,7 @@ def _index_by_name(entries: Iterable[ParameterValue]) -> dict[str, ParameterValu
 
 
 def _has_value(by_name: Mapping[str, ParameterValue], name: str) -> bool:
+    """Tell whether a parameter was set, on the command line or in a file."""
     return name in by_name and by_name[name].value is not None
 
 

@@ -276,6 +276,7 @@ class _WeightedSum:
         return self.total
 
     def _add(self, bricks: Bricks, weight: float) -> None:
+        """Add the field of all bricks, times a weight, to the sum; bricks may be more than before."""
         known_count = len(self.total)
         if known_count < bricks.count:
             larger = np.empty((bricks.count, CELLS), dtype=np.float32)

@@ -182,6 +182,7 @@ class _InputSurvey:
 
 
 def _survey_volume(ways: Sequence[Way]) -> _InputSurvey:
+    """Count cells and vertices of a volume for the plan."""
     smooth_input = ways[0].data
     assert isinstance(smooth_input, SmoothInput)
     data = smooth_input.data
