@@ -14,8 +14,7 @@ from test_slabs import asked
 
 from infill import Surface, fill
 from infill.interior.interior import compute_interior
-from infill.lattices.fill_job import Job
-from infill.lattices.voids import Drawing
+from infill.lattices.choosing import choose_voids
 from infill.meshes.distance import TriangleTree
 from infill.meshes.winding import winding_numbers
 from patterns import Cross, Pattern, cell_parameter
@@ -117,8 +116,8 @@ class Twisting(Leaning):
 def test_fillets_suit_the_height_at_which_walls_meet_at_the_sharpest_angles(turn: float) -> None:
     part = box(24, 20, 22)
     inside = compute_interior(Surface(vertices=part.vertices, faces=part.faces), wall=1.0, voxel=0.5)
-    fields = Job.of(inside.part, asked(Twisting(turn=turn))).draw(Drawing(space=inside, cell=6.0, width=0.8))
-    assert fields.find_sharpest() == pytest.approx(90 - 10 * turn, abs=0.5 * turn)
+    voids = choose_voids(asked(Twisting(turn=turn)), inside.part.bounds, None)
+    assert voids.sharpest(inside, cell=6.0, width=0.8) == pytest.approx(90 - 10 * turn, abs=0.5 * turn)
 
 
 def to_walls(points: np.ndarray, cell: float, slope: float) -> np.ndarray:

@@ -119,7 +119,7 @@ def branches_in(part: trimesh.Trimesh, **more: Any) -> tuple[Interior, list[np.n
     """The inside of a part, and the branches of each of its layers."""
     request = check_request(pattern="lightning", own=more, cell=CELL, line_width=0.8)
     surface = surface_of(part)
-    voids, space = choose_voids(request, surface.bounds), compute_interior(surface, wall=1.0, voxel=0.4)
+    voids, space = choose_voids(request, surface.bounds, None), compute_interior(surface, wall=1.0, voxel=0.4)
     assert isinstance(voids, NonPrismatic)
     return space, voids.layers.lines(space, CELL)
 

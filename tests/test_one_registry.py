@@ -187,7 +187,7 @@ def test_fill_takes_a_name_or_a_pattern(name: str) -> None:
 
     one, other = asked(name), asked(PATTERNS[name]())
     assert one.facts() == other.facts()
-    first, second = (choose_voids(request, bounds) for request in (one, other))
+    first, second = (choose_voids(request, bounds, 1) for request in (one, other))
     assert type(first) is type(second)
     assert getattr(first, "pattern", None) == getattr(second, "pattern", None)
     sized, made = asked(name, cell=7.0), asked(PATTERNS[name](cell=7.0))

@@ -26,15 +26,13 @@ from infill.isosurfaces.slabs import (
     stitch_pieces,
     sum_shell_volumes,
 )
-from infill.lattices import density_search
+from infill.lattices import hollowing
+from infill.lattices.choosing import choose_voids
 from infill.lattices.drawn_voids import Prismatic
-from infill.lattices.fill_job import Job
-from infill.lattices.density_search import solid_share
+from infill.lattices.hollowing import solid_share
 from infill.lattices.request import FillSpec, check_request
-from infill.lattices.simplifying import simplify_voids
 from infill.lattices.slabwise import defer_voids, surfaces_by_slabs
 from infill.lattices.surfacing import choose_smoothing, make_surfaces
-from infill.lattices.voids import Drawing, VoidFields
 from infill.meshes.distance import TriangleTree
 from infill.meshes.hole_filling import open_edges
 from infill.meshes.shells import select_faces
@@ -45,7 +43,7 @@ from patterns.shared import cell_parameter
 pytestmark = pytest.mark.usefixtures("compiled")
 
 THICK = 11  # layers: some slabs in a small part
-SIZES = {"cell": 5.0, "width": 0.6}  # mm
+SIZES = (5.0, 0.6)  # cell and line width, mm
 
 
 def surface(mesh: Any) -> Surface:
@@ -56,8 +54,8 @@ def asked(pattern: str, **more: Any) -> FillSpec:
     given: dict[str, Any] = {
         "density": None,
         "by": None,
-        "cell": SIZES["cell"],
-        "line_width": SIZES["width"],
+        "cell": SIZES[0],
+        "line_width": SIZES[1],
         "wall": 1.2,
         "overlap": None,
         "angle": 0.0,
@@ -88,22 +86,18 @@ def space() -> Interior:
     return compute_interior(surface(turned(mesh, np.random.default_rng(4))), wall=1.2, voxel=0.4)
 
 
-def drawn(space: Interior, pattern: str, **more: Any) -> tuple[Job, VoidFields]:
-    """Draw a pattern in a space."""
-    job = Job.of(space.part, asked(pattern, **more))
-    fields = job.draw(Drawing(space=space, **SIZES))
-    assert isinstance(fields, VoidFields)
-    return job, fields
-
-
 def made(
     space: Interior, pattern: str, **more: Any
-) -> tuple[int, tuple[Surface, ...], tuple[Surface, ...], float]:
-    """Return the steps, the surfaces of the whole and of slabs, every triangle of them, and the volume of slabs."""
-    (job, fields), (_, sliced) = (drawn(each, pattern, **more) for each in (space, in_slabs(space)))
-    whole, slabs = make_surfaces(job, fields), surfaces_by_slabs(job, sliced, tolerance=0.0)
+) -> tuple[FillSpec, Prismatic, tuple[Surface, ...], tuple[Surface, ...], float]:
+    """Return the surfaces of the whole and of slabs, every triangle of them, and what slabs say the volume is."""
+    request = asked(pattern, **more)
+    voids = choose_voids(request, space.part.bounds, None)
+    assert isinstance(voids, Prismatic)
+    whole = make_surfaces(space, voids, request, SIZES, threads=None)
+    slabs = surfaces_by_slabs(in_slabs(space), voids, request, SIZES, tolerance=0.0, threads=None)
+    known = defer_voids(in_slabs(space), voids, request, SIZES, threads=None).volume
     assert (whole.islands, whole.specks) == (slabs.islands, slabs.specks)
-    return choose_smoothing(job, fields).steps, whole.surfaces, slabs.surfaces, defer_voids(job, sliced).volume
+    return request, voids, tuple(whole.surfaces), tuple(slabs.surfaces), known
 
 
 def corners(each: Surface, digits: int) -> np.ndarray:
@@ -153,7 +147,8 @@ def test_a_space_in_slabs_measures_as_the_whole(space: Interior) -> None:
     assert slabs.cells == pytest.approx(space.cells, rel=1e-12)
     assert slabs.thickness == pytest.approx(space.thickness, rel=1e-12)
     assert slabs.across == space.across
-    shares = [solid_share(drawn(each, "honeycomb")[1]) for each in (space, slabs)]
+    voids = choose_voids(asked("honeycomb"), space.part.bounds, None)
+    shares = [solid_share(each, voids, *SIZES) for each in (space, slabs)]
     assert shares[0] == pytest.approx(shares[1], rel=1e-9)
 
 
@@ -181,7 +176,8 @@ def test_a_large_part_is_measured_slab_by_slab(monkeypatch: pytest.MonkeyPatch) 
 def test_slabs_make_the_surfaces_of_the_whole(pattern: str, radius: float, space: Interior) -> None:
     """Triangle by triangle; with a radius of 1.5 mm, more layers are needed beside a slab than it has."""
     phase = (0.0, 0.0) if pattern == "concentric" else (0.3, 0.1)
-    steps, whole, slabs, known = made(space, pattern, smooth_radius=radius, phase=phase)
+    request, voids, whole, slabs, known = made(space, pattern, smooth_radius=radius, phase=phase)
+    steps = choose_smoothing(space, voids, request, SIZES).steps
     assert (steps > THICK) == (radius > 1)
     assert len(whole) == len(slabs) > 0
     for one, other in zip(whole, slabs, strict=True):
@@ -200,8 +196,8 @@ def test_slabs_make_the_surfaces_of_the_whole(pattern: str, radius: float, space
 
 def sharpest(mesh: Any, pattern: str, **more: Any) -> float:
     inside = compute_interior(surface(mesh), wall=1.0, voxel=0.4)
-    job = Job.of(inside.part, asked(pattern, phase=(0.0, 0.0), **more))
-    return job.draw(Drawing(space=inside, cell=7.8, width=0.8)).find_sharpest()
+    voids = choose_voids(asked(pattern, phase=(0.0, 0.0), **more), inside.part.bounds, None)
+    return voids.sharpest(inside, cell=7.8, width=0.8)
 
 
 @pytest.mark.slow
@@ -236,8 +232,9 @@ def test_corners_outside_of_the_walls_are_none() -> None:
     """Two walls that meet at 53 degrees in the hole of a frame, and nowhere in the frame itself."""
     frame, block = (surface(mesh) for mesh in (less(box(20, 20, 6), box(12, 12, 8)), box(20, 20, 6)))
     voids = Prismatic(pattern=Star(), anchor=np.zeros(3), share=0.1)
-    spaces = [compute_interior(each, wall=1.0, voxel=0.4) for each in (frame, block)]
-    found = [voids.draw(Drawing(space=each, cell=7.8, width=0.8)).find_sharpest() for each in spaces]
+    found = [
+        voids.sharpest(compute_interior(each, wall=1.0, voxel=0.4), cell=7.8, width=0.8) for each in (frame, block)
+    ]
     assert found == [90, pytest.approx(53.13, abs=0.01)]
 
 
@@ -246,8 +243,10 @@ def test_too_few_layers_beside_a_slab_are_seen(space: Interior, monkeypatch: pyt
     """The comparison can fail: without them, pieces do not meet, or surfaces differ."""
     from infill.lattices import slabwise
 
-    job, fields = drawn(in_slabs(space), "honeycomb", smooth_radius=1.5)
-    smoothing = choose_smoothing(job, fields)
+    request = asked("honeycomb", smooth_radius=1.5)
+    voids = choose_voids(request, space.part.bounds, None)
+    assert isinstance(voids, Prismatic)
+    smoothing = choose_smoothing(space, voids, request, SIZES)
 
     def few(*_: Any) -> Any:
         return replace(smoothing, steps=0)
@@ -258,7 +257,7 @@ def test_too_few_layers_beside_a_slab_are_seen(space: Interior, monkeypatch: pyt
         slabwise, "smooth_void", lambda out, depth, _, threads: real(out, depth, smoothing, threads=threads)
     )
     with pytest.raises(GeometryError, match="do not meet"):
-        surfaces_by_slabs(job, fields, tolerance=0.0)
+        surfaces_by_slabs(in_slabs(space), voids, request, SIZES, tolerance=0.0, threads=None)
 
 
 @pytest.mark.slow
@@ -301,11 +300,13 @@ def test_open_edges_stay_to_the_last_bit() -> None:
 @pytest.mark.long
 @pytest.mark.parametrize("pattern", ["honeycomb", "rectilinear", "concentric-heart"])
 def test_simplified_slabs_stay_within_the_tolerance(pattern: str, space: Interior) -> None:
-    job, fields = drawn(in_slabs(space), pattern)
-    tolerance = job.request.tolerance
-    every = surfaces_by_slabs(job, fields, tolerance=0.0)
-    few = simplify_voids(job, defer_voids(job, fields), tolerance)
-    alone = simplify_voids(job, every, tolerance)
+    request = asked(pattern)
+    voids = choose_voids(request, space.part.bounds, None)
+    assert isinstance(voids, Prismatic)
+    slabs = in_slabs(space)
+    every = surfaces_by_slabs(slabs, voids, request, SIZES, tolerance=0.0, threads=None)
+    few = hollowing.simplify_voids(defer_voids(slabs, voids, request, SIZES, threads=None), request.tolerance)
+    alone = hollowing.simplify_voids(replace(every, unmade=None), request.tolerance)
     assert few.triangles < 1.4 * alone.triangles  # with a plane at every eleventh layer, at which all are kept at first
     assert few.triangles < every.triangles / 2
     assert few.count == every.count
@@ -314,7 +315,7 @@ def test_simplified_slabs_stay_within_the_tolerance(pattern: str, space: Interio
         assert manifold_status(other) == FINE
         for near, far in ((one, other), (other, one)):
             points = np.asarray(near.vertices)
-            assert TriangleTree.of(far).nearest(points)[0].max() <= tolerance
+            assert TriangleTree.of(far).nearest(points)[0].max() <= request.tolerance
 
 
 @pytest.mark.longest
@@ -326,7 +327,7 @@ def test_a_part_filled_in_slabs_keeps_all_promises(pattern: str, monkeypatch: py
     monkeypatch.setattr(module, "WHOLE", 1000)
     monkeypatch.setattr(layers, "SLAB", 100_000)
     seen = []
-    monkeypatch.setattr(density_search, "defer_voids", lambda *given: seen.append(1) or defer_voids(*given))
+    monkeypatch.setattr(hollowing, "defer_voids", lambda *given, **more: seen.append(1) or defer_voids(*given, **more))
     result = fill(mesh, pattern, density=0.25)
     report, solid = result.report, result.surface
     assert seen
@@ -343,7 +344,7 @@ def test_a_part_filled_in_slabs_keeps_all_promises(pattern: str, monkeypatch: py
 def test_slabs_are_planned_for_upright_voids_alone() -> None:
     from infill.lattices.sizing import goes_by_slabs
 
-    part = surface(box(20, 20, 20))
+    bounds = np.array([[0.0, 0, 0], [20, 20, 20]])
     for pattern, more, expected in (
         ("honeycomb", {}, True),
         ("gyroid", {}, False),
@@ -353,7 +354,7 @@ def test_slabs_are_planned_for_upright_voids_alone() -> None:
         ("honeycomb", {"density": (0.1, 0.3), "cell": None, "line_width": None}, False),
     ):
         request = asked(pattern, **more)
-        assert goes_by_slabs(Job.of(part, request)) is expected, (pattern, more)
+        assert goes_by_slabs(request, choose_voids(request, bounds, None)) is expected, (pattern, more)
 
 
 @pytest.mark.slow
@@ -363,8 +364,9 @@ def test_a_tall_part_has_voxels_as_fine_as_a_low_one() -> None:
     request = asked("honeycomb", cell=None, line_width=None, density=0.2, voxel=None)
     found = []
     for height in (100, 400):
-        job = Job.of(surface(box(60, 60, height)), request)
-        found.append(choose_voxel(job, *choose_sizes(job)))
+        extents = np.array([60.0, 60.0, height])
+        voids = choose_voids(request, np.array([[0, 0, 0], extents]), None)
+        found.append(choose_voxel(request, voids, extents, *choose_sizes(request, voids, extents)))
     assert [low >= high for low, high in pairwise(found)] == [True]
 
 

@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 from test_command_line import run, usage_error
 
 from infill import UsageError, fill
+from infill.interior import crossing
 from infill.interior.conformal_map import fit_conformal_map, map_points, spline_slopes, wall_factor
-from infill.lattices import void_meshes
-from infill.lattices.void_meshes import median_width
+from infill.interior.crossing import median_width
 from infill.lattices.voids import NODES
 from infill.meshes.solids import to_manifold
 from patterns import Gyroid
@@ -221,7 +221,7 @@ def test_walls_are_as_wide_above_as_below(ramp: Any) -> None:
 def test_a_width_is_measured_with_little_of_the_voids_at_a_time(monkeypatch: pytest.MonkeyPatch) -> None:
     found = fill(box(20, 24, 30), density=0.3, voxel=0.6, wall=WALL).stages
     whole = median_width(found.part, found.voids, wall=WALL, width=0.6)
-    monkeypatch.setattr(void_meshes, "AT_A_TIME", 500)
+    monkeypatch.setattr(crossing, "AT_A_TIME", 500)
     assert len(found.voids.faces) > 20 * 500
     assert median_width(found.part, found.voids, wall=WALL, width=0.6) == whole
 

@@ -19,7 +19,6 @@ from infill.lattices.choosing import choose_voids
 from infill.lattices.grading import UNIFORM_WIDTH
 from infill.lattices.request import check_request
 from infill.lattices.subdivided import CubeTree, Subdivided
-from infill.lattices.voids import Drawing
 from infill.meshes.merging import surface_of
 from infill.meshes.winding import winding_numbers
 from infill.voxels.scanlines import fill_rows, intersect_rows
@@ -157,11 +156,9 @@ def test_the_kernel_is_its_definition() -> None:
 def tree_in(part: trimesh.Trimesh, name: str, cell: float, **more: Any) -> tuple[Interior, CubeTree, Subdivided]:
     request = check_request(pattern=name, own=more, cell=cell, line_width=0.45)
     surface = surface_of(part)
-    voids, space = choose_voids(request, surface.bounds), compute_interior(surface, wall=1.0, voxel=0.5)
+    voids, space = choose_voids(request, surface.bounds, None), compute_interior(surface, wall=1.0, voxel=0.5)
     assert isinstance(voids, Subdivided)
-    tree = voids.draw(Drawing(space=space, cell=cell, width=0.45)).basis
-    assert isinstance(tree, CubeTree)
-    return space, tree, voids
+    return space, voids.tree(space, cell), voids
 
 
 def at_cells(

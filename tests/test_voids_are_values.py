@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,11 +11,10 @@ import trimesh
 from made_shapes import box
 
 from infill.interior.interior import compute_interior
-from infill.lattices.fill_job import Fields, Job
+from infill.lattices.choosing import choose_voids
 from infill.lattices.job import fill_request
 from infill.lattices.request import FillSpec
 from infill.lattices.settings import resolve
-from infill.lattices.voids import Drawing
 from infill.meshes.merging import surface_of
 
 pytestmark = pytest.mark.usefixtures("compiled")
@@ -42,32 +42,24 @@ def test_a_grading_for_two_parts_gives_what_fresh_ones_give(options: dict[str, A
 @pytest.mark.long
 @pytest.mark.parametrize("align", ["part", "body"])
 @pytest.mark.parametrize("pattern", ["gyroid", "honeycomb", "cross-3d", "adaptive-cubic", "lightning"])
-def test_voids_drawn_again_are_the_same(pattern: str, align: str) -> None:
-    """After a drawing of another size, and after one in another space; the earlier drawing stays as it is."""
+def test_voids_that_are_prepared_are_the_same(pattern: str, align: str) -> None:
+    """In a space and in another one, with even walls and with local widths; and preparing changes nothing."""
     request = (
         asked(density=0.3, pattern=pattern, align=align)
         if pattern == "lightning"
         else asked(pattern=pattern, align=align)
     )
     spaces = [compute_interior(part, wall=1.0, voxel=0.6) for part in PARTS]
-    job = Job.of(PARTS[0], request, threads=1)
-    local = request.grading and request.grading.over(spaces[0], job.pattern.widths)
-    fresh, wider, elsewhere = (
-        Drawing(space=space, cell=5.0, width=width, local=local, threads=1)
-        for space, width in ((spaces[0], 0.8), (spaces[0], 0.9), (spaces[1], 0.8))
-    )
-    fields = job.draw(fresh)
-    before = written(fields)
-    for known in (job.draw(wider, fields), job.draw(elsewhere, fields)):
-        again = job.draw(fresh, known)
-        assert again.find_sharpest() == fields.find_sharpest()
-        for first, kept, second in zip(before, written(fields), written(again), strict=True):
-            assert first[0] == kept[0] == second[0]
-            np.testing.assert_array_equal(first[1], kept[1])
-            np.testing.assert_array_equal(first[1], second[1])
-
-
-def written(fields: Fields) -> list[tuple[float, np.ndarray]]:
-    """Return the number of cells that each field fills, and the field."""
-    outs = [np.empty_like(fields.drawing.space.depth) for _ in range(fields.count)]
-    return [(fields.write_sdf(out, which), out) for which, out in enumerate(outs)]
+    voids = choose_voids(request, PARTS[0].bounds, 1)
+    if voids.grading is not None:
+        voids = voids.with_widths(voids.grading.over(spaces[0], voids.widths))
+    before, sizes = replace(voids), {"cell": 5.0, "width": 0.8}  # type: ignore[type-var]
+    prepared = voids.prepare(spaces[0], **sizes)
+    assert vars(voids).keys() >= vars(before).keys()
+    assert all(vars(voids)[name] is value for name, value in vars(before).items())
+    assert prepared.count(spaces[0], **sizes) == voids.count(spaces[0], **sizes)
+    for which in range(voids.count(spaces[0], **sizes)):
+        one, other = (np.empty_like(spaces[0].depth) for _ in range(2))
+        assert voids.into(one, spaces[0], which, **sizes) == prepared.into(other, spaces[0], which, **sizes)
+        np.testing.assert_array_equal(one, other)
+    assert prepared.count(spaces[1], **sizes) == voids.count(spaces[1], **sizes)

@@ -10,10 +10,11 @@ from typing import Any
 
 from infill.errors import FormatError
 from infill.imaging.checked_volume import checked_volume
-from infill.imaging.dicom_files import Frame, Image, is_dicom, read_image, require_pydicom
-from infill.imaging.dicom_frames import SOURCE_FILES, STORED_ORDER, Stack, place_frames, split_into_stacks
-from infill.imaging.dicom_pixels import frame_values, require_grey
-from infill.imaging.dicom_segments import segment_layers, segment_volume
+from infill.imaging.dicom.headers import Image, is_dicom, read_image, require_pydicom
+from infill.imaging.dicom.pixels import frame_values, require_grey
+from infill.imaging.dicom.places import Frame
+from infill.imaging.dicom.segments import segment_layers, segment_volume
+from infill.imaging.dicom.stacks import SOURCE_FILES, STORED_ORDER, Stack, place_frames, split_into_stacks
 from infill.imaging.frames import choose_frame
 from infill.imaging.label_tables import Segment
 from infill.volume import Volume
