@@ -67,7 +67,8 @@ def part() -> trimesh.Trimesh:
 @pytest.mark.longest
 @pytest.mark.parametrize("pattern", EVERY)
 def test_a_filled_part_is_the_part_without_voids_that_keep_their_distance(pattern: str, part: trimesh.Trimesh) -> None:
-    sizes = {} if pattern in KINDS else {"line_width": 1.6 if isinstance(IN_SPACE.get(pattern), Bars) else 0.8}
+    quick = pattern in KINDS or isinstance(IN_SPACE.get(pattern), Bars | Network)  # with the default sizes
+    sizes = {} if quick else {"line_width": 0.8}
     result = fill(part, pattern, density=0.25, wall=1.2, **sizes)
     solid, voids, report = result.surface, result.stages.voids, result.report
     assert report["problems"] == []
