@@ -37,7 +37,6 @@ class SmoothOptions(TypedDict, total=False):
     method: Method
     refine: bool | None
     radius: float | None
-    max_steps: int | None
     level: LevelMethod
     despeckle: float
     crumbs: float | None
@@ -76,7 +75,6 @@ class SmoothRequest:
     method: Method = "auto"
     refine: bool | None = None
     radius: float | None = None
-    max_steps: int | None = None
     level: LevelMethod = "volume"
     despeckle: float = 0.0
     crumbs: float | None = None
@@ -132,7 +130,7 @@ class SmoothRequest:
         if self.radius is not None:
             fewest = MIN_STEPS if self.refined else 1
             steps = max(fewest, round(STEPS_PER_VARIANCE * (self.radius / cell) ** 2))
-            if steps > (self.max_steps or MOST_STEPS):
+            if steps > MOST_STEPS:
                 raise ParameterError.about(
                     "radius",
                     f"is {self.radius:g} mm, {self.radius / cell:.3g} voxels, which would take {steps} "

@@ -268,9 +268,6 @@ class SmoothSettings:
     max_triangles: Annotated[
         int | None, Option("Simplify the mesh to at most this many triangles.", SURFACE, unit="N")
     ] = None
-    max_steps: Annotated[
-        int | None, Option("Most steps that --smooth-radius may take.", SURFACE, unit="N", default="2000")
-    ] = None
     allow_broken: Annotated[bool, Option("Write the mesh even if something is lost.", RUN, negatable=True)] = False
     strict: Annotated[
         bool,
