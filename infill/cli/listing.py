@@ -58,7 +58,7 @@ def list_patterns(
 
 
 def _show_in_space(kind: PatternClass, *, pictured: bool, as_json: bool) -> None:
-    """Print the purpose of a pattern in space, and its parameters."""
+    """Print the purpose of a pattern in space, and its parameters unless as JSON; raise BadParameter if `pictured`."""
     name = kind.name
     if pictured:
         raise typer.BadParameter(f"'infill fill PART --pattern {name} --preview FILE' shows {name}, in a part")

@@ -70,7 +70,7 @@ def read_drawing(path: str | os.PathLike[str]) -> Drawing | Picture:
 
 
 def read_tile(path: str | os.PathLike[str]) -> Drawing:
-    """Read a drawing whose page is the tile that repeats; raise FormatError as `read_drawing` does."""
+    """Read a drawing, or trace a picture, as a tile that repeats; raise FormatError, also for many crossings."""
     content = read_drawing(path)
     if isinstance(content, Picture):
         return trace_picture(content, Path(path))

@@ -46,7 +46,7 @@ class Tiled(Pattern):
     angle: float = angle_parameter()
 
     def lines(self, region: shapely.Polygon | shapely.MultiPolygon, z: float = 0.0) -> shapely.MultiLineString:  # noqa: ARG002 - prismatic
-        """Draw the lines of all tiles that reach into a region."""
+        """Return the lines of all tiles, clipped to a region; raise PatternError if there are too many copies."""
         corners = turn(shapely.get_coordinates(shapely.envelope(region)), -self.angle) / self.cell
         points = np.concatenate(self.drawn)
         size = np.array([1.0, self.height])

@@ -359,7 +359,7 @@ def _outward(surface: Surface) -> Surface:
 
 
 def start_part(package: zipfile.ZipFile) -> str:
-    """Return the file name of the model that the package declares as its start, or an empty string."""
+    """Return the `part_key` of the model that the package declares as its start, or an empty string."""
     if part_key(RELATIONS) not in entries_by_key(package):
         return ""
     relations = parse_xml(read_entry(package, RELATIONS))

@@ -260,7 +260,7 @@ def inflate(path: Path) -> bytes:
 
 
 def _image(path: Path, header: Dataset, pixels: Pixels) -> Image:
-    """Collect the header of a file with pixels."""
+    """Collect the header of a file with pixels; a picture in colour gets no frames."""
     storage = clean_text(header.get("SOPClassUID", ""))
     rows, columns = read_whole_number(header, "Rows", 0), read_whole_number(header, "Columns", 0)
     samples = read_whole_number(header, "SamplesPerPixel", 1)

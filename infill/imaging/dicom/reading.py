@@ -103,7 +103,7 @@ def read_dicom_segments(
 
 
 def _with_warnings(volume: Volume, warnings: Sequence[str], *, logged: bool = False) -> Volume:
-    """Log warnings and return a volume that carries them to the report."""
+    """Log the first few warnings, and return a volume with these, in place of its own, for the report."""
     shown = tuple(warnings[:MOST_WARNINGS])
     if len(warnings) > MOST_WARNINGS:
         shown = (*shown, f"and {len(warnings) - MOST_WARNINGS} more warnings like these")
