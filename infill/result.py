@@ -165,6 +165,7 @@ def share_progress(progress: Progress | None, sizes: Sequence[int]) -> list[Prog
 
 
 def _progress_between(progress: Progress, begin: float, end: float) -> Progress:
+    """Return a listener that maps progress from 0 to 1 onto a part of the whole."""
     return lambda stage, share: progress(stage, begin + share * (end - begin))
 
 

@@ -44,7 +44,7 @@ KEPT = {
     "llvmlite": "infill.kernels",
     "SimpleITK": "infill.imaging.medical",
     "DracoPy": "infill.formats.draco",
-    "pydicom": "infill.imaging.dicom_files",
+    "pydicom": "infill.imaging.dicom",
     "typer": "infill.cli",
     "rich": "infill.cli",
 }

@@ -112,6 +112,7 @@ def _diagnosis_table(diagnosis: Diagnosis, name: str) -> str:
 
 
 def _passes(inspection: Inspection, *, strict: bool) -> bool:
+    """Tell whether a file passes: printable, and with `--strict` without a warning."""
     return inspection.printable and not (strict and inspection.warnings)
 
 
@@ -144,10 +145,12 @@ def _inspection_table(inspection: Inspection, name: str) -> str:
 
 
 def _sealed_text(voids: int | None) -> str:
+    """Describe the number of sealed voids, which is None for an open mesh."""
     if voids is None:
         return "unknown: the mesh is not closed"
     return f"{voids}, in which resin and powder stay" if voids else "none"
 
 
 def _yes_or_no(holds: bool) -> str:
+    """Return "yes" or "no"."""
     return "yes" if holds else "no"

@@ -89,6 +89,7 @@ def summary(report: FillReport, files: list[str], name: str, *, verbose: bool) -
 
 
 def _drain_text(report: FillReport) -> str:
+    """Describe drains, vents, branches and voids that stay closed, in one line."""
     closed, side = len(report["voids"]["closed"]), report["request"]["open"]
     holes = report["drains"]["holes"]
     if not (holes or side):

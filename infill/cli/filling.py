@@ -175,7 +175,7 @@ def _parse_cuts(texts: list[str], *, drawn: bool) -> tuple[Cut, ...]:
 def _writer(
     path: Path, settings: FillSettings, *, ascii_stl: bool
 ) -> Callable[[Result[Any, FillReport], str, BinaryIO], object]:
-    """Return a function that writes a result with a title in the format of a file, or raise FormatError."""
+    """Return a function that writes a result with a title, as a mesh or the slicer's project, or raise FormatError."""
     from infill.formats.mesh_files import mesh_writer
 
     write = mesh_writer(path, ascii=ascii_stl)

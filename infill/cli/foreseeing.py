@@ -39,6 +39,7 @@ def show_smooth_plan(
 
 
 def _plan_table(plan: SmoothPlan, files: list[str], name: str) -> str:
+    """Return the plan as a table of text: grid, method, triangles, memory, time and files."""
     grid, request, facts = plan.grid, plan.request, plan.facts
     cells = " x ".join(map(str, grid.shape))
     fidelity = "" if request.refined else f", fidelity {request.smoothing.fidelity:g}"

@@ -61,7 +61,7 @@ def list_patterns(
 
 
 def _show_in_space(kind: PatternClass, *, pictured: bool, as_json: bool) -> None:
-    """Print the purpose of a pattern in space, and its parameters."""
+    """Print the purpose of a pattern in space, and its parameters unless as JSON; raise BadParameter if `pictured`."""
     name = kind.name
     if pictured:
         raise typer.BadParameter(f"'infill fill PART --pattern {name} --preview FILE' shows {name}, in a part")
@@ -75,6 +75,7 @@ def _show_in_space(kind: PatternClass, *, pictured: bool, as_json: bool) -> None
 
 
 def _write_preview(kind: type[Pattern], path: Path, *, overwrite: bool) -> None:
+    """Draw a pattern with its defaults into a picture file."""
     from infill.files.whole_files import check_targets, write_all_files
     from infill.pictures.drawing import write_drawing
     from infill.pictures.preview import check_preview

@@ -165,6 +165,7 @@ def make(
 
 
 def _show_plan(block: Block, limit: int | None, *, as_json: bool) -> None:
+    """Print the size of a block, its memory and its triangles, after checking the memory limit."""
     block.require_grid_memory(limit)  # else the lines alone might fill the memory
     if limit is not None:
         block.require_memory(limit)

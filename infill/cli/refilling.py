@@ -144,6 +144,7 @@ def _read_sliced_layer(
 
 
 def _write_preview(number: int, sliced_layers: dict[str, LayerSpeeds], path: Path, preview: Path) -> None:
+    """Draw the speeds of a layer before and after refilling into a picture file."""
     from functools import partial
 
     from infill.files.whole_files import write_all_files
@@ -238,6 +239,7 @@ def _clock(seconds: float) -> str:
 
 
 def _format_span(seconds: float) -> str:
+    """Return seconds as "2h 5m" or "5m 10s"."""
     minutes, seconds = divmod(round(seconds), 60)
     hours, minutes = divmod(minutes, 60)
     return f"{hours}h {minutes}m" if hours else f"{minutes}m {seconds}s"

@@ -195,6 +195,7 @@ class Block:
 
     @property
     def _advice(self) -> str:
+        """Return the size of the grid, and how to make it smaller, as a phrase."""
         cells = " × ".join(str(count) for count in self.grid.shape)
         return f"the grid has {cells} cells: take fewer cells per line, wider lines or a smaller block"
 

@@ -173,7 +173,7 @@ class MakeSettings:
         }
 
     def plan(self) -> Block:
-        """Check the settings; return the block with its grid and its cost."""
+        """Check the settings, but not the memory they need; return the block with its grid, without drawing it."""
         from infill.making.request import plan_block
 
         return plan_block(**self._request(), parameters={})

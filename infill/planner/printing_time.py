@@ -237,6 +237,7 @@ def collect_limits(**given: Any) -> dict[str, Any]:  # noqa: ANN401
 
 
 def _sum_feature(number: int, name: bytes, strokes: FeatureSums) -> FeatureMotion:
+    """Return time, lengths and counts of one feature as `FeatureMotion`."""
     row = {
         column: float(strokes.total(column)[number]) if number < len(strokes.sums) else 0.0
         for column in ("seconds", "drawing", "filament", "length", "travel", "turning", "short")

@@ -169,7 +169,7 @@ def _check_mesh(volume: PrintedVolume) -> Iterator[Finding]:
 
 
 def _volumes_of_any(package: Package) -> Iterator[PrintedVolume | Finding]:
-    """Yield every object that is built, separately."""
+    """Yield each mesh of the objects to print as a part of its own; warn if there are several."""
     meshes = [
         PrintedVolume.of(leaf.body.name or f"object {leaf.key}", leaf.body.mesh, "part", {})
         for item in package.items

@@ -168,6 +168,7 @@ def smooth_labels(
 def _as_segmentation(
     volume: ArrayLike | Volume | Segmentation, spacing: float | tuple[float, ...], origin: tuple[float, ...]
 ) -> Segmentation:
+    """Return a segmentation of an array, a volume or a segmentation."""
     if isinstance(volume, Segmentation):
         return volume
     if not isinstance(volume, Volume):
@@ -245,6 +246,7 @@ def _smooth_piece(
 
 
 def _title(piece: _Piece) -> str:
+    """Return the number of a label and its name, if it has one."""
     number = f"label {piece.segment.value}"
     return number if piece.name == f"label_{piece.segment.value}" else f"{number} ({piece.name})"
 

@@ -184,6 +184,7 @@ class _InputSurvey:
 
 
 def _survey_volume(ways: Sequence[Way]) -> _InputSurvey:
+    """Count cells and vertices of a volume for the plan."""
     smooth_input = ways[0].data
     assert isinstance(smooth_input, SmoothInput)
     data = smooth_input.data
@@ -244,7 +245,7 @@ def _survey_points(
 
 @log_compilation("the smoother")
 def _seconds_per_triangle(request: SmoothRequest, grid: Grid) -> float:
-    """Measure the seconds per triangle on a ball of cells of the same size, smoothed in the same way."""
+    """Measure the seconds per triangle before simplification, by smoothing a ball of cells of the same size."""
     offsets = np.indices((round(2 * BALL_RADIUS) + 2 * MARGIN,) * 3) - (BALL_RADIUS + MARGIN - 0.5)
     ball = Volume(values=(offsets**2).sum(axis=0) <= BALL_RADIUS**2, spacing=tuple(grid.cell_size.tolist()))
     trial_request = replace(

@@ -260,6 +260,7 @@ def _npy_axis_count(path: Path) -> int | None:
 
 
 def _ply_has_faces(path: Path) -> bool:
+    """Tell by the header of a PLY file whether it holds faces."""
     if not path.is_file():
         raise FormatError(f"there is no file {path}; check the name")
     try:
