@@ -380,5 +380,6 @@ def _kept_lines(table: GcodeTable, body: InfillSection) -> list[tuple[float, byt
 
 
 def _format_word(value: float, decimals: int = 3) -> bytes:
+    """Return a number as G-code has it, without trailing zeros and without "-0"."""
     text = f"{value:.{decimals}f}".rstrip("0").rstrip(".")
     return text.encode() if text not in ("", "-", "-0") else b"0"

@@ -47,9 +47,11 @@ class _Texts(io.RawIOBase):
         self._texts, self._rest = texts, b""
 
     def readable(self) -> bool:
+        """Tell that this can be read, as `io.RawIOBase` asks."""
         return True
 
     def readinto(self, buffer: memoryview) -> int:  # type: ignore[override]
+        """Fill a buffer with the next bytes of the texts; return their number, 0 at the end."""
         while not self._rest:
             try:
                 self._rest = next(self._texts)

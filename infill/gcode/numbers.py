@@ -194,6 +194,7 @@ def write_words(columns: list[tuple[bytes, NDArray[np.float64], int]], head: byt
 
 
 def _repeat_text(text: bytes, rows: int) -> Bytes:
+    """Return a text as bytes in each of some rows."""
     repeated: Bytes = np.broadcast_to(np.frombuffer(text, dtype=np.uint8), (rows, len(text)))
     return repeated
 

@@ -160,10 +160,12 @@ def _filament_words(
 
 
 def _line_end(table: GcodeTable) -> bytes:
+    """Return the line end that is more frequent at the beginning of a file."""
     return b"\r\n" if table.data[:4096].count(b"\r\n") > table.data[:4096].count(b"\n") / 2 else b"\n"
 
 
 def _format_shortest(value: float) -> bytes:
+    """Return a number with up to five decimals, without trailing zeros and without "-0"."""
     text = f"{value:.5f}".rstrip("0").rstrip(".")
     return text.encode() if text not in ("", "-", "-0") else b"0"
 
@@ -201,6 +203,7 @@ def find_difference(table: GcodeTable, new_table: GcodeTable, spliced_text: Spli
 
 
 def _states_agree(state: object, expected: object) -> bool:
+    """Tell whether two machine states are equal to 1e-4; e counts only where it is absolute."""
     for name, value in vars(state).items():
         second = vars(expected)[name]
         if name == "e" and vars(state)["relative_e"]:

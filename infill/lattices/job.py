@@ -30,7 +30,8 @@ from infill.lattices.void_meshes import VoidMeshes
 from infill.meshes.measuring import measure_surface
 from infill.meshes.merging import surface_of
 from infill.meshes.split_components import concatenate_surfaces
-from infill.report import FORM
+from infill.reports.common import FORM, declare
+from infill.reports.filling import FillSeconds
 from infill.result import Clock, Progress, Result
 from infill.surface import Surface
 from infill.version import __version__
@@ -38,7 +39,7 @@ from infill.version import __version__
 if TYPE_CHECKING:
     import trimesh
 
-    from infill.report_keys import FillReport
+    from infill.reports.filling import FillForecast, FillReport, UntimedFillReport
 
 
 def fill(
@@ -211,17 +212,19 @@ def fill_request(
     project = make_project_infill(job) if request.form == "project" else None
     hollow, fields = make_void_meshes(job) if project is None else (project.hollow, project.fields)
     with job.clock.stage("check", 0.9):
-        result, report, hollow = _assemble(job, hollow, fields, project)
-    seconds = job.clock.seconds
-    report["seconds"] = {"shift": 0.0, **seconds, "total": sum(seconds.values())}
+        result, untimed, hollow = _assemble(job, hollow, fields, project)
+    seconds = {"shift": 0.0, **job.clock.seconds, "total": sum(job.clock.seconds.values())}
+    report: FillReport = {**untimed, "seconds": declare(FillSeconds, seconds)}
     stages = FillStages(part=hollow.space.part, voids=hollow.surface, shown=result, opening=hollow.space.opening)
-    surfaces = {"part": hollow.space.part, "infill": result} if request.form == "project" else {request.form: result}
-    return Result(surfaces=surfaces, report=report, stages=stages)  # type: ignore[arg-type]
+    surfaces: dict[str, Surface] = (
+        {"part": hollow.space.part, "infill": result} if request.form == "project" else {request.form: result}
+    )
+    return Result(surfaces=surfaces, report=report, stages=stages)
 
 
 def _assemble(
     job: Job, hollow: VoidMeshes, fields: Fields, project: ProjectInfill | None
-) -> tuple[Surface, dict[str, Any], VoidMeshes]:
+) -> tuple[Surface, UntimedFillReport, VoidMeshes]:
     """Return the requested surface, the report, and the voids, with counts of the pieces that were left out."""
     request, space = job.request, hollow.space
     if project is not None:
@@ -251,8 +254,8 @@ def _fill_report(
     facts: SolidMeasures,
     drained: DrainedSolid,
     project: ProjectInfill | None,
-) -> dict[str, Any]:
-    """Return the report: docs/report.md lists every key."""
+) -> UntimedFillReport:
+    """Return the report without the seconds."""
     space = hollow.space
     narrow = None if project is None else project.narrow
     bounds = solid.bounds
@@ -323,8 +326,8 @@ def _inner_surface(job: Job, space: Interior) -> Surface:
     return inner if space.opening is None else clip_to_opening(inner, space.opening, space.size)
 
 
-def plan_fill(part: Surface, request: FillSpec, *, threads: int | None = None) -> dict[str, Any]:
-    """Return cell, line width, grid and memory, as the report of `fill` has them."""
+def plan_fill(part: Surface, request: FillSpec, *, threads: int | None = None) -> FillForecast:
+    """Return the report of a dry run."""
     job = Job.of(part, request, threads=threads)
     request, (cell, width) = job.request, choose_sizes(job)
     voxel = choose_voxel(job, cell, width)
