@@ -78,7 +78,7 @@ class LateralHoneycomb(Polyhedra):
         return normals, np.array([0.5, half, half])
 
     def lattice(self) -> tuple[Floats, Floats]:
-        """See `Polyhedra`: every third tube of a row is of one class."""
+        """Return the period of the tubes and their middles by class, in cells: every third of a row is of one class."""
         import numpy as np
 
         pitch = sum(self._wall())

@@ -215,6 +215,7 @@ def cut_open(
 
 def clip_to_opening(surface: Surface, opening: Opening, size: float) -> Surface:
     """Cut a surface off at the open sides of a part; `size` is that of a cell of the grid, mm."""
+    cut: Surface | None = None
     for distance in NEAR:
         trimmed = to_manifold(_move_off_planes(surface, opening, distance * size))
         if math.isfinite(opening.low):
@@ -223,6 +224,8 @@ def clip_to_opening(surface: Surface, opening: Opening, size: float) -> Surface:
             trimmed = trimmed.trim_by_plane((0.0, 0.0, -1.0), -opening.high)
         if solid_status(trimmed) == FINE and not coincident_vertices(cut := from_manifold(trimmed)).any():
             break
+    if cut is None:
+        raise GeometryError("manifold3d rejects the inside of the part; give another cell or smaller voxels")
     return cut
 
 

@@ -49,7 +49,7 @@ class BranchLines:
         return 90.0
 
     def widths(self, density: float) -> float:
-        """See `VoidPattern`: a guess that does not depend on the part."""
+        """Return a width of branches, in cells, for a density: a guess that does not depend on the part."""
         return SHARE * density
 
     def lines(self, space: Interior, cell: float) -> list[Floats]:

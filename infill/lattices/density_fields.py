@@ -41,7 +41,7 @@ class AxisField:
     axis: int
 
     def at(self, points: Floats, space: Interior) -> Floats:  # noqa: ARG002 - of the protocol
-        """See `Field`."""
+        """Return the coordinates of points (N, 3) along the axis, mm: (N,)."""
         return points[:, self.axis]
 
 
@@ -50,7 +50,7 @@ class SkinDepthField:
     """The distance from the inner side of the walls."""
 
     def at(self, points: Floats, space: Interior) -> Floats:
-        """See `Field`."""
+        """Return the depth of points (N, 3) below the inner side of the walls, in cells of the grid: (N,)."""
         from scipy.ndimage import distance_transform_edt, map_coordinates
 
         stride = max(1, int(np.ceil((space.depth.size / MOST_CELLS) ** (1 / 3))))
@@ -80,7 +80,7 @@ class ScatteredField:
     values: Floats
 
     def at(self, points: Floats, space: Interior) -> Floats:  # noqa: ARG002 - of the protocol
-        """See `Field`."""
+        """Interpolate the values at points (N, 3), mm; beyond them, the nearest value counts: (N,)."""
         from scipy.interpolate import LinearNDInterpolator
         from scipy.spatial import QhullError, cKDTree
 
@@ -104,7 +104,7 @@ class BoxedField:
     values: Floats
 
     def at(self, points: Floats, space: Interior) -> Floats:
-        """See `Field`."""
+        """Interpolate the array over the box of the part at points (N, 3), mm: (N,)."""
         from scipy.ndimage import map_coordinates
 
         low, high = np.asarray(space.part.bounds, dtype=np.float64)
@@ -121,7 +121,7 @@ class FunctionField:
     name: str
 
     def at(self, points: Floats, space: Interior) -> Floats:  # noqa: ARG002 - of the protocol
-        """See `Field`."""
+        """Call the function with points (N, 3), mm, and check its numbers: (N,)."""
         try:
             numbers = np.asarray(self.function(points), dtype=np.float64)
         except Exception as error:

@@ -48,7 +48,7 @@ class Prismatic:
         return LineSample(pattern=self.pattern)
 
     def widths(self, density: float) -> float:
-        """See `VoidPattern`."""
+        """Return the width of lines, in cells, that gives a density far from any skin, as measured on a sample."""
         return self.sample.widths(density)
 
     def draw(self, layout: Layout, known: VoidFields | None = None) -> VoidFields:

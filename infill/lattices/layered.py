@@ -53,7 +53,7 @@ class NonPrismatic:
         return isinstance(self.layers, BranchLines) or LEVEL_SET not in gives(self.layers.pattern)
 
     def widths(self, density: float) -> float:
-        """See `VoidPattern`."""
+        """Return the width of lines, in cells, that gives a density far from any skin."""
         return self.layers.widths(density)
 
     def draw(self, layout: Layout, known: VoidFields | None = None) -> VoidFields:
@@ -122,7 +122,7 @@ class LayerLines:
         return sharpest_angle(np.concatenate(angles))
 
     def widths(self, density: float) -> float:
-        """See `VoidPattern`: those of one height."""
+        """Return the width of lines, in cells, that gives a density far from any skin, as measured at one height."""
         return self.sample.widths(density)
 
     def lines(self, space: Interior, cell: float) -> list[Floats]:

@@ -43,7 +43,7 @@ class LineSample:
         return min(1.0, float(2 * region.area / lines.length))
 
     def widths(self, density: float) -> float:
-        """See `VoidPattern`."""
+        """Return the width of lines, in cells, that gives a density in the sample."""
         region, lines = self._lines_in_square
 
         def off(times: float) -> float:

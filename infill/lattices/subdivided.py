@@ -88,7 +88,7 @@ class Subdivided:
         )
 
     def widths(self, density: float) -> float:
-        """See `VoidPattern`: a guess that does not depend on the part."""
+        """Return a width of walls, in cells, for a density: a guess that does not depend on the part."""
         shares = np.array(SHARES[: self.pattern.levels + 1])
         shares, sides = shares / shares.sum(), 2.0 ** np.arange(len(shares))
 

@@ -171,7 +171,7 @@ class Periodic:
         )
 
     def widths(self, density: float) -> float:
-        """See `VoidPattern`."""
+        """Return the width of walls or bars, in cells, that gives a density far from any skin."""
         return float(2 * np.quantile(_sample_distances(self.pattern), density))
 
 
