@@ -24,8 +24,8 @@ from infill.paths.neighbours import (
     index_beads,
     project_to_beads,
 )
+from infill.planner.print_clock import neutral_limits, path_seconds
 from infill.refilling.regions import NEARER, STEP, find_region
-from infill.refilling.timing import neutral_limits, path_seconds
 
 EXACT = 1e-9  # mm: of coordinates up to 100 mm, computed in a handful of steps
 WIDTH = 0.45  # mm

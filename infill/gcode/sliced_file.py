@@ -99,6 +99,31 @@ class SlicedFile:
             _check_line_ends(sliced_text.text)
             yield sliced_text
 
+    def rewrite(
+        self, target: BinaryIO, texts: Mapping[int | None, Iterable[bytes]], metadata: Mapping[str, str]
+    ) -> None:
+        """Write the file with new text, in its own form.
+
+        Parameters
+        ----------
+        target : binary file
+        texts : mapping from part to iterable of bytes
+            The new text of each part that changes, in pieces.
+        metadata : mapping
+            New values of the metadata outside the text of binary G-code.
+        """
+        self.file.seek(0)
+        if self.form == "archive":
+            from infill.gcode.bambu_archive import rewrite_archive
+
+            rewrite_archive(self.file, target, {plate: text for plate, text in texts.items() if plate is not None})
+        elif self.form == "binary":
+            from infill.gcode.binary import rewritten
+
+            rewritten(self.file, target, texts[None], metadata)
+        else:
+            target.writelines(texts[None])
+
     @contextlib.contextmanager
     def _binary(self, folder: Path | None) -> Iterator[SlicedText]:
         from infill.gcode.binary import Kind, blocks, metadata, text_pieces

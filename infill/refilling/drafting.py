@@ -16,6 +16,7 @@ from infill.files.whole_files import wrap_os_errors
 from infill.gcode.estimates import find_estimates
 from infill.gcode.survey import Survey
 from infill.kernels.threads import in_order, thread_count
+from infill.planner.print_clock import PrintClock
 from infill.refilling.batch import Batch, read_batches
 from infill.refilling.layers import RefilledBatch, measure_batch, refill_batch
 from infill.refilling.planning import RefillPlan
@@ -24,7 +25,6 @@ from infill.refilling.request import AUTO, KEEP, Progress
 from infill.refilling.rules import RefillRules
 from infill.refilling.stats import RefillStats
 from infill.refilling.support import LEAST_SHARE, kept_length_share, kept_shares, smaller_deviation
-from infill.refilling.timing import PrintClock
 
 PROGRESS_BYTES = 1 << 22  # bytes between two reports of progress
 MOST_REDRAWS = 3  # times that a print is redrawn with smaller moves of corners

@@ -19,27 +19,21 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
+from infill.errors import GeometryError
 from infill.files.whole_files import atomic_file, check_target, scratch_file
-from infill.gcode.estimates import (
-    EstimateChange,
-    completion_letters,
-    stated_grams,
-    stated_millimetres,
-    stated_seconds,
-    update_estimate,
-)
+from infill.gcode.estimates import EstimateChange, Restatement, StatedAmounts, restate
 from infill.gcode.sliced_file import SlicedText, open_sliced
-from infill.refilling.prints import copy_mode, read_pieces, update_metadata, write_print
 from infill.refilling.request import AUTO, KEEP, Progress, Request
 from infill.version import __version__
 
 if TYPE_CHECKING:
     from infill.gcode.survey import Survey
+    from infill.planner.print_clock import PrintTime
     from infill.refilling.rules import RefillRules
     from infill.refilling.stats import PrintAmounts, RefillStats
-    from infill.refilling.timing import PrintTime
 
 HEAD = 1 << 16  # bytes in which the header ends
+AT_ONCE = 1 << 20  # bytes of a draft that are read at once
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -161,15 +155,15 @@ def refill(
         if not changed:  # a copy
             if not _is_same_file(source, target):
                 with atomic_file(target) as file, source.open("rb") as old:
-                    copy_mode(source, file)
+                    _copy_mode(source, file)
                     shutil.copyfileobj(old, file)
             return RefillResult(report=report, path=target)
         if progress is not None:
             progress("writing", 0.95)
         with atomic_file(target) as file:
-            copy_mode(source, file)
+            _copy_mode(source, file)
             metadata = {name: value for part_draft in changed.values() for name, value in part_draft.metadata.items()}
-            write_print(sliced, file, {name: part_draft.text() for name, part_draft in changed.items()}, metadata)
+            sliced.rewrite(file, {name: part_draft.text() for name, part_draft in changed.items()}, metadata)
     return RefillResult(report=report, path=target)
 
 
@@ -225,11 +219,16 @@ class _Draft:
     def text(self) -> Iterator[bytes]:
         """Yield the draft with its edits, in pieces."""
         position = 0
-        for edit_place, length, text in self.edits:
-            yield from read_pieces(self.draft, position, edit_place)
+        for edit_place, length, text in (*self.edits, (self.draft.seek(0, os.SEEK_END), 0, b"")):
+            self.draft.seek(position)
+            while position < edit_place:
+                piece = self.draft.read(min(AT_ONCE, edit_place - position))
+                if not piece:
+                    raise GeometryError("a temporary file ended early; free some space on the disk and try again")
+                yield piece
+                position += len(piece)
             yield text
             position = edit_place + length
-        yield from read_pieces(self.draft, position, self.draft.seek(0, os.SEEK_END))
 
 
 def _joint_report(request: Request, parts: Sequence[_Draft], plates: Sequence[int] = ()) -> dict[str, Any]:
@@ -258,13 +257,13 @@ def _joint_report(request: Request, parts: Sequence[_Draft], plates: Sequence[in
 def _refill_text(sliced: SlicedText, draft: BinaryIO, request: Request, progress: Progress | None) -> _Draft:
     """Write the new text to a draft."""
     from infill.gcode.survey import survey_print
+    from infill.planner.print_clock import PrintClock
     from infill.refilling.drafting import draft_print
     from infill.refilling.placement import family_of
     from infill.refilling.planning import plan_refill
     from infill.refilling.report import loses_filament
     from infill.refilling.rules import derive_rules
     from infill.refilling.support import largest_deviation, sample_batches
-    from infill.refilling.timing import PrintClock
 
     family = None if request.pattern == KEEP else family_of(request.pattern, request.parameters, request.lines)
     print_survey = survey_print(sliced.text, more=family is not None and not family.prismatic, settings=sliced.settings)
@@ -298,9 +297,10 @@ def _refill_text(sliced: SlicedText, draft: BinaryIO, request: Request, progress
     before = clock.finish()
     places = [place for place, _ in tally.lines]
     after = PrintClock(sliced, draft, places, like=clock).read() if tally.replaced else before
-    change, edits = _update_estimates(sliced, print_survey, tally, before, after)
-    edits = [*edits, _stamp_edit(draft, tally)] if tally.replaced else []
-    metadata = update_metadata(sliced.metadata, change)
+    new = _restate(sliced, print_survey, tally, before, after)
+    edits = [(place, len(old), line) for (place, old), line in zip(tally.lines, new.lines, strict=True)]
+    if tally.replaced:
+        edits.append(_stamp_edit(draft, tally))
     return _Draft(
         found=print_survey,
         draft=draft,
@@ -308,16 +308,14 @@ def _refill_text(sliced: SlicedText, draft: BinaryIO, request: Request, progress
         rules=rules,
         remedy=remedy,
         edits=tuple(sorted(edits)),
-        metadata=metadata,
+        metadata=new.metadata,
     )
 
 
-def _update_estimates(
+def _restate(
     sliced: SlicedText, print_survey: Survey, tally: RefillStats, before: PrintTime, after: PrintTime
-) -> tuple[EstimateChange, list[tuple[int, int, bytes]]]:
-    """Add the totals of the print to the tally; return their change, and the edits of the lines that state them."""
-    lines = [line for _, line in tally.lines]
-    outside = [b"; %s = %s" % item for item in sliced.metadata]
+) -> Restatement:
+    """Update the statements of a print, and add its totals to the tally."""
     change = EstimateChange(
         seconds=after.seconds,
         first_layer=after.first_layer,
@@ -326,35 +324,33 @@ def _update_estimates(
         filament=tally.filament_ratio,
         tools=tally.tool_ratios,
     )
-    change = change.told_by([*lines, *outside]).as_told(lines, tally.change)
-    new_lines = lines
-    if tally.replaced:
-        times = zip(lines, after.elapsed.tolist(), completion_letters(lines), strict=True)
-        new_lines = [update_estimate(line, elapsed, change, is_finished) for line, elapsed, is_finished in times]
-    new_outside = [update_estimate(line, 0.0, change) for line in outside] if tally.replaced else outside
+    lines = [line for _, line in tally.lines]
+    elapsed = after.elapsed.tolist() if tally.replaced else None
+    new = restate(lines, sliced.metadata, change, tally.change, elapsed)
     used = sum(tally.filament.values())
-    tally.print_before = _print_amounts(before, [*lines, *outside], used, print_survey)
-    tally.print_after = _print_amounts(
-        after, [*new_lines, *new_outside], used + sum(tally.change.values()), print_survey
-    )
-    tally.slicer_seconds = max(
-        (stated_seconds(line) for line in (*lines, *outside) if b"silent" not in line), default=0.0
-    )
+    tally.print_before = _print_amounts(before, new.before, used, print_survey)
+    tally.print_after = _print_amounts(after, new.after, used + sum(tally.change.values()), print_survey)
+    tally.slicer_seconds = new.seconds
     tally.unread, tally.first_unread = before.unread, before.first_unread
-    edits = [(place, len(line), text) for (place, line), text in zip(tally.lines, new_lines, strict=True)]
-    return change, edits
+    return new
 
 
-def _print_amounts(time: PrintTime, lines: Sequence[bytes], used: float, print_survey: Survey) -> PrintAmounts:
-    """Sum up a print: the filament that its lines state, or else the counted amount."""
+def _print_amounts(time: PrintTime, stated: StatedAmounts, used: float, print_survey: Survey) -> PrintAmounts:
+    """Sum up a print: the filament that it states, or else the counted amount."""
     from infill.refilling.stats import PrintAmounts
 
-    filament = stated_millimetres(lines)
-    filament = used if filament is None else filament
-    grams, density = stated_grams(lines), print_survey.number("filament_density")
+    filament = used if stated.millimetres is None else stated.millimetres
+    grams, density = stated.grams, print_survey.number("filament_density")
     if grams is None and density:
         grams = filament * math.pi / 4 * print_survey.begin.diameter**2 / 1000 * density
     return PrintAmounts(seconds=time.seconds, infill_seconds=time.infill, filament=filament, grams=grams)
+
+
+def _copy_mode(source: Path, file: BinaryIO) -> None:
+    """Give a new file the permissions of the old one, where the system has them."""
+    if hasattr(os, "fchmod"):
+        with contextlib.suppress(OSError):
+            os.fchmod(file.fileno(), source.stat().st_mode & 0o7777)
 
 
 def _stamp_edit(draft: BinaryIO, tally: RefillStats) -> tuple[int, int, bytes]:

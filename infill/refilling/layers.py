@@ -13,6 +13,7 @@ from infill.gcode.splicing import find_difference, splice_paths, verify_replay
 from infill.gcode.table import GcodeTable, read_table
 from infill.paths.contact import Contact
 from infill.paths.covering import total_length
+from infill.planner.print_clock import path_seconds
 from infill.ragged import concatenate_rows, split_rows
 from infill.refilling.batch import LEAST_SPEED, Batch
 from infill.refilling.measuring import LayerPaths, SampledLayer, measure_layers
@@ -22,7 +23,6 @@ from infill.refilling.request import KEEP
 from infill.refilling.rules import RefillRules, short_layers, unchangeable_strokes
 from infill.refilling.smooth_in_place import path_lengths, redraw_strokes, stroke_corners, widened_filament
 from infill.refilling.stats import InfillAmounts, RefillStats
-from infill.refilling.timing import path_seconds
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]

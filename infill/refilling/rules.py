@@ -12,10 +12,10 @@ from infill.gcode.limits import Limits, is_valid_limit
 from infill.gcode.survey import Survey
 from infill.paths.corners import UNIT
 from infill.paths.rounding import Rounding
+from infill.planner.print_clock import neutral_limits
 from infill.refilling.batch import Batch
 from infill.refilling.measuring import sampling_stride
 from infill.refilling.request import SAME, Request
-from infill.refilling.timing import neutral_limits
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]

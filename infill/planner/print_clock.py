@@ -18,7 +18,7 @@ from infill.gcode.table import GcodeTable, MachineState
 from infill.planner.bounds import Moves
 from infill.planner.lookahead import MotionPlan, plan_moves
 from infill.planner.printing_time import make_timeline
-from infill.planner.strokes import FeatureSums as Sums
+from infill.planner.strokes import FeatureSums
 from infill.planner.timeline import Steps
 
 Floats = NDArray[np.float64]
@@ -124,7 +124,7 @@ class PrintClock:
         self._timeline = make_timeline(sliced, text, found=None if like is None else like.found)
         self.found: FileLimits = self._timeline.found
         self.begin: MachineState = self._timeline.state
-        self._sums, self._asked = Sums(times_only=True), np.asarray(places, dtype=np.int64)
+        self._sums, self._asked = FeatureSums(times_only=True), np.asarray(places, dtype=np.int64)
         self._elapsed = np.zeros(len(self._asked))
         self._first_layer = self._total = 0.0
         self._known = 0  # of the places
@@ -141,9 +141,22 @@ class PrintClock:
 
     def finish(self) -> PrintTime:
         """Return the time of all lines that were added."""
-        if self._timeline.moved:
-            self._count(*self._timeline.rest())
-        return self._result()
+        timeline, sums = self._timeline, self._sums
+        if timeline.moved:
+            self._count(*timeline.rest())
+        sums.finish(timeline.pause, timeline.retractions)
+        self._elapsed[self._known :] = self._total
+        seconds = sums.total("seconds").tolist()
+        return PrintTime(
+            seconds=float(sums.total("seconds").sum()),
+            infill=sum(
+                (spent for name, spent in zip(timeline.features, seconds, strict=False) if role_of(name) == SPARSE), 0.0
+            ),
+            first_layer=self._first_layer,
+            elapsed=self._elapsed,
+            unread=timeline.unread.lines,
+            first_unread=timeline.unread.first,
+        )
 
     def _count(self, steps: Steps, motion_plan: MotionPlan) -> None:
         if not len(steps):
@@ -158,20 +171,3 @@ class PrintClock:
             self._total + cumulative[np.searchsorted(steps.place, self._asked[reached], side="left")]
         )
         self._total += float(cumulative[-1])
-
-    def _result(self) -> PrintTime:
-        timeline, sums = self._timeline, self._sums
-        sums.finish(timeline.pause, timeline.retractions)
-        self._elapsed[self._known :] = self._total
-        seconds = sums.total("seconds")
-        roles = [role_of(name) for name in timeline.features[: len(seconds)]]
-        return PrintTime(
-            seconds=float(seconds.sum()),
-            infill=float(
-                sum(role_seconds for role, role_seconds in zip(roles, seconds.tolist(), strict=False) if role == SPARSE)
-            ),
-            first_layer=self._first_layer,
-            elapsed=self._elapsed,
-            unread=timeline.unread.lines,
-            first_unread=timeline.unread.first,
-        )
