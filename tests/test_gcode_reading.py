@@ -17,8 +17,9 @@ from infill import FormatError
 from infill.gcode import stream
 from infill.gcode.lines import ARC, BLANK, COMMENT, MOVE, ODD, OTHER
 from infill.gcode.numbers import MAX_DIGITS, WORD, long_numbers, read_numbers, short_numbers, write_words
-from infill.gcode.sections import InfillStrokes, LineMarks, TagState, find_strokes, mark_lines
+from infill.gcode.sections import LineMarks, TagState, mark_lines
 from infill.gcode.stream import batches
+from infill.gcode.strokes import InfillStrokes, find_strokes
 from infill.gcode.survey import HEAD, STAMP, TAIL, Survey, survey_print
 from infill.gcode.table import GcodeTable, MachineState, read_table
 

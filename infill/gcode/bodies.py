@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from infill.gcode.lines import ARC, MOVE, ODD, GcodeCommand
 from infill.gcode.numbers import write_words
-from infill.gcode.sections import FILAMENT_UNIT, InfillStrokes, LineMarks
+from infill.gcode.sections import LineMarks
 from infill.gcode.splicing import SplicedText
+from infill.gcode.strokes import FILAMENT_UNIT, InfillStrokes
 from infill.gcode.table import GcodeTable, firmware_retraction
 
 Floats = NDArray[np.float64]

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from infill.gcode.lines import MOVE
 from infill.gcode.numbers import write_words
-from infill.gcode.sections import FILAMENT_UNIT, InfillStrokes
+from infill.gcode.strokes import FILAMENT_UNIT, InfillStrokes
 from infill.gcode.table import GcodeTable, read_table
 from infill.paths.corners import UNIT
 

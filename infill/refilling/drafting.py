@@ -11,20 +11,22 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import BinaryIO
 
+import numpy as np
+
 from infill.errors import FormatError
 from infill.files.whole_files import wrap_os_errors
 from infill.gcode.estimates import find_estimates
 from infill.gcode.survey import Survey
 from infill.kernels.threads import in_order, thread_count
-from infill.planner.print_clock import PrintClock
-from infill.refilling.batch import Batch, read_batches
-from infill.refilling.layers import RefilledBatch, measure_batch, refill_batch
+from infill.planner.print_clock import PrintClock, path_seconds
+from infill.refilling.layers import Layers, read_layers
 from infill.refilling.planning import RefillPlan
-from infill.refilling.repath import LayerMemory
+from infill.refilling.replace import LayerMemory, replace_infill
 from infill.refilling.request import AUTO, KEEP, Progress
 from infill.refilling.rules import RefillRules
-from infill.refilling.stats import RefillStats
-from infill.refilling.support import LEAST_SHARE, kept_length_share, kept_shares, smaller_deviation
+from infill.refilling.smooth_in_place import smooth_in_place
+from infill.refilling.stats import NewInfill, RefillStats, count_refill
+from infill.refilling.support import LEAST_SHARE, kept_length_share, kept_shares, measure_layers, smaller_deviation
 
 PROGRESS_BYTES = 1 << 22  # bytes between two reports of progress
 MOST_REDRAWS = 3  # times that a print is redrawn with smaller moves of corners
@@ -131,24 +133,39 @@ def _draw(
     begin = None if clock is None else clock.begin
     bytes_read = shown = 0
 
-    def refill_next(batch: Batch) -> RefilledBatch:
-        return refill_batch(batch, rules, plan, memory)
+    def refill_next(layers: Layers) -> tuple[NewInfill, RefillStats]:
+        infill = layers.infill
+        acceleration = layers.acceleration(rules.acceleration)
+        seconds = path_seconds(infill.points, infill.first, layers.speed, acceleration, rules.limits)
+        if plan is not None:
+            new = replace_infill(layers, rules, plan, memory)
+        elif len(infill):
+            new = smooth_in_place(layers, rules, seconds)
+        else:
+            new = NewInfill.unchanged(layers, {})
+        return new, count_refill(layers, new, seconds)
 
-    # New paths continue those of the layer below, so that batches come one after another.
+    # New paths continue those of the layer below, so that layers come one after another.
     threads = min(thread_count(), MOST_THREADS) if plan is None else 1
     with wrap_os_errors(Path("a temporary file")):
-        for batch, new in in_order(refill_next, read_batches(file, begin), threads=threads):
+        for layers, (new, stats) in in_order(refill_next, read_layers(file, begin), threads=threads):
             if clock is not None:
-                clock.add(batch.table)
-            before, after, below = measure_batch(batch, new, below, rules.stride)
-            tally.add(new.tally)
-            tally.before += before
-            tally.after += after
+                clock.add(layers.table)
+            stats.before, stats.after, below = measure_layers(
+                layers.paths,
+                new.paths,
+                layers.bead_samples,
+                np.unique(layers.marks.layer),
+                line_width=layers.line_width,
+                stride=rules.stride,
+                last=below,
+            )
+            tally.add(stats)
             for begin_byte, end_byte in find_estimates(new.text):
                 tally.lines.append((draft.tell() + begin_byte, new.text[begin_byte:end_byte]))
             draft.write(new.text)
-            tags = batch.marks.after
-            bytes_read += len(batch.table.data)
+            tags = layers.marks.after
+            bytes_read += len(layers.table.data)
             if progress is not None and bytes_read >= shown:
                 progress("drawing infill", bytes_read / max(print_survey.size, 1))
                 shown = bytes_read + PROGRESS_BYTES

@@ -259,11 +259,12 @@ def _refill_text(sliced: SlicedText, draft: BinaryIO, request: Request, progress
     from infill.gcode.survey import survey_print
     from infill.planner.print_clock import PrintClock
     from infill.refilling.drafting import draft_print
+    from infill.refilling.layers import sample_layers
     from infill.refilling.placement import family_of
     from infill.refilling.planning import plan_refill
     from infill.refilling.report import loses_filament
     from infill.refilling.rules import derive_rules
-    from infill.refilling.support import largest_deviation, sample_batches
+    from infill.refilling.support import largest_deviation
 
     family = None if request.pattern == KEEP else family_of(request.pattern, request.parameters, request.lines)
     print_survey = survey_print(sliced.text, more=family is not None and not family.prismatic, settings=sliced.settings)
@@ -272,23 +273,23 @@ def _refill_text(sliced: SlicedText, draft: BinaryIO, request: Request, progress
         return _Draft(found=print_survey, draft=draft)
     if progress is not None:
         progress("looking at layers", 0.0)
-    batches = sample_batches(print_survey)
-    rules = derive_rules(request, print_survey, batches)
+    samples = sample_layers(print_survey)
+    rules = derive_rules(request, print_survey, samples)
     plan = None
     if family is not None:
         share = None if isinstance(request.density, str | None) else float(request.density)
         plan = plan_refill(
-            family, batches, rules.rounding, density=share, acceleration=rules.acceleration, cell=request.cell
+            family, samples, rules.rounding, density=share, acceleration=rules.acceleration, cell=request.cell
         )
         rules = rules if plan is not None else rules.rounded_by(0.0)
-    elif request.smooth_radius == AUTO and batches:
-        rules = rules.rounded_by(largest_deviation(batches, rules.rounding, rules.acceleration))
+    elif request.smooth_radius == AUTO and samples:
+        rules = rules.rounded_by(largest_deviation(samples, rules.rounding, rules.acceleration))
     clock = PrintClock(sliced)
     tally, rules = draft_print(sliced.text, draft, print_survey, rules, plan, progress, clock)
     remedy = None
     if request.pattern == KEEP and loses_filament(tally) and request.smooth_radius != AUTO:
         by_itself = replace(rules, request=replace(request, smooth_radius=AUTO)).with_radius(math.inf)
-        by_itself = by_itself.rounded_by(largest_deviation(batches, by_itself.rounding, rules.acceleration))
+        by_itself = by_itself.rounded_by(largest_deviation(samples, by_itself.rounding, rules.acceleration))
         with tempfile.TemporaryFile() as trial:
             remedy, _ = draft_print(sliced.text, trial, print_survey, by_itself, None, progress)
     if print_survey.begin.volumetric:
