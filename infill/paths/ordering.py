@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from infill.paths.clipping import is_closed
-from infill.paths.families.protocol import Path
+from infill.paths.families.family import Path
 
 ENTRIES = 12  # places at which a closed path may be entered, for the comparison with other paths
 

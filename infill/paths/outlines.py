@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import GeometryError
-from infill.paths.families.protocol import Path
+from infill.paths.families.family import Path
 
 if TYPE_CHECKING:
     from shapely import MultiPolygon, Polygon

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from infill.paths.corners import UNIT
 from infill.paths.covering import cover, total_length
-from infill.paths.families.protocol import TOUCH
+from infill.paths.families.family import TOUCH
 from infill.paths.layer_below import LayerBelow
 from infill.paths.neighbours import BeadIndex
 from infill.paths.rounding import round_paths

@@ -19,7 +19,7 @@ from patterns.protocol import Pattern
 from patterns.shared import angle_parameter, phase_parameter, seed_parameter
 
 if TYPE_CHECKING:
-    from infill.paths.families.protocol import Family
+    from infill.paths.families.family import Family
 
 LineSource = Pattern | type[Pattern]
 FRAME = "frame"
@@ -64,11 +64,9 @@ class PlacedParameters(SizedParameters):
 
     def placed(self, family: Family) -> Family:
         """Return a family with these parameters."""
-        if not self.angle and not any(self.phase):
-            return family
-        from infill.paths.families.turned import TurnedFamily
+        from infill.paths.families.family import turn_family
 
-        return TurnedFamily(family=family, angle=self.angle, phase=self.phase)
+        return turn_family(family, self.angle, self.phase)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,7 +77,7 @@ class HoneycombParameters(PlacedParameters):
 
     def placed(self, family: Family) -> Family:
         """Return a family with these parameters."""
-        from infill.paths.families.honeycomb import HoneycombPaths
+        from infill.paths.families.rows import HoneycombPaths
 
         assert isinstance(family, HoneycombPaths)
         return super().placed(replace(family, flats=self.flats))
@@ -114,10 +112,9 @@ class CentredParameters(SizedParameters):
 
     def placed(self, family: Family) -> Family:
         """Return a family with these parameters: here, as it is."""
-        from infill.paths.families.heart import ConcentricHeartPaths
-        from infill.paths.families.spirals import Spirals
+        from infill.paths.families.family import CentredFamily
 
-        assert isinstance(family, ConcentricHeartPaths | Spirals)
+        assert isinstance(family, CentredFamily)
         return replace(family, angle=self.angle, middle=self.middle)
 
 

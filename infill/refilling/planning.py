@@ -10,10 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.paths.covering import check_cell, solve_cell, total_length
-from infill.paths.families.heart import ConcentricHeartPaths
-from infill.paths.families.lines import LinePaths
-from infill.paths.families.protocol import TOUCH, Family
-from infill.paths.families.spirals import Spirals
+from infill.paths.families.family import TOUCH, CentredFamily, Family
 from infill.paths.neighbours import index_beads
 from infill.paths.rounding import Rounding, round_paths
 from infill.refilling.layers import Layers
@@ -113,8 +110,7 @@ def plan_refill(
         length += layer.length if density is None else density * area.area / spacing
     if not regions:
         return None
-    centred = ConcentricHeartPaths | Spirals | LinePaths
-    if isinstance(family, centred) and family.middle is None:  # one centre for the whole print
+    if isinstance(family, CentredFamily) and family.middle is None:  # one centre for the whole print
         boxes = np.array([area.bounds for area, _, _ in regions])
         low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
         family = replace(family, middle=tuple(((low + high) / 2).tolist()))

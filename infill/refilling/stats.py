@@ -32,6 +32,9 @@ class Histogram:
         place = np.clip(10 * np.log2(np.maximum(lengths, 1e-3) / 1e-3), 0, len(self.counts) - 1)
         self.counts += np.bincount(place.astype(np.intp), minlength=len(self.counts))
 
+    def __add__(self, other: Histogram) -> Histogram:
+        return Histogram(counts=self.counts + other.counts)
+
     def report(self) -> dict[str, float] | None:
         """Return the 1, 50 and 99 % quantiles of the lengths, to a fifteenth, mm."""
         total = np.cumsum(self.counts)
@@ -135,12 +138,6 @@ class PrintAmounts:
         )
 
 
-SUMS = tuple(
-    "layers sections replaced infill infill_after widened corners lines before after print_before print_after "
-    "slicer_seconds unread".split()
-)
-
-
 @dataclass(kw_only=True)
 class RefillStats:
     """Statistics of the layers so far.
@@ -214,15 +211,13 @@ class RefillStats:
 
     def add(self, part: RefillStats) -> None:
         """Add the statistics of some layers, or of another print."""
-        for reason, sections in part.kept.items():
-            self.keep(reason, sections)
-        for sums, increments in ((self.filament, part.filament), (self.change, part.change)):
-            for tool, filament in increments.items():
-                sums[tool] = sums.get(tool, 0.0) + filament
-        self.radii.counts += part.radii.counts
-        self.first_unread = self.first_unread or part.first_unread
-        for name in SUMS:
-            setattr(self, name, getattr(self, name) + getattr(part, name))
+        for name, value in vars(part).items():
+            total = getattr(self, name)
+            if isinstance(value, dict):
+                for key, amount in value.items():
+                    total[key] = total.get(key, 0) + amount
+            else:
+                setattr(self, name, total or value if name == "first_unread" else total + value)
 
     def count_millimetres(self, sections: Sequence[float]) -> None:
         """Count filament in mm, where the print counts it in mm³.

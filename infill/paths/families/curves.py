@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.paths.families.protocol import Bounds, Path
+from infill.paths.families.family import Bounds, Path
 
 Floats = NDArray[np.float64]
 
