@@ -9,7 +9,7 @@ import pytest
 import shapely
 from hypothesis import example, given
 from hypothesis import strategies as st
-from lines import BRACKET, DISC, PARTS, RING, least_spacing, length_of
+from lines import BRACKET, DISC, PARTS, RING, least_spacing, length_of, travel_length
 from shapely import MultiPolygon, Polygon, box
 
 from infill import GeometryError, ParameterError
@@ -20,7 +20,7 @@ from infill.paths.families.family import TOUCH, Path, PathSpec
 from infill.paths.joining import join
 from infill.paths.layer_below import index_layer_below
 from infill.paths.neighbours import index_beads
-from infill.paths.ordering import order_paths, travel_length
+from infill.paths.ordering import order_paths
 from infill.paths.outlines import outline_of
 
 WIDTH = 0.45

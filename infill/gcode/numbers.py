@@ -229,3 +229,13 @@ def _format_numbers(values: NDArray[np.float64], decimals: int) -> Bytes:
         column -= 1
     text[:, 0] = np.where(scaled < 0, MINUS, 0)
     return text
+
+
+def format_word(value: float, decimals: int = 3) -> bytes:
+    """Write a number as slicers do, without zeros at its end.
+
+    >>> format_word(1.5), format_word(-0.0001), format_word(20.0)
+    (b'1.5', b'0', b'20')
+    """
+    text = f"{value:.{decimals}f}".rstrip("0").rstrip(".")
+    return text.encode() if text not in ("", "-", "-0") else b"0"

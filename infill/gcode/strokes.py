@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.gcode.lines import BLANK, COMMENT, MOVE
-from infill.gcode.sections import SPARSE, LineMarks, TagState, mark_lines
+from infill.gcode.sections import SPARSE, LineMarks, TagState, is_printing, mark_lines
 from infill.gcode.stream import batches
 from infill.gcode.table import GcodeTable, MachineState, read_table
 
@@ -42,6 +42,8 @@ class InfillStrokes:
     filament : (M,) float64, mm
         Filament of each stroke.
     length : (M,) float64, mm
+    sections, purged_sections : (S,) and (P,) int, ascending
+        All sections that print infill, also those without strokes, and those that take purged filament.
     """
 
     points: Floats
@@ -52,6 +54,8 @@ class InfillStrokes:
     moves: Places
     filament: Floats
     length: Floats
+    sections: Places
+    purged_sections: Places
 
     def __len__(self) -> int:
         return len(self.first) - 1
@@ -131,6 +135,8 @@ def find_strokes(table: GcodeTable, marks: LineMarks, role: str = SPARSE) -> Inf
         moves=np.delete(line, stroke_start[:-1]),
         filament=filament,
         length=total,
+        sections=np.unique(marks.section[(marks.is_role(role) | marks.purged) & is_printing(table)]),
+        purged_sections=np.unique(marks.section[marks.purged & is_printing(table)]),
     )
 
 

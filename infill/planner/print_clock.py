@@ -41,7 +41,9 @@ def neutral_limits(square_corner_velocity: float = 5.0) -> Limits:
     )
 
 
-def path_seconds(points: Floats, offsets: Places, feedrate: Floats, acceleration: Floats, limits: Limits) -> Floats:
+def path_seconds(
+    points: Floats, offsets: Places, feedrate: Floats, acceleration: Floats, limits: Limits | None = None
+) -> Floats:
     """Compute the time of each path, s.
 
     Parameters
@@ -50,8 +52,8 @@ def path_seconds(points: Floats, offsets: Places, feedrate: Floats, acceleration
     offsets : (M + 1,) int
     feedrate, acceleration : (M,) float64
         mm/s and mm/s².
-    limits : Limits
-        All others.
+    limits : Limits, optional
+        All others; by default, `neutral_limits`.
     """
     number = np.diff(offsets)
     if not len(number):
@@ -62,6 +64,7 @@ def path_seconds(points: Floats, offsets: Places, feedrate: Floats, acceleration
     delta = np.zeros((len(move), 4))
     delta[:, :2] = points[move + 1] - points[move]
     delta[:, 3] = 1e-9
+    limits = limits or neutral_limits()
     levels, setting = np.unique(acceleration, return_inverse=True)
     limits_by_setting = [
         replace(limits, acceleration=float(level), travel_acceleration=float(level)) for level in levels

@@ -136,7 +136,7 @@ def _draw(
     def refill_next(layers: Layers) -> tuple[NewInfill, RefillStats]:
         infill = layers.infill
         acceleration = layers.acceleration(rules.acceleration)
-        seconds = path_seconds(infill.points, infill.first, layers.speed, acceleration, rules.limits)
+        seconds = path_seconds(infill.points, infill.first, layers.speed, acceleration)
         if plan is not None:
             new = replace_infill(layers, rules, plan, memory)
         elif len(infill):

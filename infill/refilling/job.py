@@ -14,15 +14,15 @@ import math
 import os
 import shutil
 import tempfile
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from infill.errors import GeometryError
 from infill.files.whole_files import atomic_file, check_target, scratch_file
 from infill.gcode.estimates import EstimateChange, Restatement, StatedAmounts, restate
 from infill.gcode.sliced_file import SlicedText, open_sliced
+from infill.gcode.stream import edited_text
 from infill.refilling.request import AUTO, KEEP, Progress, Request
 from infill.version import __version__
 
@@ -33,7 +33,6 @@ if TYPE_CHECKING:
     from infill.refilling.stats import PrintAmounts, RefillStats
 
 HEAD = 1 << 16  # bytes in which the header ends
-AT_ONCE = 1 << 20  # bytes of a draft that are read at once
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -140,30 +139,28 @@ def refill(
     with open_sliced(source) as sliced, contextlib.ExitStack() as drafts:
         drafted: dict[int | None, _Draft] = {}
         for number, plate in enumerate(sliced.parts):
-            draft = drafts.enter_context(scratch_file(folder))
+            scratch = drafts.enter_context(scratch_file(folder))
             plate_progress = _scale_progress(progress, number, len(sliced.parts))
             with sliced.text(plate, folder) as text:
-                drafted[plate] = _refill_text(text, draft, request, plate_progress)
+                drafted[plate] = _refill_text(text, scratch, request, plate_progress)
         report = _joint_report(request, list(drafted.values()), sliced.plates)
-        changed = {
-            name: part_draft
-            for name, part_draft in drafted.items()
-            if part_draft.tally is not None and part_draft.tally.replaced
-        }
+        changed = {plate: draft for plate, draft in drafted.items() if draft.tally is not None and draft.tally.replaced}
         if dry_run or (not changed and output is None):
             return RefillResult(report=report, path=None)
-        if not changed:  # a copy
-            if not _is_same_file(source, target):
-                with atomic_file(target) as file, source.open("rb") as old:
-                    _copy_mode(source, file)
-                    shutil.copyfileobj(old, file)
+        if not changed and target.exists() and target.samefile(source):
             return RefillResult(report=report, path=target)
-        if progress is not None:
+        if changed and progress is not None:
             progress("writing", 0.95)
         with atomic_file(target) as file:
             _copy_mode(source, file)
-            metadata = {name: value for part_draft in changed.values() for name, value in part_draft.metadata.items()}
-            sliced.rewrite(file, {name: part_draft.text() for name, part_draft in changed.items()}, metadata)
+            if changed:
+                texts = {plate: edited_text(draft.draft, draft.edits) for plate, draft in changed.items()}
+                sliced.rewrite(
+                    file, texts, {name: v for draft in changed.values() for name, v in draft.metadata.items()}
+                )
+            else:  # a copy
+                sliced.file.seek(0)
+                shutil.copyfileobj(sliced.file, file)
     return RefillResult(report=report, path=target)
 
 
@@ -174,17 +171,13 @@ def _scale_progress(progress: Progress | None, number: int, count: int) -> Progr
     return lambda stage, share: progress(stage, (number + share) / count)
 
 
-def _is_same_file(source: Path, target: Path) -> bool:
-    return target.exists() and target.samefile(source)
-
-
 def _refill_lines(lines: Iterable[str], request: Request, progress: Progress | None) -> RefillResult:
     """Refill lines of text."""
     text = "".join(line if line.endswith("\n") else f"{line}\n" for line in lines)
     sliced = SlicedText(text=io.BytesIO(text.encode("utf-8", "surrogateescape")))
     drafted = _refill_text(sliced, io.BytesIO(), request, progress)
     if drafted.tally is not None and drafted.tally.replaced:
-        text = b"".join(drafted.text()).decode("utf-8", "surrogateescape")
+        text = b"".join(edited_text(drafted.draft, drafted.edits)).decode("utf-8", "surrogateescape")
     # Not splitlines: comments may hold characters that it treats as line ends.
     report = _joint_report(request, [drafted])
     return RefillResult(report=report, path=None, lines=tuple(f"{line}\n" for line in text.split("\n")[:-1]))
@@ -216,20 +209,6 @@ class _Draft:
     edits: tuple[tuple[int, int, bytes], ...] = ()
     metadata: dict[str, str] = field(default_factory=dict)
 
-    def text(self) -> Iterator[bytes]:
-        """Yield the draft with its edits, in pieces."""
-        position = 0
-        for edit_place, length, text in (*self.edits, (self.draft.seek(0, os.SEEK_END), 0, b"")):
-            self.draft.seek(position)
-            while position < edit_place:
-                piece = self.draft.read(min(AT_ONCE, edit_place - position))
-                if not piece:
-                    raise GeometryError("a temporary file ended early; free some space on the disk and try again")
-                yield piece
-                position += len(piece)
-            yield text
-            position = edit_place + length
-
 
 def _joint_report(request: Request, parts: Sequence[_Draft], plates: Sequence[int] = ()) -> dict[str, Any]:
     """Report on all prints of a file; those that were refilled before count only if all of them were."""
@@ -238,19 +217,21 @@ def _joint_report(request: Request, parts: Sequence[_Draft], plates: Sequence[in
     from infill.refilling.stats import RefillStats
 
     joint_survey = merge_surveys([part.found for part in parts])
-    tallies = [part.tally for part in parts if part.tally is not None]
-    rules = max((part.rules for part in parts if part.rules), key=lambda rules: rules.rounding.deviation, default=None)
-    total = RefillStats()
-    for tally in tallies:
-        total.add(tally)
-    total_or_none = total if tallies else None
-    remedied = RefillStats()
-    for part in parts:
-        if part.tally is not None:
-            remedied.add(part.remedy or part.tally)
-    remedy = remedied if any(part.remedy is not None for part in parts) else None
+    drawn = [part for part in parts if part.tally is not None]
+    rules = max((part.rules for part in drawn if part.rules), key=lambda rules: rules.rounding.deviation, default=None)
+    total, remedied = RefillStats(), RefillStats()
+    for part in drawn:
+        assert part.tally is not None
+        total.add(part.tally)
+        remedied.add(part.remedy or part.tally)
     return refill_report(
-        request, joint_survey, total_or_none, already=joint_survey.stamped, rules=rules, plates=plates, remedy=remedy
+        request,
+        joint_survey,
+        total if drawn else None,
+        already=joint_survey.stamped,
+        rules=rules,
+        plates=plates,
+        remedy=remedied if any(part.remedy is not None for part in parts) else None,
     )
 
 

@@ -10,7 +10,7 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.gcode.sections import SKIN_ROLES, SPARSE, LineMarks, is_printing
+from infill.gcode.sections import SKIN_ROLES, LineMarks
 from infill.gcode.strokes import InfillStrokes, mark_text, read_strokes
 from infill.gcode.survey import Survey
 from infill.gcode.table import GcodeTable, MachineState
@@ -90,20 +90,6 @@ class Layers:
     def section(self) -> Places:
         """Section of each stroke, (M,)."""
         return self.marks.section[self.infill.opens]
-
-    @cached_property
-    def sections(self) -> Places:
-        """All sections of sparse infill, ascending: also those without strokes."""
-        return self._printing_sections(self.marks.is_role(SPARSE) | self.marks.purged)
-
-    @cached_property
-    def purged_sections(self) -> Places:
-        """The sections that take purged filament, ascending."""
-        return self._printing_sections(self.marks.purged)
-
-    def _printing_sections(self, lines: NDArray[np.bool_]) -> Places:
-        """Return the sections in which some lines print."""
-        return np.unique(self.marks.section[lines & is_printing(self.table)])
 
     @cached_property
     def paths(self) -> LayerPaths:

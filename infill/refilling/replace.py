@@ -13,14 +13,11 @@ from numpy.typing import NDArray
 from infill.gcode.bodies import (
     InfillSection,
     TravelSettings,
-    compose_section,
     find_sections,
     measure_travel,
-    replace_sections,
-    validate_section,
+    redraw_sections,
 )
-from infill.gcode.splicing import find_difference
-from infill.gcode.table import GcodeTable, read_table
+from infill.gcode.table import GcodeTable
 from infill.kernels.threads import in_order
 from infill.paths.corners import UNIT
 from infill.paths.covering import total_length
@@ -180,12 +177,12 @@ class NewSection:
         lines = [shapely.linestrings(path) for path in self.paths]
         return not bool(shapely.covers(self._grown_area(REGION_TOLERANCE + UNIT), lines).all())
 
-    def seconds(self, rules: RefillRules) -> float:
+    def seconds(self) -> float:
         """Return the time of the paths, s."""
         points, first = concatenate_rows(self.paths, like=(2,))
         speed = np.full(len(self.paths), max(self.body.feed / 60, LEAST_SPEED))
         acceleration = np.full(len(self.paths), self.acceleration)
-        return float(path_seconds(points, first, speed, acceleration, rules.limits).sum())
+        return float(path_seconds(points, first, speed, acceleration).sum())
 
     def not_faster(self, table: GcodeTable) -> NewSection:
         """Return the section, slowed down if it would take less time than the old one.
@@ -239,14 +236,12 @@ def replace_infill(layers: Layers, rules: RefillRules, plan: RefillPlan, memory:
         return NewInfill.unchanged(layers, kept)
     slow = may_be_slowed(layers, rules)
     new = [s.not_faster(table) if slow[s.body.layer - int(layers.marks.layer[0])] else s for s in new]
-    bodies = [section.body for section in new]
-    written = [compose_section(table, s.body, s.paths, s.rate, memory.ways, s.retractions()) for s in new]
-    texts, filament = [text for text, _ in written], [pushed for _, pushed in written]
-    spliced = replace_sections(table, bodies, texts)
-    new_table = read_table(spliced.text, table.before)
-    fault = find_difference(table, new_table, spliced) or validate_section(new_table, spliced, bodies, texts)
+    text, filament, fault = redraw_sections(
+        table, [(s.body, s.paths, s.rate, s.retractions()) for s in new], memory.ways
+    )
     if fault:
         return NewInfill.unchanged(layers, kept | {f"a check failed: {fault}": drawn})
+    bodies = [section.body for section in new]
     changed = np.zeros(len(infill), dtype=bool)
     changed[np.concatenate([body.strokes for body in bodies])] = True
     old_paths, remaining = split_rows(infill.points, infill.first), np.flatnonzero(~changed).tolist()
@@ -255,12 +250,12 @@ def replace_infill(layers: Layers, rules: RefillRules, plan: RefillPlan, memory:
     )
     layer = [layers.layer[remaining], *(np.full(len(section.paths), section.body.layer) for section in new)]
     return NewInfill(
-        text=spliced.text,
+        text=text,
         paths=LayerPaths(points=points, first=first, layer=np.concatenate(layer)),
         changed=changed,
         kept=kept,
         amounts=InfillAmounts(
-            seconds=sum(section.seconds(rules) for section in new),
+            seconds=sum(section.seconds() for section in new),
             length=sum(section.length for section in new),
             filament=sum(filament),
         ),

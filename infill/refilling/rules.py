@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.gcode.limits import Limits, is_valid_limit
 from infill.gcode.survey import Survey
 from infill.paths.contact import MOST_POINTS, STEP
 from infill.paths.corners import UNIT
 from infill.paths.rounding import Rounding
-from infill.planner.print_clock import neutral_limits
 from infill.refilling.layers import Layers
 from infill.refilling.request import SAME, Request
 
@@ -50,8 +48,6 @@ class RefillRules:
         True if the print sets its counter of filament by G92, so that new lines may.
     stride : int
         Sampling stride, in layers.
-    limits : Limits
-        For the timing of paths.
     """
 
     request: Request
@@ -61,7 +57,6 @@ class RefillRules:
     least_layer: float = 0.0
     resets_filament: bool = True
     stride: int = 1
-    limits: Limits = field(default_factory=neutral_limits)
 
     def rounded_by(self, deviation: float) -> RefillRules:
         """Return the rules with another largest deviation, mm."""
@@ -74,27 +69,23 @@ class RefillRules:
 
 def derive_rules(request: Request, print_survey: Survey, samples: Sequence[Layers]) -> RefillRules:
     """Derive the rules for a print from its header and some of its layers."""
-    jerk = (
-        print_survey.number("machine_max_jerk_x")
-        if print_survey.number("machine_max_junction_deviation") is None
-        else None
-    )
+    uses_jerk = print_survey.number("machine_max_junction_deviation") is None
+    jerk = print_survey.number("machine_max_jerk_x", limit="jerk") if uses_jerk else None
     feeds = [layers.feed for layers in samples]
     lengths = [layer.length for layers in samples for layer in layers]
     cooled = print_survey.settings.get("cooling", "1") != "0"
     least_seconds = print_survey.number("slowdown_below_layer_time", "slow_down_layer_time") if cooled else 0.0
     settings = "infill_acceleration", "sparse_infill_acceleration", "default_acceleration"
-    stated_acceleration = print_survey.number(*settings) or 0.0
     return RefillRules(
         request=request,
         rounding=Rounding(
             deviation=request.deviation,
             most=request.deviation,
             radius=request.radius,
-            corner=max(jerk if jerk and is_valid_limit(jerk, "jerk") else CORNER, LEAST_CORNER),
+            corner=max(jerk or CORNER, LEAST_CORNER),
             same_filament=request.density == SAME,
         ),
-        acceleration=stated_acceleration if is_valid_limit(stated_acceleration, "acceleration") else ACCELERATION,
+        acceleration=print_survey.number(*settings, limit="acceleration") or ACCELERATION,
         usual_speed=float(np.median(np.concatenate(feeds))) if feeds else 0.0,
         least_layer=least_seconds or 0.0,
         resets_filament=print_survey.resets_filament,

@@ -40,7 +40,7 @@ def smooth_in_place(layers: Layers, rules: RefillRules, seconds: Floats) -> NewI
     infill, section = layers.infill, layers.section
     smooth = stroke_corners(layers, rules.rounding.corner, acceleration=rules.acceleration).rounded(rules.rounding)
     acceleration = layers.acceleration(rules.acceleration)
-    new_seconds = path_seconds(smooth.points, smooth.first, layers.speed, acceleration, rules.limits)
+    new_seconds = path_seconds(smooth.points, smooth.first, layers.speed, acceleration)
     reasons = {**unchangeable_strokes(layers, rules), "no faster": new_seconds > seconds * SLOWER}
     new = redraw_strokes(infill, smooth, ~np.any(list(reasons.values()), axis=0), rules.rounding)
     spliced = splice_paths(layers.table, infill, new)

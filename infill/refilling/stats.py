@@ -264,7 +264,7 @@ def count_refill(layers: Layers, new: NewInfill, seconds: Floats) -> RefillStats
     arcs = new.radii[(new.radii > LEAST_RADIUS) & np.isfinite(new.radii)]
     stats = RefillStats(
         layers=layers.marks.layers,
-        sections=len(layers.sections),
+        sections=len(infill.sections),
         infill=amounts(np.ones(len(infill), dtype=bool)),
         infill_after=after,
         widened=after.filament + new.widened,
@@ -275,9 +275,9 @@ def count_refill(layers: Layers, new: NewInfill, seconds: Floats) -> RefillStats
     stats.radii.add(arcs)
     replaced = np.unique(layers.section[new.changed])
     stats.replaced = len(replaced)
-    remaining = np.setdiff1d(layers.sections, replaced)
+    remaining = np.setdiff1d(infill.sections, replaced)
     unread = np.setdiff1d(remaining, layers.section)
-    purged = np.intersect1d(unread, layers.purged_sections)
+    purged = np.intersect1d(unread, infill.purged_sections)
     for reason, sections in {PURGED: purged, UNREAD: unread, **new.kept, NO_CORNER: remaining}.items():
         stats.keep(reason, len(np.intersect1d(remaining, sections)))
         remaining = np.setdiff1d(remaining, sections)
