@@ -99,7 +99,7 @@ def calls() -> dict[str, Callable[[], object]]:
     import infill.kernels.threads
     from infill import fill, make, motion, refill, smooth_mesh, smooth_volume
 
-    infill.kernels.threads.ThreadPoolExecutor = Inline  # type: ignore[misc, assignment]
+    vars(infill.kernels.threads)["ThreadPoolExecutor"] = Inline
     sliced = Path(tempfile.mkdtemp()) / "box.gcode"
     sliced.write_bytes(written(Dialect()))
     ball = np.sum((np.indices((24, 24, 24)) - 11.5) ** 2, axis=0) < 64

@@ -239,7 +239,7 @@ def _refill_text(sliced: SlicedText, draft: BinaryIO, request: Request, progress
     """Write the new text to a draft."""
     from infill.gcode.survey import survey_print
     from infill.planner.print_clock import PrintClock
-    from infill.refilling.drafting import draft_print
+    from infill.refilling.drafting import Drafting
     from infill.refilling.layers import sample_layers
     from infill.refilling.placement import family_of
     from infill.refilling.planning import plan_refill
@@ -266,13 +266,14 @@ def _refill_text(sliced: SlicedText, draft: BinaryIO, request: Request, progress
     elif request.smooth_radius == AUTO and samples:
         rules = rules.rounded_by(largest_deviation(samples, rules.rounding, rules.acceleration))
     clock = PrintClock(sliced)
-    tally, rules = draft_print(sliced.text, draft, print_survey, rules, plan, progress, clock)
+    drafting = Drafting(file=sliced.text, draft=draft, print_survey=print_survey, progress=progress)
+    tally, rules = drafting.meet_targets(rules, plan, clock)
     remedy = None
     if request.pattern == KEEP and loses_filament(tally) and request.smooth_radius != AUTO:
         by_itself = replace(rules, request=replace(request, smooth_radius=AUTO)).with_radius(math.inf)
         by_itself = by_itself.rounded_by(largest_deviation(samples, by_itself.rounding, rules.acceleration))
         with tempfile.TemporaryFile() as trial:
-            remedy, _ = draft_print(sliced.text, trial, print_survey, by_itself, None, progress)
+            remedy, _ = replace(drafting, draft=trial).meet_targets(by_itself, None)
     if print_survey.begin.volumetric:
         for stats in [tally] if remedy is None else [tally, remedy]:
             stats.count_millimetres([math.pi / 4 * diameter**2 for diameter in print_survey.begin.diameters])

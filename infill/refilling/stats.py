@@ -190,6 +190,11 @@ class RefillStats:
     first_unread: int = 0
 
     @property
+    def filament_error(self) -> float:
+        """Relative change of the filament of the infill."""
+        return self.infill_after.filament / self.infill.filament - 1 if self.infill.filament else 0.0
+
+    @property
     def filament_ratio(self) -> float:
         """Filament of the entire print, after over before."""
         total = sum(self.filament.values())
