@@ -49,17 +49,15 @@ class SlicedFile:
     form : {"text", "binary", "archive"}
     plates : tuple of int
         Of an archive: those that have G-code.
+    parts : tuple of int or None
+        Prints in the file: the plates of an archive, or None for its only one.
     """
 
     name: str
     file: BinaryIO
     form: Form
     plates: tuple[int, ...] = ()
-
-    @property
-    def parts(self) -> tuple[int | None, ...]:
-        """Prints in the file: the plates of an archive, or None for its only one."""
-        return self.plates or (None,)
+    parts: tuple[int | None, ...] = (None,)
 
     def part(self, plate: int | None) -> int | None:
         """Return the print of a plate; without a plate, the first.
@@ -176,7 +174,7 @@ def open_sliced(source: Path) -> Iterator[SlicedFile]:
                 from infill.gcode.bambu_archive import list_plates
 
                 numbers = list_plates(file)
-            yield SlicedFile(name=source.name, file=file, form=form, plates=numbers)
+            yield SlicedFile(name=source.name, file=file, form=form, plates=numbers, parts=numbers or (None,))
     except FormatError as error:
         raise FormatError(f"{source}: {error}") from error
 
