@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.gcode.lines import ARC, MOVE, ODD, GcodeCommand
+from infill.gcode.machine_state import firmware_retraction
 from infill.gcode.numbers import format_word, write_words
 from infill.gcode.sections import LineMarks
 from infill.gcode.splicing import SplicedText, find_difference
 from infill.gcode.strokes import FILAMENT_UNIT, InfillStrokes
-from infill.gcode.table import GcodeTable, firmware_retraction, read_table
+from infill.gcode.table import GcodeTable, read_table
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]

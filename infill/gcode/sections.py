@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from infill.gcode.dialect import MAX_TAG_BYTES, UNTAGGED, parse_tag, role_of, tool_of
 from infill.gcode.limits import is_valid_limit
 from infill.gcode.lines import COMMENT
-from infill.gcode.table import NAN, GcodeTable
+from infill.gcode.machine_state import NAN
+from infill.gcode.table import GcodeTable
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]

@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.gcode.lines import BLANK, COMMENT, MOVE
+from infill.gcode.machine_state import MachineState
 from infill.gcode.sections import SPARSE, LineMarks, TagState, is_printing, mark_lines
 from infill.gcode.stream import batches
-from infill.gcode.table import GcodeTable, MachineState, read_table
+from infill.gcode.table import GcodeTable, read_table
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]

@@ -12,8 +12,9 @@ from typing import BinaryIO
 from infill.errors import FormatError
 from infill.gcode.found_limits import extrusion_rule, filament_units
 from infill.gcode.limits import is_valid_limit
+from infill.gcode.machine_state import MachineState
 from infill.gcode.stream import LAYER_TAG, MAX_LINE_BYTES
-from infill.gcode.table import MachineState, read_table
+from infill.gcode.table import read_table
 
 HEAD = 1 << 18  # bytes read for the header and the modes
 TAIL = 1 << 17  # bytes read for the settings

@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 from infill.gcode.dialect import role_of
 from infill.gcode.found_limits import FileLimits
 from infill.gcode.limits import Limits
+from infill.gcode.machine_state import MachineState
 from infill.gcode.sections import SPARSE
 from infill.gcode.sliced_file import SlicedText
-from infill.gcode.table import GcodeTable, MachineState
+from infill.gcode.table import GcodeTable
 from infill.planner.bounds import Moves
 from infill.planner.lookahead import MotionPlan, plan_moves
 from infill.planner.printing_time import make_timeline

@@ -10,10 +10,11 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.gcode.machine_state import MachineState
 from infill.gcode.sections import SKIN_ROLES, LineMarks
 from infill.gcode.strokes import InfillStrokes, mark_text, read_strokes
 from infill.gcode.survey import Survey
-from infill.gcode.table import GcodeTable, MachineState
+from infill.gcode.table import GcodeTable
 from infill.paths.contact import STEP, Samples, sample_paths
 from infill.paths.neighbours import BeadIndex, index_beads
 from infill.ragged import select_rows
