@@ -105,6 +105,10 @@ def edited_text(file: BinaryIO, edits: Iterable[tuple[int, int, bytes]]) -> Iter
     ------
     GeometryError
         If the file ends before an edit.
+
+    >>> import io
+    >>> b"".join(edited_text(io.BytesIO(b"abcdef"), [(1, 2, b"X"), (6, 0, b"!")]))
+    b'aXdef!'
     """
     position = 0
     for place, length, text in (*edits, (file.seek(0, os.SEEK_END), 0, b"")):
