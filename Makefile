@@ -13,14 +13,15 @@ SOURCES = $(shell find infill patterns -name '*.py')
 
 ## make demo      the three designs of the paper as STL, with a picture of each (the default)
 ## make test      the suite without its longest cases, in 6 minutes
-## make coverage  the whole suite, with the share of lines that it reaches
+## make longest   the cases that make test leaves out
+## make coverage  the whole suite at once, with the share of lines that it reaches
 ## make quick     the suite without what is slow
 ## make oldest    the suite on the oldest dependencies that are allowed
 ## make fuzz      mutated files of every format, for an hour; FUZZ="--minutes 300 --only meshes" says how
 ## make lint      ruff, the words, and the schemas of workflows, issue forms and CITATION.cff
 ## make types     mypy --strict
 ## make docs      the site, in build/docs
-## make check     what CI runs: lint, types, docs, coverage
+## make check     what CI runs: lint, types, docs, test, longest
 ## make wheel     sdist and wheel in dist/, and the wheel tried alone
 ## make slicers   PrusaSlicer and CuraEngine, on Debian, for the tests that slice
 ## make data      real meshes and scans for the tests, in data/
@@ -34,7 +35,7 @@ SOURCES = $(shell find infill patterns -name '*.py')
 
 .DELETE_ON_ERROR:
 FUZZ ?= --minutes 60
-.PHONY: demo test coverage quick fuzz oldest lint types docs wheel check slicers data bench slicer-report smooth-report paper pictures gallery help clean
+.PHONY: demo test longest coverage quick fuzz oldest lint types docs wheel check slicers data bench slicer-report smooth-report paper pictures gallery help clean
 
 # Real meshes and scans for the tests: what `make data` fetched, unless a folder is named.
 ifneq ($(wildcard data),)
@@ -54,7 +55,10 @@ $(DEMO)/%.stl $(DEMO)/%.png: .venv/demo $(SOURCES)
 test: .venv/test
 	@$(BIN)/python -m pytest -q -n 2 -m "not left_out" -p no:cov
 
-# Everything, counting the lines that it reaches.
+longest: .venv/test
+	@$(BIN)/python -m pytest -q -n 2 -m "left_out" -p no:cov
+
+# Everything, counting the lines that it reaches, which takes twice as long.
 coverage: .venv/test
 	@$(BIN)/python -m pytest -q -n 2 --cov --cov-report=term:skip-covered --cov-fail-under=97
 
@@ -99,7 +103,7 @@ wheel: .venv/release
 	@$(BIN)/python tools/try_wheel.py dist/*.whl
 
 # What CI runs.
-check: lint types docs coverage
+check: lint types docs test longest
 
 # Real meshes and scans that tests and figures take, in data/ or $INFILL_DATA, each by its hash.
 data: .venv/test

@@ -12,7 +12,7 @@ from infill import GeometryError, Result, Surface, fill
 from infill.inspection.stiffness import Stiffness, homogenise_stiffness
 from infill.lattices.stages import FillStages
 from infill.pictures.render import render
-from infill.report_keys import FillReport
+from infill.reports.filling import FillReport
 from patterns import PATTERNS, Cells, Lightning, Pattern, parameters
 from patterns.polyhedra import Polyhedra
 from patterns.unit_cells import Bars, Cellular, Network, Planes, Surfaces

@@ -89,9 +89,12 @@ def build_drawing(
     """Simplify lines and return them as a drawing; raise FormatError if none remains or one is not finite."""
     import shapely
 
-    left_out = left_out or {}
+    left_out = dict(left_out or {})
+    polylines = list({line.tobytes(): line for line in lines if len(line) > 1}.values())
+    repeated = sum(len(line) > 1 for line in lines) - len(polylines)
+    if repeated:
+        left_out["repeated line"] = repeated
     omissions = tuple(f"{count} {what}{'s' if count > 1 else ''}" for what, count in left_out.items())
-    polylines = [line for line in lines if len(line) > 1]
     if not polylines:
         hint = f", only {' and '.join(omissions)}" if omissions else ""
         raise FormatError(f"{path} holds no lines{hint}; draw outlines or strokes, and turn texts into paths")

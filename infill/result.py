@@ -23,6 +23,7 @@ from infill.imaging.label_tables import Colour
 from infill.meshes.split_components import concatenate_surfaces
 from infill.pictures.preview import SUFFIXES as PICTURES
 from infill.pictures.preview import is_picture
+from infill.reports.common import Declared, declare
 from infill.surface import Surface
 
 if TYPE_CHECKING:
@@ -54,7 +55,7 @@ class Result(Generic[Stages, Told]):
         The meshes as plain arrays, mm, the main one first. `make` names its surface "block", `smooth` "solid".
     report : dict
         Plain numbers and strings, as ``--json`` prints them. docs/report.md lists every key, and type checkers find
-        the keys in `infill.report_keys`.
+        the keys in `infill.reports`.
     stages : frozen dataclass
         Intermediate stages: `infill.making.stages.MakeStages`, `infill.smoothing.stages.SmoothStages`,
         `infill.smoothing.labels.LabelStages` or `infill.smoothing.by_component.ComponentStages`.
@@ -164,6 +165,7 @@ def share_progress(progress: Progress | None, sizes: Sequence[int]) -> list[Prog
 
 
 def _progress_between(progress: Progress, begin: float, end: float) -> Progress:
+    """Return a listener that maps progress from 0 to 1 onto a part of the whole."""
     return lambda stage, share: progress(stage, begin + share * (end - begin))
 
 
@@ -181,6 +183,10 @@ class Clock:
         begin = time.perf_counter()
         yield
         self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - begin
+
+    def timings(self, declaration: Callable[..., Declared]) -> Declared:
+        """Return the seconds by stage, and their total, as a section of a report."""
+        return declare(declaration, {**self.seconds, "total": sum(self.seconds.values())})
 
     def tell(self, name: str, share: float) -> None:
         """Report the finished share of the work to the listener, if any."""

@@ -103,6 +103,7 @@ class Cross3D(Cross):
         return np.where((distance < 0.5 + SIDE / 2) & (power[..., 0] != power[..., 1]), 1.0, -1.0)
 
     def _shift(self, z: float | NDArray[np.float64]) -> tuple[Any, Any]:
+        """Return how far the cross is shifted in x and y at a height, mm."""
         import numpy as np
 
         turned = 2 * math.pi * np.asarray(z) / self.height + math.radians(self.angle)

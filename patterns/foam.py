@@ -62,6 +62,7 @@ def voronoi_centroids(seeds: Floats, period: int) -> Floats:
 
 
 def _wrap(offset: Floats, period: int) -> Floats:
+    """Return offsets between cells of a periodic grid as the shortest ones."""
     wrapped: Floats = offset - period * np.round(offset / period)
     return wrapped
 

@@ -43,7 +43,7 @@ class Octagons(Pattern):
     frame: bool = frame_parameter(default=True)
 
     def lines(self, region: Polygon | MultiPolygon, z: float = 0.0) -> MultiLineString:  # noqa: ARG002 - prismatic
-        """Return the walls as segments from node to node, and the frame."""
+        """Return the walls as segments from node to node, clipped to the region, and the frame if there is one."""
         import numpy as np
         import shapely
 

@@ -59,6 +59,7 @@ class Registry(Mapping[str, PatternClass]):
         self._plugged_in: dict[str, PatternClass] | None = None
 
     def _load_plugins(self) -> dict[str, PatternClass]:
+        """Load the patterns of installed plug-ins, once; warn of those that cannot be loaded."""
         if self._plugged_in is None:
             classes: dict[str, PatternClass] = {}
             for entry in self._plugins():

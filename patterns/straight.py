@@ -53,7 +53,7 @@ class Straight(Pattern):
 def parallel_lines(
     corners: NDArray[np.float64], *, distance: float, angle: float, shift: float = 0.0
 ) -> NDArray[np.float64]:
-    """Return parallel lines that cross the box around points (N, 2): (L, 2, 2), in the unit of the points.
+    """Return parallel lines across the box around points (N, 2): (L, 2, 2), in their unit; `shift` is in distances.
 
     Parameters
     ----------

@@ -22,30 +22,35 @@ if TYPE_CHECKING:
 
 
 def _gyroid(x: Floats, y: Floats, z: Floats) -> Floats:
+    """Return sin x cos y + sin y cos z + sin z cos x, which is 0 on the surface."""
     from numpy import cos, sin
 
     return sin(x) * cos(y) + sin(y) * cos(z) + sin(z) * cos(x)
 
 
 def _schwarz_p(x: Floats, y: Floats, z: Floats) -> Floats:
+    """Return cos x + cos y + cos z, which is 0 on the surface."""
     from numpy import cos
 
     return cos(x) + cos(y) + cos(z)
 
 
 def _schwarz_d(x: Floats, y: Floats, z: Floats) -> Floats:
+    """Return the level set of Schwarz' D surface, which is 0 on the surface."""
     from numpy import cos, sin
 
     return cos(x) * cos(y) * cos(z) - sin(x) * sin(y) * sin(z)
 
 
 def _fischer_koch_s(x: Floats, y: Floats, z: Floats) -> Floats:
+    """Return the level set of Fischer and Koch's S surface, which is 0 on the surface."""
     from numpy import cos, sin
 
     return cos(2 * x) * sin(y) * cos(z) + cos(x) * cos(2 * y) * sin(z) + sin(x) * cos(y) * cos(2 * z)
 
 
 def _lidinoid(x: Floats, y: Floats, z: Floats) -> Floats:
+    """Return the level set of Lidin's surface, which is 0 on the surface."""
     from numpy import cos, sin
 
     return (
@@ -60,12 +65,14 @@ def _lidinoid(x: Floats, y: Floats, z: Floats) -> Floats:
 
 
 def _neovius(x: Floats, y: Floats, z: Floats) -> Floats:
+    """Return the level set of Neovius' surface, which is 0 on the surface."""
     from numpy import cos
 
     return 3 * (cos(x) + cos(y) + cos(z)) + 4 * cos(x) * cos(y) * cos(z)
 
 
 def _i_wp(x: Floats, y: Floats, z: Floats) -> Floats:
+    """Return the level set of Schoen's I-WP surface, which is 0 on the surface."""
     from numpy import cos
 
     return 2 * (cos(x) * cos(y) + cos(y) * cos(z) + cos(z) * cos(x)) - (cos(2 * x) + cos(2 * y) + cos(2 * z))

@@ -111,6 +111,7 @@ class Surfaces(Cells):
         return foot, value
 
     def _at(self, points: Floats) -> Floats:
+        """Evaluate the level set at points (N, 3), in cells."""
         import numpy as np
 
         x, y, z = (2 * np.pi * points).T
@@ -164,6 +165,7 @@ def surface_offsets(surfaces: Surfaces) -> Floats:
 
 
 def _unit(vectors: Floats) -> Floats:
+    """Return vectors (N, 3) scaled to length 1."""
     import numpy as np
 
     unit_vectors: Floats = vectors / np.maximum(np.linalg.norm(vectors, axis=1, keepdims=True), 1e-12)

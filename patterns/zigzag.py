@@ -62,10 +62,11 @@ class Zigzag(Pattern):
         return add_frame(lines, region) if self.frame else lines
 
     def line_spacing(self, region: Polygon | MultiPolygon) -> float:
-        """Return the distance between neighbouring strokes along the diagonal, mm."""
+        """Return the distance of strokes along the diagonal, mm: the cell, or by `waves` that of the region."""
         return min(self._stroke_distance(self._reach(region, self.angle + direction)[0]) for direction in (45, -45))
 
     def _stroke_distance(self, along: float) -> float:
+        """Return the distance of strokes: the cell, or the block divided by the number of waves."""
         return self.cell if self.waves is None else along / self.waves
 
     def _reach(self, region: Polygon | MultiPolygon, direction: float) -> tuple[float, float]:

@@ -23,20 +23,19 @@ ROOT = Path(__file__).resolve().parents[1]
 # From the ground up. A module imports from lower rows and from its own room; rooms of one row never meet.
 ROWS: tuple[tuple[str, ...], ...] = (
     ("patterns", "hall"),
-    ("files", "kernels"),
+    ("files", "kernels", "reports"),
     ("phasefield",),
     ("meshes", "contours", "paths"),
     ("isosurfaces", "imaging", "drawings"),
     ("formats", "voxels", "gcode"),
     ("planner", "inspection", "interior"),
     ("pictures", "options", "drains"),
-    ("report",),
+    ("result",),
     ("making", "smoothing", "lattices", "refilling", "projects"),
     ("cli", "studio"),
 )
 FLOOR = {room: floor for floor, rooms in enumerate(ROWS) for room in rooms}
-REPORTS = {"result", "report", "report_keys"}
-HALL = {"version", "errors", "checks", "machine", "ragged", "graph", "sections", "grid", "volume", "surface", "drawing"}
+HALL = {"version", "errors", "checks", "machine", "ragged", "graph", "grid", "volume", "surface", "drawing"}
 MOST_FLOORS = 12
 
 # Packages of others that only some may import: a room, or one module.
@@ -45,7 +44,7 @@ KEPT = {
     "llvmlite": "infill.kernels",
     "SimpleITK": "infill.imaging.medical",
     "DracoPy": "infill.formats.draco",
-    "pydicom": "infill.imaging.dicom_files",
+    "pydicom": "infill.imaging.dicom",
     "typer": "infill.cli",
     "rich": "infill.cli",
 }
@@ -121,8 +120,6 @@ def room_of(name: str) -> str | None:
         return "front"
     if len(rest) == 1 and rest[0] in HALL:
         return "hall"
-    if len(rest) == 1 and rest[0] in REPORTS:
-        return "report"
     return rest[0] if rest[0] in FLOOR and rest[0] not in ("hall", "patterns") else None
 
 
@@ -325,7 +322,7 @@ WRONG = {
     "for types only": (
         "infill/result.py",
         "if TYPE_CHECKING:\n    from infill.making.request import Block",
-        "infill.result -> infill.making.request: up, from report to making",
+        "infill.result -> infill.making.request: up, from result to making",
     ),
     "across": (
         "infill/voxels/from_mesh.py",

@@ -22,7 +22,7 @@ from pydicom.uid import RLELossless
 
 from infill import Volume, read_volume
 from infill.errors import FormatError, InfillError, ParameterError
-from infill.imaging import dicom_pixels
+from infill.imaging.dicom import pixels
 from infill.smoothing.sources import read_source
 from tests.handmade_dicom import (
     AXIAL,
@@ -648,8 +648,8 @@ def test_packed_frames_are_the_same(packing: str, tmp_path: Path) -> None:
 def test_packed_slices_of_a_folder_are_unpacked_together(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Not one by one, each in a process: two ways of packing are two."""
     called = []
-    unpack = dicom_pixels.unpacked_frames
-    monkeypatch.setattr(dicom_pixels, "unpacked_frames", lambda *words: called.append(words) or unpack(*words))
+    unpack = pixels.unpacked_frames
+    monkeypatch.setattr(pixels, "unpacked_frames", lambda *words: called.append(words) or unpack(*words))
     each = [{"RescaleSlope": str(k + 1), "RescaleIntercept": "0"} for k in range(COUNT)]
     files = slices(body(), places(), each=each)
     plain = read_volume(save_all(deepcopy(files), tmp_path / "plain"))

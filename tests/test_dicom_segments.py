@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 
 from infill import Segmentation, Volume, read_segmentation, read_volume, smooth_labels
 from infill.errors import FormatError, InfillError
-from infill.imaging.dicom_files import LABEL_MAP
+from infill.imaging.dicom.headers import LABEL_MAP
 from tests.handmade_dicom import AXIAL, SYNTAXES, enhanced, item, measures, save, save_all, segmentation, slices
 
 SHAPE, STEP = (14, 9, 13), 2.5  # slices, rows, columns: the bits of a frame end within a byte

@@ -7,18 +7,22 @@ import re
 import subprocess
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import ezdxf
 import numpy as np
 import pytest
+import shapely
 from test_command_line import one_line_error, run
 
 from infill import FormatError
 from infill.drawing import MOST_POINTS
-from infill.drawings.drawing_files import read_drawing
+from infill.drawings.drawing_files import read_drawing, read_tile
+from infill.drawings.tiled import read_tiled
 from infill.errors import GeometryError
 from infill.paths.tiles.borders import find_borders
+from patterns.errors import PatternError
 
 HEAD = '<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="20mm" viewBox="0 0 20 20">'
 
@@ -146,7 +150,8 @@ def test_what_is_below_the_limits_is_read(tmp_path: Path) -> None:
     assert len(read_drawing(wkt).lines) == 1
     svg = tmp_path / "a.svg"
     svg.write_text(nested('<path d=" M0 0 h4 v3 "/>', 10, 3))
-    assert len(read_drawing(svg).lines) == 100
+    drawing = read_drawing(svg)
+    assert (len(drawing.lines), drawing.left_out) == (1, ("99 repeated lines",))
 
 
 @pytest.mark.parametrize("unit", ["99", "-1", "25"])
@@ -163,6 +168,41 @@ def test_an_unknown_unit_says_what_to_do(unit: str, tmp_path: Path) -> None:
     document.header["$INSUNITS"] = 4  # the remedy
     document.saveas(path)
     assert read_drawing(path).bounds == pytest.approx((0, 0, 9, 9))
+
+
+SQUARE = np.array([(0, 0), (10, 0), (10, 10), (0, 10), (0, 0)])
+
+
+def squares(path: Path, count: int, step: float) -> Path:
+    """Outlines of hatches, each moved by a step."""
+    document = ezdxf.new(setup=False, units=4)
+    for i in range(count):
+        document.modelspace().add_hatch().paths.add_polyline_path(SQUARE[:4] + step * i, is_closed=True)
+    document.saveas(path)
+    return path
+
+
+def test_a_line_drawn_many_times_is_one_line(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    drawing = read_tile(squares(tmp_path / "a.dxf", 3000, 0.0))
+    assert [line.tolist() for line in drawing.lines] == [SQUARE.tolist()]
+    assert [record.getMessage() for record in caplog.records] == [
+        f"{tmp_path / 'a.dxf'}: left out: 2999 repeated lines"
+    ]
+
+
+def test_lines_that_cross_too_often_are_refused_before_they_are_joined(tmp_path: Path) -> None:
+    with pytest.raises(FormatError, match=r"cross or touch about [\d,]+ times; the limit is 500,000; draw fewer lines"):
+        read_tile(squares(tmp_path / "a.dxf", 3000, 0.001))
+    assert len(read_tile(squares(tmp_path / "b.dxf", 300, 0.001)).lines) == 300
+
+
+def test_too_many_copies_of_a_tile_are_refused_before_they_are_made(tmp_path: Path) -> None:
+    tiled = read_tiled(squares(tmp_path / "a.dxf", 300, 0.001))
+    assert tiled.name == "a.dxf"
+    with pytest.raises(PatternError, match=r"cell is 0\.1 mm: [\d,]+ copies of a\.dxf have [\d,]+ points") as caught:
+        replace(tiled, cell=0.1).lines(shapely.box(0, 0, 100, 100))
+    assert caught.value.parameters == ("cell",)
+    assert replace(tiled, cell=30).lines(shapely.box(0, 0, 100, 100)).length > 0
 
 
 def test_lines_that_vanish_in_a_small_tile_are_an_error_of_ours() -> None:

@@ -27,7 +27,7 @@ from infill.lattices.sizing import enlarge
 from infill.meshes.solids import to_manifold
 from infill.projects.project import SLICERS, Project, Slicer
 from infill.projects.saving import writer_for
-from infill.report_keys import FillReport
+from infill.reports.filling import FillReport
 from infill.result import Result
 
 pytestmark = pytest.mark.usefixtures("compiled")

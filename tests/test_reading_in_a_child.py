@@ -138,7 +138,8 @@ def test_a_reader_that_takes_all_memory_is_refused() -> None:
 def test_no_child_and_no_file_outlives_its_parent(number: signal.Signals, tmp_path: Path) -> None:
     """Ctrl-C, the end of a session, and an end that nobody can answer."""
     text = (
-        "from infill.files.child_process import read_in_child; from pathlib import Path; "
+        "from infill.files.child_process import read_in_child; from pathlib import Path; import signal; "
+        "signal.signal(signal.SIGINT, signal.default_int_handler); "  # a shell's background jobs ignore Ctrl-C
         f"read_in_child({READERS + 'sleeps'!r}, {str(tmp_path / 'pid')!r}, path=Path('scan.dcm'))"
     )
     scratch = tmp_path / "scratch"

@@ -1,18 +1,20 @@
-"""The report: every product has the same form, and docs/report.md lists exactly the keys there are."""
+"""Reports: every product is under one law, and docs/report.md has the keys that are declared."""
 
 from __future__ import annotations
 
+import doctest
 import json
 import re
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Callable, Collection, Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
-from types import UnionType
-from typing import Any, NotRequired, Union, get_args, get_origin, get_type_hints, is_typeddict
+from typing import Any, get_args, get_origin, is_typeddict
 
 import numpy as np
 import pytest
 import trimesh
+from typer.testing import CliRunner
 
 from infill import (
     Result,
@@ -20,31 +22,31 @@ from infill import (
     Segmentation,
     Smoothing,
     Volume,
+    fill,
     make,
+    motion,
     refill,
+    save_project,
     smooth_labels,
     smooth_mesh,
     smooth_points,
     smooth_volume,
 )
-from infill.report import FORM
-from infill.report_keys import ComponentsReport, LabelsReport, MakeReport, SmoothReport
+from infill.cli.app import build_app
+from infill.reports.checking import FailedCheck
+from infill.reports.common import FORM
+from infill.reports.timing import MotionReports
 from tests.handmade_prints import Dialect, written
+from tools import write_report_page
+from tools.write_report_page import CHAPTERS, PAGE, Chapter, Key, is_union, read_key, read_keys, write_page
 
 pytestmark = pytest.mark.usefixtures("compiled")
-
-PAGE = Path(__file__).resolve().parents[1] / "docs" / "report.md"
-FREE = {"request.parameters", "sections.kept"}  # a pattern's own, by name; reasons
-REFILL = "\n## Refill: a sliced print\n"  # its keys stand below, and are its own
-ALL_LABELS = "\n## Labels: every label of a segmentation\n"  # likewise
-ALL_COMPONENTS = "\n## Components: every component of a mesh\n"
-FILL = "\n## Fill: a part with its infill\n"
-ONLY_AT_THE_COMMAND_LINE = {"files"}
 
 BALL = np.sum((np.indices((24, 24, 24)) - 11.5) ** 2, axis=0) < 64
 GREY = 100.0 * (11 - np.sqrt(np.sum((np.indices((24, 24, 24)) - 11.5) ** 2, axis=0)))
 LABELS = BALL.astype(np.uint8) * 3 + np.roll(BALL, 13, axis=0) * 4 * ~BALL
 SPHERE = trimesh.creation.icosphere(radius=10)
+CLOUD = trimesh.creation.icosphere(3, radius=10).vertices
 FIN = np.zeros((30, 40, 30), dtype=bool)
 FIN[5:25, 5:15, 5:25] = True
 FIN[14:16, 5:36, 5:25] = True  # two cells thick: gone after 40 steps
@@ -66,8 +68,8 @@ def every_result() -> Iterator[tuple[str, Result[Any, Any]]]:
     yield "mesh", smooth_mesh(SPHERE, resolution=24, refine=True, despeckle=1.0)
     yield "simplified", smooth_mesh(SPHERE, resolution=24, tolerance=0.3)
     yield "few", smooth_mesh(SPHERE, resolution=24, max_triangles=500)
-    yield "points", smooth_points(trimesh.creation.icosphere(3, radius=10).vertices, voxel=1.0)
-    yield "shell", smooth_points(trimesh.creation.icosphere(3, radius=10).vertices, voxel=1.0, shell=3.0)
+    yield "points", smooth_points(CLOUD, voxel=1.0)
+    yield "shell", smooth_points(CLOUD, voxel=1.0, shell=3.0)
 
 
 @pytest.fixture(scope="module")
@@ -75,266 +77,310 @@ def results() -> dict[str, Result[Any, Any]]:
     return dict(every_result())
 
 
-def described(text: str) -> dict[str, tuple[str, str]]:
-    """Return type and products of every key that a page has a row for."""
-    rows = re.findall(r"^\| `([\w.\[\]]+)` \| ([^|]+) \| ([^|]+) \|", text, flags=re.MULTILINE)
-    found = {key: (kind.strip(), where.strip()) for key, kind, where in rows}
-    assert len(found) == len(rows), "a key stands twice"
-    return found
+# --- the reports of every chapter, over all options that change which keys a report has ------------------------------
 
 
-def flat(value: Any, name: str = "") -> Iterator[tuple[str, Any]]:
-    """Yield every key of a report, nested ones with dots, with its value."""
-    if name:
-        yield name, value
-    if isinstance(value, dict) and name not in FREE:
-        for key, each in value.items():
-            yield from flat(each, f"{name}.{key}" if name else key)
-    if isinstance(value, list) and value and isinstance(value[0], dict):
-        for each in value:
-            for key, inner in each.items():
-                yield from flat(inner, f"{name}[].{key}")
+def printed(*words: object, status: int = 0) -> Any:
+    """Return what a command prints with --json."""
+    done = CliRunner().invoke(build_app(), [*map(str, words), "--json"])
+    assert done.exit_code == status, done.stderr
+    return json.loads(done.stdout)
 
 
-def is_of(kind: str, value: Any) -> bool:
-    """Whether a value is of one of the types that the page names."""
-    for each in kind.split(" or "):
-        name, _, count = each.partition(" ")
-        fits = {
-            "int": isinstance(value, int) and not isinstance(value, bool),
-            "float": isinstance(value, float),
-            "bool": isinstance(value, bool),
-            "str": isinstance(value, str),
-            "null": value is None,
-            "object": isinstance(value, dict),
-            "list": isinstance(value, list) and (not count or len(value) == int(count)),
-        }[name]
-        if fits:
-            return True
-    return False
+Results = Mapping[str, Result[Any, Any]]
 
 
-def differences(
-    page: dict[str, tuple[str, str]],
-    reports: dict[str, dict[str, Any]],
-    products: tuple[str, ...] = ("make", "smooth"),
-) -> list[str]:
-    """Return in what the page and the reports differ, one phrase each."""
-    found, seen = [], set()
-    for name, report in reports.items():
-        product = report["product"]
-        keys = dict(flat(report))
-        for key, value in keys.items():
-            seen.add((product, key))
-            if key not in page:
-                found.append(f"{key} of {name} is not on the page")
-            elif not is_of(page[key][0], value):
-                found.append(f"{key} of {name} is {value!r}, not {page[key][0]}")
-            elif page[key][1].split(" ")[0] not in ("all", product):
-                found.append(f"{key} of {name} is on the page for {page[key][1]} only")
-        for key, (_, where) in page.items():
-            if (
-                where in ("all", product)
-                and key not in keys
-                and "[]" not in key
-                and key not in ONLY_AT_THE_COMMAND_LINE
-            ):
-                found.append(f"{key} is missing from {name}")
-    for key, (_, where) in page.items():
-        for product in products:
-            wanted = where.split(" ")[0] in ("all", product) and key not in ONLY_AT_THE_COMMAND_LINE
-            if wanted and (product, key) not in seen:
-                found.append(f"{key} is in no report of {product}")
-    return found
+def make_reports(folder: Path, results: Results) -> dict[str, Any]:
+    reports = {name: result.report for name, result in results.items() if result.report["product"] == "make"}
+    command = printed("make", "honeycomb", "--size", 20, "--height", 3, "-o", folder / "a.stl")
+    return {**reports, "command": command}
 
 
-@pytest.mark.slow
-def test_the_page_lists_exactly_the_keys_of_all_reports(results: dict[str, Result[Any, Any]]) -> None:
-    page = described(PAGE.read_text(encoding="utf-8").partition(REFILL)[0])
-    assert len(page) > 100
-    assert differences(page, {name: result.report for name, result in results.items()}) == []
+def make_plans(folder: Path, results: Results) -> dict[str, Any]:
+    return {"block": printed("make", "honeycomb", "--size", 20, "--height", 3, "--dry-run")}
 
 
-@pytest.mark.slow
-def test_the_page_lists_exactly_the_keys_of_a_refill(tmp_path: Path) -> None:
-    page = described(PAGE.read_text(encoding="utf-8").partition(REFILL)[2].partition(ALL_LABELS)[0])
-    assert len(page) > 30
-    sliced, smooth, bare = (tmp_path / f"{name}.gcode" for name in ("sliced", "smooth", "bare"))
-    sliced.write_bytes(written(Dialect(layers=5)))
-    bare.write_bytes(written(Dialect(slicer="cura", layers=5)).replace(b";TYPE:FILL", b";TYPE:SKIN"))
-    archive = tmp_path / "sliced.gcode.3mf"
-    with zipfile.ZipFile(archive, "w") as plates:
-        for number in (1, 2):
-            plates.write(sliced, f"Metadata/plate_{number}.gcode")
-    every = {"layers": (2, 3), "max_deviation": 0.1, "smooth_radius": 1.0, "part": "box", "density": "same"}
-    results = {
-        "kept": refill(sliced, output=smooth),
-        "already": refill(smooth),
-        "two plates": refill(archive, dry_run=True),
-        "every option": refill(sliced, dry_run=True, **every),
-        "another pattern": refill(sliced, dry_run=True, pattern="honeycomb", density=0.2),
-        "no infill": refill(bare, dry_run=True),
+def smooth_reports(folder: Path, results: Results) -> dict[str, Any]:
+    np.save(folder / "ball.npy", BALL)
+    reports = {name: result.report for name, result in results.items() if result.report["product"] == "smooth"}
+    command = printed("smooth", folder / "ball.npy", "--spacing", 1, "-o", folder / "a.stl")
+    return {**reports, "command": command}
+
+
+def smooth_plans(folder: Path, results: Results) -> dict[str, Any]:
+    np.save(folder / "grey.npy", GREY)
+    np.save(folder / "labels.npy", LABELS)
+    np.savetxt(folder / "cloud.xyz", CLOUD)
+    SPHERE.export(folder / "ball.stl")
+    words = {
+        "grey.npy": ["--spacing", 1, "--range", "300,900"],
+        "labels.npy": ["--spacing", 1, "--label", 3],
+        "cloud.xyz": ["--voxel", 1],
+        "ball.stl": ["--resolution", 24],
     }
-    reports = {name: result.report for name, result in results.items()}
-    assert differences(page, reports, ("refill",)) == []
-    assert reports["already"]["print"]["already_refilled"]
-    for report in reports.values():
-        assert json.loads(json.dumps(report, allow_nan=False)) == report
+    return {name: printed("smooth", folder / name, *more, "--dry-run") for name, more in words.items()}
 
 
-@pytest.mark.slow
-def test_the_page_lists_exactly_the_keys_of_all_labels(results: dict[str, Result[Any, Any]]) -> None:
-    """But for the report of each label, which is that of smoothing."""
-    page = described(PAGE.read_text(encoding="utf-8").partition(ALL_LABELS)[2].partition(ALL_COMPONENTS)[0])
-    assert len(page) > 20
-    volume = Volume(values=LABELS)
+def labels_reports(folder: Path, results: Results) -> dict[str, Any]:
     named = (Segment(value=3, name="ball", colour=(1.0, 0.0, 0.0)), Segment(value=9, name="none"))
-    both = smooth_labels(Segmentation(layers=(volume,), segments=named), allow_broken=True)
+    segmentation = Segmentation(layers=(Volume(values=LABELS),), segments=named)
     speck = LABELS.copy()
     speck[0, 0, 0] = 5
-    some = smooth_labels(speck, allow_broken=True, despeckle=2.0, keep_going=True)
-    assert both.report["absent"]
-    assert some.report["failed"]
-    reports = {}
-    for name, result in {"both": both, "some": some}.items():
-        for each in result.report["labels"]:
-            smooth = dict(flat(results["labels"].report))
-            assert {key for key, _ in flat(each["report"])} <= set(smooth) | {"input.segmentation.label"}
-        inner = [{**each, "report": {}} for each in result.report["labels"]]
-        reports[name] = {**result.report, "labels": inner, "request": {}}
-        assert json.loads(json.dumps(result.report, allow_nan=False)) == result.report
-        assert list(misfits(result.report, LabelsReport)) == []
-    assert differences(page, reports, ("labels",)) == []
+    np.save(folder / "labels.npy", LABELS)
+    words = ["--spacing", 1, "--each-label", "--allow-broken", "-o", folder / "a.3mf"]
+    return {
+        "absent": smooth_labels(segmentation, allow_broken=True).report,
+        "failed": smooth_labels(speck, allow_broken=True, despeckle=2.0, keep_going=True).report,
+        "command": printed("smooth", folder / "labels.npy", *words),
+    }
 
 
-def test_the_page_lists_exactly_the_keys_of_all_components(results: dict[str, Result[Any, Any]]) -> None:
-    """But for the report of each component, which is that of smoothing."""
-    page = described(PAGE.read_text(encoding="utf-8").partition(ALL_COMPONENTS)[2].partition(FILL)[0])
-    assert len(page) > 20
+def components_reports(folder: Path, results: Results) -> dict[str, Any]:
     small = trimesh.creation.icosphere(radius=0.5).apply_translation((20, 0, 0))
     mesh = trimesh.util.concatenate([SPHERE, small])
-    result = smooth_mesh(mesh, voxel=1.0, by_component=True, allow_broken=True)
-    assert result.report["failed"]
-    smooth = {key for key, _ in flat(results["mesh"].report)} | {key for key, _ in flat(results["simplified"].report)}
-    assert {key for key, _ in flat(result.report["components"][0]["report"])} <= smooth
-    inner = [{**each, "report": {}} for each in result.report["components"]]
-    report = {**result.report, "components": inner, "request": {}}
-    assert json.loads(json.dumps(result.report, allow_nan=False)) == result.report
-    assert list(misfits(result.report, ComponentsReport)) == []
-    assert differences(page, {"both": report}, ("components",)) == []
-
-
-# --- for type checkers ----------------------------------------------------------------------------------------------
-
-TYPED = {"make": MakeReport, "smooth": SmoothReport, "labels": LabelsReport, "components": ComponentsReport}
-PLAIN = {int: "int", float: "float", bool: "bool", str: "str", type(None): "null"}
-
-
-def spelt(hint: Any) -> str:
-    """Return a hint as the page would say it."""
-    if get_origin(hint) is NotRequired:
-        return spelt(get_args(hint)[0])
-    if get_origin(hint) in (Union, UnionType):
-        return " or ".join(spelt(each) for each in get_args(hint))
-    if get_origin(hint) is list:
-        return "list"
-    return PLAIN.get(hint, "object")
-
-
-def hinted(kind: Any, name: str = "") -> Iterator[tuple[str, str, bool]]:
-    """Yield every key of a report's type, nested ones with dots, how it is spelt, and whether it must be there."""
-    for key, hint in get_type_hints(kind, include_extras=True).items():
-        place = f"{name}.{key}" if name else key
-        yield place, spelt(hint), get_origin(hint) is not NotRequired
-        inner = get_args(hint)[0] if get_origin(hint) is NotRequired else hint
-        item = get_args(inner)[0] if get_origin(inner) is list else None
-        if is_typeddict(inner):
-            yield from hinted(inner, place)
-        elif is_typeddict(item) and item is not SmoothReport:
-            yield from hinted(item, f"{place}[]")
-
-
-def misfits(value: Any, hint: Any, name: str = "report") -> Iterator[str]:
-    """Yield where a value is not what a hint says, down to the last number."""
-    if get_origin(hint) is NotRequired:
-        hint = get_args(hint)[0]
-    if get_origin(hint) in (Union, UnionType):
-        if all(any(True for _ in misfits(value, each, name)) for each in get_args(hint)):
-            yield f"{name} is {value!r}, not {hint}"
-    elif is_typeddict(hint):
-        hints = get_type_hints(hint, include_extras=True)
-        yield from (f"{name}.{key} has no type" for key in value if key not in hints)
-        for key, each in hints.items():
-            if key in value:
-                yield from misfits(value[key], each, f"{name}.{key}")
-            elif get_origin(each) is not NotRequired:
-                yield f"{name}.{key} is missing"
-    elif get_origin(hint) is list:
-        if type(value) is not list:
-            yield f"{name} is {value!r}, not a list"
-        else:
-            for number, each in enumerate(value):
-                yield from misfits(each, get_args(hint)[0], f"{name}[{number}]")
-    elif hint is not Any and type(value) is not (get_origin(hint) or hint):
-        yield f"{name} is {value!r}, not {hint}"
-
-
-@pytest.mark.parametrize("product", ["make", "smooth"])
-def test_the_types_are_those_of_the_page(product: str) -> None:
-    page = described(PAGE.read_text(encoding="utf-8").partition(REFILL)[0])
-    typed = {key: (kind, must) for key, kind, must in hinted(TYPED[product])}
-    expected = {
-        key: (re.sub(r"(list) \d", r"\1", kind), where in ("all", product) and key not in ONLY_AT_THE_COMMAND_LINE)
-        for key, (kind, where) in page.items()
-        if where.split(" ")[0] in ("all", product)
+    mesh.export(folder / "a.stl")
+    words = ["--voxel", 1, "--by-component", "--allow-broken", "-o", folder / "b.stl"]
+    return {
+        "failed": smooth_mesh(mesh, voxel=1.0, by_component=True, allow_broken=True).report,
+        "command": printed("smooth", folder / "a.stl", *words),
     }
-    # What is nested in something that may be missing must be there if that is.
-    optional = {key for key, (_, must) in typed.items() if not must}
-    for key, (kind, must) in expected.items():
-        inside = any(key.startswith(f"{each}.") for each in optional)
-        assert typed[key][0] == kind, key
-        assert typed[key][1] == must or inside, key
-    assert set(typed) == set(expected)
 
 
-@pytest.mark.slow
-def test_every_report_is_of_its_type(results: dict[str, Result[Any, Any]]) -> None:
-    for name, result in results.items():
-        assert list(misfits(result.report, TYPED[result.report["product"]])) == [], name
+def spires() -> trimesh.Trimesh:
+    """Two, so steep that holes leave the first by its base alone, and the second, which stands on its tip, not at all."""
+    up = trimesh.creation.cone(radius=7, height=26, sections=12)
+    down = up.copy()
+    down.apply_transform(trimesh.transformations.rotation_matrix(np.pi, (1, 0, 0), (0, 0, 13)))
+    down.apply_translation((16, 0, 0))
+    return trimesh.util.concatenate([up, down])
 
 
-def test_a_misfit_is_found(results: dict[str, Result[Any, Any]]) -> None:
+def fill_reports(folder: Path, results: Results) -> dict[str, Any]:
+    part, few = trimesh.creation.box((24, 20, 14)), {"voxel": 0.5, "wall": 1.5, "density": 0.3}
+    part.export(folder / "part.stl")
+    results = {
+        "plain": fill(part, **few),
+        "lines": fill(part, "zigzag", waves=5, cell=5, line_width=0.5, voxel=0.5, max_triangles=10**6),
+        "drained": fill(part, drain=2, drain_at=[(0, 0, -7)], **few),
+        "closed": fill(spires(), "grid", drain=2, vent=True, **few),
+        "infill": fill(part, "cubic-bars", as_="infill", smooth_radius=0.3, voxel=0.5, density=0.3),
+        "graded": fill(part, density=(0.2, 0.4), by="x", voxel=0.5, wall=1.5),
+        "cells": fill(part, density=(0.2, 0.4), grade="cell", voxel=0.5, wall=1.5),
+        "project": fill(part, as_="project", voxel=0.5),
+        "open": fill(part, open_="top", **few),
+    }
+    command = printed("fill", folder / "part.stl", "--voxel", 0.5, "-o", folder / "a.stl")
+    return {**{name: result.report for name, result in results.items()}, "command": command}
+
+
+def fill_plans(folder: Path, results: Results) -> dict[str, Any]:
+    SPHERE.export(folder / "ball.stl")
+    return {"ball": printed("fill", folder / "ball.stl", "--dry-run")}
+
+
+def sliced_print(folder: Path) -> Path:
+    path = folder / "sliced.gcode"
+    path.write_bytes(written(Dialect(layers=5)))
+    return path
+
+
+def archive(folder: Path) -> Path:
+    path = folder / "sliced.gcode.3mf"
+    with zipfile.ZipFile(path, "w") as plates:
+        for number in (1, 2):
+            plates.write(sliced_print(folder), f"Metadata/plate_{number}.gcode")
+    return path
+
+
+def refill_reports(folder: Path, results: Results) -> dict[str, Any]:
+    sliced, smooth, bare = sliced_print(folder), folder / "smooth.gcode", folder / "bare.gcode"
+    bare.write_bytes(written(Dialect(slicer="cura", layers=5)).replace(b";TYPE:FILL", b";TYPE:SKIN"))
+    every = {"layers": (2, 3), "max_deviation": 0.1, "smooth_radius": 1.0, "part": "box", "density": "same"}
+    reports = {
+        "kept": refill(sliced, output=smooth).report,
+        "already": refill(smooth).report,
+        "two plates": refill(archive(folder), dry_run=True).report,
+        "every option": refill(sliced, dry_run=True, **every).report,
+        "another pattern": refill(sliced, dry_run=True, pattern="honeycomb", density=0.2).report,
+        "no infill": refill(bare, dry_run=True).report,
+        "command": printed("refill", sliced, "-o", folder / "a.gcode"),
+    }
+    done = {"sections", "rounding", "filament", "time", "contact"}
+    for name, report in reports.items():
+        assert report["print"]["already_refilled"] == (name == "already")
+        assert (done <= set(report)) == (name != "already")
+    return reports
+
+
+def motion_reports(folder: Path, results: Results) -> dict[str, Any]:
+    sliced = sliced_print(folder)
+    both = printed("motion", sliced, sliced)
+    assert list(misfits(both, read_key(MotionReports))) == []
+    assert both["files"] == [printed("motion", sliced)] * 2
+    return {
+        "command": both["files"][0],
+        "jerk": motion(sliced, jerk=8.0).to_dict(),
+        "junction": motion(sliced, junction_deviation=0.02).to_dict(),
+        "klipper": motion(sliced, square_corner_velocity=8.0).to_dict(),
+        "plate": motion(archive(folder), plate=2).to_dict(),
+    }
+
+
+def check_reports(folder: Path, results: Results) -> dict[str, Any]:
+    SPHERE.export(folder / "ball.stl")
+    trimesh.Trimesh(SPHERE.vertices, SPHERE.faces[5:]).export(folder / "open.stl")
+    (folder / "broken.stl").write_text("no mesh")
+    ball, holes, broken = printed("check", *(folder / f"{name}.stl" for name in ("ball", "open", "broken")), status=1)
+    assert list(misfits(broken, read_key(FailedCheck))) == []
+    assert printed("check", folder / "ball.stl") == {key: value for key, value in ball.items() if key != "file"}
+    return {"ball": ball, "open": holes}
+
+
+def project_reports(folder: Path, results: Results) -> dict[str, Any]:
+    save_project(fill(SPHERE, as_="project", voxel=0.8), folder / "ball.3mf", slicer="prusaslicer")
+    (folder / "broken.3mf").write_text("no archive")
+    fine, broken = printed("check", folder / "ball.3mf", folder / "broken.3mf", "--for", "prusaslicer", status=1)
+    assert list(misfits(broken, read_key(FailedCheck))) == []
+    return {"fine": fine, "wrong": printed("check", folder / "ball.3mf", "--for", "cura", status=1)}
+
+
+def lists(folder: Path, results: Results) -> dict[str, Any]:
+    return {"all": printed("list"), "one": printed("list", "zigzag"), "in space": printed("list", "kelvin")}
+
+
+CHAPTER = {chapter.word: chapter for chapter in CHAPTERS}
+REPORTS: dict[str, Callable[[Path, Results], dict[str, Any]]] = {
+    "make": make_reports,
+    "make --dry-run": make_plans,
+    "smooth": smooth_reports,
+    "smooth --dry-run": smooth_plans,
+    "labels": labels_reports,
+    "components": components_reports,
+    "fill": fill_reports,
+    "fill --dry-run": fill_plans,
+    "refill": refill_reports,
+    "motion": motion_reports,
+    "check": check_reports,
+    "check --for": project_reports,
+    "list": lists,
+}
+LONG = {"fill": pytest.mark.longest, **dict.fromkeys(("smooth --dry-run", "labels", "refill"), pytest.mark.slow)}
+
+
+# --- the law -----------------------------------------------------------------------------------------------------------
+
+
+def misfits(value: Any, key: Key, place: str = "report") -> Iterator[str]:
+    """Yield where a value differs from its declaration, down to the last number."""
+    kind = key.kind
+    if is_union(kind):
+        if all(any(True for _ in misfits(value, read_key(each), place)) for each in get_args(kind)):
+            yield f"{place} is {value!r}, not {kind}"
+    elif is_typeddict(kind) and isinstance(value, dict):
+        keys = read_keys(kind)
+        yield from (f"{place}.{name} is not declared" for name in value if name not in keys)
+        yield from (f"{place}.{name} is missing" for name in keys if keys[name].required and name not in value)
+        yield from each_misfit({f"{place}.{name}": (value[name], keys[name]) for name in keys if name in value})
+    elif get_origin(kind) in (list, tuple) and type(value) in (list, get_origin(kind)):  # JSON has lists alone
+        yield from each_misfit({f"{place}[{i}]": (item, read_key(get_args(kind)[0])) for i, item in enumerate(value)})
+        if key.length is not None and len(value) != key.length:
+            yield f"{place} has {len(value)} items, not {key.length}"
+    elif get_origin(kind) is dict and type(value) is dict:
+        yield from each_misfit({f"{place}.{name}": (value[name], read_key(get_args(kind)[1])) for name in value})
+    elif kind is not Any and type(value) is not kind:
+        yield f"{place} is {value!r}, not {kind}"
+
+
+def each_misfit(values: dict[str, tuple[Any, Key]]) -> Iterator[str]:
+    for place, (value, key) in values.items():
+        yield from misfits(value, key, place)
+
+
+def places(declaration: Any, known: Collection[Any], values: list[Any] | None = None, name: str = "") -> Iterator[str]:
+    """Yield the keys that a report declares, or those that some values of it have; not those of known sections."""
+    for inner, key in read_keys(declaration).items():
+        found = None if values is None else [value[inner] for value in values if inner in value]
+        if found == []:
+            continue
+        place = f"{name}.{inner}"
+        yield place
+        if key.section is None or key.section[1] in known:
+            continue
+        joint, section = key.section
+        if found is not None:
+            found = [value for value in found if value is not None]
+            found = found if not joint else [item for value in found for item in items_of(value)]
+        yield from places(section, known, found, place + joint)
+
+
+def items_of(value: Any) -> list[Any]:
+    return list(value.values() if isinstance(value, dict) else value)
+
+
+def differences(chapter: Chapter, reports: dict[str, Any]) -> list[str]:
+    """List all differences between a declaration and reports: misfits, and keys that no report has."""
+    found = [f"{name}: {text}" for name, value in reports.items() for text in misfits(value, read_key(chapter.report))]
+    seen = set(places(chapter.report, chapter.known, list(reports.values())))
+    return found + [f"no report has {place}" for place in places(chapter.report, chapter.known) if place not in seen]
+
+
+@pytest.mark.parametrize("word", [pytest.param(word, marks=LONG.get(word, ())) for word in REPORTS])
+def test_the_declared_keys_are_those_of_real_reports(word: str, results: Results, tmp_path: Path) -> None:
+    reports = REPORTS[word](tmp_path, results)
+    assert differences(CHAPTER[word], reports) == []
+    for report in reports.values():
+        text = json.dumps(report, allow_nan=False)
+        assert json.dumps(json.loads(text)) == text
+
+
+def test_every_chapter_is_under_the_law() -> None:
+    assert list(REPORTS) == list(CHAPTER)
+
+
+def test_the_page_is_the_one_of_the_declarations() -> None:
+    """`python tools/write_report_page.py` writes it again."""
+    assert PAGE.read_text(encoding="utf-8") == write_page()
+    assert doctest.testmod(write_report_page) == (0, 2)
+
+
+def test_every_key_has_a_meaning() -> None:
+    for chapter in CHAPTERS:
+        for declaration in [chapter.report, *sections(chapter.report)]:
+            for name, key in read_keys(declaration).items():
+                assert re.match(r"[A-Z`\d]", key.meaning), f"{declaration.__name__}.{name}"
+                assert not key.meaning.endswith("."), name
+
+
+def sections(declaration: Any) -> Iterator[Any]:
+    for key in read_keys(declaration).values():
+        if key.section is not None:
+            yield key.section[1]
+            yield from sections(key.section[1])
+
+
+def test_a_difference_is_found(results: Results) -> None:
     report = results["block"].report
+    assert differences(replace(CHAPTER["make"], known=()), {"block": report}) == ["no report has .files"]
+    assert differences(CHAPTER["make --dry-run"], {}) == [
+        f"no report has .{name}" for name in ("request", "grid", "memory", "triangles", "stl_bytes")
+    ]
     for wrong, said in (
         ({**report, "volume": 3}, "report.volume is 3, not <class 'float'>"),
-        ({**report, "new": 3}, "report.new has no type"),
+        ({**report, "planted": 3}, "report.planted is not declared"),
         ({**report, "extents": [1.0, 2, 3.0]}, "report.extents[1] is 2, not <class 'float'>"),
+        ({**report, "extents": [1.0, 2.0]}, "report.extents has 2 items, not 3"),
+        ({**report, "extents": (1.0, 2.0, 3.0)}, "report.extents is (1.0, 2.0, 3.0), not list"),
         ({**report, "closed": 1}, "report.closed is 1, not <class 'bool'>"),
         ({key: value for key, value in report.items() if key != "mesh"}, "report.mesh is missing"),
+        ({**report, "mesh": {**report["mesh"], "planted": 1}}, "report.mesh.planted is not declared"),
+        ({**report, "mesh": None}, "report.mesh is None, not"),
         ({**report, "walls": {"width": {**report["walls"]["width"], "mean": "thin"}, "exact": None}}, "mean is 'thin'"),
     ):
-        (found,) = misfits(wrong, MakeReport)
+        (found,) = misfits(wrong, read_key(CHAPTER["make"].report))
         assert said in found
 
 
-def test_the_comparison_can_fail() -> None:
-    page = {"product": ("str", "all"), "a": ("int", "all"), "b.c": ("float", "make"), "b": ("object", "make")}
-    make_report, smooth_report = {"product": "make", "a": 1, "b": {"c": 1.0}}, {"product": "smooth", "a": 1}
-    assert differences(page, {"x": make_report, "y": smooth_report}) == []
-    for broken, said in (
-        ({**make_report, "a": 1.0}, "a of x is 1.0, not int"),
-        ({**make_report, "d": 1}, "d of x is not on the page"),
-        ({**make_report, "b": {}}, "b.c is missing from x"),
-    ):
-        assert said in differences(page, {"x": broken, "y": smooth_report})
-    assert "b of y is on the page for make only" in differences(
-        page, {"x": make_report, "y": {**smooth_report, "b": {}}}
-    )
-
-
-def test_a_report_is_json_as_it_stands(results: dict[str, Result[Any, Any]]) -> None:
-    for result in results.values():
-        assert json.loads(json.dumps(result.report, allow_nan=False)) == result.report
+# --- what the numbers mean ---------------------------------------------------------------------------------------------
 
 
 def test_what_stands_first_is_what_the_sections_say(results: dict[str, Result[Any, Any]]) -> None:

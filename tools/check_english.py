@@ -28,7 +28,7 @@ TURNS = {
     r"\bdoes not take\b": "rejects",
 }
 # Pages that programs write: their words come from those programs.
-WRITTEN = {"commands.md", "paper.md", "report.md", "slicer-report.md", "smooth-report.md"}
+WRITTEN = {"commands.md", "paper.md", "slicer-report.md", "smooth-report.md"}
 FENCED = re.compile(r"^( *)(```|~~~).*?^\1\2 *$", re.MULTILINE | re.DOTALL)
 
 

@@ -1,7 +1,8 @@
 """Write docs/design/walks.md: the way of each product through the rooms, as it runs: `python tools/walk.py`.
 
 A move is a call from a function of one room to a function of another. Each called function counts once, where it is
-called first. Kernels and the hall are left out: they are leaves. So is what modules do while they are imported.
+called first. Kernels, the hall and the declarations of reports are left out: they are leaves. So is what modules do
+while they are imported.
 """
 
 from __future__ import annotations
@@ -20,13 +21,13 @@ import trimesh
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "design" / "walks.md"
-LEAVES = ("hall", "kernels")
+LEAVES = ("hall", "kernels", "reports")
 HEAD = """# Walks
 
 The way of each product through [the rooms](../architecture.md), as it runs with default options, for a reader who wants
 to follow it. A move is a call from a function of one room to a function of another; each called function counts once,
-where it is called first. Kernels and the hall are left out, because they are leaves. `python tools/walk.py` writes this
-page.
+where it is called first. Kernels, the hall and the declarations of reports are left out, because they are leaves.
+`python tools/walk.py` writes this page.
 """
 
 

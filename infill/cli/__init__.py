@@ -99,6 +99,7 @@ def _leave(code: int) -> None:
 
 
 def _run(*, alone: bool) -> None:
+    """Run the command of sys.argv; `alone` says that no other process compiles."""
     import warnings
 
     from infill.cli.app import build_app

@@ -54,6 +54,7 @@ def build_app(command_name: str = "") -> typer.Typer:
 
 
 def _version(requested: bool) -> None:
+    """Print the version and stop, if `--version` was given."""
     if requested:
         typer.echo(f"infill {__version__} (phasefill)")
         raise typer.Exit

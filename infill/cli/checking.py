@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from infill.inspection.printability import Inspection
     from infill.projects.doctor import Diagnosis
     from infill.projects.project import Slicer
+    from infill.reports.checking import CheckReport, FailedCheck, ProjectReport
 
 
 def check(
@@ -48,19 +49,19 @@ def check(
         if not _passes(inspection, strict=strict):
             raise typer.Exit(1)
         return
-    passed, results = True, []
+    passed = True
+    results: list[CheckReport | FailedCheck] = []
     width = max(len(str(path)) for path in meshes)
     for path in meshes:
-        entry: dict[str, Any] = {"file": str(path)}
         try:
             inspection = inspect(path)
         except InfillError as error:
             say(f"error: {error}")
             passed = False
-            results.append(entry | {"error": str(error)})
+            results.append({"file": str(path), "error": str(error)})
             continue
         passed &= _passes(inspection, strict=strict)
-        results.append(entry | inspection.to_dict())
+        results.append({"file": str(path), **inspection.to_dict()})
         if not as_json:  # each as soon as it is known
             typer.echo(f"{path!s:<{width}}  {_verdict_line(inspection)}")
     if as_json:
@@ -73,7 +74,8 @@ def _check_projects(paths: list[Path], slicer: Slicer, *, strict: bool, as_json:
     """Check projects for a slicer and print the diagnoses; exit 1 if one of them fails."""
     from infill.projects.doctor import check_project
 
-    passed, results = True, []
+    passed = True
+    results: list[ProjectReport | FailedCheck] = []
     for path in paths:
         try:
             diagnosis = check_project(path, slicer)
@@ -110,6 +112,7 @@ def _diagnosis_table(diagnosis: Diagnosis, name: str) -> str:
 
 
 def _passes(inspection: Inspection, *, strict: bool) -> bool:
+    """Tell whether a file passes: printable, and with `--strict` without a warning."""
     return inspection.printable and not (strict and inspection.warnings)
 
 
@@ -142,10 +145,12 @@ def _inspection_table(inspection: Inspection, name: str) -> str:
 
 
 def _sealed_text(voids: int | None) -> str:
+    """Describe the number of sealed voids, which is None for an open mesh."""
     if voids is None:
         return "unknown: the mesh is not closed"
     return f"{voids}, in which resin and powder stay" if voids else "none"
 
 
 def _yes_or_no(holds: bool) -> str:
+    """Return "yes" or "no"."""
     return "yes" if holds else "no"

@@ -54,6 +54,7 @@ def placement_assignments(context: typer.Context, incomplete: str) -> list[tuple
 
 
 def _assignments(declared: dict[str, DescribedField], incomplete: str) -> list[tuple[str, str]]:
+    """Return completions of `name=` and `name=true`, each with its help."""
     candidates = []
     for name, (field, described) in declared.items():
         word = f"{name if '_' in incomplete else name.replace('_', '-')}="

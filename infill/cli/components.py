@@ -12,7 +12,7 @@ import typer
 from infill.cli.console import format_bytes, format_table
 
 if TYPE_CHECKING:
-    from infill.report_keys import ComponentsReport
+    from infill.reports.smoothing import ComponentsReport
     from infill.result import Result
     from infill.smoothing.by_component import ComponentStages
 

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import typer
 
 from infill.cli.console import format_bytes, format_table, print_json
 
 if TYPE_CHECKING:
-    from infill.report_keys import FillReport
+    from infill.reports.filling import FillForecast, FillReport
 
 REPAIR_TEXTS = {
     "turned": "faces turned outwards",
@@ -21,7 +21,7 @@ REPAIR_TEXTS = {
 END_TEXTS = {"top": "top", "bottom": "bottom", "both": "top and bottom"}
 
 
-def show_plan(plan: dict[str, Any], name: str, *, as_json: bool) -> None:
+def show_plan(plan: FillForecast, name: str, *, as_json: bool) -> None:
     """Print the plan of a fill: infill, grid and memory."""
     if as_json:
         print_json(plan)
@@ -89,6 +89,7 @@ def summary(report: FillReport, files: list[str], name: str, *, verbose: bool) -
 
 
 def _drain_text(report: FillReport) -> str:
+    """Describe drains, vents, branches and voids that stay closed, in one line."""
     closed, side = len(report["voids"]["closed"]), report["request"]["open"]
     holes = report["drains"]["holes"]
     if not (holes or side):

@@ -31,7 +31,7 @@ from infill.lattices.settings import FillOptions, resolve
 if TYPE_CHECKING:
     from infill.lattices.settings import FillSettings
     from infill.pictures.sections import Cut
-    from infill.report_keys import FillReport
+    from infill.reports.filling import FillReport
     from infill.result import Result
 
 PATTERN = "Pattern"
@@ -175,7 +175,7 @@ def _parse_cuts(texts: list[str], *, drawn: bool) -> tuple[Cut, ...]:
 def _writer(
     path: Path, settings: FillSettings, *, ascii_stl: bool
 ) -> Callable[[Result[Any, FillReport], str, BinaryIO], object]:
-    """Return a function that writes a result with a title in the format of a file, or raise FormatError."""
+    """Return a function that writes a result with a title, as a mesh or the slicer's project, or raise FormatError."""
     from infill.formats.mesh_files import mesh_writer
 
     write = mesh_writer(path, ascii=ascii_stl)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import typer
 
@@ -13,6 +13,7 @@ from infill.cli.console import format_bytes, format_table, print_json, print_log
 from infill.machine import available_memory
 
 if TYPE_CHECKING:
+    from infill.reports.smoothing import PlannedInput
     from infill.smoothing.plan import SmoothPlan
     from infill.smoothing.request import SmoothOptions
     from infill.smoothing.settings import SmoothSettings
@@ -38,6 +39,7 @@ def show_smooth_plan(
 
 
 def _plan_table(plan: SmoothPlan, files: list[str], name: str) -> str:
+    """Return the plan as a table of text: grid, method, triangles, memory, time and files."""
     grid, request, facts = plan.grid, plan.request, plan.facts
     cells = " x ".join(map(str, grid.shape))
     fidelity = "" if request.refined else f", fidelity {request.smoothing.fidelity:g}"
@@ -65,7 +67,7 @@ def _plan_table(plan: SmoothPlan, files: list[str], name: str) -> str:
     return format_table(rows, title=f"{name}: nothing is written (--dry-run)")
 
 
-def _source_text(facts: Any) -> str:  # noqa: ANN401 - the section `input` of a report
+def _source_text(facts: PlannedInput) -> str:
     """Describe the input, and the choice of its solid."""
     if facts["source"] == "points":
         return f"{facts['points']:,} points, " + (
@@ -75,9 +77,9 @@ def _source_text(facts: Any) -> str:  # noqa: ANN401 - the section `input` of a 
         return f"mesh of {facts['triangles']:,} triangles"
     segmentation = facts["segmentation"]
     bounds = [
-        f"{word} {segmentation[key]:g}"
-        for word, key in (("from", "low"), ("up to", "high"))
-        if segmentation.get(key) is not None
+        f"{word} {value:g}"
+        for word, value in (("from", segmentation.get("low")), ("up to", segmentation.get("high")))
+        if value is not None
     ]
     choice = [f"label {', '.join(map(str, segmentation['label']))}"] if "label" in segmentation else bounds
     low, high = segmentation["values"]

@@ -13,7 +13,7 @@ import typer
 from infill.cli.console import format_bytes, format_table, print_json, print_log, progress_bar, say
 
 if TYPE_CHECKING:
-    from infill.report_keys import LabelsReport
+    from infill.reports.smoothing import LabelsReport
     from infill.result import Result
     from infill.smoothing.labels import LabelStages
     from infill.smoothing.request import SmoothOptions

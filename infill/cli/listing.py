@@ -13,6 +13,7 @@ from infill.cli.completing import fill_names
 from infill.cli.console import can_show, format_table, print_json, say
 
 if TYPE_CHECKING:
+    from infill.reports.checking import PatternKeys, PatternList
     from patterns import Pattern
     from patterns.registry import PatternClass
 
@@ -47,8 +48,10 @@ def list_patterns(
     if preview is not None:
         _write_preview(kinds[str(pattern)], preview, overwrite=force)
     if as_json:
-        descriptions = {name: _facts(kind) for name, kind in kinds.items()}
-        print_json({"patterns": descriptions} | ({"in_space": in_space} if pattern is None else {}))
+        listed: PatternList = {"patterns": {name: _facts(kind) for name, kind in kinds.items()}}
+        if pattern is None:
+            listed["in_space"] = in_space
+        print_json(listed)
     elif pattern is None:
         typer.echo(format_table({name: kind.summary for name, kind in kinds.items()}))
         typer.echo("'infill list PATTERN' shows one, with its parameters and a picture.")
@@ -58,12 +61,13 @@ def list_patterns(
 
 
 def _show_in_space(kind: PatternClass, *, pictured: bool, as_json: bool) -> None:
-    """Print the purpose of a pattern in space, and its parameters."""
+    """Print the purpose of a pattern in space, and its parameters unless as JSON; raise BadParameter if `pictured`."""
     name = kind.name
     if pictured:
         raise typer.BadParameter(f"'infill fill PART --pattern {name} --preview FILE' shows {name}, in a part")
     if as_json:
-        print_json({"patterns": {}, "in_space": {name: kind.summary}})
+        listed: PatternList = {"patterns": {}, "in_space": {name: kind.summary}}
+        print_json(listed)
     else:
         place = "follows the part" if not getattr(kind, "repeats", True) else "repeats in space"
         title = f"{name}: {kind.summary}\n  {place}, for 'infill fill': see its --cell and --line-width\n"
@@ -71,6 +75,7 @@ def _show_in_space(kind: PatternClass, *, pictured: bool, as_json: bool) -> None
 
 
 def _write_preview(kind: type[Pattern], path: Path, *, overwrite: bool) -> None:
+    """Draw a pattern with its defaults into a picture file."""
     from infill.files.whole_files import check_targets, write_all_files
     from infill.pictures.drawing import write_drawing
     from infill.pictures.preview import check_preview
@@ -80,8 +85,10 @@ def _write_preview(kind: type[Pattern], path: Path, *, overwrite: bool) -> None:
     say(f"wrote {path}")
 
 
-def _facts(kind: type[Pattern]) -> dict[str, Any]:
+def _facts(kind: type[Pattern]) -> PatternKeys:
     """Return the summary of a pattern, its descriptions, and its parameters, angles in degrees."""
+    from infill.reports.checking import ParameterKeys
+    from infill.reports.common import declare
     from patterns import gives
     from patterns.given import describe_parameters
 
@@ -89,7 +96,7 @@ def _facts(kind: type[Pattern]) -> dict[str, Any]:
         "summary": kind.summary,
         "prismatic": kind.prismatic,
         "gives": list(gives(kind)),
-        "options": describe_parameters(kind),
+        "options": {name: declare(ParameterKeys, keys) for name, keys in describe_parameters(kind).items()},
     }
 
 

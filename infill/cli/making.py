@@ -16,7 +16,8 @@ from infill.cli.declared import takes_options
 from infill.making.settings import MakeSettings, resolve
 
 if TYPE_CHECKING:
-    from infill.report_keys import MakeReport
+    from infill.making.request import Block
+    from infill.reports.making import MakeReport
 
 SHOWN = 1e-3  # mm: smaller differences from the requested size are not shown
 STDOUT = Path("-")
@@ -163,7 +164,8 @@ def make(
         print_json({**result.report, "files": files})
 
 
-def _show_plan(block: Any, limit: int | None, *, as_json: bool) -> None:  # noqa: ANN401 - Block, not imported for --help
+def _show_plan(block: Block, limit: int | None, *, as_json: bool) -> None:
+    """Print the size of a block, its memory and its triangles, after checking the memory limit."""
     block.require_grid_memory(limit)  # else the lines alone might fill the memory
     if limit is not None:
         block.require_memory(limit)

@@ -101,6 +101,7 @@ def send_file(path: Path) -> None:
 
 
 def _send(buffer: io.BytesIO) -> None:
+    """Write a buffer to standard output and flush it."""
     _write(buffer.getbuffer())
     sys.stdout.buffer.flush()
 

@@ -24,6 +24,7 @@ from patterns.errors import PatternError
 
 if TYPE_CHECKING:
     from infill.planner.layer_speeds import LayerSpeeds
+    from infill.reports.refilling import FilamentKeys, RefillReport, TimeKeys
 
 ALIKE = 0.995  # of the filament of the infill: no less is the old amount
 
@@ -143,6 +144,7 @@ def _read_sliced_layer(
 
 
 def _write_preview(number: int, sliced_layers: dict[str, LayerSpeeds], path: Path, preview: Path) -> None:
+    """Draw the speeds of a layer before and after refilling into a picture file."""
     from functools import partial
 
     from infill.files.whole_files import write_all_files
@@ -182,7 +184,7 @@ def _log_paths(gcode: Path) -> list[Path]:
     return [place.with_name(f"{place.name}.refill.log") for place in places if place.name]
 
 
-def _summary(report: dict[str, Any], name: str, path: str) -> str:
+def _summary(report: RefillReport, name: str, path: str) -> str:
     """Return the short table for stderr."""
     if report["print"]["already_refilled"]:
         return format_table({"nothing to do": "it was refilled before"}, title=name)
@@ -199,7 +201,7 @@ def _summary(report: dict[str, Any], name: str, path: str) -> str:
         density = filament["density_for_the_same_percent"]
         if density and after < before * 0.999:
             rows["filament"] += f"; for the old amount, set {density:g} % in the slicer"
-            if filament["ratio_with_density_same"] > ALIKE:
+            if (filament["ratio_with_density_same"] or 0.0) > ALIKE:
                 rows["filament"] += ", or give --density same"
         before, after = seconds["infill_before_s"], seconds["infill_after_s"]
         if before:
@@ -217,7 +219,7 @@ def _summary(report: dict[str, Any], name: str, path: str) -> str:
     return format_table(rows, title=name)
 
 
-def _print_text(filament: dict[str, Any], seconds: dict[str, Any]) -> str:
+def _print_text(filament: FilamentKeys, seconds: TimeKeys) -> str:
     """Format time and filament of the entire print, and the old ones in brackets, by the same planner."""
     new_s, old_s = seconds["print_after_s"], seconds["print_before_s"]
     grams, old_g = filament["print_after_g"], filament["print_before_g"]
@@ -237,6 +239,7 @@ def _clock(seconds: float) -> str:
 
 
 def _format_span(seconds: float) -> str:
+    """Return seconds as "2h 5m" or "5m 10s"."""
     minutes, seconds = divmod(round(seconds), 60)
     hours, minutes = divmod(minutes, 60)
     return f"{hours}h {minutes}m" if hours else f"{minutes}m {seconds}s"

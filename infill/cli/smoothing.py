@@ -31,7 +31,7 @@ from infill.cli.labelled import SmoothOutput, refuse_options, smooth_every_label
 from infill.smoothing.settings import SmoothSettings, resolve
 
 if TYPE_CHECKING:
-    from infill.report_keys import SmoothReport
+    from infill.reports.smoothing import SmoothReport
     from infill.smoothing.request import SmoothOptions
 
 
@@ -190,7 +190,7 @@ def _smooth_source(source: Path, settings: SmoothSettings, options: SmoothOption
 
 def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool) -> str:
     """Return the short table for stderr."""
-    from infill.sections import Sections
+    from infill.reports.sections import Sections
 
     request, grid, level = report["request"], report["grid"], report["solid"]["level"]
     result, data = report["topology"]["result"], report["topology"]["data"]

@@ -13,6 +13,7 @@ from infill.cli.console import format_table, print_json, say
 
 if TYPE_CHECKING:
     from infill.planner.printing_time import FeatureMotion, Motion
+    from infill.reports.timing import MotionReports
 
 MACHINE, FILES = "The machine, instead of the limits in the file", "Files"
 UNITS = {"feedrate": "mm/s", "axis_acceleration": "mm/s²", "acceleration": "mm/s²", "jerk": "mm/s"}
@@ -122,8 +123,10 @@ def motion(
         chosen = layer if layer is not None else max(motions[0].layers // 2, 1)
         _write_plot(paths, chosen, planner_options, plot)
     if as_json:
-        results = [{"file": str(path), **plan.to_dict()} for path, plan in zip(paths, motions, strict=True)]
-        print_json(results[0] if other is None else {"files": results})
+        reports: MotionReports = {
+            "files": [{"file": str(path), **plan.to_dict()} for path, plan in zip(paths, motions, strict=True)]
+        }
+        print_json(reports["files"][0] if other is None else reports)
         return
     for path, plan in zip(paths, motions, strict=True):
         typer.echo(_summary(path, plan))
@@ -131,6 +134,7 @@ def motion(
 
 
 def _check_plot(path: Path, *, overwrite: bool) -> None:
+    """Raise if the file of the plot is not a picture, or exists and may not be overwritten."""
     from infill.files.whole_files import check_targets
     from infill.pictures.preview import check_preview
 
@@ -138,6 +142,7 @@ def _check_plot(path: Path, *, overwrite: bool) -> None:
 
 
 def _write_plot(paths: Sequence[Path], layer: int, planner_options: dict[str, Any], plot: Path) -> None:
+    """Draw the planned speeds of one layer of every file into a picture file."""
     from infill.files.whole_files import write_all_files
     from infill.pictures.speeds import write_speeds
     from infill.planner.layer_speeds import layer_speeds
@@ -201,10 +206,12 @@ def _plate_text(plan: Motion) -> str:
 
 
 def _plain_value(value: float | Sequence[float]) -> str:
+    """Return a number, or numbers with spaces between them, without trailing zeros."""
     return f"{value:g}" if isinstance(value, float | int) else " ".join(f"{component:g}" for component in value)
 
 
 def _feature_table(plan: Motion) -> str:
+    """Return time, share and motion of every feature as a table, the longest time first."""
     rows = [["feature", "time", "share", *COLUMNS]]
     for feature in sorted(plan.features, key=lambda feature: -feature.seconds):
         share = f"{feature.seconds / plan.seconds:.1%}"
@@ -242,6 +249,7 @@ def _comparison_table(motions: Sequence[Motion]) -> str:
 
 
 def _align_columns(rows: Sequence[Sequence[str]]) -> str:
+    """Return rows as lines of text: the first column aligned left, the others right."""
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     lines = []
     for first, *rest in rows:

@@ -116,7 +116,7 @@ def _next_kept(rings: Contours, is_corner: Flags) -> Indices:
 
 
 def _first_marked(flags: Flags, begins: Indices) -> Indices:
-    """Return the first marked position at or after each beginning."""
+    """Return the first marked position at or after each beginning; raise IndexError if there is none."""
     marked = np.flatnonzero(flags)
     return marked[np.searchsorted(marked, begins)]
 
@@ -130,7 +130,7 @@ def _segment_distances(points: Complexes, start: Complexes, end: Complexes) -> F
 
 
 def _fit_chords(rings: Contours, is_corner: Flags, tolerance: float) -> Contours:
-    """Move the ends of chords so that every area stays; keep more corners, in place, where chords lie too far away."""
+    """Move the ends of chords so that every area stays; if chords lie too far away, mark more in `is_corner`."""
     points, areas = _complex(rings.points), rings.areas
     while True:
         corner = np.flatnonzero(is_corner)

@@ -8,10 +8,14 @@
 
 from __future__ import annotations
 
+import logging
 import os
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+
+import numpy as np
+import shapely
 
 from infill.checks import check_length, check_positive
 from infill.drawing import Drawing, Picture, TooComplexError
@@ -23,6 +27,11 @@ from infill.errors import FormatError
 from infill.files.broken import require_readable
 from infill.paths.tiles.drawn_family import DrawnFamily
 from infill.paths.tiles.tiling import repeating_box, trace_picture
+
+MOST_CROSSINGS = 500_000  # of a tile, all of which are found where walls or paths are made of it
+SAMPLED_SEGMENTS = 500
+
+LOG = logging.getLogger("infill")
 
 READERS: dict[str, Callable[[Path], Drawing | Picture]] = {
     ".svg": read_svg,
@@ -61,11 +70,28 @@ def read_drawing(path: str | os.PathLike[str]) -> Drawing | Picture:
 
 
 def read_tile(path: str | os.PathLike[str]) -> Drawing:
-    """Read a drawing whose page is the tile that repeats; raise FormatError as `read_drawing` does."""
+    """Read a drawing, or trace a picture, as a tile that repeats; raise FormatError, also for many crossings."""
     content = read_drawing(path)
     if isinstance(content, Picture):
         return trace_picture(content, Path(path))
+    if content.left_out:
+        LOG.warning("%s: left out: %s", path, ", ".join(content.left_out))
+    crossings = _estimate_crossings(content)
+    if crossings > MOST_CROSSINGS:
+        raise FormatError(
+            f"the lines of {path} cross or touch about {crossings:,.0f} times; the limit is {MOST_CROSSINGS:,}; draw "
+            "fewer lines over each other"
+        )
     return replace(content, page=repeating_box(content))
+
+
+def _estimate_crossings(drawing: Drawing) -> float:
+    """Return about how many pairs of segments of a drawing meet, from a sample of them."""
+    segments = np.concatenate([np.stack([line[:-1], line[1:]], axis=1) for line in drawing.lines])
+    tree = shapely.STRtree(shapely.linestrings(segments))
+    stride = -(-len(segments) // SAMPLED_SEGMENTS)
+    sample = tree.geometries[::stride]
+    return len(tree.query(sample, predicate="intersects")[0]) / len(sample) * len(segments) / 2
 
 
 def read_tile_family(path: str | os.PathLike[str], *, width: float | None = None) -> DrawnFamily:

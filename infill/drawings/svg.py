@@ -224,7 +224,7 @@ class _Reader:
         return []
 
     def _is_background(self, element: ElementTree.Element, box: Bounds) -> bool:
-        """Tell whether a rectangle is the background of the page: filled, without a stroke, and covering it."""
+        """Tell whether a rectangle without a stroke of its own is as large as the page, and so its background."""
         stroke = re.search(r"stroke:\s*(\w+)", element.get("style", ""))
         stroked = (stroke[1] if stroke else element.get("stroke", "none")) != "none"
         return (

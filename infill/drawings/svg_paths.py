@@ -153,7 +153,7 @@ def bezier_points(controls: Line) -> Line:
 
 
 def arc_points(start: Line, end: Line, radii: tuple[float, float], turned: float, *, large: bool, sweep: bool) -> Line:
-    """Return points of an elliptical arc, without the first (SVG 2, B.2.4; small radii are scaled, B.2.5)."""
+    """Return points of an arc turned by `turned` radians, without the first (SVG 2, B.2.4; small radii grow, B.2.5)."""
     rx, ry = abs(radii[0]), abs(radii[1])
     if rx == 0 or ry == 0 or np.array_equal(start, end):
         return np.array([end])

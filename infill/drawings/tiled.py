@@ -12,9 +12,12 @@ import shapely
 from numpy.typing import NDArray
 
 from infill.drawings.drawing_files import read_tile
+from patterns.errors import PatternError
 from patterns.linework import clip, turn
 from patterns.protocol import Pattern
 from patterns.shared import angle_parameter, cell_parameter
+
+MOST_PLACED = 2_000_000  # points of all copies of a tile in a region
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -43,12 +46,19 @@ class Tiled(Pattern):
     angle: float = angle_parameter()
 
     def lines(self, region: shapely.Polygon | shapely.MultiPolygon, z: float = 0.0) -> shapely.MultiLineString:  # noqa: ARG002 - prismatic
-        """Draw the lines of all tiles that reach into a region."""
+        """Return the lines of all tiles, clipped to a region; raise PatternError if there are too many copies."""
         corners = turn(shapely.get_coordinates(shapely.envelope(region)), -self.angle) / self.cell
         points = np.concatenate(self.drawn)
         size = np.array([1.0, self.height])
         lower = np.floor((corners.min(axis=0) - points.max(axis=0)) / size)
         upper = np.ceil((corners.max(axis=0) - points.min(axis=0)) / size)
+        copies = int(np.prod(upper - lower + 1))
+        if copies * len(points) > MOST_PLACED:
+            raise PatternError.about(
+                "cell",
+                f"is {self.cell:.3g} mm: {copies:,} copies of {self.name} have {copies * len(points):,} points, and "
+                f"the limit is {MOST_PLACED:,}; give a larger cell, or simplify the drawing",
+            )
         column, row = np.meshgrid(np.arange(lower[0], upper[0] + 1), np.arange(lower[1], upper[1] + 1), indexing="ij")
         shifts = np.stack([column.ravel(), row.ravel()], axis=-1) * size
         placed = [

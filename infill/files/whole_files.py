@@ -170,7 +170,7 @@ def _back_up(target: Path, backup: Path) -> bool:
 
 
 def _restore(target: Path, backup: Path | None) -> None:
-    """Put the backup of a target back, or remove the target if it had none."""
+    """Put the backup of a target back, or remove the target without one; do nothing if that fails."""
     with contextlib.suppress(OSError):
         if backup is None:
             target.unlink(missing_ok=True)

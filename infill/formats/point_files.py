@@ -177,7 +177,7 @@ def _is_number(text: str) -> bool:
 
 
 def _point_columns(names: list[str]) -> tuple[int, ...]:
-    """Return the columns of x, y and z, followed by those of the normals if the names have any.
+    """Return the columns of x, y and z, by name or else the first three, then those of named normals.
 
     Columns are found by name or by its first word ("x_mm", "X [mm]"); else x, y and z are the first three.
     """

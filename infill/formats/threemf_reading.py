@@ -94,6 +94,7 @@ class _Reading:
 
     @cached_property
     def parts(self) -> dict[str, zipfile.ZipInfo]:
+        """The members of the archive by their case-insensitive names."""
         return entries_by_key(self.package)
 
     @cached_property
@@ -358,7 +359,7 @@ def _outward(surface: Surface) -> Surface:
 
 
 def start_part(package: zipfile.ZipFile) -> str:
-    """Return the file name of the model that the package declares as its start, or an empty string."""
+    """Return the `part_key` of the model that the package declares as its start, or an empty string."""
     if part_key(RELATIONS) not in entries_by_key(package):
         return ""
     relations = parse_xml(read_entry(package, RELATIONS))

@@ -85,6 +85,7 @@ def rewrite_archive(source: BinaryIO, target: BinaryIO, texts: Mapping[int, Iter
 
 
 def _write_plate(old: zipfile.ZipFile, new: zipfile.ZipFile, info: zipfile.ZipInfo, text: Iterable[bytes]) -> None:
+    """Write the text of a plate as an archive member, and its new MD5 where the old archive states one."""
     digest = hashlib.md5(usedforsecurity=False)
     with _open_member(new, info) as writing:
         for piece in text:
@@ -100,6 +101,7 @@ def _write_plate(old: zipfile.ZipFile, new: zipfile.ZipFile, info: zipfile.ZipIn
 
 
 def _read_text(file: BinaryIO, plate: int) -> Iterator[bytes]:
+    """Yield the text of a plate in chunks; raise at the end if its MD5 differs."""
     with _open_archive(file) as archive:
         name = _get_member(_find_members(archive), plate)
         digest = hashlib.md5(usedforsecurity=False)
@@ -119,6 +121,7 @@ def _stated_md5(archive: zipfile.ZipFile, name: str) -> str | None:
 
 
 def _find_members(archive: zipfile.ZipFile) -> dict[int, str]:
+    """Return the archive members that hold G-code, by the number of their plate."""
     matches = (PLATE_NAME.fullmatch(name) for name in archive.namelist())
     members = {int(match[1]): match[0] for match in matches if match}
     if not members:
@@ -127,6 +130,7 @@ def _find_members(archive: zipfile.ZipFile) -> dict[int, str]:
 
 
 def _get_member(members: Mapping[int, str], plate: int) -> str:
+    """Return the archive member of a plate; raise if there is none."""
     if plate not in members:
         available = ", ".join(map(str, sorted(members)))
         raise ParameterError.about("plate", f"is {plate}, which is not in the archive; it has {available}")
@@ -134,11 +138,13 @@ def _get_member(members: Mapping[int, str], plate: int) -> str:
 
 
 def _open_member(new: zipfile.ZipFile, like: zipfile.ZipInfo) -> BinaryIO:
+    """Open a new member for writing, with the name, date and compression of an old one."""
     # A copy: zipfile changes sizes and offsets in the object it gets.
     return new.open(copy(like), "w", force_zip64=like.file_size > ZIP64_SIZE)  # type: ignore[return-value]
 
 
 def _open_archive(file: BinaryIO) -> zipfile.ZipFile:
+    """Open an archive; raise for other compressions and for names that occur twice."""
     with _wrap_zip_errors():
         archive = zipfile.ZipFile(file)
     names = archive.namelist()
@@ -151,6 +157,7 @@ def _open_archive(file: BinaryIO) -> zipfile.ZipFile:
 
 
 def _read_chunks(archive: zipfile.ZipFile, name: str) -> Iterator[bytes]:
+    """Yield the bytes of an archive member in chunks."""
     with _wrap_zip_errors(), archive.open(name) as reading:
         while piece := reading.read(MAX_CHUNK_BYTES):
             yield piece

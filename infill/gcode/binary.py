@@ -182,6 +182,7 @@ def rewritten(
 
 
 def _read_texts(file: BinaryIO) -> Iterator[bytes]:
+    """Yield the decoded text of every G-code block; raise if there is none."""
     empty = True
     for block in blocks(file):
         if block.kind == Kind.GCODE:
@@ -196,6 +197,7 @@ def _encode_text(text: str) -> bytes:
 
 
 def _metadata_text(block: Block) -> bytes:
+    """Return the INI text of a metadata block."""
     if block.kind not in METADATA_KINDS:
         raise ParameterError(f"{block.name} holds no metadata; take one of metadata")
     if block.encoding != 0:
@@ -204,6 +206,7 @@ def _metadata_text(block: Block) -> bytes:
 
 
 def _decompress(block: Block) -> bytes:
+    """Return the data of a block, decompressed; raise if its size is not the stated one."""
     match block.compression:
         case Compression.NONE:
             return block.data
@@ -220,6 +223,7 @@ def _decompress(block: Block) -> bytes:
 
 
 def _compress(data: bytes, compression: Compression) -> bytes:
+    """Return data compressed as a block states it."""
     match compression:
         case Compression.NONE:
             return data

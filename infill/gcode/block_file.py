@@ -130,6 +130,7 @@ def blocks(file: BinaryIO) -> Iterator[Block]:
 
 
 def _read_block(file: BinaryIO, number: int, *, summed: bool) -> Block | None:
+    """Read the next block of a binary file, or None at its end; `summed` says that checksums follow."""
     head = file.read(8)
     if not head:
         return None

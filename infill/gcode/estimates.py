@@ -266,6 +266,7 @@ def _stated_amounts(lines: Sequence[bytes]) -> StatedAmounts:
 
 
 def _stated_filament(lines: Sequence[bytes], beginnings: Sequence[bytes]) -> float | None:
+    """Return the sum of the numbers on the first line with one of these beginnings, None if there is none."""
     for begin in beginnings:
         for line in lines:
             if line.startswith(begin):
@@ -288,6 +289,7 @@ def stated_seconds(line: bytes) -> float:
 
 
 def _first_number(line: bytes) -> bytes:
+    """Return the first number on a line, as text, or b"0"."""
     match = _NUMBER.search(line)
     return match[0] if match else b"0"
 
@@ -322,11 +324,13 @@ def _format_truncated(value: float, decimals: int) -> bytes:
 
 
 def _scale_number(number: bytes, factor: float) -> bytes:
+    """Multiply a number given as text, and keep its decimals."""
     decimals = len(number.partition(b".")[2])
     return b"%.*f" % (decimals, float(number) * factor)
 
 
 def _parse_duration(text: bytes) -> float:
+    """Return the seconds of a text such as b"1d 2h 3m 4s"."""
     match = _SPAN.match(text)
     days, hours, minutes, seconds = (int(part or 0) for part in (match.groups() if match else (0, 0, 0, 0)))
     return ((days * 24 + hours) * 60 + minutes) * 60.0 + seconds

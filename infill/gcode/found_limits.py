@@ -124,7 +124,7 @@ class FileLimits:
         limits = apply_command(self.limits, code, line, feedrate_unit=self.feedrate_unit, firmware=self.firmware)
         if self.fixed:
             limits = replace(limits, **self.fixed)
-        named = _SETS.get(code) or [name for name in self.sources if _mentions(line, name)]
+        named = _SETS.get(code) or [name for name in self.sources if _sets_limit(line, name)]
         sources = {
             name: "commands" if name in named and source != "given" else source for name, source in self.sources.items()
         }
@@ -213,7 +213,7 @@ def filament_units(head: bytes, settings: Mapping[str, str]) -> tuple[bool, tupl
 
 
 def extrusion_rule(head: bytes, settings: Mapping[str, str]) -> str:
-    """Return the firmware whose rule makes E relative, as in `MachineState.firmware`.
+    """Return klipper or reprapfirmware if its own rule makes E relative, else "": see `MachineState.firmware`.
 
     >>> extrusion_rule(b"", {"gcode_flavor": "klipper"}), extrusion_rule(b"", {"gcode_flavor": "marlin2"})
     ('klipper', '')
@@ -224,7 +224,8 @@ def extrusion_rule(head: bytes, settings: Mapping[str, str]) -> str:
     return "reprapfirmware" if flavour == "reprapfirmware" else ""
 
 
-def _mentions(line: bytes, name: str) -> bool:
+def _sets_limit(line: bytes, name: str) -> bool:
+    """Tell whether a command sets a limit by one of its words; only M205 and SET_VELOCITY_LIMIT are known."""
     return name in _SAYS and _SAYS[name].search(line.upper()) is not None
 
 

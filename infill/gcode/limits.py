@@ -172,6 +172,7 @@ def _parse_words(line: bytes) -> dict[str, float]:
 
 
 def _update_axes(before: Axes, words: dict[str, float], unit: float = 1.0) -> Axes:
+    """Return limits of x, y, z and e, with those that the words set; impossible values are ignored."""
     x, y, z, e = (
         words[axis] * unit if MIN_LIMIT <= words.get(axis, 0.0) * unit <= MAX_LIMIT else value
         for axis, value in zip("XYZE", before, strict=True)
@@ -218,6 +219,7 @@ def _lowest_feedrate(before: float, asked: float | None) -> float:
 
 
 def _with_deviation(limits: Limits, deviation: float) -> Limits:
+    """Return limits with this junction deviation, if it is possible, else unchanged."""
     sense = is_valid_limit(deviation, "junction_deviation")
     return replace(limits, junction_deviation=deviation) if sense else limits
 

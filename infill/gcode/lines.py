@@ -186,6 +186,7 @@ def _classify_lines(
 
 
 def _is_digit(byte: NDArray[np.uint8]) -> NDArray[np.bool_]:
+    """Tell for each byte whether it is a digit."""
     return (byte >= ord("0")) & (byte <= ord("9"))
 
 
@@ -283,6 +284,7 @@ def _read_odd_lines(
 
 
 def _read_commands(data: bytes, start: NDArray[np.int64], kind: NDArray[np.uint8]) -> Iterator[GcodeCommand]:
+    """Yield the commands on all lines other than plain moves, with their numbers or their name."""
     for line in np.flatnonzero((kind == OTHER) | (kind == ODD)).tolist():
         text = data[start[line] : min(start[line + 1], start[line] + 4096)]
         number = _LINE_NUMBER.match(text)

@@ -105,7 +105,7 @@ _MODES |= {"SAVE_GCODE_STATE", "RESTORE_GCODE_STATE"}
 
 
 def changes_moves(command: GcodeCommand) -> bool:
-    """Tell whether a command changes the meaning of moves."""
+    """Tell whether a command changes how later moves are read: units, modes, places or tools."""
     return command.code in _MODES or command.code[:1] == "T"
 
 

@@ -37,6 +37,7 @@ NEWLINE, BLANK, SEMICOLON, G = b"\n"[0], b" "[0], b";"[0], b"G"[0]
 
 
 def _table(characters: bytes) -> Flags:
+    """Return a table of 256 flags, True for these characters."""
     table = np.zeros(256, np.bool_)
     table[list(characters)] = True
     return table
@@ -119,6 +120,7 @@ def pack_text(text: bytes, *, comments: bool = True) -> bytes:
 
 
 def _pack_codes(code: Bytes, plain: Flags, moves: Flags) -> bytes:
+    """Pack characters in pairs, with commands that switch packing on and off; `plain` marks what stays unpacked."""
     starts, line = _find_lines(code)
     within = np.arange(len(code)) - starts[line]
     after = np.append(code[1:], np.uint8(NEWLINE))
@@ -190,6 +192,7 @@ def _survey_lines(code: Bytes, starts: NDArray[np.int64]) -> _Lines:
 
 
 def _is_ink(code: Bytes) -> Flags:
+    """Tell for each character whether it is visible."""
     ink: Flags = ~BLANKS[code]
     return ink
 

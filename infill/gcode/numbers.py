@@ -194,6 +194,7 @@ def write_words(columns: list[tuple[bytes, NDArray[np.float64], int]], head: byt
 
 
 def _repeat_text(text: bytes, rows: int) -> Bytes:
+    """Return a text as bytes in each of some rows."""
     repeated: Bytes = np.broadcast_to(np.frombuffer(text, dtype=np.uint8), (rows, len(text)))
     return repeated
 
@@ -232,7 +233,7 @@ def _format_numbers(values: NDArray[np.float64], decimals: int) -> Bytes:
 
 
 def format_word(value: float, decimals: int = 3) -> bytes:
-    """Write a number as slicers do, without zeros at its end.
+    """Return a number as G-code has it, without trailing zeros and without "-0".
 
     >>> format_word(1.5), format_word(-0.0001), format_word(20.0)
     (b'1.5', b'0', b'20')

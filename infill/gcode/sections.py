@@ -251,6 +251,7 @@ def _after_printing(tags: TagState) -> TagState:
 
 
 def _apply_tag(tags: TagState, meaning: str, value: bytes) -> TagState:
+    """Return the state of comments after one that sets role, layer, object, width, height or wiping."""
     match meaning:
         case "role":
             role = role_of(value)
@@ -306,6 +307,7 @@ def _differ_in_number(before: bytes, value: bytes) -> bool:
 
 
 def _parse_length(value: bytes, otherwise: float) -> float:
+    """Return a length in mm, or a default if the text is no number between 0 and 100."""
     try:
         length = float(value)
     except ValueError:

@@ -124,6 +124,7 @@ class SlicedFile:
 
     @contextlib.contextmanager
     def _binary(self, folder: Path | None) -> Iterator[SlicedText]:
+        """Yield the text of a binary file, with the settings and values of its metadata."""
         from infill.gcode.binary import Kind, blocks, metadata, text_pieces
 
         with _unpack_to_file(text_pieces(self.file), folder) as text:
@@ -143,6 +144,7 @@ class SlicedFile:
 
     @contextlib.contextmanager
     def _plate(self, plate: int, folder: Path | None) -> Iterator[SlicedText]:
+        """Yield the text of a plate of an archive."""
         from infill.gcode.bambu_archive import read_plate
 
         try:
@@ -203,6 +205,7 @@ def _detect_form(head: bytes) -> Form:
 
 @contextlib.contextmanager
 def _unpack_to_file(pieces: Iterable[bytes], folder: Path | None) -> Iterator[BinaryIO]:
+    """Write pieces of text to a scratch file and yield it, rewound."""
     with scratch_file(folder) as text:
         text.writelines(pieces)
         text.seek(0)
@@ -210,4 +213,5 @@ def _unpack_to_file(pieces: Iterable[bytes], folder: Path | None) -> Iterator[Bi
 
 
 def _encode_text(text: str) -> bytes:
+    """Return text as bytes; bytes that were not text come back as they were."""
     return text.encode("utf-8", "surrogateescape")

@@ -167,6 +167,7 @@ def _filament_words(
 
 
 def _line_end(table: GcodeTable) -> bytes:
+    """Return the line end that is more frequent at the beginning of a file."""
     return b"\r\n" if table.data[:4096].count(b"\r\n") > table.data[:4096].count(b"\n") / 2 else b"\n"
 
 
@@ -203,6 +204,7 @@ def find_difference(table: GcodeTable, new_table: GcodeTable, spliced_text: Spli
 
 
 def _states_agree(state: object, expected: object) -> bool:
+    """Tell whether two machine states are equal to 1e-4; e counts only where it is absolute."""
     for name, value in vars(state).items():
         second = vars(expected)[name]
         if name == "e" and vars(state)["relative_e"]:

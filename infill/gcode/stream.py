@@ -61,6 +61,7 @@ def _find_last_layer(text: bytes) -> int:
 
 
 def _check_line(text: bytes) -> None:
+    """Raise if a line is longer than any line of G-code."""
     begin = 0
     while len(text) - begin > MAX_LINE_BYTES:  # in steps of as many lines as fit
         end = text.rfind(b"\n", begin, begin + MAX_LINE_BYTES + 1)

@@ -121,6 +121,7 @@ class _NrrdFields:
         return self.known[name]
 
     def get(self, name: str, default: str = "") -> str:
+        """Return the value of a field, or a default."""
         return self.known.get(name, default)
 
 
@@ -233,7 +234,7 @@ def _place_image(path: Path, fields: _NrrdFields, sizes: tuple[int, ...]) -> Ima
 def _affine_of_directions(
     path: Path, fields: _NrrdFields, directions: list[NDArray[np.float64] | None]
 ) -> tuple[tuple[int, ...], NDArray[np.float64]]:
-    """Return axes and affine from `space directions`; in a space with time, leave out the axis of time."""
+    """Return spatial axes and affine (3, 4), mm, from `space directions`; its numbers are 0 for fewer than 3 axes."""
     axes = [axis for axis, direction in enumerate(directions) if direction is not None]
     matrix = np.array([directions[axis] for axis in axes]).T  # column i: one cell along axis i
     count = matrix.shape[0] if matrix.ndim == 2 else 0

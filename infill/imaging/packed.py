@@ -53,13 +53,16 @@ class _DeflateStream:
 
     @property
     def eof(self) -> bool:
+        """Whether the compressed data has ended."""
         return self.stream.eof
 
     @property
     def unused_data(self) -> bytes:
+        """The bytes after the end of the compressed data."""
         return self.stream.unused_data
 
     def unpack(self, data: bytes) -> bytes:
+        """Decompress further data, into at most one chunk."""
         return self.stream.decompress(self.stream.unconsumed_tail + data, CHUNK)
 
 
@@ -71,13 +74,16 @@ class _Bzip2Stream:
 
     @property
     def eof(self) -> bool:
+        """Whether the compressed data has ended."""
         return self.stream.eof
 
     @property
     def unused_data(self) -> bytes:
+        """The bytes after the end of the compressed data."""
         return self.stream.unused_data
 
     def unpack(self, data: bytes) -> bytes:
+        """Decompress further data, into at most one chunk; nothing after the end."""
         return b"" if self.stream.eof else self.stream.decompress(data, CHUNK)
 
 

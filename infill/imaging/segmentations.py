@@ -10,7 +10,7 @@ from infill.errors import FormatError
 from infill.files.broken import wrap_read_errors
 from infill.grid import spacing_of
 from infill.imaging.assumed import keep_warnings
-from infill.imaging.dicom import read_dicom_segments
+from infill.imaging.dicom.reading import read_dicom_segments
 from infill.imaging.frames import choose_frame
 from infill.imaging.label_tables import Segment, segments_of_nrrd
 from infill.imaging.nrrd import read_layers

@@ -25,7 +25,7 @@ from infill.files.whole_files import atomic_file
 from infill.grid import spacing_of
 from infill.imaging.arrays import read_npy, read_npz, write_npz
 from infill.imaging.assumed import keep_warnings
-from infill.imaging.dicom import read_dicom
+from infill.imaging.dicom.reading import read_dicom
 from infill.imaging.freesurfer import read_mgh
 from infill.imaging.metaimage import read_meta_image
 from infill.imaging.nifti import read_nifti

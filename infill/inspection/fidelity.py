@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,9 @@ from numpy.typing import NDArray
 from infill.meshes.distance import TriangleTree, morton_order
 from infill.meshes.measuring import face_areas
 from infill.surface import Surface
+
+if TYPE_CHECKING:
+    from infill.reports.smoothing import Distances, Place
 
 Word = Literal["kept", "changed a little", "lost"]
 Floats = NDArray[np.float64]
@@ -52,7 +55,7 @@ class SurfaceGap:
     max: float
     at: tuple[float, float, float]
 
-    def facts(self) -> dict[str, Any]:
+    def facts(self) -> Distances:
         """Return the numbers by name, for the report."""
         return {"mean": self.mean, "rms": self.rms, "p95": self.p95, "max": self.max, "at": list(self.at)}
 
@@ -74,7 +77,7 @@ class ChangedPatch:
     area: float
     distance: float
 
-    def facts(self) -> dict[str, Any]:
+    def facts(self) -> Place:
         """Return the numbers by name, for the report."""
         return {"at": list(self.at), "area": self.area, "distance": self.distance}
 

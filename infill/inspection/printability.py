@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,8 @@ from infill.meshes.intersections import count_self_intersections
 from infill.meshes.merging import merge_unless_closed, merge_vertices, surface_of
 from infill.meshes.sealed_voids import count_sealed_voids
 from infill.meshes.shells import vertex_components
+from infill.reports.checking import CheckReport
+from infill.reports.common import declare
 from infill.surface import Edges, Surface
 
 if TYPE_CHECKING:
@@ -28,34 +30,10 @@ FLAT = 1e-12  # a triangle of less than this share of its longest side squared h
 
 @dataclass(frozen=True, kw_only=True)
 class Inspection:
-    """The result of `check`; lengths in the unit of the file, or in mm if the file states its unit.
+    """Result of `check`.
 
-    Parameters
-    ----------
-    printable : bool
-        True if `problems` is empty.
-    problems, warnings : tuple of str
-        Reasons why it is not printable, and flaws that slicers handle but other programs may not; one phrase each. The
-        first warnings list the objects of a 3MF that are not parts and were left out.
-    triangles, components, degenerate, duplicate : int
-        Components are connected surfaces: a solid with a sealed void has two. Degenerate triangles have no area;
-        duplicates have the same three corners as another triangle.
-    closed, outward : bool
-        Closed: every edge has two faces, with consistent orientation. Outward: every component faces outwards, except
-        those inside another, which are its cavities and face inwards.
-    sealed_voids : int or None
-        Voids that solid encloses, without a way out: resin and powder stay in them. A solid within such a void does not
-        count, and neither does a component within solid that faces outwards. None if the mesh is not closed.
-    open_edges : int
-        Edges that do not have exactly two faces.
-    manifold : str
-        The verdict of manifold3d: "NoError" if it accepts the mesh as a solid.
-    self_intersections : int
-        Pairs of triangles that pass through each other.
-    volume, area : float
-    extents, bounds : list of float
-    unit_guess : str
-        "mm", or another unit that the size suggests if the file does not state one.
+    The attributes are the keys of `infill.reports.checking.CheckReport`, which docs/report.md explains; lengths are in
+    the unit of the file, or in mm if the file states its unit.
     """
 
     printable: bool
@@ -77,9 +55,9 @@ class Inspection:
     bounds: list[list[float]]
     unit_guess: str
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> CheckReport:
         """Return plain numbers and strings, as ``--json`` prints them."""
-        return asdict(self)
+        return declare(CheckReport, asdict(self))
 
 
 def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspection:

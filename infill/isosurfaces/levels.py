@@ -278,7 +278,7 @@ def surface_at_volume(
 
 
 def _next_level(level: float, volume: float, slope: float, total: float) -> float:
-    """Return the level at which the volume would be right if it changed linearly."""
+    """Return the level of the right volume by a linear step of at most `BIGGEST_STEP`, within +-`LIMIT`."""
     change = min(max((total - volume) / slope, -BIGGEST_STEP), BIGGEST_STEP)
     return min(max(level + change, -LIMIT), LIMIT)
 

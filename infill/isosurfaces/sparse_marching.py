@@ -181,7 +181,7 @@ def extract_level(
 def measure_level(
     field: SparseField, *, spacing: tuple[float, ...], level: float, threads: int | None = None
 ) -> tuple[float, float] | None:
-    """Measure the volume inside the surface at a level, mm³, and its slope over the level, without making the surface.
+    """Measure volume inside a level, mm³, and its slope, without a surface; None if undecided or for few bricks.
 
     Return None if signs do not decide a cube: then the surface itself is needed. Also return None for a small surface,
     which takes no time to make.

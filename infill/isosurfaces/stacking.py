@@ -121,7 +121,7 @@ def layer_count(height: float, layer_height: float) -> int:
 
 
 def _check_layer(layer: ArrayLike) -> NDArray[np.floating]:
-    """Check a layer; return it as floating-point numbers."""
+    """Return a layer as floating-point numbers, booleans as +1 and -1; raise ParameterError for NaN or wrong axes."""
     plane = np.asarray(layer)
     if plane.ndim != 2 or plane.size == 0:
         raise ParameterError(f"the layer has the shape {plane.shape}; give two axes [x, y] with cells")

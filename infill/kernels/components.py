@@ -67,7 +67,7 @@ def run_length(bits, k):
 
 @njit(nogil=True, cache=True)
 def number_runs(bits, bricks, starts):
-    """Set the first number of every brick and of each of its rows; return the number of runs."""
+    """Assign numbers to runs, 1 up (0 is beyond the grid): the first of each brick, and that of each row in it."""
     count = np.int64(1)  # run 0 is everything beyond the grid
     for s in range(len(bits)):
         bricks[s] = count
@@ -99,7 +99,7 @@ def node_at(alone, slots, p, q, r, row, k, bits, bricks, starts):
 
 @njit(inline="always", cache=True)
 def slot_in(slots, p, q, r):
-    """Return the slot of the lattice at a place, BEYOND outside its ends."""
+    """Return the slot of the lattice at a place, OUTSIDE_LATTICE beyond its ends."""
     if p < 0 or q < 0 or r < 0 or p >= slots.shape[0] or q >= slots.shape[1] or r >= slots.shape[2]:
         return OUTSIDE_LATTICE
     return slots[p, q, r]
@@ -418,7 +418,7 @@ def meet_or_spread(slots, where, bits, kind, meet, way, out, thread, threads):
 
 @njit(nogil=True, cache=True)
 def erase(values, where, bits, bricks, starts, names, marked, void):
-    """Make the cells of marked components void."""
+    """Make the cells of marked components void in `values`, apart from bricks that are solid throughout."""
     for s in range(len(where)):
         for row in range(ROWS):
             remaining = np.int64(bits[s, row])

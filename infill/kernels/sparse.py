@@ -308,7 +308,7 @@ def step(
 
 @njit(cache=True)
 def copy_surroundings(brick, faces, flat, beside, wide):
-    """Copy a brick, and the faces of its neighbours around it, to `wide`."""
+    """Copy a brick to `wide`, with its neighbours' faces: +-1 for bricks that are not kept, its own beyond the grid."""
     for i in range(B0):
         for j in range(B1):
             copy(wide, ORIGIN + i * WIDE_I + j * WIDE_J, brick, (i * B1 + j) * B2)

@@ -66,7 +66,7 @@ def count_crossings(nodes, faces, nx, ny, counts):
 
 @njit(nogil=True, cache=True)
 def list_crossings(nodes, heights, faces, nx, ny, ends, height, rising, owner):
-    """List the crossings of each line by rising height; those at one height in the order of their faces.
+    """List the crossings of each line by rising height, at one height by face; raise `ends` from begins to ends.
 
     Parameters
     ----------

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +24,8 @@ from infill.surface import Surface
 
 if TYPE_CHECKING:
     import manifold3d
+
+    from infill.reports.filling import FillDrains, UndrainedVoid
 
 SIDES = 32
 TURNS = (0.0, 0.037, 0.071, 0.113)  # radians: rotations of the holes, tried in order, so that no two vertices coincide
@@ -57,7 +59,7 @@ class DrainedSolid:
         """The holes that leave the part."""
         return [hole for hole in self.plan.holes if hole.kind != "branch"]
 
-    def facts(self) -> dict[str, Any]:
+    def facts(self) -> FillDrains:
         """Return the drains as the report has them."""
         return {
             "count": len(self.outlets),
@@ -80,7 +82,7 @@ class DrainedSolid:
         }
 
 
-def _as_report(undrained: SealedVoid) -> dict[str, Any]:
+def _as_report(undrained: SealedVoid) -> UndrainedVoid:
     return {"void": undrained.void, "volume": undrained.volume, "at": undrained.at.tolist(), "fits": undrained.fits}
 
 

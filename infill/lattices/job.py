@@ -30,7 +30,8 @@ from infill.lattices.voids import Voids
 from infill.meshes.measuring import measure_surface
 from infill.meshes.merging import surface_of
 from infill.meshes.split_components import concatenate_surfaces
-from infill.report import FORM
+from infill.reports.common import FORM, declare
+from infill.reports.filling import FillSeconds
 from infill.result import Clock, Progress, Result
 from infill.surface import Surface
 from infill.version import __version__
@@ -38,7 +39,7 @@ from infill.version import __version__
 if TYPE_CHECKING:
     import trimesh
 
-    from infill.report_keys import FillReport
+    from infill.reports.filling import FillForecast, FillReport, UntimedFillReport
 import numpy as np
 
 from infill.interior.interior import BYTES_PER_CELL, added_length, grid_for_part
@@ -220,11 +221,14 @@ def fill_request(
         voids = choose_voids(request, part.bounds, threads)
         hollow, voids = make_void_meshes(part, request, voids, clock=clock, threads=threads, max_memory=max_memory)
     with clock.stage("check", 0.9):
-        result, report, hollow = _assemble(part, hollow, voids, request, threads, project)
-    report["seconds"] = {"shift": 0.0, **clock.seconds, "total": sum(clock.seconds.values())}
+        result, untimed, hollow = _assemble(part, hollow, voids, request, threads, project)
+    seconds = {"shift": 0.0, **clock.seconds, "total": sum(clock.seconds.values())}
+    report: FillReport = {**untimed, "seconds": declare(FillSeconds, seconds)}
     stages = FillStages(part=hollow.space.part, voids=hollow.surface, shown=result, opening=hollow.space.opening)
-    surfaces = {"part": hollow.space.part, "infill": result} if request.form == "project" else {request.form: result}
-    return Result(surfaces=surfaces, report=report, stages=stages)  # type: ignore[arg-type]
+    surfaces: dict[str, Surface] = (
+        {"part": hollow.space.part, "infill": result} if request.form == "project" else {request.form: result}
+    )
+    return Result(surfaces=surfaces, report=report, stages=stages)
 
 
 def _assemble(
@@ -234,7 +238,7 @@ def _assemble(
     request: FillSpec,
     threads: int | None,
     project: ProjectInfill | None,
-) -> tuple[Surface, dict[str, Any], VoidMeshes]:
+) -> tuple[Surface, UntimedFillReport, VoidMeshes]:
     """Return the requested surface, the report, and the voids, with counts of the pieces that were left out."""
     space = hollow.space
     if project is not None:
@@ -265,8 +269,8 @@ def _fill_report(
     facts: SolidMeasures,
     drained: DrainedSolid,
     project: ProjectInfill | None,
-) -> dict[str, Any]:
-    """Return the report: docs/report.md lists every key."""
+) -> UntimedFillReport:
+    """Return the report without the seconds."""
     space = hollow.space
     narrow = None if project is None else project.narrow
     bounds = solid.bounds
@@ -336,8 +340,8 @@ def _inner_surface(space: Interior, request: FillSpec, threads: int | None) -> S
     return inner if space.opening is None else clip_to_opening(inner, space.opening, space.size)
 
 
-def plan_fill(part: Surface, request: FillSpec, *, threads: int | None = None) -> dict[str, Any]:
-    """Return cell, line width, grid and memory, as the report of `fill` has them."""
+def plan_fill(part: Surface, request: FillSpec, *, threads: int | None = None) -> FillForecast:
+    """Return the report of a dry run."""
     request = resolve_voxel(request, part.bounds)
     voids = choose_voids(request, part.bounds, threads)
     extents = np.ptp(part.bounds, axis=0)

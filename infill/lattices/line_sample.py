@@ -16,6 +16,7 @@ from patterns.errors import PatternError
 from patterns.protocol import Pattern, draw_lines, with_cell
 
 SAMPLE = 12.0  # cells of the pattern along a side of the square in which density is measured
+MOST_SAMPLED = 500_000  # points in that square; a drawing of more is measured in fewer cells
 SNAP = 1e-6  # of a cell: lines that are nearer than this meet
 NEAR, TRIES = 0.01, 12  # of the density: error that is good enough, and tries at most
 # Lines are drawn in a square of this many half diagonals of the filled region, as the largest hearts that fit into a
@@ -61,10 +62,13 @@ class LineSample:
     @cached_property
     def _lines_in_square(self) -> tuple[shapely.Polygon, shapely.Geometry]:
         """A few cells of a pattern whose cell is 1, and the lines in them."""
-        side = SAMPLE / 2
+        pattern, side = with_cell(self.pattern, 1.0), SAMPLE / 2
+        points_of_cell = shapely.get_num_coordinates(draw_lines(pattern, centred_square(0.5)))
+        if points_of_cell * (WIDER * SAMPLE * 2**0.5) ** 2 > MOST_SAMPLED:
+            side = 1.0
         region = centred_square(side)
         wider = region if follows_outline(self.pattern) else centred_square(WIDER * side * 2**0.5)
-        lines = shapely.intersection(draw_lines(with_cell(self.pattern, 1.0), wider), region)
+        lines = shapely.intersection(draw_lines(pattern, wider), region)
         if not lines.length:
             raise PatternError(f"the pattern {self.pattern.name} has no lines; draw some")
         return region, lines

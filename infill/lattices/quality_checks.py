@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import chain
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +25,9 @@ from infill.meshes.shells import first_vertex_of_shells, split_into_batches
 from infill.meshes.solids import FINE, coincident_vertices, manifold_status
 from infill.meshes.winding import winding_numbers
 from infill.surface import Surface
+
+if TYPE_CHECKING:
+    from infill.reports.filling import GradedStep
 
 OFF = 0.005  # of the density: larger errors are reported
 OFF_LOCAL = 0.03  # of the density in a step: chance alone causes an error of 0.01, in three of a thousand
@@ -131,7 +135,7 @@ class SolidMeasures:
     width: float
     drawn: float
     wanted: float | None
-    graded: list[dict[str, float]]
+    graded: list[GradedStep]
     cells: list[float] | None = None
     widths: list[float] | None = None
 
@@ -192,7 +196,7 @@ def _verdict(solid: Surface) -> str:
     )
 
 
-def density_steps(hollow: VoidMeshes, voids: Voids) -> list[dict[str, float]]:
+def density_steps(hollow: VoidMeshes, voids: Voids) -> list[GradedStep]:
     """Group places by requested density; return the requested and the measured density of each group, rising."""
     local = find_local_widths(voids, hollow.space)
     if local is None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Literal, get_args
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 
@@ -19,6 +19,9 @@ from patterns.cellular import Cells
 from patterns.declared import given_parameters
 from patterns.lightning import Lightning
 from patterns.unit_cells import Bars, Network, Surfaces
+
+if TYPE_CHECKING:
+    from infill.reports.filling import FillRequest
 
 Form = Literal["solid", "infill", "project"]
 Align = Literal["part", "bed", "body"]
@@ -190,7 +193,7 @@ class FillSpec:
             )
         return self.max_triangles - taken
 
-    def facts(self) -> dict[str, Any]:
+    def facts(self) -> FillRequest:
         """Return the request as the report has it."""
         return {
             "pattern": self.pattern,

@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import shapely
@@ -29,7 +29,8 @@ from infill.making.request import DEFAULT_CELLS, Block, StampMethod, SurfaceMeth
 from infill.making.stages import MakeStages
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.methods import smooth
-from infill.report import report_of
+from infill.reports.common import Topology, declare, mesh_keys, report_head, surface_keys
+from infill.reports.making import BlockChanges, BlockSeconds, MakeReport, Width
 from infill.result import Clock, Progress, Result
 from infill.voxels.stamping import stamp as stamp_points
 from infill.voxels.stamping import stamp_lines
@@ -40,7 +41,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from shapely import MultiLineString
 
-    from infill.report_keys import MakeReport
     from infill.surface import Surface
 
 MIN_WIDTH_SHARE = 0.6  # of the requested width, at the 5th percentile; below this, a wall counts as lost
@@ -166,30 +166,35 @@ def make(
     cells_per_layer = math.prod(block.grid.shape)
     layer = math.prod(block.grid.extents) * block.height
     components = after.topology.components
-    report = report_of(
-        product="make",
-        surface=mesh,
-        request=block.asked(),
-        grid=block.laid_out(),
-        solid={
-            "data": area / cells_per_layer * layer,
+    widths = declare(Width, {name: _finite(value) for name, value in asdict(width).items()})
+    report: MakeReport = {
+        **report_head("make"),
+        **surface_keys(mesh),
+        "volume": mesh.volume,
+        "volume_change": volume_change,
+        "components": after.topology.extruded.components,
+        "density": mesh.volume / layer,
+        "wall_width": widths,
+        "problems": problems,
+        "request": block.request_keys(),
+        "grid": block.grid_keys(),
+        "mesh": {**mesh_keys(mesh), "surface": block.surface, "tolerance": block.tolerance},
+        "solid": {
+            "volume": mesh.volume,
             "change": volume_change,
+            "data": area / cells_per_layer * layer,
             "density": mesh.volume / layer,
             "level": {"method": "fixed", "common": 0.0, "lowest": 0.0, "highest": 0.0, "components": components},
         },
-        data=before.topology.extruded,
-        result=after.topology.extruded,
-        changes=differences,
-        walls={
-            "width": {name: _finite(value) for name, value in asdict(width).items()},
-            "exact": exact,
-        },
-        problems=problems,
-        mesh={"surface": block.surface, "tolerance": block.tolerance},
-        seconds=clock.seconds,
-    )
+        "topology": declare(
+            Topology, {"data": asdict(before.topology.extruded), "result": asdict(after.topology.extruded)}
+        ),
+        "changes": declare(BlockChanges, differences.facts()),
+        "walls": {"width": widths, "exact": exact},
+        "seconds": clock.timings(BlockSeconds),
+    }
     stages = MakeStages(points=points, lines=block.lines, grid=block.grid, stamp=data, smoothed=smoothed)
-    return Result(surfaces={"block": mesh}, report=cast("MakeReport", report), stages=stages)
+    return Result(surfaces={"block": mesh}, report=report, stages=stages)
 
 
 def _make_surface(block: Block, smoothed: NDArray[np.floating]) -> Surface:

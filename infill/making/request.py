@@ -25,6 +25,9 @@ from patterns.protocol import draw_lines
 if TYPE_CHECKING:
     from shapely import MultiLineString, Polygon
 
+    from infill.reports.common import GridKeys
+    from infill.reports.making import BlockRequest, MakePlan
+
 StampMethod = Literal["block", "exact"]
 SurfaceMethod = Literal["prism", "grid"]
 DEFAULT_TOLERANCE = (
@@ -143,7 +146,7 @@ class Block:
         x, y = self.grid.origin
         return x, y, 0.0
 
-    def asked(self) -> dict[str, Any]:
+    def request_keys(self) -> BlockRequest:
         """Return the section `request` of the report."""
         smoothing = self.smoothing
         return {
@@ -162,7 +165,7 @@ class Block:
             "tolerance": self.tolerance,
         }
 
-    def laid_out(self) -> dict[str, Any]:
+    def grid_keys(self) -> GridKeys:
         """Return the section `grid` of the report: the stack of layers."""
         return {
             "shape": [*self.grid.shape, self.layers],
@@ -171,11 +174,11 @@ class Block:
             "space": "",
         }
 
-    def facts(self) -> dict[str, Any]:
-        """Return the output of a dry run as plain numbers: sections of the report, and sizes in bytes."""
+    def facts(self) -> MakePlan:
+        """Return the report of a dry run."""
         return {
-            "request": self.asked(),
-            "grid": self.laid_out(),
+            "request": self.request_keys(),
+            "grid": self.grid_keys(),
             "memory": self.memory,
             "triangles": self.triangles,
             "stl_bytes": self.stl_bytes,
@@ -192,6 +195,7 @@ class Block:
 
     @property
     def _advice(self) -> str:
+        """Return the size of the grid, and how to make it smaller, as a phrase."""
         cells = " × ".join(str(count) for count in self.grid.shape)
         return f"the grid has {cells} cells: take fewer cells per line, wider lines or a smaller block"
 

@@ -28,7 +28,7 @@ from infill.options.trust import check_trusted
 if TYPE_CHECKING:
     from infill.making.request import Block
     from infill.making.stages import MakeStages
-    from infill.report_keys import MakeReport
+    from infill.reports.making import MakeReport
     from infill.result import Progress, Result
     from patterns import Pattern
 
@@ -173,7 +173,7 @@ class MakeSettings:
         }
 
     def plan(self) -> Block:
-        """Check the settings; return the block with its grid and its cost."""
+        """Check the settings, but not the memory they need; return the block with its grid, without drawing it."""
         from infill.making.request import plan_block
 
         return plan_block(**self._request(), parameters={})

@@ -38,7 +38,7 @@ class ComponentParts:
 
 
 def split_components(surface: Surface, cell: float) -> ComponentParts:
-    """Split a mesh into components with their cavities; drop flat sheets, and close cracks up to 0.01 `cell`.
+    """Split a mesh into components with their cavities; drop sheets, keep holes, and close cracks up to 0.01 `cell`.
 
     Parameters
     ----------

@@ -164,7 +164,7 @@ def merge_parameters(
 
 
 def _index_by_name(entries: Iterable[ParameterValue]) -> dict[str, ParameterValue]:
-    """Index parameters by name, or raise ParameterError if one of them has two values."""
+    """Index parameters by name, the first of equal ones; raise UsageError if two of one name differ."""
     by_name: dict[str, ParameterValue] = {}
     for parameter in entries:
         earlier = by_name.setdefault(parameter.name, parameter)
@@ -174,6 +174,7 @@ def _index_by_name(entries: Iterable[ParameterValue]) -> dict[str, ParameterValu
 
 
 def _has_value(by_name: Mapping[str, ParameterValue], name: str) -> bool:
+    """Tell whether a parameter was set, on the command line or in a file."""
     return name in by_name and by_name[name].value is not None
 
 

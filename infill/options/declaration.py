@@ -116,6 +116,7 @@ def declared_options(declaration: type[Any]) -> Mapping[str, DeclaredOption]:
 
 @cache
 def _read_fields(declaration: Any) -> Mapping[str, DeclaredOption]:  # noqa: ANN401 - a class, as a cache takes it
+    """Return the options that a dataclass declares, by their keys."""
     hints = get_type_hints(declaration, include_extras=True)
     declared = {}
     for field in fields(declaration):

@@ -20,7 +20,7 @@ def names_code(text: str) -> bool:
 
 
 def load_object(text: str) -> object:
-    """Run a file and return its object for ``module.py:name``.
+    """Run a file and return its object for ``module.py:name``, or raise FormatError.
 
     Raises
     ------

@@ -74,6 +74,7 @@ def resolve_pattern(pattern: object, product: str) -> tuple[Kind, str]:
 
 
 def _join(words: Sequence[str], last: str) -> str:
+    """Join the names of forms with commas, and `last` ("and", "or") before the end."""
     *most, end = ["a level set" if word == LEVEL_SET else word for word in words]
     return f"{', '.join(most)} {last} {end}" if most else end
 
@@ -99,6 +100,7 @@ def with_parameters(kind: Pattern | type[Pattern], values: dict[str, Any]) -> Pa
 
 
 def _pattern_from_object(given: Any, name: str) -> Kind:  # noqa: ANN401 - whatever a user gives
+    """Return a pattern given as an object: a class, an instance or a function of x, y and z."""
     if isinstance(given, type) and issubclass(given, Cells):
         try:
             return given()

@@ -48,6 +48,7 @@ def read_toml(path: Path, *, example: str) -> dict[str, Any]:
 
 
 def _read_text(path: Path) -> str:
+    """Return the text of a TOML file, or the TOML that is attached to a 3MF."""
     if path.suffix.lower() != ".3mf":
         return path.read_text(encoding="utf-8")
     from infill.formats.threemf import read_attached_settings
@@ -84,6 +85,7 @@ def format_rows(values: Mapping[str, Any]) -> list[str]:
 
 
 def _format_value(value: object) -> str:
+    """Return a value as TOML; raise for text that TOML cannot hold."""
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, (tuple, list)):

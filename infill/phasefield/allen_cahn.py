@@ -200,7 +200,7 @@ def step(
     weights: tuple[float, ...],
     mask: NDArray[np.bool_] | None = None,
 ) -> NDArray[np.float64]:
-    """Return phi after one time step: diffusion (7, 11), reaction (8, 12), fidelity (10, 14)."""
+    """Return phi after one time step: diffusion in the mask (7, 11); everywhere reaction (8, 12), fidelity (10, 14)."""
     return apply_fidelity(react(diffuse(phi, weights, mask), smoothing.decay), f, smoothing.pull)
 
 

@@ -20,12 +20,14 @@ WORTH_COMPILING = 2e8  # cells times steps: some seconds without a compiler, abo
 
 
 def _dense(*args: Any, **options: Any) -> NDArray[np.floating]:  # noqa: ANN401 - hands on
+    """Call `smooth_dense`, imported only now."""
     from infill.phasefield.dense import smooth_dense
 
     return smooth_dense(*args, **options)
 
 
 def _sparse(*args: Any, **options: Any) -> NDArray[np.floating]:  # noqa: ANN401 - hands on
+    """Call `smooth_sparse`, imported only now."""
     from infill.phasefield.sparse import smooth_sparse
 
     return smooth_sparse(*args, **options)

@@ -188,7 +188,7 @@ def refine_bricks(
 
 
 def _hold_to_data(result: SparseField, mild: Field, unit: float, threads: int) -> None:
-    """Hold the result to exact data within the limits of `ExactDataLimits`, in place; `mild` is P_0."""
+    """Clamp the result to exact data, in place, within `ExactDataLimits` for the noise of `mild`, P_0."""
     data = np.asarray(result.data, dtype=np.float32)
     distance, mild_distance = (
         REFINED_PROFILE.distance(field, threads=threads).reshape(-1, CELLS) for field in (data, mild)
@@ -276,6 +276,7 @@ class _WeightedSum:
         return self.total
 
     def _add(self, bricks: Bricks, weight: float) -> None:
+        """Add the field of all bricks, times a weight, to the sum; bricks may be more than before."""
         known_count = len(self.total)
         if known_count < bricks.count:
             larger = np.empty((bricks.count, CELLS), dtype=np.float32)

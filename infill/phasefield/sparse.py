@@ -212,6 +212,7 @@ class Bricks:
         )
 
     def _gather_into(self, source: Data, bricks: Data) -> None:
+        """Copy the cells of an array into the bricks that cover them."""
         level = 0 if source.dtype == np.int8 else None
         in_threads(transfer_kernels.gather, source, self.where, bricks, self.count, level, threads=self.threads)
 

@@ -62,6 +62,7 @@ def _panel_size(shape: tuple[int, ...]) -> tuple[int, int]:
 
 
 def _draw_points(points: NDArray[np.float64], grid: Grid) -> Image.Image:
+    """Draw the points of the lines as pixels."""
     columns, rows = _panel_size(grid.shape)
     part = (points - grid.origin) / np.array(grid.extents)
     hit = np.zeros((rows, columns), dtype=bool)

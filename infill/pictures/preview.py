@@ -11,7 +11,7 @@ SUFFIXES = (".png",)
 
 
 def is_picture(path: str | os.PathLike[str]) -> bool:
-    """Return True if a path has the suffix of a picture format that can be written.
+    """Tell whether a path ends in .png, the only picture format that is written.
 
     >>> is_picture("block.PNG"), is_picture("block.stl")
     (True, False)

@@ -40,7 +40,7 @@ def render(
     window: Window | None = None,
     paint: Paint | None = None,
 ) -> Pixels:
-    """Render a picture of `surface`: (height, width, 3) uint8.
+    """Render a picture of `surface` from an azimuth and elevation in radians: (height, width, 3) uint8.
 
     Parameters
     ----------

@@ -108,10 +108,12 @@ def choose_cuts(surface: Surface, part: Surface | None = None, given: Sequence[C
 
 
 def _upright_cuts(given: Sequence[Cut], usual: list[Cut]) -> list[Cut]:
+    """Return the given cuts across x or y, or the usual ones if there are none."""
     return [cut for cut in given if cut.axis < 2] or usual
 
 
 def _level_cuts(given: Sequence[Cut], usual: list[Cut]) -> list[Cut]:
+    """Return the given cuts across z, or the usual ones if there are none."""
     return [cut for cut in given if cut.axis == 2] or usual
 
 

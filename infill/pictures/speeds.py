@@ -54,6 +54,7 @@ def write_speeds(layers: Mapping[str, LayerSpeeds], file: BinaryIO) -> None:
 
 
 def _draw_panel(layer: LayerSpeeds, low: NDArray[np.floating], extent: float, top: float) -> Image.Image:
+    """Draw the lines of a layer in the colours of their speeds, and travel moves thin."""
     size = PANEL * SUPERSAMPLING
     scale = (size - 2 * SUPERSAMPLING) / extent
     picture = Image.new("RGB", (size, size), PAPER)

@@ -17,30 +17,15 @@ from infill.gcode.limits import Limits, Model
 from infill.gcode.sliced_file import SlicedFile, SlicedText, open_sliced
 from infill.planner.strokes import FeatureSums
 from infill.planner.timeline import Timeline
+from infill.reports.common import declare
+from infill.reports.timing import MotionReport
 
 
 @dataclass(frozen=True, kw_only=True)
 class FeatureMotion:
     """Time and movements of one feature, including travel, retractions and pauses before it.
 
-    Parameters
-    ----------
-    name : str
-        The slicer's own, "" before the first.
-    role : str
-        Role of the feature, the same word for every slicer: "sparse infill", "external perimeter", ... or "other".
-    seconds, drawing_seconds : float
-        Total, and while filament is laid.
-    filament, length, travel : float
-        mm of filament laid, mm laid, mm travelled.
-    paths, segments, retractions, turns : int
-        Paths are runs of lines without a gap; turns are those of more than 30 degrees within a path.
-    turning : float
-        Degrees per mm laid.
-    median_segment, short_segments : float or None
-        mm (to 0.6 %), and the share of segments under 0.1 mm; None where nothing is laid.
-    peak_flow : float
-        mm³/s at most, of segments of 0.1 mm and more.
+    The attributes are the keys of `infill.reports.timing.FeatureKeys`, which docs/report.md explains.
     """
 
     name: str
@@ -64,38 +49,8 @@ class FeatureMotion:
 class Motion:
     """Result of `motion`.
 
-    Parameters
-    ----------
-    seconds : float
-        Of the entire file, dwelling included; without heating, homing and tool changes.
-    estimate : float or None
-        The slicer's own estimate in the file, s.
-    slicer : str
-        Its name and version, "" if unknown.
-    layers : int
-    filament, length, travel : float
-        mm
-    retractions : int
-    features : tuple of FeatureMotion
-        In the order of the file, one for every name.
-    limits : dict
-        The limits in force at the end, as far as the model uses them, by name; lists are x, y, z, e.
-    sources : dict
-        Source of each of these: "settings" or "commands" of the file, "given" as an argument, or "assumed".
-    plate : int or None
-        Plate of an archive; None for any other file.
-    plates : tuple of int
-        Plates of the archive.
-    unread_lines, first_unread_line : int
-        Lines that may move or extrude but are not understood, which are left out; and the number of the first, from 1.
-    first_unread_text : str
-        Text of that line.
-    macros : tuple of str
-        Commands that only the printer knows and that may move, such as PRINT_START; they are left out too.
-    volumetric : bool
-        E counts mm³ at the end of the file.
-    filament_diameter : float
-        mm
+    The attributes are the keys of `infill.reports.timing.MotionReport`, which docs/report.md explains; lengths are in
+    mm, times in s.
     """
 
     seconds: float
@@ -118,9 +73,9 @@ class Motion:
     volumetric: bool = False
     filament_diameter: float = 1.75
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> MotionReport:
         """Return plain numbers and strings, as printed by ``--json``."""
-        return asdict(self)
+        return declare(MotionReport, asdict(self))
 
     def of_role(self, role: str) -> float:
         """Return the seconds of all features of a role.
@@ -282,6 +237,7 @@ def collect_limits(**given: Any) -> dict[str, Any]:  # noqa: ANN401
 
 
 def _sum_feature(number: int, name: bytes, strokes: FeatureSums) -> FeatureMotion:
+    """Return time, lengths and counts of one feature as `FeatureMotion`."""
     row = {
         column: float(strokes.total(column)[number]) if number < len(strokes.sums) else 0.0
         for column in ("seconds", "drawing", "filament", "length", "travel", "turning", "short")

@@ -121,6 +121,7 @@ class FeatureSums:
         return float(10 ** ((place + 0.5) / DECADE + LOWEST))
 
     def _widen(self, rows: int) -> None:
+        """Add rows of zeros until there is one for each feature."""
         more = rows - len(self.sums)
         if more > 0:
             self.sums = np.pad(self.sums, ((0, more), (0, 0)))
@@ -148,10 +149,12 @@ class FeatureSums:
         self.leading += rows[waits].sum(axis=0)
 
     def _count(self, feature: NDArray[np.intp], rows: Floats) -> None:
+        """Add seconds, travel and retractions of moves to those of their features."""
         for name, values in zip(("seconds", "travel", "retractions"), rows.T, strict=True):
             self._sum(name, feature, values)
 
     def _sum(self, name: str, feature: NDArray[np.intp], values: NDArray[Any]) -> None:
+        """Add values to one column, each in the row of its feature."""
         self.sums[:, SUMS.index(name)] += np.bincount(feature, weights=values, minlength=len(self.sums))
 
     def _continues_path(self, draws: NDArray[np.bool_], feature: NDArray[np.intp]) -> NDArray[np.bool_]:

@@ -30,8 +30,10 @@ def concatenate_rows(several: Sequence[Columns]) -> Columns:
 
 
 def _field_values(columns: Any) -> list[tuple[str, Any]]:  # noqa: ANN401 - whatever the dataclass holds
+    """Return the fields of a dataclass with their values."""
     return [(item.name, getattr(columns, item.name)) for item in fields(columns)]
 
 
 def _slice_value(value: Any, rows: slice) -> Any:  # noqa: ANN401
+    """Return some rows of an array, or of a dataclass of arrays."""
     return value[rows] if isinstance(value, np.ndarray) else slice_rows(value, rows)

@@ -271,6 +271,7 @@ class Timeline:
         return self._speed
 
     def _flow_of(self, tool: int) -> float:
+        """Return the flow factor of a tool, or that of all tools."""
         return self._flow.get(tool, self._flow[None])
 
     def _count(self, table: GcodeTable, unread: list[int]) -> None:
@@ -285,6 +286,7 @@ class Timeline:
         self.unread = UnreadLines(lines=self.unread.lines + len(unread), first=first_line, text=text)
 
     def _number(self, limits: Limits) -> int:
+        """Return the number of these limits, which are remembered if they are new."""
         if limits not in self._limits:
             self._limits.append(limits)
         return self._limits.index(limits)

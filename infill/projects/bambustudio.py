@@ -68,6 +68,7 @@ write_orcaslicer = partial(write, application=ORCA)
 
 
 def _settings_config(project: Project) -> str:
+    """Return model_settings.config: the part, and the infill as its modifier, on one plate."""
     title = printable_name(project.title)
     return "".join(
         [
@@ -90,6 +91,7 @@ def _settings_config(project: Project) -> str:
 
 
 def _part(number: int, name: str, kind: str, settings: Mapping[str, str]) -> str:
+    """Return the XML of one part with its settings."""
     rows = {"name": name, "matrix": MATRIX, **settings}
     return "".join(
         [
@@ -101,10 +103,12 @@ def _part(number: int, name: str, kind: str, settings: Mapping[str, str]) -> str
 
 
 def _info(version: str) -> str:
+    """Return slice_info.config, which states the version of the slicer."""
     client = {"X-BBL-Client-Type": "slicer", "X-BBL-Client-Version": version}
     items = "".join(f'  <header_item key="{key}" value="{value}"/>\n' for key, value in client.items())
     return f"{XML_DECLARATION}<config>\n <header>\n{items} </header>\n</config>\n"
 
 
 def _row(key: str, value: str) -> str:
+    """Return the XML of one setting."""
     return f'   <metadata key="{key}" value="{html.escape(value)}"/>\n'

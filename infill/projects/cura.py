@@ -43,5 +43,6 @@ def write(project: Project, file: BinaryIO) -> None:
 
 
 def _group(settings: Mapping[str, str]) -> str:
+    """Return the XML of Cura's settings of an object."""
     rows = "".join(f'<metadata name="cura:{key}" preserve="1">{value}</metadata>' for key, value in settings.items())
     return f"<metadatagroup>{rows}</metadatagroup>"

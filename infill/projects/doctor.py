@@ -6,7 +6,6 @@ import os
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Any
 
 from infill.errors import UsageError
 from infill.projects import bambustudio, cura, prusaslicer
@@ -16,25 +15,17 @@ from infill.projects.reading import RELATIONS, Package, read_package
 from infill.projects.rules_bambustudio import volumes_for_bambustudio
 from infill.projects.rules_cura import volumes_for_cura
 from infill.projects.rules_prusaslicer import volumes_for_prusaslicer
+from infill.reports.checking import ProjectReport
+from infill.reports.common import declare
 
 MOST_ON_COMMAND_LINE = 1_000_000  # triangles that OrcaSlicer takes from a command line
 
 
 @dataclass(frozen=True, kw_only=True)
 class Diagnosis:
-    """The findings of `check_project`.
+    """Result of `check_project`.
 
-    Parameters
-    ----------
-    slicer : str
-    fine : bool
-        True if there are no problems.
-    problems, warnings : tuple of str
-        Things that the slicer would lose or refuse, and surprising things that it does.
-    application, unit : str
-        As the file says.
-    volumes : tuple of PrintedVolume
-        The volumes that the slicer prints, in its order.
+    The attributes are the keys of `infill.reports.checking.ProjectReport`, which docs/report.md explains.
     """
 
     slicer: str
@@ -45,9 +36,9 @@ class Diagnosis:
     unit: str
     volumes: tuple[PrintedVolume, ...] = field(default_factory=tuple)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> ProjectReport:
         """Convert the diagnosis to plain values, as ``--json`` prints it."""
-        return asdict(self)
+        return declare(ProjectReport, asdict(self))
 
 
 def check_project(path: str | os.PathLike[str], slicer: Slicer) -> Diagnosis:
@@ -178,7 +169,7 @@ def _check_mesh(volume: PrintedVolume) -> Iterator[Finding]:
 
 
 def _volumes_of_any(package: Package) -> Iterator[PrintedVolume | Finding]:
-    """Yield every object that is built, separately."""
+    """Yield each mesh of the objects to print as a part of its own; warn if there are several."""
     meshes = [
         PrintedVolume.of(leaf.body.name or f"object {leaf.key}", leaf.body.mesh, "part", {})
         for item in package.items

@@ -66,18 +66,7 @@ class Finding:
 class PrintedVolume:
     """A mesh that a slicer lists by name.
 
-    Parameters
-    ----------
-    name : str
-    role : str
-        "part", "modifier", or another role that the slicer gives it.
-    triangles : int
-    closed, outward : bool
-        Closed: as many faces run along every edge one way as the other.
-    shared : int
-        Edges with more than two faces.
-    settings : mapping of str to str
-        Settings that the slicer reads.
+    The attributes are the keys of `infill.reports.checking.VolumeKeys`, which docs/report.md explains.
     """
 
     name: str

@@ -73,6 +73,7 @@ def _volumes_config(project: Project) -> str:
 
 
 def _volume(first: int, last: int, name: str, kind: str, settings: Mapping[str, str]) -> str:
+    """Return the XML of one volume, a range of triangles, with its settings."""
     rows = {"name": name, "volume_type": kind, **settings}
     return "".join(
         [
@@ -84,4 +85,5 @@ def _volume(first: int, last: int, name: str, kind: str, settings: Mapping[str, 
 
 
 def _row(kind: str, key: str, value: str) -> str:
+    """Return the XML of one setting of an object or a volume."""
     return f'   <metadata type="{kind}" key="{key}" value="{html.escape(value)}"/>\n'

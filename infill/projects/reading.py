@@ -203,6 +203,7 @@ class Package:
         return self.trees[key]
 
     def _build_tree(self, key: str, before: int) -> ObjectTree:
+        """Follow the components of an object to its meshes, within limits; list references that lead nowhere."""
         leaves: list[MeshObject] = []
         missing: dict[str, None] = {}
         visits, triangles, deepest = before, 0, 0

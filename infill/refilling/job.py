@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from infill.planner.print_clock import PrintTime
     from infill.refilling.rules import RefillRules
     from infill.refilling.stats import PrintAmounts, RefillStats
+    from infill.reports.refilling import RefillReport
 
 HEAD = 1 << 16  # bytes in which the header ends
 
@@ -49,7 +50,7 @@ class RefillResult:
         The new lines with their line ends, if the input was lines.
     """
 
-    report: dict[str, Any]
+    report: RefillReport
     path: Path | None
     lines: tuple[str, ...] | None = field(default=None, repr=False)
 
@@ -210,7 +211,7 @@ class _Draft:
     metadata: dict[str, str] = field(default_factory=dict)
 
 
-def _joint_report(request: Request, parts: Sequence[_Draft], plates: Sequence[int] = ()) -> dict[str, Any]:
+def _joint_report(request: Request, parts: Sequence[_Draft], plates: Sequence[int] = ()) -> RefillReport:
     """Report on all prints of a file; those that were refilled before count only if all of them were."""
     from infill.gcode.survey import merge_surveys
     from infill.refilling.report import refill_report

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING
 
 from infill.gcode.survey import Survey
 from infill.refilling.placement import facts
@@ -12,8 +12,11 @@ from infill.refilling.request import KEEP, Request
 from infill.refilling.rules import RefillRules
 from infill.refilling.stats import RefillStats
 from infill.refilling.support import LEAST_LENGTH, LEAST_SHARE, kept_shares
-from infill.report import FORM
+from infill.reports.common import FORM
 from infill.version import __version__
+
+if TYPE_CHECKING:
+    from infill.reports.refilling import ContactKeys, RefillReport
 
 FILAMENT_TOLERANCE = 0.01  # relative error of the filament of all infill that is reported
 
@@ -27,9 +30,9 @@ def refill_report(
     rules: RefillRules | None = None,
     plates: Sequence[int] = (),
     remedy: RefillStats | None = None,
-) -> dict[str, Any]:
+) -> RefillReport:
     """Build the report of one run: plain numbers, strings, lists and dicts."""
-    report: dict[str, Any] = {
+    report: RefillReport = {
         "product": "refill",
         "version": __version__,
         "form": FORM,
@@ -112,7 +115,7 @@ def _ratio(tally: RefillStats) -> float:
     return after / before if before else 1.0
 
 
-def contact_section(tally: RefillStats) -> dict[str, Any]:
+def contact_section(tally: RefillStats) -> ContactKeys:
     """Report support and contact of the infill, before and after, as measured on some layers."""
     before, after = tally.before.shares, tally.after.shares
     shares = kept_shares(tally.before, tally.after)
@@ -131,7 +134,7 @@ def _finite(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
-def _problems(report: dict[str, Any], tally: RefillStats) -> list[str]:
+def _problems(report: RefillReport, tally: RefillStats) -> list[str]:
     keeps = report["request"]["pattern"] == KEEP
     problems = []
     if not tally.sections:

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from infill.paths.contact import Contact
 from infill.refilling.layers import LayerPaths, Layers
+
+if TYPE_CHECKING:
+    from infill.reports.refilling import RadiusKeys
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
@@ -35,16 +39,14 @@ class Histogram:
     def __add__(self, other: Histogram) -> Histogram:
         return Histogram(counts=self.counts + other.counts)
 
-    def report(self) -> dict[str, float] | None:
+    def report(self) -> RadiusKeys | None:
         """Return the 1, 50 and 99 % quantiles of the lengths, to a fifteenth, mm."""
         total = np.cumsum(self.counts)
         if not total[-1]:
             return None
         places = np.searchsorted(total, np.array([0.01, 0.5, 0.99]) * total[-1])
-        return {
-            name: round(float(1e-3 * 2 ** ((place + 0.5) / 10)), 4)
-            for name, place in zip(("smallest_hundredth", "median", "largest_hundredth"), places, strict=True)
-        }
+        smallest, median, largest = (round(float(1e-3 * 2 ** ((place + 0.5) / 10)), 4) for place in places)
+        return {"smallest_hundredth": smallest, "median": median, "largest_hundredth": largest}
 
 
 @dataclass(frozen=True, kw_only=True)

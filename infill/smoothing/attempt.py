@@ -10,9 +10,9 @@ deliver     simplify the surface, and write the report
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -32,9 +32,10 @@ from infill.meshes.simplification import restore_volume, simplify_surface
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.refining import refine_bricks
 from infill.phasefield.sparse import smooth_bricks
-from infill.report import report_of
+from infill.reports.common import Topology, declare, mesh_keys, report_head, surface_keys
+from infill.reports.sections import with_late_sections
+from infill.reports.smoothing import Distance, SmoothReport, SolidChanges, SolidMesh, SolidSeconds
 from infill.result import Clock, Result
-from infill.sections import Sections
 from infill.smoothing.comparing import (
     Differences,
     compare_with_input,
@@ -52,7 +53,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from infill.phasefield.sparse import SparseField
-    from infill.report_keys import SmoothReport
+    from infill.reports.common import Level
+    from infill.reports.smoothing import Simplified, SolidWalls
     from infill.smoothing.request import SmoothInput, SmoothRequest
     from infill.surface import Surface
     from infill.volume import Volume
@@ -266,8 +268,18 @@ def _wall_thickness(surfaced: SurfaceAtLevel, smoothed: SmoothedInput) -> tuple[
     return thinnest_walls(levelled.field, levelled.surface, smoothed.spacing, levelled.height)
 
 
-def finish_attempt(best: Attempt) -> tuple[Result[SmoothStages, SmoothReport], Differences]:
+def finish_attempt(
+    best: Attempt, tried: list[str], taken: str
+) -> tuple[Result[SmoothStages, SmoothReport], Differences]:
     """Simplify the surface of an attempt; return the result and its differences from the input: the fifth stage.
+
+    Parameters
+    ----------
+    best : Attempt
+    tried : list of str
+        Names of all ways that were tried, for the report.
+    taken : str
+        Name of the way of this attempt.
 
     Raises
     ------
@@ -283,41 +295,50 @@ def finish_attempt(best: Attempt) -> tuple[Result[SmoothStages, SmoothReport], D
             fidelity = compare_with_input(surface, smoothed)
             differences = find_differences(topology, fidelity, surfaced, smoothed)
     problems = [*differences.losses, *differences.problems]
-    report = report_of(
-        product="smooth",
-        surface=surface,
-        request=request.facts(),
-        grid={
+    target, simplification = float(surfaced.targets.sum()), {} if simplified is None else {"simplified": simplified}
+    report: SmoothReport = {
+        **report_head("smooth"),
+        **surface_keys(surface),
+        "volume": surface.volume,
+        "volume_change": surface.volume / target - 1,
+        "components": topology.result.components,
+        "problems": problems,
+        "request": request.facts(),
+        "grid": {
             "shape": list(data.values.shape),
             "spacing": data.cell_size.tolist(),
             "origin": list(data.origin),
             "space": data.space,
         },
-        solid={"data": float(surfaced.targets.sum()), "level": _level_facts(surfaced, request)},
-        data=topology.data,
-        result=topology.result,
-        changes=topology.changes,
-        walls=_wall_facts(best),
-        problems=problems,
-        seconds=clock.seconds,
-        simplified=simplified,
-        input={**smooth_input.facts, "despeckled": best.specks},
-        distance={},
-        verdict={
+        "input": {**smooth_input.facts, "despeckled": best.specks},
+        "distance": declare(Distance, {}),  # measured when it is first read
+        "verdict": {
             "word": differences.word,
             "changes": [*problems, *differences.remarks, *_cleaning_remarks(best.crumbs, best.specks)],
             "lost": [patch.facts() for patch in fidelity.lost[:MAX_LISTED_PLACES]] if fidelity else [],
             "added": [patch.facts() for patch in fidelity.added[:MAX_LISTED_PLACES]] if fidelity else [],
             "crumbs": {"removed": best.crumbs.count, "volume": best.crumbs.volume, "limit": best.crumbs.limit},
-            "tried": [],
+            "tried": tried,
+            "taken": taken,
         },
-    )
-    report = Sections(report, {"distance": partial(distance_facts, surface, smoothed)})
+        "mesh": declare(SolidMesh, {**mesh_keys(surface), **simplification}),
+        "solid": {
+            "volume": surface.volume,
+            "change": surface.volume / target - 1,
+            "data": target,
+            "level": _level_facts(surfaced, request),
+        },
+        "topology": declare(Topology, {"data": asdict(topology.data), "result": asdict(topology.result)}),
+        "changes": declare(SolidChanges, topology.changes.facts()),
+        "walls": _wall_facts(best),
+        "seconds": clock.timings(SolidSeconds),
+    }
+    report = with_late_sections(report, distance=partial(distance_facts, surface, smoothed))
     stages = SmoothStages(data=data, levelled=surfaced.levelled, given=smooth_input.mesh)
-    return Result(surfaces={"solid": surface}, report=cast("SmoothReport", report), stages=stages), differences
+    return Result(surfaces={"solid": surface}, report=report, stages=stages), differences
 
 
-def _simplify_result(full: Surface, request: SmoothRequest) -> tuple[Surface, dict[str, Any] | None]:
+def _simplify_result(full: Surface, request: SmoothRequest) -> tuple[Surface, Simplified | None]:
     """Simplify the surface as requested; return it and the changes, None if it stays as it is."""
     if request.tolerance is None and request.max_triangles is None:
         return full, None
@@ -345,7 +366,7 @@ def _simplify_result(full: Surface, request: SmoothRequest) -> tuple[Surface, di
     }
 
 
-def _level_facts(surfaced: SurfaceAtLevel, request: SmoothRequest) -> dict[str, Any]:
+def _level_facts(surfaced: SurfaceAtLevel, request: SmoothRequest) -> Level:
     """Return the levels of phi at which the surface lies, for the report."""
     return {
         "method": "volume" if request.level == "volume" else "fixed",
@@ -356,12 +377,14 @@ def _level_facts(surfaced: SurfaceAtLevel, request: SmoothRequest) -> dict[str, 
     }
 
 
-def _wall_facts(best: Attempt) -> dict[str, Any]:
+def _wall_facts(best: Attempt) -> SolidWalls:
     """Return the thickness of the thinnest walls and the places of lost ones, for the report."""
     data_thickness, result_thickness = best.thinnest
     place = best.smoothed.smooth_input.data.place
-    lost = [{"voxels": piece.voxels, "at": place(piece.at[None])[0].tolist()} for piece in best.topology.lost]
-    return {"thinnest": {"data": data_thickness, "result": result_thickness}, "lost": lost}
+    return {
+        "thinnest": {"data": data_thickness, "result": result_thickness},
+        "lost": [{"voxels": piece.voxels, "at": place(piece.at[None])[0].tolist()} for piece in best.topology.lost],
+    }
 
 
 def _cleaning_remarks(crumbs: Crumbs, specks: int) -> list[str]:

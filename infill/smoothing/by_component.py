@@ -4,26 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, cast, get_args
+from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 
 from infill.errors import GeometryError, InfillError, ParameterError
 from infill.inspection.fidelity import Word
 from infill.meshes.split_components import split_components
-from infill.report import FORM
+from infill.reports.common import report_head
+from infill.reports.smoothing import ComponentSeconds
 from infill.result import Clock, Result, share_progress
 from infill.smoothing.meshes import mesh_ways
 from infill.smoothing.remedies import first_sound
 from infill.smoothing.request import SmoothRequest
 from infill.surface import Surface
-from infill.version import __version__
 from infill.voxels.from_mesh import voxel_size
 
 if TYPE_CHECKING:
     from PIL import Image
 
-    from infill.report_keys import ComponentsReport, SmoothReport
+    from infill.reports.smoothing import ComponentsReport, SmoothReport
 
 FEWEST_ACROSS = 8  # voxels along a component: a shorter one gets finer voxels unless their size is requested
 SMALL = 100  # voxels along a component: one thread does it before others have begun
@@ -158,10 +158,8 @@ def _report(
         sum(part["solid"]["data"] for part in component_reports),
     )
     words = [part["verdict"]["word"] for part in component_reports] + ["lost"] * bool(failed)
-    report = {
-        "form": FORM,
-        "version": __version__,
-        "product": "components",
+    return {
+        **report_head("components"),
         "triangles": sum(part["triangles"] for part in component_reports),
         "closed": all(part["closed"] for part in component_reports),
         "extents": (corners[:, 1].max(axis=0) - corners[:, 0].min(axis=0)).tolist(),
@@ -174,6 +172,5 @@ def _report(
         "failed": [{"name": name, "error": error} for name, error in failed.items()],
         "sheets": sheets,
         "notes": list(notes),
-        "seconds": {**clock.seconds, "total": sum(clock.seconds.values())},
+        "seconds": clock.timings(ComponentSeconds),
     }
-    return cast("ComponentsReport", report)

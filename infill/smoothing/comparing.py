@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,8 @@ from infill.voxels.noise import NOISY
 
 if TYPE_CHECKING:
     from infill.inspection.bricks import TopologyCheck
-    from infill.report_keys import Spread
+    from infill.reports.common import Spread
+    from infill.reports.smoothing import Distance
     from infill.smoothing.levelling import SurfaceAtLevel
     from infill.smoothing.request import SmoothedInput, SmoothInput
 
@@ -65,10 +66,10 @@ def compare_with_input(surface: Surface, smoothed: SmoothedInput, *, exact: bool
     )
 
 
-def distance_facts(surface: Surface, smoothed: SmoothedInput) -> dict[str, Any]:
+def distance_facts(surface: Surface, smoothed: SmoothedInput) -> Distance:
     """Return the distances between result and input, both ways, and from voxels to mesh, for the report."""
     smooth_input, deviation = smoothed.smooth_input, compare_with_input(surface, smoothed, exact=True)
-    facts: dict[str, Any] = {
+    facts: Distance = {
         "from": "voxels" if smooth_input.mesh is None else "mesh",
         "result": deviation.there.facts(),
         "input": deviation.back.facts(),

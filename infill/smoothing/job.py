@@ -32,7 +32,7 @@ from infill.voxels.segmentation import fill_masked_with_void
 if TYPE_CHECKING:
     import trimesh
 
-    from infill.report_keys import ComponentsReport, SmoothReport
+    from infill.reports.smoothing import ComponentsReport, SmoothReport
 
 
 def smooth_volume(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, Unpack, cast
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,11 +16,11 @@ from infill.grid import spacing_of
 from infill.imaging.label_tables import Segment
 from infill.imaging.segmentations import Segmentation
 from infill.kernels.sparse import BRICK
-from infill.report import FORM
+from infill.reports.common import report_head
+from infill.reports.smoothing import LabelSeconds
 from infill.result import Clock, Result, share_progress
 from infill.smoothing.job import smooth_volume
 from infill.smoothing.request import SmoothOptions, SmoothRequest
-from infill.version import __version__
 from infill.volume import AXES, Volume
 from infill.voxels.cropping import cut_cells
 from infill.voxels.labels import LabelExtent, label_extents
@@ -28,7 +28,7 @@ from infill.voxels.labels import LabelExtent, label_extents
 if TYPE_CHECKING:
     from PIL import Image
 
-    from infill.report_keys import LabelsReport, SmoothReport
+    from infill.reports.smoothing import LabelName, LabelsReport, SmoothReport
     from infill.smoothing.stages import SmoothStages
     from infill.surface import Surface
 
@@ -168,6 +168,7 @@ def smooth_labels(
 def _as_segmentation(
     volume: ArrayLike | Volume | Segmentation, spacing: float | tuple[float, ...], origin: tuple[float, ...]
 ) -> Segmentation:
+    """Return a segmentation of an array, a volume or a segmentation."""
     if isinstance(volume, Segmentation):
         return volume
     if not isinstance(volume, Volume):
@@ -245,6 +246,7 @@ def _smooth_piece(
 
 
 def _title(piece: _Piece) -> str:
+    """Return the number of a label and its name, if it has one."""
     number = f"label {piece.segment.value}"
     return number if piece.name == f"label_{piece.segment.value}" else f"{number} ({piece.name})"
 
@@ -260,15 +262,13 @@ def _report(
 ) -> LabelsReport:
     """Return the report: totals over all labels, and the report of each."""
 
-    def label_facts(piece: _Piece) -> dict[str, Any]:
+    def label_facts(piece: _Piece) -> LabelName:
         segment = piece.segment
         return {"name": piece.name, "number": segment.value, "layer": segment.layer}
 
     label_reports = [reports[piece.name] for piece in smoothed_pieces]
-    report = {
-        "form": FORM,
-        "version": __version__,
-        "product": "labels",
+    return {
+        **report_head("labels"),
         "triangles": sum(part["triangles"] for part in label_reports),
         "closed": all(part["closed"] for part in label_reports),
         "problems": [
@@ -285,6 +285,5 @@ def _report(
         ],
         "failed": [{**label_facts(piece), "error": failed[piece.name]} for piece in failed_pieces],
         "absent": list(absent),
-        "seconds": {**clock.seconds, "total": sum(clock.seconds.values())},
+        "seconds": clock.timings(LabelSeconds),
     }
-    return cast("LabelsReport", report)

@@ -11,6 +11,8 @@ from infill.errors import ParameterError
 from infill.inspection.changes import ConnectionCounts
 from infill.machine import require_memory
 from infill.phasefield.schedule import MIN_STEPS
+from infill.reports.common import declare
+from infill.reports.smoothing import RepairKeys
 from infill.smoothing.request import AUTO, MeshOnGrid, Method, SmoothInput, SmoothRequest, Way
 from infill.surface import Surface
 from infill.voxels.from_mesh import RESOLUTION, VoxelisedMesh, grid_around, voxelise_with_report
@@ -84,7 +86,7 @@ def voxelise_input(mesh: MeshOnGrid, request: SmoothRequest) -> SmoothInput:
         data=phase_field_of_mesh(voxelised.closed, cells, interface, several=several, threads=request.threads),
         facts={
             "source": "mesh",
-            "repairs": asdict(voxelised.repairs),
+            "repairs": declare(RepairKeys, asdict(voxelised.repairs)),
             "several": several,
             "notes": list(surface.notes),
         },

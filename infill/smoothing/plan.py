@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import contextlib
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Unpack
+from typing import Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,8 @@ from infill.kernels.compiling import log_compilation
 from infill.machine import require_memory
 from infill.meshes.merging import merge_unless_closed
 from infill.phasefield.schedule import MIN_STEPS
+from infill.reports.common import declare
+from infill.reports.smoothing import InputKeys, PlannedInput, SmoothForecast
 from infill.smoothing.attempt import bytes_per_surface_cell
 from infill.smoothing.meshes import BYTES_PER_CELL as MESH_BYTES_PER_CELL
 from infill.smoothing.meshes import MARGIN, mesh_ways
@@ -55,7 +57,7 @@ class SmoothPlan:
     grid : Grid
     space : str
         Name of the axes: see `infill.Volume`.
-    facts : mapping
+    facts : PlannedInput
         The section `input` of the report.
     solid : float
         Cells that are solid; of a mesh and of points, about.
@@ -72,7 +74,7 @@ class SmoothPlan:
     request: SmoothRequest
     grid: Grid
     space: str
-    facts: Mapping[str, Any]
+    facts: PlannedInput
     solid: float
     ways: tuple[str, ...]
     triangles: int
@@ -84,8 +86,8 @@ class SmoothPlan:
         """Volume of the cells that are solid, mm³."""
         return self.solid * float(np.prod(self.grid.cell_size))
 
-    def report(self) -> dict[str, Any]:
-        """Return the plan as plain numbers, with the keys of the report of a run: see docs/report.md."""
+    def report(self) -> SmoothForecast:
+        """Return the plan as plain numbers, with the keys of the report of a run."""
         return {
             "request": self.request.facts(),
             "grid": {
@@ -94,7 +96,7 @@ class SmoothPlan:
                 "origin": list(self.grid.origin),
                 "space": self.space,
             },
-            "input": dict(self.facts),
+            "input": self.facts,
             "solid": {"data": self.volume},
             "ways": list(self.ways),
             "triangles_before": self.triangles,
@@ -171,7 +173,7 @@ class _InputSurvey:
 
     request: SmoothRequest
     grid: Grid
-    facts: Mapping[str, Any]
+    facts: PlannedInput
     solid: float
     vertices: float
     ways: tuple[str, ...]
@@ -182,6 +184,7 @@ class _InputSurvey:
 
 
 def _survey_volume(ways: Sequence[Way]) -> _InputSurvey:
+    """Count cells and vertices of a volume for the plan."""
     smooth_input = ways[0].data
     assert isinstance(smooth_input, SmoothInput)
     data = smooth_input.data
@@ -190,7 +193,7 @@ def _survey_volume(ways: Sequence[Way]) -> _InputSurvey:
         request=ways[0].request,
         grid=Grid(shape=data.values.shape, spacing=tuple(data.cell_size.tolist()), origin=data.origin),
         space=data.space,
-        facts=smooth_input.facts,
+        facts=declare(PlannedInput, smooth_input.facts),
         solid=solid,
         vertices=vertices,
         ways=tuple(way.name for way in ways),
@@ -227,11 +230,12 @@ def _survey_points(
     seconds = time.perf_counter() - begin
     cells, vertices = _count_cells(np.asarray(solid.values))
     phase = shell is None and request.method != "plain"
-    ways = scan_ways(solid, solid, {"method": "points"}, {}, request, phase=phase)
+    facts: InputKeys = {"source": "points", "points": len(points), "shell": shell}
+    ways = scan_ways(solid, solid, {"method": "points"}, facts, request, phase=phase)
     return _InputSurvey(
         request=ways[0].request,
         grid=grid_around_points(points, voxel=cell, shell=shell, margin=MARGIN),
-        facts={"source": "points", "points": len(points), "shell": shell},
+        facts=declare(PlannedInput, facts),
         solid=cells * coarsening**3,
         vertices=vertices * coarsening**2,
         ways=tuple(way.name for way in ways),
@@ -241,7 +245,7 @@ def _survey_points(
 
 @log_compilation("the smoother")
 def _seconds_per_triangle(request: SmoothRequest, grid: Grid) -> float:
-    """Measure the seconds per triangle on a ball of cells of the same size, smoothed in the same way."""
+    """Measure the seconds per triangle before simplification, by smoothing a ball of cells of the same size."""
     offsets = np.indices((round(2 * BALL_RADIUS) + 2 * MARGIN,) * 3) - (BALL_RADIUS + MARGIN - 0.5)
     ball = Volume(values=(offsets**2).sum(axis=0) <= BALL_RADIUS**2, spacing=tuple(grid.cell_size.tolist()))
     trial_request = replace(

@@ -22,7 +22,7 @@ from infill.voxels.partial import phase_field_of_mesh
 from infill.voxels.point_fields import cell_distances
 
 if TYPE_CHECKING:
-    from infill.report_keys import PointDistances, SmoothReport, VerdictKeys
+    from infill.reports.smoothing import InputKeys, PointDistances, SmoothReport, VerdictKeys
     from infill.result import Result
     from infill.smoothing.stages import SmoothStages
 
@@ -53,7 +53,12 @@ def points_ways(
     volume, phase = None, shell is None and request.method != "plain"
     if phase:
         scan, solid, volume = _phase_field(solid, points, checked_normals, request)
-    facts = {"source": "points", "points": len(points), "shell": shell, "normals": normals is not None}
+    facts: InputKeys = {
+        "source": "points",
+        "points": len(points),
+        "shell": shell,
+        "normals": normals is not None,
+    }
     return scan_ways(scan, solid, {"method": "points"}, facts, request, phase=phase, volume=volume)
 
 

@@ -7,17 +7,15 @@ depends on the input and the options alone, never on a clock: the same input giv
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from infill.errors import GeometryError, MemoryLimitError, ParameterError
-from infill.sections import Sections
 from infill.smoothing.attempt import Attempt, estimate_surface_cells, finish_attempt, run_attempt
 from infill.smoothing.meshes import voxelise_input
 from infill.smoothing.request import MeshOnGrid, SmoothInput, SmoothRequest, Way
 
 if TYPE_CHECKING:
-    from infill.report_keys import SmoothReport, VerdictKeys
+    from infill.reports.smoothing import SmoothReport
     from infill.result import Result
     from infill.smoothing.stages import SmoothStages
 
@@ -75,13 +73,11 @@ def first_sound(ways: Iterable[Way], request: SmoothRequest) -> Result[SmoothSta
     if best is None:
         assert failed is not None
         raise GeometryError(f"{failed}{_list_tried(tried[1:])}") from failed
-    result, differences = finish_attempt(best)
+    result, differences = finish_attempt(best, tried, best_name)
     reasons = differences.losses if not request.strict else (*differences.losses, *differences.problems)
     if reasons and not request.allow_broken:
         raise GeometryError(f"{'; '.join(reasons)}{_list_tried(tried[1:])}; {_advice(best)}")
-    verdict: VerdictKeys = {**result.report["verdict"], "tried": tried, "taken": best_name}
-    report = Sections(result.report).replaced(verdict=verdict)
-    return replace(result, report=cast("SmoothReport", report))
+    return result
 
 
 def estimate_work(smooth_input: SmoothInput, request: SmoothRequest) -> float:

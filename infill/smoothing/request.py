@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Literal, TypedDict
+from typing import TYPE_CHECKING, Literal, TypedDict
 
 from infill.checks import check_positive, check_range
 from infill.errors import ParameterError, UsageError
@@ -15,6 +14,7 @@ from infill.phasefield.schedule import MIN_STEPS, SNAPSHOT_QUARTERS
 if TYPE_CHECKING:
     from infill.inspection.changes import ConnectionCounts
     from infill.phasefield.sparse import SparseField
+    from infill.reports.smoothing import InputKeys, SolidRequest
     from infill.result import Progress
     from infill.surface import Surface
     from infill.volume import Volume
@@ -149,7 +149,7 @@ class SmoothRequest:
             default_tolerance=isinstance(self.tolerance, str),
         )
 
-    def facts(self) -> dict[str, Any]:
+    def facts(self) -> SolidRequest:
         """Return the request as plain values; refinement does not use fidelity."""
         smoothing = self.smoothing
         return {
@@ -175,8 +175,8 @@ class SmoothInput:
     ----------
     data : Volume
         Booleans, or a phase field.
-    facts : mapping
-        The section `input` of the report: `source` and others.
+    facts : InputKeys
+        The section `input` of the report.
     closed_mesh : Surface, optional
         The closed mesh that the volume was made from, mm.
     mesh : Surface, optional
@@ -194,7 +194,7 @@ class SmoothInput:
     """
 
     data: Volume
-    facts: Mapping[str, Any]
+    facts: InputKeys
     closed_mesh: Surface | None = None
     mesh: Surface | None = None
     mesh_volumes: EnclosedVolumes | None = None

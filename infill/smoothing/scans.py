@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,9 @@ from infill.voxels.coarsening import coarsen
 from infill.voxels.noise import NOISY, noise_share
 from infill.voxels.segmentation import count_solid_cells, scale_grey_values, segment_volume
 from infill.voxels.slices import interpolate_slices, plan_sublayers
+
+if TYPE_CHECKING:
+    from infill.reports.smoothing import InputKeys
 
 Threshold = float | tuple[float | None, float | None] | Literal["otsu"] | None
 
@@ -58,7 +61,7 @@ def volume_ways(
             raise ParameterError.about(
                 "voxel", f"is {voxel:g} mm, and nothing of the solid fills half of one; give less"
             )
-    facts = {
+    facts: InputKeys = {
         "source": "volume",
         "segmentation": used,
         "coarse": voxel is not None,
@@ -85,7 +88,7 @@ def scan_ways(
     scan: Volume,
     solid: Volume,
     used: Mapping[str, Any],
-    facts: Mapping[str, Any],
+    facts: InputKeys,
     request: SmoothRequest,
     *,
     grey: bool = False,
@@ -100,7 +103,7 @@ def scan_ways(
         The values, and the mask of solid cells.
     used : mapping
         How the solid was determined: see `infill.voxels.segmentation.segment_volume`.
-    facts : mapping
+    facts : InputKeys
         For the report.
     request : SmoothRequest
     grey : bool
@@ -149,7 +152,7 @@ def _has_grey_values(values: NDArray[Any], ends: list[float]) -> bool:
     return bool(((sampled_layers > ends[0]) & (sampled_layers < ends[1])).any())
 
 
-def _scan_input(data: Volume, solid: Volume, facts: Mapping[str, Any], threads: int | None) -> SmoothInput:
+def _scan_input(data: Volume, solid: Volume, facts: InputKeys, threads: int | None) -> SmoothInput:
     """Return the input of a scan; thick slices are interpolated."""
     axis, count = plan_sublayers(solid)
     facts = {**facts, "slices": count}

@@ -299,22 +299,20 @@ class SmoothSettings:
 
     @property
     def options(self) -> SmoothOptions:
-        """Options that all smoothing functions share."""
+        """Options that all smoothing functions share, by the names that these have."""
         from infill.phasefield.allen_cahn import Smoothing
+        from infill.smoothing.request import SmoothOptions
 
+        shared = {name: value for name, value in vars(self).items() if name in SmoothOptions.__annotations__}
         fidelity = {} if self.fidelity is None else {"fidelity": self.fidelity}
-        return {
+        shared |= {
             "smoothing": Smoothing(steps=self.steps, interface=self.interface, **fidelity),
             "method": self.chosen_method,
+            "refine": None,  # `method` says it
             "radius": self.smooth_radius,
-            "crumbs": self.crumbs,
-            "strict": self.strict,
-            "level": self.level,
-            "despeckle": self.despeckle,
-            "allow_broken": self.allow_broken,
             "tolerance": "auto" if self.tolerance is None else self.tolerance or None,
-            "max_triangles": self.max_triangles,
         }
+        return cast("SmoothOptions", shared)
 
     def check(self) -> None:
         """Raise ParameterError for options that suit no input."""

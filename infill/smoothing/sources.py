@@ -26,7 +26,7 @@ from infill.voxels.cropping import crop
 from infill.voxels.from_mesh import voxel_size
 
 if TYPE_CHECKING:
-    from infill.report_keys import ComponentsReport, SmoothReport
+    from infill.reports.smoothing import ComponentsReport, SmoothReport
     from infill.result import Result
     from infill.smoothing.by_component import ComponentStages
     from infill.smoothing.stages import SmoothStages
@@ -260,6 +260,7 @@ def _npy_axis_count(path: Path) -> int | None:
 
 
 def _ply_has_faces(path: Path) -> bool:
+    """Tell by the header of a PLY file whether it holds faces."""
     if not path.is_file():
         raise FormatError(f"there is no file {path}; check the name")
     try:

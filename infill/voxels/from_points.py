@@ -287,7 +287,7 @@ def _fill_shell(
 
 
 def _adjacent_cells(cells: Cells, neighbours: Cells) -> NDArray[np.int64]:
-    """Return the indices (N, 3) of the cells that share a face with one of `neighbours`; none on the border."""
+    """Return the indices (N, 3) of the cells that share a face with one of `neighbours`, without wrapping around."""
     adjacent = np.zeros_like(cells)
     for axis in range(3):
         for ahead, behind in ((slice(1, None), slice(None, -1)), (slice(None, -1), slice(1, None))):

@@ -6,7 +6,7 @@ import math
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,9 @@ from infill.checks import check_positive, check_range
 from infill.errors import ParameterError, UsageError
 from infill.kernels.threads import in_threads, thread_count
 from infill.volume import Volume
+
+if TYPE_CHECKING:
+    from infill.reports.smoothing import SegmentationKeys, SegmentationRule
 
 SIGNS = (-1, 1)  # void and solid, as in a phase field
 EXACT = 65536  # a histogram of whole numbers up to this range has one bin per value
@@ -31,7 +34,7 @@ def segment_volume(
     high: float | None = None,
     label: int | Sequence[int] | None = None,
     otsu: bool = False,
-) -> tuple[Volume, dict[str, Any]]:
+) -> tuple[Volume, SegmentationKeys]:
     """Segment a volume; return it with True in solid cells, and the criterion that was used.
 
     Parameters
@@ -49,9 +52,8 @@ def segment_volume(
     -------
     Volume
         Booleans, True is solid, in the same place; a mask of −1 and 1 in single bytes is returned unchanged.
-    dict
-        "method" (range, label, otsu, mask or phase), the numbers it used, "values", the lowest and the highest
-        value, and "solid", the solid share of all cells.
+    SegmentationKeys
+        The criterion, for the report.
 
     Raises
     ------
@@ -72,7 +74,7 @@ def segment_volume(
         raise UsageError.about(("threshold", "label", "otsu"), "exclude each other; give one of them")
     values = volume.values
     lowest, highest = _value_range(values)
-    used: dict[str, Any]
+    used: SegmentationRule
     if values.dtype == bool and not any(criteria):
         solid, used = values, {"method": "mask"}
     elif label is not None:
@@ -95,8 +97,8 @@ def segment_volume(
         )
         parameter = {"label": "label", "range": "threshold"}.get(used["method"])
         raise ParameterError(problem) if parameter is None else ParameterError.about(parameter, problem)
-    used |= {"values": [+lowest, +highest], "solid": count / solid.size}  # of booleans, 0 and 1
-    return replace(volume, values=solid), used
+    ends = [+lowest, +highest]  # of booleans, 0 and 1
+    return replace(volume, values=solid), {**used, "values": ends, "solid": count / solid.size}
 
 
 def fill_masked_with_void(values: NDArray[Any], low: float | None, *, chosen: bool) -> NDArray[Any]:
@@ -270,7 +272,7 @@ def contrast(volume: Volume, level: float) -> float:
     return total / pairs
 
 
-def _interpret_values(volume: Volume, lowest: float, highest: float) -> tuple[NDArray[Any], dict[str, Any]]:
+def _interpret_values(volume: Volume, lowest: float, highest: float) -> tuple[NDArray[Any], SegmentationRule]:
     """Find the solid in values that need no criterion, with the method for the report, or raise ParameterError."""
     values: NDArray[Any] = volume.values
     if values.dtype.itemsize == 1 and values.dtype.kind in "iu":  # two values of one byte are not copied
@@ -367,7 +369,7 @@ def _labels(values: NDArray[Any]) -> str:
     return f" ({', '.join(str(value) for value in occurring)})" if len(occurring) <= MOST_NAMED_LABELS else ""
 
 
-def _describe(used: dict[str, Any]) -> str:
+def _describe(used: SegmentationRule) -> str:
     """Describe the criterion, for a message that begins with its option if it has one."""
     if used["method"] == "label":
         return f"is {', '.join(str(label) for label in used['label'])}"

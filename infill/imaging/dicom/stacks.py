@@ -15,7 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.imaging.dicom_files import DIRECTION_TOLERANCE, OTHER_MARKS, VOLUME_MARKS, Frame, Image, Mark
+from infill.imaging.dicom.elements import Mark
+from infill.imaging.dicom.headers import Image
+from infill.imaging.dicom.places import DIRECTION_TOLERANCE, OTHER_MARKS, VOLUME_MARKS, Frame
 from infill.volume import AXES
 
 STEP_TOLERANCE = 0.05  # of a step: tolerance of frames against even steps

@@ -10,10 +10,11 @@ from typing import Any
 
 from infill.errors import FormatError
 from infill.imaging.checked_volume import checked_volume
-from infill.imaging.dicom_files import Frame, Image, is_dicom, read_image, require_pydicom
-from infill.imaging.dicom_frames import SOURCE_FILES, STORED_ORDER, Stack, place_frames, split_into_stacks
-from infill.imaging.dicom_pixels import frame_values, require_grey
-from infill.imaging.dicom_segments import segment_layers, segment_volume
+from infill.imaging.dicom.headers import Image, is_dicom, read_image, require_pydicom
+from infill.imaging.dicom.pixels import frame_values, require_grey
+from infill.imaging.dicom.places import Frame
+from infill.imaging.dicom.segments import segment_layers, segment_volume
+from infill.imaging.dicom.stacks import SOURCE_FILES, STORED_ORDER, Stack, place_frames, split_into_stacks
 from infill.imaging.frames import choose_frame
 from infill.imaging.label_tables import Segment
 from infill.volume import Volume
@@ -102,7 +103,7 @@ def read_dicom_segments(
 
 
 def _with_warnings(volume: Volume, warnings: Sequence[str], *, logged: bool = False) -> Volume:
-    """Log warnings and return a volume that carries them to the report."""
+    """Log the first few warnings, and return a volume with these, in place of its own, for the report."""
     shown = tuple(warnings[:MOST_WARNINGS])
     if len(warnings) > MOST_WARNINGS:
         shown = (*shown, f"and {len(warnings) - MOST_WARNINGS} more warnings like these")

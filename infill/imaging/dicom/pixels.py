@@ -14,11 +14,14 @@ from numpy.typing import NDArray
 
 from infill.errors import FormatError
 from infill.files.broken import SMALLER_VOLUME_ADVICE
-from infill.imaging.dicom_files import Frame, Image, Pixels, clean_text, read_plain_pixels, write_packed_frames
+from infill.imaging.dicom.elements import clean_text
+from infill.imaging.dicom.headers import Image, Pixels, inflate, wrap_pydicom_errors
+from infill.imaging.dicom.places import Frame
 from infill.imaging.medical import unpacked_frames
 from infill.machine import require_memory
 
 INTEGER_TYPES = (np.uint8, np.int16, np.uint16, np.int32, np.uint32, np.int64)
+PLAIN_STORAGE = "1.2.840.10008.5.1.4.1.1.7.3"  # a multi-frame secondary capture, which holds only pixels
 EXACT_BITS = 16  # of stored numbers that float32 holds exactly, with some to spare for a scale
 
 
@@ -57,7 +60,7 @@ def stored_numbers(image: Image) -> FrameValues:
     if pixels.length is None:
         return _unpack_together([image])[image.path]
     require_memory(2 * math.prod(shape) * max(1, pixels.allocated // 8), None, SMALLER_VOLUME_ADVICE)
-    content = np.frombuffer(read_plain_pixels(image), dtype=np.uint8)
+    content = np.frombuffer(_read_plain_pixels(image), dtype=np.uint8)
     return FrameValues(values=_numbers_of_bytes(content, pixels, math.prod(shape)).reshape(shape))
 
 
@@ -69,7 +72,7 @@ def _unpack_together(images: Sequence[Image]) -> dict[Path, FrameValues]:
     require_memory(2 * math.prod(shape) * max(1, template.pixels.allocated // 8), None, SMALLER_VOLUME_ADVICE)
     with tempfile.TemporaryDirectory(prefix="infill-") as folder:
         plain = Path(folder) / "frames.dcm"
-        write_packed_frames(images, plain)
+        _write_packed_frames(images, plain)
         values, messages = unpacked_frames(plain, path)
     if values.shape != shape:
         raise FormatError(f"{path} holds frames {values.shape} and says {shape}; save it again")
@@ -205,3 +208,55 @@ def _replace_padding(values: NDArray[Any], padded: list[tuple[int, NDArray[np.bo
     for k, mask in padded:
         values[k][mask] = lowest
     return (f"{path}: {count} cells hold a value for no pixel (up to {highest:g}); they are taken as {lowest:g}",)
+
+
+def _read_plain_pixels(image: Image) -> memoryview:
+    """Read the bytes of frames that are not compressed one by one."""
+    pixels = image.pixels
+    assert pixels.length is not None
+    with wrap_pydicom_errors(image.path):
+        if pixels.deflated:
+            return memoryview(inflate(image.path))[pixels.begin : pixels.begin + pixels.length]
+        with image.path.open("rb") as file:
+            file.seek(pixels.begin)
+            return memoryview(file.read(pixels.length))
+
+
+def _write_packed_frames(images: Sequence[Image], target: Path) -> None:
+    """Write the compressed frames of similar files into one file without any further information.
+
+    So a reader decompresses the stored values in their order, and it is called once for all slices of a folder.
+    """
+    from pydicom import Dataset, dcmwrite
+    from pydicom.dataset import FileMetaDataset
+    from pydicom.encaps import encapsulate
+
+    template = images[0]
+    packed = [frame for image in images for frame in _packed_frames(image)]
+    plain, pixels = Dataset(), template.pixels
+    with wrap_pydicom_errors(template.path):
+        plain.file_meta = FileMetaDataset()
+        plain.file_meta.TransferSyntaxUID = pixels.syntax  # type: ignore[assignment]
+        plain.file_meta.MediaStorageSOPClassUID = plain.SOPClassUID = PLAIN_STORAGE  # type: ignore[assignment]
+        plain.file_meta.MediaStorageSOPInstanceUID = plain.SOPInstanceUID = "2.25.1"  # type: ignore[assignment]
+        plain.Rows, plain.Columns = template.frames[0].shape
+        plain.NumberOfFrames = len(packed)
+        plain.SamplesPerPixel, plain.PhotometricInterpretation = 1, "MONOCHROME2"
+        plain.BitsAllocated, plain.BitsStored, plain.HighBit = pixels.allocated, pixels.stored, pixels.high
+        plain.PixelRepresentation = int(pixels.signed)
+        plain.PixelData = encapsulate(packed)
+        plain["PixelData"].VR = "OB"
+        plain["PixelData"].is_undefined_length = True
+        dcmwrite(target, plain, enforce_file_format=True)
+
+
+def _packed_frames(image: Image) -> list[bytes]:
+    """Return the compressed frames of a file."""
+    from pydicom.encaps import generate_frames
+
+    with wrap_pydicom_errors(image.path), image.path.open("rb") as file:
+        file.seek(image.pixels.begin)
+        packed = list(generate_frames(file, number_of_frames=image.count))
+        if len(packed) != image.count:
+            raise ValueError(f"{len(packed)} frames of {image.count}")
+        return packed

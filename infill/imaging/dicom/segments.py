@@ -16,9 +16,10 @@ from numpy.typing import NDArray
 from infill.errors import FormatError
 from infill.files.broken import SMALLER_VOLUME_ADVICE
 from infill.imaging.checked_volume import checked_volume
-from infill.imaging.dicom_files import Frame, Image, Segments
-from infill.imaging.dicom_frames import STEP_TOLERANCE, Plane, Uneven, place_frames, plane_of, round_length
-from infill.imaging.dicom_pixels import stored_numbers
+from infill.imaging.dicom.headers import Image, Segments
+from infill.imaging.dicom.pixels import stored_numbers
+from infill.imaging.dicom.places import Frame
+from infill.imaging.dicom.stacks import STEP_TOLERANCE, Plane, Uneven, place_frames, plane_of, round_length
 from infill.imaging.frames import choose_frame
 from infill.imaging.label_tables import Segment
 from infill.machine import require_memory
