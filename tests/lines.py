@@ -23,6 +23,13 @@ def length_of(paths: Sequence[np.ndarray]) -> float:
     return sum(shapely.LineString(path).length for path in paths)
 
 
+def travel_length(paths: Sequence[np.ndarray], start: tuple[float, float] | None = None) -> float:
+    """Return the travel between paths, mm, and from `start` to the first, if given."""
+    begins = [path[0] for path in paths]
+    ends = [np.array(start) if start is not None else begins[0], *(path[-1] for path in paths[:-1])]
+    return float(np.hypot(*(np.array(begins) - np.array(ends)).T).sum())
+
+
 def least_spacing(paths: Sequence[np.ndarray], *, near: float, most: float, step: float = 0.05) -> float:
     """Return how near paths come to each other, and to themselves more than `near` mm along; `most` at most.
 

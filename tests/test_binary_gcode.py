@@ -34,7 +34,7 @@ from infill.gcode.binary import (
     stored,
     text_pieces,
 )
-from infill.gcode.chunked_io import MAX_CHUNK_BYTES, open_chunks
+from infill.gcode.stream import MAX_CHUNK_BYTES
 
 TEXT = b"""M201 X1000 Y1000 Z200 E5000
 ;LAYER_CHANGE
@@ -452,13 +452,6 @@ def test_blocks_hold_whole_lines_and_no_more_than_the_limit() -> None:
     assert all(len(each) > MAX_CHUNK_BYTES - 10 for each in found[:-3])
     assert [len(each) > MAX_CHUNK_BYTES for each in found] == [each == longest for each in found]
     assert list(text_pieces(opened(target.getvalue()))) == found
-
-
-@given(st.lists(st.binary(max_size=20), max_size=20), st.integers(1, 50))
-def test_pieces_read_as_a_file(pieces: list[bytes], size: int) -> None:
-    file = open_chunks(pieces)
-    assert b"".join(iter(lambda: file.read(size), b"")) == b"".join(pieces)
-    assert open_chunks(pieces).readlines() == io.BytesIO(b"".join(pieces)).readlines()
 
 
 def test_memory_does_not_grow_with_the_file(tmp_path) -> None:

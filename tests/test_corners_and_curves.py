@@ -19,13 +19,13 @@ from infill.paths.neighbours import (
     AWAY_LIMIT,
     BESIDE,
     TOWARDS_LIMIT,
-    LayerBeads,
     deviation_beside_beads,
     index_beads,
     project_to_beads,
 )
-from infill.refilling.regions import NEARER, STEP, find_region
-from infill.refilling.timing import neutral_limits, path_seconds
+from infill.planner.print_clock import neutral_limits, path_seconds
+from infill.refilling.regions import BEAD_STEP as STEP
+from infill.refilling.regions import NEARER, LayerBeads, find_region
 
 EXACT = 1e-9  # mm: of coordinates up to 100 mm, computed in a handful of steps
 WIDTH = 0.45  # mm

@@ -9,18 +9,18 @@ import pytest
 import shapely
 from hypothesis import example, given
 from hypothesis import strategies as st
-from lines import BRACKET, DISC, PARTS, RING, least_spacing, length_of
+from lines import BRACKET, DISC, PARTS, RING, least_spacing, length_of, travel_length
 from shapely import MultiPolygon, Polygon, box
 
 from infill import GeometryError, ParameterError
 from infill.paths.clipping import clip
 from infill.paths.covering import cover, solve_cell, total_length
 from infill.paths.families.catalogue import FAMILIES
-from infill.paths.families.protocol import TOUCH, Path
+from infill.paths.families.family import TOUCH, Path, PathSpec
 from infill.paths.joining import join
 from infill.paths.layer_below import index_layer_below
 from infill.paths.neighbours import index_beads
-from infill.paths.ordering import order_paths, travel_length
+from infill.paths.ordering import order_paths
 from infill.paths.outlines import outline_of
 
 WIDTH = 0.45
@@ -161,7 +161,7 @@ def regions(draw: st.DrawFn) -> Polygon | MultiPolygon:
 
 
 def waves(cell: float) -> list[Path]:
-    return FAMILIES["grid"].strands((-40, -40, 40, 40), cell=cell, line_width=WIDTH, z=0, layer=0, radius=0)
+    return FAMILIES["grid"].strands((-40, -40, 40, 40), PathSpec(cell=cell, line_width=WIDTH, z=0, layer=0, radius=0))
 
 
 @pytest.mark.longest
@@ -170,7 +170,9 @@ def waves(cell: float) -> list[Path]:
 def test_clipping_keeps_what_is_inside_and_nothing_else(region: Polygon | MultiPolygon, cell: float) -> None:
     paths = [
         *waves(cell),
-        *FAMILIES["schwarz-p"].strands((-40, -40, 40, 40), cell=2 * cell, line_width=WIDTH, z=0, layer=0, radius=0),
+        *FAMILIES["schwarz-p"].strands(
+            (-40, -40, 40, 40), PathSpec(cell=2 * cell, line_width=WIDTH, z=0, layer=0, radius=0)
+        ),
     ]
     outline = outline_of(region)
     pieces = clip(paths, outline)

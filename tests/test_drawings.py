@@ -19,6 +19,7 @@ from infill.drawings.drawing_files import READERS, read_drawing, read_tile_famil
 from infill.drawings.svg_paths import bezier_points, path_lines
 from infill.errors import FormatError, GeometryError, ParameterError
 from infill.paths.covering import cover, solve_cell
+from infill.paths.families.family import PathSpec
 from infill.paths.tiles.drawn_family import BLUR_PER_RADIUS, DrawnFamily
 from infill.paths.tiles.nodes import COARSEST, colour_parity, distance_field, tile_grid
 from infill.paths.tiles.two_colours import ALPHA
@@ -478,7 +479,7 @@ def test_paths_of_a_drawing_keep_the_contract(folder: Path, make: object) -> Non
     family = read_tile_family(make(folder))
     cell, height = 14.0, 14.0 * (family.tile[3] - family.tile[1]) / family.width
     asked = {"cell": cell, "line_width": WIDTH, "radius": 0.6}
-    paths = family.strands((-3, -3, 30, 30), **asked)
+    paths = family.strands((-3, -3, 30, 30), PathSpec(**asked))
     assert crossings(paths) == 0
     assert all(path.dtype == np.float64 and path.shape[1] == 2 for path in paths)
     # Chords turn by 20° at most, and where they go on from tile to tile by as little.
@@ -488,7 +489,8 @@ def test_paths_of_a_drawing_keep_the_contract(folder: Path, make: object) -> Non
     for i, j in ((1, 0), (0, 1), (-2, 3)):
         bounds = (i * cell - 1, j * height - 1, (i + 1) * cell + 1, (j + 1) * height + 1)
         there = inside(
-            family.strands(bounds, **asked), shapely.box(*(np.array((0, 0, cell, height)) + (i * cell, j * height) * 2))
+            family.strands(bounds, PathSpec(**asked)),
+            shapely.box(*(np.array((0, 0, cell, height)) + (i * cell, j * height) * 2)),
         )
         moved = shapely.transform(there, lambda points, i=i, j=j: points - (i * cell, j * height))
         assert shapely.length(moved) == pytest.approx(shapely.length(here), rel=1e-9)
@@ -507,7 +509,7 @@ def test_the_first_guess_of_the_cell_is_near(folder: Path, make: object) -> None
     family = read_tile_family(make(folder))
     cell = family.cell_for(0.15, WIDTH)
     height = cell * (family.tile[3] - family.tile[1]) / family.width
-    paths = family.strands((0, 0, cell, height), cell=cell, line_width=WIDTH)
+    paths = family.strands((0, 0, cell, height), PathSpec(cell=cell, line_width=WIDTH))
     found = shapely.length(inside(paths, shapely.box(0, 0, cell, height))) * 0.905 * WIDTH / (cell * height)
     assert found == pytest.approx(0.15, rel=0.1)
 
@@ -516,7 +518,7 @@ def test_lengths_change_smoothly_with_the_cell(folder: Path) -> None:
     """Between the cells whose fields are computed, 4 % apart, length per area is as 1 / cell, to rounding."""
     family = read_tile_family(scribble(folder))
     cells = 1.04 ** np.array([66.6, 67.0, 67.4])
-    paths = [family.strands((0, 0, cell, cell), cell=cell, line_width=WIDTH, radius=0.6) for cell in cells]
+    paths = [family.strands((0, 0, cell, cell), PathSpec(cell=cell, line_width=WIDTH, radius=0.6)) for cell in cells]
     lengths = [
         shapely.length(inside(some, shapely.box(0, 0, cell, cell))) for some, cell in zip(paths, cells, strict=True)
     ]
@@ -546,7 +548,7 @@ def test_what_is_repeated(folder: Path, body: str, head: str, tile: tuple[float,
 @pytest.mark.slow
 def test_beads_have_room(folder: Path) -> None:
     """Wherever lines come close, other paths stay 0.8 line widths away; a hundredth may be nearer, at crossings."""
-    paths = read_tile_family(scribble(folder)).strands((0, 0, 20, 20), cell=18, line_width=WIDTH, radius=0.6)
+    paths = read_tile_family(scribble(folder)).strands((0, 0, 20, 20), PathSpec(cell=18, line_width=WIDTH, radius=0.6))
     lines = as_lines(paths)
     one, other = shapely.STRtree(lines).query(lines, predicate="dwithin", distance=0.8 * WIDTH)
     near = [
@@ -562,7 +564,7 @@ def test_beads_have_room(folder: Path) -> None:
 
 def strands(folder: Path, body: str, *, cell: float = 20.0, radius: float = 0.0, **head: str) -> list[np.ndarray]:
     family = read_tile_family(written(folder, svg(body, **head), "some.svg"))
-    return family.strands((0.5, 0.5, cell - 0.5, cell - 0.5), cell=cell, line_width=WIDTH, radius=radius)
+    return family.strands((0.5, 0.5, cell - 0.5, cell - 0.5), PathSpec(cell=cell, line_width=WIDTH, radius=radius))
 
 
 def test_an_outline_is_kept(folder: Path) -> None:
@@ -587,7 +589,7 @@ def test_the_largest_radius_is_a_tenth_of_the_tile(folder: Path) -> None:
     family = read_tile_family(written(folder, svg('<rect x="5" y="5" width="10" height="10"/>'), "some.svg"))
     cell = 1.04**59  # about 10 mm, and one of those whose fields are computed
     one, other = (
-        family.strands((0, 0, 9, 9), cell=cell, line_width=WIDTH, radius=radius)[0]
+        family.strands((0, 0, 9, 9), PathSpec(cell=cell, line_width=WIDTH, radius=radius))[0]
         for radius in (family.largest_radius(cell, WIDTH), math.inf)
     )
     assert np.array_equal(one, other)
@@ -606,7 +608,7 @@ def test_a_honeycomb_drawn_once_becomes_touching_waves(folder: Path) -> None:
     family = read_tile_family(
         written(folder, svg(f'<path d="{HONEYCOMB}"/>', 'viewBox="0 0 18 11.547"'), "honeycomb.svg")
     )
-    paths = family.strands((0, 0, 36, 23.094), cell=18, line_width=WIDTH)
+    paths = family.strands((0, 0, 36, 23.094), PathSpec(cell=18, line_width=WIDTH))
     assert not any(np.array_equal(path[0], path[-1]) for path in paths)
     length = shapely.length(inside(paths, shapely.box(0, 0, 18, 11.547)))
     assert length == pytest.approx(36 * 4 / 3, rel=0.06)  # corners are rounded
@@ -629,7 +631,7 @@ def test_a_honeycomb_drawn_once_becomes_touching_waves(folder: Path) -> None:
 )
 def test_crossings_are_turned_off_at(folder: Path, body: str, loops: bool) -> None:
     family = read_tile_family(written(folder, svg(body), "some.svg"))
-    paths = family.strands((0, 0, 40, 40), cell=20, line_width=WIDTH)
+    paths = family.strands((0, 0, 40, 40), PathSpec(cell=20, line_width=WIDTH))
     assert crossings(paths) == 0
     assert all(np.array_equal(path[0], path[-1]) == loops for path in paths)
     lines = as_lines(paths)
@@ -681,14 +683,14 @@ def test_a_tile_is_smoothed_in_seconds(cell: float) -> None:
 def test_limits_are_told(folder: Path) -> None:
     family = read_tile_family(hearts(folder))
     with pytest.raises(GeometryError, match=r"too large .* the limit is \d+ × \d+ mm"):
-        family.strands((0, 0, 1, 1), cell=2000, line_width=WIDTH)
+        family.strands((0, 0, 1, 1), PathSpec(cell=2000, line_width=WIDTH))
     with pytest.raises(GeometryError, match=r"nothing is left of hearts.svg .* make the cell larger"):
-        family.strands((0, 0, 1, 1), cell=0.5, line_width=WIDTH)
+        family.strands((0, 0, 1, 1), PathSpec(cell=0.5, line_width=WIDTH))
     far = read_tile_family(written(folder, svg('<path d="M-50000 0L50000 3"/>'), "far.svg"))
     with pytest.raises(GeometryError, match="draw on the page: .* copies of a line"):
-        far.strands((0, 0, 1, 1), cell=20, line_width=WIDTH)
+        far.strands((0, 0, 1, 1), PathSpec(cell=20, line_width=WIDTH))
     with pytest.raises(ParameterError, match="cell"):
-        family.strands((0, 0, 1, 1), cell=math.nan, line_width=WIDTH)
+        family.strands((0, 0, 1, 1), PathSpec(cell=math.nan, line_width=WIDTH))
     with pytest.raises(ParameterError, match="width"):
         read_tile_family(hearts(folder), width=-1)
 

@@ -17,12 +17,10 @@ from shapely import box
 
 from infill import ParameterError
 from infill.paths.families.catalogue import FAMILIES
-from infill.paths.families.grid import TURN as HALF_RIGHT
-from infill.paths.families.heart import ConcentricHeartPaths
-from infill.paths.families.honeycomb import HoneycombPaths
+from infill.paths.families.family import TOUCH, CentredFamily, Family, Path, PathSpec, RegionFamily
 from infill.paths.families.level_sets import GyroidPaths, SchwarzDPaths, SchwarzPPaths
-from infill.paths.families.protocol import TOUCH, Family, Path, RegionFamily
-from infill.paths.families.spirals import Spirals
+from infill.paths.families.rows import TURN as HALF_RIGHT
+from infill.paths.families.rows import HoneycombPaths
 from infill.paths.families.waves import BOND
 from patterns.cross import SIDE
 from patterns.hilbert import hilbert_index
@@ -59,7 +57,7 @@ def strands(
     family: Family, cell: float, *, bounds: tuple[float, ...] = BOUNDS, z: float = 0.0, radius: float = 0.0
 ) -> list[Path]:
     layer = round(z / 0.2)
-    return family.strands(bounds, cell=cell, line_width=WIDTH, z=z, layer=layer, radius=radius)
+    return family.strands(bounds, PathSpec(cell=cell, line_width=WIDTH, z=z, layer=layer, radius=radius))
 
 
 def heights(cell: float) -> list[float]:
@@ -91,7 +89,7 @@ def test_the_catalogue_loads_no_family() -> None:
     loaded = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, encoding="utf-8", check=True
     ).stdout.split()
-    assert not {"shapely", "scipy", "infill.paths.families.honeycomb", "infill.paths.families.level_sets"} & set(loaded)
+    assert not {"shapely", "scipy", "infill.paths.families.rows", "infill.paths.families.level_sets"} & set(loaded)
 
 
 @pytest.mark.long
@@ -133,7 +131,7 @@ def test_lines_never_cross_and_beads_never_overlap(family: Family, cell: float, 
 @every_cell
 def test_lines_do_not_depend_on_the_box(family: Family, cell: float) -> None:
     """So that neighbouring regions, and layers, fit each other."""
-    if isinstance(family, ConcentricHeartPaths | Spirals):
+    if isinstance(family, CentredFamily):
         family = dataclasses.replace(family, middle=(1.0, 2.0))
     inner = (-9.0, -7.0, 8.0, 12.0)  # wide enough for a line of the widest
     for z in layers_of(family, cell):
@@ -350,7 +348,7 @@ def test_concentric_lines_follow_the_region() -> None:
     region = box(0, 0, 20, 9).difference(shapely.Point(5, 4).buffer(1.5))
     family = FAMILIES["concentric"]
     assert isinstance(family, RegionFamily)
-    paths = family.strands_inside(region, cell=1.0, line_width=WIDTH)
+    paths = family.strands_inside(region, PathSpec(cell=1.0, line_width=WIDTH))
     away = [shapely.distance(region.boundary, shapely.points(path)) for path in paths]
     for each in away:
         # (k + 1/2) cells away; corners that were opened lie half a bead's diagonal further in.

@@ -16,11 +16,13 @@ from hypothesis import strategies as st
 from infill import FormatError
 from infill.gcode import stream
 from infill.gcode.lines import ARC, BLANK, COMMENT, MOVE, ODD, OTHER
+from infill.gcode.machine_state import MachineState
 from infill.gcode.numbers import MAX_DIGITS, WORD, long_numbers, read_numbers, short_numbers, write_words
-from infill.gcode.sections import InfillStrokes, LineMarks, TagState, find_strokes, mark_lines
+from infill.gcode.sections import LineMarks, TagState, mark_lines
 from infill.gcode.stream import batches
+from infill.gcode.strokes import InfillStrokes, find_strokes
 from infill.gcode.survey import HEAD, STAMP, TAIL, Survey, survey_print
-from infill.gcode.table import GcodeTable, MachineState, read_table
+from infill.gcode.table import GcodeTable, read_table
 
 NUMBER = rb"[-+]?(?:\d+\.?\d*|\.\d+)"
 EIGHTHS = st.integers(-4000, 4000)  # of which every sum is exact, so that nothing here needs a tolerance

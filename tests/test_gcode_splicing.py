@@ -24,9 +24,11 @@ from infill.gcode.bodies import (
 )
 from infill.gcode.estimates import EstimateChange, completion_letters, find_estimates, stated_seconds, update_estimate
 from infill.gcode.lines import MOVE
-from infill.gcode.sections import FILAMENT_UNIT, InfillStrokes, TagState, find_strokes, mark_lines
+from infill.gcode.machine_state import MachineState
+from infill.gcode.sections import TagState, mark_lines
 from infill.gcode.splicing import NewPaths, SplicedText, find_difference, splice_paths, verify_replay
-from infill.gcode.table import GcodeTable, MachineState, read_table
+from infill.gcode.strokes import FILAMENT_UNIT, InfillStrokes, find_strokes
+from infill.gcode.table import GcodeTable, read_table
 
 Floats = NDArray[np.float64]
 

@@ -18,7 +18,8 @@ from infill.cli.timing import format_length
 from infill.gcode.found_limits import read_limits
 from infill.gcode.limits import Limits, apply_command
 from infill.gcode.lines import MOVE
-from infill.gcode.table import MachineState, read_table
+from infill.gcode.machine_state import MachineState
+from infill.gcode.table import read_table
 from infill.gcode.unusual_moves import is_macro, may_move, read_move
 from tests.handmade_prints import Dialect, written
 

@@ -25,8 +25,8 @@ from infill.lattices.settings import FillOptions
 from infill.making.request import instantiate_pattern
 from infill.options.resolve_pattern import resolve_pattern
 from infill.paths.families.catalogue import FAMILIES
-from infill.paths.families.lines import LinePaths, separate_lines
-from infill.paths.families.protocol import TOUCH
+from infill.paths.families.family import TOUCH, PathSpec
+from infill.paths.families.lines import line_paths, separate_lines
 from infill.refilling.placement import family_of, resolve_paths
 from infill.refilling.request import Request
 from patterns import PATTERNS, Gyroid, Honeycomb, Octet, Pattern, PatternError, Zigzag, offers
@@ -269,10 +269,12 @@ def test_paths_along_lines_neither_cross_nor_come_too_near(name: str, cell: floa
 
 @pytest.mark.slow
 def test_paths_along_lines_lie_alike_in_every_region() -> None:
-    family = LinePaths(pattern=Honeycomb(), middle=(100.0, 80.0))
+    family = dataclasses.replace(line_paths(Honeycomb()), middle=(100.0, 80.0))
     kinds = [((95, 75, 105, 85), 3.0), ((97, 78, 101, 84), 3.0)]
     large, small = (
-        shapely.MultiLineString(family.strands(bounds, cell=cell, line_width=WIDTH, z=0.2, layer=0, radius=0.0))
+        shapely.MultiLineString(
+            family.strands(bounds, PathSpec(cell=cell, line_width=WIDTH, z=0.2, layer=0, radius=0.0))
+        )
         for bounds, cell in kinds
     )
     window = shapely.box(*kinds[1][0])
@@ -283,11 +285,11 @@ def test_paths_along_lines_lie_alike_in_every_region() -> None:
 @pytest.mark.longest
 @pytest.mark.parametrize("name", ["honeycomb", "rectilinear"])
 def test_the_cell_for_a_density_gives_it(name: str) -> None:
-    family = LinePaths(pattern=PATTERNS[name]())  # type: ignore[arg-type]
+    family = line_paths(PATTERNS[name]())  # type: ignore[arg-type]
     cell = family.cell_for(0.2, WIDTH)
     half = 20 * cell
     square = shapely.box(-half, -half, half, half)
-    paths = family.strands(square.bounds, cell=cell, line_width=WIDTH, z=0.2, layer=0, radius=0.0)
+    paths = family.strands(square.bounds, PathSpec(cell=cell, line_width=WIDTH, z=0.2, layer=0, radius=0.0))
     length = shapely.MultiLineString(paths).intersection(square).length
     assert TOUCH * WIDTH * length / square.area == pytest.approx(0.2, rel=0.1)  # as it is found in a few cells
 

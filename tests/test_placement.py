@@ -19,9 +19,8 @@ from test_parameters import offered
 from infill import FormatError, ParameterError, refill
 from infill.paths.covering import cover, solve_cell
 from infill.paths.families.catalogue import FAMILIES
-from infill.paths.families.honeycomb import HoneycombPaths
-from infill.paths.families.protocol import TOUCH, Family
-from infill.paths.families.turned import TurnedFamily
+from infill.paths.families.family import TOUCH, Family, PathSpec, TurnedFamily
+from infill.paths.families.rows import HoneycombPaths
 from infill.paths.outlines import outline_of
 from infill.refilling.placement import default_parameters, family_of
 from infill.refilling.request import ENDLESS, parse_radius, parse_range, parse_share_or_same
@@ -62,7 +61,7 @@ def tile(tmp_path: Path) -> Path:
 
 
 def lines(family: Family, *, z: float = 0.6, layer: int = 3) -> shapely.MultiLineString:
-    paths = family.strands(AROUND.bounds, cell=4.0, line_width=WIDTH, z=z, layer=layer, radius=0.3)
+    paths = family.strands(AROUND.bounds, PathSpec(cell=4.0, line_width=WIDTH, z=z, layer=layer, radius=0.3))
     return shapely.MultiLineString([shapely.LineString(path) for path in paths])
 
 
@@ -134,7 +133,7 @@ def test_a_turn_by_half_and_a_shift(name: str) -> None:
     family = FAMILIES[name]
     shift = {"gyroid": (0.0, 2.0), "schwarz-d": (1.0, 1.0), "rectilinear": (0.0, 0.0)}.get(name)
     if shift is None:
-        (wave,) = family.rows(4.0, WIDTH, 0.3).waves  # type: ignore[attr-defined]
+        (wave,) = family.rows(PathSpec(cell=4.0, line_width=WIDTH, radius=0.3)).waves  # type: ignore[attr-defined]
         shift = (wave.period / 2, wave.height)
     # Where a gyroid has its corners is interpolated, forwards along one wave and backwards along the other.
     limit = 5e-6 if name == "gyroid" else 1e-6
@@ -154,7 +153,7 @@ def test_without_a_turn_a_family_is_itself() -> None:
 def test_hearts_stand_on_a_point() -> None:
     """The tip of every heart lies to the lower left of the middle; turned by 45°, below it."""
     family = family_of("concentric-heart", {"angle": 45, "middle": (50.0, 60.0)})
-    paths = family.strands((40, 50, 60, 70), cell=4.0, line_width=WIDTH, z=0.2, layer=0, radius=0.0)
+    paths = family.strands((40, 50, 60, 70), PathSpec(cell=4.0, line_width=WIDTH, z=0.2, layer=0, radius=0.0))
     for path in paths:
         assert path[path[:, 1].argmin(), 0] == pytest.approx(50, abs=1e-9)
         assert path[:, 0].min() + path[:, 0].max() == pytest.approx(100, abs=1e-9)
@@ -166,7 +165,7 @@ def test_flats_of_the_honeycomb(flats: float) -> None:
     """At both ends of the range lines neither cross nor overlap, and the guess of the cell holds."""
     family = family_of("honeycomb", {"flats": flats})
     assert family == HoneycombPaths(flats=flats)
-    paths = family.strands((-20, -20, 20, 20), cell=4.0, line_width=WIDTH, z=0, layer=0, radius=1.0)
+    paths = family.strands((-20, -20, 20, 20), PathSpec(cell=4.0, line_width=WIDTH, z=0, layer=0, radius=1.0))
     assert shapely.MultiLineString([shapely.LineString(path) for path in paths]).is_simple
     assert least_spacing(paths, near=4 * WIDTH, most=0.6) > GAP - 0.002
     asked = 0.15 * DISC.area / GAP

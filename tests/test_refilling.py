@@ -14,18 +14,17 @@ from hypothesis import strategies as st
 
 from infill import FormatError, OutputError, ParameterError, refill
 from infill.gcode.survey import survey_print
+from infill.paths.contact import sample_paths
 from infill.paths.families.catalogue import FAMILIES
-from infill.paths.neighbours import BeadMoves
 from infill.paths.rounding import Rounding
 from infill.ragged import concatenate_rows
-from infill.refilling.batch import Batch
-from infill.refilling.measuring import LayerPaths, measure_layers
+from infill.refilling.layers import LayerPaths, Layers, sample_layers
 from infill.refilling.planning import plan_refill
 from infill.refilling.report import refill_report
 from infill.refilling.request import Request
 from infill.refilling.rules import RefillRules
 from infill.refilling.stats import InfillAmounts, RefillStats
-from infill.refilling.support import AIM, LEAST_SHARE, largest_deviation, largest_sufficient, sample_batches
+from infill.refilling.support import AIM, LEAST_SHARE, largest_deviation, largest_sufficient, measure_layers
 from tests.gcode_judge import judge, lines_of
 from tests.gcode_structure import bonded, layers_of, supported
 from tests.prints import box, prusa_print
@@ -70,9 +69,9 @@ def kept(honeycomb: Path) -> Path:
 
 
 @pytest.fixture(scope="module")
-def looked_at(honeycomb: Path) -> list[Batch]:
+def looked_at(honeycomb: Path) -> list[Layers]:
     with honeycomb.open("rb") as file:
-        return sample_batches(survey_print(file))
+        return sample_layers(survey_print(file))
 
 
 def infill_of(path: Path) -> list[np.ndarray]:
@@ -164,7 +163,7 @@ def test_a_whole_number_is_a_density_too(honeycomb: Path) -> None:
 
 
 @pytest.mark.slow
-def test_hearts_lie_about_the_middle_of_the_part(looked_at: list[Batch]) -> None:
+def test_hearts_lie_about_the_middle_of_the_part(looked_at: list[Layers]) -> None:
     """Half a node of the grid that regions are found on is 0.1 mm."""
     plan = plan_refill(FAMILIES["concentric-heart"], looked_at, Rounding(), density=None, acceleration=1000.0)
     assert plan is not None
@@ -241,7 +240,7 @@ def test_the_first_deviation_that_is_enough_is_found(candidates: list[float], sl
 
 
 @pytest.mark.slow
-def test_the_largest_deviation(looked_at: list[Batch]) -> None:
+def test_the_largest_deviation(looked_at: list[Layers]) -> None:
     """It is one of those tried, not above the one asked for, and larger ones hold less."""
     best = largest_deviation(looked_at, Rounding(), 1000.0)
     assert 0.02 <= best <= 0.2
@@ -257,9 +256,9 @@ def stacked(aside: float) -> LayerPaths:
 
 
 def test_the_measure_can_fail() -> None:
-    nothing = BeadMoves(ends=np.empty((0, 2, 2)), layer=np.empty(0, dtype=np.intp), skin=np.empty(0, dtype=bool))
+    nothing = sample_paths(np.empty((0, 2)), np.zeros(1, dtype=np.intp))
     old, new, last = measure_layers(
-        stacked(0.0), stacked(0.45), nothing, np.arange(1, 6), line_width=0.45, stride=1, last=None
+        stacked(0.0), stacked(0.45), lambda _: nothing, np.arange(1, 6), line_width=0.45, stride=1, last=None
     )
     assert old.length == new.length == pytest.approx(4 * 300)  # of the lowest layer, nothing is known
     assert old.shares == pytest.approx((1, 0))

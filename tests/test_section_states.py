@@ -9,8 +9,9 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from infill import refill
+from infill.gcode.machine_state import MachineState
 from infill.gcode.sections import TagState, mark_lines
-from infill.gcode.table import MachineState, read_table
+from infill.gcode.table import read_table
 from tests.handmade_prints import Dialect, written
 from tests.two_colours import colours
 

@@ -9,7 +9,8 @@ from pathlib import Path
 import pytest
 
 from infill import motion, refill
-from infill.gcode.table import MachineState, apply_m200, read_table
+from infill.gcode.machine_state import MachineState, apply_m200
+from infill.gcode.table import read_table
 from tests.handmade_prints import Dialect, written
 
 AREA = math.pi / 4 * 1.75**2  # mm²

@@ -14,8 +14,8 @@ from infill.paths.contact import TOUCHING
 from infill.paths.corner_offset import ASIDE, HAIRPIN
 from infill.paths.corners import COARSEST, Machine, round_corners
 from infill.paths.curves import MOST_BULGE, recut_curves
-from infill.paths.families.hilbert import HilbertPaths
-from infill.paths.families.protocol import TOUCH
+from infill.paths.families.family import TOUCH, PathSpec
+from infill.paths.families.one_line import HilbertPaths
 from infill.paths.neighbours import BESIDE, index_beads
 from infill.paths.rounding import Rounding, find_corners
 from infill.ragged import concatenate_rows, split_rows
@@ -63,7 +63,9 @@ def farthest(path: np.ndarray, other: np.ndarray) -> float:
 @pytest.mark.parametrize("deviation", [0.1, 0.2])
 def test_length_is_kept_and_arcs_are_larger(deviation: float) -> None:
     """On Hilbert's curve, at the same distance from it; arcs inside the corners lose a tenth of it."""
-    curve = max(HilbertPaths().strands((0, 0, 40, 40), cell=3.0, line_width=WIDTH, z=0, layer=0, radius=0), key=len)
+    curve = max(
+        HilbertPaths().strands((0, 0, 40, 40), PathSpec(cell=3.0, line_width=WIDTH, z=0, layer=0, radius=0)), key=len
+    )
     curve = curve[:120]
     wide, plain = (taken([curve], deviation=deviation, wide=wide)[0] for wide in (True, False))
     assert abs(length_of(wide) / length_of(curve) - 1) < 0.25 * (1 - length_of(plain) / length_of(curve))

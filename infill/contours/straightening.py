@@ -8,12 +8,11 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from infill.arrays import Flags, Floats
 from infill.contours.zero_contours import Contours
 
-Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 Complexes = NDArray[np.complex128]
-Flags = NDArray[np.bool_]
 
 # Of the tolerance, how far a chord may lie from the corners that it replaces before its ends are moved. A circle lies
 # up to s outside its chords; moved so that the area is kept, they lie s / 3 inside it and their ends 2 s / 3 outside.

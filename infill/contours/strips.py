@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.contours.zero_contours import Contours, permutation_cycles
 
-Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 CORNERS = 1000  # of a strip, about; see `infill.contours.triangulation`

@@ -6,12 +6,12 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.contours.strips import cut_strips
 from infill.contours.zero_contours import Contours
 from infill.errors import GeometryError
 from infill.surface import Surface
 
-Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 UNFILLED = "the outline cannot be filled with triangles; smooth less, or use walls of more cells"

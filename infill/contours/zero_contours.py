@@ -7,12 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Flags, Floats
 from infill.errors import GeometryError
 from infill.grid import VOID
 
-Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
-Flags = NDArray[np.bool_]
 
 # A value nearer to the level than this is moved away from it. Otherwise triangles shrink to a point
 # at the centre of the cell, and a 32-bit file merges vertices that the mesh keeps apart. This moves the

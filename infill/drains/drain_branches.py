@@ -10,6 +10,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats, Integers
 from infill.drains.drain_columns import find_crossings
 from infill.drains.drain_places import TurnedPart
 from infill.drains.holes import DrainNeeds, Hole
@@ -25,9 +26,6 @@ NEAREST = 12  # places that are tried for each point
 LONGER = 1.5  # times the shortest: longer branches wait, as a void in between may be drained by then
 RISE = 0.5  # mm of length that a branch is worth for each mm that it begins above the lowest place
 ALONG = 0.2  # mm: largest distance between the points at which a branch is measured
-
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -13,6 +13,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats, Integers
 from infill.drains.drain_columns import DrainWays
 from infill.drains.holes import DrainNeeds, Shaft
 from infill.graph import label_connected
@@ -30,9 +31,7 @@ RIM = 24  # lines along a hole by which its mouth is found
 NEAR = 1.0  # of diameter and wall: within this of a hole, faces are joined to its mouth
 OUT = 0.25, 0.4  # of the diameter and of the wall; the lesser is the length of a hole outside
 
-Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
-Integers = NDArray[np.int64]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

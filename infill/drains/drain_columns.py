@@ -7,13 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats, Integers
 from infill.meshes.split_components import concatenate_surfaces
 from infill.surface import Surface
 
 PART = -1  # the owner of a crossing of the skin of the part
-
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

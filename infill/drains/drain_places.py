@@ -11,6 +11,7 @@ from itertools import islice, pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats, Integers
 from infill.drains.drain_clearance import Skin
 from infill.drains.drain_columns import DrainWays, LineLattice, find_ways
 from infill.drains.holes import DrainNeeds, Shaft
@@ -28,9 +29,6 @@ BEST, MOST = 300, 1500  # places of a void that are tried: the best, and in all 
 TRIES = 60  # holes that are measured exactly, for each void
 MOUTHS = 8  # faces for which the tree of the other skin is built ahead
 TURN_OVER = np.diag([1.0, -1.0, -1.0])  # half a turn about x: up becomes down
-
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

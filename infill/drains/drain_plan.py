@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.drains.drain_branches import find_branches
 from infill.drains.drain_places import TURN_OVER, DrainPlaces, DrainTask, TurnedPart
 from infill.drains.holes import DrainNeeds, Hole, Kind
@@ -17,8 +18,6 @@ from infill.interior.opening import Opening
 from infill.isosurfaces.components import shell_names
 from infill.meshes.shells import shell_volumes
 from infill.surface import Surface
-
-Floats = NDArray[np.float64]
 
 DOWN = np.eye(3)
 LEVEL = 0.99  # cosine: directions at a smaller angle count as equal

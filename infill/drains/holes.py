@@ -6,10 +6,10 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
+
+from infill.arrays import Floats
 
 Kind = Literal["drain", "vent", "place", "branch"]
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,8 +6,8 @@ import math
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.drains.drain_columns import LineLattice, find_ways
 from infill.drains.drain_places import UP, DrainPlaces, DrainTask, TurnedPart
 from infill.drains.holes import Hole, Shaft
@@ -15,7 +15,6 @@ from infill.errors import GeometryError
 from infill.meshes.distance import TriangleTree
 from infill.surface import Surface
 
-Floats = NDArray[np.float64]
 Place = tuple[float, float, float]  # x, y, z, mm
 
 NUDGE = 1e-4, 0.7e-4  # of the diameter: shift of a line, as one through a corner would cross several faces

@@ -14,10 +14,10 @@ from urllib.parse import unquote
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.errors import FormatError, escape_unprintable
 from infill.machine import require_memory
 
-Floats = NDArray[np.float64]
 JsonObject = dict[str, Any]
 
 MAGIC, JSON_CHUNK, BINARY_CHUNK = b"glTF", 0x4E4F534A, 0x004E4942

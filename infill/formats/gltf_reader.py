@@ -10,15 +10,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from infill.arrays import Floats, Integers
 from infill.formats.draco import unpack_draco
 from infill.formats.gltf_document import MESHOPT, Gltf, JsonObject, parse_document, quote, split_chunks
 from infill.machine import require_memory
 from infill.meshes.polygons import split_fan, split_strips
-
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
 
 MILLIMETRE = 0.001  # of a metre
 TRIANGLES, STRIP, FAN = 4, 5, 6

@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Integers
 from infill.errors import FormatError
 from infill.files.excerpts import quote_word
 
-Integers = NDArray[np.int64]
 TAB, NEWLINE, RETURN, BLANK = 9, 10, 13, 32
 COMMENT = re.compile(rb"#[^\n]*")
 CONTINUED = re.compile(rb"\\[ \t]*\n")

@@ -18,7 +18,7 @@ from copy import copy
 from typing import BinaryIO
 
 from infill.errors import FormatError, ParameterError
-from infill.gcode.chunked_io import MAX_CHUNK_BYTES, whole_lines
+from infill.gcode.stream import MAX_CHUNK_BYTES, whole_lines
 
 PLATE_NAME = re.compile(r"Metadata/plate_([0-9]+)\.gcode")
 MD5_SUFFIX = ".md5"

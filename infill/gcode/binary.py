@@ -24,7 +24,7 @@ from infill.gcode.block_file import (
     is_binary,
     stored,
 )
-from infill.gcode.chunked_io import whole_lines
+from infill.gcode.stream import whole_lines
 
 __all__ = [
     "Block",

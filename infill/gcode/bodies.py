@@ -6,16 +6,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from infill.arrays import Floats, Places
 from infill.gcode.lines import ARC, MOVE, ODD, GcodeCommand
-from infill.gcode.numbers import write_words
-from infill.gcode.sections import FILAMENT_UNIT, InfillStrokes, LineMarks
-from infill.gcode.splicing import SplicedText
-from infill.gcode.table import GcodeTable, firmware_retraction
-
-Floats = NDArray[np.float64]
-Places = NDArray[np.intp]
+from infill.gcode.machine_state import firmware_retraction
+from infill.gcode.numbers import format_word, write_words
+from infill.gcode.sections import LineMarks
+from infill.gcode.splicing import SplicedText, find_difference
+from infill.gcode.strokes import FILAMENT_UNIT, InfillStrokes
+from infill.gcode.table import GcodeTable, read_table
 
 MIN_STEP = 1e-6  # mm
 RATE_VARIATION = 0.03  # new strokes of one section have equal filament per mm up to this share
@@ -241,7 +240,7 @@ def compose_section(
         up, down = _retraction_lines(body, ways, counter, relative, ends) if retract else (b"", b"")
         pieces.append(up)
         pieces.append(
-            b"G1 X%s Y%s F%s%s" % (_format_word(goal[0]), _format_word(goal[1]), _format_word(ways.travel), ends)
+            b"G1 X%s Y%s F%s%s" % (format_word(goal[0]), format_word(goal[1]), format_word(ways.travel), ends)
         )
         pieces.append(down)
         feed = ways.travel if not retract else np.nan
@@ -277,10 +276,35 @@ def compose_section(
     pieces.extend(text for _, text in kept_lines)
     expected = float(table.e[body.last])
     if not relative and abs(counter - expected) >= FILAMENT_UNIT / 2:
-        pieces.append(b"G92 E%s%s" % (_format_word(expected, 5), ends))
+        pieces.append(b"G92 E%s%s" % (format_word(expected, 5), ends))
     if feed != body.feed_after:
-        pieces.append(b"G1 F%s%s" % (_format_word(body.feed_after), ends))
+        pieces.append(b"G1 F%s%s" % (format_word(body.feed_after), ends))
     return b"".join(pieces), pushed
+
+
+def redraw_sections(
+    table: GcodeTable,
+    drawn: Sequence[tuple[InfillSection, Sequence[Floats], float, Sequence[bool]]],
+    ways: TravelSettings,
+) -> tuple[bytes, list[float], str]:
+    """Write new paths into the text of a table; return it, the filament of each section, mm, and the first fault.
+
+    The fault is a difference elsewhere, or one of the new lines; "" if there is none.
+
+    Parameters
+    ----------
+    table : GcodeTable
+    drawn : sequence of (body, paths, rate, retracts)
+        As for `compose_section`.
+    ways : TravelSettings
+    """
+    bodies = [body for body, *_ in drawn]
+    composed = [compose_section(table, body, paths, rate, ways, retracts) for body, paths, rate, retracts in drawn]
+    texts = [text for text, _ in composed]
+    spliced = replace_sections(table, bodies, texts)
+    new_table = read_table(spliced.text, table.before)
+    fault = find_difference(table, new_table, spliced) or validate_section(new_table, spliced, bodies, texts)
+    return spliced.text, [filament for _, filament in composed], fault
 
 
 def replace_sections(table: GcodeTable, selected: Sequence[InfillSection], texts: Sequence[bytes]) -> SplicedText:
@@ -310,9 +334,7 @@ def validate_section(
     selected, texts
         As for `replace_sections`.
     """
-    fresh = np.ones(len(new_table), dtype=bool)
-    old = np.flatnonzero(spliced_text.same)
-    fresh[old + spliced_text.shift[old]] = False
+    fresh = spliced_text.new_lines(len(new_table))
     drawn = (
         fresh & (new_table.kind == MOVE) & (new_table.given[:, 0] | new_table.given[:, 1]) & (new_table.extruded != 0)
     )
@@ -345,13 +367,13 @@ def _retraction_lines(
     elif ways.retraction:
         low = -ways.retraction if relative else counter - ways.retraction
         high = ways.retraction if relative else counter
-        back = b"G1 E%s F%s%s" % (_format_word(low, 5), _format_word(ways.retract_feed), ends)
-        forth = b"G1 E%s F%s%s" % (_format_word(high, 5), _format_word(ways.prime_feed), ends)
+        back = b"G1 E%s F%s%s" % (format_word(low, 5), format_word(ways.retract_feed), ends)
+        forth = b"G1 E%s F%s%s" % (format_word(high, 5), format_word(ways.prime_feed), ends)
     else:
         return b"", b""
     if ways.lift:
-        back += b"G1 Z%s F%s%s" % (_format_word(body.z + ways.lift), _format_word(ways.lift_feed), ends)
-        forth = b"G1 Z%s F%s%s" % (_format_word(body.z), _format_word(ways.lift_feed), ends) + forth
+        back += b"G1 Z%s F%s%s" % (format_word(body.z + ways.lift), format_word(ways.lift_feed), ends)
+        forth = b"G1 Z%s F%s%s" % (format_word(body.z), format_word(ways.lift_feed), ends) + forth
     return back, forth
 
 
@@ -377,9 +399,3 @@ def _kept_lines(table: GcodeTable, body: InfillSection) -> list[tuple[float, byt
         for place in rows.tolist()
         if body.first + place not in left_out
     ]
-
-
-def _format_word(value: float, decimals: int = 3) -> bytes:
-    """Return a number as G-code has it, without trailing zeros and without "-0"."""
-    text = f"{value:.{decimals}f}".rstrip("0").rstrip(".")
-    return text.encode() if text not in ("", "-", "-0") else b"0"

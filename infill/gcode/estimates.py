@@ -68,7 +68,7 @@ class EstimateChange:
                 prepared = max(spans[-1] - spans[0], 0.0) if spans else 0.0
         return replace(self, silent=silent or longest * self.ratio, prepared=prepared)
 
-    def as_told(self, lines: Iterable[bytes], change: Mapping[int, float], area: float = 1.0) -> EstimateChange:
+    def as_told(self, lines: Iterable[bytes], change: Mapping[int, float]) -> EstimateChange:
         """Return the change with ratios from the filament that the print states by tool, if it does.
 
         Parameters
@@ -76,18 +76,89 @@ class EstimateChange:
         lines : iterable of bytes
             Lines that state time or filament.
         change : mapping of int to float
-            Additional filament by tool, in the print's own unit: mm, or mm³ for volumetric E.
-        area : float
-            Section of the filament, mm², for volumetric E; else 1.
+            Additional filament by tool, mm.
         """
         for line in lines:
             if line.startswith(b"; filament used [mm] = "):
                 stated = [float(number) for number in _NUMBER.findall(line.partition(b" = ")[2])]
-                updated = [length + change.get(tool, 0.0) / area for tool, length in enumerate(stated)]
+                updated = [length + change.get(tool, 0.0) for tool, length in enumerate(stated)]
                 if all(length > 0 for length in updated if length) and sum(stated) > 0:
                     ratios = tuple(new / old if old > 0 else 1.0 for new, old in zip(updated, stated, strict=True))
                     return replace(self, filament=sum(updated) / sum(stated), tools=ratios)
         return self
+
+
+@dataclass(frozen=True, kw_only=True)
+class StatedAmounts:
+    """Filament that a print states, of all tools: mm and grams, None where it states none."""
+
+    millimetres: float | None
+    grams: float | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Restatement:
+    """Statements of time and filament of a print, updated.
+
+    Parameters
+    ----------
+    lines : list of bytes
+        Of the text.
+    metadata : dict
+        New values outside the text, by name.
+    before, after : StatedAmounts
+    seconds : float
+        That the print stated before; 0 if it stated none.
+    """
+
+    lines: list[bytes]
+    metadata: dict[str, str]
+    before: StatedAmounts
+    after: StatedAmounts
+    seconds: float
+
+
+def restate(
+    lines: Sequence[bytes],
+    metadata: Iterable[tuple[bytes, bytes]],
+    change: EstimateChange,
+    increase: Mapping[int, float],
+    elapsed: Sequence[float] | None,
+) -> Restatement:
+    """Update all that a print states of time and filament.
+
+    Parameters
+    ----------
+    lines : sequence of bytes
+        Those of the text that `find_estimates` finds.
+    metadata : iterable of (name, value)
+        Of the print, outside the text.
+    change : EstimateChange
+        As planned; its silent and preparation times, and its ratios, may follow from the statements.
+    increase : mapping of int to float
+        Additional filament by tool, mm.
+    elapsed : sequence of float, optional
+        Seconds that the print takes up to each line; None if nothing changes.
+    """
+    outside = {name: b"; %s = %s" % (name, value) for name, value in metadata}
+    old = [*lines, *outside.values()]
+    change = change.told_by(old).as_told(lines, increase)
+    new_lines, new_outside = list(lines), {}
+    if elapsed is not None:
+        progress = zip(lines, elapsed, completion_letters(lines), strict=True)
+        new_lines = [update_estimate(line, seconds, change, is_finished) for line, seconds, is_finished in progress]
+        stating = {name: line for name, line in outside.items() if any(find_estimates(line))}
+        new_outside = {name: update_estimate(line, 0.0, change) for name, line in stating.items()}
+    return Restatement(
+        lines=new_lines,
+        metadata={
+            name.decode("utf-8", "surrogateescape"): line.partition(b" = ")[2].decode("utf-8", "surrogateescape")
+            for name, line in new_outside.items()
+        },
+        before=_stated_amounts(old),
+        after=_stated_amounts([*new_lines, *(outside | new_outside).values()]),
+        seconds=max((stated_seconds(line) for line in old if b"silent" not in line), default=0.0),
+    )
 
 
 def find_estimates(text: bytes) -> Iterator[tuple[int, int]]:
@@ -184,23 +255,18 @@ def _words_of(line: bytes, letters: bytes) -> dict[bytes, float]:
     return {match[1]: float(match[2]) for match in words if match[1] in letters}
 
 
-def stated_grams(lines: Iterable[bytes]) -> float | None:
-    """Return the grams of filament, of all tools, that the lines of a print state; None if they state none."""
+def _stated_amounts(lines: Sequence[bytes]) -> StatedAmounts:
+    """Read the filament, of all tools, that the lines of a print state."""
     names = (b"; filament used [g] = ", b"; total filament used [g] = ", b"; total filament weight [g] : ")
-    return _stated_filament(lines, names)
-
-
-def stated_millimetres(lines: Iterable[bytes]) -> float | None:
-    """Return the mm of filament, of all tools, that the lines of a print state; None if they state none."""
-    lines = list(lines)
     millimetres = _stated_filament(lines, (b"; filament used [mm] = ", b"; total filament length [mm] : "))
     metres = None if millimetres is not None else _stated_filament(lines, (b";Filament used: ",))
-    return millimetres if metres is None else metres * 1000
+    return StatedAmounts(
+        millimetres=millimetres if metres is None else metres * 1000, grams=_stated_filament(lines, names)
+    )
 
 
-def _stated_filament(lines: Iterable[bytes], beginnings: Sequence[bytes]) -> float | None:
+def _stated_filament(lines: Sequence[bytes], beginnings: Sequence[bytes]) -> float | None:
     """Return the sum of the numbers on the first line with one of these beginnings, None if there is none."""
-    lines = list(lines)
     for begin in beginnings:
         for line in lines:
             if line.startswith(begin):

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from typing import Any, Final
 
 from infill.gcode.limits import JERK_MODELS, Axes, Limits, Model, apply_command, is_valid_limit
-from infill.gcode.table import DIAMETER, MAX_TOOLS
+from infill.gcode.machine_state import DIAMETER, MAX_TOOLS
 
 KLIPPER: Final = Limits(model="klipper", feedrate=(300.0, 300.0, 5.0, 50.0))
 MARLIN: Final = Limits()  # its factory settings
@@ -213,7 +213,7 @@ def filament_units(head: bytes, settings: Mapping[str, str]) -> tuple[bool, tupl
 
 
 def extrusion_rule(head: bytes, settings: Mapping[str, str]) -> str:
-    """Return klipper or reprapfirmware if its own rule makes E relative, else an empty text: see `State.firmware`.
+    """Return klipper or reprapfirmware if its own rule makes E relative, else "": see `MachineState.firmware`.
 
     >>> extrusion_rule(b"", {"gcode_flavor": "klipper"}), extrusion_rule(b"", {"gcode_flavor": "marlin2"})
     ('klipper', '')

@@ -9,11 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.checks import FARTHEST
 from infill.gcode.numbers import MAX_DIGITS, MINUS, PLUS, POINT, SEMICOLON, SPACE, TAB, read_numbers
 from infill.gcode.unusual_moves import may_move, read_move
-
-Floats = NDArray[np.float64]
 
 # Kinds of lines. Only MOVE and ARC are ever drawn; ODD is a line in an unusual spelling: if it is readable, it
 # has values like the others, but its text holds more than they state; if not, it is `unread`.

@@ -21,10 +21,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Flags
 from infill.errors import FormatError
 
 Bytes = NDArray[np.uint8]
-Flags = NDArray[np.bool_]
 
 SIGNAL = b"\xff\xff"
 PACKED, PLAIN, RESET, QUERY, NO_SPACES, SPACES = 251, 250, 249, 248, 247, 246

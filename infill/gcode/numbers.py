@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Integers, Places
+
 Bytes = NDArray[np.uint8]
-Places = NDArray[np.intp]
-Integers = NDArray[np.int64]
 
 MAX_DIGITS = 15  # a float64 holds them exactly
 MAX_CHARACTERS = MAX_DIGITS + 2  # with a sign and a point
@@ -230,3 +230,13 @@ def _format_numbers(values: NDArray[np.float64], decimals: int) -> Bytes:
         column -= 1
     text[:, 0] = np.where(scaled < 0, MINUS, 0)
     return text
+
+
+def format_word(value: float, decimals: int = 3) -> bytes:
+    """Return a number as G-code has it, without trailing zeros and without "-0".
+
+    >>> format_word(1.5), format_word(-0.0001), format_word(20.0)
+    (b'1.5', b'0', b'20')
+    """
+    text = f"{value:.{decimals}f}".rstrip("0").rstrip(".")
+    return text.encode() if text not in ("", "-", "-0") else b"0"

@@ -49,17 +49,15 @@ class SlicedFile:
     form : {"text", "binary", "archive"}
     plates : tuple of int
         Of an archive: those that have G-code.
+    parts : tuple of int or None
+        Prints in the file: the plates of an archive, or None for its only one.
     """
 
     name: str
     file: BinaryIO
     form: Form
     plates: tuple[int, ...] = ()
-
-    @property
-    def parts(self) -> tuple[int | None, ...]:
-        """Prints in the file: the plates of an archive, or None for its only one."""
-        return self.plates or (None,)
+    parts: tuple[int | None, ...] = (None,)
 
     def part(self, plate: int | None) -> int | None:
         """Return the print of a plate; without a plate, the first.
@@ -98,6 +96,31 @@ class SlicedFile:
         with opening as sliced_text:
             _check_line_ends(sliced_text.text)
             yield sliced_text
+
+    def rewrite(
+        self, target: BinaryIO, texts: Mapping[int | None, Iterable[bytes]], metadata: Mapping[str, str]
+    ) -> None:
+        """Write the file with new text, in its own form.
+
+        Parameters
+        ----------
+        target : binary file
+        texts : mapping from part to iterable of bytes
+            The new text of each part that changes, in pieces.
+        metadata : mapping
+            New values of the metadata outside the text of binary G-code.
+        """
+        self.file.seek(0)
+        if self.form == "archive":
+            from infill.gcode.bambu_archive import rewrite_archive
+
+            rewrite_archive(self.file, target, {plate: text for plate, text in texts.items() if plate is not None})
+        elif self.form == "binary":
+            from infill.gcode.binary import rewritten
+
+            rewritten(self.file, target, texts[None], metadata)
+        else:
+            target.writelines(texts[None])
 
     @contextlib.contextmanager
     def _binary(self, folder: Path | None) -> Iterator[SlicedText]:
@@ -153,7 +176,7 @@ def open_sliced(source: Path) -> Iterator[SlicedFile]:
                 from infill.gcode.bambu_archive import list_plates
 
                 numbers = list_plates(file)
-            yield SlicedFile(name=source.name, file=file, form=form, plates=numbers)
+            yield SlicedFile(name=source.name, file=file, form=form, plates=numbers, parts=numbers or (None,))
     except FormatError as error:
         raise FormatError(f"{source}: {error}") from error
 

@@ -13,14 +13,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats, Places
 from infill.gcode.lines import MOVE
-from infill.gcode.numbers import write_words
-from infill.gcode.sections import FILAMENT_UNIT, InfillStrokes
+from infill.gcode.numbers import format_word, write_words
+from infill.gcode.strokes import FILAMENT_UNIT, InfillStrokes
 from infill.gcode.table import GcodeTable, read_table
 from infill.paths.corners import UNIT
-
-Floats = NDArray[np.float64]
-Places = NDArray[np.intp]
 
 RATE_TOLERANCE = 0.005  # of the filament per mm, in addition to rounding
 
@@ -67,6 +65,13 @@ class SplicedText:
     shift: Places
     same: NDArray[np.bool_]
 
+    def new_lines(self, count: int) -> NDArray[np.bool_]:
+        """Tell which lines of the new text, `count` in all, are no copies."""
+        new = np.ones(count, dtype=bool)
+        old = np.flatnonzero(self.same)
+        new[old + self.shift[old]] = False
+        return new
+
 
 def splice_paths(table: GcodeTable, strokes: InfillStrokes, new: NewPaths) -> SplicedText:
     """Replace strokes of a table by new paths; return the new text."""
@@ -101,7 +106,7 @@ def splice_paths(table: GcodeTable, strokes: InfillStrokes, new: NewPaths) -> Sp
         else:
             _append_mixed(pieces, table, strokes, new, k, row[low:high], low, rows.text, rows.start)
         if reset[k]:
-            pieces.append(b"G92 E%s%s" % (_format_shortest(float(expected[k])), ends))
+            pieces.append(b"G92 E%s%s" % (format_word(float(expected[k]), 5), ends))
         same[first_old : last_old + 1] = False
         change[last_old + 1] += high - low - old + bool(reset[k])
         copied_lines = last_old + 1
@@ -164,12 +169,6 @@ def _line_end(table: GcodeTable) -> bytes:
     return b"\r\n" if table.data[:4096].count(b"\r\n") > table.data[:4096].count(b"\n") / 2 else b"\n"
 
 
-def _format_shortest(value: float) -> bytes:
-    """Return a number with up to five decimals, without trailing zeros and without "-0"."""
-    text = f"{value:.5f}".rstrip("0").rstrip(".")
-    return text.encode() if text not in ("", "-", "-0") else b"0"
-
-
 def verify_replay(table: GcodeTable, strokes: InfillStrokes, new: NewPaths, spliced_text: SplicedText) -> str:
     """Replay old and new text from the same state; describe the first forbidden difference, "" if there is none.
 
@@ -221,9 +220,7 @@ def _find_wrong_move(
     table: GcodeTable, strokes: InfillStrokes, new: NewPaths, spliced_text: SplicedText, new_table: GcodeTable
 ) -> str:
     """Describe the first fault of the new moves; "" if there is none."""
-    fresh = np.ones(len(new_table), dtype=bool)
-    old = np.flatnonzero(spliced_text.same)
-    fresh[old + spliced_text.shift[old]] = False
+    fresh = spliced_text.new_lines(len(new_table))
     move = np.flatnonzero(fresh & (new_table.kind == MOVE) & (new_table.given[:, 0] | new_table.given[:, 1]))
     owner = np.repeat(np.arange(len(new.which)), np.diff(new.first) - 1)
     if len(move) != len(owner):

@@ -1,14 +1,17 @@
-"""A print as batches of whole layers, so that memory does not grow with the file."""
+"""A print in pieces, so that memory does not grow with the file: batches of whole layers, and a text with edits."""
 
 from __future__ import annotations
 
+import os
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import BinaryIO
 
-from infill.errors import FormatError
+from infill.errors import FormatError, GeometryError
 
 BATCH = 1 << 19  # bytes of text read at a time, up to the next layer
+AT_ONCE = 1 << 20  # bytes of an edited text that are read at once
+MAX_CHUNK_BYTES = 65_536  # bytes; libbgcode and PrusaSlicer put as many into a block of binary G-code
 MAX_LINE_BYTES = 8 << 20  # bytes; slicers stay far below
 MAX_LAYER_BYTES = 64 << 20  # bytes; a larger one is cut between two lines
 LAYER_TAG = re.compile(rb"^(?:;LAYER_CHANGE|; CHANGE_LAYER|;LAYER:)", re.MULTILINE)
@@ -67,3 +70,55 @@ def _check_line(text: bytes) -> None:
                 f"a line of more than {MAX_LINE_BYTES >> 20} MiB is not G-code; give the file that the slicer wrote"
             )
         begin = end + 1
+
+
+def whole_lines(texts: Iterable[bytes]) -> Iterator[bytes]:
+    r"""Join texts and cut them at line ends, as late as MAX_CHUNK_BYTES allows; a longer line is a piece of its own.
+
+    Examples
+    --------
+    >>> list(whole_lines([b"G28\nG1 ", b"X1\n"]))
+    [b'G28\nG1 X1\n']
+    """
+    rest = bytearray()
+    for text in texts:
+        rest += text
+        while len(rest) > MAX_CHUNK_BYTES:
+            cut = rest.rfind(b"\n", 0, MAX_CHUNK_BYTES) + 1 or rest.find(b"\n", MAX_CHUNK_BYTES) + 1
+            if not cut:
+                break
+            yield bytes(rest[:cut])
+            del rest[:cut]
+    if rest:
+        yield bytes(rest)
+
+
+def edited_text(file: BinaryIO, edits: Iterable[tuple[int, int, bytes]]) -> Iterator[bytes]:
+    """Yield the text of a file with edits, in pieces.
+
+    Parameters
+    ----------
+    file : binary file
+    edits : iterable of (place, length, text)
+        Replacements, in order.
+
+    Raises
+    ------
+    GeometryError
+        If the file ends before an edit.
+
+    >>> import io
+    >>> b"".join(edited_text(io.BytesIO(b"abcdef"), [(1, 2, b"X"), (6, 0, b"!")]))
+    b'aXdef!'
+    """
+    position = 0
+    for place, length, text in (*edits, (file.seek(0, os.SEEK_END), 0, b"")):
+        file.seek(position)
+        while position < place:
+            piece = file.read(min(AT_ONCE, place - position))
+            if not piece:
+                raise GeometryError("a temporary file ended early; free some space on the disk and try again")
+            yield piece
+            position += len(piece)
+        yield text
+        position = place + length

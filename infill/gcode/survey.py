@@ -11,8 +11,10 @@ from typing import BinaryIO
 
 from infill.errors import FormatError
 from infill.gcode.found_limits import extrusion_rule, filament_units
+from infill.gcode.limits import is_valid_limit
+from infill.gcode.machine_state import MachineState
 from infill.gcode.stream import LAYER_TAG, MAX_LINE_BYTES
-from infill.gcode.table import MachineState, read_table
+from infill.gcode.table import read_table
 
 HEAD = 1 << 18  # bytes read for the header and the modes
 TAIL = 1 << 17  # bytes read for the settings
@@ -57,6 +59,10 @@ class Survey:
         The file itself sets its counter of filament by G92.
     windows : tuple of bytes
         Whole layers at several places of the file.
+    layers : float
+        Approximate number of layers.
+    small : bool
+        True if nearly every layer was read.
     """
 
     size: int
@@ -66,27 +72,21 @@ class Survey:
     stamped: bool
     resets_filament: bool
     windows: tuple[bytes, ...]
+    layers: float
+    small: bool
 
-    @property
-    def small(self) -> bool:
-        """True if nearly every layer was read."""
-        return self.size <= SMALL_FILE
+    def number(self, *names: str, limit: str = "") -> float | None:
+        """Return the first of several settings that is present, as a number; the first item of a list.
 
-    @property
-    def layers(self) -> float:
-        """Approximate number of layers."""
-        tags = sum(len(LAYER_TAG.findall(text)) for text in self.windows)
-        return self.size * tags / max(1, sum(map(len, self.windows)))
-
-    def number(self, *names: str) -> float | None:
-        """Return the first of several settings that is present, as a number; the first item of a list."""
+        With the name of a `limit`, return only a number that a machine may have.
+        """
         for name in names:
             try:
                 number = float(self.settings[name].split(",")[0].rstrip("%"))
             except (KeyError, ValueError):
                 continue
             if math.isfinite(number):
-                return number
+                return number if not limit or is_valid_limit(number, limit) else None
         return None
 
 
@@ -136,16 +136,20 @@ def survey_print(file: BinaryIO, *, more: bool = False, settings: Mapping[str, s
         diameters=before.diameters,
     )
     windows = ALL_WINDOWS if size <= SMALL_FILE else MORE_WINDOWS if more else WINDOWS
-    samples = tuple(text for text in (_read_window(file, size, (k + 0.5) / windows) for k in range(windows)) if text)
+    samples = [text for text in (_read_window(file, size, (k + 0.5) / windows) for k in range(windows)) if text]
+    samples = list(dict.fromkeys(samples))
+    tags = sum(len(LAYER_TAG.findall(text)) for text in samples)
     file.seek(0)
     return Survey(
         size=size,
         slicer=slicer[1].decode("latin-1").strip() if slicer else "",
-        settings={**file_settings, **(settings or {})},
+        settings=all_settings,
         begin=begin,
         stamped=STAMP in head,
         resets_filament=b"G92 E" in head or any(b"G92 E" in text for text in samples),
-        windows=tuple(dict.fromkeys(samples)),
+        windows=tuple(samples),
+        layers=size * tags / max(1, sum(map(len, samples))),
+        small=size <= SMALL_FILE,
     )
 
 

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.meshes.distance import TriangleTree, morton_order
 from infill.meshes.measuring import face_areas
 from infill.surface import Surface
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
     from infill.reports.smoothing import Distances, Place
 
 Word = Literal["kept", "changed a little", "lost"]
-Floats = NDArray[np.float64]
 Kinds = Callable[[Floats, NDArray[np.integer]], NDArray[np.integer]]
 
 # Kinds of points: those that count, those where solid is too thin to last, on a sheet without solid, or inside solid.

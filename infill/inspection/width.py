@@ -11,11 +11,10 @@ import shapely
 from numpy.typing import NDArray
 from shapely import MultiLineString
 
+from infill.arrays import Floats
 from infill.errors import ParameterError
 from infill.grid import VOID, Grid
 from infill.inspection.rays import length_inside
-
-Floats = NDArray[np.float64]
 
 MOST_SAMPLES = 4000
 # Clearance in line widths of a ray across a wall, and of its foot, from nodes, ends and other lines: nearer to them,

@@ -13,7 +13,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from infill.arrays import Floats
+
 ROUNDS = 6  # of corrections of the scales for cells that are not cubes
 MOST = 2.5  # largest correction of a scale, up or down, as a factor
 FOLDED = 0.02  # of the number of cells in a volume where they are largest: with fewer, cells nearly fold over

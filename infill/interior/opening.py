@@ -11,6 +11,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.errors import GeometryError
 from infill.isosurfaces.components import shell_names
 from infill.meshes.shells import first_vertex_of_shells, select_faces, shell_volumes
@@ -19,7 +20,6 @@ from infill.meshes.winding import winding_numbers
 from infill.surface import Surface
 
 Open = Literal["top", "bottom", "both"]
-Floats = NDArray[np.float64]
 
 LEVEL = 1e-5  # of the part's longest side, by which a flat side may be uneven: as much as single precision makes it
 LEAST = 1.0  # cells of the grid: voids that reach less deep into the part are left solid

@@ -16,6 +16,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.errors import GeometryError
 from infill.graph import label_connected
 from infill.isosurfaces.components import shell_names
@@ -24,7 +25,6 @@ from infill.meshes.solids import simplify_open_piece
 from infill.meshes.split_components import concatenate_surfaces
 from infill.surface import Surface
 
-Floats = NDArray[np.float64]
 Integers = NDArray[np.integer]
 
 AT_ONCE = 30_000  # triangles simplified at a time, if they belong to several components: this saves memory

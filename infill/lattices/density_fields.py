@@ -10,13 +10,13 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.drawings.bitmaps import read_grey
 from infill.errors import FormatError, ParameterError, UsageError
 from infill.files.broken import error_text, require_readable, wrap_reader_errors
 from infill.interior.interior import Interior
 from infill.options.modules import load_object, names_code
 
-Floats = NDArray[np.float64]
 AXES = ("x", "y", "z")
 SKIN = "skin"
 PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff")

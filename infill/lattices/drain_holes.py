@@ -32,8 +32,6 @@ SIDES = 32
 TURNS = (0.0, 0.037, 0.071, 0.113)  # radians: rotations of the holes, tried in order, so that no two vertices coincide
 NO_DRAINS = DrainPlan(holes=())
 
-Floats = NDArray[np.float64]
-
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class DrainedSolid:

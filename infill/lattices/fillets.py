@@ -8,6 +8,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from patterns.unit_cells import Bars, Cellular, Planes
 
 # Curvature of a corner of a void at its tip, times sqrt(2 t): of the solution of curve shortening that begins as this
@@ -22,8 +23,6 @@ THINNER = 0.1  # of a bar, which curvature may take for corners sharper than rig
 FEW = 0.02  # of the corners may be sharper
 STRAIGHT = 150.0  # degrees: wider angles are not corners
 EQUAL = 1e-6  # of a cell: ends of bars that are nearer than this coincide
-
-Floats = NDArray[np.float64]
 
 
 def tip_curvature(degrees: float) -> float:

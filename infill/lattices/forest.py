@@ -7,12 +7,11 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Flags, Floats
+
 NONE = -1  # the next node after a foot
 SAME = 0.5  # cells: a joint nearer to a node than this is the node
 SURE = 0.01  # cells: distances that differ by less are equal
-
-Floats = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 
 
 @dataclass(kw_only=True)

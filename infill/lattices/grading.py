@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.errors import GeometryError
 from infill.interior.conformal_map import fit_conformal_map, spline_slopes
 from infill.interior.interior import Interior
@@ -28,7 +29,6 @@ SHIFTS = (  # of a cell: along every axis, the middles of its four quarters
     (-0.125, 0.125, 0.375),
     (0.375, -0.375, -0.125),
 )
-Floats = NDArray[np.float64]
 UNIFORM_WIDTH = (np.ones((1, 1, 1), dtype=np.float32), 1.0)  # walls of one width everywhere, as kernels take it
 
 

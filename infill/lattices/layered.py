@@ -13,6 +13,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.interior.interior import BAND, Interior
 from infill.kernels.threads import in_threads, thread_count
 from infill.lattices.branching import BranchLines
@@ -24,8 +25,6 @@ from patterns.protocol import LEVEL_SET, LevelSet, Pattern, draw_lines, gives, w
 LOOKED_AT = 8  # heights at which corners are looked at
 STEEPEST = 1.75  # slope of a wall, 60 degrees: lines that move by more from layer to layer belong to another wall
 WIDER_LINES = 1.5  # range of line widths for which distances suffice, over the width they were made for
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.interior.interior import Interior
 from infill.isosurfaces.components import shell_names
 from infill.lattices.bodies import Fields
@@ -18,8 +19,6 @@ from infill.meshes.measuring import face_areas, volume_and_area
 from infill.meshes.solids import shared_volume
 from infill.meshes.split_components import concatenate_surfaces
 from infill.surface import Surface
-
-Floats = NDArray[np.float64]
 
 SAMPLES, FEWEST = 2000, 50  # points, and the least number of them for a median
 START, MOST = 0.25, 3.0  # of the width as drawn: where the search across begins, and where it is given up

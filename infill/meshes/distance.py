@@ -7,10 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.kernels.threads import in_threads, thread_count
 from infill.surface import Surface
-
-Floats = NDArray[np.float64]
 
 LEAF = 4  # triangles in a leaf of the tree
 BITS, INDEX_BITS = 10, 34  # of each coordinate, for the order of the leaves, and of the place of a triangle

@@ -9,12 +9,12 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.kernels.threads import run_together, thread_count
 from infill.meshes.distance import TriangleTree, morton_order
 from infill.meshes.project_back import crossing_corners, project_back
 from infill.surface import Surface
 
-Floats = NDArray[np.float64]
 Corners = NDArray[np.int32]
 
 RIDGE_HEIGHT = 0.25  # of the tolerance: edges that rise higher above their neighbours get sample points of their own

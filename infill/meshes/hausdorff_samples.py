@@ -7,12 +7,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats, Integers
 from infill.kernels.threads import in_threads, thread_count
 from infill.meshes.distance import LEAF, TriangleTree
 from infill.surface import Surface
-
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
 
 FINER, WIDE = 0.2, 2.0  # sides of the original's triangles, and tolerances: spacing of samples on edges
 # In sides of the original's triangles: largest spacing of samples on the original, and on the result, whose triangles

@@ -7,6 +7,7 @@ from collections import defaultdict
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.graph import label_connected
 from infill.meshes.shells import vertex_components
 from infill.surface import Edges
@@ -15,7 +16,6 @@ FLAT = 1e-9  # a component with less than this share of its longest side cubed h
 
 WELD = 0.01  # of a cell: corners of open edges that are closer together than this are merged
 
-Floats = NDArray[np.float64]
 Integers = NDArray[np.integer]
 
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
+from infill.arrays import Floats, Integers
 
 AT_ONCE = 100_000  # polygons split at a time
 MOST_FANS = 16  # corners: in a polygon of at most this many, each is tried as the start of a fan

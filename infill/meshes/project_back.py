@@ -5,15 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from infill.arrays import Floats, Integers
 from infill.meshes.distance import TriangleTree
 from infill.meshes.hausdorff_samples import HausdorffSamples, find_strays, level_faces, sample_original
 from infill.meshes.intersections import intersecting_pairs
 from infill.surface import Surface
-
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
 
 ROUNDS = 12
 MANY_FACES = 256  # faces: up to this many, finding the level ones takes longer than sampling all

@@ -5,11 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats, Integers
 from infill.meshes.split_components import edge_components
 from infill.surface import Surface
-
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
 
 SAMPLES = 5  # faces of a shell at which the windings of other shells are counted; the majority decides
 

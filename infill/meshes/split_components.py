@@ -8,13 +8,13 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.graph import label_connected
 from infill.meshes.hole_filling import component_volumes, fill_holes, open_edges, orient_faces, weld_boundary
 from infill.meshes.merging import merge_unless_closed
 from infill.meshes.winding import winding_numbers
 from infill.surface import Surface
 
-Floats = NDArray[np.float64]
 Integers = NDArray[np.integer]
 
 SAMPLES = 9  # faces of a component that are sampled to find the components around it

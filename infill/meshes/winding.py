@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.kernels.threads import in_threads, thread_count
 from infill.surface import Surface
-
-Floats = NDArray[np.float64]
 
 MOST_TRIANGLE_TESTS = 500_000_000  # most triangles examined to tell which points are hidden: half a second
 

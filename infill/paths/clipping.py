@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.paths.families.protocol import Path
+from infill.paths.families.family import Path
 from infill.paths.outlines import Floats, Numbers, Outline
 
 SAME = 1e-9  # mm: a cut this close to a corner is at the corner

@@ -14,15 +14,12 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from infill.arrays import Floats, Places
 from infill.checks import FARTHEST
 from infill.paths.contact import SELF_STRETCH, TOUCHING, sample_paths
 from infill.paths.corners import corner_turns
 from infill.paths.neighbours import BESIDE, BeadIndex, index_beads
-
-Floats = NDArray[np.float64]
-Places = NDArray[np.intp]
 
 OUTWARDS = 0.75  # how far a corner moves, over the distance from there to its arc: the length stays about the same
 ALONG = 0.3  # the same along a leg that touches, over the length of the leg that the arc takes

@@ -19,10 +19,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Places = NDArray[np.intp]
+from infill.arrays import Floats, Places
 
 SHARPEST = math.radians(172)  # a path that turns back on itself keeps its corner
 LEAST_DEVIATION = 0.001  # mm: less than the numbers of G-code can tell

@@ -14,7 +14,7 @@ import numpy as np
 from infill.checks import check_positive
 from infill.errors import ParameterError
 from infill.paths.clipping import clip
-from infill.paths.families.protocol import TOUCH, Family, Path, RegionFamily
+from infill.paths.families.family import TOUCH, Family, Path, PathSpec, RegionFamily
 from infill.paths.joining import join
 from infill.paths.layer_below import LayerBelow
 from infill.paths.ordering import order_paths
@@ -62,7 +62,7 @@ def cover(
         Area for centre lines, mm; pass an `Outline` to cover the same region repeatedly.
     family : Family
     cell, line_width, z, layer, radius
-        As for `Family.strands`. Corners are returned as such, to be rounded by up to `radius`.
+        As for `PathSpec`. Corners are returned as such, to be rounded by up to `radius`.
     anchor, anchor_max : float
         As for `join`, mm.
     start : (x, y), optional
@@ -88,8 +88,8 @@ def cover(
     """
     outline = region if isinstance(region, Outline) else outline_of(region)
     check_cell(cell, line_width)
-    paths = _draw_joined(outline, family, cell, line_width, z, layer, radius, anchor, anchor_max, ground)
-    return order_paths(paths, start)
+    spec = PathSpec(cell=cell, line_width=line_width, z=z, layer=layer, radius=radius)
+    return order_paths(_draw_joined(outline, family, spec, anchor, anchor_max, ground), start)
 
 
 def solve_cell(
@@ -138,7 +138,8 @@ def solve_cell(
     def ratio(cell: float) -> float:
         length = 0.0
         for (region, z, layer), number in places.items():
-            paths = _draw_joined(outlines[region], family, cell, line_width, z, layer, radius, anchor, anchor_max)
+            spec = PathSpec(cell=cell, line_width=line_width, z=z, layer=layer, radius=radius)
+            paths = _draw_joined(outlines[region], family, spec, anchor, anchor_max)
             length += number * (total_length(paths) if measure is None else measure(paths, cell))
         return length / target
 
@@ -203,21 +204,16 @@ def _search_cells(ratio: Callable[[float], float], start: float, smallest: float
 def _draw_joined(
     outline: Outline,
     family: Family,
-    cell: float,
-    line_width: float,
-    z: float,
-    layer: int,
-    radius: float,
+    spec: PathSpec,
     anchor: float,
     anchor_max: float,
     ground: LayerBelow | None = None,
 ) -> list[Path]:
     """Draw the paths of a family in a region, in any order."""
     if isinstance(family, RegionFamily):
-        return family.strands_inside(outline.region, cell=cell, line_width=line_width)
-    strands = family.strands(outline.region.bounds, cell=cell, line_width=line_width, z=z, layer=layer, radius=radius)
-    pieces = clip(strands, outline)
-    return join(pieces, outline, line_width=line_width, anchor=anchor, anchor_max=anchor_max, ground=ground)
+        return family.strands_inside(outline.region, spec)
+    pieces = clip(family.strands(outline.region.bounds, spec), outline)
+    return join(pieces, outline, line_width=spec.line_width, anchor=anchor, anchor_max=anchor_max, ground=ground)
 
 
 def check_cell(cell: float, line_width: float) -> None:

@@ -17,10 +17,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats, Places
 from infill.paths.corners import COARSEST, Machine
-
-Floats = NDArray[np.float64]
-Places = NDArray[np.intp]
 
 GENTLE = math.radians(40)  # a turn above this is a corner
 MOST_BULGE = 0.1  # mm between a curve and the slicer's chord

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.paths.clipping import Pieces
-from infill.paths.families.protocol import TOUCH, Path
+from infill.paths.families.family import TOUCH, Path
 from infill.paths.outlines import Floats, Numbers, Outline
 
 CLEAR = 0.95  # of the distance of touching beads: beads overlap by at most 5 %

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.paths.clipping import Pieces
-from infill.paths.families.protocol import TOUCH, Path
+from infill.paths.families.family import TOUCH, Path
 from infill.paths.gaps import CLEAR, Gaps, find_gaps
 from infill.paths.layer_below import LayerBelow
 from infill.paths.outlines import Outline

@@ -8,11 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.paths.contact import sample_paths
 from infill.paths.neighbours import BeadIndex, index_beads, project_to_beads
 from infill.ragged import concatenate_rows
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)

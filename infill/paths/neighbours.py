@@ -7,19 +7,15 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from infill.arrays import Floats, Places
 from infill.checks import FARTHEST
-from infill.paths.contact import STEP as FINE
-from infill.paths.contact import Samples, project_to_pieces, sample_paths
+from infill.paths.contact import project_to_pieces
 
 if TYPE_CHECKING:
     from scipy.spatial import cKDTree
 
-Floats = NDArray[np.float64]
-Places = NDArray[np.intp]
 
-STEP = 0.2  # mm between points on other beads
 BESIDE = 1.3  # line widths between the centre lines of a corner and of a bead that it lies beside
 # Line widths that a corner beside a bead may move away from it. At a third, a grid touches walls along 13 % less of its
 # length, at a twelfth 2 to 6 %; `touch` leaves the slicer's own infill more.
@@ -29,85 +25,6 @@ LARGEST_DISTANCE = 5.0  # mm, of a search
 NEAREST = 3  # candidate pieces of beads around a point
 LEAST_FILTERED = 500  # points: with fewer, a rough filter before the search gains nothing
 MOST_SQUARES = 1 << 24  # of a plane of squares: a byte each
-
-
-@dataclass(frozen=True, kw_only=True)
-class BeadMoves:
-    """The moves of a table that extrude and are not among the strokes of its infill.
-
-    Parameters
-    ----------
-    ends : (N, 2, 2) float64, mm
-        Both ends of each.
-    layer : (N,) int, ascending
-    skin : (N,) bool
-        True for solid infill; False for walls, supports and so on.
-    """
-
-    ends: Floats
-    layer: Places
-    skin: NDArray[np.bool_]
-
-    def walls(self, layers: Places) -> BeadIndex:
-        """Index the beads of some layers for searches."""
-        chosen = np.flatnonzero(np.isin(self.layer, layers))
-        points = sample_paths(self.ends[chosen].reshape(-1, 2), np.arange(len(chosen) + 1) * 2, STEP)
-        return index_beads(points.points, self.layer[chosen][points.path])
-
-    def around(self, number: int, step: float) -> LayerBeads:
-        """Return points on the beads of a layer, at most `step` apart, mm."""
-        samples = self.samples_of(number, step)
-        low, high = np.searchsorted(self.layer, [number, number + 1])
-        ends = self.ends[low:high].reshape(-1, 2)  # which stick out where lines turn
-        skin = self.skin[low:high]
-        return LayerBeads(
-            points=np.concatenate([samples.points, ends]),
-            skin=np.append(skin[samples.path], np.repeat(skin, 2)),
-            half=np.concatenate([samples.half, np.zeros(ends.shape)]),
-        )
-
-    def ends_of(self, number: int) -> Floats:
-        """Return both ends of the beads of a layer, (K, 2, 2), mm."""
-        low, high = np.searchsorted(self.layer, [number, number + 1])
-        return self.ends[low:high]
-
-    def samples_of(self, number: int, step: float = FINE) -> Samples:
-        """Return samples of the beads of a layer, at most `step` apart, mm."""
-        ends = self.ends_of(number)
-        return sample_paths(ends.reshape(-1, 2), np.arange(len(ends) + 1) * 2, step)
-
-
-@dataclass(frozen=True, kw_only=True)
-class LayerBeads:
-    """Points on the other beads of a layer.
-
-    Parameters
-    ----------
-    points : (N, 2) float64, mm
-    skin : (N,) bool
-        True on solid infill.
-    half : (N, 2) float64, mm, optional
-        From each, the middle of a piece of a bead, to the end of its piece; without it, beads are points.
-    """
-
-    points: Floats
-    skin: NDArray[np.bool_]
-    half: Floats | None = None
-
-    @cached_property
-    def all(self) -> BeadIndex:
-        """All of them, indexed as layer 0."""
-        return index_beads(self.points, half=self.half)
-
-    @cached_property
-    def walls(self) -> BeadIndex:
-        """Index of the beads that do not belong to skins."""
-        return index_beads(self.points[~self.skin], half=None if self.half is None else self.half[~self.skin])
-
-    @cached_property
-    def skins(self) -> BeadIndex:
-        """The skins."""
-        return index_beads(self.points[self.skin], half=None if self.half is None else self.half[self.skin])
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from infill.paths.clipping import is_closed
-from infill.paths.families.protocol import Path
+from infill.paths.families.family import Path
 
 ENTRIES = 12  # places at which a closed path may be entered, for the comparison with other paths
 
@@ -76,16 +76,3 @@ class _RemainingPoints:
 
         self._number = np.flatnonzero(self.left)
         self._tree = cKDTree(self._points[self._number])
-
-
-def travel_length(paths: Sequence[Path], start: tuple[float, float] | None = None) -> float:
-    """Return the travel between paths, mm, and from `start` to the first, if given.
-
-    >>> travel_length([np.array([[0.0, 0.0], [1.0, 0.0]]), np.array([[1.0, 1.0], [5.0, 0.0]])])
-    1.0
-    """
-    if not paths:
-        return 0.0
-    begins, ends = np.stack([path[0] for path in paths]), np.stack([path[-1] for path in paths])
-    total = float(np.hypot(*(begins[1:] - ends[:-1]).T).sum())
-    return total if start is None else total + float(np.hypot(*(begins[0] - np.array(start))))

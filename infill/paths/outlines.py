@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.errors import GeometryError
-from infill.paths.families.protocol import Path
+from infill.paths.families.family import Path
 
 if TYPE_CHECKING:
     from shapely import MultiPolygon, Polygon
 
-Floats = NDArray[np.float64]
 Numbers = NDArray[np.intp]
 
 

@@ -9,15 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats, Places
 from infill.paths.corner_offset import CornerFreedom, corner_freedom, offset_corners
 from infill.paths.corners import UNIT, Machine, RoundedPaths, round_corners
 from infill.paths.curves import MOST_BULGE, RecutPaths, recut_curves
 from infill.paths.neighbours import BESIDE, TOWARDS_LIMIT, BeadIndex, deviation_beside_beads
 from infill.paths.touch import touch_preserving_deviations
 from infill.ragged import concatenate_rows, split_rows
-
-Floats = NDArray[np.float64]
-Places = NDArray[np.intp]
 
 BESIDE_WALLS = 2.5  # times the deviation of other corners; from 3 on, chopped parts gain no time and move farther
 

@@ -10,13 +10,10 @@ leg share it.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from infill.arrays import Floats, Places
 from infill.paths.corners import corner_turns
 from infill.paths.neighbours import BeadIndex
-
-Floats = NDArray[np.float64]
-Places = NDArray[np.intp]
 
 REACH = 1.1  # line widths between centre lines of a wall and of infill that touches it
 MOST_LOST = 0.015  # of the length that touches walls

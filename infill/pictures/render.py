@@ -12,11 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.ragged import expand_rows
 from infill.surface import Surface
 
 Pixels = NDArray[np.uint8]
-Floats = NDArray[np.float64]
 Colour = tuple[int, int, int]
 Window = tuple[float, float, float, float]
 Paint = Callable[[Floats], NDArray[np.number]]

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.gcode.limits import Limits
 
-Floats = NDArray[np.float64]
 MIN_FEEDRATE = 0.01  # mm/s: replaces a feed rate of zero
 DEFAULT_FEEDRATE = 25.0  # mm/s: that of Marlin and Klipper before a file states one
 

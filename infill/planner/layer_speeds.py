@@ -10,6 +10,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.errors import ParameterError
 from infill.gcode.dialect import role_of
 from infill.gcode.sliced_file import open_sliced
@@ -19,7 +20,6 @@ from infill.planner.printing_time import collect_limits, open_timeline
 from infill.planner.struct_of_arrays import concatenate_rows, slice_rows
 from infill.planner.timeline import Steps
 
-Floats = NDArray[np.float64]
 PIECE_LENGTH: Final = 0.4  # mm
 
 

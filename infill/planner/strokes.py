@@ -8,10 +8,10 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.planner.lookahead import MotionPlan
 from infill.planner.timeline import Steps
 
-Floats = NDArray[np.float64]
 SHARP_TURN: Final = np.radians(30)  # a turn that counts
 SHORT_SEGMENT: Final = 0.1  # mm: a segment that counts as short; its flow is rounded by the file's digits
 # Lengths are counted in bins of 1.2 %, 200 a decade, from 1 µm to 1 m.

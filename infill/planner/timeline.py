@@ -17,7 +17,8 @@ from infill.gcode.dialect import MAX_TAG_BYTES, TAGS, parse_tag
 from infill.gcode.found_limits import FileLimits, read_limits
 from infill.gcode.limits import LIMITING_CODES, Limits
 from infill.gcode.lines import ARC, COMMENT, MOVE, ODD, GcodeCommand
-from infill.gcode.table import GcodeTable, MachineState, firmware_retraction, read_table
+from infill.gcode.machine_state import MachineState, firmware_retraction
+from infill.gcode.table import GcodeTable, read_table
 from infill.gcode.unusual_moves import is_macro
 from infill.planner.bounds import Floats, Moves
 from infill.planner.chords import arc_chords

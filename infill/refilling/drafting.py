@@ -7,24 +7,26 @@ and contact and, in a small print, on the filament.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
+
+import numpy as np
 
 from infill.errors import FormatError
 from infill.files.whole_files import wrap_os_errors
 from infill.gcode.estimates import find_estimates
 from infill.gcode.survey import Survey
 from infill.kernels.threads import in_order, thread_count
-from infill.refilling.batch import Batch, read_batches
-from infill.refilling.layers import RefilledBatch, measure_batch, refill_batch
+from infill.planner.print_clock import PrintClock, path_seconds
+from infill.refilling.layers import Layers, read_layers
 from infill.refilling.planning import RefillPlan
-from infill.refilling.repath import LayerMemory
+from infill.refilling.replace import LayerMemory, replace_infill
 from infill.refilling.request import AUTO, KEEP, Progress
 from infill.refilling.rules import RefillRules
-from infill.refilling.stats import RefillStats
-from infill.refilling.support import LEAST_SHARE, kept_length_share, kept_shares, smaller_deviation
-from infill.refilling.timing import PrintClock
+from infill.refilling.smooth_in_place import smooth_in_place
+from infill.refilling.stats import NewInfill, RefillStats, count_refill
+from infill.refilling.support import LEAST_SHARE, kept_length_share, kept_shares, measure_layers, smaller_deviation
 
 PROGRESS_BYTES = 1 << 22  # bytes between two reports of progress
 MOST_REDRAWS = 3  # times that a print is redrawn with smaller moves of corners
@@ -33,129 +35,130 @@ FILAMENT_TOLERANCE = 0.005  # relative tolerance of the filament of all infill
 MOST_THREADS = 4  # more threads would only take memory: a single one reads for all of them
 
 
-def draft_print(
-    file: BinaryIO,
-    draft: BinaryIO,
-    print_survey: Survey,
-    rules: RefillRules,
-    plan: RefillPlan | None,
-    progress: Progress | None,
-    clock: PrintClock | None = None,
-) -> tuple[RefillStats, RefillRules]:
-    """Write the new text to a draft; return the statistics and the final rules.
+@dataclass(frozen=True, kw_only=True)
+class Drafting:
+    """A print that is drawn into a draft, as often as its targets need.
 
     Parameters
     ----------
     file, draft : binary files
     print_survey : Survey
-    rules : RefillRules
-    plan : RefillPlan, optional
-        Of a new pattern; None for the slicer's own paths.
     progress : callable, optional
-    clock : PrintClock, optional
-        Receives the lines of the file as they are read.
-
-    Raises
-    ------
-    FormatError
-        If no layer is marked.
-    OutputError
-        If the draft cannot be written.
     """
 
-    def draw(rules: RefillRules, plan: RefillPlan | None, clock: PrintClock | None = None) -> RefillStats:
-        return _draw(file, draft, print_survey, rules, plan, progress, clock)
+    file: BinaryIO
+    draft: BinaryIO
+    print_survey: Survey
+    progress: Progress | None
 
-    tally = draw(rules, plan, clock)
-    if plan is not None and plan.density is None and not plan.fixed and print_survey.small:
-        tally = _match_filament(tally, plan, lambda new_plan: draw(rules, new_plan))
-    previous = 0.0
-    for _ in range(MOST_REDRAWS if rules.request.pattern == KEEP and rules.request.smooth_radius == AUTO else 0):
-        length = kept_length_share(tally.infill.length, tally.infill_after.length)
-        share = min(*kept_shares(tally.before, tally.after), length)
-        smaller = smaller_deviation(rules.rounding.deviation, share, previous)
-        if smaller == rules.rounding.deviation:
-            break
-        previous, rules = share, rules.rounded_by(smaller)
-        tally = draw(rules, plan)
-    else:  # all redraws are used up
-        if previous and kept_length_share(tally.infill.length, tally.infill_after.length) < LEAST_SHARE:
-            rules = rules.rounded_by(0.0)
-            tally = draw(rules, plan)
-    return tally, rules
+    def meet_targets(
+        self, rules: RefillRules, plan: RefillPlan | None, clock: PrintClock | None = None
+    ) -> tuple[RefillStats, RefillRules]:
+        """Draw the print until it meets its targets; return the statistics and the final rules.
 
+        Parameters
+        ----------
+        rules : RefillRules
+        plan : RefillPlan, optional
+            Of a new pattern; None for the slicer's own paths.
+        clock : PrintClock, optional
+            Receives the lines of the file as they are read.
 
-def _match_filament(tally: RefillStats, plan: RefillPlan, redraw: Callable[[RefillPlan], RefillStats]) -> RefillStats:
-    """Redraw a small print at other cells until its infill takes the old amount of filament; else at the best cell.
+        Raises
+        ------
+        FormatError
+            If no layer is marked.
+        OutputError
+            If the draft cannot be written.
+        """
+        stats = self.draw(rules, plan, clock)
+        if plan is not None and plan.density is None and not plan.fixed and self.print_survey.small:
+            stats = self._match_filament(stats, rules, plan)
+        previous = 0.0
+        for _ in range(MOST_REDRAWS if rules.request.pattern == KEEP and rules.request.smooth_radius == AUTO else 0):
+            length = kept_length_share(stats.infill.length, stats.infill_after.length)
+            share = min(*kept_shares(stats.before, stats.after), length)
+            smaller = smaller_deviation(rules.rounding.deviation, share, previous)
+            if smaller == rules.rounding.deviation:
+                break
+            previous, rules = share, rules.rounded_by(smaller)
+            stats = self.draw(rules, plan)
+        else:  # all redraws are used up
+            if previous and kept_length_share(stats.infill.length, stats.infill_after.length) < LEAST_SHARE:
+                rules = rules.rounded_by(0.0)
+                stats = self.draw(rules, plan)
+        return stats, rules
 
-    In a large print, later layers make up for the excess or shortage of earlier ones.
-    """
+    def _match_filament(self, stats: RefillStats, rules: RefillRules, plan: RefillPlan) -> RefillStats:
+        """Redraw a small print at other cells until its infill takes the old amount of filament; else at the best cell.
 
-    def filament_error(tally_of_draft: RefillStats) -> float:
-        return (
-            tally_of_draft.infill_after.filament / tally_of_draft.infill.filament - 1
-            if tally_of_draft.infill.filament
-            else 0.0
-        )
+        In a large print, later layers make up for the excess or shortage of earlier ones.
+        """
+        best, smallest_error, current = plan, abs(stats.filament_error), plan
+        errors: dict[float, float] = {}  # relative error of the filament, by cell
+        for _ in range(MOST_CELL_TRIES):
+            error = errors[current.cell] = stats.filament_error
+            if abs(error) <= FILAMENT_TOLERANCE:
+                return stats
+            # The filament jumps with the cell: try between two that take too much and too little, if both exist.
+            opposite = [cell for cell, cell_error in errors.items() if cell_error * error < 0]
+            nearest = min(opposite, key=lambda cell: abs(cell - current.cell), default=0.0)
+            current = current.with_cell(math.sqrt(nearest * current.cell) if nearest else current.cell * (1 + error))
+            stats = self.draw(rules, current)
+            if abs(stats.filament_error) < smallest_error:
+                best, smallest_error = current, abs(stats.filament_error)
+        return stats if current is best else self.draw(rules, best)
 
-    best, smallest_error, current = plan, abs(filament_error(tally)), plan
-    errors: dict[float, float] = {}  # relative error of the filament, by cell
-    for _ in range(MOST_CELL_TRIES):
-        error = errors[current.cell] = filament_error(tally)
-        if abs(error) <= FILAMENT_TOLERANCE:
-            return tally
-        # The filament jumps with the cell: try between two cells that take too much and too little, if both exist.
-        opposite = [cell for cell, cell_error in errors.items() if cell_error * error < 0]
-        nearest = min(opposite, key=lambda cell: abs(cell - current.cell), default=0.0)
-        current = current.with_cell(math.sqrt(nearest * current.cell) if nearest else current.cell * (1 + error))
-        tally = redraw(current)
-        if abs(filament_error(tally)) < smallest_error:
-            best, smallest_error = current, abs(filament_error(tally))
-    return tally if current is best else redraw(best)
+    def draw(self, rules: RefillRules, plan: RefillPlan | None, clock: PrintClock | None = None) -> RefillStats:
+        """Write the new text to the draft, once."""
+        self.file.seek(0)
+        self.draft.seek(0)
+        self.draft.truncate()
+        total, memory, below, tags = RefillStats(), LayerMemory(), None, None
+        bytes_read = shown = 0
 
+        def refill_next(layers: Layers) -> tuple[NewInfill, RefillStats]:
+            infill = layers.infill
+            acceleration = layers.acceleration(rules.acceleration)
+            seconds = path_seconds(infill.points, infill.first, layers.speed, acceleration)
+            if plan is not None:
+                new = replace_infill(layers, rules, plan, memory)
+            elif len(infill):
+                new = smooth_in_place(layers, rules, seconds)
+            else:
+                new = NewInfill.unchanged(layers, {})
+            return new, count_refill(layers, new, seconds)
 
-def _draw(
-    file: BinaryIO,
-    draft: BinaryIO,
-    print_survey: Survey,
-    rules: RefillRules,
-    plan: RefillPlan | None,
-    progress: Progress | None,
-    clock: PrintClock | None,
-) -> RefillStats:
-    """Write the new text to a draft."""
-    file.seek(0)
-    draft.seek(0)
-    draft.truncate()
-    tally, memory, below, tags = RefillStats(), LayerMemory(), None, None
-    begin = None if clock is None else clock.begin
-    bytes_read = shown = 0
-
-    def refill_next(batch: Batch) -> RefilledBatch:
-        return refill_batch(batch, rules, plan, memory)
-
-    # New paths continue those of the layer below, so that batches come one after another.
-    threads = min(thread_count(), MOST_THREADS) if plan is None else 1
-    with wrap_os_errors(Path("a temporary file")):
-        for batch, new in in_order(refill_next, read_batches(file, begin), threads=threads):
-            if clock is not None:
-                clock.add(batch.table)
-            before, after, below = measure_batch(batch, new, below, rules.stride)
-            tally.add(new.tally)
-            tally.before += before
-            tally.after += after
-            for begin_byte, end_byte in find_estimates(new.text):
-                tally.lines.append((draft.tell() + begin_byte, new.text[begin_byte:end_byte]))
-            draft.write(new.text)
-            tags = batch.marks.after
-            bytes_read += len(batch.table.data)
-            if progress is not None and bytes_read >= shown:
-                progress("drawing infill", bytes_read / max(print_survey.size, 1))
-                shown = bytes_read + PROGRESS_BYTES
-        draft.flush()
-    if tags is None or not tags.layer:
-        raise FormatError(
-            "the file has no marked layers; give the G-code of PrusaSlicer, SuperSlicer, OrcaSlicer, Bambu Studio "
-            "or Cura, with its comments"
-        )
-    return tally
+        # New paths continue those of the layer below, so that layers come one after another.
+        threads = min(thread_count(), MOST_THREADS) if plan is None else 1
+        with wrap_os_errors(Path("a temporary file")):
+            for layers, (new, stats) in in_order(
+                refill_next, read_layers(self.file, None if clock is None else clock.begin), threads=threads
+            ):
+                if clock is not None:
+                    clock.add(layers.table)
+                stats.before, stats.after, below = measure_layers(
+                    layers.paths,
+                    new.paths,
+                    layers.bead_samples,
+                    np.unique(layers.marks.layer),
+                    line_width=layers.line_width,
+                    stride=rules.stride,
+                    last=below,
+                )
+                total.add(stats)
+                for begin_byte, end_byte in find_estimates(new.text):
+                    total.lines.append((self.draft.tell() + begin_byte, new.text[begin_byte:end_byte]))
+                self.draft.write(new.text)
+                tags = layers.marks.after
+                bytes_read += len(layers.table.data)
+                if self.progress is not None and bytes_read >= shown:
+                    self.progress("drawing infill", bytes_read / max(self.print_survey.size, 1))
+                    shown = bytes_read + PROGRESS_BYTES
+            self.draft.flush()
+        if tags is None or not tags.layer:
+            raise FormatError(
+                "the file has no marked layers; give the G-code of PrusaSlicer, SuperSlicer, OrcaSlicer, Bambu Studio "
+                "or Cura, with its comments"
+            )
+        return total

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.paths.corners import UNIT
 from infill.paths.covering import cover, total_length
-from infill.paths.families.protocol import TOUCH
+from infill.paths.families.family import TOUCH
 from infill.paths.layer_below import LayerBelow
 from infill.paths.neighbours import BeadIndex
 from infill.paths.rounding import round_paths
@@ -20,7 +20,6 @@ from infill.refilling.planning import RefillPlan
 if TYPE_CHECKING:
     from shapely import Polygon
 
-Floats = NDArray[np.float64]
 Paths = list[Floats]
 
 REGION_TOLERANCE = 0.01  # mm that a path may leave its region

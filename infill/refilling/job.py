@@ -14,30 +14,23 @@ import math
 import os
 import shutil
 import tempfile
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 from infill.files.whole_files import atomic_file, check_target, scratch_file
-from infill.gcode.estimates import (
-    EstimateChange,
-    completion_letters,
-    stated_grams,
-    stated_millimetres,
-    stated_seconds,
-    update_estimate,
-)
+from infill.gcode.estimates import EstimateChange, Restatement, StatedAmounts, restate
 from infill.gcode.sliced_file import SlicedText, open_sliced
-from infill.refilling.prints import copy_mode, read_pieces, update_metadata, write_print
+from infill.gcode.stream import edited_text
 from infill.refilling.request import AUTO, KEEP, Progress, Request
 from infill.version import __version__
 
 if TYPE_CHECKING:
     from infill.gcode.survey import Survey
+    from infill.planner.print_clock import PrintTime
     from infill.refilling.rules import RefillRules
     from infill.refilling.stats import PrintAmounts, RefillStats
-    from infill.refilling.timing import PrintTime
     from infill.reports.refilling import RefillReport
 
 HEAD = 1 << 16  # bytes in which the header ends
@@ -147,30 +140,28 @@ def refill(
     with open_sliced(source) as sliced, contextlib.ExitStack() as drafts:
         drafted: dict[int | None, _Draft] = {}
         for number, plate in enumerate(sliced.parts):
-            draft = drafts.enter_context(scratch_file(folder))
+            scratch = drafts.enter_context(scratch_file(folder))
             plate_progress = _scale_progress(progress, number, len(sliced.parts))
             with sliced.text(plate, folder) as text:
-                drafted[plate] = _refill_text(text, draft, request, plate_progress)
+                drafted[plate] = _refill_text(text, scratch, request, plate_progress)
         report = _joint_report(request, list(drafted.values()), sliced.plates)
-        changed = {
-            name: part_draft
-            for name, part_draft in drafted.items()
-            if part_draft.tally is not None and part_draft.tally.replaced
-        }
+        changed = {plate: draft for plate, draft in drafted.items() if draft.tally is not None and draft.tally.replaced}
         if dry_run or (not changed and output is None):
             return RefillResult(report=report, path=None)
-        if not changed:  # a copy
-            if not _is_same_file(source, target):
-                with atomic_file(target) as file, source.open("rb") as old:
-                    copy_mode(source, file)
-                    shutil.copyfileobj(old, file)
+        if not changed and target.exists() and target.samefile(source):
             return RefillResult(report=report, path=target)
-        if progress is not None:
+        if changed and progress is not None:
             progress("writing", 0.95)
         with atomic_file(target) as file:
-            copy_mode(source, file)
-            metadata = {name: value for part_draft in changed.values() for name, value in part_draft.metadata.items()}
-            write_print(sliced, file, {name: part_draft.text() for name, part_draft in changed.items()}, metadata)
+            _copy_mode(source, file)
+            if changed:
+                texts = {plate: edited_text(draft.draft, draft.edits) for plate, draft in changed.items()}
+                sliced.rewrite(
+                    file, texts, {name: v for draft in changed.values() for name, v in draft.metadata.items()}
+                )
+            else:  # a copy
+                sliced.file.seek(0)
+                shutil.copyfileobj(sliced.file, file)
     return RefillResult(report=report, path=target)
 
 
@@ -181,17 +172,13 @@ def _scale_progress(progress: Progress | None, number: int, count: int) -> Progr
     return lambda stage, share: progress(stage, (number + share) / count)
 
 
-def _is_same_file(source: Path, target: Path) -> bool:
-    return target.exists() and target.samefile(source)
-
-
 def _refill_lines(lines: Iterable[str], request: Request, progress: Progress | None) -> RefillResult:
     """Refill lines of text."""
     text = "".join(line if line.endswith("\n") else f"{line}\n" for line in lines)
     sliced = SlicedText(text=io.BytesIO(text.encode("utf-8", "surrogateescape")))
     drafted = _refill_text(sliced, io.BytesIO(), request, progress)
     if drafted.tally is not None and drafted.tally.replaced:
-        text = b"".join(drafted.text()).decode("utf-8", "surrogateescape")
+        text = b"".join(edited_text(drafted.draft, drafted.edits)).decode("utf-8", "surrogateescape")
     # Not splitlines: comments may hold characters that it treats as line ends.
     report = _joint_report(request, [drafted])
     return RefillResult(report=report, path=None, lines=tuple(f"{line}\n" for line in text.split("\n")[:-1]))
@@ -223,15 +210,6 @@ class _Draft:
     edits: tuple[tuple[int, int, bytes], ...] = ()
     metadata: dict[str, str] = field(default_factory=dict)
 
-    def text(self) -> Iterator[bytes]:
-        """Yield the draft with its edits, in pieces."""
-        position = 0
-        for edit_place, length, text in self.edits:
-            yield from read_pieces(self.draft, position, edit_place)
-            yield text
-            position = edit_place + length
-        yield from read_pieces(self.draft, position, self.draft.seek(0, os.SEEK_END))
-
 
 def _joint_report(request: Request, parts: Sequence[_Draft], plates: Sequence[int] = ()) -> RefillReport:
     """Report on all prints of a file; those that were refilled before count only if all of them were."""
@@ -240,32 +218,35 @@ def _joint_report(request: Request, parts: Sequence[_Draft], plates: Sequence[in
     from infill.refilling.stats import RefillStats
 
     joint_survey = merge_surveys([part.found for part in parts])
-    tallies = [part.tally for part in parts if part.tally is not None]
-    rules = max((part.rules for part in parts if part.rules), key=lambda rules: rules.rounding.deviation, default=None)
-    total = RefillStats()
-    for tally in tallies:
-        total.add(tally)
-    total_or_none = total if tallies else None
-    remedied = RefillStats()
-    for part in parts:
-        if part.tally is not None:
-            remedied.add(part.remedy or part.tally)
-    remedy = remedied if any(part.remedy is not None for part in parts) else None
+    drawn = [part for part in parts if part.tally is not None]
+    rules = max((part.rules for part in drawn if part.rules), key=lambda rules: rules.rounding.deviation, default=None)
+    total, remedied = RefillStats(), RefillStats()
+    for part in drawn:
+        assert part.tally is not None
+        total.add(part.tally)
+        remedied.add(part.remedy or part.tally)
     return refill_report(
-        request, joint_survey, total_or_none, already=joint_survey.stamped, rules=rules, plates=plates, remedy=remedy
+        request,
+        joint_survey,
+        total if drawn else None,
+        already=joint_survey.stamped,
+        rules=rules,
+        plates=plates,
+        remedy=remedied if any(part.remedy is not None for part in parts) else None,
     )
 
 
 def _refill_text(sliced: SlicedText, draft: BinaryIO, request: Request, progress: Progress | None) -> _Draft:
     """Write the new text to a draft."""
     from infill.gcode.survey import survey_print
-    from infill.refilling.drafting import draft_print
+    from infill.planner.print_clock import PrintClock
+    from infill.refilling.drafting import Drafting
+    from infill.refilling.layers import sample_layers
     from infill.refilling.placement import family_of
     from infill.refilling.planning import plan_refill
     from infill.refilling.report import loses_filament
     from infill.refilling.rules import derive_rules
-    from infill.refilling.support import largest_deviation, sample_batches
-    from infill.refilling.timing import PrintClock
+    from infill.refilling.support import largest_deviation
 
     family = None if request.pattern == KEEP else family_of(request.pattern, request.parameters, request.lines)
     print_survey = survey_print(sliced.text, more=family is not None and not family.prismatic, settings=sliced.settings)
@@ -274,34 +255,36 @@ def _refill_text(sliced: SlicedText, draft: BinaryIO, request: Request, progress
         return _Draft(found=print_survey, draft=draft)
     if progress is not None:
         progress("looking at layers", 0.0)
-    batches = sample_batches(print_survey)
-    rules = derive_rules(request, print_survey, batches)
+    samples = sample_layers(print_survey)
+    rules = derive_rules(request, print_survey, samples)
     plan = None
     if family is not None:
         share = None if isinstance(request.density, str | None) else float(request.density)
         plan = plan_refill(
-            family, batches, rules.rounding, density=share, acceleration=rules.acceleration, cell=request.cell
+            family, samples, rules.rounding, density=share, acceleration=rules.acceleration, cell=request.cell
         )
         rules = rules if plan is not None else rules.rounded_by(0.0)
-    elif request.smooth_radius == AUTO and batches:
-        rules = rules.rounded_by(largest_deviation(batches, rules.rounding, rules.acceleration))
+    elif request.smooth_radius == AUTO and samples:
+        rules = rules.rounded_by(largest_deviation(samples, rules.rounding, rules.acceleration))
     clock = PrintClock(sliced)
-    tally, rules = draft_print(sliced.text, draft, print_survey, rules, plan, progress, clock)
+    drafting = Drafting(file=sliced.text, draft=draft, print_survey=print_survey, progress=progress)
+    tally, rules = drafting.meet_targets(rules, plan, clock)
     remedy = None
     if request.pattern == KEEP and loses_filament(tally) and request.smooth_radius != AUTO:
         by_itself = replace(rules, request=replace(request, smooth_radius=AUTO)).with_radius(math.inf)
-        by_itself = by_itself.rounded_by(largest_deviation(batches, by_itself.rounding, rules.acceleration))
+        by_itself = by_itself.rounded_by(largest_deviation(samples, by_itself.rounding, rules.acceleration))
         with tempfile.TemporaryFile() as trial:
-            remedy, _ = draft_print(sliced.text, trial, print_survey, by_itself, None, progress)
+            remedy, _ = replace(drafting, draft=trial).meet_targets(by_itself, None)
     if print_survey.begin.volumetric:
         for stats in [tally] if remedy is None else [tally, remedy]:
             stats.count_millimetres([math.pi / 4 * diameter**2 for diameter in print_survey.begin.diameters])
     before = clock.finish()
     places = [place for place, _ in tally.lines]
     after = PrintClock(sliced, draft, places, like=clock).read() if tally.replaced else before
-    change, edits = _update_estimates(sliced, print_survey, tally, before, after)
-    edits = [*edits, _stamp_edit(draft, tally)] if tally.replaced else []
-    metadata = update_metadata(sliced.metadata, change)
+    new = _restate(sliced, print_survey, tally, before, after)
+    edits = [(place, len(old), line) for (place, old), line in zip(tally.lines, new.lines, strict=True)]
+    if tally.replaced:
+        edits.append(_stamp_edit(draft, tally))
     return _Draft(
         found=print_survey,
         draft=draft,
@@ -309,16 +292,14 @@ def _refill_text(sliced: SlicedText, draft: BinaryIO, request: Request, progress
         rules=rules,
         remedy=remedy,
         edits=tuple(sorted(edits)),
-        metadata=metadata,
+        metadata=new.metadata,
     )
 
 
-def _update_estimates(
+def _restate(
     sliced: SlicedText, print_survey: Survey, tally: RefillStats, before: PrintTime, after: PrintTime
-) -> tuple[EstimateChange, list[tuple[int, int, bytes]]]:
-    """Add the totals of the print to the tally; return their change, and the edits of the lines that state them."""
-    lines = [line for _, line in tally.lines]
-    outside = [b"; %s = %s" % item for item in sliced.metadata]
+) -> Restatement:
+    """Update the statements of a print, and add its totals to the tally."""
     change = EstimateChange(
         seconds=after.seconds,
         first_layer=after.first_layer,
@@ -327,35 +308,33 @@ def _update_estimates(
         filament=tally.filament_ratio,
         tools=tally.tool_ratios,
     )
-    change = change.told_by([*lines, *outside]).as_told(lines, tally.change)
-    new_lines = lines
-    if tally.replaced:
-        times = zip(lines, after.elapsed.tolist(), completion_letters(lines), strict=True)
-        new_lines = [update_estimate(line, elapsed, change, is_finished) for line, elapsed, is_finished in times]
-    new_outside = [update_estimate(line, 0.0, change) for line in outside] if tally.replaced else outside
+    lines = [line for _, line in tally.lines]
+    elapsed = after.elapsed.tolist() if tally.replaced else None
+    new = restate(lines, sliced.metadata, change, tally.change, elapsed)
     used = sum(tally.filament.values())
-    tally.print_before = _print_amounts(before, [*lines, *outside], used, print_survey)
-    tally.print_after = _print_amounts(
-        after, [*new_lines, *new_outside], used + sum(tally.change.values()), print_survey
-    )
-    tally.slicer_seconds = max(
-        (stated_seconds(line) for line in (*lines, *outside) if b"silent" not in line), default=0.0
-    )
+    tally.print_before = _print_amounts(before, new.before, used, print_survey)
+    tally.print_after = _print_amounts(after, new.after, used + sum(tally.change.values()), print_survey)
+    tally.slicer_seconds = new.seconds
     tally.unread, tally.first_unread = before.unread, before.first_unread
-    edits = [(place, len(line), text) for (place, line), text in zip(tally.lines, new_lines, strict=True)]
-    return change, edits
+    return new
 
 
-def _print_amounts(time: PrintTime, lines: Sequence[bytes], used: float, print_survey: Survey) -> PrintAmounts:
-    """Sum up a print: the filament that its lines state, or else the counted amount."""
+def _print_amounts(time: PrintTime, stated: StatedAmounts, used: float, print_survey: Survey) -> PrintAmounts:
+    """Sum up a print: the filament that it states, or else the counted amount."""
     from infill.refilling.stats import PrintAmounts
 
-    filament = stated_millimetres(lines)
-    filament = used if filament is None else filament
-    grams, density = stated_grams(lines), print_survey.number("filament_density")
+    filament = used if stated.millimetres is None else stated.millimetres
+    grams, density = stated.grams, print_survey.number("filament_density")
     if grams is None and density:
         grams = filament * math.pi / 4 * print_survey.begin.diameter**2 / 1000 * density
     return PrintAmounts(seconds=time.seconds, infill_seconds=time.infill, filament=filament, grams=grams)
+
+
+def _copy_mode(source: Path, file: BinaryIO) -> None:
+    """Give a new file the permissions of the old one, where the system has them."""
+    if hasattr(os, "fchmod"):
+        with contextlib.suppress(OSError):
+            os.fchmod(file.fileno(), source.stat().st_mode & 0o7777)
 
 
 def _stamp_edit(draft: BinaryIO, tally: RefillStats) -> tuple[int, int, bytes]:

@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import PurePath
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from infill.errors import ParameterError, UsageError
 from infill.files.excerpts import excerpt
@@ -19,7 +19,7 @@ from patterns.protocol import Pattern
 from patterns.shared import angle_parameter, phase_parameter, seed_parameter
 
 if TYPE_CHECKING:
-    from infill.paths.families.protocol import Family
+    from infill.paths.families.family import Family
 
 LineSource = Pattern | type[Pattern]
 FRAME = "frame"
@@ -41,9 +41,11 @@ class PatternParameters:
         """Check the parameters, or raise PatternError."""
         check_parameters(self)
 
+    of_family: ClassVar[tuple[str, ...]] = ()  # names of those that the family has too
+
     def placed(self, family: Family) -> Family:
         """Return a family with these parameters."""
-        return family
+        return replace(family, **{name: getattr(self, name) for name in self.of_family})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,45 +66,32 @@ class PlacedParameters(SizedParameters):
 
     def placed(self, family: Family) -> Family:
         """Return a family with these parameters."""
-        if not self.angle and not any(self.phase):
-            return family
-        from infill.paths.families.turned import TurnedFamily
+        from infill.paths.families.family import turn_family
 
-        return TurnedFamily(family=family, angle=self.angle, phase=self.phase)
+        return turn_family(super().placed(family), self.angle, self.phase)
 
 
 @dataclass(frozen=True, kw_only=True)
 class HoneycombParameters(PlacedParameters):
     """A honeycomb."""
 
+    of_family = ("flats",)
     flats: float = parameter(1.0, "length of the walls that touch, over that of the others", unit="", low=0.25, high=4)
-
-    def placed(self, family: Family) -> Family:
-        """Return a family with these parameters."""
-        from infill.paths.families.honeycomb import HoneycombPaths
-
-        assert isinstance(family, HoneycombPaths)
-        return super().placed(replace(family, flats=self.flats))
 
 
 @dataclass(frozen=True, kw_only=True)
 class VoronoiParameters(PlacedParameters):
     """Cells about points at random."""
 
+    of_family = ("seed",)
     seed: int = seed_parameter()
-
-    def placed(self, family: Family) -> Family:
-        """Return a family with these parameters."""
-        from infill.paths.families.voronoi import VoronoiPaths
-
-        assert isinstance(family, VoronoiPaths)
-        return super().placed(replace(family, seed=self.seed))
 
 
 @dataclass(frozen=True, kw_only=True)
 class CentredParameters(SizedParameters):
     """Outlines or turns about a point."""
 
+    of_family = ("angle", "middle")
     angle: float = angle_parameter()
     middle: tuple[float, float] | None = parameter(
         None,
@@ -111,14 +100,6 @@ class CentredParameters(SizedParameters):
         low=-1e4,
         high=1e4,
     )
-
-    def placed(self, family: Family) -> Family:
-        """Return a family with these parameters: here, as it is."""
-        from infill.paths.families.heart import ConcentricHeartPaths
-        from infill.paths.families.spirals import Spirals
-
-        assert isinstance(family, ConcentricHeartPaths | Spirals)
-        return replace(family, angle=self.angle, middle=self.middle)
 
 
 KINDS: Mapping[str, type[PatternParameters]] = {
@@ -209,6 +190,8 @@ def check_pattern_parameters(
 
 def facts(pattern: str, parameters: Mapping[str, Any], lines: LineSource | None = None) -> dict[str, Any]:
     """Return all parameters of a pattern as the report has them; the cell is none if none was given."""
+    if KINDS.get(pattern) is PatternParameters:
+        return {}
     values = parameter_values(check_pattern_parameters(pattern, parameters, lines))
     return {name: parameters.get(name) if name == "cell" else value for name, value in values.items() if name != FRAME}
 

@@ -7,25 +7,18 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-from infill.paths.contact import sample_paths
+from infill.arrays import Floats
 from infill.paths.covering import check_cell, solve_cell, total_length
-from infill.paths.families.heart import ConcentricHeartPaths
-from infill.paths.families.lines import LinePaths
-from infill.paths.families.protocol import TOUCH, Family
-from infill.paths.families.spirals import Spirals
+from infill.paths.families.family import TOUCH, CentredFamily, Family
 from infill.paths.neighbours import index_beads
 from infill.paths.rounding import Rounding, round_paths
-from infill.ragged import select_rows
-from infill.refilling.batch import Batch
-from infill.refilling.regions import INFILL_STEP, STEP, Region, find_region
-from infill.refilling.support import layers_with_infill
+from infill.refilling.layers import Layers
+from infill.refilling.regions import Region
 
 if TYPE_CHECKING:
     from shapely import MultiPolygon
 
-Floats = NDArray[np.float64]
 
 USUAL_SPEED = 80.0  # mm/s, for lengths: it only decides how finely arcs are cut
 LARGEST_RADIUS = 1000.0  # mm, for an unlimited radius
@@ -71,7 +64,7 @@ class RefillPlan:
 
 def plan_refill(
     family: Family,
-    batches: Sequence[Batch],
+    samples: Sequence[Layers],
     rounding: Rounding,
     *,
     density: float | None,
@@ -83,7 +76,7 @@ def plan_refill(
     Parameters
     ----------
     family : Family
-    batches : sequence of Batch
+    samples : sequence of Layers
     rounding : Rounding
     density : float, optional
         Share of the volume; without it, the filament of the slicer's own infill.
@@ -99,32 +92,24 @@ def plan_refill(
     region: Region | None = None
     visited: set[tuple[float, bytes]] = set()
     area = shapely.MultiPolygon()
-    for batch in batches:
-        width = batch.line_width
-        for number in layers_with_infill(batch):
-            strokes = np.flatnonzero(batch.layer == number)
-            opens = batch.infill.opens[strokes]
-            fingerprint = float(batch.table.z[opens[0]]), batch.infill.points[batch.infill.first[strokes[0]]].tobytes()
-            if fingerprint in visited:  # samples overlap in small prints
-                continue
-            visited.add(fingerprint)
-            layer_beads = batch.others.around(number, STEP)
-            places, offsets = select_rows(batch.infill.first, strokes)
-            infill_points = sample_paths(batch.infill.points[places], offsets, INFILL_STEP).points
-            previous = region
-            region = find_region(layer_beads, infill_points, previous)
-            if not region.polygons:
-                continue
-            if region is not previous:
-                walls.append(layer_beads.points)
-                area = shapely.MultiPolygon(list(region.polygons))
-            regions.append((area, float(batch.table.z[opens[0]]), number))
-            spacing = _spacing(width, float(np.median(batch.marks.height[opens])))
-            length += float(batch.infill.length[strokes].sum()) if density is None else density * area.area / spacing
+    for layer in (layer for layers in samples for layer in layers.typical):
+        width = layer.layers.line_width
+        fingerprint = layer.z, layer.paths[0][0].tobytes()
+        if fingerprint in visited:  # samples overlap in small prints
+            continue
+        visited.add(fingerprint)
+        previous, region = region, layer.find_region(region)
+        if not region.polygons:
+            continue
+        if region is not previous:
+            walls.append(layer.beads.points)
+            area = shapely.MultiPolygon(list(region.polygons))
+        regions.append((area, layer.z, layer.number))
+        spacing = _spacing(width, layer.height)
+        length += layer.length if density is None else density * area.area / spacing
     if not regions:
         return None
-    centred = ConcentricHeartPaths | Spirals | LinePaths
-    if isinstance(family, centred) and family.middle is None:  # one centre for the whole print
+    if isinstance(family, CentredFamily) and family.middle is None:  # one centre for the whole print
         boxes = np.array([area.bounds for area, _, _ in regions])
         low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
         family = replace(family, middle=tuple(((low + high) / 2).tolist()))

@@ -18,14 +18,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.paths.neighbours import BeadIndex, LayerBeads, project_to_beads
+from infill.arrays import Floats
+from infill.paths.neighbours import BeadIndex, index_beads, project_to_beads
 
 if TYPE_CHECKING:
     from shapely import MultiPolygon, Polygon
 
-Floats = NDArray[np.float64]
 
-STEP = 0.15  # mm between the points on beads
+NO_REGION = "no sure region"  # reason for which a section keeps its paths
+BEAD_STEP = 0.15  # mm between the points on beads
 INFILL_STEP = 0.2  # mm between the points on infill
 NODES = 0.2  # mm between the nodes of the grid
 REACH = 1.2  # mm: distances above this do not matter
@@ -48,6 +49,39 @@ DENT_RADIUS = 0.5  # mm: dents in an outline that are narrower than twice this a
 ARM = 0.3  # mm²: an arm as large as this stays, however narrow
 CROSSING_GRID = 1e-4  # mm between the points of the grid on which outlines are divided that cross themselves
 MOST_NODES = 20_000_000  # of a grid: a square of 900 mm; larger regions are not searched
+
+
+@dataclass(frozen=True, kw_only=True)
+class LayerBeads:
+    """Points on the other beads of a layer.
+
+    Parameters
+    ----------
+    points : (N, 2) float64, mm
+    skin : (N,) bool
+        True on solid infill.
+    half : (N, 2) float64, mm, optional
+        From each, the middle of a piece of a bead, to the end of its piece; without it, beads are points.
+    """
+
+    points: Floats
+    skin: NDArray[np.bool_]
+    half: Floats | None = None
+
+    @cached_property
+    def all(self) -> BeadIndex:
+        """All of them, indexed as layer 0."""
+        return index_beads(self.points, half=self.half)
+
+    @cached_property
+    def walls(self) -> BeadIndex:
+        """Index of the beads that do not belong to skins."""
+        return index_beads(self.points[~self.skin], half=None if self.half is None else self.half[~self.skin])
+
+    @cached_property
+    def skins(self) -> BeadIndex:
+        """The skins."""
+        return index_beads(self.points[self.skin], half=None if self.half is None else self.half[self.skin])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -90,7 +124,7 @@ def find_region(around: LayerBeads, infill: Floats, before: Region | None = None
     Parameters
     ----------
     around : LayerBeads
-        Points on the other beads of the layer, at most `STEP` apart.
+        Points on the other beads of the layer, at most `BEAD_STEP` apart.
     infill : (M, 2) float64, mm
         Points on the slicer's infill.
     before : Region, optional

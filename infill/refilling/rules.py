@@ -3,23 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from infill.gcode.limits import Limits, is_valid_limit
+from infill.arrays import Flags
 from infill.gcode.survey import Survey
+from infill.paths.contact import MOST_POINTS, STEP
 from infill.paths.corners import UNIT
 from infill.paths.rounding import Rounding
-from infill.refilling.batch import Batch
-from infill.refilling.measuring import sampling_stride
+from infill.refilling.layers import Layers
 from infill.refilling.request import SAME, Request
-from infill.refilling.timing import neutral_limits
-
-Floats = NDArray[np.float64]
-Places = NDArray[np.intp]
-Flags = NDArray[np.bool_]
 
 ACCELERATION = 1000.0  # mm/s², where neither the print nor its settings give it
 CORNER = 9.0  # mm/s × rad: of a square corner velocity of 5 mm/s
@@ -27,6 +21,9 @@ LEAST_CORNER = 1.0  # mm/s × rad: less would cut an arc into crumbs
 SHORT_LAYER = 15.0  # s: shorter layers may have been slowed down to cool, whatever the settings of the file
 SLOWED_SHARE = 0.97  # of the usual speed of infill: a slower layer was slowed down to cool
 LEAST_LEFT = 0.9  # of the length of a layer's infill after rounding, at least
+TARGET_LAYERS = 16  # layers measured of a print, about; more of small layers, so that points are about as many
+MOST_LAYERS = 128
+LARGE = MOST_POINTS * STEP  # mm of infill in a layer: larger layers are sampled
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,8 +44,6 @@ class RefillRules:
         True if the print sets its counter of filament by G92, so that new lines may.
     stride : int
         Sampling stride, in layers.
-    limits : Limits
-        For the timing of paths.
     """
 
     request: Request
@@ -58,7 +53,6 @@ class RefillRules:
     least_layer: float = 0.0
     resets_filament: bool = True
     stride: int = 1
-    limits: Limits = field(default_factory=neutral_limits)
 
     def rounded_by(self, deviation: float) -> RefillRules:
         """Return the rules with another largest deviation, mm."""
@@ -69,47 +63,65 @@ class RefillRules:
         return replace(self, rounding=replace(self.rounding, radius=radius))
 
 
-def derive_rules(request: Request, print_survey: Survey, batches: Sequence[Batch]) -> RefillRules:
+def derive_rules(request: Request, print_survey: Survey, samples: Sequence[Layers]) -> RefillRules:
     """Derive the rules for a print from its header and some of its layers."""
-    jerk = (
-        print_survey.number("machine_max_jerk_x")
-        if print_survey.number("machine_max_junction_deviation") is None
-        else None
-    )
-    speeds = [batch.table.f[batch.infill.opens] for batch in batches]
-    lengths = [batch.infill.length[batch.layer == layer].sum() for batch in batches for layer in np.unique(batch.layer)]
+    uses_jerk = print_survey.number("machine_max_junction_deviation") is None
+    jerk = print_survey.number("machine_max_jerk_x", limit="jerk") if uses_jerk else None
+    feeds = [layers.feed for layers in samples]
+    lengths = [layer.length for layers in samples for layer in layers]
     cooled = print_survey.settings.get("cooling", "1") != "0"
     least_seconds = print_survey.number("slowdown_below_layer_time", "slow_down_layer_time") if cooled else 0.0
     settings = "infill_acceleration", "sparse_infill_acceleration", "default_acceleration"
-    stated_acceleration = print_survey.number(*settings) or 0.0
     return RefillRules(
         request=request,
         rounding=Rounding(
             deviation=request.deviation,
             most=request.deviation,
             radius=request.radius,
-            corner=max(jerk if jerk and is_valid_limit(jerk, "jerk") else CORNER, LEAST_CORNER),
+            corner=max(jerk or CORNER, LEAST_CORNER),
             same_filament=request.density == SAME,
         ),
-        acceleration=stated_acceleration if is_valid_limit(stated_acceleration, "acceleration") else ACCELERATION,
-        usual_speed=float(np.median(np.concatenate(speeds))) if speeds else 0.0,
+        acceleration=print_survey.number(*settings, limit="acceleration") or ACCELERATION,
+        usual_speed=float(np.median(np.concatenate(feeds))) if feeds else 0.0,
         least_layer=least_seconds or 0.0,
         resets_filament=print_survey.resets_filament,
         stride=sampling_stride(print_survey.layers, float(np.median(lengths)) if lengths else 0.0),
     )
 
 
-def unchangeable_strokes(batch: Batch, rules: RefillRules) -> dict[str, Flags]:
+def sampling_stride(layers: float, length: float) -> int:
+    """Return the sampling stride, in layers, of a print.
+
+    Parameters
+    ----------
+    layers : float
+        Number of layers.
+    length : float
+        mm of infill in a typical layer.
+
+    >>> sampling_stride(320, 5000.0), sampling_stride(320, 500.0), sampling_stride(320, 0.0)
+    (20, 5, 2)
+    """
+    number = min(TARGET_LAYERS * max(1.0, LARGE / max(length, 1e-9)), MOST_LAYERS)
+    return max(1, round(layers / number))
+
+
+def unchangeable_strokes(layers: Layers, rules: RefillRules) -> dict[str, Flags]:
     """Find the strokes that must stay as they are, by reason, (M,) each."""
-    infill, layer, table = batch.infill, batch.layer, batch.table
+    infill, layer, table = layers.infill, layers.layer, layers.table
     reasons: dict[str, Flags] = {}
     if rules.request.layers is not None:
         low, high = rules.request.layers
         reasons["not among the layers asked for"] = (layer < low) | (layer > high)
     if rules.request.part is not None:
-        object_numbers = [number for number, name in batch.marks.names.items() if rules.request.part in name]
-        reasons["another object"] = ~np.isin(batch.section, object_numbers)
-    reasons["slowed down to cool"] = _slowed_strokes(batch, rules)
+        object_numbers = [number for number, name in layers.marks.names.items() if rules.request.part in name]
+        reasons["another object"] = ~np.isin(layers.section, object_numbers)
+    # Layers that were slowed down, or are already as short as cooling allows.
+    slow = np.zeros(len(layer), dtype=bool)
+    if rules.least_layer:
+        short = layers.seconds * LEAST_LEFT < rules.least_layer
+        slow = (layers.feed < SLOWED_SHARE * rules.usual_speed) | short[layer - layers.marks.layer[0]]
+    reasons["slowed down to cool"] = slow
     ends = np.stack([infill.points[infill.first[:-1]], infill.points[infill.first[1:] - 1]])
     reasons["cut off by the end of the file"] = (infill.closes == len(table) - 1) & (not table.data.endswith(b"\n"))
     reasons["finer numbers than a micrometre"] = np.abs(ends / UNIT - np.rint(ends / UNIT)).max(axis=(0, 2)) > 1e-4
@@ -118,25 +130,7 @@ def unchangeable_strokes(batch: Batch, rules: RefillRules) -> dict[str, Flags]:
     return reasons
 
 
-def _slowed_strokes(batch: Batch, rules: RefillRules) -> Flags:
-    """Find strokes in layers that were slowed down to cool, or are already as short as cooling allows."""
-    if not rules.least_layer:
-        return np.zeros(len(batch.layer), dtype=bool)
-    slowed = batch.table.f[batch.infill.opens] < SLOWED_SHARE * rules.usual_speed
-    short = _layer_seconds(batch) * LEAST_LEFT < rules.least_layer
-    result: Flags = slowed | short[batch.layer - batch.marks.layer[0]]
-    return result
-
-
-def short_layers(batch: Batch, rules: RefillRules) -> Flags:
-    """Find the layers of a batch, from its first on, that may be as short as cooling allows."""
-    return _layer_seconds(batch) < max(SHORT_LAYER, rules.least_layer)
-
-
-def _layer_seconds(batch: Batch) -> Floats:
-    """Return the time of each layer at its feed rates, from the first on, without acceleration, as slicers count."""
-    table, layer = batch.table, batch.marks.layer
-    x = np.diff(table.x, prepend=table.before.x)
-    y = np.diff(table.y, prepend=table.before.y)
-    seconds = np.nan_to_num(np.hypot(x, y) / (table.f / 60))
-    return np.bincount(layer - layer[0], weights=seconds).astype(np.float64)
+def may_be_slowed(layers: Layers, rules: RefillRules) -> Flags:
+    """Find the layers, from the first on, that may be as short as cooling allows."""
+    is_short: Flags = layers.seconds < max(SHORT_LAYER, rules.least_layer)
+    return is_short

@@ -6,15 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from infill.gcode.bodies import RATE_VARIATION, InfillSection
-from infill.gcode.sections import InfillStrokes
 from infill.paths.contact import sample_paths
 from infill.ragged import select_rows
-from infill.refilling.regions import Region
-
-Places = NDArray[np.intp]
+from infill.refilling.layers import Layer
+from infill.refilling.regions import NO_REGION, Region
 
 IGNORED_SHARE = 0.02  # share of an area's infill up to which another section is ignored
 MOST_LOST = 0.1  # share of the infill of a group that may lie outside every area
@@ -40,22 +37,21 @@ class SectionGroup:
     lengths: dict[int, float]
     lost: float
 
+    def refusal_reason(self, members: Sequence[InfillSection]) -> str:
+        """Say why the sections cannot be refilled, of which `members` can be redrawn; "" if they can."""
+        if self.lost > MOST_LOST:
+            return NO_REGION
+        if len(members) < len(self.areas):
+            return "shares its region with a section that is kept"
+        rates = [body.rate for body in members]
+        return "lines of different widths" if rates and max(rates) > (1 + RATE_VARIATION) * min(rates) else ""
 
-def group_sections(region: Region, infill: InfillStrokes, strokes: Places, section: Places) -> list[SectionGroup]:
-    """Group the sections of a layer that share areas.
 
-    Parameters
-    ----------
-    region : Region
-        Of the layer.
-    infill : InfillStrokes
-    strokes : (S,) int
-        The strokes of the layer.
-    section : (M,) int
-        Of every stroke.
-    """
+def group_sections(layer: Layer, region: Region) -> list[SectionGroup]:
+    """Group the sections of a layer that share areas of its region."""
     import shapely
 
+    infill, strokes, section = layer.layers.infill, layer.strokes, layer.layers.section
     grown = shapely.buffer(np.array(region.polygons, dtype=object), AROUND)
     shapely.prepare(grown)
     numbers = np.unique(section[strokes]).tolist()
@@ -90,29 +86,3 @@ def group_sections(region: Region, infill: InfillStrokes, strokes: Places, secti
         share = float(lost[label == group_label].sum() / total[label == group_label].sum())
         groups.append(SectionGroup(areas=areas, lengths=lengths, lost=share))
     return groups
-
-
-def area_lengths(groups: Sequence[SectionGroup]) -> dict[int, float]:
-    """Sum the slicer's infill by area, mm."""
-    totals: dict[int, float] = {}
-    for group in groups:
-        for area, length in group.lengths.items():
-            totals[area] = totals.get(area, 0.0) + length
-    return totals
-
-
-def refusal_reason(group: SectionGroup, members: Sequence[InfillSection]) -> str:
-    """Say why a group of sections cannot be refilled; return an empty text if it can.
-
-    Parameters
-    ----------
-    group : SectionGroup
-    members : sequence of InfillSection
-        Its sections that can be redrawn.
-    """
-    if group.lost > MOST_LOST:
-        return "no sure region"
-    if len(members) < len(group.areas):
-        return "shares its region with a section that is kept"
-    rates = [body.rate for body in members]
-    return "lines of different widths" if rates and max(rates) > (1 + RATE_VARIATION) * min(rates) else ""

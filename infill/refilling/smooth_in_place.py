@@ -7,42 +7,91 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.gcode.sections import InfillStrokes
-from infill.gcode.splicing import NewPaths
+from infill.arrays import Floats, Places
+from infill.gcode.splicing import NewPaths, splice_paths, verify_replay
+from infill.gcode.strokes import InfillStrokes
 from infill.paths.corners import UNIT, RoundedPaths
 from infill.paths.rounding import PathCorners, Rounding, find_corners
-from infill.ragged import select_rows
-from infill.refilling.batch import Batch
+from infill.planner.print_clock import path_seconds
+from infill.ragged import concatenate_rows, select_rows, split_rows
+from infill.refilling.layers import LayerPaths, Layers
+from infill.refilling.regions import NO_REGION
+from infill.refilling.request import KEEP
+from infill.refilling.rules import RefillRules, unchangeable_strokes
+from infill.refilling.stats import InfillAmounts, NewInfill
 from infill.refilling.widest_gap import largest_moves
 
-Floats = NDArray[np.float64]
-Places = NDArray[np.intp]
-
 MOST_WIDENED = 1.08  # largest widening of beads, to make up for shorter paths
+SLOWER = 1.01  # a stroke that takes longer than this share of its old time keeps its corners
 
 
-def stroke_corners(batch: Batch, corner: float, *, acceleration: float) -> PathCorners:
-    """Recut the curves in the strokes of a batch, and find their corners.
+def smooth_in_place(layers: Layers, rules: RefillRules, seconds: Floats) -> NewInfill:
+    """Round the slicer's paths of some layers, and prove that nothing else changed.
 
     Parameters
     ----------
-    batch : Batch
+    layers : Layers
+    rules : RefillRules
+    seconds : (M,) float64
+        Times of the old strokes.
+    """
+    infill, section = layers.infill, layers.section
+    smooth = stroke_corners(layers, rules.rounding.corner, acceleration=rules.acceleration).rounded(rules.rounding)
+    acceleration = layers.acceleration(rules.acceleration)
+    new_seconds = path_seconds(smooth.points, smooth.first, layers.speed, acceleration)
+    reasons = {**unchangeable_strokes(layers, rules), "no faster": new_seconds > seconds * SLOWER}
+    new = redraw_strokes(infill, smooth, ~np.any(list(reasons.values()), axis=0), rules.rounding)
+    spliced = splice_paths(layers.table, infill, new)
+    fault = verify_replay(layers.table, infill, new, spliced)
+    if fault:
+        return NewInfill.unchanged(layers, {f"a check failed: {fault}": section})
+    kept = {reason: section[strokes] for reason, strokes in reasons.items()}
+    if rules.request.pattern != KEEP:  # a new pattern that fits nowhere
+        kept[NO_REGION] = section
+    changed = np.zeros(len(infill), dtype=bool)
+    changed[new.which] = True
+    rows = zip(split_rows(infill.points, infill.first), split_rows(smooth.points, smooth.first), strict=True)
+    paths = [after if is_new else before for is_new, (before, after) in zip(changed.tolist(), rows, strict=True)]
+    points, first = concatenate_rows(paths, like=(2,))
+    return NewInfill(
+        text=spliced.text,
+        paths=LayerPaths(points=points, first=first, layer=layers.layer),
+        changed=changed,
+        kept=kept,
+        amounts=InfillAmounts(
+            seconds=float(new_seconds[changed].sum()),
+            length=float(path_lengths(smooth.points, smooth.first)[changed].sum()),
+            filament=float(new.filament.sum()),
+        ),
+        lines=infill.opens[new.which],
+        increase=new.filament - infill.filament[new.which],
+        widened=float((widened_filament(infill, new) - new.filament).sum()),
+        radii=smooth.radius[np.repeat(changed, np.diff(infill.first))],
+    )
+
+
+def stroke_corners(layers: Layers, corner: float, *, acceleration: float) -> PathCorners:
+    """Recut the curves in the strokes of some layers, and find their corners.
+
+    Parameters
+    ----------
+    layers : Layers
     corner : float
         See `Machine`.
     acceleration : float, mm/s²
         Where the print commands none.
     """
     return find_corners(
-        batch.infill.points,
-        batch.infill.first,
-        walls=batch.others.walls(np.unique(batch.layer)),
-        layer=batch.layer,
-        acceleration=batch.acceleration(acceleration),
-        speed=batch.speed,
+        layers.infill.points,
+        layers.infill.first,
+        walls=layers.walls(),
+        layer=layers.layer,
+        acceleration=layers.acceleration(acceleration),
+        speed=layers.speed,
         corner=corner,
-        line_width=batch.line_width,
+        line_width=layers.line_width,
         wide=True,
-        limit=largest_moves(batch),
+        limit=largest_moves(layers),
         keep_touch=True,
     )
 

@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Flags, Floats, Places
 from infill.paths.contact import Contact
+from infill.refilling.layers import LayerPaths, Layers
 
 if TYPE_CHECKING:
     from infill.reports.refilling import RadiusKeys
 
-Floats = NDArray[np.float64]
-Places = NDArray[np.intp]
 
+PURGED, UNREAD = "purged filament", "no plain moves"  # reasons for a section without strokes
+NO_CORNER = "no corner to round"
 LEAST_RADIUS = 0.02  # mm: smaller arcs, at corners beside walls, do not count
 
 
@@ -30,6 +32,9 @@ class Histogram:
         """Count some lengths, mm."""
         place = np.clip(10 * np.log2(np.maximum(lengths, 1e-3) / 1e-3), 0, len(self.counts) - 1)
         self.counts += np.bincount(place.astype(np.intp), minlength=len(self.counts))
+
+    def __add__(self, other: Histogram) -> Histogram:
+        return Histogram(counts=self.counts + other.counts)
 
     def report(self) -> RadiusKeys | None:
         """Return the 1, 50 and 99 % quantiles of the lengths, to a fifteenth, mm."""
@@ -64,6 +69,47 @@ class InfillAmounts:
 
 
 @dataclass(frozen=True, kw_only=True)
+class NewInfill:
+    """Infill of some layers after their refill.
+
+    Parameters
+    ----------
+    text : bytes
+        Of the layers.
+    paths : LayerPaths
+        All infill.
+    changed : (M,) bool
+        The old strokes that were replaced.
+    kept : mapping of str to array of int
+        Sections that keep their paths, by reason; of several reasons, the first counts.
+    amounts : InfillAmounts
+        Of the new paths.
+    lines, increase : (K,) int and (K,) float64, mm
+        Lines of the old text, and the increase of filament from there on.
+    widened : float
+        Further mm of filament that the new paths would take with the beads of ``--density same``.
+    radii : (C,) float64, mm
+        Of their arcs; 0 or infinite at corners without an arc.
+    """
+
+    text: bytes
+    paths: LayerPaths
+    changed: Flags
+    kept: Mapping[str, Places]
+    amounts: InfillAmounts = field(default_factory=InfillAmounts)
+    lines: Places = field(default_factory=lambda: np.empty(0, dtype=np.intp))
+    increase: Floats = field(default_factory=lambda: np.empty(0))
+    widened: float = 0.0
+    radii: Floats = field(default_factory=lambda: np.empty(0))
+
+    @classmethod
+    def unchanged(cls, layers: Layers, kept: Mapping[str, Places]) -> NewInfill:
+        """Return the infill of layers that keep their paths."""
+        changed = np.zeros(len(layers.infill), dtype=bool)
+        return cls(text=layers.table.data, paths=layers.paths, changed=changed, kept=kept)
+
+
+@dataclass(frozen=True, kw_only=True)
 class PrintAmounts:
     """Amounts that an entire print takes.
 
@@ -93,7 +139,7 @@ class PrintAmounts:
 
 @dataclass(kw_only=True)
 class RefillStats:
-    """Statistics up to the current batch.
+    """Statistics of the layers so far.
 
     Parameters
     ----------
@@ -143,6 +189,11 @@ class RefillStats:
     first_unread: int = 0
 
     @property
+    def filament_error(self) -> float:
+        """Relative change of the filament of the infill."""
+        return self.infill_after.filament / self.infill.filament - 1 if self.infill.filament else 0.0
+
+    @property
     def filament_ratio(self) -> float:
         """Filament of the entire print, after over before."""
         total = sum(self.filament.values())
@@ -162,43 +213,15 @@ class RefillStats:
         if sections:
             self.kept[reason] = self.kept.get(reason, 0) + sections
 
-    def round(self, radius: Floats) -> None:
-        """Count corners by the radii of their arcs, mm; those without an arc have 0 or none."""
-        arcs = radius[(radius > LEAST_RADIUS) & np.isfinite(radius)]
-        self.corners += len(arcs)
-        self.radii.add(arcs)
-
-    def use(self, tools: Places, filament: Floats) -> None:
-        """Add the filament of the old print, mm, by tool."""
-        _add(self.filament, tools, filament)
-
-    def save(self, tools: Places, before: Floats, after: Floats) -> None:
-        """Add the change of the filament of sections, mm, by tool."""
-        _add(self.change, tools, after - before)
-
     def add(self, part: RefillStats) -> None:
-        """Add the statistics of a batch, or of another print."""
-        self.layers += part.layers
-        self.sections += part.sections
-        self.replaced += part.replaced
-        for reason, sections in part.kept.items():
-            self.keep(reason, sections)
-        self.infill += part.infill
-        self.infill_after += part.infill_after
-        self.widened += part.widened
-        for sums, increments in ((self.filament, part.filament), (self.change, part.change)):
-            for tool, filament in increments.items():
-                sums[tool] = sums.get(tool, 0.0) + filament
-        self.corners += part.corners
-        self.radii.counts += part.radii.counts
-        self.lines += part.lines
-        self.before += part.before
-        self.after += part.after
-        self.print_before += part.print_before
-        self.print_after += part.print_after
-        self.slicer_seconds += part.slicer_seconds
-        self.unread += part.unread
-        self.first_unread = self.first_unread or part.first_unread
+        """Add the statistics of some layers, or of another print."""
+        for name, value in vars(part).items():
+            total = getattr(self, name)
+            if isinstance(value, dict):
+                for key, amount in value.items():
+                    total[key] = total.get(key, 0) + amount
+            else:
+                setattr(self, name, total or value if name == "first_unread" else total + value)
 
     def count_millimetres(self, sections: Sequence[float]) -> None:
         """Count filament in mm, where the print counts it in mm³.
@@ -222,7 +245,48 @@ class RefillStats:
         self.widened /= usual
 
 
-def _add(sums: dict[int, float], tools: Places, values: Floats) -> None:
-    """Add values to the sums of their tools."""
-    for tool in np.unique(tools).tolist():
-        sums[tool] = sums.get(tool, 0.0) + float(values[tools == tool].sum())
+def count_refill(layers: Layers, new: NewInfill, seconds: Floats) -> RefillStats:
+    """Count the infill of some layers before and after their refill, and the sections of each kind.
+
+    Parameters
+    ----------
+    layers : Layers
+    new : NewInfill
+    seconds : (M,) float64
+        Times of the old strokes.
+    """
+    infill = layers.infill
+
+    def amounts(chosen: Flags) -> InfillAmounts:
+        return InfillAmounts(
+            seconds=float(seconds[chosen].sum()),
+            length=float(infill.length[chosen].sum()),
+            filament=float(infill.filament[chosen].sum()),
+        )
+
+    after = amounts(~new.changed) + new.amounts
+    arcs = new.radii[(new.radii > LEAST_RADIUS) & np.isfinite(new.radii)]
+    stats = RefillStats(
+        layers=layers.marks.layers,
+        sections=len(infill.sections),
+        infill=amounts(np.ones(len(infill), dtype=bool)),
+        infill_after=after,
+        widened=after.filament + new.widened,
+        filament=_sum_by_tool(layers.tools, layers.table.extruded),
+        change=_sum_by_tool(layers.tools[new.lines], new.increase),
+        corners=len(arcs),
+    )
+    stats.radii.add(arcs)
+    replaced = np.unique(layers.section[new.changed])
+    stats.replaced = len(replaced)
+    remaining = np.setdiff1d(infill.sections, replaced)
+    unread = np.setdiff1d(remaining, layers.section)
+    purged = np.intersect1d(unread, infill.purged_sections)
+    for reason, sections in {PURGED: purged, UNREAD: unread, **new.kept, NO_CORNER: remaining}.items():
+        stats.keep(reason, len(np.intersect1d(remaining, sections)))
+        remaining = np.setdiff1d(remaining, sections)
+    return stats
+
+
+def _sum_by_tool(tools: Places, filament: Floats) -> dict[int, float]:
+    return {tool: float(filament[tools == tool].sum()) for tool in np.unique(tools).tolist()}

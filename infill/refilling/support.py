@@ -9,18 +9,17 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
-from infill.gcode.sections import InfillStrokes, TagState
-from infill.gcode.survey import Survey
-from infill.gcode.table import read_table
+from infill.arrays import Places
+from infill.gcode.strokes import InfillStrokes
 from infill.kernels.threads import in_order, thread_count
-from infill.paths.contact import Contact, Samples, concatenate_samples, layer_contact
+from infill.paths.contact import Contact, Samples, concatenate_samples, layer_contact, sample_paths
 from infill.paths.corners import RoundedPaths
 from infill.paths.rounding import PathCorners, Rounding
-from infill.refilling.batch import Batch, mark_batch
-from infill.refilling.measuring import LayerPaths
+from infill.refilling.layers import LayerPaths, Layers
 from infill.refilling.smooth_in_place import path_lengths, stroke_corners
 
 LEAST_SHARE = 0.94
@@ -30,24 +29,8 @@ AIM = 0.944  # share that sampled layers must keep, so that all of them keep LEA
 DEVIATIONS = (math.inf, 0.3, 0.2, 0.15, 0.12, *(round(0.1 - 0.0025 * k, 4) for k in range(33)), 0.01)
 LARGEST_DEVIATION, LEAST_LEFT = 0.2, 0.85  # mm, and about the share of support or contact that it leaves
 BISECT_AFTER = 6  # shares; with more, the search bisects instead of interpolating
-ENOUGH_INFILL = 1000.0  # mm of infill in a layer
 NO_DIFFERENCE = 0.002  # of the remaining share
 LEAST_BONDED = 0.02  # of the length: below this, contact within the layer is by chance
-
-
-def layers_with_infill(batch: Batch) -> list[int]:
-    """Return layers with infill, without the lowest unless it is the only one: the layer below it is unknown."""
-    lowest = int(batch.marks.layer.min())
-    layers = np.unique(batch.layer).tolist()
-    chosen: list[int] = [number for number in layers if number > lowest] or layers[-1:]
-    # A single layer is enough if it holds much infill.
-    return chosen[-1:] if chosen and batch.infill.length[batch.layer == chosen[-1]].sum() > ENOUGH_INFILL else chosen
-
-
-def sample_batches(print_survey: Survey) -> list[Batch]:
-    """Read the layers of a survey that hold infill."""
-    batches = [mark_batch(read_table(text, print_survey.begin), TagState()) for text in print_survey.windows]
-    return [batch for batch in batches if layers_with_infill(batch)]
 
 
 def kept_shares(old: Contact, new: Contact) -> tuple[float, float]:
@@ -73,29 +56,29 @@ def kept_length_share(old: float, new: float) -> float:
     return 1 - max(lost, 0.0) * (1 - LEAST_SHARE) / (1 - LEAST_LENGTH)
 
 
-def largest_deviation(batches: Sequence[Batch], rounding: Rounding, acceleration: float) -> float:
+def largest_deviation(samples: Sequence[Layers], rounding: Rounding, acceleration: float) -> float:
     """Find the largest deviation, mm, that keeps support, contact and length.
 
     Parameters
     ----------
-    batches : sequence of Batch
+    samples : sequence of Layers
     rounding : Rounding
         Its deviation is not exceeded.
     acceleration : float, mm/s²
         Where the print commands none.
     """
-    tried = [_SampledLayers.of(batch, rounding, acceleration) for batch in batches]
+    tried = [_SampledLayers.of(layers, rounding, acceleration) for layers in samples]
     threads = thread_count()
 
     def measure_all(infill: Callable[[_SampledLayers], InfillStrokes | RoundedPaths]) -> tuple[Contact, float]:
-        results = [pair for _, pair in in_order(lambda layers: layers.measure(infill(layers)), tried, threads=threads)]
+        results = [pair for _, pair in in_order(lambda sample: sample.measure(infill(sample)), tried, threads=threads)]
         return sum((contact for contact, _ in results), Contact()), sum(length for _, length in results)
 
-    old_contact, old = measure_all(lambda layers: layers.batch.infill)
+    old_contact, old = measure_all(lambda sample: sample.layers.infill)
 
     def share(deviation: float) -> float:
         trial_rounding = replace(rounding, deviation=deviation)
-        contact, new = measure_all(lambda layers: layers.corners.rounded(trial_rounding))
+        contact, new = measure_all(lambda sample: sample.corners.rounded(trial_rounding))
         return min(*kept_shares(old_contact, contact), kept_length_share(old, new))
 
     if share(rounding.deviation) >= AIM:
@@ -151,24 +134,100 @@ def largest_sufficient(candidates: Sequence[float], share: Callable[[float], flo
 class _SampledLayers:
     """Sampled layers, with all data that do not change with the deviation."""
 
-    batch: Batch
+    layers: Layers
     corners: PathCorners
     walls: dict[int, Samples]
 
     @classmethod
-    def of(cls, batch: Batch, rounding: Rounding, acceleration: float) -> _SampledLayers:
+    def of(cls, layers: Layers, rounding: Rounding, acceleration: float) -> _SampledLayers:
         return cls(
-            batch=batch,
-            corners=stroke_corners(batch, rounding.corner, acceleration=acceleration),
-            walls={number: batch.others.samples_of(number - 1) for number in layers_with_infill(batch)},
+            layers=layers,
+            corners=stroke_corners(layers, rounding.corner, acceleration=acceleration),
+            walls={layer.number: layers.bead_samples(layer.number - 1) for layer in layers.typical},
         )
 
     def measure(self, infill: InfillStrokes | RoundedPaths) -> tuple[Contact, float]:
         """Measure the contact of the layers with some infill, and the length of all of it, mm."""
-        drawn = LayerPaths(points=infill.points, first=infill.first, layer=self.batch.layer)
+        drawn = LayerPaths(points=infill.points, first=infill.first, layer=self.layers.layer)
         total = Contact()
         for number, walls in self.walls.items():
-            total += layer_contact(
-                drawn.of(number), concatenate_samples(drawn.of(number - 1), walls), self.batch.line_width
-            )
+            below = concatenate_samples(sample_paths(*drawn.of(number - 1)), walls)
+            total += layer_contact(sample_paths(*drawn.of(number)), below, self.layers.line_width)
         return total, float(path_lengths(infill.points, infill.first).sum())
+
+
+@dataclass(frozen=True, kw_only=True)
+class SampledLayer:
+    """A drawn layer that supports the next one.
+
+    Parameters
+    ----------
+    number : int
+    before, after : Samples
+        All its beads, old and new.
+    """
+
+    number: int
+    before: Samples
+    after: Samples
+
+
+def measure_layers(
+    old: LayerPaths,
+    new: LayerPaths,
+    walls: Callable[[int], Samples],
+    numbers: Places,
+    *,
+    line_width: float,
+    stride: int,
+    last: SampledLayer | None,
+) -> tuple[Contact, Contact, SampledLayer | None]:
+    """Measure the support and contact of the infill of every `stride`-th layer, old and new.
+
+    Parameters
+    ----------
+    old, new : LayerPaths
+        The infill.
+    walls : callable
+        Samples of all other beads of a layer, by its number.
+    numbers : (L,) int, ascending
+        Numbers of the layers.
+    line_width : float, mm
+    stride : int
+    last : SampledLayer, optional
+        The last one of the previous layers, if needed.
+
+    Returns
+    -------
+    before, after : Contact
+    last : SampledLayer or None
+        For the next layers.
+    """
+    before, after = Contact(), Contact()
+
+    @lru_cache(maxsize=2)  # a layer is measured, and then the next one lies on it
+    def layer_samples(number: int) -> tuple[Samples, Samples]:
+        return sample_paths(*old.of(number)), sample_paths(*new.of(number))
+
+    def below(number: int) -> SampledLayer:
+        beads = walls(number)
+        old_samples, new_samples = layer_samples(number)
+        return SampledLayer(
+            number=number, before=concatenate_samples(old_samples, beads), after=concatenate_samples(new_samples, beads)
+        )
+
+    layer_set = set(numbers.tolist())
+    for number in np.unique(old.layer).tolist():
+        if number % stride:
+            continue
+        if number - 1 in layer_set:
+            lower = below(number - 1)
+        elif last is not None and last.number == number - 1:
+            lower = last
+        else:
+            continue
+        old_samples, new_samples = layer_samples(number)
+        before += layer_contact(old_samples, lower.before, line_width)
+        after += layer_contact(new_samples, lower.after, line_width)
+    final = int(numbers[-1]) if len(numbers) else 0
+    return before, after, below(final) if len(numbers) and (final + 1) % stride == 0 else None

@@ -12,14 +12,9 @@ may be wrong.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from infill.ragged import select_rows
-from infill.refilling.batch import Batch
-
-Floats = NDArray[np.float64]
-Places = NDArray[np.intp]
-Flags = NDArray[np.bool_]
+from infill.arrays import Flags, Floats, Places
+from infill.refilling.layers import Layer, Layers
 
 MOST_GROWTH = 0.15  # of the radius of the widest gap
 MOST_PIXELS = 512  # along the longer side of a raster
@@ -28,30 +23,26 @@ MARGIN = 2.0  # mm around the infill of a layer
 ERROR = 0.75  # pixels: that a centre line may lie from the pixels that stand for it, diagonally
 
 
-def largest_moves(batch: Batch) -> Floats:
-    """Compute the largest move of each stroke of a batch by the gaps of its region, (M,), mm."""
-    moves = np.zeros(len(batch.infill))
-    for number in np.unique(batch.layer).tolist():
-        strokes = np.flatnonzero(batch.layer == number)
-        moves[strokes] = MOST_GROWTH * _widest_gaps(batch, number, strokes)
+def largest_moves(layers: Layers) -> Floats:
+    """Compute the largest move of each stroke of some layers by the gaps of its region, (M,), mm."""
+    moves = np.zeros(len(layers.infill))
+    for layer in layers:
+        moves[layer.strokes] = MOST_GROWTH * _widest_gaps(layer)
     return moves
 
 
-def _widest_gaps(batch: Batch, number: int, strokes: Places) -> Floats:
+def _widest_gaps(layer: Layer) -> Floats:
     """Measure the radius, mm, of the widest gap around each stroke of a layer."""
     from scipy import ndimage
 
-    infill = batch.infill
-    places, offsets = select_rows(infill.first, strokes)
-    points = infill.points[places]
+    points, offsets = layer.paths
     low, high = points.min(axis=0) - MARGIN, points.max(axis=0) + MARGIN
     spacing = _spacing(points, offsets)
-    pixel = max(FINEST * batch.line_width, float((high - low).max()) / MOST_PIXELS)
+    pixel = max(FINEST * layer.layers.line_width, float((high - low).max()) / MOST_PIXELS)
     if not np.isfinite(high - low).all() or pixel > spacing:
-        return np.full(len(strokes), spacing / 2)
+        return np.full(len(layer.strokes), spacing / 2)
     shape = tuple(np.ceil((high - low) / pixel).astype(int) + 1)
-    other_ends = batch.others.ends_of(number)
-    walls = _raster(other_ends[:, 0], other_ends[:, 1], low, pixel, shape)
+    walls = _raster(layer.bead_ends[:, 0], layer.bead_ends[:, 1], low, pixel, shape)
     leg = np.ones(len(points), dtype=bool)
     leg[offsets[1:] - 1] = False
     begins = np.flatnonzero(leg)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from infill.arrays import Floats
 from infill.checks import check_length, check_whole_number
 from infill.errors import GeometryError, ParameterError
 from infill.grid import Grid
@@ -38,7 +39,6 @@ REACH = 0.5  # cells: to bridge the gaps that the balls leave between them, sinc
 BACKED, ENOUGH = 0.3, 0.9
 SHELL_BYTES, SOLID_BYTES, POINT_BYTES = 1, 30, 400  # per cell and per point, measured peaks
 
-Floats = NDArray[np.float64]
 Cells = NDArray[np.bool_]
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.kernels.threads import in_threads, thread_count
 from infill.meshes.winding import winding_numbers
 from infill.phasefield.refining import cut_off_distance, phase_from_distance
@@ -19,8 +20,6 @@ FEWEST_ROWS, MOST_ROWS = 3, 16  # rows of a cell along x, and along y, on which 
 MOST_CROSSINGS = 5_000_000  # crossings of these rows, roughly; more rows than that are too many
 MOST_TRIANGLE_TESTS = 2_000_000_000  # most triangles examined to tell which points are hidden
 TEST_OFFSET = 0.5  # cells from a face to the point that tells which solid the face bounds
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

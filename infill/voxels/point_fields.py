@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.kernels.threads import in_threads, thread_count
 from infill.volume import Volume
 from infill.voxels.from_points import fill_balls, spacing_of_points
@@ -26,8 +27,6 @@ THIN = 0.5  # cells: points in a cube of this size become one
 NEIGHBOURS = (12, 24, 48, 96)  # for the estimate of a normal: the fewest that lie roughly in a plane
 PLANE = 0.05  # variance across the plane over that along it: less is a plane
 SAMPLED = 5_000  # points that tell how many neighbours are needed
-
-Floats = NDArray[np.float64]
 
 
 def distance_from_points(places: Floats, points: Floats, normals: Floats, sigma: float) -> Floats:

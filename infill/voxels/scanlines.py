@@ -12,13 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.ragged import expand_rows
 
 AT_ONCE = 2**17  # crossings processed at a time: some ten arrays of this length
 SLAB = 2**21  # cells filled at a time
 SAMPLES = 9  # crossings of a component that are examined to find the components around it
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)

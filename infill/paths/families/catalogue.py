@@ -5,30 +5,30 @@ from __future__ import annotations
 import importlib
 from collections.abc import Iterator, Mapping
 
-from infill.paths.families.protocol import Family
+from infill.paths.families.family import Family
 
 _HOMES = {
-    "concentric-heart": ("heart", "ConcentricHeartPaths"),
-    "zigzag": ("grid", "ZIGZAG"),
-    "honeycomb": ("honeycomb", "HoneycombPaths"),
-    "honeycomb-3d": ("honeycomb_3d", "Honeycomb3DPaths"),
-    "grid": ("grid", "GRID"),
+    "concentric-heart": ("nested", "ConcentricHeartPaths"),
+    "zigzag": ("rows", "ZIGZAG"),
+    "honeycomb": ("rows", "HoneycombPaths"),
+    "honeycomb-3d": ("rows", "Honeycomb3DPaths"),
+    "grid": ("rows", "GRID"),
     "triangles": ("triangles", "TRIANGLES"),
     "tri-hexagon": ("triangles", "TRI_HEXAGON"),
     "cubic": ("triangles", "CUBIC"),
-    "rectilinear": ("rectilinear", "RectilinearPaths"),
-    "hilbert": ("hilbert", "HilbertPaths"),
+    "rectilinear": ("rows", "RectilinearPaths"),
+    "hilbert": ("one_line", "HilbertPaths"),
     "gyroid": ("level_sets", "GyroidPaths"),
     "schwarz-p": ("level_sets", "SchwarzPPaths"),
     "schwarz-d": ("level_sets", "SchwarzDPaths"),
-    "concentric": ("concentric", "ConcentricPaths"),
+    "concentric": ("nested", "ConcentricPaths"),
     "octagons": ("octagons", "OctagonsPaths"),
-    "cross": ("cross", "CrossPaths"),
-    "archimedean-chords": ("spirals", "ARCHIMEDEAN_CHORDS"),
-    "octagram-spiral": ("spirals", "OCTAGRAM_SPIRAL"),
+    "cross": ("one_line", "CrossPaths"),
+    "archimedean-chords": ("one_line", "ARCHIMEDEAN_CHORDS"),
+    "octagram-spiral": ("one_line", "OCTAGRAM_SPIRAL"),
     "voronoi": ("voronoi", "VoronoiPaths"),
-    "cross-hatch": ("cross_hatch", "CrossHatchPaths"),
-    "lateral-honeycomb": ("lateral_honeycomb", "LateralHoneycombPaths"),
+    "cross-hatch": ("level_sets", "CrossHatchPaths"),
+    "lateral-honeycomb": ("rows", "LateralHoneycombPaths"),
     "quarter-cubic": ("quarter_cubic", "QuarterCubicPaths"),
 }
 

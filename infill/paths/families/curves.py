@@ -6,11 +6,9 @@ import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-from infill.paths.families.protocol import Bounds, Path
-
-Floats = NDArray[np.float64]
+from infill.arrays import Floats
+from infill.paths.families.family import Bounds, Path
 
 SAGITTA = 0.005  # mm, that a chord may depart from its curve; a nozzle is placed to about 0.01 mm
 SAMPLES = 512  # of one period, by which its curvature is judged

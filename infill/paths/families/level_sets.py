@@ -8,21 +8,25 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
 from infill.paths.families.curves import Floats, chord_parameters, repeat_curves, repeat_loop
-from infill.paths.families.protocol import TOUCH, Bounds, Path
+from infill.paths.families.family import TOUCH, Bounds, Family, Path, PathSpec
 
 # Neighbouring waves of a gyroid climb where they come nearest: the ratio of their distance along an axis to their
 # distance. Measured on sections from 2.5 to 10 mm: at most 1.31.
 ASLANT = 1.31
 ALONG_X, ALONG_Y = np.eye(2), np.eye(2)[::-1]
+STRETCHED = 2.0  # in height: waves grow by less than a bead from layer to layer
+HEIGHTS = 64  # of a quarter of a period, in which the mean over heights is taken
+PLACES = 256  # along a wave
 DIAGONAL = np.array([[1.0, 1.0], [1.0, -1.0]]) / math.sqrt(2)
 
 
 @dataclass(frozen=True, kw_only=True)
-class GyroidPaths:
+class GyroidPaths(Family):
     """sin x cos y + sin y cos z + sin z cos x = 0; `cell` is the period.
 
     Solved for y, y = atan2(cos z, sin x) ± acos(−sin z cos x / √(sin² x + cos² z)), where |cos z| > |sin z|; for x
@@ -32,21 +36,12 @@ class GyroidPaths:
     name: str = "gyroid"
     summary: str = "smooth waves that turn with height; equally stiff in every direction"
     prismatic: bool = False
-    wide: bool = False
+    length_in_cell: ClassVar[float] = 2.45
 
-    def strands(
-        self,
-        bounds: Bounds,
-        *,
-        cell: float,
-        line_width: float,
-        z: float,
-        layer: int,  # noqa: ARG002 - the height decides
-        radius: float,  # noqa: ARG002 - there are no corners
-    ) -> list[Path]:
-        """Return two waves a period; see `Family`."""
-        unit = cell / math.tau
-        sine, cosine = _keep_from_saddles(z / unit, ASLANT * TOUCH * line_width / unit)
+    def strands(self, bounds: Bounds, spec: PathSpec) -> list[Path]:
+        """Return two waves a period."""
+        unit = spec.cell / math.tau
+        sine, cosine = _keep_from_saddles(spec.z / unit, ASLANT * TOUCH * spec.line_width / unit)
         along_x = abs(cosine) > abs(sine)
 
         def middle(angle: Floats) -> Floats:
@@ -61,17 +56,9 @@ class GyroidPaths:
         curves = [lambda angle: middle(angle) + swing(angle), lambda angle: middle(angle) - swing(angle)]
         return repeat_curves(curves, unit, bounds, ALONG_X if along_x else ALONG_Y)
 
-    def cell_for(self, density: float, line_width: float) -> float:
-        """Return the cell for a density, in the mean over heights; see `Family`."""
-        return 2.45 * TOUCH * line_width / density
-
-    def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002
-        """Return infinity: the curves have no corners, and no wall in common."""
-        return math.inf
-
 
 @dataclass(frozen=True, kw_only=True)
-class SchwarzPPaths:
+class SchwarzPPaths(Family):
     """cos x + cos y + cos z = 0; `cell` is the period.
 
     With c = |cos z|, every loop is cos x = c/2 + (1 − c/2) cos t, cos y = c/2 − (1 − c/2) cos t about its middle.
@@ -80,22 +67,13 @@ class SchwarzPPaths:
     name: str = "schwarz-p"
     summary: str = "smooth tubes along three axes; every one a closed loop"
     prismatic: bool = False
-    wide: bool = False
+    length_in_cell: ClassVar[float] = 1.88
 
-    def strands(
-        self,
-        bounds: Bounds,
-        *,
-        cell: float,
-        line_width: float,
-        z: float,
-        layer: int,  # noqa: ARG002 - the height decides
-        radius: float,  # noqa: ARG002 - there are no corners
-    ) -> list[Path]:
-        """Return one closed loop a period; see `Family`."""
-        unit = cell / math.tau
-        cosine = math.cos(z / unit)
-        smallest = 1 - math.cos(min(math.pi / 2, TOUCH * line_width / unit / 2))
+    def strands(self, bounds: Bounds, spec: PathSpec) -> list[Path]:
+        """Return one closed loop a period."""
+        unit = spec.cell / math.tau
+        cosine = math.cos(spec.z / unit)
+        smallest = 1 - math.cos(min(math.pi / 2, spec.gap / unit / 2))
         half = max(abs(cosine), smallest) / 2
 
         def quarter(angle: Floats) -> Path:
@@ -107,39 +85,22 @@ class SchwarzPPaths:
         loop = np.concatenate(
             [points, (reversed_points * [1, -1])[1:], (points * [-1, -1])[1:], (reversed_points * [-1, 1])[1:]], axis=0
         )
-        return repeat_loop(loop + (cell / 2 if cosine > 0 else 0.0), cell, bounds)
-
-    def cell_for(self, density: float, line_width: float) -> float:
-        """Return the cell for a density, in the mean over heights; see `Family`."""
-        return 1.88 * TOUCH * line_width / density
-
-    def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002
-        """Return infinity: the curves have no corners, and no wall in common."""
-        return math.inf
+        return repeat_loop(loop + (spec.cell / 2 if cosine > 0 else 0.0), spec.cell, bounds)
 
 
 @dataclass(frozen=True, kw_only=True)
-class SchwarzDPaths:
+class SchwarzDPaths(Family):
     """cos z sin(x + y) + sin z cos(x − y) = 0; `cell` is the period."""
 
     name: str = "schwarz-d"
     summary: str = "smooth waves at 45 degrees that turn with height, as atoms in diamond are bound"
     prismatic: bool = False
-    wide: bool = False
+    length_in_cell: ClassVar[float] = 3.04
 
-    def strands(
-        self,
-        bounds: Bounds,
-        *,
-        cell: float,
-        line_width: float,
-        z: float,
-        layer: int,  # noqa: ARG002 - the height decides
-        radius: float,  # noqa: ARG002 - there are no corners
-    ) -> list[Path]:
-        """Return two waves a period; see `Family`."""
-        unit = cell / math.tau / math.sqrt(2)
-        sine, cosine = _keep_from_saddles(z * math.tau / cell, TOUCH * line_width / unit)
+    def strands(self, bounds: Bounds, spec: PathSpec) -> list[Path]:
+        """Return two waves a period."""
+        unit = spec.cell / math.tau / math.sqrt(2)
+        sine, cosine = _keep_from_saddles(spec.z * math.tau / spec.cell, spec.gap / unit)
         if abs(cosine) > abs(sine):  # x + y by x − y
 
             def swing(angle: Floats) -> Floats:
@@ -154,13 +115,47 @@ class SchwarzDPaths:
 
         return repeat_curves([reach, lambda angle: -reach(angle)], unit, bounds, DIAGONAL)
 
-    def cell_for(self, density: float, line_width: float) -> float:
-        """Return the cell for a density, in the mean over heights; see `Family`."""
-        return 3.04 * TOUCH * line_width / density
 
-    def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002
-        """Return infinity: the curves have no corners, and no wall in common."""
-        return math.inf
+@dataclass(frozen=True, kw_only=True)
+class CrossHatchPaths(Family):
+    """The surface of `patterns.hatch`; `cell` is its period in x and y, with two walls; upwards it is twice that.
+
+    With weights a of cos x and b of cos y, where b is larger, cos y = -a / b cos x. Where both are the same, waves
+    would meet: they stay `TOUCH` line widths apart.
+    """
+
+    name: str = "cross-hatch"
+    summary: str = "walls alternately along y and along x, and waves where they change over"
+    prismatic: bool = False
+
+    def strands(self, bounds: Bounds, spec: PathSpec) -> list[Path]:
+        """Return one wave a wall."""
+        unit = spec.cell / math.tau
+        share, along_x = _weight_ratio(spec.z / unit / STRETCHED)
+        share = min(share, math.cos(min(math.pi / 2, spec.gap / unit / 2)))
+
+        def swing(angle: Floats) -> Floats:
+            return np.arccos(-share * np.cos(angle))
+
+        return repeat_curves([swing, lambda angle: -swing(angle)], unit, bounds, ALONG_X if along_x else ALONG_Y)
+
+    def cell_for(self, density: float, line_width: float) -> float:
+        """Return the cell for a density, in the mean over heights."""
+        angle = np.linspace(0, math.tau, PLACES + 1)
+        lengths = []
+        for part in range(HEIGHTS):
+            share, _ = _weight_ratio(math.pi / 2 * (part + 0.5) / HEIGHTS)
+            lengths.append(np.hypot(np.diff(angle), np.diff(np.arccos(-share * np.cos(angle)))).sum() / math.tau)
+        return 2 * float(np.mean(lengths)) * TOUCH * line_width / density
+
+
+def _weight_ratio(z: float) -> tuple[float, bool]:
+    """Return the smaller weight over the larger one at height `z`, radians, and True if the walls run along x."""
+    from patterns.hatch import cross_hatch
+
+    place, zero = np.array([0.0, math.pi / 2]), np.array([math.pi / 2, 0.0])
+    of_x, of_y = cross_hatch(place, zero, np.full(2, z)).tolist()
+    return min(of_x, of_y) / max(of_x, of_y), of_y > of_x
 
 
 def _keep_from_saddles(angle: float, gap: float) -> tuple[float, float]:

@@ -13,12 +13,12 @@ import math
 from collections.abc import Hashable
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.paths.families.protocol import TOUCH, Bounds, Path
+from infill.paths.families.family import TOUCH, Bounds, CentredFamily, Path, PathSpec
 from patterns.protocol import Pattern, draw_lines, with_cell
 
 if TYPE_CHECKING:
@@ -29,54 +29,28 @@ SNAP = 1e-6  # of a cell: lines that are nearer than this meet
 NEARER = 0.95  # of the distance of touching beads, below which lines count as too near
 SIMPLER = 0.002  # mm
 ARC = 16  # chords in a quarter of a circle
-SHARE = 0.25  # of a cell that a radius may have, so that cells keep their shape
 SAMPLE = 12.0  # cells along a side of the square in which a density is measured
 ROUNDS = 3  # of the guess of a cell
 
 
 @dataclass(frozen=True, kw_only=True)
-class LinePaths:
+class LinePaths(CentredFamily):
     """Paths along the lines of a pattern, whose origin lies at `middle`, mm; `cell` is the cell of the pattern."""
 
     pattern: Pattern
-    middle: tuple[float, float] | None = None
-    wide: bool = False
+    corner_share: ClassVar[float] = 0.25  # cells keep their shape; paths that are offset together touch at any radius
 
-    @property
-    def name(self) -> str:
-        """The name of the pattern."""
-        return self.pattern.name
-
-    @property
-    def summary(self) -> str:
-        """Purpose of the pattern."""
-        return self.pattern.summary
-
-    @property
-    def prismatic(self) -> bool:
-        """True if every layer is equal."""
-        return self.pattern.prismatic
-
-    def strands(
-        self,
-        bounds: Bounds,
-        *,
-        cell: float,
-        line_width: float,
-        z: float,
-        layer: int,  # noqa: ARG002 - the height decides
-        radius: float,  # noqa: ARG002 - paths touch along their walls
-    ) -> list[Path]:
-        """Return the paths of a square about the middle that reach into the box; see `Family`."""
+    def strands(self, bounds: Bounds, spec: PathSpec) -> list[Path]:
+        """Return the paths of a square about the middle that reach into the box."""
         middle = np.array(self.middle or (0.0, 0.0))
-        box = np.array(bounds, dtype=np.float64).reshape(2, 2) - middle
-        half = GROWTH ** math.ceil(math.log(max(float(np.abs(box).max()) + cell, 1.0), GROWTH))
-        paths = self._draw(cell, half, 0.0 if self.prismatic else z, line_width)
-        low, high = box
+        low, high = np.array(bounds, dtype=np.float64).reshape(2, 2) - middle
+        reach = max(float(np.abs([low, high]).max()) + spec.cell, 1.0)
+        half = GROWTH ** math.ceil(math.log(reach, GROWTH))
+        paths = self._draw(spec.cell, half, 0.0 if self.prismatic else spec.z, spec.line_width)
         return [path + middle for path in paths if (path.max(axis=0) >= low).all() and (path.min(axis=0) <= high).all()]
 
     def cell_for(self, density: float, line_width: float) -> float:
-        """Return the cell for a density, as measured in a few cells; see `Family`."""
+        """Return the cell for a density, as measured in a few cells."""
         cell = 10 * line_width
         for _ in range(ROUNDS):
             half = SAMPLE / 2 * cell
@@ -84,10 +58,6 @@ class LinePaths:
             length = sum(float(np.hypot(*np.diff(path, axis=0).T).sum()) for path in paths)
             cell *= max(TOUCH * line_width * length / (2 * half) ** 2, 1e-3) / density
         return cell
-
-    def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002
-        """Return the radius at which cells keep their shape, mm; paths that are offset together touch at any."""
-        return SHARE * cell
 
     def _draw(self, cell: float, half: float, z: float, line_width: float) -> list[Path]:
         pattern = with_cell(self.pattern, cell)
@@ -100,14 +70,16 @@ class LinePaths:
 class FollowingPaths(LinePaths):
     """Paths along the lines of a pattern that follows the outline of the region."""
 
-    def strands_inside(self, region: Polygon | MultiPolygon, *, cell: float, line_width: float) -> list[Path]:
+    def strands_inside(self, region: Polygon | MultiPolygon, spec: PathSpec) -> list[Path]:
         """Return the paths inside the region; see `RegionFamily`."""
-        return separate_lines(draw_lines(with_cell(self.pattern, cell), region), cell=cell, line_width=line_width)
+        lines = draw_lines(with_cell(self.pattern, spec.cell), region)
+        return separate_lines(lines, cell=spec.cell, line_width=spec.line_width)
 
 
 def line_paths(pattern: Pattern) -> LinePaths:
     """Return the family of paths along the lines of a pattern."""
-    return FollowingPaths(pattern=pattern) if getattr(pattern, "follows", False) else LinePaths(pattern=pattern)
+    kind = FollowingPaths if getattr(pattern, "follows", False) else LinePaths
+    return kind(name=pattern.name, summary=pattern.summary, prismatic=pattern.prismatic, pattern=pattern)
 
 
 @lru_cache(maxsize=16)

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from infill.paths.families.protocol import TOUCH, Bounds, Path
+from infill.paths.families.family import TOUCH, Bounds, Family, Path, PathSpec
 from infill.paths.families.waves import BOND, repeat_line, solve_cell_for_density
 from patterns.octagons import HALF_SIDE, SIDES
 
@@ -41,33 +41,22 @@ LEAST = 3.6  # gaps of touching lines, that an octagon is wide: single walls shr
 
 
 @dataclass(frozen=True, kw_only=True)
-class OctagonsPaths:
+class OctagonsPaths(Family):
     """Octagons `cell` wide, one about (0, 0), and the squares between them. A third of the walls is drawn twice."""
 
     name: str = "octagons"
     summary: str = "octagons and squares, drawn as waves that touch; round cells"
-    prismatic: bool = True
-    wide: bool = False
 
-    def strands(
-        self,
-        bounds: Bounds,
-        *,
-        cell: float,
-        line_width: float,
-        z: float,  # noqa: ARG002 - every layer is equal
-        layer: int,  # noqa: ARG002
-        radius: float,  # noqa: ARG002 - double walls are as long as they are
-    ) -> list[Path]:
-        """Return three waves a row; see `Family`."""
-        diagonal = math.sqrt(2) * self._width(cell, line_width)  # from octagon to octagon, both ways
+    def strands(self, bounds: Bounds, spec: PathSpec) -> list[Path]:
+        """Return three waves a row."""
+        diagonal = math.sqrt(2) * self._width(spec.cell, spec.line_width)  # from octagon to octagon, both ways
         paths: list[Path] = []
-        for wave in self._waves(cell, line_width):
+        for wave in self._waves(spec.cell, spec.line_width):
             paths += repeat_line(wave[:-1], diagonal, diagonal, angle=ANGLE, bounds=bounds)
         return paths
 
     def cell_for(self, density: float, line_width: float) -> float:
-        """Return the cell for a density; see `Family`."""
+        """Return the cell for a density."""
 
         def length_per_area(cell: float) -> float:
             lengths = [np.hypot(*np.diff(wave, axis=0).T).sum() for wave in self._waves(cell, line_width)]

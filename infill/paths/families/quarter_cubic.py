@@ -15,20 +15,20 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
-from infill.paths.families.protocol import TOUCH, Bounds, Path
+from infill.paths.families.family import Bounds, Family, Path, PathSpec
 from infill.paths.families.waves import crest_length, repeat_line, solve_cell_for_density
 
 TURN = math.radians(45)  # at each end of a flat
-SHARE = 0.1  # of a cell that a radius may have, so that cells keep their shape
 FLATS = 4  # of a wave in one period
 SAME = 1e-6  # mm: corners nearer than that are one
 
 
 @dataclass(frozen=True, kw_only=True)
-class QuarterCubicPaths:
+class QuarterCubicPaths(Family):
     """Tetrahedra, with and without corners; `cell` is the period in x, y and z, before flats and touching are added.
 
     Planes are `cell` / √3 apart.
@@ -37,21 +37,13 @@ class QuarterCubicPaths:
     name: str = "quarter-cubic"
     summary: str = "tetrahedra, with and without corners; very stiff for its weight, in height as well"
     prismatic: bool = False
-    wide: bool = False
+    corner_share: ClassVar[float] = 0.1  # cells keep their shape; flats touch at any radius
 
-    def strands(
-        self,
-        bounds: Bounds,
-        *,
-        cell: float,
-        line_width: float,
-        z: float,
-        layer: int,  # noqa: ARG002 - the height decides
-        radius: float,
-    ) -> list[Path]:
-        """Return two waves a row; see `Family`."""
-        gap, crest, period, pitch = self._sizes(cell, line_width, radius)
-        (middle_u, half_u), (middle_v, half_v) = (_line_pair(z / cell, sign) for sign in (1, -1))
+    def strands(self, bounds: Bounds, spec: PathSpec) -> list[Path]:
+        """Return two waves a row."""
+        cell, gap = spec.cell, spec.gap
+        crest, period, pitch = self._sizes(spec)
+        (middle_u, half_u), (middle_v, half_v) = (_line_pair(spec.z / cell, sign) for sign in (1, -1))
         # Places are those of planes, plus the room for flats along a row, and for touching waves across it: the
         # pairs keep their middles.
         x = (middle_u + middle_v) / 2 * period
@@ -77,23 +69,18 @@ class QuarterCubicPaths:
         return paths
 
     def cell_for(self, density: float, line_width: float) -> float:
-        """Return the cell for a density, which is the same at every height; see `Family`."""
+        """Return the cell for a density, which is the same at every height."""
 
         def length_per_area(cell: float) -> float:
-            _, crest, period, pitch = self._sizes(cell, line_width, 0.0)
+            crest, period, pitch = self._sizes(PathSpec(cell=cell, line_width=line_width))
             return 2 * (math.sqrt(2) * cell + FLATS * crest) / (period * pitch)
 
         return solve_cell_for_density(length_per_area, density, line_width)
 
-    def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002
-        """Return the radius at which cells keep their shape, mm; flats touch at any."""
-        return SHARE * cell
-
-    def _sizes(self, cell: float, line_width: float, radius: float) -> tuple[float, float, float, float]:
-        """Return the spacing of touching lines, the length of a flat, the period and the pitch of rows, mm."""
-        gap = TOUCH * line_width
-        crest = crest_length(line_width, min(radius, self.largest_radius(cell, line_width)), TURN)
-        return gap, crest, cell + FLATS * crest, cell / 2 + 2 * gap
+    def _sizes(self, spec: PathSpec) -> tuple[float, float, float]:
+        """Return the length of a flat, the period and the pitch of rows, mm."""
+        crest = crest_length(spec.line_width, min(spec.radius, self.largest_radius(spec.cell, spec.line_width)), TURN)
+        return crest, spec.cell + FLATS * crest, spec.cell / 2 + 2 * spec.gap
 
 
 def _line_pair(z: float, sign: int) -> tuple[float, float]:

@@ -15,57 +15,41 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
-from infill.paths.families.protocol import TOUCH, Bounds, Path
-from infill.paths.families.waves import Rows, Wave, crest_length, draw_rows, solve_cell_for_density
+from infill.paths.families.family import PathSpec
+from infill.paths.families.waves import Rows, Wave, WaveFamily, crest_length
 
 TURN = math.radians(60)
-SHARE = 0.25  # of a cell that a radius may have, so that cells keep their shape
 LEAST = 0.25  # line widths: a lower wave is drawn as a straight line
 SECTIONS = 24  # sections in which the mean of a family over its heights is taken
 
 
 @dataclass(frozen=True, kw_only=True)
-class Threefold:
+class Threefold(WaveFamily):
     """Resolved lines in three directions; `cell` is the distance between parallel lines.
 
     `share` is s at height 0; `rises` is True if the lines move with height as sections of cubes do.
 
-    >>> rows = Threefold(name="stars", summary="", share=0.5).rows(6.0, 0.45, 0.0, 0.0)
+    >>> rows = Threefold(name="stars", summary="", share=0.5).rows(PathSpec(cell=6.0, line_width=0.45))
     >>> [wave.height for wave in rows.waves]
     [3.0, 3.0]
     """
 
-    name: str
-    summary: str
     share: float = 0.0
     rises: bool = False
-    prismatic: bool = True
-    wide: bool = False
+    corner_share: ClassVar[float] = 0.25  # cells keep their shape; crests touch at any radius
 
-    def strands(
-        self,
-        bounds: Bounds,
-        *,
-        cell: float,
-        line_width: float,
-        z: float,
-        layer: int,  # noqa: ARG002 - the height decides
-        radius: float,
-    ) -> list[Path]:
-        """Return two waves a row; see `Family`."""
-        return draw_rows(self.rows(cell, line_width, radius, z), bounds)
-
-    def rows(self, cell: float, line_width: float, radius: float, z: float) -> Rows:
-        """Return the rows of waves at height `z`."""
-        gap = TOUCH * line_width
-        crest = crest_length(line_width, min(radius, self.largest_radius(cell, line_width)), TURN)
+    def rows(self, spec: PathSpec) -> Rows:
+        """Return the rows of waves."""
+        cell, gap = spec.cell, spec.gap
+        crest = crest_length(spec.line_width, self.radius_of(spec), TURN)
         pitch = cell + 2 * gap
         # A cube's faces are orthogonal planes: as z rises by 1, the lines along x sink by √½ and the crossings of
         # the other two directions rise by √2.
-        rise = z * math.sqrt(2) * pitch / cell if self.rises else 0.0
+        rise = spec.z * math.sqrt(2) * pitch / cell if self.rises else 0.0
         place = (self.share - 1.5 * rise / pitch) % 1
-        lowest = LEAST * line_width / cell
+        lowest = LEAST * spec.line_width / cell
         share = place if lowest <= place <= 1 - lowest else float(round(place))
         # Lines along x keep their places, and flanks move: sideways by half of that.
         base = rise + place * pitch - share * (cell + gap)
@@ -80,18 +64,9 @@ class Threefold:
         high = Wave(period=period, bottom=free[1], top=tip, height=heights[1], base=base + heights[0] + gap)
         return Rows(waves=[low, high], pitch=pitch, slip=period / 2)
 
-    def cell_for(self, density: float, line_width: float) -> float:
-        """Return the cell for a density, in the mean over heights; see `Family`."""
-
-        def length_per_area(cell: float) -> float:
-            heights = [cell * math.sqrt(2) / 3 * part / SECTIONS for part in range(SECTIONS if self.rises else 1)]
-            return sum(self.rows(cell, line_width, 0, z).length_per_area for z in heights) / len(heights)
-
-        return solve_cell_for_density(length_per_area, density, line_width)
-
-    def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002
-        """Return the radius at which cells keep their shape, mm; crests touch at any."""
-        return SHARE * cell
+    def heights(self, cell: float) -> list[float]:
+        """Return the heights of the sections of a period, mm."""
+        return [cell * math.sqrt(2) / 3 * part / SECTIONS for part in range(SECTIONS if self.rises else 1)]
 
 
 TRIANGLES = Threefold(name="triangles", summary="straight lines with zigzags between them that touch both")

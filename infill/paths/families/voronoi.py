@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from infill.paths.families.protocol import TOUCH, Bounds, Path
+from infill.paths.families.family import TOUCH, Bounds, Family, Path, PathSpec
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -18,14 +18,13 @@ EVEN = 2  # relaxation steps, as in `patterns.voronoi` by default
 # Measured on 3600 cells of three seeds, to 0.1 % and 0.5 %: the outline of a cell, in cells, and its loss for every mm
 # between touching lines, in mm.
 OUTLINE, LOST = 3.875, 3.58
-SHARE = 0.15  # of a cell that a radius may have: shortest walls go, and cells stay as wide
 FINEST = 7.5  # line widths: the smallest cells, with room inside for more than the bead along the wall
 CORNERS_APART = 1e-3  # mm
 MITRE = 20.0  # half distances of touching lines, that the corner of a cell may lie away from those of its walls
 
 
 @dataclass(frozen=True, kw_only=True)
-class VoronoiPaths:
+class VoronoiPaths(Family):
     """The cells of `patterns.voronoi`; `cell` is the side of a square as large as one of them on average.
 
     A cell too small for a bead is left out. Cells are at least `FINEST` line widths large, so that beads fit into most.
@@ -33,27 +32,17 @@ class VoronoiPaths:
 
     name: str = "voronoi"
     summary: str = "irregular cells, every one a closed loop; no direction is weaker than another"
-    prismatic: bool = True
-    wide: bool = False
     seed: int = 0
+    corner_share: ClassVar[float] = 0.15  # shortest walls go, cells stay as wide, and long walls touch
 
-    def strands(
-        self,
-        bounds: Bounds,
-        *,
-        cell: float,
-        line_width: float,
-        z: float,  # noqa: ARG002 - every layer is equal
-        layer: int,  # noqa: ARG002
-        radius: float,  # noqa: ARG002 - rounding leaves the walls where they are
-    ) -> list[Path]:
-        """Return one closed line a cell; see `Family`."""
+    def strands(self, bounds: Bounds, spec: PathSpec) -> list[Path]:
+        """Return one closed line a cell."""
         import shapely
 
-        cell = max(cell, FINEST * line_width)
+        cell = max(spec.cell, FINEST * spec.line_width)
         corners = np.array(bounds, dtype=np.float64).reshape(2, 2) / cell
         low, high = np.floor(corners[0]).tolist(), np.ceil(corners[1]).tolist()
-        gap = TOUCH * line_width / cell
+        gap = spec.gap / cell
         cells = _voronoi_cells(tuple(low), tuple(high), self.seed)
         inside = shapely.buffer(cells, -gap / 2, join_style="mitre", mitre_limit=MITRE)
         roomy = inside[~shapely.is_empty(shapely.buffer(inside, -gap / 2))]
@@ -61,13 +50,9 @@ class VoronoiPaths:
         return [_without_specks(shapely.get_coordinates(loop) * cell) for loop in loops]
 
     def cell_for(self, density: float, line_width: float) -> float:
-        """Return the cell for a density; see `Family`."""
+        """Return the cell for a density."""
         gap = TOUCH * line_width
         return gap * (OUTLINE + math.sqrt(OUTLINE**2 - 4 * density * LOST)) / (2 * density)
-
-    def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002
-        """Return the radius at which cells keep their shape, mm; long walls touch at any."""
-        return SHARE * cell
 
 
 @lru_cache(maxsize=16)

@@ -15,12 +15,13 @@ that rows touch at any radius: it is longer by twice what an arc takes from it, 
 from __future__ import annotations
 
 import math
+from abc import abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from infill.paths.families.protocol import TOUCH, Bounds, Path
+from infill.paths.families.family import TOUCH, Bounds, Family, Path, PathSpec
 
 BOND = 1.0  # line widths that crests touch along, at least
 
@@ -55,6 +56,37 @@ class Rows:
     def length_per_area(self) -> float:
         """Return mm of line per square millimetre."""
         return sum(wave.length for wave in self.waves) / (self.waves[0].period * self.pitch)
+
+
+@dataclass(frozen=True, kw_only=True)
+class WaveFamily(Family):
+    """Rows of waves."""
+
+    @abstractmethod
+    def rows(self, spec: PathSpec) -> Rows:
+        """Return the rows of waves of a layer."""
+
+    def strands(self, bounds: Bounds, spec: PathSpec) -> list[Path]:
+        """Return one line per row and wave."""
+        return draw_rows(self.rows(spec), bounds)
+
+    def heights(self, cell: float) -> list[float]:  # noqa: ARG002 - where layers differ
+        """Return the heights, mm, over which the mean of the density is taken."""
+        return [0.0]
+
+    def radius_of(self, spec: PathSpec) -> float:
+        """Return the largest radius of corners, mm: as requested, or as large as lines allow."""
+        return min(spec.radius, self.largest_radius(spec.cell, spec.line_width))
+
+    def length_per_area(self, cell: float, line_width: float) -> float:
+        """Return mm of line per square millimetre, in the mean over heights."""
+        heights = self.heights(cell)
+        rows = [self.rows(PathSpec(cell=cell, line_width=line_width, z=z)) for z in heights]
+        return sum(layer.length_per_area for layer in rows) / len(heights)
+
+    def cell_for(self, density: float, line_width: float) -> float:
+        """Return the cell for a density: lines come closer as cells shrink."""
+        return solve_cell_for_density(lambda cell: self.length_per_area(cell, line_width), density, line_width)
 
 
 def crest_length(line_width: float, radius: float, turn: float) -> float:

@@ -24,12 +24,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.drawing import MOST_POINTS, Line
 from infill.errors import GeometryError
 from infill.graph import label_connected
 from infill.paths.tiles.pairing import TileGraph, choose_doubled_parts
-
-Floats = NDArray[np.float64]
 
 CLOSE = 0.25  # line widths within which open ends are merged
 TOUCH = 0.905  # line widths between the centres of two beads that touch

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from infill.checks import check_length, check_positive, check_range
 from infill.drawing import Bounds, Drawing
 from infill.errors import GeometryError
+from infill.paths.families.family import Family, PathSpec
 from infill.paths.tiles.borders import TOUCH, find_borders
 from infill.paths.tiles.nodes import tile_grid
 from infill.paths.tiles.strands import Strand, repeat_strands, tile_strands
@@ -26,7 +27,7 @@ MOST_LINES = 4.0  # line widths: rounder corners look no better, and smoothing t
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class DrawnFamily:
+class DrawnFamily(Family):
     """A drawing that is repeated in both directions; `cell` is the width of its tile, mm.
 
     Parameters
@@ -37,11 +38,8 @@ class DrawnFamily:
         Its lines, with the tile as the page.
     """
 
-    name: str
     drawing: Drawing
     summary: str = "a drawing, repeated"
-    prismatic: bool = True
-    wide: bool = False
 
     @property
     def left_out(self) -> tuple[str, ...]:
@@ -60,39 +58,23 @@ class DrawnFamily:
         assert self.drawing.page is not None
         return self.drawing.page
 
-    def strands(
-        self,
-        bounds: Bounds,
-        *,
-        cell: float,
-        line_width: float,
-        z: float = 0.0,  # noqa: ARG002 - every layer is the same
-        layer: int = 0,  # noqa: ARG002
-        radius: float = 0.0,
-    ) -> list[NDArray[np.float64]]:
+    def strands(self, bounds: Bounds, spec: PathSpec) -> list[NDArray[np.float64]]:
         """Return paths that cover a box: no two cross, and those of open or branching lines run on both sides of them.
 
         Parameters
         ----------
         bounds : (x0, y0, x1, y1)
             mm.
-        cell : float
-            Width of the tile, mm.
-        line_width : float
-            mm.
-        z, layer
-            Of no effect.
-        radius : float
-            mm: about the radius that a right angle gets, up to `largest_radius`. Small outlines get less.
+        spec : PathSpec
+            Its radius is about that which a right angle gets, up to `largest_radius`. Small outlines get less.
 
         Raises
         ------
         GeometryError
             If nothing is left of the drawing at this size, or the tile is too large for the line width.
         """
-        strands, size = _scaled_strands(
-            self, check_length("cell", cell), check_length("line_width", line_width), radius
-        )
+        cell, line_width = check_length("cell", spec.cell), check_length("line_width", spec.line_width)
+        strands, size = _scaled_strands(self, cell, line_width, spec.radius)
         return repeat_strands(strands, size, bounds)
 
     def cell_for(self, density: float, line_width: float) -> float:

@@ -8,10 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.errors import GeometryError
 from infill.ragged import expand_rows
-
-Floats = NDArray[np.float64]
 
 CELLS_PER_LINE = 8  # grid cells in a line width, so that touching paths stay seven cells apart
 COARSEST = 5

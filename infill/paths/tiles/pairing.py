@@ -11,9 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.drawing import Line
-
-Floats = NDArray[np.float64]
 
 MOST_PAIRED = 1000
 

@@ -10,11 +10,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.paths.tiles.nodes import TileGrid
 
-Floats = NDArray[np.float64]
 Bounds = tuple[float, float, float, float]
 
 DEVIATION = 0.008  # mm between a path and its contour

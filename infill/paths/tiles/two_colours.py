@@ -12,12 +12,11 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.paths.tiles.borders import TOUCH, Borders
 from infill.paths.tiles.nodes import TileGrid, colour_parity, distance_field, periodic_copies, split_edges
 from infill.phasefield.allen_cahn import STEEPNESS, Smoothing
 from infill.phasefield.methods import smooth
-
-Floats = NDArray[np.float64]
 
 FIDELITY = 0.001
 # Cells: with a thinner interface, lines snap to the grid; a thicker one draws touching paths together.

@@ -7,22 +7,20 @@ from dataclasses import dataclass, replace
 from typing import BinaryIO
 
 import numpy as np
-from numpy.typing import NDArray
 
+from infill.arrays import Floats, Places
 from infill.gcode.dialect import role_of
 from infill.gcode.found_limits import FileLimits
 from infill.gcode.limits import Limits
+from infill.gcode.machine_state import MachineState
 from infill.gcode.sections import SPARSE
 from infill.gcode.sliced_file import SlicedText
-from infill.gcode.table import GcodeTable, MachineState
+from infill.gcode.table import GcodeTable
 from infill.planner.bounds import Moves
 from infill.planner.lookahead import MotionPlan, plan_moves
 from infill.planner.printing_time import make_timeline
-from infill.planner.strokes import FeatureSums as Sums
+from infill.planner.strokes import FeatureSums
 from infill.planner.timeline import Steps
-
-Floats = NDArray[np.float64]
-Places = NDArray[np.intp]
 
 
 def neutral_limits(square_corner_velocity: float = 5.0) -> Limits:
@@ -41,7 +39,9 @@ def neutral_limits(square_corner_velocity: float = 5.0) -> Limits:
     )
 
 
-def path_seconds(points: Floats, offsets: Places, feedrate: Floats, acceleration: Floats, limits: Limits) -> Floats:
+def path_seconds(
+    points: Floats, offsets: Places, feedrate: Floats, acceleration: Floats, limits: Limits | None = None
+) -> Floats:
     """Compute the time of each path, s.
 
     Parameters
@@ -50,8 +50,8 @@ def path_seconds(points: Floats, offsets: Places, feedrate: Floats, acceleration
     offsets : (M + 1,) int
     feedrate, acceleration : (M,) float64
         mm/s and mm/s².
-    limits : Limits
-        All others.
+    limits : Limits, optional
+        All others; by default, `neutral_limits`.
     """
     number = np.diff(offsets)
     if not len(number):
@@ -62,6 +62,7 @@ def path_seconds(points: Floats, offsets: Places, feedrate: Floats, acceleration
     delta = np.zeros((len(move), 4))
     delta[:, :2] = points[move + 1] - points[move]
     delta[:, 3] = 1e-9
+    limits = limits or neutral_limits()
     levels, setting = np.unique(acceleration, return_inverse=True)
     limits_by_setting = [
         replace(limits, acceleration=float(level), travel_acceleration=float(level)) for level in levels
@@ -124,7 +125,7 @@ class PrintClock:
         self._timeline = make_timeline(sliced, text, found=None if like is None else like.found)
         self.found: FileLimits = self._timeline.found
         self.begin: MachineState = self._timeline.state
-        self._sums, self._asked = Sums(times_only=True), np.asarray(places, dtype=np.int64)
+        self._sums, self._asked = FeatureSums(times_only=True), np.asarray(places, dtype=np.int64)
         self._elapsed = np.zeros(len(self._asked))
         self._first_layer = self._total = 0.0
         self._known = 0  # of the places
@@ -141,9 +142,22 @@ class PrintClock:
 
     def finish(self) -> PrintTime:
         """Return the time of all lines that were added."""
-        if self._timeline.moved:
-            self._count(*self._timeline.rest())
-        return self._result()
+        timeline, sums = self._timeline, self._sums
+        if timeline.moved:
+            self._count(*timeline.rest())
+        sums.finish(timeline.pause, timeline.retractions)
+        self._elapsed[self._known :] = self._total
+        seconds = sums.total("seconds").tolist()
+        return PrintTime(
+            seconds=float(sums.total("seconds").sum()),
+            infill=sum(
+                (spent for name, spent in zip(timeline.features, seconds, strict=False) if role_of(name) == SPARSE), 0.0
+            ),
+            first_layer=self._first_layer,
+            elapsed=self._elapsed,
+            unread=timeline.unread.lines,
+            first_unread=timeline.unread.first,
+        )
 
     def _count(self, steps: Steps, motion_plan: MotionPlan) -> None:
         if not len(steps):
@@ -158,20 +172,3 @@ class PrintClock:
             self._total + cumulative[np.searchsorted(steps.place, self._asked[reached], side="left")]
         )
         self._total += float(cumulative[-1])
-
-    def _result(self) -> PrintTime:
-        timeline, sums = self._timeline, self._sums
-        sums.finish(timeline.pause, timeline.retractions)
-        self._elapsed[self._known :] = self._total
-        seconds = sums.total("seconds")
-        roles = [role_of(name) for name in timeline.features[: len(seconds)]]
-        return PrintTime(
-            seconds=float(seconds.sum()),
-            infill=float(
-                sum(role_seconds for role, role_seconds in zip(roles, seconds.tolist(), strict=False) if role == SPARSE)
-            ),
-            first_layer=self._first_layer,
-            elapsed=self._elapsed,
-            unread=timeline.unread.lines,
-            first_unread=timeline.unread.first,
-        )
