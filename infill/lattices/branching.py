@@ -9,8 +9,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.interior.interior import Interior
-from infill.lattices.forest import Floats, Forest
+from infill.lattices.forest import Forest
 from patterns.lightning import Lightning
 
 DEEPER = 1.5  # cells by which feet stand in the wall, so that walls join

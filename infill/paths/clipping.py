@@ -14,8 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.paths.families.family import Path
-from infill.paths.outlines import Floats, Numbers, Outline
+from infill.paths.outlines import Numbers, Outline
 
 SAME = 1e-9  # mm: a cut this close to a corner is at the corner
 

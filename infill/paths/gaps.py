@@ -7,9 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.paths.clipping import Pieces
 from infill.paths.families.family import TOUCH, Path
-from infill.paths.outlines import Floats, Numbers, Outline
+from infill.paths.outlines import Numbers, Outline
 
 CLEAR = 0.95  # of the distance of touching beads: beads overlap by at most 5 %
 EXEMPT_LENGTH = 3.5  # line widths along a path within which it may come near itself: joins with corners of 30° and more

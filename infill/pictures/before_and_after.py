@@ -12,10 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from infill.arrays import Floats
 from infill.inspection.fidelity import sample_surface
 from infill.meshes.distance import TriangleTree
 from infill.meshes.winding import is_solid_boundary
-from infill.pictures.render import AZIMUTH, ELEVATION, Colour, Floats, Window, directions, render
+from infill.pictures.render import AZIMUTH, ELEVATION, Colour, Window, directions, render
 from infill.pictures.sheet import BACKGROUND, PANEL, arrange_panels
 from infill.surface import Surface
 

@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from infill.arrays import Floats
 from infill.meshes.solids import FINE, from_manifold, solid_status, to_manifold
-from infill.pictures.render import AZIMUTH, ELEVATION, Colour, Floats, render
+from infill.pictures.render import AZIMUTH, ELEVATION, Colour, render
 from infill.pictures.sections import Cut, choose_cuts
 from infill.pictures.sheet import BACKGROUND, PANEL, arrange_panels
 from infill.surface import Surface

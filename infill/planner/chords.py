@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.gcode.table import GcodeTable
-from infill.planner.bounds import Floats
 
 MAX_CHORD = 1.0  # mm: the default of Marlin (MM_PER_ARC_SEGMENT) and of Klipper (gcode_arcs)
 MIN_CHORD = 0.1  # mm

@@ -13,8 +13,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.gcode.limits import Limits
-from infill.planner.bounds import BoundedMoves, Floats, Moves, limit_values
+from infill.planner.bounds import BoundedMoves, Moves, limit_values
 
 Limit = Callable[[str], Floats]
 SMALL_SEGMENT = 1.0  # mm: below it Marlin takes the corner for part of an arc,

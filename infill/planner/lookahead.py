@@ -20,8 +20,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.gcode.limits import Limits
-from infill.planner.bounds import BoundedMoves, Floats, Moves, bound_moves, limit_values
+from infill.planner.bounds import BoundedMoves, Moves, bound_moves, limit_values
 from infill.planner.junctions import joint_limits
 from infill.planner.struct_of_arrays import concatenate_rows, slice_rows
 

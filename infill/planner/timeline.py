@@ -12,6 +12,7 @@ from typing import Any, BinaryIO, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.errors import FormatError
 from infill.gcode.dialect import MAX_TAG_BYTES, TAGS, parse_tag
 from infill.gcode.found_limits import FileLimits, read_limits
@@ -20,7 +21,7 @@ from infill.gcode.lines import ARC, COMMENT, MOVE, ODD, GcodeCommand
 from infill.gcode.machine_state import MachineState, firmware_retraction
 from infill.gcode.table import GcodeTable, read_table
 from infill.gcode.unusual_moves import is_macro
-from infill.planner.bounds import Floats, Moves
+from infill.planner.bounds import Moves
 from infill.planner.chords import arc_chords
 from infill.planner.lookahead import EMPTY_PLAN, MotionPlan, plan_settled
 from infill.planner.struct_of_arrays import concatenate_rows, slice_rows

@@ -12,7 +12,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from infill.paths.families.curves import Floats, chord_parameters, repeat_curves, repeat_loop
+from infill.arrays import Floats
+from infill.paths.families.curves import chord_parameters, repeat_curves, repeat_loop
 from infill.paths.families.family import TOUCH, Bounds, Family, Path, PathSpec
 
 # Neighbouring waves of a gyroid climb where they come nearest: the ratio of their distance along an axis to their
