@@ -66,7 +66,7 @@ class SplicedText:
     same: NDArray[np.bool_]
 
     def new_lines(self, count: int) -> NDArray[np.bool_]:
-        """Tell which lines of the new text, `count` in all, are no copies."""
+        """Mark the lines of the new text, `count` in all, that are not copies of old ones."""
         new = np.ones(count, dtype=bool)
         old = np.flatnonzero(self.same)
         new[old + self.shift[old]] = False
