@@ -264,7 +264,10 @@ REPORTS: dict[str, Callable[[Path, Results], dict[str, Any]]] = {
     "check --for": project_reports,
     "list": lists,
 }
-LONG = {"fill": pytest.mark.longest, **dict.fromkeys(("smooth --dry-run", "labels", "refill"), pytest.mark.slow)}
+LONG = {
+    **dict.fromkeys(("fill", "smooth --dry-run", "check --for"), pytest.mark.longest),
+    **dict.fromkeys(("labels", "refill"), pytest.mark.slow),
+}
 
 
 # --- the law -----------------------------------------------------------------------------------------------------------
