@@ -556,7 +556,7 @@ def test_a_field_that_can_change_is_named() -> None:
 def test_the_walks_lead_through_functions_that_exist() -> None:
     """`python tools/walk.py` writes the page again."""
     page = (ROOT / "docs" / "design" / "walks.md").read_text(encoding="utf-8")
-    steps = re.findall(r"`((?:infill|patterns)/[\w/]+)\.(\w+)`", page)
+    steps = re.findall(r"`((?:infill|patterns)/[\w/]+)\.(?:\w+\.)?(\w+)`", page)
     assert len(steps) > 100
     names = {
         file: set(re.findall(r"def (\w+)", (ROOT / f"{file}.py").read_text(encoding="utf-8"))) for file, _ in steps

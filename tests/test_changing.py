@@ -14,7 +14,7 @@ from test_slabs import asked
 
 from infill import Surface, fill
 from infill.interior.interior import compute_interior
-from infill.lattices.fill_job import Job
+from infill.lattices.task import FillTask
 from infill.lattices.voids import Layout
 from infill.meshes.distance import TriangleTree
 from infill.meshes.winding import winding_numbers
@@ -117,7 +117,7 @@ class Twisting(Leaning):
 def test_fillets_suit_the_height_at_which_walls_meet_at_the_sharpest_angles(turn: float) -> None:
     part = box(24, 20, 22)
     inside = compute_interior(Surface(vertices=part.vertices, faces=part.faces), wall=1.0, voxel=0.5)
-    fields = Job.of(inside.part, asked(Twisting(turn=turn))).draw(Layout(space=inside, cell=6.0, width=0.8))
+    fields = FillTask.of(inside.part, asked(Twisting(turn=turn))).draw(Layout(space=inside, cell=6.0, width=0.8))
     assert fields.find_sharpest() == pytest.approx(90 - 10 * turn, abs=0.5 * turn)
 
 

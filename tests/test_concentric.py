@@ -15,7 +15,7 @@ from test_slabs import asked, in_slabs, surface
 from infill import ParameterError, Result, Surface, fill
 from infill.interior.interior import compute_interior
 from infill.interior.layer_stack import LayerStack
-from infill.lattices.choosing import choose_voids
+from infill.lattices.choosing import place_pattern
 from infill.lattices.drawn_voids import Prismatic, silhouette
 from infill.lattices.voids import Layout
 from infill.meshes.distance import TriangleTree
@@ -87,7 +87,7 @@ def test_a_part_with_hardly_any_room_has_no_shadow_and_no_lines() -> None:
     space = compute_interior(surface(box(20, 20, 8)), wall=WALL, voxel=0.4)
     space = replace(space, layers=LayerStack.of(np.minimum(space.depth, np.float32(0.05))))
     assert silhouette(space).is_empty
-    voids = choose_voids(asked("concentric", phase=(0, 0)), space.part.bounds)
+    voids = place_pattern(asked("concentric", phase=(0, 0)), space.part.bounds)
     assert voids.draw(Layout(space=space, cell=CELL, width=WIDTH)).count == 1
 
 
@@ -181,7 +181,7 @@ def test_a_part_is_one_solid_of_the_density_asked_for(name: str, density: float)
 
 
 def test_lines_are_about_as_dense_as_their_share_of_a_cell() -> None:
-    voids = choose_voids(asked("concentric", phase=(0, 0)), np.array([[0.0, 0, 0], [30, 30, 30]]))
+    voids = place_pattern(asked("concentric", phase=(0, 0)), np.array([[0.0, 0, 0], [30, 30, 30]]))
     assert isinstance(voids, Prismatic)
     for density in (0.1, 0.2, 0.5):
         assert voids.widths(density) == pytest.approx(density, rel=0.06)

@@ -21,12 +21,12 @@ from test_command_line import run as command
 from infill import GeometryError, MemoryLimitError, ParameterError, Surface, UsageError, fill, read_mesh
 from infill.interior.opening import Opening
 from infill.lattices import quality_checks as telling
-from infill.lattices.fill_job import Job
 from infill.lattices.grading import UNIFORM_WIDTH
 from infill.lattices.hollowing import make_void_meshes
 from infill.lattices.quality_checks import count_outside, measure_least_wall
 from infill.lattices.request import check_request
 from infill.lattices.root_finding import find_root
+from infill.lattices.task import FillTask
 from infill.meshes.distance import TriangleTree
 from infill.meshes.solids import FINE, coincident_vertices, manifold_status, simplify_solid, to_manifold
 from infill.meshes.winding import winding_numbers
@@ -1007,7 +1007,7 @@ def test_a_hollow_knows_its_density() -> None:
         max_triangles=None,
     )
     block = surface(box(16, 16, 16))
-    hollow, _ = make_void_meshes(Job.of(block, request))
+    hollow, _ = make_void_meshes(FillTask.of(block, request))
     assert hollow.space.volume == pytest.approx(14**3, rel=1e-3)
     assert hollow.density == pytest.approx(0.3, abs=0.002 + 1e-9)
     assert hollow.triangles == len(hollow.surface.faces)

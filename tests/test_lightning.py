@@ -15,7 +15,7 @@ from scipy.ndimage import distance_transform_edt
 from infill import ParameterError, UsageError, fill
 from infill.interior.interior import Interior, compute_interior
 from infill.kernels.layered import distances_to_lines, from_layers
-from infill.lattices.choosing import choose_voids
+from infill.lattices.choosing import place_pattern
 from infill.lattices.forest import NONE, Forest
 from infill.lattices.grading import UNIFORM_WIDTH as EVEN
 from infill.lattices.layered import NonPrismatic
@@ -119,7 +119,7 @@ def branches_in(part: trimesh.Trimesh, **more: Any) -> tuple[Interior, list[np.n
     """The inside of a part, and the branches of each of its layers."""
     request = check_request(pattern="lightning", own=more, cell=CELL, line_width=0.8)
     surface = surface_of(part)
-    voids, space = choose_voids(request, surface.bounds), compute_interior(surface, wall=1.0, voxel=0.4)
+    voids, space = place_pattern(request, surface.bounds), compute_interior(surface, wall=1.0, voxel=0.4)
     assert isinstance(voids, NonPrismatic)
     return space, voids.layers.lines(space, CELL)
 

@@ -19,7 +19,7 @@ from test_command_line import one_line_error, run
 import patterns
 from infill import ParameterError, fill, make, refill
 from infill.errors import UsageError
-from infill.lattices.choosing import choose_voids
+from infill.lattices.choosing import place_pattern
 from infill.lattices.request import check_request
 from infill.lattices.settings import FillOptions
 from infill.making.request import instantiate_pattern
@@ -187,7 +187,7 @@ def test_fill_takes_a_name_or_a_pattern(name: str) -> None:
 
     one, other = asked(name), asked(PATTERNS[name]())
     assert one.facts() == other.facts()
-    first, second = (choose_voids(request, bounds) for request in (one, other))
+    first, second = (place_pattern(request, bounds) for request in (one, other))
     assert type(first) is type(second)
     assert getattr(first, "pattern", None) == getattr(second, "pattern", None)
     sized, made = asked(name, cell=7.0), asked(PATTERNS[name](cell=7.0))

@@ -17,6 +17,7 @@ import pytest
 import yaml
 
 import infill
+from patterns import linework
 
 ROOT = Path(__file__).resolve().parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
@@ -243,3 +244,9 @@ def test_make_test_runs_one_case_of_each_long_test(pytester: pytest.Pytester) ->
     for chosen, count in (("not left_out", 3), ("not slow", 1), ("slow or not slow", 7)):
         result = pytester.runpytest_subprocess("-q", "-m", chosen, *markers)
         result.assert_outcomes(passed=count, deselected=7 - count)
+
+
+def test_the_functions_of_the_exercise_exist() -> None:
+    names = re.findall(r"`linework\.(\w+)", text("CONTRIBUTING.md"))
+    assert len(names) >= 3
+    assert [name for name in names if not hasattr(linework, name)] == []

@@ -29,11 +29,11 @@ from infill.isosurfaces.slabs import (
 from infill.lattices import density_search
 from infill.lattices.density_search import solid_share
 from infill.lattices.drawn_voids import Prismatic
-from infill.lattices.fill_job import Job
 from infill.lattices.hollowing import simplify_voids
 from infill.lattices.request import FillSpec, check_request
 from infill.lattices.slabwise import defer_voids, surfaces_by_slabs
 from infill.lattices.surfacing import choose_smoothing, make_surfaces
+from infill.lattices.task import FillTask
 from infill.lattices.voids import Layout, VoidFields
 from infill.meshes.distance import TriangleTree
 from infill.meshes.hole_filling import open_edges
@@ -88,20 +88,20 @@ def space() -> Interior:
     return compute_interior(surface(turned(mesh, np.random.default_rng(4))), wall=1.2, voxel=0.4)
 
 
-def drawn(space: Interior, pattern: str, **more: Any) -> tuple[Job, VoidFields]:
+def drawn(space: Interior, pattern: str, **more: Any) -> tuple[FillTask, VoidFields]:
     """Draw a pattern in a space."""
-    job = Job.of(space.part, asked(pattern, **more))
-    fields = job.draw(Layout(space=space, **SIZES))
+    task = FillTask.of(space.part, asked(pattern, **more))
+    fields = task.draw(Layout(space=space, **SIZES))
     assert isinstance(fields, VoidFields)
-    return job, fields
+    return task, fields
 
 
 def made(space: Interior, pattern: str, **more: Any) -> tuple[int, tuple[Surface, ...], tuple[Surface, ...], float]:
     """Return the steps, the surfaces of the whole and of slabs, every triangle of them, and the volume of slabs."""
-    (job, fields), (_, sliced) = (drawn(each, pattern, **more) for each in (space, in_slabs(space)))
-    whole, slabs = make_surfaces(job, fields), surfaces_by_slabs(job, sliced, tolerance=0.0)
+    (task, fields), (_, sliced) = (drawn(each, pattern, **more) for each in (space, in_slabs(space)))
+    whole, slabs = make_surfaces(task, fields), surfaces_by_slabs(task, sliced, tolerance=0.0)
     assert (whole.islands, whole.specks) == (slabs.islands, slabs.specks)
-    return choose_smoothing(job, fields).steps, whole.surfaces, slabs.surfaces, defer_voids(job, sliced).volume
+    return choose_smoothing(task, fields).steps, whole.surfaces, slabs.surfaces, defer_voids(task, sliced).volume
 
 
 def corners(each: Surface, digits: int) -> np.ndarray:
@@ -198,8 +198,8 @@ def test_slabs_make_the_surfaces_of_the_whole(pattern: str, radius: float, space
 
 def sharpest(mesh: Any, pattern: str, **more: Any) -> float:
     inside = compute_interior(surface(mesh), wall=1.0, voxel=0.4)
-    job = Job.of(inside.part, asked(pattern, phase=(0.0, 0.0), **more))
-    return job.draw(Layout(space=inside, cell=7.8, width=0.8)).find_sharpest()
+    task = FillTask.of(inside.part, asked(pattern, phase=(0.0, 0.0), **more))
+    return task.draw(Layout(space=inside, cell=7.8, width=0.8)).find_sharpest()
 
 
 @pytest.mark.slow
@@ -244,8 +244,8 @@ def test_too_few_layers_beside_a_slab_are_seen(space: Interior, monkeypatch: pyt
     """The comparison can fail: without them, pieces do not meet, or surfaces differ."""
     from infill.lattices import slabwise
 
-    job, fields = drawn(in_slabs(space), "honeycomb", smooth_radius=1.5)
-    smoothing = choose_smoothing(job, fields)
+    task, fields = drawn(in_slabs(space), "honeycomb", smooth_radius=1.5)
+    smoothing = choose_smoothing(task, fields)
 
     def few(*_: Any) -> Any:
         return replace(smoothing, steps=0)
@@ -256,7 +256,7 @@ def test_too_few_layers_beside_a_slab_are_seen(space: Interior, monkeypatch: pyt
         slabwise, "smooth_void", lambda out, depth, _, threads: real(out, depth, smoothing, threads=threads)
     )
     with pytest.raises(GeometryError, match="do not meet"):
-        surfaces_by_slabs(job, fields, tolerance=0.0)
+        surfaces_by_slabs(task, fields, tolerance=0.0)
 
 
 @pytest.mark.slow
@@ -299,11 +299,11 @@ def test_open_edges_stay_to_the_last_bit() -> None:
 @pytest.mark.long
 @pytest.mark.parametrize("pattern", ["honeycomb", "rectilinear", "concentric-heart"])
 def test_simplified_slabs_stay_within_the_tolerance(pattern: str, space: Interior) -> None:
-    job, fields = drawn(in_slabs(space), pattern)
-    tolerance = job.request.tolerance
-    every = surfaces_by_slabs(job, fields, tolerance=0.0)
-    few = simplify_voids(job, defer_voids(job, fields), tolerance)
-    alone = simplify_voids(job, every, tolerance)
+    task, fields = drawn(in_slabs(space), pattern)
+    tolerance = task.request.tolerance
+    every = surfaces_by_slabs(task, fields, tolerance=0.0)
+    few = simplify_voids(task, defer_voids(task, fields), tolerance)
+    alone = simplify_voids(task, every, tolerance)
     assert few.triangles < 1.4 * alone.triangles  # with a plane at every eleventh layer, at which all are kept at first
     assert few.triangles < every.triangles / 2
     assert few.count == every.count
@@ -351,7 +351,7 @@ def test_slabs_are_planned_for_upright_voids_alone() -> None:
         ("honeycomb", {"density": (0.1, 0.3), "cell": None, "line_width": None}, False),
     ):
         request = asked(pattern, **more)
-        assert goes_by_slabs(Job.of(part, request)) is expected, (pattern, more)
+        assert goes_by_slabs(FillTask.of(part, request)) is expected, (pattern, more)
 
 
 @pytest.mark.slow
@@ -361,8 +361,8 @@ def test_a_tall_part_has_voxels_as_fine_as_a_low_one() -> None:
     request = asked("honeycomb", cell=None, line_width=None, density=0.2, voxel=None)
     found = []
     for height in (100, 400):
-        job = Job.of(surface(box(60, 60, height)), request)
-        found.append(choose_voxel(job, *choose_sizes(job)))
+        task = FillTask.of(surface(box(60, 60, height)), request)
+        found.append(choose_voxel(task, *choose_sizes(task)))
     assert [low >= high for low, high in pairwise(found)] == [True]
 
 

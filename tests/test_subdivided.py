@@ -15,7 +15,7 @@ from shapes import IN_SPACE
 from infill import ParameterError, fill
 from infill.interior.interior import Interior, compute_interior
 from infill.kernels.cells import colour_of_cube, colours_of_cubes, from_cubes
-from infill.lattices.choosing import choose_voids
+from infill.lattices.choosing import place_pattern
 from infill.lattices.grading import UNIFORM_WIDTH
 from infill.lattices.request import check_request
 from infill.lattices.subdivided import CubeTree, Subdivided
@@ -157,7 +157,7 @@ def test_the_kernel_is_its_definition() -> None:
 def tree_in(part: trimesh.Trimesh, name: str, cell: float, **more: Any) -> tuple[Interior, CubeTree, Subdivided]:
     request = check_request(pattern=name, own=more, cell=cell, line_width=0.45)
     surface = surface_of(part)
-    voids, space = choose_voids(request, surface.bounds), compute_interior(surface, wall=1.0, voxel=0.5)
+    voids, space = place_pattern(request, surface.bounds), compute_interior(surface, wall=1.0, voxel=0.5)
     assert isinstance(voids, Subdivided)
     tree = voids.draw(Layout(space=space, cell=cell, width=0.45)).basis
     assert isinstance(tree, CubeTree)

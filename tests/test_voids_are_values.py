@@ -11,10 +11,10 @@ from made_shapes import box
 
 from infill.interior.interior import compute_interior
 from infill.lattices.bodies import Fields
-from infill.lattices.fill_job import Job
 from infill.lattices.job import fill_request
 from infill.lattices.request import FillSpec
 from infill.lattices.settings import resolve
+from infill.lattices.task import FillTask
 from infill.lattices.voids import Layout
 from infill.meshes.merging import surface_of
 
@@ -51,16 +51,16 @@ def test_voids_drawn_again_are_the_same(pattern: str, align: str) -> None:
         else asked(pattern=pattern, align=align)
     )
     spaces = [compute_interior(part, wall=1.0, voxel=0.6) for part in PARTS]
-    job = Job.of(PARTS[0], request, threads=1)
-    local = request.grading and request.grading.over(spaces[0], job.pattern.widths)
+    task = FillTask.of(PARTS[0], request, threads=1)
+    local = request.grading and request.grading.over(spaces[0], task.pattern.widths)
     fresh, wider, elsewhere = (
         Layout(space=space, cell=5.0, width=width, local=local, threads=1)
         for space, width in ((spaces[0], 0.8), (spaces[0], 0.9), (spaces[1], 0.8))
     )
-    fields = job.draw(fresh)
+    fields = task.draw(fresh)
     before = written(fields)
-    for known in (job.draw(wider, fields), job.draw(elsewhere, fields)):
-        again = job.draw(fresh, known)
+    for known in (task.draw(wider, fields), task.draw(elsewhere, fields)):
+        again = task.draw(fresh, known)
         assert again.find_sharpest() == fields.find_sharpest()
         for first, kept, second in zip(before, written(fields), written(again), strict=True):
             assert first[0] == kept[0] == second[0]

@@ -52,6 +52,11 @@ def room_of(path: str) -> str | None:
     return parts[0] if parts[0] == "patterns" else parts[1] if len(parts) > 2 else "hall"
 
 
+def qualified_name(frame: FrameType) -> str:
+    """Return the name of the running function, with its class or the function around it."""
+    return frame.f_code.co_qualname.replace(".<locals>", "")
+
+
 def trace(call: Callable[[], object]) -> list[tuple[str, str]]:
     """Return the moves of a call, in order: the calling and the called function, each with its file."""
     moves: dict[tuple[str, str], str] = {}
@@ -70,7 +75,7 @@ def trace(call: Callable[[], object]) -> list[tuple[str, str]]:
             caller = caller.f_back
         if caller is None or not is_function(caller) or room_of(caller.f_code.co_filename) in (room, *LEAVES):
             return
-        moves.setdefault((frame.f_code.co_filename, name), place(caller))
+        moves.setdefault((frame.f_code.co_filename, qualified_name(frame)), place(caller))
 
     sys.setprofile(note)
     try:
@@ -89,7 +94,7 @@ def is_function(frame: FrameType) -> bool:
 
 def place(frame: FrameType) -> str:
     """Return the file and name of the function of a frame."""
-    return f"{Path(frame.f_code.co_filename).relative_to(ROOT).with_suffix('')}.{frame.f_code.co_name}"
+    return f"{Path(frame.f_code.co_filename).relative_to(ROOT).with_suffix('')}.{qualified_name(frame)}"
 
 
 def calls() -> dict[str, Callable[[], object]]:

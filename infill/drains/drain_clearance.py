@@ -36,7 +36,7 @@ Bools = NDArray[np.bool_]
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Skin:
-    """The skin of a part that holes leave straight down.
+    """The skin of a part, which holes go straight down through.
 
     Parameters
     ----------

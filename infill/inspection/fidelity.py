@@ -112,7 +112,7 @@ class Fidelity:
 
     @property
     def word(self) -> Word:
-        """The verdict, by distances alone."""
+        """`lost` if at least four cells² in one place are missing or new; `kept` if nothing is over 1.25 cells away."""
         if any(place.area >= PATCH * self.cell**2 for place in (*self.added, *self.lost)):
             return "lost"
         return "kept" if max(self.there.max, self.back.max) <= KEPT * self.cell else "changed a little"

@@ -68,7 +68,7 @@ def wall_width(lines: MultiLineString, layer: NDArray[np.floating], grid: Grid, 
     places, normals = _sample_places(lines, requested)
     for clearance in CLEARANCES:
         reach = clearance * requested
-        clear = _clear_places(lines, places, normals, reach)
+        clear = _mark_clear_places(lines, places, normals, reach)
         if clear.mean() > ENOUGH:
             break
     places, normals = places[clear], normals[clear]
@@ -103,7 +103,7 @@ def _sample_places(lines: MultiLineString, requested: float) -> tuple[NDArray[np
     return ((start + end) / 2)[chosen], np.stack([-along[:, 1], along[:, 0]], axis=-1)
 
 
-def _clear_places(
+def _mark_clear_places(
     lines: MultiLineString, places: NDArray[np.float64], normals: NDArray[np.float64], reach: float
 ) -> NDArray[np.bool_]:
     """Mark the places where the line below is the nearest, on both sides and as far as `reach`."""

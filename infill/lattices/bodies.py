@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from infill.interior.interior import BAND, Interior
 from infill.interior.layer_stack import LayerStack
 from infill.isosurfaces.components import shell_names
-from infill.lattices.choosing import choose_voids
+from infill.lattices.choosing import place_pattern
 from infill.lattices.request import FillSpec
 from infill.lattices.voids import Field, Layout, VoidFields
 from infill.meshes.shells import select_faces, shell_volumes
@@ -102,7 +102,7 @@ def draw_in_bodies(request: FillSpec, layout: Layout, known: BodyFields | None =
     bodies = []
     for body, box, fields in boxes:
         in_box = replace(layout, space=box, local=local and local.in_box(body.corner, box.shape))
-        bodies.append((body, choose_voids(request, body.bounds).draw(in_box, fields)))
+        bodies.append((body, place_pattern(request, body.bounds).draw(in_box, fields)))
     return BodyFields(layout=layout, bodies=tuple(bodies))
 
 

@@ -33,7 +33,7 @@ SEED = "seed"
 HELD = ("cell", "angle", "phase", "frame")  # parameters of patterns that `fill` has arguments for, or does not use
 
 
-def choose_voids(request: FillSpec, bounds: NDArray[np.floating]) -> VoidPattern:
+def place_pattern(request: FillSpec, bounds: NDArray[np.floating]) -> VoidPattern:
     """Put the requested pattern in its place in a part, or in a body of it, with these bounds (2, 3), mm."""
     is_on_bed = request.align == "bed"
     origin = np.array([0.0, 0.0, float(bounds[0][2])]) if is_on_bed else np.asarray(bounds, np.float64).mean(axis=0)

@@ -9,12 +9,12 @@ from functools import partial
 import numpy as np
 
 from infill.lattices.bodies import Fields
-from infill.lattices.fill_job import Job
 from infill.lattices.grading import LocalWidths, densities_by_share
 from infill.lattices.request import Size, has_bars
 from infill.lattices.root_finding import find_root
 from infill.lattices.slabwise import count_filled_cells, defer_voids
 from infill.lattices.surfacing import make_surfaces
+from infill.lattices.task import FillTask
 from infill.lattices.void_meshes import VoidMeshes
 from infill.lattices.voids import Layout, Periodic
 from patterns.unit_cells import Network
@@ -26,14 +26,14 @@ TRIANGLES_A_CELL = 2.5
 GRADING_STEPS, GRADING_ROUNDS, GRADING_CLOSE, MOST_OFF = 24, 4, 0.01, 0.5  # of a density that changes
 
 
-def make_voids(job: Job, layout: Layout, known: Fields | None = None) -> tuple[VoidMeshes, Fields]:
+def make_voids(task: FillTask, layout: Layout, known: Fields | None = None) -> tuple[VoidMeshes, Fields]:
     """Make the voids of a layout inside the walls; return them, and their fields for later drawings.
 
     In a large space that is kept in slabs, only their volume is computed for now.
     """
-    fields = job.draw(replace(layout, space=job.reach(layout.space)), known)
+    fields = task.draw(replace(layout, space=task.reach(layout.space)), known)
     make = defer_voids if layout.space.layers.in_slabs else make_surfaces
-    return make(job, fields), fields
+    return make(task, fields), fields
 
 
 def solid_share(fields: Fields) -> float:
@@ -50,17 +50,19 @@ def solid_share(fields: Fields) -> float:
     return max(1 - filled / space.cells, LEAST)
 
 
-def requested_density(job: Job, local: LocalWidths | None) -> float | None:
+def requested_density(task: FillTask, local: LocalWidths | None) -> float | None:
     """Return the density requested inside the walls, on average; None if cell and line width fix it."""
-    return job.request.density if local is None else local.mean
+    return task.request.density if local is None else local.mean
 
 
-def has_uniform_width(job: Job) -> bool:
+def has_uniform_width(task: FillTask) -> bool:
     """Tell whether walls or bars have the same width everywhere, as all have except those of a network."""
-    return not isinstance(job.request.kind, Network)
+    return not isinstance(task.request.kind, Network)
 
 
-def find_sizes(job: Job, layout: Layout, varied: tuple[Size, ...]) -> tuple[Layout, tuple[Size, ...], Fields | None]:
+def find_sizes(
+    task: FillTask, layout: Layout, varied: tuple[Size, ...]
+) -> tuple[Layout, tuple[Size, ...], Fields | None]:
     """Find cell and width that leave the requested density before smoothing; return what may vary, and fields, too.
 
     A cell that is larger than the space is made smaller and walls thinner, if neither was requested; in a project,
@@ -69,11 +71,11 @@ def find_sizes(job: Job, layout: Layout, varied: tuple[Size, ...]) -> tuple[Layo
     fields: Fields | None = None
     if not varied:
         return layout, varied, fields
-    request, density = job.request, requested_density(job, layout.local) or LEAST
+    request, density = task.request, requested_density(task, layout.local) or LEAST
 
     def off(layout: Layout) -> float:
         nonlocal fields
-        fields = job.draw(layout, fields)
+        fields = task.draw(layout, fields)
         return math.log(solid_share(fields) / density)
 
     def fit(start: Layout, vary: Size) -> Layout:
@@ -88,11 +90,11 @@ def find_sizes(job: Job, layout: Layout, varied: tuple[Size, ...]) -> tuple[Layo
     return fit(layout, varied[0]), varied, fields
 
 
-def estimate_triangles(job: Job, layout: Layout, known: Fields | None) -> tuple[float, Fields | None]:
+def estimate_triangles(task: FillTask, layout: Layout, known: Fields | None) -> tuple[float, Fields | None]:
     """Estimate the number of triangles of voids before they are simplified; return their fields too."""
-    if not isinstance(job.pattern, Periodic):
+    if not isinstance(task.pattern, Periodic):
         return 0, known
-    fields, depth, crossed = job.draw(layout, known), layout.space.depth, 0
+    fields, depth, crossed = task.draw(layout, known), layout.space.depth, 0
     out = np.empty_like(depth)
     for which in range(fields.count):
         fields.write_sdf(out, which, depth)
@@ -100,12 +102,14 @@ def estimate_triangles(job: Job, layout: Layout, known: Fields | None) -> tuple[
     return TRIANGLES_A_CELL * crossed, fields
 
 
-def fit_density(job: Job, layout: Layout, varied: tuple[Size, ...], fields: Fields | None) -> tuple[VoidMeshes, Fields]:
+def fit_density(
+    task: FillTask, layout: Layout, varied: tuple[Size, ...], fields: Fields | None
+) -> tuple[VoidMeshes, Fields]:
     """Make voids whose meshes leave the requested density, as smoothing and the grid fill corners of voids."""
-    hollow, fields = make_voids(job, layout, fields)
-    if job.request.grading is not None:
-        return _match_local_densities(job, hollow, fields)
-    density = job.request.density or LEAST
+    hollow, fields = make_voids(task, layout, fields)
+    if task.request.grading is not None:
+        return _match_local_densities(task, hollow, fields)
+    density = task.request.density or LEAST
 
     def off(hollow: VoidMeshes) -> float:
         return math.log(max(hollow.density, LEAST) / density)
@@ -114,7 +118,7 @@ def fit_density(job: Job, layout: Layout, varied: tuple[Size, ...], fields: Fiel
         nonlocal hollow, fields
         candidate = hollow
         if times != 1:
-            candidate, fields = make_voids(job, start.scale(times, vary), fields)
+            candidate, fields = make_voids(task, start.scale(times, vary), fields)
         hollow = min(hollow, candidate, key=lambda hollow: abs(off(hollow)))  # two are kept at most
         return off(candidate)
 
@@ -123,9 +127,9 @@ def fit_density(job: Job, layout: Layout, varied: tuple[Size, ...], fields: Fiel
     return hollow, fields
 
 
-def _match_local_densities(job: Job, hollow: VoidMeshes, fields: Fields) -> tuple[VoidMeshes, Fields]:
+def _match_local_densities(task: FillTask, hollow: VoidMeshes, fields: Fields) -> tuple[VoidMeshes, Fields]:
     """Make voids whose meshes leave the density requested at every place."""
-    power = 2 if has_bars(job.request.kind) else 1
+    power = 2 if has_bars(task.request.kind) else 1
     for _ in range(GRADING_ROUNDS):
         layout, local = hollow.layout, hollow.layout.local
         assert local is not None
@@ -140,5 +144,5 @@ def _match_local_densities(job: Job, hollow: VoidMeshes, fields: Fields) -> tupl
             break
         factors = np.exp(np.clip(line(local.shares.astype(np.float64)), -MOST_OFF, MOST_OFF) / power)
         local = replace(local, ratio=(local.ratio * factors).astype(np.float32))
-        hollow, fields = make_voids(job, replace(layout, local=local), fields)
+        hollow, fields = make_voids(task, replace(layout, local=local), fields)
     return hollow, fields

@@ -16,8 +16,8 @@ from infill.drains.drain_plan import DrainPlan, SealedVoid, plan_drains
 from infill.drains.holes import DrainNeeds, Hole
 from infill.errors import GeometryError
 from infill.isosurfaces.components import shell_names
-from infill.lattices.fill_job import Job
 from infill.lattices.request import FillSpec
+from infill.lattices.task import FillTask
 from infill.lattices.void_meshes import VoidMeshes
 from infill.meshes.shells import select_faces, shell_volumes
 from infill.meshes.solids import FINE, coincident_vertices, from_manifold, solid_status, to_manifold
@@ -109,12 +109,12 @@ def check_drain_width(request: FillSpec, bounds: NDArray[np.floating]) -> None:
         )
 
 
-def drill_drains(job: Job, solid: Surface, hollow: VoidMeshes) -> DrainedSolid:
+def drill_drains(task: FillTask, solid: Surface, hollow: VoidMeshes) -> DrainedSolid:
     """Drill the requested drains; return the solid with its plan.
 
     Parameters
     ----------
-    job : Job
+    task : FillTask
     solid : Surface, mm
         The part without its voids.
     hollow : VoidMeshes
@@ -124,10 +124,10 @@ def drill_drains(job: Job, solid: Surface, hollow: VoidMeshes) -> DrainedSolid:
     GeometryError
         If there cannot be a drain at a requested place.
     """
-    request, space = job.request, hollow.space
+    request, space = task.request, hollow.space
     if request.drain is None or not hollow.surfaces:
         return DrainedSolid(solid=solid)
-    needs = DrainNeeds(diameter=request.drain, wall=request.wall, cell=hollow.cell, threads=job.threads)
+    needs = DrainNeeds(diameter=request.drain, wall=request.wall, cell=hollow.cell, threads=task.threads)
     plan = plan_drains(
         space.part, hollow.surface, needs, vent=request.vent, places=request.drain_at, opening=space.opening
     )

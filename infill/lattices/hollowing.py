@@ -9,11 +9,11 @@ from infill.errors import GeometryError
 from infill.interior.interior import compute_interior
 from infill.lattices.bodies import Fields
 from infill.lattices.density_search import estimate_triangles, find_sizes, fit_density, has_uniform_width
-from infill.lattices.fill_job import Job
 from infill.lattices.request import Size
 from infill.lattices.sizing import choose_sizes, choose_voxel, coarsest_voxel, enlarge, goes_by_slabs
 from infill.lattices.slabwise import surfaces_by_slabs
 from infill.lattices.surfacing import SHARE, choose_smoothing, drop_small_and_floating
+from infill.lattices.task import FillTask
 from infill.lattices.void_meshes import VoidMeshes
 from infill.lattices.voids import Layout
 from infill.machine import require_memory
@@ -38,7 +38,7 @@ COLLAPSE_BYTES = 4000  # for each triangle, at most
 FLAT = 0.01  # cells: the triangles of a void smaller than a cube of this side coincide
 
 
-def make_void_meshes(job: Job) -> tuple[VoidMeshes, Fields]:
+def make_void_meshes(task: FillTask) -> tuple[VoidMeshes, Fields]:
     """Make the voids that a pattern leaves in a part, on a grid as fine as their triangles allow.
 
     If there are still too many triangles, and neither cell nor line width was requested, both are enlarged. Return also
@@ -51,44 +51,44 @@ def make_void_meshes(job: Job) -> tuple[VoidMeshes, Fields]:
     MemoryLimitError
         If memory will not suffice.
     """
-    request, clock = job.request, job.clock
+    request, clock = task.request, task.clock
     with clock.stage("density", 0.0):
-        (cell, width), varied = choose_sizes(job), request.varied
-    voxel = choose_voxel(job, cell, width)
+        (cell, width), varied = choose_sizes(task), request.varied
+    voxel = choose_voxel(task, cell, width)
     is_last = False
     for attempt in range(REFITS + 1):
         progress, is_last = 0.2 * attempt, is_last or attempt == REFITS
         with clock.stage("depth", progress):
             space = compute_interior(
-                job.part,
+                task.part,
                 wall=request.wall,
                 voxel=voxel,
                 open_=request.open_,
                 beyond=request.beyond,
                 held=request.held,
-                slabs=goes_by_slabs(job),
-                threads=job.threads,
-                max_memory=job.max_memory,
+                slabs=goes_by_slabs(task),
+                threads=task.threads,
+                max_memory=task.max_memory,
             )
         room = request.room(len(space.part.faces))
         with clock.stage("density", progress + 0.05):
             grading = request.grading
-            local = None if grading is None else grading.over(space, job.pattern.widths)
-            layout = Layout(space=space, cell=cell, width=width, local=local, threads=job.threads)
-            layout, varied, known = find_sizes(job, layout, varied)
-            triangles, known = estimate_triangles(job, layout, known)
+            local = None if grading is None else grading.over(space, task.pattern.widths)
+            layout = Layout(space=space, cell=cell, width=width, local=local, threads=task.threads)
+            layout, varied, known = find_sizes(task, layout, varied)
+            triangles, known = estimate_triangles(task, layout, known)
         if is_last or triangles <= FAR_TOO_MANY * room:
             with clock.stage("voids", progress + 0.1):
-                hollow, fields = fit_density(job, layout, varied, known)
+                hollow, fields = fit_density(task, layout, varied, known)
             with clock.stage("simplify", progress + 0.18):
-                hollow = simplify_voids(job, hollow, request.tolerance)
+                hollow = simplify_voids(task, hollow, request.tolerance)
             if is_last or hollow.triangles <= room:
                 with clock.stage("voids", progress + 0.19):
-                    hollow, fields = match_width(job, hollow, layout.width, varied, fields)
+                    hollow, fields = match_width(task, hollow, layout.width, varied, fields)
                 if is_last or hollow.triangles <= room:
                     break
             triangles, layout = hollow.triangles, replace(layout, cell=hollow.cell)
-        cell, width, coarser = _coarsen(job, layout, voxel, triangles / room)
+        cell, width, coarser = _coarsen(task, layout, voxel, triangles / room)
         coarser = min(coarser, space.thickness / LEAST_THICK)
         is_last = coarser < 1.05 * voxel
         if is_last:
@@ -102,48 +102,48 @@ def make_void_meshes(job: Job) -> tuple[VoidMeshes, Fields]:
         )
     if hollow.triangles > room:
         with clock.stage("simplify", 0.8):
-            hollow = simplify_to_fit(job, hollow, room)
+            hollow = simplify_to_fit(task, hollow, room)
     return hollow, fields
 
 
-def _coarsen(job: Job, layout: Layout, voxel: float, excess: float) -> tuple[float, float, float]:
+def _coarsen(task: FillTask, layout: Layout, voxel: float, excess: float) -> tuple[float, float, float]:
     """Return a cell, a width and a voxel that leave a fraction of the triangles, as far as limits allow."""
-    request, cell, width = job.request, layout.cell, layout.width
-    target, coarsest = voxel * max(1.1, FEWER * excess**0.5), coarsest_voxel(job, cell, width)
+    request, cell, width = task.request, layout.cell, layout.width
+    target, coarsest = voxel * max(1.1, FEWER * excess**0.5), coarsest_voxel(task, cell, width)
     if target > coarsest and request.cell is None and request.line_width is None:
         cell, width = enlarge(request, (cell, width), min(MOST_LARGER, max(1.2, target / coarsest)))
-        coarsest = coarsest_voxel(job, cell, width)
+        coarsest = coarsest_voxel(task, cell, width)
     return cell, width, min(target, coarsest)
 
 
 def match_width(
-    job: Job, hollow: VoidMeshes, width: float, varied: tuple[Size, ...], fields: Fields
+    task: FillTask, hollow: VoidMeshes, width: float, varied: tuple[Size, ...], fields: Fields
 ) -> tuple[VoidMeshes, Fields]:
     """Redraw voids until walls between them have the requested width, mm, unless the density fixes the width."""
-    request = job.request
-    if "width" in varied[:1] or request.grading is not None or not has_uniform_width(job):
+    request = task.request
+    if "width" in varied[:1] or request.grading is not None or not has_uniform_width(task):
         return hollow, fields
-    fields = job.draw(replace(hollow.layout, space=job.reach(hollow.space)), fields)
-    if not choose_smoothing(job, fields).steps:
+    fields = task.draw(replace(hollow.layout, space=task.reach(hollow.space)), fields)
+    if not choose_smoothing(task, fields).steps:
         return hollow, fields
     for _ in range(REDRAWN):
         median, seen = hollow.median
         if median is None or seen < SURE or abs(median / width - 1) <= WIDTH_CLOSE:
             break
         layout = replace(hollow.layout, width=hollow.width * width / median)
-        redrawn, fields = fit_density(job, layout, varied, fields)
-        redrawn = simplify_voids(job, redrawn, request.tolerance)
+        redrawn, fields = fit_density(task, layout, varied, fields)
+        redrawn = simplify_voids(task, redrawn, request.tolerance)
         if not redrawn.surfaces or abs(redrawn.density - (request.density or redrawn.density)) > FARTHER_OFF:
             break
         hollow = redrawn
     return hollow, fields
 
 
-def simplify_voids(job: Job, hollow: VoidMeshes, tolerance: float) -> VoidMeshes:
+def simplify_voids(task: FillTask, hollow: VoidMeshes, tolerance: float) -> VoidMeshes:
     """Simplify the voids: drop triangles that flat places do not need, and voids that this flattens."""
     budget, at_once = tolerance, AT_ONCE
     if hollow.deferred is not None:
-        hollow = surfaces_by_slabs(job, hollow.deferred.fields, tolerance=FIRST * tolerance)
+        hollow = surfaces_by_slabs(task, hollow.deferred.fields, tolerance=FIRST * tolerance)
         budget, at_once = (1 - FIRST) * tolerance, FEW_AT_ONCE
     if tolerance == 0:
         return hollow
@@ -157,20 +157,20 @@ def simplify_voids(job: Job, hollow: VoidMeshes, tolerance: float) -> VoidMeshes
     return replace(hollow, surfaces=tuple(surface for surface in results if surface is not None))
 
 
-def simplify_to_fit(job: Job, hollow: VoidMeshes, room: int) -> VoidMeshes:
+def simplify_to_fit(task: FillTask, hollow: VoidMeshes, room: int) -> VoidMeshes:
     """Simplify the voids until few enough triangles remain, even beyond the requested tolerance."""
     tolerance = max(hollow.tolerance, FINEST * hollow.space.size)
     for _ in range(DOUBLINGS):
         tolerance *= 2
-        simple = simplify_voids(job, hollow, tolerance)
+        simple = simplify_voids(task, hollow, tolerance)
         if simple.triangles <= room:
             return simple
     needed = COLLAPSE_BYTES * max(len(surface.faces) for surface in simple.surfaces)
     advice = f"the voids have {hollow.triangles:,} triangles; give larger cells or voxels"
-    require_memory(needed, job.max_memory, advice)
+    require_memory(needed, task.max_memory, advice)
     share = room / simple.triangles
     fewest = [
-        simplify_surface(surface, triangles=max(4, int(share * len(surface.faces))), threads=job.threads)
+        simplify_surface(surface, triangles=max(4, int(share * len(surface.faces))), threads=task.threads)
         for surface in simple.surfaces
     ]
     return replace(hollow, surfaces=tuple(fewest), tolerance=math.inf)

@@ -17,7 +17,6 @@ from infill.interior.interior import BYTES_PER_CELL, Interior, added_length, gri
 from infill.interior.opening import clip_to_opening, cut_open
 from infill.lattices.bodies import Fields
 from infill.lattices.drain_holes import DrainedSolid, check_drain_width, drill_drains
-from infill.lattices.fill_job import Job
 from infill.lattices.groups import Graded, Meshing, Shell, add_grading, add_group
 from infill.lattices.hollowing import make_void_meshes
 from infill.lattices.projected import ProjectInfill, make_project_infill
@@ -26,6 +25,7 @@ from infill.lattices.request import TOLERANCE, FillSpec, check_request
 from infill.lattices.sizing import choose_sizes, choose_voxel
 from infill.lattices.stages import FillStages
 from infill.lattices.surfacing import SHARE, extract_inner_side
+from infill.lattices.task import FillTask
 from infill.lattices.void_meshes import VoidMeshes
 from infill.meshes.measuring import measure_surface
 from infill.meshes.merging import surface_of
@@ -208,12 +208,12 @@ def fill_request(
 ) -> Result[FillStages, FillReport]:
     """Fill a part as a request says: see `fill`."""
     check_drain_width(request, part.bounds)
-    job = Job.of(part, request, clock=Clock(progress), threads=threads, max_memory=max_memory)
-    project = make_project_infill(job) if request.form == "project" else None
-    hollow, fields = make_void_meshes(job) if project is None else (project.hollow, project.fields)
-    with job.clock.stage("check", 0.9):
-        result, untimed, hollow = _assemble(job, hollow, fields, project)
-    seconds = {"shift": 0.0, **job.clock.seconds, "total": sum(job.clock.seconds.values())}
+    task = FillTask.of(part, request, clock=Clock(progress), threads=threads, max_memory=max_memory)
+    project = make_project_infill(task) if request.form == "project" else None
+    hollow, fields = make_void_meshes(task) if project is None else (project.hollow, project.fields)
+    with task.clock.stage("check", 0.9):
+        result, untimed, hollow = _assemble(task, hollow, fields, project)
+    seconds = {"shift": 0.0, **task.clock.seconds, "total": sum(task.clock.seconds.values())}
     report: FillReport = {**untimed, "seconds": declare(FillSeconds, seconds)}
     stages = FillStages(part=hollow.space.part, voids=hollow.surface, shown=result, opening=hollow.space.opening)
     surfaces: dict[str, Surface] = (
@@ -223,27 +223,27 @@ def fill_request(
 
 
 def _assemble(
-    job: Job, hollow: VoidMeshes, fields: Fields, project: ProjectInfill | None
+    task: FillTask, hollow: VoidMeshes, fields: Fields, project: ProjectInfill | None
 ) -> tuple[Surface, UntimedFillReport, VoidMeshes]:
     """Return the requested surface, the report, and the voids, with counts of the pieces that were left out."""
-    request, space = job.request, hollow.space
+    request, space = task.request, hollow.space
     if project is not None:
         solid = outer = project.infill
     else:
-        outer = space.part if request.form == "solid" else _inner_surface(job, space)
+        outer = space.part if request.form == "solid" else _inner_surface(task, space)
         if space.opening is None:
             solid = concatenate_surfaces(
                 [outer, *(replace(surface, faces=surface.faces[:, ::-1]) for surface in hollow.surfaces)]
             )
         else:
-            solid, pieces, loose = cut_open(outer, hollow.surfaces, space.opening, space.size, threads=job.threads)
+            solid, pieces, loose = cut_open(outer, hollow.surfaces, space.opening, space.size, threads=task.threads)
             hollow = replace(hollow, islands=hollow.islands + pieces, loose=loose)
-    drained = drill_drains(job, solid, hollow)
+    drained = drill_drains(task, solid, hollow)
     if drained.pieces:
         hollow = replace(hollow, islands=hollow.islands + drained.pieces)
-    solid = measure_surface(drained.solid, threads=job.threads)
-    facts = measure_solid(job, solid, outer, hollow, fields, drained)
-    return solid, _fill_report(job.part, solid, hollow, request, facts, drained, project), hollow
+    solid = measure_surface(drained.solid, threads=task.threads)
+    facts = measure_solid(task, solid, outer, hollow, fields, drained)
+    return solid, _fill_report(task.part, solid, hollow, request, facts, drained, project), hollow
 
 
 def _fill_report(
@@ -318,19 +318,19 @@ def _fill_report(
     }
 
 
-def _inner_surface(job: Job, space: Interior) -> Surface:
+def _inner_surface(task: FillTask, space: Interior) -> Surface:
     """Return the surface of the space inside the walls, extended into them by the overlap."""
-    overlap = job.request.overlap
-    tolerance = min(SHARE * job.request.tolerance, overlap / 2)
-    inner = extract_inner_side(space, overlap=overlap, tolerance=tolerance, threads=job.threads)
+    overlap = task.request.overlap
+    tolerance = min(SHARE * task.request.tolerance, overlap / 2)
+    inner = extract_inner_side(space, overlap=overlap, tolerance=tolerance, threads=task.threads)
     return inner if space.opening is None else clip_to_opening(inner, space.opening, space.size)
 
 
 def plan_fill(part: Surface, request: FillSpec, *, threads: int | None = None) -> FillForecast:
     """Return the report of a dry run."""
-    job = Job.of(part, request, threads=threads)
-    request, (cell, width) = job.request, choose_sizes(job)
-    voxel = choose_voxel(job, cell, width)
+    task = FillTask.of(part, request, threads=threads)
+    request, (cell, width) = task.request, choose_sizes(task)
+    voxel = choose_voxel(task, cell, width)
     grid = grid_for_part(part, voxel=voxel, further=added_length(request.open_, request.wall, request.beyond, voxel))
     return {
         "request": request.facts(),

@@ -15,10 +15,10 @@ from itertools import chain
 from infill.errors import GeometryError, ParameterError
 from infill.interior.narrow import NARROW, NarrowShares, drop_narrow, estimate_narrow
 from infill.lattices.bodies import Fields
-from infill.lattices.fill_job import Job
 from infill.lattices.hollowing import make_void_meshes
 from infill.lattices.request import LINE_WIDTH, FillSpec
 from infill.lattices.surfacing import SHARE, extract_inner_side
+from infill.lattices.task import FillTask
 from infill.lattices.void_meshes import VoidMeshes
 from infill.meshes.solids import shared_volume, simplify_solid, subtract
 from infill.surface import Surface
@@ -73,7 +73,7 @@ class ProjectInfill:
         return 1.0 if self.narrow is None else self.narrow.all
 
 
-def make_project_infill(job: Job) -> ProjectInfill:
+def make_project_infill(task: FillTask) -> ProjectInfill:
     """Make the infill of a project for a part, mm.
 
     Raises
@@ -83,37 +83,37 @@ def make_project_infill(job: Job) -> ProjectInfill:
     MemoryLimitError
         If memory will not suffice.
     """
-    project = _make_infill(job)
-    if _can_shift(job, project):
-        project = min(chain([project], _try_shifts(job, project)), key=lambda candidate: candidate.lost)
+    project = _make_infill(task)
+    if _can_shift(task, project):
+        project = min(chain([project], _try_shifts(task, project)), key=lambda candidate: candidate.lost)
     # A shifted pattern may have little infill in a part, and soon loses a twentieth of it.
-    limit = NARROW if project.phase == job.request.phase else HARDLY
+    limit = NARROW if project.phase == task.request.phase else HARDLY
     is_printed = project.narrow is None or project.narrow.all <= limit
-    return project if is_printed else _drop_unprintable(project, job.request)
+    return project if is_printed else _drop_unprintable(project, task.request)
 
 
-def _make_infill(job: Job) -> ProjectInfill:
-    """Make the infill with the pattern where the job has it."""
-    hollow, fields = make_void_meshes(job)
-    infill, narrowest = _subtract_voids(job, hollow), _narrowest_printed(hollow, job.request)
-    narrow = estimate_narrow(hollow.space.part, infill, job.request.wall, LINE_WIDTH, narrowest)
-    return ProjectInfill(infill=infill, hollow=hollow, fields=fields, phase=job.request.phase, narrow=narrow)
+def _make_infill(task: FillTask) -> ProjectInfill:
+    """Make the infill with the pattern where the task has it."""
+    hollow, fields = make_void_meshes(task)
+    infill, narrowest = _subtract_voids(task, hollow), _narrowest_printed(hollow, task.request)
+    narrow = estimate_narrow(hollow.space.part, infill, task.request.wall, LINE_WIDTH, narrowest)
+    return ProjectInfill(infill=infill, hollow=hollow, fields=fields, phase=task.request.phase, narrow=narrow)
 
 
-def _can_shift(job: Job, project: ProjectInfill) -> bool:
+def _can_shift(task: FillTask, project: ProjectInfill) -> bool:
     """Tell whether shifting a pattern may help: its place was not requested, and more is lost than the lack of room."""
-    request, narrow, size = job.request, project.narrow, math.prod(project.hollow.space.shape)
+    request, narrow, size = task.request, project.narrow, math.prod(project.hollow.space.shape)
     is_placed = any(request.phase) or request.align == "bed" or request.grading is not None
     return narrow is not None and not is_placed and size <= MOST_CELLS and narrow.all - narrow.room > MUCH
 
 
-def _try_shifts(job: Job, project: ProjectInfill) -> Iterator[ProjectInfill]:
+def _try_shifts(task: FillTask, project: ProjectInfill) -> Iterator[ProjectInfill]:
     """Yield the infill with the pattern in other places."""
     cell = project.hollow.cell
     for attempt, (x, y, z) in enumerate(SHIFTS):
-        with job.clock.stage("shift", FIRST + (SHIFTED - FIRST) * attempt / len(SHIFTS)):
+        with task.clock.stage("shift", FIRST + (SHIFTED - FIRST) * attempt / len(SHIFTS)):
             try:
-                candidate = _make_infill(job.shift((x * cell, y * cell, z * cell)))
+                candidate = _make_infill(task.shift((x * cell, y * cell, z * cell)))
             except (GeometryError, ParameterError):  # no void is left, or the pattern follows the part
                 continue
         yield candidate
@@ -141,17 +141,17 @@ def _narrowest_printed(hollow: VoidMeshes, request: FillSpec) -> float:
     return min(max(narrowest, LEAST_LINE * LINE_WIDTH), LEAST_LINES * LINE_WIDTH)
 
 
-def _subtract_voids(job: Job, hollow: VoidMeshes) -> Surface:
+def _subtract_voids(task: FillTask, hollow: VoidMeshes) -> Surface:
     """Subtract the voids from the part, or from most of it if manifold3d rejects that; return the surface.
 
     Where voids meet the skin, they leave edges so short that both ends are one point in single precision, as in files:
     such edges are collapsed.
     """
-    space, voids, tolerance = hollow.space, hollow.surfaces, SHARE * job.request.tolerance
+    space, voids, tolerance = hollow.space, hollow.surfaces, SHARE * task.request.tolerance
     infill = subtract(space.part, voids)
     if infill is None:
-        overlap = INTO_WALL * job.request.wall
-        inside = extract_inner_side(space, overlap=overlap, tolerance=tolerance, threads=job.threads)
+        overlap = INTO_WALL * task.request.wall
+        inside = extract_inner_side(space, overlap=overlap, tolerance=tolerance, threads=task.threads)
         infill = subtract(inside, voids)
     if infill is None or not len(infill.faces):
         raise GeometryError("manifold3d rejects the voids as solids; give another cell or smaller voxels")

@@ -17,9 +17,9 @@ from infill.isosurfaces.components import shell_names
 from infill.lattices.bodies import Fields
 from infill.lattices.density_search import has_uniform_width, requested_density, solid_share
 from infill.lattices.drain_holes import DrainedSolid, drain_problems, find_closed_voids
-from infill.lattices.fill_job import Job
 from infill.lattices.grading import LocalWidths, densities_by_share
 from infill.lattices.request import GAP, LINE_WIDTH, FillSpec
+from infill.lattices.task import FillTask
 from infill.lattices.void_meshes import VoidMeshes
 from infill.meshes.distance import TriangleTree
 from infill.meshes.shells import first_vertex_of_shells, split_into_batches
@@ -142,21 +142,21 @@ class SolidMeasures:
 
 
 def measure_solid(
-    job: Job, solid: Surface, outer: Surface, hollow: VoidMeshes, fields: Fields, drained: DrainedSolid
+    task: FillTask, solid: Surface, outer: Surface, hollow: VoidMeshes, fields: Fields, drained: DrainedSolid
 ) -> SolidMeasures:
     """Measure a solid with an outer surface, voids and drains."""
-    request, space, local = job.request, hollow.space, hollow.layout.local
+    request, space, local = task.request, hollow.space, hollow.layout.local
     least: float | None = None
     place: list[float] | None = None
     astray, crowded = 0, int(coincident_vertices(solid).sum())
     if request.form != "project":
         part, opening = space.part, space.opening
         middle = None if opening is None else float(part.bounds[:, 2].mean())
-        least, place = measure_least_wall(part, hollow.surfaces, job.threads, opening)
+        least, place = measure_least_wall(part, hollow.surfaces, task.threads, opening)
         for hole in drained.plan.holes:
             if hole.clearance < least:
                 least, place = hole.clearance, hole.near.tolist()
-        astray = count_outside(part, hollow.surfaces, job.threads, middle)
+        astray = count_outside(part, hollow.surfaces, task.threads, middle)
         crowded -= int(coincident_vertices(outer).sum())
     return SolidMeasures(
         least=least,
@@ -165,9 +165,9 @@ def measure_solid(
         closed=find_closed_voids(solid) if request.form == "solid" else [],
         crowded=max(0, crowded),
         verdict=next((word for word in map(manifold_status, split_into_batches(solid, AT_ONCE)) if word != FINE), FINE),
-        width=(hollow.median[0] if has_uniform_width(job) else None) or hollow.width,
-        drawn=solid_share(job.draw(hollow.layout, fields)),
-        wanted=requested_density(job, local),
+        width=(hollow.median[0] if has_uniform_width(task) else None) or hollow.width,
+        drawn=solid_share(task.draw(hollow.layout, fields)),
+        wanted=requested_density(task, local),
         graded=[] if local is None else density_steps(hollow, local),
         cells=None if local is None else [hollow.cell * factor for factor in local.cells],
         widths=None if local is None else [hollow.width * factor for factor in local.widths],

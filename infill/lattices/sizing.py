@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from infill.errors import GeometryError
 from infill.lattices.drawn_voids import Prismatic
-from infill.lattices.fill_job import Job
 from infill.lattices.layered import NonPrismatic
 from infill.lattices.request import GAP, FillSpec, has_bars
+from infill.lattices.task import FillTask
 
 
 class Fineness(NamedTuple):
@@ -38,15 +38,15 @@ FEWEST, MOST, MOST_IN_SLABS = 1e6, 25e6, 1e8  # cells of the grid in all
 COARSEST_LINES = 0.3  # mm: corners between lines are rounded on cells no larger than this
 
 
-def choose_sizes(job: Job) -> tuple[float, float]:
+def choose_sizes(task: FillTask) -> tuple[float, float]:
     """Choose cell and width, mm: as requested, or as the density requires far from any skin.
 
     In a part too large for a grid as fine as they need, both are enlarged, unless one of them was requested.
     """
-    request, (cell, width) = job.request, _nominal_sizes(job)
+    request, (cell, width) = task.request, _nominal_sizes(task)
     if request.cell is None and request.line_width is None:
-        without_wall = replace(job, request=replace(request, wall=math.inf))
-        times = SLACK * _finest_voxel(job) / coarsest_voxel(without_wall, cell, width)
+        without_wall = replace(task, request=replace(request, wall=math.inf))
+        times = SLACK * _finest_voxel(task) / coarsest_voxel(without_wall, cell, width)
         return enlarge(request, (cell, width), times)
     return cell, width
 
@@ -62,11 +62,11 @@ def enlarge(request: FillSpec, sizes: tuple[float, float], times: float) -> tupl
     return sizes[0] * times, width * times
 
 
-def _nominal_sizes(job: Job) -> tuple[float, float]:
-    request = job.request
+def _nominal_sizes(task: FillTask) -> tuple[float, float]:
+    request = task.request
     if request.density is None:
         return request.cell or BRANCHES_CELL, request.line_width or request.default_width
-    share = job.pattern.widths(request.density)
+    share = task.pattern.widths(request.density)
     if request.line_width is None and request.cell is not None:
         return request.cell, share * request.cell
     if request.line_width is None and "cell" not in request.varied and not request.lined:
@@ -76,15 +76,15 @@ def _nominal_sizes(job: Job) -> tuple[float, float]:
     return width / share, width
 
 
-def choose_voxel(job: Job, cell: float, width: float) -> float:
+def choose_voxel(task: FillTask, cell: float, width: float) -> float:
     """Choose the side of the cells of the grid, mm."""
-    request, extents = job.request, job.extents
+    request, extents = task.request, task.extents
     if request.voxel is not None:
         return request.voxel
-    size = _largest_voxel(job, cell, width, FINE)
-    if isinstance(job.pattern, Prismatic):
+    size = _largest_voxel(task, cell, width, FINE)
+    if isinstance(task.pattern, Prismatic):
         size = min(size, COARSEST_LINES)
-    size = min(max(size, _finest_voxel(job)), math.cbrt(_box_volume(extents) / FEWEST))
+    size = min(max(size, _finest_voxel(task)), math.cbrt(_box_volume(extents) / FEWEST))
     if size > request.wall / LEAST_FINE.across:
         raise GeometryError.about(
             "wall",
@@ -92,7 +92,7 @@ def choose_voxel(job: Job, cell: float, width: float) -> float:
             f"needs has more than {MOST:,.0f} cells; give a wall of {LEAST_FINE.across * size:.2g} mm, or the right "
             "unit",
         )
-    if size > (most := coarsest_voxel(job, cell, width)):
+    if size > (most := coarsest_voxel(task, cell, width)):
         raise GeometryError.about(
             "cell",
             f"is {cell:.3g} mm, and the part {extents.max():.4g} mm long: a grid as fine as such cells need has "
@@ -101,14 +101,14 @@ def choose_voxel(job: Job, cell: float, width: float) -> float:
     return size
 
 
-def coarsest_voxel(job: Job, cell: float, width: float) -> float:
+def coarsest_voxel(task: FillTask, cell: float, width: float) -> float:
     """Return the largest side of the cells of a grid that still resolves the pattern, mm."""
-    return _largest_voxel(job, cell, width, LEAST_FINE) if job.request.voxel is None else job.request.voxel
+    return _largest_voxel(task, cell, width, LEAST_FINE) if task.request.voxel is None else task.request.voxel
 
 
-def _largest_voxel(job: Job, cell: float, width: float, fineness: Fineness) -> float:
+def _largest_voxel(task: FillTask, cell: float, width: float, fineness: Fineness) -> float:
     """Return the largest side of the cells of a grid that is so fine, mm."""
-    request, pattern = job.request, job.pattern
+    request, pattern = task.request, task.pattern
     width *= request.thinnest
     size = request.wall / fineness.across
     if isinstance(pattern, Prismatic):
@@ -125,18 +125,18 @@ def _box_volume(extents: NDArray[np.floating]) -> float:
     return float(math.prod(np.maximum(extents, extents.max() / 1000).tolist()))
 
 
-def _finest_voxel(job: Job) -> float:
+def _finest_voxel(task: FillTask) -> float:
     """Return the side of the cells of the finest grid around a part, mm: in slabs, height costs only time."""
-    extents = job.extents
+    extents = task.extents
     size = math.cbrt(_box_volume(extents) / MOST)
-    if not goes_by_slabs(job):
+    if not goes_by_slabs(task):
         return size
     low = np.array([*extents[:2], min(extents[2], max(extents[:2]))])
     return max(math.cbrt(_box_volume(low) / MOST), math.cbrt(_box_volume(extents) / MOST_IN_SLABS))
 
 
-def goes_by_slabs(job: Job) -> bool:
+def goes_by_slabs(task: FillTask) -> bool:
     """Tell whether voids may be made slab by slab: upright, of one width, closed, in a part taken as one."""
-    request = job.request
+    request = task.request
     is_plain = request.grading is None and request.align != "body" and request.form == "solid" and request.open_ is None
-    return is_plain and isinstance(job.pattern, Prismatic)
+    return is_plain and isinstance(task.pattern, Prismatic)

@@ -24,8 +24,8 @@ from infill.isosurfaces.slabs import (
 )
 from infill.isosurfaces.sparse_marching import extract_bricks
 from infill.lattices.bodies import Fields
-from infill.lattices.fill_job import Job
 from infill.lattices.surfacing import SHARE, SPECK, choose_smoothing, drop_useless, smooth_void
+from infill.lattices.task import FillTask
 from infill.lattices.void_meshes import DeferredVoids, VoidMeshes
 from infill.meshes.shells import select_faces
 from infill.surface import Surface
@@ -43,21 +43,21 @@ def count_filled_cells(fields: Fields) -> float:
     return sum(filled for _, filled in fields.layout.space.layers.map_slabs(count))
 
 
-def defer_voids(job: Job, fields: Fields) -> VoidMeshes:
+def defer_voids(task: FillTask, fields: Fields) -> VoidMeshes:
     """Defer the making of voids: compute only their volume."""
     least, volume = SPECK**3, 0.0
-    for slabs in _map_pieces(job, fields, measure_slab_shells):
+    for slabs in _map_pieces(task, fields, measure_slab_shells):
         volumes = sum_shell_volumes([shells for _, shells in slabs])
         volume += float(volumes[volumes >= least].sum()) * fields.layout.space.size**3
     return VoidMeshes(layout=fields.layout, deferred=DeferredVoids(volume=volume, fields=fields))
 
 
-def surfaces_by_slabs(job: Job, fields: Fields, *, tolerance: float) -> VoidMeshes:
+def surfaces_by_slabs(task: FillTask, fields: Fields, *, tolerance: float) -> VoidMeshes:
     """Make the surfaces of voids; those of a slab are simplified before the next slab is made.
 
     Parameters
     ----------
-    job : Job
+    task : FillTask
     fields : VoidFields or BodyFields
     tolerance : float
         mm; where slabs meet, all triangles stay, and with 0 everywhere.
@@ -72,7 +72,7 @@ def surfaces_by_slabs(job: Job, fields: Fields, *, tolerance: float) -> VoidMesh
         return replace(cleaned, piece=simplify_piece(cleaned.piece, SHARE * tolerance / size))
 
     def stitch() -> Iterator[Surface]:
-        results = _map_pieces(job, fields, simplify)
+        results = _map_pieces(task, fields, simplify)
         while results:  # popped, so that pieces are freed once they are stitched
             slabs = results.pop(0)
             for _, cleaned in slabs:
@@ -120,10 +120,10 @@ def _clean_piece(piece: SlabPiece) -> _CleanPiece:
 
 
 def _map_pieces(
-    job: Job, fields: Fields, function: Callable[[SlabPiece], Outcome | None]
+    task: FillTask, fields: Fields, function: Callable[[SlabPiece], Outcome | None]
 ) -> list[list[tuple[int, Outcome | None]]]:
     """Apply a function to each piece; return the results with the first layer of each slab, a list for each field."""
-    smoothing, threads = choose_smoothing(job, fields), job.threads
+    smoothing, threads = choose_smoothing(task, fields), task.threads
 
     def process(depth: NDArray[np.float32], low: int, high: int) -> list[Outcome | None]:
         outcomes: list[Outcome | None] = []

@@ -13,9 +13,9 @@ from infill.interior.interior import Interior
 from infill.isosurfaces.components import shell_names
 from infill.isosurfaces.sparse_marching import extract_bricks
 from infill.lattices.bodies import Fields
-from infill.lattices.fill_job import Job
 from infill.lattices.fillets import rounding_time
 from infill.lattices.request import has_bars
+from infill.lattices.task import FillTask
 from infill.lattices.void_meshes import VoidMeshes
 from infill.lattices.voids import Layout
 from infill.meshes.shells import first_vertex_of_shells, select_faces, shell_volumes
@@ -32,9 +32,9 @@ SHORTEST = 1e-3  # cells²: motion by curvature in a shorter time is invisible
 SPECK = 2.0  # cells of the grid: voids smaller than a cube of this side are left solid
 
 
-def choose_smoothing(job: Job, fields: Fields) -> Smoothing:
+def choose_smoothing(task: FillTask, fields: Fields) -> Smoothing:
     """Choose the steps that round the corners of voids to the requested radius."""
-    request, layout, space = job.request, fields.layout, fields.layout.space
+    request, layout, space = task.request, fields.layout, fields.layout.space
     smoothing = Smoothing(interface=INTERFACE, fidelity=0.0)
     bar = layout.width * request.thinnest if has_bars(request.kind) else None
     radius = request.radius((space.walled or space).thickness)
@@ -45,13 +45,13 @@ def choose_smoothing(job: Job, fields: Fields) -> Smoothing:
     return replace(smoothing, steps=steps, alpha=times / steps)
 
 
-def make_surfaces(job: Job, fields: Fields) -> VoidMeshes:
+def make_surfaces(task: FillTask, fields: Fields) -> VoidMeshes:
     """Make the surfaces of voids: smoothed, without pieces of no use."""
-    threads, inside = job.threads, fields.layout.space
-    space, smoothing = inside.walled or inside, choose_smoothing(job, fields)
+    threads, inside = task.threads, fields.layout.space
+    space, smoothing = inside.walled or inside, choose_smoothing(task, fields)
     out, walls = np.empty_like(space.depth), None
-    if job.request.form == "project":
-        walls = extract_inner_side(space, overlap=0.0, tolerance=job.request.tolerance / 4, threads=threads)
+    if task.request.form == "project":
+        walls = extract_inner_side(space, overlap=0.0, tolerance=task.request.tolerance / 4, threads=threads)
 
     def trace() -> Iterator[Surface]:
         for which in range(fields.count):

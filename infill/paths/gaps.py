@@ -1,4 +1,7 @@
-"""Gaps: stretches of a region's outline between neighbouring ends of paths, and their clearance for a bead."""
+"""Gaps: stretches of a region's outline between neighbouring ends of paths, and their clearance for a bead.
+
+A bead along a gap joins the two paths that end there.
+"""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ COARSE_RATIO = 0.26  # of the diameter: the sine of 15 degrees; even the smalles
 PLANES = {17: [0, 1, 2], 18: [2, 0, 1], 19: [1, 2, 0]}  # the axes of the plane and the one across it
 
 
-def arc_chords(
+def chords_of_arc_lines(
     table: GcodeTable, arcs: NDArray[np.intp], start: Floats, end: Floats
 ) -> tuple[NDArray[np.intp], Floats, Floats]:
     """Cut arcs into chords; return the arc, begin and vector of each, stretched to the length of its arc.
@@ -56,7 +56,7 @@ def arc_chords(
         back = np.argsort(axes)
         way = (chord_end - first) * _arc_ratio(chord_end - first, np.hypot(*(begin[:, :2] - centre).T)[which])[:, None]
         parts.append((selected[which], first[:, back], way[:, back]))
-    which, first, way = (np.concatenate(arc_words) for arc_words in zip(*parts, strict=True))
+    which, first, way = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
     order = np.argsort(which, kind="stable")
     return which[order], first[order], way[order]
 

@@ -49,7 +49,7 @@ def _select_limits(limit: Floats, which: slice) -> Floats:
 BEFORE, AFTER = slice(None, -1), slice(1, None)
 
 
-def _half_turns(direction: Floats) -> tuple[Floats, Floats]:
+def _half_turn_sin_cos(direction: Floats) -> tuple[Floats, Floats]:
     """Return sin and cos of half the angle by which each unit vector turns into the next, (N - 1,) both."""
     difference, total = np.diff(direction, axis=0), direction[:-1] + direction[1:]
     return (
@@ -65,7 +65,7 @@ def _square_corner(bounds: BoundedMoves, limit: Limit) -> Floats:
     gives the square corner velocity c at a right angle: a J = c² (sqrt(2) - 1). The circle must touch both moves
     before their middles: v² <= a d / 2 · cot(phi / 2). And filament may not jump by more than its own velocity.
     """
-    sine, cosine = _half_turns(bounds.direction[:, :3])
+    sine, cosine = _half_turn_sin_cos(bounds.direction[:, :3])
     modal = limit("acceleration")
     deviation = limit("square_corner_velocity") ** 2 * (np.sqrt(2) - 1) / modal
     scaled = deviation * bounds.acceleration
@@ -85,7 +85,7 @@ def _junction_deviation(bounds: BoundedMoves, limit: Limit) -> Floats:
     a move shorter than 1 mm turns by less than 45 degrees, it is an arc of its length, v² <= a d / phi.
     """
     unit = bounds.direction / np.sqrt(np.einsum("ij,ij->i", bounds.direction, bounds.direction))[:, None]
-    sine, cosine = _half_turns(unit)
+    sine, cosine = _half_turn_sin_cos(unit)
     length = np.minimum(bounds.distance[:-1], bounds.distance[1:])
     inwards = np.abs(np.diff(unit, axis=0))
     acceleration = np.minimum(bounds.acceleration[:-1], bounds.acceleration[1:])

@@ -22,7 +22,7 @@ from infill.gcode.machine_state import MachineState, firmware_retraction
 from infill.gcode.table import GcodeTable, read_table
 from infill.gcode.unusual_moves import is_macro
 from infill.planner.bounds import Moves
-from infill.planner.chords import arc_chords
+from infill.planner.chords import chords_of_arc_lines
 from infill.planner.lookahead import EMPTY_PLAN, MotionPlan, plan_settled
 from infill.planner.struct_of_arrays import concatenate_rows, slice_rows
 
@@ -328,7 +328,9 @@ class Timeline:
         arcs = (table.kind == ARC) | (odd & (table.code > 1) & ~table.unread)
         if arcs.any():
             bent = np.flatnonzero(arcs)
-            which, start, way = arc_chords(table, bent, np.nan_to_num(before[bent]), np.nan_to_num(place[bent]))
+            which, start, way = chords_of_arc_lines(
+                table, bent, np.nan_to_num(before[bent]), np.nan_to_num(place[bent])
+            )
             long = np.linalg.norm(way, axis=1)
             share = long / np.maximum(np.bincount(which, weights=long, minlength=len(bent))[which], 1e-300)
             order = np.argsort(np.concatenate([line, bent[which]]), kind="stable")

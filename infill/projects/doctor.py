@@ -168,7 +168,7 @@ def _check_mesh(volume: PrintedVolume) -> Iterator[Finding]:
         yield as_warning(f"{volume.name} has {volume.shared:,} edge(s) with more than two faces: slicers mostly cope")
 
 
-def _volumes_of_any(package: Package) -> Iterator[PrintedVolume | Finding]:
+def _volumes_of_plain(package: Package) -> Iterator[PrintedVolume | Finding]:
     """Yield each mesh of the objects to print as a part of its own; warn if there are several."""
     meshes = [
         PrintedVolume.of(leaf.body.name or f"object {leaf.key}", leaf.body.mesh, "part", {})
@@ -193,5 +193,5 @@ READERS: dict[str, Callable[[Package], Iterator[PrintedVolume | Finding]]] = {
     "orcaslicer": lambda package: volumes_for_bambustudio(package, "orcaslicer"),
     "bambustudio": lambda package: volumes_for_bambustudio(package, "bambustudio"),
     "cura": volumes_for_cura,
-    "plain": _volumes_of_any,
+    "plain": _volumes_of_plain,
 }

@@ -27,11 +27,11 @@ def largest_moves(layers: Layers) -> Floats:
     """Compute the largest move of each stroke of some layers by the gaps of its region, (M,), mm."""
     moves = np.zeros(len(layers.infill))
     for layer in layers:
-        moves[layer.strokes] = MOST_GROWTH * _widest_gaps(layer)
+        moves[layer.strokes] = MOST_GROWTH * _widest_gap_radii(layer)
     return moves
 
 
-def _widest_gaps(layer: Layer) -> Floats:
+def _widest_gap_radii(layer: Layer) -> Floats:
     """Measure the radius, mm, of the widest gap around each stroke of a layer."""
     from scipy import ndimage
 

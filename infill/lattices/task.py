@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from infill.interior.interior import Interior
 from infill.lattices.bodies import BodyFields, Fields, draw_in_bodies
-from infill.lattices.choosing import choose_voids
+from infill.lattices.choosing import place_pattern
 from infill.lattices.request import FillSpec
 from infill.lattices.voids import Layout, VoidFields, VoidPattern
 from infill.result import Clock
@@ -17,7 +17,7 @@ from infill.surface import Surface
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Job:
+class FillTask:
     """A part to fill as requested.
 
     Parameters
@@ -47,23 +47,23 @@ class Job:
         clock: Clock | None = None,
         threads: int | None = None,
         max_memory: int | None = None,
-    ) -> Job:
-        """Make the job of a request; raise ParameterError if the pattern cannot be had as requested."""
+    ) -> FillTask:
+        """Make the task of a request; raise ParameterError if the pattern cannot be had as requested."""
         if request.resolution is not None:
             request = replace(request, voxel=float(np.ptp(part.bounds, axis=0).max()) / request.resolution)
         return cls(
             part=part,
             request=request,
-            pattern=choose_voids(request, part.bounds),
+            pattern=place_pattern(request, part.bounds),
             clock=clock or Clock(None),
             threads=threads,
             max_memory=max_memory,
         )
 
-    def shift(self, phase: tuple[float, float, float]) -> Job:
-        """Return the same job with the pattern shifted by a phase, mm, and a clock of its own."""
+    def shift(self, phase: tuple[float, float, float]) -> FillTask:
+        """Return the same task with the pattern shifted by a phase, mm, and a clock of its own."""
         request = replace(self.request, phase=phase)
-        return replace(self, request=request, pattern=choose_voids(request, self.part.bounds), clock=Clock(None))
+        return replace(self, request=request, pattern=place_pattern(request, self.part.bounds), clock=Clock(None))
 
     @property
     def extents(self) -> NDArray[np.floating]:
