@@ -14,7 +14,7 @@ from scipy.ndimage import gaussian_filter, label
 
 from infill import InfillError, Smoothing, Surface, Volume, smooth_volume
 from infill.inspection.bricks import check_topology, check_topology_by_signs
-from infill.inspection.fidelity import measure_fidelity
+from infill.inspection.deviation import measure_deviation
 from infill.inspection.sign_changes import SignChanges, are_surfaces_near
 from infill.isosurfaces.components import data_bits
 from infill.kernels.flips import simple
@@ -71,7 +71,7 @@ def compared(given: SmoothInput, request: SmoothRequest) -> tuple[bool, bool]:
         assert part.lost == whole.lost == ()
     near = are_surfaces_near(flips, spacing=spacing)
     if near:
-        measured = measure_fidelity(
+        measured = measure_deviation(
             raw_surface(field, data, None), place_surface(found.surface, data), cell=max(spacing)
         )
         assert measured.word == "kept"
@@ -191,7 +191,7 @@ def test_what_is_near_need_not_be_measured(moved: float) -> None:
     given = Surface(vertices=ball.vertices, faces=ball.faces)
     dent = np.where(ball.vertices[:, 2:] > 8, moved, 0.3) * [0.0, 0.0, -1.0]
     result = Surface(vertices=ball.vertices + dent, faces=ball.faces)
-    exact, rough = (measure_fidelity(given, result, cell=1.0, exact=each) for each in (True, False))
+    exact, rough = (measure_deviation(given, result, cell=1.0, exact=each) for each in (True, False))
     assert (rough.word, rough.phrases, rough.lost, rough.added) == (exact.word, exact.phrases, exact.lost, exact.added)
     assert (rough.thin, rough.sheet, rough.hidden) == (exact.thin, exact.sheet, exact.hidden)
     assert (exact.exact, rough.exact) == (True, False)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from infill import GeometryError, Surface, smooth_mesh, smooth_volume
-from infill.inspection.fidelity import measure_fidelity
+from infill.inspection.deviation import measure_deviation
 from infill.phasefield import refining
 from infill.smoothing import attempt
 from infill.voxels.noise import NOISY
@@ -159,21 +159,21 @@ def test_a_planted_loss_is_found(long: float, wide: float, seed: int) -> None:
     block = box(20, 16, 12)
     knob = union(block, box(wide, wide, 2 * long, (0, 0, 6)))
     knob, block = (turned(each, np.random.default_rng(seed)) for each in (knob, block))
-    lost = measure_fidelity(surface_of(knob), surface_of(block), cell=1.0)
+    lost = measure_deviation(surface_of(knob), surface_of(block), cell=1.0)
     assert lost.word == "lost"
     assert "of the input is missing" in lost.phrases[0]
     assert lost.back.max == pytest.approx(long, abs=1e-5)
-    added = measure_fidelity(surface_of(block), surface_of(knob), cell=1.0)
+    added = measure_deviation(surface_of(block), surface_of(knob), cell=1.0)
     assert added.word == "lost"
     assert "was not in the input" in added.phrases[-1]
-    assert measure_fidelity(surface_of(knob), surface_of(knob), cell=1.0).word == "kept"
+    assert measure_deviation(surface_of(knob), surface_of(knob), cell=1.0).word == "kept"
 
 
 def test_every_place_that_is_lost_counts() -> None:
     """Eight knobs, however few are listed: each of 2 x 2 x 4, of which what is more than two away is lost."""
     block = box(60, 30, 10)
     knobs = [box(2, 2, 10, (x, y, 4)) for x in (-24, -8, 8, 24) for y in (-10, 10)]
-    found = measure_fidelity(surface_of(union(block, *knobs)), surface_of(block), cell=1.0)
+    found = measure_deviation(surface_of(union(block, *knobs)), surface_of(block), cell=1.0)
     assert len(found.lost) == 8
     assert found.phrases[0].startswith("8 places, ")
     assert sum(patch.area for patch in found.lost) == pytest.approx(8 * (4 * 2 * 2 + 4), rel=0.1)

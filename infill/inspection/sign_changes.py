@@ -5,7 +5,7 @@
                                                   ──▶  both surfaces near?      (`are_surfaces_near`)
 
 Both answer True only if they are sure. Otherwise everything is compared: `infill.inspection.bricks.check_topology` and
-`infill.inspection.fidelity.measure_fidelity`, whose results these two predict.
+`infill.inspection.deviation.measure_deviation`, whose results these two predict.
 """
 
 from __future__ import annotations
@@ -161,7 +161,7 @@ def has_unchanged_cells(labelled: Components, same: Bits) -> bool:
 
 
 def are_surfaces_near(flips: SignChanges, *, spacing: tuple[float, ...], threads: int | None = None) -> bool:
-    """Tell whether both surfaces are certain to be within `infill.inspection.fidelity.KEPT` cells everywhere.
+    """Tell whether both surfaces are certain to be within `infill.inspection.deviation.KEPT` cells everywhere.
 
     Where all corners of a cube keep their signs, both surfaces cross the same edges and have the same triangles between
     these crossings, so they are within the length of an edge. All other cubes are measured.

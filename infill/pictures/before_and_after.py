@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from infill.arrays import Floats
-from infill.inspection.fidelity import sample_surface
+from infill.inspection.deviation import sample_surface
 from infill.meshes.distance import TriangleTree
 from infill.meshes.winding import is_solid_boundary
 from infill.pictures.render import AZIMUTH, ELEVATION, Colour, Window, directions, render

@@ -140,29 +140,29 @@ class FittedPaths:
         return total_length(self.paths)
 
 
-def fit_paths(stack: Column, place: AreaSetting) -> FittedPaths:
+def fit_paths(column: Column, setting: AreaSetting) -> FittedPaths:
     """Draw paths in the area of a column, at its cell or at one that gives them the target length.
 
     The length jumps with the cell in small areas: the closest of a few is the result. A requested cell stays.
     """
-    target = stack.length
-    best = _cover_smoothly(stack.area, stack.cell, place)
+    target = column.length
+    best = _cover_smoothly(column.area, column.cell, setting)
     # A pattern that varies with the height has one cell everywhere, or its layers would not fit one another.
-    if place.plan.fixed or not place.plan.family.prismatic or target <= LEAST_LENGTH:
+    if setting.plan.fixed or not setting.plan.family.prismatic or target <= LEAST_LENGTH:
         return best
     error = best.length / target - 1
-    if abs(error) <= (LENGTH_TOLERANCE if stack.fresh else COLUMN_TOLERANCE):
+    if abs(error) <= (LENGTH_TOLERANCE if column.fresh else COLUMN_TOLERANCE):
         return best
     nearby_cells, cell = (
-        _nearby_cells(stack, place.plan) if target < SMALL_LENGTH or stack.fresh else np.empty(0),
-        stack.cell,
+        _nearby_cells(column, setting.plan) if target < SMALL_LENGTH or column.fresh else np.empty(0),
+        column.cell,
     )
     for attempt in range(TRIES + len(nearby_cells)):
         if attempt >= TRIES and target >= SMALL_LENGTH and abs(best.length / target - 1) <= LENGTH_TOLERANCE:
             break
         cell = cell * float(np.clip(1 + error, 0.6, 1.6)) if attempt < TRIES else float(nearby_cells[attempt - TRIES])
-        cell = max(cell, TOUCH * place.plan.line_width)
-        candidate = _cover_smoothly(stack.area, cell, place)
+        cell = max(cell, TOUCH * setting.plan.line_width)
+        candidate = _cover_smoothly(column.area, cell, setting)
         error = candidate.length / target - 1
         if abs(error) < abs(best.length / target - 1):
             best = candidate
@@ -171,29 +171,29 @@ def fit_paths(stack: Column, place: AreaSetting) -> FittedPaths:
     return best
 
 
-def _nearby_cells(stack: Column, plan: RefillPlan) -> Floats:
+def _nearby_cells(column: Column, plan: RefillPlan) -> Floats:
     """Return cells around that of a column, mm; for a column with a free cell, those around that of the plan first."""
     steps = np.exp(np.linspace(-SPREAD, SPREAD, SCANNED))
     nearest = steps[np.argsort(np.abs(np.log(steps)), kind="stable")]
-    if not stack.fresh or stack.cell == plan.cell:
-        return stack.cell * nearest
-    return np.concatenate([plan.cell * nearest, stack.cell * nearest])
+    if not column.fresh or column.cell == plan.cell:
+        return column.cell * nearest
+    return np.concatenate([plan.cell * nearest, column.cell * nearest])
 
 
-def _cover_smoothly(area: Polygon, cell: float, place: AreaSetting) -> FittedPaths:
+def _cover_smoothly(area: Polygon, cell: float, setting: AreaSetting) -> FittedPaths:
     """Cover an area with rounded paths; where one would leave it, its corners stay sharp."""
     import shapely
 
-    plan = place.plan
+    plan = setting.plan
     strands = cover(
         area,
         plan.family,
         cell=cell,
         line_width=plan.line_width,
-        z=place.z,
-        layer=place.layer,
+        z=setting.z,
+        layer=setting.layer,
         radius=plan.radius,
-        ground=place.ground,
+        ground=setting.ground,
     )
     strands = [path for path in strands if len(path) > 1]
     if not strands:
@@ -205,9 +205,9 @@ def _cover_smoothly(area: Polygon, cell: float, place: AreaSetting) -> FittedPat
     for _ in range(ROUNDING_TRIES):
         smooth_paths, radii = round_paths(
             strands,
-            walls=place.walls,
-            acceleration=place.acceleration,
-            speed=place.speed,
+            walls=setting.walls,
+            acceleration=setting.acceleration,
+            speed=setting.speed,
             rounding=plan.rounding_of(cell),
             line_width=plan.line_width,
             hard=hard,

@@ -18,7 +18,7 @@ import numpy as np
 
 from infill.errors import GeometryError, ParameterError
 from infill.inspection.bricks import TopologyCheck, check_topology, check_topology_by_signs
-from infill.inspection.fidelity import Fidelity
+from infill.inspection.deviation import Deviation
 from infill.inspection.sign_changes import SignChanges, are_surfaces_near
 from infill.inspection.thickness import thinnest_walls
 from infill.isosurfaces.components import data_bits, erase_components, find_components, shell_names
@@ -82,7 +82,7 @@ class Attempt:
     topology : TopologyCheck
     thinnest : (float or None, float or None), mm
         The thinnest walls, in the data and smoothed: see `infill.inspection.thickness.thinnest_walls`.
-    fidelity : Fidelity or None
+    deviation : Deviation or None
         Its distance from the input; None if it is sure to be near everywhere, so that it was not measured.
     differences : Differences
         The verdict in words.
@@ -96,7 +96,7 @@ class Attempt:
     specks: int
     topology: TopologyCheck
     thinnest: tuple[float | None, float | None]
-    fidelity: Fidelity | None
+    deviation: Deviation | None
     differences: Differences
     clock: Clock
 
@@ -114,7 +114,7 @@ class Attempt:
     @property
     def rank(self) -> tuple[bool, int, float]:
         """Sort key of attempts: the lowest is the best."""
-        patches = (*self.fidelity.lost, *self.fidelity.added) if self.fidelity else ()
+        patches = (*self.deviation.lost, *self.deviation.added) if self.deviation else ()
         area = float(sum(patch.area for patch in patches))
         return self.differences.word == "lost", len(self.differences.problems), area
 
@@ -157,7 +157,7 @@ def run_attempt(smooth_input: SmoothInput, request: SmoothRequest) -> Attempt:
             partial(_wall_thickness, surfaced, smoothed),
             threads=threads,
         )
-        fidelity = None if surely_near and not crumbs.count else compare_with_input(surface, smoothed)
+        deviation = None if surely_near and not crumbs.count else compare_with_input(surface, smoothed)
     return Attempt(
         smoothed=smoothed,
         surfaced=surfaced,
@@ -166,8 +166,8 @@ def run_attempt(smooth_input: SmoothInput, request: SmoothRequest) -> Attempt:
         specks=specks,
         topology=topology,
         thinnest=thinnest,
-        fidelity=fidelity,
-        differences=find_differences(topology, fidelity, surfaced, smoothed),
+        deviation=deviation,
+        differences=find_differences(topology, deviation, surfaced, smoothed),
         clock=clock,
     )
 
@@ -288,12 +288,12 @@ def finish_attempt(
     """
     smoothed, clock, surfaced = best.smoothed, best.clock, best.surfaced
     smooth_input, request = smoothed.smooth_input, smoothed.request
-    data, topology, fidelity, differences = smooth_input.data, best.topology, best.fidelity, best.differences
+    data, topology, deviation, differences = smooth_input.data, best.topology, best.deviation, best.differences
     with clock.stage("measure", 0.75):
         surface, simplified = _simplify_result(best.surface, request)
         if surface is not best.surface:
-            fidelity = compare_with_input(surface, smoothed)
-            differences = find_differences(topology, fidelity, surfaced, smoothed)
+            deviation = compare_with_input(surface, smoothed)
+            differences = find_differences(topology, deviation, surfaced, smoothed)
     problems = [*differences.losses, *differences.problems]
     target, simplification = float(surfaced.targets.sum()), {} if simplified is None else {"simplified": simplified}
     report: SmoothReport = {
@@ -315,8 +315,8 @@ def finish_attempt(
         "verdict": {
             "word": differences.word,
             "changes": [*problems, *differences.remarks, *_cleaning_remarks(best.crumbs, best.specks)],
-            "lost": [patch.facts() for patch in fidelity.lost[:MAX_LISTED_PLACES]] if fidelity else [],
-            "added": [patch.facts() for patch in fidelity.added[:MAX_LISTED_PLACES]] if fidelity else [],
+            "lost": [patch.facts() for patch in deviation.lost[:MAX_LISTED_PLACES]] if deviation else [],
+            "added": [patch.facts() for patch in deviation.added[:MAX_LISTED_PLACES]] if deviation else [],
             "crumbs": {"removed": best.crumbs.count, "volume": best.crumbs.volume, "limit": best.crumbs.limit},
             "tried": tried,
             "taken": taken,

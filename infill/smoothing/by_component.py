@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, get_args
 import numpy as np
 
 from infill.errors import GeometryError, InfillError, ParameterError
-from infill.inspection.fidelity import Word
+from infill.inspection.deviation import Word
 from infill.meshes.split_components import split_components
 from infill.reports.common import report_head
 from infill.reports.smoothing import ComponentSeconds

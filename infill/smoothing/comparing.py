@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.inspection.fidelity import COUNTS, HIDDEN, SHEET, THIN, Fidelity, Kinds, Word, measure_fidelity
+from infill.inspection.deviation import COUNTS, HIDDEN, SHEET, THIN, Deviation, Kinds, Word, measure_deviation
 from infill.isosurfaces.components import data_bits, look_up_cells, open_by_blocks
 from infill.meshes.distance import distances
 from infill.smoothing.stages import raw_surface
@@ -52,10 +52,10 @@ class Differences:
     remarks: tuple[str, ...]
 
 
-def compare_with_input(surface: Surface, smoothed: SmoothedInput, *, exact: bool = False) -> Fidelity:
+def compare_with_input(surface: Surface, smoothed: SmoothedInput, *, exact: bool = False) -> Deviation:
     """Measure the distance between a surface and the input, both ways; by default, only where it is large."""
     smooth_input = smoothed.smooth_input
-    return measure_fidelity(
+    return measure_deviation(
         _input_surface(smoothed) if smooth_input.mesh is None else smooth_input.mesh,
         surface,
         cell=smooth_input.cell or float(smooth_input.data.cell_size.max()),
@@ -142,7 +142,7 @@ def _loss_classifier(smoothed: SmoothedInput) -> Kinds:
 
 
 def find_differences(
-    topology: TopologyCheck, fidelity: Fidelity | None, surfaced: SurfaceAtLevel, smoothed: SmoothedInput
+    topology: TopologyCheck, deviation: Deviation | None, surfaced: SurfaceAtLevel, smoothed: SmoothedInput
 ) -> Differences:
     """Judge a result: return the verdict with its losses, problems and remarks.
 
@@ -150,7 +150,7 @@ def find_differences(
     ----------
     topology : TopologyCheck
         The changes of the voxels in smoothing.
-    fidelity : Fidelity or None
+    deviation : Deviation or None
         Distances between result and input; None if they are sure to be small everywhere.
     surfaced : SurfaceAtLevel
     smoothed : SmoothedInput
@@ -162,15 +162,15 @@ def find_differences(
     remarks = []
     if thin_count := topology.changes.vanished_thin:
         remarks.append(f"{thin_count} specks or flakes one voxel thick are gone")
-    if fidelity and fidelity.thin:
+    if deviation and deviation.thin:
         feature = (
             "walls or gaps one voxel thick are gone"
             if smooth_input.mesh_volumes is None
             else "slits narrower than a voxel are closed"
         )
-        remarks.append(f"{feature}, {fidelity.thin:.3g} mm² of their faces")
-    if fidelity and fidelity.sheet:
-        remarks.append(f"{fidelity.sheet:.3g} mm² of faces that bound no solid are left out")
+        remarks.append(f"{feature}, {deviation.thin:.3g} mm² of their faces")
+    if deviation and deviation.sheet:
+        remarks.append(f"{deviation.sheet:.3g} mm² of faces that bound no solid are left out")
     if smooth_input.mesh_volumes is not None and smooth_input.topology is None:
         mesh_parts, result_parts = int((smooth_input.mesh_volumes.volumes > 0).sum()), topology.result.components
         if result_parts < mesh_parts:
@@ -183,8 +183,8 @@ def find_differences(
     repairs = smooth_input.facts.get("repairs", {})
     if (share := repairs.get("hole_share", 0.0)) > MIN_CAP_SHARE:
         remarks.append(f"{repairs['holes']} holes of the mesh were closed by caps, {share:.1%} of the area")
-    phrases = fidelity.phrases if fidelity else ()
-    lost = fidelity is not None and fidelity.word == "lost"
+    phrases = deviation.phrases if deviation else ()
+    lost = deviation is not None and deviation.word == "lost"
     losses = phrases if lost else ()
     if not lost:
         remarks = [*phrases, *remarks]

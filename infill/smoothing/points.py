@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from infill.errors import GeometryError, ParameterError
-from infill.inspection.fidelity import LOST
+from infill.inspection.deviation import LOST
 from infill.meshes.distance import distances
 from infill.smoothing.comparing import summarise_distances
 from infill.smoothing.meshes import MARGIN

@@ -83,7 +83,7 @@ class ChangedPatch:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Fidelity:
+class Deviation:
     """Distances both ways, and the places further apart than `LOST`.
 
     Parameters
@@ -142,7 +142,7 @@ def count_all_points(points: Floats, faces: NDArray[np.integer]) -> NDArray[np.i
     return np.full(len(points), COUNTS)
 
 
-def measure_fidelity(
+def measure_deviation(
     given: Surface,
     result: Surface,
     *,
@@ -151,7 +151,7 @@ def measure_fidelity(
     kinds: Kinds = count_all_points,
     exact: bool = True,
     threads: int | None = None,
-) -> Fidelity:
+) -> Deviation:
     """Compare a result with the given surface.
 
     Parameters
@@ -184,7 +184,7 @@ def measure_fidelity(
     if not counting.any():
         counting[:] = True
     points, distance, area = points[counting], distance[counting], area[counting]
-    return Fidelity(
+    return Deviation(
         there=there,
         back=_gap(points, distance, area),
         added=added,
