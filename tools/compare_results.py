@@ -61,7 +61,7 @@ def make_inputs(folder: Path) -> list[list[str]]:
     np.savetxt(folder / "cloud.xyz", trimesh.sample.sample_surface(ball, 4000, seed=1)[0])
     commands += [
         ["smooth", "ball.npy", "--spacing", "0.5", "-o", "OUT.stl"],
-        ["smooth", "ball.npy", "--spacing", "0.5", "0.5", "1", "-o", "OUT.stl"],
+        ["smooth", "ball.npy", "--spacing", "0.5,0.5,1", "-o", "OUT.stl"],
         ["smooth", "ball.npy", "--spacing", "0.5", "--steps", "5", "-o", "OUT.ply"],
         ["smooth", "grey.npy", "--spacing", "0.7", "--threshold", "0", "-o", "OUT.stl"],
         ["smooth", "grey.npy", "--spacing", "0.7", "--threshold", "400", "--despeckle", "2", "-o", "OUT.obj"],
@@ -70,7 +70,7 @@ def make_inputs(folder: Path) -> list[list[str]]:
         ["smooth", "ring.stl", "-o", "OUT.stl"],
         ["smooth", "box.stl", "--voxel", "0.8", "-o", "OUT.stl"],
         ["smooth", "open.ply", "-o", "OUT.stl"],
-        ["smooth", "sphere.stl", "--resolution", "32", "-o", "OUT.off"],
+        ["smooth", "sphere.stl", "--resolution", "32", "-o", "OUT.glb"],
         ["smooth", "cloud.xyz", "--voxel", "0.6", "-o", "OUT.stl"],
     ]
     commands += [["fill", "box.stl", "--pattern", name, "--density", "25%", "-o", "OUT.stl"] for name in PATTERNS]
