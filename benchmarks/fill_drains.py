@@ -151,7 +151,7 @@ def faults(case: Case, result: Any, voids: trimesh.Trimesh) -> Iterator[str]:
         yield f"{len(outer)} components, and {len(own)} of the part"
     if len(closed) != len(report["voids"]["closed"]):
         yield f"{len(closed)} voids are closed, and {len(report['voids']['closed'])} are listed"
-    if closed and "still closed" not in told:
+    if closed and "still sealed" not in told:
         yield f"{len(closed)} voids are closed, and that is not told"
     if closed and not case.options.get("open_"):
         largest = max(-each.volume for each in closed)

@@ -384,7 +384,7 @@ def test_every_void_that_stays_closed_is_told_with_its_place() -> None:
     closed = find_closed_voids(result.surface)
     report = result.report
     assert len(closed) == len(report["voids"]["closed"])
-    told = [each for each in report["problems"] if "still closed" in each]
+    told = [each for each in report["problems"] if "still sealed" in each]
     assert bool(told) == bool(closed)
     assert {each["void"] for each in report["drains"]["undrained"]} <= set(range(report["voids"]["count"]))
     for each in told:

@@ -93,7 +93,7 @@ def _drain_text(report: FillReport) -> str:
     closed, side = len(report["voids"]["closed"]), report["request"]["open"]
     holes = report["drains"]["holes"]
     if not (holes or side):
-        return "closed: nothing drains from them"
+        return "sealed: nothing drains from them"
     phrases = [f"{report['voids']['open']:,} open at the {END_TEXTS[side]}"] if side else []
     for kinds, noun in ((("drain", "place"), "drain(s)"), (("vent",), "vent(s)"), (("branch",), "branch(es)")):
         widths = [hole["diameter"] for hole in holes if hole["kind"] in kinds]
@@ -101,5 +101,5 @@ def _drain_text(report: FillReport) -> str:
             low, high = min(widths), max(widths)
             phrases.append(f"{len(widths):,} {noun} of {low:g}{'' if low == high else f' to {high:g}'} mm")
     if closed:
-        phrases.append(f"{closed:,} still closed" if holes else f"{closed:,} closed")
+        phrases.append(f"{closed:,} still sealed" if holes else f"{closed:,} sealed")
     return "; ".join(phrases)

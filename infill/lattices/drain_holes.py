@@ -191,7 +191,7 @@ def _drop_loose(drilled: Surface, solid: Surface) -> tuple[Surface, int]:
 
 
 def drain_problems(request: FillSpec, drained: DrainedSolid, closed: list[tuple[float, list[float]]]) -> Iterator[str]:
-    """Yield a message for voids that are still closed, and for drains that do not do what they should.
+    """Yield a message for voids that are still sealed, and for drains that do not do what they should.
 
     Parameters
     ----------
@@ -207,7 +207,7 @@ def drain_problems(request: FillSpec, drained: DrainedSolid, closed: list[tuple[
     undrained = drained.plan.undrained
     if closed:
         volume, at = closed[0]
-        message = f"{len(closed)} void(s) are still closed"
+        message = f"{len(closed)} void(s) are still sealed"
         if undrained:
             largest = undrained[0]
             volume, at = largest.volume, largest.at.tolist()
@@ -250,7 +250,7 @@ def drain_problems(request: FillSpec, drained: DrainedSolid, closed: list[tuple[
 
 
 def _advise(undrained: tuple[SealedVoid, ...]) -> str:
-    """Say how to drain the largest of the voids that are still closed, if any attempt succeeded."""
+    """Say how to drain the largest of the voids that are still sealed, if any attempt succeeded."""
     if undrained[0].fits is not None:
         return _advise_thinner(undrained, "drain")
     if undrained[0].place is not None:
