@@ -167,6 +167,7 @@ def waves(cell: float) -> list[Path]:
 @pytest.mark.longest
 @given(regions(), st.floats(1.5, 9))
 @example(box(0, 0, 9, 9), 3.0)
+@example(Polygon([(-10, 5), (-16, 8), (-16, 11), (-15, 13), (-13, 13), (-12, 11)]), 1.9)  # a wave begins on its edge
 def test_clipping_keeps_what_is_inside_and_nothing_else(region: Polygon | MultiPolygon, cell: float) -> None:
     paths = [
         *waves(cell),

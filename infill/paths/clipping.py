@@ -55,6 +55,7 @@ def clip(paths: Sequence[Path], outline: Outline) -> Pieces:
     ring, place = np.zeros(0, dtype=np.intp), np.zeros(0)
     if paths:
         points, owner, ring, place = _cut(paths, outline)
+        _share_ends(points, owner, ring, place)
         for run in _runs_inside(points, owner, ring >= 0, outline):
             path = points[run[0]] if len(run) == 1 else np.concatenate([points[part] for part in run])
             inside.append(path)
@@ -111,6 +112,16 @@ def _cut(paths: Sequence[Path], outline: Outline) -> tuple[Path, Numbers, Number
         ring_of[group[cuts]], place_of[group[cuts]] = ring[cuts], places[cuts]
         return merged_points[unique_points], path_of[unique_points], ring_of, place_of
     return merged_points, path_of, ring, places
+
+
+def _share_ends(points: Path, owner: Numbers, ring: Numbers, place: Floats) -> None:
+    """Set ring and place of both ends of closed paths, in place, where rounding found the outline at one end alone."""
+    changes = np.flatnonzero(owner[1:] != owner[:-1])
+    first, last = np.append(0, changes + 1), np.append(changes, len(owner) - 1)
+    closed = (first < last) & (np.abs(points[first] - points[last]).max(axis=-1) <= SAME)
+    for cut, missed in ((first, last), (last, first)):
+        lacks = closed & (ring[cut] >= 0) & (ring[missed] < 0)
+        ring[missed[lacks]], place[missed[lacks]] = ring[cut[lacks]], place[cut[lacks]]
 
 
 def _runs_inside(points: Path, owner: Numbers, cut: NDArray[np.bool_], outline: Outline) -> list[list[slice]]:
