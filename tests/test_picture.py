@@ -82,6 +82,18 @@ def test_y_points_up() -> None:
     assert not panel[:40, -40:].any()
 
 
+def test_straight_lines_are_drawn_straight() -> None:
+    """Lines of a grid of 60 mm lie on the borders of pixels, up to rounding: each is one row or column, without a jog."""
+    sheet = np.asarray(make("grid").picture().convert("L")).astype(int)
+    panel = sheet[34:454, 14:434] < 100
+    for axis in (0, 1):
+        inked = panel.sum(axis=axis)
+        whole = np.flatnonzero(inked == inked.max())
+        assert len(whole) == 11
+        assert inked.max() == whole[-1] - whole[0] + 1  # the frame is as long as the lines in it
+    assert panel.sum() == 2 * 11 * inked.max() - 11**2  # and there is no other ink
+
+
 @pytest.mark.parametrize("name", ["x.jpg", "x", "x.stl"])
 def test_only_png_is_written(name: str) -> None:
     with pytest.raises(FormatError, match=r"ends in \.png"):

@@ -14,6 +14,7 @@ from infill.pictures.sheet import INK, PANEL, arrange_panels, draw_mesh_panel
 from infill.surface import Surface
 
 SOLID_COLOUR, VOID_COLOUR, CONTOUR = (240, 160, 60), (246, 246, 246), (190, 30, 30)
+BORDER_TOLERANCE = 1e-6  # of a pixel: points this close to the border of two pixels all lie in the same one
 
 
 def draw_four_stages(
@@ -65,10 +66,10 @@ def _draw_points(points: NDArray[np.float64], grid: Grid) -> Image.Image:
     """Draw the points of the lines as pixels."""
     columns, rows = _panel_size(grid.shape)
     part = (points - grid.origin) / np.array(grid.extents)
+    places = np.column_stack([1 - part[:, 1], part[:, 0]]) * (rows, columns)
+    row, column = (places + BORDER_TOLERANCE).astype(int).clip(0, (rows - 1, columns - 1)).T
     hit = np.zeros((rows, columns), dtype=bool)
-    hit[
-        ((1 - part[:, 1]) * rows).astype(int).clip(0, rows - 1), (part[:, 0] * columns).astype(int).clip(0, columns - 1)
-    ] = True
+    hit[row, column] = True
     return Image.fromarray(np.where(hit[..., None], np.array(INK), np.array(VOID_COLOUR)).astype(np.uint8))
 
 
