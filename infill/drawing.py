@@ -15,6 +15,7 @@ Bounds = tuple[float, float, float, float]
 
 LARGEST_COORDINATE = 1e5  # mm: beyond a hundred metres, a drawing is a mistake in its units
 MOST_POINTS = 500_000  # with those of curves, before they are simplified
+MOST_AT_ONCE = 5_000  # points that are simplified together
 CHORD_TOLERANCE = 1e-4  # of the size of a drawing: how far its chords may lie from its curves
 
 
@@ -87,8 +88,6 @@ def build_drawing(
     path: object, lines: list[Line], *, page: Bounds | None = None, left_out: dict[str, int] | None = None
 ) -> Drawing:
     """Simplify lines and return them as a drawing; raise FormatError if none remains or one is not finite."""
-    import shapely
-
     left_out = dict(left_out or {})
     polylines = list({line.tobytes(): line for line in lines if len(line) > 1}.values())
     repeated = sum(len(line) > 1 for line in lines) - len(polylines)
@@ -107,11 +106,16 @@ def build_drawing(
     size = float(np.ptp(points, axis=0).max())
     if size == 0:
         raise FormatError(f"{path} holds lines without length; draw outlines or strokes")
-    simple = shapely.simplify(shapely.linestrings(points, indices=_owners(polylines)), size * CHORD_TOLERANCE / 2)
-    simplified = (np.array(line.coords) for line in simple[shapely.length(simple) > 0])
-    return Drawing(lines=tuple(simplified), page=page, left_out=omissions)
+    simplified = (_simplify(line, size * CHORD_TOLERANCE / 2) for line in polylines)
+    with_length = tuple(line for line in simplified if (line != line[0]).any())
+    return Drawing(lines=with_length, page=page, left_out=omissions)
 
 
-def _owners(lines: list[Line]) -> NDArray[np.intp]:
-    """Return the index of the line that each point belongs to."""
-    return np.repeat(np.arange(len(lines)), [len(line) for line in lines])
+def _simplify(line: Line, tolerance: float) -> Line:
+    """Reduce the points of a line, part by part: over a long zigzag, GEOS recurses until the process ends."""
+    import shapely
+
+    starts = range(0, len(line) - 1, MOST_AT_ONCE)
+    parts = [shapely.linestrings(line[start : start + MOST_AT_ONCE + 1]) for start in starts]
+    simple = [shapely.get_coordinates(part) for part in shapely.simplify(parts, tolerance)]
+    return np.concatenate([*(part[:-1] for part in simple), simple[-1][-1:]])

@@ -184,9 +184,9 @@ class Clock:
         yield
         self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - begin
 
-    def timings(self, declaration: Callable[..., Declared]) -> Declared:
-        """Return the seconds by stage, and their total, as a section of a report."""
-        return declare(declaration, {**self.seconds, "total": sum(self.seconds.values())})
+    def timings(self, declaration: Callable[..., Declared], **unless_timed: float) -> Declared:
+        """Return the seconds by stage, and their total, as a section of a report; stages may not have run."""
+        return declare(declaration, {**unless_timed, **self.seconds, "total": sum(self.seconds.values())})
 
     def tell(self, name: str, share: float) -> None:
         """Report the finished share of the work to the listener, if any."""

@@ -196,6 +196,15 @@ def test_lines_that_cross_too_often_are_refused_before_they_are_joined(tmp_path:
     assert len(read_tile(squares(tmp_path / "b.dxf", 300, 0.001)).lines) == 300
 
 
+@pytest.mark.slow
+def test_a_long_line_that_never_crosses_itself_is_read(tmp_path: Path) -> None:
+    """Neighbouring segments touch, once each: as many as there may be points; few lie within the chord tolerance."""
+    x = np.linspace(0, 100, MOST_POINTS - 10)
+    path = tmp_path / "a.wkt"
+    path.write_text(f"LINESTRING ({', '.join(f'{a:.5f} {b}' for a, b in zip(x, np.arange(len(x)) % 2, strict=True))})")
+    assert 0.99 * len(x) < sum(len(line) for line in read_tile(path).lines) <= len(x)
+
+
 def test_too_many_copies_of_a_tile_are_refused_before_they_are_made(tmp_path: Path) -> None:
     tiled = read_tiled(squares(tmp_path / "a.dxf", 300, 0.001))
     assert tiled.name == "a.dxf"

@@ -13,18 +13,17 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from infill.gcode.bodies import (
-    InfillSection,
-    TravelSettings,
-    compose_section,
-    find_sections,
-    measure_travel,
-    replace_sections,
-    validate_section,
-)
 from infill.gcode.estimates import EstimateChange, completion_letters, find_estimates, stated_seconds, update_estimate
+from infill.gcode.infill_sections import InfillSection, find_sections
 from infill.gcode.lines import MOVE
 from infill.gcode.machine_state import MachineState
+from infill.gcode.section_text import (
+    TravelSettings,
+    compose_section,
+    measure_travel,
+    replace_sections,
+    validate_sections,
+)
 from infill.gcode.sections import TagState, mark_lines
 from infill.gcode.splicing import NewPaths, SplicedText, find_difference, splice_paths, verify_replay
 from infill.gcode.strokes import FILAMENT_UNIT, InfillStrokes, find_strokes
@@ -447,7 +446,7 @@ def test_a_section_drawn_anew_leaves_all_as_it_was(
     done = replace_sections(table, [body], [text])
     other = read_table(done.text, BEGIN)
     assert find_difference(table, other, done) == ""
-    assert validate_section(other, done, [body], [text]) == ""
+    assert validate_sections(other, done, [body], [text]) == ""
     assert done.text == table.text(0, body.first) + text + table.text(body.last + 1, len(table))
     part = slice(body.first, body.first + text.count(b"\n"))
     before, after = other.e[part.start - 1], other.e[part.stop - 1]
@@ -615,7 +614,7 @@ def test_a_new_section_that_is_unlawful_is_told(wrong: str) -> None:
     table, body = one_body(square())
     text = wrong.encode()
     done = replace_sections(table, [body], [text])
-    assert validate_section(read_table(done.text, BEGIN), done, [body], [text]) == WRONG[wrong]
+    assert validate_sections(read_table(done.text, BEGIN), done, [body], [text]) == WRONG[wrong]
 
 
 @pytest.mark.parametrize("absolute", [False, True])

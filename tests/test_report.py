@@ -7,7 +7,6 @@ import json
 import re
 import zipfile
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import Any, get_args, get_origin, is_typeddict
 
@@ -289,6 +288,7 @@ def misfits(value: Any, key: Key, place: str = "report") -> Iterator[str]:
         if key.length is not None and len(value) != key.length:
             yield f"{place} has {len(value)} items, not {key.length}"
     elif get_origin(kind) is dict and type(value) is dict:
+        yield from (f"{place} has a key that is no text, {name!r}" for name in value if type(name) is not str)
         yield from each_misfit({f"{place}.{name}": (value[name], read_key(get_args(kind)[1])) for name in value})
     elif kind is not Any and type(value) is not kind:
         yield f"{place} is {value!r}, not {kind}"
@@ -327,13 +327,21 @@ def differences(chapter: Chapter, reports: dict[str, Any]) -> list[str]:
     return found + [f"no report has {place}" for place in places(chapter.report, chapter.known) if place not in seen]
 
 
+TUPLES = {"motion"}  # `Motion.to_dict` has tuples, which JSON makes lists
+
+
+def with_lists(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {name: with_lists(item) for name, item in value.items()}
+    return [with_lists(item) for item in value] if isinstance(value, (list, tuple)) else value
+
+
 @pytest.mark.parametrize("word", [pytest.param(word, marks=LONG.get(word, ())) for word in REPORTS])
 def test_the_declared_keys_are_those_of_real_reports(word: str, results: Results, tmp_path: Path) -> None:
     reports = REPORTS[word](tmp_path, results)
     assert differences(CHAPTER[word], reports) == []
     for report in reports.values():
-        text = json.dumps(report, allow_nan=False)
-        assert json.dumps(json.loads(text)) == text
+        assert json.loads(json.dumps(report, allow_nan=False)) == (with_lists(report) if word in TUPLES else report)
 
 
 def test_every_chapter_is_under_the_law() -> None:
@@ -363,7 +371,7 @@ def sections(declaration: Any) -> Iterator[Any]:
 
 def test_a_difference_is_found(results: Results) -> None:
     report = results["block"].report
-    assert differences(replace(CHAPTER["make"], known=()), {"block": report}) == ["no report has .files"]
+    assert differences(CHAPTER["make"], {"block": report}) == ["no report has .files"]
     assert differences(CHAPTER["make --dry-run"], {}) == [
         f"no report has .{name}" for name in ("request", "grid", "memory", "triangles", "stl_bytes")
     ]
@@ -373,6 +381,7 @@ def test_a_difference_is_found(results: Results) -> None:
         ({**report, "extents": [1.0, 2, 3.0]}, "report.extents[1] is 2, not <class 'float'>"),
         ({**report, "extents": [1.0, 2.0]}, "report.extents has 2 items, not 3"),
         ({**report, "extents": (1.0, 2.0, 3.0)}, "report.extents is (1.0, 2.0, 3.0), not list"),
+        ({**report, "request": {**report["request"], "parameters": {1: 2}}}, "parameters has a key that is no text, 1"),
         ({**report, "closed": 1}, "report.closed is 1, not <class 'bool'>"),
         ({key: value for key, value in report.items() if key != "mesh"}, "report.mesh is missing"),
         ({**report, "mesh": {**report["mesh"], "planted": 1}}, "report.mesh.planted is not declared"),

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterator
 from pathlib import Path
+from typing import BinaryIO
 
 import pytest
 
 from infill import motion, refill
 from infill.gcode.machine_state import MachineState, apply_m200
 from infill.gcode.table import read_table
+from infill.refilling.layers import Layers, read_layers
 from tests.handmade_prints import Dialect, written
 
 AREA = math.pi / 4 * 1.75**2  # mm²
@@ -104,3 +107,21 @@ def test_a_diameter_of_the_settings_is_taken(tmp_path: Path) -> None:
     assert motion(tmp_path / "wide.gcode").filament == pytest.approx(
         motion(tmp_path / "linear.gcode").filament, rel=1e-4
     )
+
+
+@pytest.mark.parametrize("pattern", ["keep", "gyroid"])
+def test_every_drawing_of_a_print_begins_alike(pattern: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A small print is drawn several times; the firmware and the rule of E are known before its first line."""
+    begins: list[MachineState | None] = []
+
+    def noting(file: BinaryIO, begin: MachineState | None = None) -> Iterator[Layers]:
+        begins.append(begin)
+        return read_layers(file, begin)
+
+    path = tmp_path / "a.gcode"
+    path.write_bytes(LINEAR + b"; gcode_flavor = klipper\n")
+    monkeypatch.setattr("infill.refilling.drafting.read_layers", noting)
+    refill(path, output=tmp_path / "b.gcode", pattern=pattern)
+    assert len(begins) > (pattern == "gyroid")
+    assert {begin.firmware for begin in begins if begin is not None} == {"klipper"}
+    assert None not in begins

@@ -1,7 +1,8 @@
 """Compare what two checkouts make of the same inputs, byte for byte: `python tools/compare_results.py OTHER_CHECKOUT`.
 
 For a change that must not change results, such as a renaming. Runs 3 designs, 12 `smooth`, 12 `fill` and 12 `refill` in
-both, compares the files and the reports, and exits with 1 where any differ. Times and versions in reports are left out.
+both, compares the files and the reports, and exits with 1 where any differ or are refused. Times and
+versions in reports are left out.
 """
 
 from __future__ import annotations
@@ -126,7 +127,7 @@ def main() -> int:
             result = f"differs: {', '.join(parts)}" if parts else f"same, exit {new[0]}, {len(new[2])} bytes"
             print(f"{result:32} infill {' '.join(words)}", flush=True)
     print(f"{len(commands)} commands, {differing} with a difference, {failed} refused")
-    return 1 if differing else 0
+    return 1 if differing or failed else 0
 
 
 if __name__ == "__main__":

@@ -11,9 +11,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from infill.arrays import Floats, Integers
+from infill.arrays import Flags, Floats, Integers
 from infill.drains.drain_columns import DrainWays
 from infill.drains.holes import DrainNeeds, Shaft
 from infill.graph import label_connected
@@ -30,8 +29,6 @@ CERTAIN = 0.999  # of the wall: smaller distances need not be exact
 RIM = 24  # lines along a hole by which its mouth is found
 NEAR = 1.0  # of diameter and wall: within this of a hole, faces are joined to its mouth
 OUT = 0.25, 0.4  # of the diameter and of the wall; the lesser is the length of a hole outside
-
-Bools = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -77,7 +74,7 @@ class Skin:
         return np.stack([before[is_pair], after[is_pair]], axis=1)
 
     @cached_property
-    def facing(self) -> Bools:
+    def facing(self) -> Flags:
         """True for faces that look down."""
         return -self.normals[:, 2] >= FACING
 
@@ -88,11 +85,11 @@ class Skin:
         return np.where(self.facing, names, -1)
 
     @cached_property
-    def leaving(self) -> Bools:
+    def leaving(self) -> Flags:
         """True for faces a hole may leave through: nearly level, and not those of a closed cavity."""
         names, count = shell_names(self.part)
         outer = shell_volumes(self.part, names, count) > 0
-        level: Bools = (-self.normals[:, 2] >= LEAVING) & outer[names[self.part.faces[:, 0]]]
+        level: Flags = (-self.normals[:, 2] >= LEAVING) & outer[names[self.part.faces[:, 0]]]
         return level
 
     @cached_property
@@ -115,7 +112,7 @@ class Skin:
         """Tell whether the tree of a mouth is built already."""
         return mouth in self._trees
 
-    def may_keep(self, ways: DrainWays, numbers: Integers, high: Floats, needs: DrainNeeds, mouth: int) -> Bools:
+    def may_keep(self, ways: DrainWays, numbers: Integers, high: Floats, needs: DrainNeeds, mouth: int) -> Flags:
         """Test which holes may keep the wall from the skin outside a mouth, (N,), by points on them, few at first.
 
         Parameters

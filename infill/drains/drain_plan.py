@@ -1,4 +1,4 @@
-"""The holes of a part: a drain for every void, vents and places on request, and the voids that stay closed."""
+"""The holes of a part: a drain for every void, vents and places on request, and the voids that stay sealed."""
 
 from __future__ import annotations
 
@@ -158,7 +158,7 @@ def _plan_holes(task: DrainTask) -> DrainPlan:
     if task.vent:
         high = needs if opening is None or not math.isfinite(opening.high) else replace(needs, closed_at=-opening.high)
         # Voids that are open at a side have their vent there.
-        wanting = voids - {closed.void for closed in undrained} - opened
+        wanting = voids - {sealed.void for sealed in undrained} - opened
         vents, unvented = _drain_one_way(task, task.along(TURN_OVER), high, "vent", opened, wanting, holes)
         holes += vents
     return DrainPlan(
@@ -177,8 +177,8 @@ def _add_remedies(plan: DrainPlan, task: DrainTask) -> DrainPlan:
         except GeometryError:
             continue
         lower = width if lower is None and not narrower_plan.high and not narrower_plan.undrained else lower
-        shut = {closed.void for closed in narrower_plan.undrained}
-        unreached = shut | {closed.void for closed in narrower_plan.unvented}
+        shut = {sealed.void for sealed in narrower_plan.undrained}
+        unreached = shut | {sealed.void for sealed in narrower_plan.unvented}
         undrained, unvented = _record_fits(undrained, width, shut), _record_fits(unvented, width, unreached)
     if undrained and undrained[0].fits is None:
         undrained[0] = replace(undrained[0], place=find_place(task, undrained[0].void))

@@ -12,8 +12,6 @@ from infill.drains.drain_columns import LineLattice, find_ways
 from infill.drains.drain_places import UP, DrainPlaces, DrainTask, TurnedPart
 from infill.drains.holes import Hole, Shaft
 from infill.errors import GeometryError
-from infill.meshes.distance import TriangleTree
-from infill.surface import Surface
 
 Place = tuple[float, float, float]  # x, y, z, mm
 
@@ -24,10 +22,8 @@ NARROWER, NARROWEST = (0.75, 0.5, 0.35, 0.25), 0.5  # of the diameter: tried in 
 def make_hole_at(task: DrainTask, place: Place, *, remedies: bool = True) -> Hole:
     """Make the hole at a place of the skin, straight in from there, or raise GeometryError."""
     needs, request = task.needs, "is ({:g}, {:g}, {:g})".format(*place)
-    point, face, distance = _nearest_on_skin(np.array(place), task.part)
-    a, b, c = np.asarray(task.part.vertices, dtype=np.float64)[task.part.faces[face]]
-    normal = np.cross(b - a, c - a)
-    below = task.along(_rotation_down(normal / max(float(np.linalg.norm(normal)), 1e-300)))
+    point, normal, distance = _nearest_on_skin(np.array(place), task)
+    below = task.along(_rotation_down(normal))
     x, y, z = below.turned @ point
     line = LineLattice(low=np.array([x, y]) + needs.diameter * np.array(NUDGE), step=1.0, shape=(1, 1))
     ways = find_ways(below.part, below.voids, below.names, line)
@@ -115,14 +111,14 @@ def _round_place(place: Floats) -> Place:
     return x, y, z
 
 
-def _nearest_on_skin(place: Floats, part: Surface) -> tuple[Floats, int, float]:
-    """Find the nearest point of the skin to a place; return it, its face, and its distance, mm."""
+def _nearest_on_skin(place: Floats, task: DrainTask) -> tuple[Floats, Floats, float]:
+    """Find the nearest point of the skin to a place; return it, the normal of its face, and its distance, mm."""
     from trimesh.triangles import closest_point
 
-    distance, face = TriangleTree.of(part).nearest(place[None])
-    corners = np.asarray(part.vertices, dtype=np.float64)[part.faces[face]]
-    nearest = closest_point(corners, place[None])  # type: ignore[no-untyped-call]
-    return np.asarray(nearest, dtype=np.float64)[0], int(face[0]), float(distance[0])
+    skin = task.along(np.eye(3)).skin
+    distance, face = skin.whole.nearest(place[None], threads=task.needs.threads)
+    nearest = closest_point(skin.corners[face], place[None])  # type: ignore[no-untyped-call]
+    return np.asarray(nearest, dtype=np.float64)[0], skin.normals[face[0]], float(distance[0])
 
 
 def _rotation_down(direction: Floats) -> Floats:

@@ -86,12 +86,13 @@ def read_tile(path: str | os.PathLike[str]) -> Drawing:
 
 
 def _estimate_crossings(drawing: Drawing) -> float:
-    """Return about how many pairs of segments of a drawing meet, from a sample of them."""
+    """Return about how many pairs of segments of a drawing meet, ends that touch included, from a sample of them."""
     segments = np.concatenate([np.stack([line[:-1], line[1:]], axis=1) for line in drawing.lines])
     tree = shapely.STRtree(shapely.linestrings(segments))
     stride = -(-len(segments) // SAMPLED_SEGMENTS)
     sample = tree.geometries[::stride]
-    return len(tree.query(sample, predicate="intersects")[0]) / len(sample) * len(segments) / 2
+    meetings = len(tree.query(sample, predicate="intersects")[0]) - len(sample)  # none with itself
+    return meetings / len(sample) * len(segments) / 2
 
 
 def read_tile_family(path: str | os.PathLike[str], *, width: float | None = None) -> DrawnFamily:

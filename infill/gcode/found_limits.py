@@ -101,7 +101,7 @@ class FileLimits:
     firmware : str
         As the argument of `apply_command`.
     rule_of_e : str
-        As `State.firmware`.
+        As `MachineState.firmware`.
     """
 
     limits: Limits

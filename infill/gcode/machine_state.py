@@ -197,3 +197,8 @@ def firmware_retraction(command: GcodeCommand, firmware: str = "") -> bool | Non
     if "S" in command.words and (firmware == "reprapfirmware" or command.words["S"] not in (None, 0.0, 1.0)):
         return None
     return command.code == "G10"
+
+
+def sets_counter(command: GcodeCommand) -> bool:
+    """Return True if a command only sets the counter of filament."""
+    return command.code == "G92" and set(command.words) == {"E"}

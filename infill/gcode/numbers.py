@@ -19,7 +19,7 @@ MAX_DIGITS = 15  # a float64 holds them exactly
 MAX_CHARACTERS = MAX_DIGITS + 2  # with a sign and a point
 POWERS = 10.0 ** np.arange(MAX_CHARACTERS + 1)
 SPACE, TAB, NEWLINE, RETURN, SEMICOLON, OPENING, STAR = b" \t\n\r;(*"
-ZERO, NINE, POINT, MINUS, PLUS = b"09.-+"
+ZERO, POINT, MINUS, PLUS = b"0.-+"
 WORD = 8  # bytes
 
 

@@ -36,7 +36,7 @@ class NewPaths:
     first : (S + 1,) int
         Start of each path.
     source : (K,) int
-        The old point, in the numbering of `Strokes.points`, for which each point stands; ascending.
+        The old point, in the numbering of `InfillStrokes.points`, for which each point stands; ascending.
     filament : (S,) float64, mm
         Filament of each path.
     """

@@ -254,7 +254,7 @@ def _convert_inches(lines: ParsedLines, before: MachineState) -> tuple[Floats, d
 
 
 def _find_unsure(lines: ParsedLines, lost: str) -> tuple[NDArray[np.bool_], str]:
-    """Return the lines before which x or y is unknown since an unreadable move, and the last `State.lost`."""
+    """Return the lines before which x or y is unknown since an unreadable move, and the last `MachineState.lost`."""
     count = len(lines)
     unsure = np.zeros(count, dtype=bool)
     unread = np.flatnonzero(lines.unread) + 1

@@ -19,7 +19,7 @@ def unpacked_frames(path: Path, source: Path) -> tuple[NDArray[Any], tuple[str, 
     Parameters
     ----------
     path : Path
-        A file that holds only pixels: see `infill.imaging.dicom.headers.write_packed_frames`.
+        A file that holds only pixels: see `infill.imaging.dicom.pixels`.
     source : Path
         The original file, for messages.
 

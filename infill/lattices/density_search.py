@@ -21,8 +21,8 @@ from patterns.unit_cells import Network
 
 CLOSE = 0.002  # of the density: a cell and a width nearer to it than this are good enough
 LEAST = 1e-6  # densities below this count as none
-TRIES, ROUNDS = 8, 9
-TRIANGLES_A_CELL = 2.5
+TRIES, ROUNDS = 8, 9  # of the search before smoothing, and of that on meshes
+TRIANGLES_A_CELL = 2.5  # for a cell within half a cell of the surface of a void, before simplifying
 GRADING_STEPS, GRADING_ROUNDS, GRADING_CLOSE, MOST_OFF = 24, 4, 0.01, 0.5  # of a density that changes
 
 

@@ -13,7 +13,7 @@ from infill.arrays import Floats
 from infill.errors import GeometryError
 from infill.interior.conformal_map import fit_conformal_map, spline_slopes
 from infill.interior.interior import Interior
-from infill.lattices.density_fields import Field
+from infill.lattices.density_fields import LEAST_SHARE, Field
 from infill.surface import Surface
 from infill.voxels.scanlines import fill_rows, intersect_rows
 
@@ -162,13 +162,13 @@ class Grading:
 def _inside(space: Interior, points: Floats) -> NDArray[np.bool_]:
     """Test which points, in cells, lie inside the walls; all are, if none are because the part is too thin."""
     at = tuple(np.minimum(points.round().astype(int), np.array(space.depth.shape) - 1).T)
-    inside = (space.depth[at] > 0) & (space.shares[at[2]] >= 0.5)
+    inside = (space.depth[at] > 0) & (space.shares[at[2]] >= LEAST_SHARE)
     return inside if inside.any() else np.ones(len(points), dtype=bool)
 
 
 def _sample_cells(space: Interior) -> tuple[Floats, Floats]:
     """Draw random cells inside the walls, (N, 3); return also the outermost along each axis and the deepest."""
-    cells = np.argwhere((space.depth > 0) & (space.shares >= 0.5))
+    cells = np.argwhere((space.depth > 0) & (space.shares >= LEAST_SHARE))
     if not len(cells):
         cells = np.argwhere(np.ones(space.depth.shape, dtype=bool))
     deepest = np.array(np.unravel_index(int(space.depth.argmax()), space.depth.shape))[None]
@@ -187,7 +187,7 @@ def densities_by_share(
     thinner. Voids are scaled so that the mean density is exact, which removes the chance that remains.
     """
     depth, corners = space.depth, (np.asarray(voids.vertices, dtype=np.float64) - space.origin) / space.size
-    candidates = np.argwhere((depth > -1) & (space.shares >= 0.5))  # at most a cell outside the walls
+    candidates = np.argwhere((depth > -1) & (space.shares >= LEAST_SHARE))  # at most a cell outside the walls
     cells = candidates[np.random.default_rng(0).integers(len(candidates), size=POINTS)]
     places, solid = cells.astype(np.float64), np.empty(POINTS, dtype=bool)
     for shift, indices in zip(SHIFTS, np.array_split(np.arange(POINTS), len(SHIFTS)), strict=True):

@@ -30,11 +30,10 @@ from infill.lattices.void_meshes import VoidMeshes
 from infill.meshes.measuring import measure_surface
 from infill.meshes.merging import surface_of
 from infill.meshes.split_components import concatenate_surfaces
-from infill.reports.common import FORM, declare
+from infill.reports.common import report_head, surface_keys
 from infill.reports.filling import FillSeconds
 from infill.result import Clock, Progress, Result
 from infill.surface import Surface
-from infill.version import __version__
 
 if TYPE_CHECKING:
     import trimesh
@@ -210,11 +209,10 @@ def fill_request(
     check_drain_width(request, part.bounds)
     task = FillTask.of(part, request, clock=Clock(progress), threads=threads, max_memory=max_memory)
     project = make_project_infill(task) if request.form == "project" else None
-    hollow, fields = make_void_meshes(task) if project is None else (project.hollow, project.fields)
+    hollow, fields = make_void_meshes(task) if project is None else (project.hollow, None)
     with task.clock.stage("check", 0.9):
         result, untimed, hollow = _assemble(task, hollow, fields, project)
-    seconds = {"shift": 0.0, **task.clock.seconds, "total": sum(task.clock.seconds.values())}
-    report: FillReport = {**untimed, "seconds": declare(FillSeconds, seconds)}
+    report: FillReport = {**untimed, "seconds": task.clock.timings(FillSeconds, shift=0.0)}
     stages = FillStages(part=hollow.space.part, voids=hollow.surface, shown=result, opening=hollow.space.opening)
     surfaces: dict[str, Surface] = (
         {"part": hollow.space.part, "infill": result} if request.form == "project" else {request.form: result}
@@ -223,7 +221,7 @@ def fill_request(
 
 
 def _assemble(
-    task: FillTask, hollow: VoidMeshes, fields: Fields, project: ProjectInfill | None
+    task: FillTask, hollow: VoidMeshes, fields: Fields | None, project: ProjectInfill | None
 ) -> tuple[Surface, UntimedFillReport, VoidMeshes]:
     """Return the requested surface, the report, and the voids, with counts of the pieces that were left out."""
     request, space = task.request, hollow.space
@@ -258,16 +256,9 @@ def _fill_report(
     """Return the report without the seconds."""
     space = hollow.space
     narrow = None if project is None else project.narrow
-    bounds = solid.bounds
     return {
-        "form": FORM,
-        "version": __version__,
-        "product": "fill",
-        "triangles": len(solid.faces),
-        "closed": solid.closed,
-        "area": solid.area,
-        "extents": (bounds[1] - bounds[0]).tolist(),
-        "bounds": bounds.tolist(),
+        **report_head("fill"),
+        **surface_keys(solid),
         "volume": solid.volume,
         "density": hollow.density,
         "problems": list(find_problems(request, hollow, facts, drained, narrow)),

@@ -5,9 +5,9 @@ Walls between two voids need no cell of the grid in them; around all of them, th
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cache, cached_property, partial
 
 import numpy as np
 import shapely
@@ -33,6 +33,7 @@ class _Distances:
 
     away: NDArray[np.float32]
     reach: float
+    find_sharpest: Callable[[], float]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -69,7 +70,7 @@ class NonPrismatic:
         return VoidFields(
             layout=layout,
             kernels=tuple((from_layers, (*walls, sign, layout.half, ratio, step)) for sign in signs),
-            find_sharpest=partial(layers.sharpest, layout.space, layout.cell),
+            find_sharpest=distances.find_sharpest,
             basis=distances,
         )
 
@@ -84,7 +85,9 @@ class NonPrismatic:
         sides = () if isinstance(self.layers, BranchLines) else self.layers.sides(space, layout.cell)
         for layer, side in enumerate(sides):
             away[:, :, layer] *= np.where(side, np.float32(1), np.float32(-1))
-        return _Distances(away=away, reach=reach)
+        return _Distances(
+            away=away, reach=reach, find_sharpest=cache(partial(self.layers.sharpest, space, layout.cell))
+        )
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -14,7 +14,6 @@ from itertools import chain
 
 from infill.errors import GeometryError, ParameterError
 from infill.interior.narrow import NARROW, NarrowShares, drop_narrow, estimate_narrow
-from infill.lattices.bodies import Fields
 from infill.lattices.hollowing import make_void_meshes
 from infill.lattices.request import LINE_WIDTH, FillSpec
 from infill.lattices.surfacing import SHARE, extract_inner_side
@@ -53,8 +52,6 @@ class ProjectInfill:
     ----------
     infill : Surface, mm
     hollow : VoidMeshes
-    fields : VoidFields or BodyFields
-        Of the voids, as they were drawn last.
     phase : (x, y, z)
         mm by which it is shifted.
     narrow : NarrowShares or None
@@ -63,7 +60,6 @@ class ProjectInfill:
 
     infill: Surface
     hollow: VoidMeshes
-    fields: Fields
     phase: tuple[float, float, float]
     narrow: NarrowShares | None
 
@@ -94,10 +90,10 @@ def make_project_infill(task: FillTask) -> ProjectInfill:
 
 def _make_infill(task: FillTask) -> ProjectInfill:
     """Make the infill with the pattern where the task has it."""
-    hollow, fields = make_void_meshes(task)
+    hollow, _ = make_void_meshes(task)
     infill, narrowest = _subtract_voids(task, hollow), _narrowest_printed(hollow, task.request)
     narrow = estimate_narrow(hollow.space.part, infill, task.request.wall, LINE_WIDTH, narrowest)
-    return ProjectInfill(infill=infill, hollow=hollow, fields=fields, phase=task.request.phase, narrow=narrow)
+    return ProjectInfill(infill=infill, hollow=hollow, phase=task.request.phase, narrow=narrow)
 
 
 def _can_shift(task: FillTask, project: ProjectInfill) -> bool:

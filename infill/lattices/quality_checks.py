@@ -142,7 +142,7 @@ class SolidMeasures:
 
 
 def measure_solid(
-    task: FillTask, solid: Surface, outer: Surface, hollow: VoidMeshes, fields: Fields, drained: DrainedSolid
+    task: FillTask, solid: Surface, outer: Surface, hollow: VoidMeshes, fields: Fields | None, drained: DrainedSolid
 ) -> SolidMeasures:
     """Measure a solid with an outer surface, voids and drains."""
     request, space, local = task.request, hollow.space, hollow.layout.local

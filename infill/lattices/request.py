@@ -173,7 +173,11 @@ class FillSpec:
             return ("width",) if thick else ("cell",)
         if self.cell is not None or self.line_width is not None:
             return ("cell",) if self.cell is None else ("width",)
-        return ("width",) if isinstance(self.kind, (Network, Bars, Lightning)) and not self.lined else ("cell", "width")
+        return (
+            ("width",)
+            if (has_bars(self.kind) or isinstance(self.kind, Lightning)) and not self.lined
+            else ("cell", "width")
+        )
 
     def room(self, taken: int) -> int:
         """Return the number of triangles that voids may have beside those of the part.

@@ -50,7 +50,7 @@ class VoidMeshes:
     ----------
     layout : Layout
         Of the pattern inside the walls: smoothing makes walls between narrow voids wider, and bars thinner.
-    surfaces : list of Surface, mm
+    surfaces : tuple of Surface, mm
         The voids, facing outwards from them, one surface for each field.
     tolerance : float
         Largest distance by which simplifying has moved them, mm; not finite if unknown.
@@ -124,8 +124,10 @@ class VoidMeshes:
     @cached_property
     def median(self) -> tuple[float | None, int]:
         """Median width of walls, or thickness of bars, away from the part's walls, mm; and the number of points."""
-        wall, part = self.space.wall, self.space.part
-        return median_width(part, self.surface, wall=wall, width=self.width) if self.surfaces else (None, 0)
+        if not self.surfaces:
+            return None, 0
+        space, threads = self.space, self.layout.threads
+        return median_width(space.part, self.surface, wall=space.wall, width=self.width, threads=threads)
 
     @property
     def density(self) -> float:

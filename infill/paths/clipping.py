@@ -55,7 +55,6 @@ def clip(paths: Sequence[Path], outline: Outline) -> Pieces:
     ring, place = np.zeros(0, dtype=np.intp), np.zeros(0)
     if paths:
         points, owner, ring, place = _cut(paths, outline)
-        _share_ends(points, owner, ring, place)
         for run in _runs_inside(points, owner, ring >= 0, outline):
             path = points[run[0]] if len(run) == 1 else np.concatenate([points[part] for part in run])
             inside.append(path)
@@ -110,27 +109,32 @@ def _cut(paths: Sequence[Path], outline: Outline) -> tuple[Path, Numbers, Number
         cuts = np.flatnonzero(ring >= 0)
         ring_of, place_of = np.full(len(unique_points), -1), np.full(len(unique_points), np.nan)
         ring_of[group[cuts]], place_of[group[cuts]] = ring[cuts], places[cuts]
-        return merged_points[unique_points], path_of[unique_points], ring_of, place_of
+        joined = merged_points[unique_points]
+        corners = np.flatnonzero(order < len(points))  # a corner stays where it is, so that closed paths stay closed
+        joined[group[corners]] = merged_points[corners]
+        merged_points, path_of, ring, places = joined, path_of[unique_points], ring_of, place_of
+    # Rounding may find the outline at one end of a closed path alone.
+    first, last = _ends(path_of)
+    closed = (merged_points[first] == merged_points[last]).all(axis=-1)
+    for cut_end, missed in ((first[closed], last[closed]), (last[closed], first[closed])):
+        missed, cut_end = missed[ring[missed] < 0], cut_end[ring[missed] < 0]
+        ring[missed], places[missed] = ring[cut_end], places[cut_end]
     return merged_points, path_of, ring, places
 
 
-def _share_ends(points: Path, owner: Numbers, ring: Numbers, place: Floats) -> None:
-    """Set ring and place of both ends of closed paths, in place, where rounding found the outline at one end alone."""
+def _ends(owner: Numbers) -> tuple[Numbers, Numbers]:
+    """Return the first and the last point of every path."""
     changes = np.flatnonzero(owner[1:] != owner[:-1])
-    first, last = np.append(0, changes + 1), np.append(changes, len(owner) - 1)
-    closed = (first < last) & (np.abs(points[first] - points[last]).max(axis=-1) <= SAME)
-    for cut, missed in ((first, last), (last, first)):
-        lacks = closed & (ring[cut] >= 0) & (ring[missed] < 0)
-        ring[missed[lacks]], place[missed[lacks]] = ring[cut[lacks]], place[cut[lacks]]
+    return np.append(0, changes + 1), np.append(changes, len(owner) - 1)
 
 
 def _runs_inside(points: Path, owner: Numbers, cut: NDArray[np.bool_], outline: Outline) -> list[list[slice]]:
     """Find the runs of points inside the region: one slice each, or two for a closed path whose ends lie inside."""
     import shapely
 
-    is_first = np.append(True, owner[1:] != owner[:-1])
-    is_last = np.append(is_first[1:], True)
-    path_starts, path_ends = np.flatnonzero(is_first), np.flatnonzero(is_last)
+    path_starts, path_ends = _ends(owner)
+    is_first, is_last = np.zeros((2, len(owner)), dtype=bool)
+    is_first[path_starts] = is_last[path_ends] = True
     begin = np.flatnonzero((is_first | cut) & ~is_last)
     if not len(begin):
         return []

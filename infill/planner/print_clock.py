@@ -110,8 +110,8 @@ class PrintClock:
         Its text, if it has changed.
     places : sequence of int, ascending
         Bytes of the text at which the time is needed.
-    like : PrintClock, optional
-        Of the same file, with the same limits from the beginning.
+    found : FileLimits, optional
+        The limits that the file states, if they are known; else they are read from it.
     """
 
     def __init__(
@@ -120,9 +120,9 @@ class PrintClock:
         text: BinaryIO | None = None,
         places: Sequence[int] = (),
         *,
-        like: PrintClock | None = None,
+        found: FileLimits | None = None,
     ) -> None:
-        self._timeline = make_timeline(sliced, text, found=None if like is None else like.found)
+        self._timeline = make_timeline(sliced, text, found=found)
         self.found: FileLimits = self._timeline.found
         self.begin: MachineState = self._timeline.state
         self._sums, self._asked = FeatureSums(times_only=True), np.asarray(places, dtype=np.int64)

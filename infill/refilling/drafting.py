@@ -16,6 +16,7 @@ import numpy as np
 from infill.errors import FormatError
 from infill.files.whole_files import wrap_os_errors
 from infill.gcode.estimates import find_estimates
+from infill.gcode.machine_state import MachineState
 from infill.gcode.survey import Survey
 from infill.kernels.threads import in_order, thread_count
 from infill.planner.print_clock import PrintClock, path_seconds
@@ -42,11 +43,14 @@ class Drafting:
     Parameters
     ----------
     file, draft : binary files
+    begin : MachineState
+        The state before the file, in which every drawing begins.
     print_survey : Survey
     progress : callable, optional
     """
 
     file: BinaryIO
+    begin: MachineState
     draft: BinaryIO
     print_survey: Survey
     progress: Progress | None
@@ -132,9 +136,7 @@ class Drafting:
         # New paths continue those of the layer below, so that layers come one after another.
         threads = min(thread_count(), MOST_THREADS) if plan is None else 1
         with wrap_os_errors(Path("a temporary file")):
-            for layers, (new, stats) in in_order(
-                refill_next, read_layers(self.file, None if clock is None else clock.begin), threads=threads
-            ):
+            for layers, (new, stats) in in_order(refill_next, read_layers(self.file, self.begin), threads=threads):
                 if clock is not None:
                     clock.add(layers.table)
                 stats.before, stats.after, below = measure_layers(

@@ -267,7 +267,7 @@ def _refill_text(sliced: SlicedText, draft: BinaryIO, request: Request, progress
     elif request.smooth_radius == AUTO and samples:
         rules = rules.rounded_by(largest_deviation(samples, rules.rounding, rules.acceleration))
     clock = PrintClock(sliced)
-    drafting = Drafting(file=sliced.text, draft=draft, print_survey=print_survey, progress=progress)
+    drafting = Drafting(file=sliced.text, begin=clock.begin, draft=draft, print_survey=print_survey, progress=progress)
     tally, rules = drafting.meet_targets(rules, plan, clock)
     remedy = None
     if request.pattern == KEEP and loses_filament(tally) and request.smooth_radius != AUTO:
@@ -280,7 +280,7 @@ def _refill_text(sliced: SlicedText, draft: BinaryIO, request: Request, progress
             stats.count_millimetres([math.pi / 4 * diameter**2 for diameter in print_survey.begin.diameters])
     before = clock.finish()
     places = [place for place, _ in tally.lines]
-    after = PrintClock(sliced, draft, places, like=clock).read() if tally.replaced else before
+    after = PrintClock(sliced, draft, places, found=clock.found).read() if tally.replaced else before
     new = _restate(sliced, print_survey, tally, before, after)
     edits = [(place, len(old), line) for (place, old), line in zip(tally.lines, new.lines, strict=True)]
     if tally.replaced:

@@ -11,7 +11,7 @@ import numpy as np
 
 from infill.arrays import Floats, Places
 from infill.gcode.machine_state import MachineState
-from infill.gcode.sections import SKIN_ROLES, LineMarks
+from infill.gcode.sections import SKIN_ROLES, LineMarks, is_printing
 from infill.gcode.strokes import InfillStrokes, mark_text, read_strokes
 from infill.gcode.survey import Survey
 from infill.gcode.table import GcodeTable
@@ -137,7 +137,7 @@ class Layers:
     def bead_lines(self) -> tuple[Floats, Places]:
         """Moves that extrude and are not infill: both ends of each, (K, 2, 2), mm, and their lines, (K,)."""
         table = self.table
-        prints = (table.extruded > 0) & (table.given[:, 0] | table.given[:, 1])
+        prints = is_printing(table)
         prints[self.infill.moves] = False
         line = np.flatnonzero(prints)
         previous = line - 1

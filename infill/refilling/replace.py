@@ -10,13 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from infill.arrays import Floats, Places
-from infill.gcode.bodies import (
-    InfillSection,
-    TravelSettings,
-    find_sections,
-    measure_travel,
-    redraw_sections,
-)
+from infill.gcode.infill_sections import InfillSection, find_sections
+from infill.gcode.section_text import TravelSettings, measure_travel, redraw_sections
 from infill.gcode.table import GcodeTable
 from infill.kernels.threads import in_order
 from infill.paths.corners import UNIT

@@ -66,7 +66,7 @@ def refill_report(
     keeps_paths = request.pattern == KEEP
     keeps = keeps_paths and request.density is None
     before, after = tally.infill, tally.infill_after
-    ratio = _ratio(tally)
+    ratio = tally.infill_ratio
     density = print_survey.number("fill_density", "sparse_infill_density")
     report["filament"] = {
         "infill_before_mm": before.filament,
@@ -93,9 +93,9 @@ def refill_report(
     if keeps_paths and loses_filament(tally):
         lost = f"the infill takes {ratio - 1:+.1%} filament"
         if remedy is not None and not loses_filament(remedy):
-            lost += f"; leave --smooth-radius out, and it takes {_ratio(remedy) - 1:+.1%}"
+            lost += f"; leave --smooth-radius out, and it takes {remedy.infill_ratio - 1:+.1%}"
         report["problems"].append(lost)
-    promised = request.pattern != KEEP and isinstance(request.density, str | None) and request.cell is None
+    promised = not keeps_paths and isinstance(request.density, str | None) and request.cell is None
     if promised and tally.replaced and abs(ratio - 1) > FILAMENT_TOLERANCE:
         report["problems"].append(
             f"the infill takes {ratio - 1:+.1%} filament: only whole lines can be added or removed here; take another "
@@ -106,13 +106,7 @@ def refill_report(
 
 def loses_filament(tally: RefillStats) -> bool:
     """Tell whether the infill lost so much filament that the report must say so."""
-    return _ratio(tally) < LEAST_LENGTH
-
-
-def _ratio(tally: RefillStats) -> float:
-    """Return the filament of the infill, after over before."""
-    before, after = tally.infill.filament, tally.infill_after.filament
-    return after / before if before else 1.0
+    return tally.infill_ratio < LEAST_LENGTH
 
 
 def contact_section(tally: RefillStats) -> ContactKeys:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from infill.gcode.bodies import RATE_VARIATION, InfillSection
+from infill.gcode.infill_sections import RATE_VARIATION, InfillSection
 from infill.paths.contact import sample_paths
 from infill.ragged import select_rows
 from infill.refilling.layers import Layer

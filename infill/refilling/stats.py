@@ -191,7 +191,12 @@ class RefillStats:
     @property
     def filament_error(self) -> float:
         """Relative change of the filament of the infill."""
-        return self.infill_after.filament / self.infill.filament - 1 if self.infill.filament else 0.0
+        return self.infill_ratio - 1
+
+    @property
+    def infill_ratio(self) -> float:
+        """Filament of the infill, after over before."""
+        return self.infill_after.filament / self.infill.filament if self.infill.filament else 1.0
 
     @property
     def filament_ratio(self) -> float:

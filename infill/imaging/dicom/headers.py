@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 PREAMBLE, MAGIC = 128, b"DICM"
 GROUP_LENGTH = 12  # bytes of the element that states the length of the other meta information
 SEGMENTATION, LABEL_MAP = "1.2.840.10008.5.1.4.1.1.66.4", "1.2.840.10008.5.1.4.1.1.66.7"
-DEFLATED, EXPLICIT_LITTLE = "1.2.840.10008.1.2.1.99", "1.2.840.10008.1.2.1"
+DEFLATED = "1.2.840.10008.1.2.1.99"
 PIXEL_TAGS = {0x7FE00008: "f4", 0x7FE00009: "f8", 0x7FE00010: ""}
 LONG_HEADS = {"OB", "OD", "OF", "OL", "OV", "OW", "UN", "SQ", "UC", "UR", "UT", "SV", "UV"}
 UNDEFINED = 0xFFFFFFFF

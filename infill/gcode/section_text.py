@@ -1,4 +1,4 @@
-"""Sections of infill, each with all lines from its first to its last move, and new paths in their place."""
+"""New paths as the text of a section of infill, with the retractions and the other lines of the old text."""
 
 from __future__ import annotations
 
@@ -7,148 +7,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from infill.arrays import Floats, Places
-from infill.gcode.lines import ARC, MOVE, ODD, GcodeCommand
-from infill.gcode.machine_state import firmware_retraction
+from infill.arrays import Floats
+from infill.gcode.infill_sections import InfillSection
+from infill.gcode.lines import MOVE, ODD
+from infill.gcode.machine_state import firmware_retraction, sets_counter
 from infill.gcode.numbers import format_word, write_words
-from infill.gcode.sections import LineMarks
 from infill.gcode.splicing import SplicedText, find_difference
-from infill.gcode.strokes import FILAMENT_UNIT, InfillStrokes
+from infill.gcode.strokes import FILAMENT_UNIT
 from infill.gcode.table import GcodeTable, read_table
 
-MIN_STEP = 1e-6  # mm
-RATE_VARIATION = 0.03  # new strokes of one section have equal filament per mm up to this share
-# Commands that may be sent at the end of a section as well as in the middle.
-HARMLESS_COMMANDS = {"M73", "M117", "M118", "M106", "M107", "M204", "M205", "M900", "M572", "M70", "G10", "G11"}
-HARMLESS_WORDS = {"SET_VELOCITY_LIMIT", "SET_PRESSURE_ADVANCE"}
-
-
-@dataclass(frozen=True, kw_only=True)
-class InfillSection:
-    """The lines from the first to the last move of a section, inclusive.
-
-    Parameters
-    ----------
-    section : int
-    first, last : int
-        Lines of the table.
-    strokes : (S,) int
-        Strokes of the section.
-    start, end : (2,) float64, mm
-        Nozzle before the first move, and after the last one.
-    z : float, mm
-    layer : int
-    rate : float
-        mm of filament per mm.
-    filament, length : float, mm
-        Of all strokes.
-    feed, feed_after : float, mm/min
-        Of the moves, and in force at the end.
-    """
-
-    section: int
-    first: int
-    last: int
-    strokes: Places
-    start: Floats
-    end: Floats
-    z: float
-    layer: int
-    rate: float
-    filament: float
-    length: float
-    feed: float
-    feed_after: float
-
-
-def find_sections(
-    table: GcodeTable, marks: LineMarks, infill: InfillStrokes
-) -> tuple[list[InfillSection], dict[str, list[int]]]:
-    """Find the sections that can get new paths; return them, and the numbers of the other sections by reason."""
-    editable: list[InfillSection] = []
-    odd: dict[str, list[int]] = {}
-    opens, closes = infill.opens, infill.closes
-    section = marks.section[opens]
-    commands = {command.line: command for command in table.commands}
-    for number in np.unique(section):
-        stroke_rows = np.flatnonzero(section == number)
-        reason = _refusal_reason(
-            table, marks, infill, stroke_rows, int(opens[stroke_rows[0]]), int(closes[stroke_rows[-1]]), commands
-        )
-        if reason:
-            odd.setdefault(reason, []).append(int(number))
-            continue
-        length, filament = infill.length[stroke_rows], infill.filament[stroke_rows]
-        feeds, which = np.unique(table.f[opens[stroke_rows]], return_inverse=True)
-        last_line = int(closes[stroke_rows[-1]])
-        editable.append(
-            InfillSection(
-                section=int(number),
-                first=int(opens[stroke_rows[0]]),
-                last=last_line,
-                strokes=stroke_rows,
-                start=infill.points[infill.first[stroke_rows[0]]],
-                end=infill.points[infill.first[stroke_rows[-1] + 1] - 1],
-                z=float(table.z[opens[stroke_rows[0]]]),
-                layer=int(marks.layer[opens[stroke_rows[0]]]),
-                rate=float(filament.sum() / length.sum()),
-                filament=float(filament.sum()),
-                length=float(length.sum()),
-                feed=float(feeds[np.argmax(np.bincount(which, length))]),
-                feed_after=float(table.f[last_line]),
-            )
-        )
-    return editable, odd
-
-
-def _refusal_reason(
-    table: GcodeTable,
-    marks: LineMarks,
-    infill: InfillStrokes,
-    stroke_rows: Places,
-    first_line: int,
-    last_line: int,
-    commands: dict[int, GcodeCommand],
-) -> str:
-    """Name the reason why a section cannot get new paths; "" if it can."""
-    inside = slice(first_line, last_line + 1)
-    kinds = table.kind[inside]
-    if (kinds == ODD).any():
-        return "a line that cannot be read"
-    if (kinds == ARC).any():
-        return "arcs"
-    if table.numbered[inside].any():
-        return "line numbers"
-    rate = infill.filament[stroke_rows] / infill.length[stroke_rows]
-    if np.ptp(rate) > RATE_VARIATION * rate.mean():
-        long = infill.length[stroke_rows] > 2.0
-        if np.ptp(rate[long] if long.any() else rate) > RATE_VARIATION * rate.mean():
-            return "lines of different widths"
-    if np.isnan(table.z[first_line]) or np.ptp(table.z[infill.opens[stroke_rows]]) > 0:
-        return "lines at different heights"
-    for line in range(first_line, last_line + 1):
-        command = commands.get(line)
-        if command is not None and not _is_harmless(command):
-            return f"a {command.code or 'strange'} command in between"
-    # Everything that extrudes between the first and the last move of the section must be a stroke.
-    drawn = np.flatnonzero(table.extruded[inside] > 0) + first_line
-    moving = drawn[table.given[drawn, 0] | table.given[drawn, 1]]
-    in_stroke = np.isin(moving, infill.moves)  # where a stroke begins, another may end
-    return (
-        ""
-        if in_stroke.all() and (marks.section[inside] == marks.section[first_line]).all()
-        else "extrusion of another kind"
-    )
-
-
-def _is_harmless(command: GcodeCommand) -> bool:
-    """Return True if a command may stand between moves that get new paths."""
-    return command.code in HARMLESS_COMMANDS or command.code in HARMLESS_WORDS or _sets_counter(command)
-
-
-def _sets_counter(command: GcodeCommand) -> bool:
-    """Return True if a command only sets the counter of filament."""
-    return command.code == "G92" and set(command.words) == {"E"}
+MIN_STEP = 1e-6  # mm: a kept line at a point of a path, up to rounding, stands behind it
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -303,7 +171,7 @@ def redraw_sections(
     texts = [text for text, _ in composed]
     spliced = replace_sections(table, bodies, texts)
     new_table = read_table(spliced.text, table.before)
-    fault = find_difference(table, new_table, spliced) or validate_section(new_table, spliced, bodies, texts)
+    fault = find_difference(table, new_table, spliced) or validate_sections(new_table, spliced, bodies, texts)
     return spliced.text, [filament for _, filament in composed], fault
 
 
@@ -322,7 +190,7 @@ def replace_sections(table: GcodeTable, selected: Sequence[InfillSection], texts
     return SplicedText(text=b"".join(pieces), shift=np.cumsum(change), same=same)
 
 
-def validate_section(
+def validate_sections(
     new_table: GcodeTable, spliced_text: SplicedText, selected: Sequence[InfillSection], texts: Sequence[bytes]
 ) -> str:
     """Describe the first fault of the new lines; "" if there is none.
@@ -392,7 +260,7 @@ def _kept_lines(table: GcodeTable, body: InfillSection) -> list[tuple[float, byt
     left_out = {
         command.line
         for command in table.commands
-        if firmware_retraction(command, table.before.firmware) is not None or (counted and _sets_counter(command))
+        if firmware_retraction(command, table.before.firmware) is not None or (counted and sets_counter(command))
     }
     return [
         (float(share[place]), table.text(body.first + place, body.first + place + 1))
