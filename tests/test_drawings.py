@@ -161,6 +161,25 @@ def test_what_is_left_out_is_told(tmp_path: Path) -> None:
     assert set(drawing.left_out) == {"1 background", "2 texts", "1 picture", "1 clip"}
 
 
+@pytest.mark.parametrize(
+    ("frame", "drawn"),
+    [
+        ('<rect width="20" height="20" fill="white"/>', False),
+        ('<rect width="20" height="20" stroke="none" style="stroke-width:1"/>', False),
+        ('<rect width="20" height="20" stroke="black"/>', True),
+        ('<rect width="20" height="20" style="fill:none;stroke:#000"/>', True),
+        ('<g stroke="black"><rect width="20" height="20"/></g>', True),
+        ('<g style="stroke:red"><g><rect width="20" height="20" stroke="inherit"/></g></g>', True),
+        ('<g stroke="black"><rect width="20" height="20" stroke="none"/></g>', False),
+    ],
+)
+def test_a_page_sized_frame_is_drawn_if_it_has_a_stroke_be_it_inherited(
+    tmp_path: Path, frame: str, drawn: bool
+) -> None:
+    drawing = lines_of(tmp_path, f'{frame}<line x2="3" y2="1"/>')
+    assert (len(drawing.lines) == 2, drawing.left_out == ()) == (drawn, drawn)
+
+
 def test_names_of_namespaces_may_be_abbreviated(tmp_path: Path) -> None:
     """Some programs declare entities for them."""
     text = '<?xml version="1.0"?><!DOCTYPE svg [<!ENTITY n "http://www.w3.org/2000/svg">]><svg xmlns="&n;"><circle r="2"/></svg>'

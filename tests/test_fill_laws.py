@@ -221,7 +221,7 @@ def fillets(voids: Surface, part: Surface, radius: float = RADIUS) -> np.ndarray
 
 
 @pytest.mark.longest
-@pytest.mark.parametrize("name", [name for name in EVERY if walls_meet(name)])
+@pytest.mark.parametrize("name", [name for name in KINDS if walls_meet(name)])
 def test_fillets_have_at_least_the_radius_asked_for(name: str) -> None:
     """At 95 % of all places where walls meet or bend, or bars meet, six radii thick."""
     radius, part = RADIUS, surface_of(box(20, 20, 20))

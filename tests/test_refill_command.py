@@ -228,7 +228,9 @@ def test_the_preview_shows_a_layer_that_is_asked_for(
         file.write(PICTURE)
 
     monkeypatch.setattr("infill.pictures.speeds.write_speeds", write)
-    assert run("refill", gcode, "--preview", tmp_path / "layer.png", *words).exit_code == 0
+    result = run("refill", gcode, "--preview", tmp_path / "layer.png", *words)
+    assert result.exit_code == 0
+    assert f"wrote{gcode},{tmp_path / 'layer.png'}" in "".join(result.stderr.split())
     assert shown == [f"layer {layer}, as sliced", f"layer {layer}, refilled"]
 
 

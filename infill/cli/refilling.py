@@ -119,11 +119,12 @@ def refill(
             _write_preview(number, sliced_layers, result.path or gcode, preview)
         if piped and result.path is not None:
             send_file(result.path)
-    path = "" if result.path is None else STDOUT if piped else str(result.path)
+    path = None if result.path is None else STDOUT if piped else result.path
+    files = [str(file) for file in (path, preview) if file is not None]
     if not quiet:
-        say(_summary(result.report, str(gcode), path))
+        say(_summary(result.report, str(gcode), files))
     if as_json:
-        print_json({**result.report, "files": [path] if path else []})
+        print_json({**result.report, "files": files})
 
 
 def _read_sliced_layer(
@@ -184,7 +185,7 @@ def _log_paths(gcode: Path) -> list[Path]:
     return [place.with_name(f"{place.name}.refill.log") for place in places if place.name]
 
 
-def _summary(report: RefillReport, name: str, path: str) -> str:
+def _summary(report: RefillReport, name: str, files: list[str]) -> str:
     """Return the short table for stderr."""
     if report["print"]["already_refilled"]:
         return format_table({"nothing to do": "it was refilled before"}, title=name)
@@ -214,8 +215,8 @@ def _summary(report: RefillReport, name: str, path: str) -> str:
             )
     if report["problems"]:
         rows["PROBLEMS"] = "; ".join(report["problems"])
-    if path:
-        rows["wrote"] = path
+    if files:
+        rows["wrote"] = ", ".join(files)
     return format_table(rows, title=name)
 
 

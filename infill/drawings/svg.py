@@ -112,6 +112,7 @@ class _Reader:
         self.visited = 0
         self.shapes: dict[ElementTree.Element, list[Line]] = {}
         self.by_name = {element.get("id"): element for element in root.iter() if element.get("id")}
+        self.strokes = _inherit_strokes(root)
         self.page = self._page()
         x0, y0, x1, y1 = self.page or (0.0, 0.0, 0.0, 0.0)
         self.view = (x1 - x0, y1 - y0)  # lengths of 100 %
@@ -224,9 +225,22 @@ class _Reader:
         return []
 
     def _is_background(self, element: ElementTree.Element, box: Bounds) -> bool:
-        """Tell whether a rectangle without a stroke of its own is as large as the page, and so its background."""
-        stroke = re.search(r"stroke:\s*(\w+)", element.get("style", ""))
-        stroked = (stroke[1] if stroke else element.get("stroke", "none")) != "none"
-        return (
-            not stroked and self.page is not None and box[2] >= 0.999 * self.view[0] and box[3] >= 0.999 * self.view[1]
-        )
+        """Tell whether a rectangle without a stroke is as large as the page, and so its background."""
+        full_size = self.page is not None and box[2] >= 0.999 * self.view[0] and box[3] >= 0.999 * self.view[1]
+        return full_size and self.strokes[element] == "none"
+
+
+def _inherit_strokes(root: ElementTree.Element) -> dict[ElementTree.Element, str]:
+    """Return the stroke of every element: its own, or that of the element around it."""
+    strokes = {root: _own_stroke(root) or "none"}
+    for parent in root.iter():
+        for child in parent:
+            strokes[child] = _own_stroke(child) or strokes[parent]
+    return strokes
+
+
+def _own_stroke(element: ElementTree.Element) -> str | None:
+    """Return the stroke that an element states, if any; its style takes precedence over its attribute."""
+    styled = re.search(r"(?:^|[;\s])stroke:\s*([^;\s]+)", element.get("style", ""))
+    stated = styled[1] if styled else element.get("stroke")
+    return None if stated == "inherit" else stated

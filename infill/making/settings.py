@@ -148,12 +148,13 @@ class MakeSettings:
         float, Option("Time step over the cell size squared, up to 0.25.", ADVANCED, unit="NUMBER", default="1/7")
     ] = 1 / 7
     parameters: dict[str, Any] = field(default_factory=dict)
+    kind: Any = field(default=None, repr=False, compare=False)  # of patterns, as read
 
     def build_pattern(self) -> Pattern:
         """Return the pattern with its parameters."""
         from infill.options.resolve_pattern import resolve_lines, with_parameters
 
-        return with_parameters(resolve_lines(self.pattern), self.parameters)
+        return with_parameters(self.kind or resolve_lines(self.pattern), self.parameters)
 
     def _request(self) -> dict[str, Any]:
         """Return the settings as keyword arguments of `infill.make`."""
@@ -248,4 +249,4 @@ def resolve(
     options = read_options(
         "make", MakeSettings, {name: values[name] for name in values if name in common - {"pattern"}}
     )
-    return MakeSettings(**options, pattern=values["pattern"], parameters=parameters_given)
+    return MakeSettings(**options, pattern=values["pattern"], parameters=parameters_given, kind=kind)
