@@ -230,7 +230,7 @@ def test_the_preview_shows_a_layer_that_is_asked_for(
     monkeypatch.setattr("infill.pictures.speeds.write_speeds", write)
     result = run("refill", gcode, "--preview", tmp_path / "layer.png", *words)
     assert result.exit_code == 0
-    assert f"wrote{gcode},{tmp_path / 'layer.png'}" in "".join(result.stderr.split())
+    assert re.search(rf"^  wrote .*{re.escape(str(tmp_path / 'layer.png'))}$", result.stderr, re.MULTILINE)
     assert shown == [f"layer {layer}, as sliced", f"layer {layer}, refilled"]
 
 
