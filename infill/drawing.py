@@ -56,7 +56,6 @@ class Picture:
     """
 
     field: NDArray[np.float32]
-    left_out: tuple[str, ...] = ()
 
 
 class TooComplexError(FormatError):

@@ -188,6 +188,12 @@ def test_lines_are_about_as_dense_as_their_share_of_a_cell() -> None:
     assert voids.sample.apart == 1.0
 
 
+def test_rings_of_a_box_meet_at_right_angles() -> None:
+    space = compute_interior(surface(box(31, 22, 9)), wall=WALL, voxel=0.5)
+    voids = place_pattern(asked("concentric", phase=(0, 0)), space.part.bounds)
+    assert voids.draw(Layout(space=space, cell=CELL, width=WIDTH)).find_sharpest() == pytest.approx(90, abs=1)
+
+
 @pytest.mark.longest
 def test_every_body_has_its_own_outline() -> None:
     """One above the other: aligned by part, both have that of the two; by body, each has what it has alone."""

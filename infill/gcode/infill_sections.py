@@ -13,7 +13,7 @@ from infill.gcode.sections import LineMarks, is_printing
 from infill.gcode.strokes import InfillStrokes
 from infill.gcode.table import GcodeTable
 
-RATE_VARIATION = 0.03  # strokes of one section have equal filament per mm up to this share
+SECTION_RATE_VARIATION = 0.03  # strokes of one section have equal filament per mm up to this share
 LONG_STROKE = 2.0  # mm: where a section has strokes this long, shorter ones do not count
 # Commands that may be sent at the end of a section as well as in the middle.
 HARMLESS_COMMANDS = {"M73", "M117", "M118", "M106", "M107", "M204", "M205", "M900", "M572", "M70", "G10", "G11"}
@@ -117,9 +117,9 @@ def _refusal_reason(
     if table.numbered[inside].any():
         return "line numbers"
     rate = infill.filament[stroke_rows] / infill.length[stroke_rows]
-    if np.ptp(rate) > RATE_VARIATION * rate.mean():
+    if np.ptp(rate) > SECTION_RATE_VARIATION * rate.mean():
         long = infill.length[stroke_rows] > LONG_STROKE
-        if np.ptp(rate[long] if long.any() else rate) > RATE_VARIATION * rate.mean():
+        if np.ptp(rate[long] if long.any() else rate) > SECTION_RATE_VARIATION * rate.mean():
             return "lines of different widths"
     if np.isnan(table.z[first_line]) or np.ptp(table.z[infill.opens[stroke_rows]]) > 0:
         return "lines at different heights"

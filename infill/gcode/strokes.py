@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import BinaryIO
 
 import numpy as np
@@ -34,10 +35,6 @@ class InfillStrokes:
         Stroke k has the points `first[k]` to `first[k + 1]`.
     line : (N,) int
         The line that ends at each point; for the first point of a stroke, the line before its first move.
-    opens, closes : (M,) int
-        Line of the first and of the last move of each stroke.
-    moves : (N - M,) int
-        Lines of all moves of the strokes.
     filament : (M,) float64, mm
         Filament of each stroke.
     length : (M,) float64, mm
@@ -48,9 +45,6 @@ class InfillStrokes:
     points: Floats
     first: Places
     line: Places
-    opens: Places
-    closes: Places
-    moves: Places
     filament: Floats
     length: Floats
     sections: Places
@@ -58,6 +52,21 @@ class InfillStrokes:
 
     def __len__(self) -> int:
         return len(self.first) - 1
+
+    @cached_property
+    def opens(self) -> Places:
+        """The line of the first move of each stroke, (M,)."""
+        return self.line[self.first[:-1] + 1]
+
+    @cached_property
+    def closes(self) -> Places:
+        """The line of the last move of each stroke, (M,)."""
+        return self.line[self.first[1:] - 1]
+
+    @cached_property
+    def moves(self) -> Places:
+        """The lines of all moves of the strokes, (N - M,)."""
+        return np.delete(self.line, self.first[:-1])
 
 
 def read_strokes(
@@ -129,9 +138,6 @@ def find_strokes(table: GcodeTable, marks: LineMarks, role: str = SPARSE) -> Inf
         points=points,
         first=stroke_start,
         line=line,
-        opens=line[stroke_start[:-1] + 1],
-        closes=line[stroke_start[1:] - 1],
-        moves=np.delete(line, stroke_start[:-1]),
         filament=filament,
         length=total,
         sections=np.unique(marks.section[(marks.is_role(role) | marks.purged) & is_printing(table)]),

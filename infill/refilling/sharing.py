@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from infill.gcode.infill_sections import RATE_VARIATION, InfillSection
+from infill.gcode.infill_sections import SECTION_RATE_VARIATION, InfillSection
 from infill.paths.contact import sample_paths
 from infill.ragged import select_rows
 from infill.refilling.layers import Layer
@@ -44,7 +44,7 @@ class SectionGroup:
         if len(members) < len(self.areas):
             return "shares its region with a section that is kept"
         rates = [body.rate for body in members]
-        return "lines of different widths" if rates and max(rates) > (1 + RATE_VARIATION) * min(rates) else ""
+        return "lines of different widths" if rates and max(rates) > (1 + SECTION_RATE_VARIATION) * min(rates) else ""
 
 
 def group_sections(layer: Layer, region: Region) -> list[SectionGroup]:

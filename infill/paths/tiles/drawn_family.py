@@ -42,11 +42,6 @@ class DrawnFamily(Family):
     summary: str = "a drawing, repeated"
 
     @property
-    def left_out(self) -> tuple[str, ...]:
-        """Contents of the file besides lines, in words: "2 texts"."""
-        return self.drawing.left_out
-
-    @property
     def width(self) -> float:
         """The width of the tile as drawn, mm."""
         x0, _, x1, _ = self.tile
