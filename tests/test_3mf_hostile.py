@@ -351,7 +351,7 @@ def mutated(rng: random.Random, files: dict[str, bytes]) -> bytes:
     return bytes(whole)
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @pytest.mark.parametrize("seed", range(4))
 def test_files_changed_at_random_are_read_or_refused(seed: int, tmp_path: Path) -> None:
     rng = random.Random(seed)

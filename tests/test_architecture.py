@@ -421,7 +421,7 @@ def house(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return root
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("kind", WRONG)
 def test_one_wrong_import_is_named(kind: str, house: Path, beforehand: set[str]) -> None:
     """The file and the arrow, and nothing else."""

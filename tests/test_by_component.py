@@ -229,7 +229,7 @@ def test_progress_never_goes_back() -> None:
 # --- files -----------------------------------------------------------------------------------------------
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("suffix", [".stl", ".ply", ".obj", ".3mf", ".glb"])
 def test_every_format_holds_all_components(suffix: str, tmp_path: Path) -> None:
     result = smooth_mesh(surface(ball(10), ball(8, (9, 0, 0))), resolution=40, by_component=True)
@@ -239,7 +239,7 @@ def test_every_format_holds_all_components(suffix: str, tmp_path: Path) -> None:
     assert result.save(tmp_path / "both.png").stat().st_size > 1000
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_the_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     trimesh.util.concatenate([ball(10), ball(8, (9, 0, 0))]).export("both.stl")

@@ -52,6 +52,7 @@ def test_every_line_of_cross_3d_parts_its_two_sides(angle: float) -> None:
     assert abs(pattern.level_set(*places.T).mean()) < 0.2
 
 
+@pytest.mark.slow
 def test_walls_wind_about_where_they_would_stand_and_lean_no_more_than_asked() -> None:
     for lean in (20.0, 45.0, 60.0):
         pattern = Cross3D(cell=3.0, lean=lean, frame=False)
@@ -160,7 +161,7 @@ def test_a_level_set_makes_two_voids_that_share_no_field_and_lines_make_one() ->
     assert grids["leaning-surface"] > 0.25
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("kind", [Leaning, LeaningSurface, Cross3D])
 def test_the_density_is_that_asked_for_and_nothing_hangs_free(kind: Any) -> None:
     result = fill(box(20, 20, 20), kind(), density=0.25, line_width=0.8, wall=1.0)

@@ -31,6 +31,7 @@ def test_what_is_even_stays_even_and_slopes_stay_slopes(voxel: float, shape: tup
     assert np.abs(slope - middles)[:-1].max() < 0.13  # cells that are cut count as even; the last may reach beyond
 
 
+@pytest.mark.slow
 def test_a_mask_keeps_its_volume_in_larger_voxels() -> None:
     solid = ((np.indices((60, 60, 60)) - 29.5) ** 2).sum(axis=0) < 24**2
     result = smooth_volume(solid, voxel=2.5)

@@ -87,6 +87,7 @@ def test_help_names_every_command() -> None:
     assert "Example: infill make" in text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "words", [["nonsense"], ["make", "honeycomb", "--nonsense"], ["check"], ["make", "honeycomb", "--height", "tall"]]
 )
@@ -122,7 +123,7 @@ def test_the_readme_names_every_command() -> None:
         assert f"infill {command}" in readme
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @pytest.mark.parametrize("package", ["infill", "infill.cli"])
 def test_python_runs_the_package(package: str) -> None:
     for words, code, says in (
@@ -635,7 +636,7 @@ def test_all_outputs_appear_or_none(tmp_path: Path) -> None:
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.png", "a.stl", "b.obj"]
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_names_that_a_console_cannot_show(tmp_path: Path) -> None:
     path = infill.save(infill.make("honeycomb", size=20, height=2).mesh, tmp_path / "测试.stl")
     for words in (["check", str(path)], ["check", str(path), "--json"]):
@@ -670,6 +671,7 @@ def test_a_saved_config_holds_surface_and_tolerance(tmp_path: Path) -> None:
     assert resolve({"tolerance": 0.0}, config).tolerance == 0
 
 
+@pytest.mark.slow
 def test_missing_and_unwritable_folders_are_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     one_line_error(run("make", "honeycomb", *SMALL, "-o", tmp_path / "no" / "a.stl"), "there is no folder")
     (tmp_path / "d.stl").mkdir()

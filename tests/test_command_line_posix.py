@@ -157,7 +157,7 @@ def test_ctrl_c_at_any_moment_leaves_no_file(moment: float, calls_of_make: int, 
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_a_command_that_is_left_alone_leaves_its_file(tmp_path: Path) -> None:
     """So that the tests above and below would see one."""
     done = watched([*SMALL, "-o", str(tmp_path / "a.stl")], calls=10**9, writing=tmp_path)
@@ -165,7 +165,7 @@ def test_a_command_that_is_left_alone_leaves_its_file(tmp_path: Path) -> None:
     assert [path.name for path in tmp_path.iterdir()] == ["a.stl"]
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize(("number", "code"), [("SIGINT", 130), ("SIGTERM", 143), ("SIGHUP", 143)])
 def test_a_signal_while_it_writes_leaves_no_file(number: str, code: int, tmp_path: Path) -> None:
     words = [*SMALL, "-o", str(tmp_path / "a.obj")]
@@ -207,7 +207,7 @@ def test_a_bar_moves_where_somebody_sees_it(tmp_path: Path) -> None:
     assert math.isfinite(json.loads((tmp_path / "report.json").read_text())["volume"])
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_a_link_that_leads_nowhere_is_not_replaced_without_force(tmp_path: Path) -> None:
     link = tmp_path / "a.stl"
     link.symlink_to(tmp_path / "gone.stl")

@@ -145,6 +145,7 @@ def test_shells_of_a_ball_in_a_hollow_ball() -> None:
     assert parts.volume.sum() == pytest.approx(found.surface.volume)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("steps", [10, 20, 40])
 def test_a_ball_keeps_its_volume_and_comes_nearer_to_the_truth(steps: int) -> None:
     """Faces of cells lie 0.29 cells off (rms of an even spread over one cell); a fifth of that may be left."""
@@ -200,7 +201,6 @@ def test_the_straight_profile_has_the_same_zero_and_sign() -> None:
     assert PLAIN_PROFILE.phase_level(0.0) == 0
 
 
-@pytest.mark.slow
 def test_erasing_components() -> None:
     f = ball(40, (15, 15, 15), 8) | ball(40, (33, 33, 33), 2)
     field = smooth_bricks(f, Smoothing(steps=0))

@@ -77,6 +77,7 @@ machines = st.builds(
 # --- corners ---------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @given(path=walks(171), deviation=limits, radius=limits, machine=machines)
 def test_corners_become_arcs(path: np.ndarray, deviation: float, radius: float, machine: Machine) -> None:
     """Tangent to both legs, as large as told, within the deviation, inside the corner, and cut as the machine needs."""
@@ -153,6 +154,7 @@ def test_two_corners_share_a_leg() -> None:
     assert (np.hypot(*np.diff(done.points, axis=0).T) > 0.01).all()
 
 
+@pytest.mark.slow
 @given(path=walks(170), deviation=limits, angle=st.floats(0, 2 * math.pi))
 def test_symmetries(path: np.ndarray, deviation: float, angle: float) -> None:
     done = round_corners(*one(path), deviation=deviation)
@@ -202,6 +204,7 @@ def test_no_paths() -> None:
     assert done.first.tolist() == [0]
 
 
+@pytest.mark.slow
 @given(paths=st.lists(walks(170), min_size=2, max_size=4), deviation=limits)
 def test_paths_are_rounded_each_for_itself(paths: list[np.ndarray], deviation: float) -> None:
     """Also if one begins where another ends."""
@@ -330,6 +333,7 @@ def along(y: float, length: float = 30.0) -> Samples:
 NOTHING = sample_paths(np.empty((0, 2)), np.array([0]))
 
 
+@pytest.mark.slow
 @given(paths=st.lists(walks(170, 0.01), min_size=1, max_size=4))
 def test_weights_add_up_to_the_length(paths: list[np.ndarray]) -> None:
     """And each sample stands for a fifth of a millimetre at most, in the middle of its piece."""
@@ -486,7 +490,7 @@ AREAS = {
 }
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("kept", [0.3, 0.36, 0.42])
 @pytest.mark.parametrize("name", AREAS)
 def test_a_region_is_what_walls_leave_free(name: str, kept: float) -> None:
@@ -613,6 +617,7 @@ def test_the_outline_of_a_region_has_no_more_points_than_it_needs() -> None:
     assert len(polygon.exterior.coords) < 40
 
 
+@pytest.mark.slow
 def test_a_region_is_taken_again_only_where_it_fits() -> None:
     walls, infill = dense(SQUARE.boundary, STEP), filled(SQUARE, 0.36)
     before = find_region(beads_at(walls), infill)

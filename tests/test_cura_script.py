@@ -129,7 +129,7 @@ def assert_refilled(old: list[str], new: list[str]) -> None:
         assert before.startswith(";LAYER:")
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_the_print_is_refilled(plugin: ModuleType, program: Path, messages: list[str]) -> None:
     data = items_of(PRINT)
     assert "".join(data) == PRINT
@@ -141,7 +141,7 @@ def test_the_print_is_refilled(plugin: ModuleType, program: Path, messages: list
     assert run(plugin, new, program=str(program)) == new  # it is stamped
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @pytest.mark.skipif(bool(missing_cura()), reason=missing_cura())
 def test_a_print_of_curas(plugin: ModuleType, program: Path, messages: list[str], tmp_path: Path) -> None:
     path = cura_print(box(tmp_path, (16, 16, 3)), tmp_path / "cura.gcode", {"infill_pattern": "gyroid"})

@@ -446,6 +446,7 @@ def test_a_scout_in_the_same_series_is_named(tmp_path: Path) -> None:
     assert "2 orientations, sizes or coordinate systems (12, 1)" in refusal(folder)
 
 
+@pytest.mark.slow
 def test_files_of_one_enhanced_frame_each(tmp_path: Path, rng: np.random.Generator) -> None:
     """What is shared by the only frame of a file tells it from those of other files."""
     files = []

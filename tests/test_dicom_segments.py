@@ -198,6 +198,7 @@ def test_a_label_map(colour: str, tmp_path: Path) -> None:
     assert [each.name for each in found.segments] == ["part 300", "part 600"]
 
 
+@pytest.mark.slow
 def test_segments_in_several_files(tmp_path: Path) -> None:
     """Each file counts its own segments from 1; none of them is lost."""
     folder = tmp_path / "a"

@@ -67,7 +67,7 @@ def bolted() -> tuple[list[str], dict[str, Any]]:
     return wrong, report
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_drains_of_a_bolted_plate_keep_the_law(bolted: tuple[list[str], dict[str, Any]]) -> None:
     wrong, report = bolted
     assert wrong == []
@@ -95,7 +95,7 @@ def test_drains_of_made_parts_keep_the_law(name: str, pattern: str, drain: float
     assert report["drains"]["holes"]
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_the_judge_finds_holes_where_none_may_be() -> None:
     """Holes through a corner, beside a side and through a void that is not told are planted, and each is found."""
     part, quick = box(24, 24, 16), {"voxel": 0.5, "density": 0.15}
@@ -140,6 +140,7 @@ def test_the_wall_of_a_hole_is_what_trimesh_measures(bolted: tuple[list[str], di
 # --- where drains go ---------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("diameter", [1.0, 2.0, 4.0])
 @pytest.mark.parametrize("degrees", [0, 10, 30])
 def test_a_drain_keeps_diameter_and_wall_from_every_side(diameter: float, degrees: float) -> None:
@@ -167,7 +168,7 @@ def test_a_drain_moves_off_a_side_wall(side: int) -> None:
     assert hole.clearance < WALL + 3.0 / 6 + 0.1
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_a_drain_passes_beside_a_bolt_hole_that_lies_in_its_way() -> None:
     """Across, below all of the middle of the void: the hole goes down beside it."""
     part = less(
@@ -377,7 +378,7 @@ def test_a_drain_wider_than_the_part_is_refused_before_anything_is_computed() ->
         fill(box(30, 30, 30), "grid", drain=4, wall=16)
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_every_void_that_stays_closed_is_told_with_its_place() -> None:
     part = box(9, 40, 12)
     result = fill(part, "honeycomb", drain=6.5, wall=WALL, **QUICK)

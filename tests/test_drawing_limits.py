@@ -139,6 +139,7 @@ def test_a_block_in_itself_is_refused(tmp_path: Path) -> None:
         read_drawing(path)
 
 
+@pytest.mark.slow
 def test_what_is_below_the_limits_is_read(tmp_path: Path) -> None:
     path = tmp_path / "a.dxf"
     repeated(
@@ -154,6 +155,7 @@ def test_what_is_below_the_limits_is_read(tmp_path: Path) -> None:
     assert (len(drawing.lines), drawing.left_out) == (1, ("99 repeated lines",))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("unit", ["99", "-1", "25"])
 def test_an_unknown_unit_says_what_to_do(unit: str, tmp_path: Path) -> None:
     path = tmp_path / "a.dxf"
@@ -182,6 +184,7 @@ def squares(path: Path, count: int, step: float) -> Path:
     return path
 
 
+@pytest.mark.longest
 def test_a_line_drawn_many_times_is_one_line(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     drawing = read_tile(squares(tmp_path / "a.dxf", 3000, 0.0))
     assert [line.tolist() for line in drawing.lines] == [SQUARE.tolist()]
@@ -190,13 +193,14 @@ def test_a_line_drawn_many_times_is_one_line(tmp_path: Path, caplog: pytest.LogC
     ]
 
 
+@pytest.mark.longest
 def test_lines_that_cross_too_often_are_refused_before_they_are_joined(tmp_path: Path) -> None:
     with pytest.raises(FormatError, match=r"cross or touch about [\d,]+ times; the limit is 500,000; draw fewer lines"):
         read_tile(squares(tmp_path / "a.dxf", 3000, 0.001))
     assert len(read_tile(squares(tmp_path / "b.dxf", 300, 0.001)).lines) == 300
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_a_long_line_that_never_crosses_itself_is_read(tmp_path: Path) -> None:
     """Neighbouring segments touch, once each: as many as there may be points; few lie within the chord tolerance."""
     x = np.linspace(0, 100, MOST_POINTS - 10)
@@ -205,6 +209,7 @@ def test_a_long_line_that_never_crosses_itself_is_read(tmp_path: Path) -> None:
     assert 0.99 * len(x) < sum(len(line) for line in read_tile(path).lines) <= len(x)
 
 
+@pytest.mark.slow
 def test_too_many_copies_of_a_tile_are_refused_before_they_are_made(tmp_path: Path) -> None:
     tiled = read_tiled(squares(tmp_path / "a.dxf", 300, 0.001))
     assert tiled.name == "a.dxf"

@@ -316,7 +316,6 @@ BROKEN = {
 }  # fmt: skip
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("kind", BROKEN)
 def test_a_broken_file_is_told_in_one_line(tmp_path: Path, kind: str) -> None:
     name, content, said = BROKEN[kind]
@@ -341,7 +340,6 @@ def test_a_dxf_cut_off_anywhere_is_told_in_one_line(tmp_path: Path) -> None:
         assert "\n" not in str(caught.value)
 
 
-@pytest.mark.long
 @pytest.mark.parametrize(
     ("kind", "said"),
     [
@@ -564,7 +562,6 @@ def test_what_is_repeated(folder: Path, body: str, head: str, tile: tuple[float,
     assert found == pytest.approx(tile, abs=0.01)
 
 
-@pytest.mark.slow
 def test_beads_have_room(folder: Path) -> None:
     """Wherever lines come close, other paths stay 0.8 line widths away; a hundredth may be nearer, at crossings."""
     paths = read_tile_family(scribble(folder)).strands((0, 0, 20, 20), PathSpec(cell=18, line_width=WIDTH, radius=0.6))
@@ -595,7 +592,6 @@ def test_an_outline_is_kept(folder: Path) -> None:
     assert np.array_equal(path[0], path[-1])
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("radius", [0.6, 1.0, 1.8])
 def test_right_angles_get_about_the_radius(folder: Path, radius: float) -> None:
     (path,) = strands(folder, '<rect x="5" y="5" width="10" height="10"/>', radius=radius)
@@ -717,7 +713,7 @@ def test_limits_are_told(folder: Path) -> None:
 # --- a part --------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("make", [hearts, leaves, splines], ids=lambda make: make.__name__)
 def test_a_drawing_fills_a_bracket(folder: Path, make: object) -> None:
     """Without a crossing or a path outside, and with the length asked for: to 1 %, where lengths jump with the cell."""

@@ -106,7 +106,7 @@ def test_a_collapsed_triangle_of_its_own_is_no_component() -> None:
     assert (found.components, found.degenerate, found.closed) == (1, 1, True)
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_check_needs_no_compiler() -> None:
     import subprocess
     import sys

@@ -16,7 +16,7 @@ def run_check(*files: Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run([sys.executable, CHECK, *files], capture_output=True, encoding="utf-8")
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_the_repository_has_no_such_turn() -> None:
     done = run_check()
     assert done.returncode == 0, done.stderr

@@ -50,7 +50,7 @@ NUMBERS = {
 }
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("name", GOLDEN)
 def test_the_example_gives_its_number(name: str, tmp_path: Path) -> None:
     spec = importlib.util.spec_from_file_location(f"example_{name}", FOLDER / f"{name}.py")
@@ -77,7 +77,7 @@ def main_of(script: page.Script) -> Callable[..., Entry]:
     return importlib.import_module(f"examples.paper.{script.module}").main
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.usefixtures("compiled")
 @pytest.mark.parametrize("script", page.SCRIPTS, ids=lambda script: script.entry)
 def test_the_figure_gives_its_number(script: page.Script, tmp_path: Path) -> None:
@@ -261,7 +261,7 @@ def test_a_part_is_sliced_and_refilled_by_bash(tmp_path: Path) -> None:
     assert run_script("slice_and_refill.sh", tmp_path / "none.stl", folder=tmp_path).returncode != 0
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("script", ["refill_folder.py", pytest.param("refill_folder.sh", marks=needs_bash)])
 def test_a_folder_is_refilled(script: str, tmp_path: Path) -> None:
     """Three sections in each of two prints; what is no print stays as it was."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 from scipy import ndimage
@@ -52,6 +53,7 @@ def test_a_table_and_sorting_say_the_same(seed: int, size: int) -> None:
     assert table.cells.sum() == ((before > 0) & (after > 0)).sum()
 
 
+@pytest.mark.slow
 @given(
     shape=st.tuples(st.integers(1, 20), st.integers(1, 20), st.integers(1, 40)),
     density=st.floats(0.1, 0.9),

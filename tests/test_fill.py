@@ -92,7 +92,7 @@ def test_a_filled_part_is_the_part_without_voids_that_keep_their_distance(patter
     assert not winding_numbers(points[(away > 0) & (away < 0.9 * 1.2)][:2000], voids).any()
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("name", one_of_each_kind(IN_SPACE))
 def test_a_shift_by_a_period_changes_nothing(name: str) -> None:
     given = {"cell": 6.0, "line_width": 0.7, "voxel": 0.4, "wall": 1.0}
@@ -111,7 +111,7 @@ def test_a_shift_by_a_period_changes_nothing(name: str) -> None:
     assert len(other.faces) == pytest.approx(len(one.faces), rel=0.01)
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_both_sides_of_a_gyroid_are_alike() -> None:
     """Turning it inside out at the middle of a block swaps them."""
     result = fill(box(20, 20, 20), "gyroid", cell=7, line_width=0.6, wall=1, voxel=0.4)
@@ -294,7 +294,7 @@ def test_the_lateral_honeycomb_takes_its_overhang() -> None:
         fill(block, "lateral-honeycomb", overhang=80.0)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize(("first", "second"), [(-45.0, 45.0), (-20.0, 50.0), (0.0, 30.0)])
 def test_the_walls_of_the_lateral_lattice_lean_as_asked(first: float, second: float) -> None:
     """As lines in the plane across them, a cell apart along y; and the part is as dense as asked for."""
@@ -316,7 +316,7 @@ def test_walls_of_the_lateral_lattice_that_hardly_cross_are_refused() -> None:
         fill(box(15, 15, 15), "lateral-lattice", first=10.0, second=20.0)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("name", [name for name, each in IN_SPACE.items() if isinstance(each, Network)])
 def test_a_network_hangs_together_from_its_lowest_density_on(name: str) -> None:
     """Also across the border of a period: every piece of 2 x 2 x 2 of them touches another, or is a speck."""
@@ -460,7 +460,7 @@ def test_a_root_is_found_where_there_are_jumps() -> None:
 # --- fillets -----------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("radius", [1.0, 2.0])
 def test_a_right_angle_is_rounded_to_the_radius_asked_for(radius: float) -> None:
     """A block with one void, whose edges are right angles before they are smoothed."""
@@ -494,7 +494,7 @@ def test_no_radius_is_no_fillet() -> None:
 # --- parts -------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_a_cavity_keeps_its_wall() -> None:
     part = less(box(24, 24, 24), ball(5))
     result = fill(part, "gyroid", **FEW)
@@ -502,7 +502,7 @@ def test_a_cavity_keeps_its_wall() -> None:
     assert TriangleTree.of(result.stages.voids).nearest(ball(5).vertices)[0].min() >= 0.9 * 1.5
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_what_overlaps_is_united_and_what_touches_is_not() -> None:
     two = together(box(14, 14, 14), box(14, 14, 14, (7, 3, 2)))
     result = fill(two, "gyroid", **FEW)
@@ -518,7 +518,7 @@ def test_what_overlaps_is_united_and_what_touches_is_not() -> None:
     assert result.report["problems"] == []  # the wall along the gap, too
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_what_is_inside_out_or_has_a_hole_is_repaired_and_told() -> None:
     block = box(16, 16, 16)
     inverted = Surface(vertices=block.vertices, faces=block.faces[:, ::-1])
@@ -541,7 +541,7 @@ def test_boxes_that_share_an_edge_are_told_apart() -> None:
     assert result.report["problems"] == []
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_far_from_the_origin() -> None:
     block = box(16, 12, 10)
     here = fill(block, "gyroid", **FEW).report
@@ -576,7 +576,7 @@ def test_bars_that_reach_the_wall_leave_one_void_around_them() -> None:
     assert len(result.surface.to_trimesh().split(only_watertight=True)) == 2  # the skin, and one void
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_what_hangs_free_is_left_out_and_what_is_lost_is_told() -> None:
     """Bars as thin as a cell of the grid break into pieces; those that vanish leave none."""
     broken = fill(box(20, 20, 20), "bcc", cell=8, line_width=0.5, voxel=0.4)
@@ -589,14 +589,13 @@ def test_what_hangs_free_is_left_out_and_what_is_lost_is_told() -> None:
     assert fill(box(20, 20, 20), BAR, cell=8, line_width=1.2).report["problems"] == []
 
 
-@pytest.mark.slow
 def test_a_part_far_thinner_than_the_wall_is_refused_at_once() -> None:
     """In millimetres where metres were meant: no distance is measured over thousands of cells."""
     with pytest.raises(GeometryError, match=r"0\.04 mm, is nowhere thicker .* a thinner wall, or the right unit$"):
         fill(ball(0.02), "gyroid")
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("form", ["solid", "infill"])
 def test_the_infill_alone_reaches_into_the_wall(form: str) -> None:
     block = box(20, 20, 12)
@@ -763,7 +762,7 @@ def test_an_open_part_stays_closed_in_a_file(tmp_path: Path) -> None:
         assert manifold_status(read_mesh(tmp_path / f"{pattern}.stl")) == FINE
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_what_hung_on_what_is_cut_off_is_left_out() -> None:
     result = fill(box(24, 24, 14), waves, open_="top", **WAVES)
     solid = result.surface.to_trimesh().split(only_watertight=False)
@@ -797,7 +796,7 @@ def test_a_part_lower_than_two_walls_may_be_open() -> None:
     assert tray["part"]["inside"] == pytest.approx(17.6 * 17.6, rel=1e-3)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("open_", ["top", "both"])
 def test_the_infill_alone_reaches_an_open_side(open_: str) -> None:
     given = {"cell": 6.0, "line_width": 0.8, "wall": 1.5, "voxel": 0.3, "tolerance": 0, "overlap": 0.4}
@@ -863,7 +862,7 @@ def test_volumes_between_open_sides_are_those_of_cut_solids() -> None:
 # --- what is told ------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_a_thin_wall_and_a_void_outside_are_found(monkeypatch: pytest.MonkeyPatch) -> None:
     """Planted: voids that are moved towards the skin, and through it."""
     part = surface(box(20, 20, 20))

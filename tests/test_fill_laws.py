@@ -66,7 +66,7 @@ def farthest(one: Surface, other: Surface) -> float:
     return float(max(there, TriangleTree.of(other).nearest(np.asarray(one.vertices, np.float64))[0].max()))
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("name", EVERY)
 def test_wider_walls_and_smaller_cells_are_denser(name: str) -> None:
     sizes = far(name)
@@ -106,7 +106,7 @@ def test_walls_in_the_mesh_are_as_wide_as_asked_for(name: str) -> None:
     assert across(result.stages.voids, 2.5 * width, 12 - 1 - 1.5 * width) == pytest.approx(width, rel=0.08)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("name", KINDS)
 def test_turning_the_part_and_the_pattern_turns_the_result(name: str) -> None:
     sizes = far(name)
@@ -117,7 +117,7 @@ def test_turning_the_part_and_the_pattern_turns_the_result(name: str) -> None:
     assert farthest(one, replace(other, vertices=np.asarray(other.vertices) @ QUARTER[:3, :3])) < 0.1
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["gyroid", "octet", "honeycomb", "cubic"])
 def test_smoothing_and_turning_may_change_places(name: str) -> None:
     """The density is met within 0.002 of it, so volumes are equal within twice that."""
@@ -148,7 +148,7 @@ def test_tips_are_those_of_corners_that_stay_themselves() -> None:
         assert brentq(lambda at, end=end: slope(at) - end, 0.1, 3.0) == pytest.approx(tip, abs=2e-4)
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @pytest.mark.parametrize(("name", "corners"), [("honeycomb", 6), ("triangles", 3)])
 @hypothesis.given(cell=st.floats(2.0, 9.0), half=st.floats(20, 30))
 def test_no_wall_is_lost_between_voids(name: str, corners: int, cell: float, half: float) -> None:
@@ -243,7 +243,7 @@ def test_a_fillet_that_is_too_sharp_is_found() -> None:
     assert np.quantile(fillets(result.stages.voids, result.stages.part), 0.05) < 0.95 * RADIUS
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("name", KINDS)
 def test_the_mirror_image_of_part_and_pattern_is_that_of_the_result(name: str) -> None:
     sizes = far(name)
@@ -347,7 +347,7 @@ FORMS: dict[str, tuple[Any, float, Any]] = {
 TURNED: dict[str, Any] = {"voxel": 0.4, "wall": 1.0, "angle": 30}
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "more"),
     [("rectilinear", EXACT), ("rectilinear", TURNED), ("waved", EXACT), ("grid", EXACT), ("grid", TURNED)],
@@ -364,7 +364,7 @@ def test_lines_and_the_function_that_is_0_on_them_fill_alike(name: str, more: di
     assert max(there.max(), back.max()) < 0.04
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("name", KINDS)
 def test_units_are_no_matter(name: str) -> None:
     sizes = far(name)
@@ -374,7 +374,7 @@ def test_units_are_no_matter(name: str) -> None:
     assert other.volume == pytest.approx(1000 * one.volume, rel=1e-4)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("name", KINDS)
 def test_what_is_made_again_is_the_same(name: str) -> None:
     one, other = (fill(PART, name, density=0.3, cell=5.0, **EXACT).surface for _ in range(2))

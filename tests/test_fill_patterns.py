@@ -92,7 +92,7 @@ def test_a_part_is_filled_with_a_drawing(folder: Path, angle: float) -> None:
     assert report["density"] == pytest.approx(0.3, abs=0.005)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("name", ["user.py:sheet", "user.py:Mine"])
 def test_a_part_is_filled_with_what_a_module_holds(folder: Path, name: str) -> None:
     """The same as the pattern of ours that it is."""
@@ -128,6 +128,7 @@ def test_a_pattern_that_is_turned_itself_is_turned_by_both_angles() -> None:
     np.testing.assert_array_equal(one.surface.vertices, other.surface.vertices)
 
 
+@pytest.mark.slow
 def test_a_pattern_that_cannot_be_turned_says_so() -> None:
     @dataclass(frozen=True, kw_only=True)
     class Rows(Pattern):

@@ -116,6 +116,7 @@ def test_frames_of_freesurfer(tmp_path: Path) -> None:
     assert np.array_equal(read_volume(path, frame=2).values, NUMBERS * 2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("change", "says"),
     [
@@ -192,6 +193,7 @@ def assert_in_place(volume: Volume, *, in_cells: bool) -> None:
     assert centre(volume, (0, 0, 0)) == pytest.approx(first)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("of", ["POINT_DATA", "CELL_DATA"])
 @pytest.mark.parametrize("text", [True, False])
 @pytest.mark.parametrize("dtype", list(VTK_TYPES))

@@ -46,7 +46,7 @@ found = {name: run_case(target, name, data, Random(1), Path(sys.argv[2]) / "case
 """
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("name", CASES)
 def test_whole_seeds_are_read(name: str, compiled: None, tmp_path: Path) -> None:
     """Each is a file that its command takes, and reads as others do: mutations begin from what works."""
@@ -134,7 +134,7 @@ print(run_case(TARGETS["meshes"], "box.stl", sys.stdin.buffer.read(), Random(1),
 """
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_a_size_that_every_other_reader_contradicts_is_a_fault(tmp_path: Path) -> None:
     words = [sys.executable, "-c", LIE, str(tmp_path / "case")]
     answer = subprocess.run(words, cwd=ROOT, check=True, capture_output=True, input=BOX, timeout=100)

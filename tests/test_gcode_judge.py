@@ -97,7 +97,6 @@ def sliced(tmp_path_factory: pytest.TempPathFactory) -> bytes:
     return prusa_print(box(folder, (14, 14, 2.4)), folder / "box.gcode").read_bytes()
 
 
-@pytest.mark.slow
 def test_a_real_print_with_its_moves_cut_in_two_is_lawful(sliced: bytes) -> None:
     new = halves(sliced)
     assert changed(sliced, new) == infilled(sliced) > 0
@@ -337,6 +336,7 @@ def test_times_may_be_told_anew_and_nothing_else() -> None:
     )
 
 
+@pytest.mark.slow
 def test_a_layer_that_was_slowed_is_not_made_shorter() -> None:
     """Its slowest layers take some seconds; where 20 are asked for, every second counts."""
     old = written(FULL).replace(b"slowdown_below_layer_time = 0", b"slowdown_below_layer_time = 20")
@@ -409,7 +409,7 @@ def test_it_reads_no_code_of_ours() -> None:
         assert "infill import" not in Path(__file__).with_name(name).read_text(encoding="utf-8")
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @given(prints())
 def test_prints_of_any_dialect_are_valid_and_may_be_cut(old: bytes) -> None:
     """What the strategy makes breaks no law itself: so what a refill breaks is its own."""

@@ -291,7 +291,7 @@ COLUMNS = ("kind", "x", "y", "z", "e", "f", "extruded", "relative_e")
 BEGIN = MachineState(x=1.0, y=2.0, z=3.0, e=4.0, f=600.0)
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @settings(max_examples=120)
 @given(
     print_text(),
@@ -524,6 +524,7 @@ TAGGED = (b";TYPE:FILL\n", b";TYPE:Perimeter\n", b";LAYER_CHANGE\n", b";WIDTH:.5
 TAGGED += (b"; printing object a\n", b"; stop printing object a\n", b"M204 S5\n", b"G1 X1\n", b"; remark\n", b"T1\n")
 
 
+@pytest.mark.slow
 @given(st.lists(st.sampled_from(TAGGED), max_size=14), st.integers(0, 14))
 def test_tags_read_in_two_batches_are_the_same(lines: list[bytes], cut: int) -> None:
     whole = mark_lines(read_table(b"".join(lines), MachineState()), TagState())

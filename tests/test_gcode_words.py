@@ -178,7 +178,7 @@ def test_macros_are_named(tmp_path: Path) -> None:
     assert "PRINT_START, END_PRINT: what the printer does there is not known" in result.stdout
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @settings(max_examples=80)
 @given(
     st.dictionaries(st.sampled_from("XYZEF"), st.integers(-4000, 4000).map(lambda value: value / 8), min_size=1),
@@ -264,6 +264,7 @@ def test_feed_rate_and_flow_are_scaled(tmp_path: Path) -> None:
     assert of(tmp_path, "M221 T1 S50\nT1\n" + lines).filament == pytest.approx(plain.filament / 2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("lines", "count"),
     [

@@ -57,7 +57,6 @@ def flags_of(command: str) -> set[str]:
     return {name for each in params if getattr(each, "is_flag", False) for name in each.opts}
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("command", COMMANDS)
 def test_mathematics_stand_in_advanced_alone(command: str) -> None:
     for title, rows in panels(command).items():
@@ -100,7 +99,7 @@ def test_defaults_are_told_in_one_way(command: str) -> None:
         assert ("default:" in text) == bool(DEFAULT.search(text)), text
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_summaries_keep_mathematics_for_verbose(tmp_path: Path) -> None:
     words = ["make", "honeycomb", *SMALL, "--force", "-o", tmp_path / "a.stl"]
     assert not MATHEMATICS.search(run(*words).stderr)

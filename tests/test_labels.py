@@ -115,6 +115,7 @@ def test_the_surface_is_that_of_the_whole_volume(options: dict[str, Any]) -> Non
         assert surface.closed
 
 
+@pytest.mark.slow
 def test_a_margin_too_small_would_be_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("infill.smoothing.labels.REACH_IN_INTERFACES", 0)
     monkeypatch.setattr("infill.smoothing.labels.REFINING_MARGIN", 0)
@@ -159,7 +160,6 @@ SPECK = bones()
 SPECK[10:14, 40:44, 5:9] = 9  # 64 cells, all of them despeckled
 
 
-@pytest.mark.slow
 def test_one_that_fails_is_named_and_nothing_is_returned() -> None:
     with pytest.raises(ParameterError, match=r"^label 9 \(Scapula\): despeckle is 100 mm³") as caught:
         smooth_labels(SPECK, table=[Segment(value=9, name="Scapula")], despeckle=100)
@@ -225,7 +225,6 @@ def result(compiled: None) -> Result[Any, Any]:
     return smooth_labels(bones(), table=TABLE)
 
 
-@pytest.mark.slow
 def test_a_3mf_has_an_object_for_each_with_name_and_colour(result: Result[Any, Any], tmp_path: Path) -> None:
     lib3mf = pytest.importorskip("lib3mf", reason="lib3mf is not installed (extra test)")
     path = result.save(tmp_path / "all.3mf")
@@ -265,13 +264,13 @@ def test_a_glb_has_a_node_for_each_with_name_and_colour(result: Result[Any, Any]
     assert shades[1].tolist() == [0, 0, 255, 255]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("suffix", [".3mf", ".glb"])
 def test_several_objects_are_read_back_as_one_mesh(suffix: str, result: Result[Any, Any], tmp_path: Path) -> None:
     back = read_mesh(result.save(tmp_path / f"all{suffix}"))
     assert back.volume == pytest.approx(sum(each.volume for each in result.surfaces.values()), rel=1e-5)
 
 
+@pytest.mark.slow
 def test_a_format_of_one_mesh_is_told(result: Result[Any, Any], tmp_path: Path) -> None:
     with pytest.raises(FormatError, match=r"can hold one mesh .*; use .3mf or .glb, or \{label\} in the name"):
         result.save(tmp_path / "all.stl")
@@ -402,7 +401,7 @@ def test_files_that_exist_are_kept(folder: Path) -> None:
     assert read_mesh("label_7.stl").closed
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @pytest.mark.parametrize(
     ("words", "says"),
     [

@@ -85,7 +85,7 @@ def assert_lean(lean: Result[Any], raw: Result[Any], tolerance: float) -> None:
     assert mesh.volume == pytest.approx(area * height, rel=2e-5)  # 32-bit vertices
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize(("name", "stamp", "options"), CASES)
 def test_a_prism_is_the_isosurface_with_fewer_triangles(name: str, stamp: str, options: dict[str, Any]) -> None:
     lean = make(name, stamp=stamp, **options)
@@ -97,7 +97,7 @@ def test_a_prism_is_the_isosurface_with_fewer_triangles(name: str, stamp: str, o
     assert lean.report["mesh"]["tolerance"] == 0.002
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @settings(max_examples=4, deadline=None)
 @given(
     name=st.sampled_from(BUILT_IN),
@@ -278,7 +278,7 @@ def test_what_cannot_be_filled_is_an_error() -> None:
 # --- what it will cost, and what the exact stamp would give -------------------------------------------------
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(("name", "stamp"), [("concentric-heart", "block"), ("honeycomb", "exact")])
 def test_a_large_block_is_expected_from_samples(name: str, stamp: Any) -> None:
     block = plan_block(

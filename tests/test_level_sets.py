@@ -148,6 +148,7 @@ def test_the_region_does_not_move_the_lines() -> None:
     assert shapely.hausdorff_distance(pattern.lines(inner), cut) < EDGE
 
 
+@pytest.mark.slow
 def test_a_large_grid_is_taken_in_parts(monkeypatch: pytest.MonkeyPatch) -> None:
     whole = SchwarzP().lines(REGIONS[0], 1.0)
     monkeypatch.setattr(patterns.contours, "NODES_AT_ONCE", 1000)

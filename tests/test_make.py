@@ -37,7 +37,7 @@ def predicted_components_and_holes(stamp: np.ndarray) -> tuple[int, int, int]:
     return ndimage.label(solid)[1], wide, inner + narrow
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("size", "cell", "stamp"),
     [((60, 60), 6, "block"), *((*each, "block") for each in SIZES), *((*each, "exact") for each in SIZES[::5])],
@@ -75,7 +75,6 @@ def plan_of(name: str, size: Any, cell: float) -> Any:
     )
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_the_defaults_keep_every_hole_of_the_stamp(name: str) -> None:
     report = make(name).report
@@ -129,6 +128,7 @@ def test_the_report_tells_the_truth(name: str) -> None:
     assert report["wall_width"]["p5"] <= report["wall_width"]["mean"] <= report["wall_width"]["p95"]
 
 
+@pytest.mark.slow
 def test_the_block_stands_on_the_bed_about_the_origin() -> None:
     wanted = np.array([[-15, -12, 0], [15, 12, 5]])
     assert make("honeycomb", size=(30, 24), height=5, surface="grid").mesh.bounds == pytest.approx(wanted, abs=1e-3)
@@ -145,7 +145,7 @@ def test_the_block_stamp_shows_its_true_widths() -> None:
     assert width["p95"] / 0.45 == pytest.approx(1.38, abs=0.04)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("degrees", [0, 7, 15, 22.5, 45])
 def test_the_exact_stamp_keeps_its_width(degrees: float) -> None:
     width = make(Honeycomb(angle=degrees), stamp="exact", cells=5).report["wall_width"]
@@ -154,7 +154,7 @@ def test_the_exact_stamp_keeps_its_width(degrees: float) -> None:
     assert width["p95"] < 1.02 * 0.45
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("unit", [1 / 25.4, 0.001])
 def test_the_unit_of_length_does_not_matter(unit: float) -> None:
     for surface, tolerance in (("grid", 0), ("prism", 0.002)):
@@ -402,7 +402,6 @@ def test_an_open_surface_is_never_written(monkeypatch: pytest.MonkeyPatch) -> No
 # --- what it will cost -----------------------------------------------------------------------------------
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("surface", ["prism", "grid"])
 @pytest.mark.parametrize("stamp", ["block", "exact"])
 @pytest.mark.parametrize("name", BUILT_IN)

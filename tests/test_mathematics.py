@@ -550,7 +550,7 @@ def test_widths_are_those_of_marching_cubes() -> None:
     assert walls.widths(phi) == pytest.approx(sum(b - a for a, b in zip(ends[::2], ends[1::2], strict=True)))
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_the_script_of_walls(tmp_path: Path) -> None:
     entry = walls.main(tmp_path, small=True)
     assert entry.numbers["width of a 3-cell wall after 10 steps"] == pytest.approx(

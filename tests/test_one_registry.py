@@ -113,6 +113,7 @@ def test_one_file_makes_fills_and_refills(way: str, folder: Path, monkeypatch: p
     assert judge(Path("print.gcode").read_bytes(), Path("c.gcode").read_bytes(), filament=(0.8, 1.1)) == []
 
 
+@pytest.mark.slow
 def test_a_drawing_makes_too(folder: Path) -> None:
     Path("cross.svg").write_text(
         '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 20 20"><path d="M0 10 H20 M10 0 V20"/></svg>'

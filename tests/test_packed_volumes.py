@@ -109,7 +109,7 @@ def is_seen(way: str, shape: tuple[int, ...]) -> bool:
     return not way.startswith(("mgh", "mgz", "vtk")) or np.prod(shape) > VALUES.size  # more may follow its cells
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @pytest.mark.parametrize(("way", "shape"), [(way, shape) for way in WAYS for shape in SHAPES if is_seen(way, shape)])
 def test_other_sizes_than_the_cells_have_are_refused(way: str, shape: tuple[int, ...], tmp_path: Path) -> None:
     """More or fewer: the header of another volume, and these cells."""
@@ -142,6 +142,7 @@ def swap_head(way: str, data: bytes, shape: tuple[int, ...]) -> bytes:
     return data.replace(old, new)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("way", [name for name in WAYS if name.startswith(("nrrd", "nhdr", "mha", "mhd", "nii"))])
 def test_sizes_that_no_file_could_hold_are_refused_at_once(way: str, tmp_path: Path) -> None:
     written = WAYS[way](VALUES)

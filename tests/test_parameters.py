@@ -154,7 +154,7 @@ def test_a_parameter_survives_the_file(kind: str, name: str, tmp_path: Path) -> 
         assert again.steps == 7
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_list_shows_every_parameter_with_its_help(kind: str) -> None:
     text = plain(run("list", kind).stdout)
@@ -271,7 +271,6 @@ def test_shared_parameters_are_flags_and_can_be_set(tmp_path: Path) -> None:
     assert (tmp_path / "a.stl").read_bytes() == (tmp_path / "b.stl").read_bytes()
 
 
-@pytest.mark.slow
 def test_a_plugin_may_name_its_parameters_as_it_likes(tmp_path: Path) -> None:
     config, mesh = tmp_path / "a.toml", tmp_path / "a.stl"
     words = ["--set", "size=2", "--set", "steps=3,1", "--set", "pattern=10", "--steps", "8"]
@@ -308,6 +307,7 @@ def test_bad_parameters_are_one_clear_line(words: list[str], says: str, tmp_path
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_a_level_set_is_made_at_the_command_line(tmp_path: Path) -> None:
     result = run("make", "ripples", *SMALL, "--cell", "5", "--set", "swing=1", "-o", tmp_path / "a.stl")
     assert result.exit_code == 0, result.output
@@ -414,7 +414,7 @@ def said(words: list[str], environment: dict[str, str]) -> str:
     ).stdout
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("columns", ["80", "100"])
 def test_the_help_of_make_stays_short(sixty: dict[str, str], columns: str) -> None:
     environment = {**sixty, "COLUMNS": columns}

@@ -59,7 +59,7 @@ def test_lines_and_points_lie_inside_the_region(pattern: Pattern, region: shapel
     assert shapely.contains_xy(region.buffer(ROUNDING), points).all()
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @every_design
 def test_points_follow_the_lines_closely(pattern: Pattern) -> None:
     lines, spacing = pattern.lines(REGIONS[0]), 0.25
@@ -94,7 +94,7 @@ def test_every_design_is_in_the_catalogue() -> None:
     assert {type(pattern) for pattern in DESIGNS} == {PATTERNS[name] for name in BUILT_IN}
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @every_design
 @pytest.mark.parametrize("spacing", [0, -1, math.nan, math.inf])
 def test_a_bad_spacing_of_points_is_refused(pattern: Pattern, spacing: float) -> None:
@@ -102,6 +102,7 @@ def test_a_bad_spacing_of_points_is_refused(pattern: Pattern, spacing: float) ->
         pattern.points(REGIONS[0], spacing)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", BUILT_IN)
 @pytest.mark.parametrize("value", [0, -3, math.nan, math.inf, 1e9])
 def test_a_bad_cell_is_refused(name: str, value: float) -> None:
@@ -149,6 +150,7 @@ def test_honeycomb_is_regular() -> None:
     assert hexagon.area == pytest.approx(math.sqrt(3) / 2 * cell**2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", [Honeycomb, Octagons])
 @pytest.mark.parametrize("angle", [0.0, 5.0, 45.0])
 def test_lines_of_a_long_region_are_those_of_a_larger_one(kind: type[Pattern], angle: float) -> None:

@@ -147,6 +147,7 @@ def test_solid_and_void_are_treated_alike(shape: tuple[int, ...], seed: int) -> 
     np.testing.assert_allclose(exactly(-f), -exactly(f), rtol=0, atol=EXACT)
 
 
+@pytest.mark.slow
 @given(shapes, seeds)
 def test_smoothing_commutes_with_mirroring_and_transposing(shape: tuple[int, ...], seed: int) -> None:
     f = smooth_noise(np.random.default_rng(seed), shape)
@@ -156,6 +157,7 @@ def test_smoothing_commutes_with_mirroring_and_transposing(shape: tuple[int, ...
         np.testing.assert_allclose(exactly(np.flip(f, axis)), np.flip(phi, axis), rtol=0, atol=EXACT)
 
 
+@pytest.mark.slow
 @given(shapes, seeds, st.integers(-20, 20))
 def test_the_box_has_no_edge(shape: tuple[int, ...], seed: int, shift: int) -> None:
     f = smooth_noise(np.random.default_rng(seed), shape)
@@ -173,6 +175,7 @@ def test_a_layer_repeated_is_smoothed_as_the_layer() -> None:
 # --- energy, precision, the paper's sphere --------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dt", [1e-3, 0.1, 1.0, 100.0, 1e5])
 def test_the_energy_never_rises(dt: float) -> None:
     """Eyre: 2 phi taken implicitly is enough for any time step while phi² <= 5/3, where 3 phi² - 1 <= 2 * 2."""

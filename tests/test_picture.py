@@ -82,6 +82,7 @@ def test_y_points_up() -> None:
     assert not panel[:40, -40:].any()
 
 
+@pytest.mark.slow
 def test_straight_lines_are_drawn_straight() -> None:
     """Lines of a grid of 60 mm lie on the borders of pixels, up to rounding: each is one row or column, without a jog."""
     sheet = np.asarray(make("grid").picture().convert("L")).astype(int)
@@ -170,7 +171,7 @@ def test_what_is_kept_is_not_marked_and_stays_in_its_place() -> None:
     assert (one != other).mean() < 0.01
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @pytest.mark.usefixtures("compiled")
 def test_before_and_after_have_one_scale() -> None:
     """At the level 0 a ball shrinks, and so does its picture."""
@@ -218,7 +219,7 @@ def test_winding_counts_bodies() -> None:
 # --- of a result -----------------------------------------------------------------------------------------
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_a_notebook_shows_what_is_saved_and_what_the_command_writes(tmp_path: Path) -> None:
     result = make("honeycomb", size=20, height=3)
     shown = result._repr_png_()

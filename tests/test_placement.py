@@ -103,7 +103,6 @@ def test_a_turn_keeps_the_lines(name: str) -> None:
     assert apart(plain, other) > 0.1
 
 
-@pytest.mark.long
 @every_turning
 def test_a_turned_pattern_takes_the_length_asked_for(name: str) -> None:
     """Within 1 % on a disc, inside it, without crossing, beads apart as those of the pattern are."""
@@ -278,7 +277,7 @@ def test_parameters_are_read_as_written(angle: float, x: float, y: float) -> Non
 # --- a print refilled ------------------------------------------------------------------------------------------
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("name", ["honeycomb", "rectilinear", "gyroid", "drawing"])
 def test_a_turned_pattern_takes_the_filament_that_was_there(name: str, gcode: Path, tile: Path) -> None:
     """Within 1 %; an independent judge finds nothing else changed, and paths lie elsewhere than those of the pattern."""
@@ -297,7 +296,7 @@ def test_a_turned_pattern_takes_the_filament_that_was_there(name: str, gcode: Pa
     assert gcode.read_bytes() == texts[1]
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["rectilinear", "gyroid", "concentric", "drawing"])
 def test_the_cell_decides_the_filament(name: str, gcode: Path, tile: Path) -> None:
     """Beads are as wide as the slicer's: half the cell takes twice the filament.

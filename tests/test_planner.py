@@ -320,7 +320,7 @@ def settings_of(limits: Limits) -> list[Limits]:
     ]
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @given(wild_paths(), st.sampled_from([PLAIN, VECTOR, STEADY, JUNCTION]), st.integers(1, 45))
 @settings(deadline=None, max_examples=150)
 @example(

@@ -92,7 +92,7 @@ def test_faces_of_any_number_of_corners(form: str, solid: Solid, name: str, tmp_
     assert_is(write(tmp_path, ply(form, [points(solid), faces(solid, kind)])), solid)
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @every_form
 @pytest.mark.parametrize("count", [*list(CODES)[:6], "float"])
 def test_lists_of_any_type(form: str, count: str, tmp_path: Path) -> None:
@@ -318,11 +318,13 @@ OFFS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", OFFS)
 def test_an_off_in_every_dialect(name: str, tmp_path: Path) -> None:
     assert_is(write(tmp_path, OFFS[name], "part.off"), MIXED)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SOLIDS)
 def test_polygons_of_an_off(name: str, tmp_path: Path) -> None:
     assert_is(write(tmp_path, off(SOLIDS[name]), "part.off"), SOLIDS[name])

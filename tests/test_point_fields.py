@@ -108,7 +108,7 @@ def test_points_in_half_a_cell_become_one_and_opposite_ones_none() -> None:
     assert normals == pytest.approx(np.array([[0.0, 0, 1]]))
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("known", [True, False])
 def test_noise_does_not_move_the_surface_outwards(known: bool) -> None:
     mesh = trimesh.creation.torus(8, 3, major_sections=128, minor_sections=64)
@@ -124,7 +124,7 @@ def test_noise_does_not_move_the_surface_outwards(known: bool) -> None:
     assert result.mesh.is_watertight
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_edges_of_a_turned_box_stay_within_a_voxel() -> None:
     mesh = trimesh.creation.box((20, 14, 9))
     mesh.apply_transform(trimesh.transformations.rotation_matrix(0.7, [1, 2, 3]))

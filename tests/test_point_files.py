@@ -18,7 +18,7 @@ ROWS = [" ".join(repr(float(x)) for x in row) for row in POINTS]
 TEXT = [".xyz", ".txt", ".pts", ".csv"]
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @pytest.mark.parametrize("suffix", TEXT)
 @pytest.mark.parametrize("mark", [" ", "\t", "  \t", ",", ", ", ";"])
 @pytest.mark.parametrize(
@@ -248,7 +248,7 @@ def test_missing_and_unreadable_files(tmp_path: Path, monkeypatch: pytest.Monkey
         read_points(path)
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_real_points(data: Path) -> None:
     kitten = read_points(data / "models" / "kitten_points.xyz")
     assert kitten.shape == (5210, 3)

@@ -99,6 +99,7 @@ def test_the_surface_of_the_solid_runs_through_the_points() -> None:
     assert np.linalg.norm(empty, axis=1).min() > RADIUS - 0.5
 
 
+@pytest.mark.slow
 def test_a_box_keeps_its_corners() -> None:
     grid = np.linspace(-5, 5, 41)
     plane = np.stack([each.ravel() for each in np.meshgrid(grid, grid, [5.0])], axis=1)

@@ -379,7 +379,7 @@ def test_prusaslicer_prints_the_infill_and_no_wall_more(filled: Result[Any, Fill
     assert "edges_fixed" not in facts
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @prusa
 @pytest.mark.parametrize(
     "rule", ["too many triangles", "metadata without a type", "modifier first", "settings of no object"]
@@ -481,6 +481,7 @@ def test_what_is_typed_wins_over_the_file(folder: Path) -> None:
     assert sorted(each.name for each in folder.iterdir()) == ["a.toml", "b.toml", "part.stl"]
 
 
+@pytest.mark.slow
 def test_wrong_combinations_are_told(folder: Path) -> None:
     usage_error(command("fill", "part.stl", "--as", "project", "-o", "a.3mf"), "--as is 'project', and for is missing")
     usage_error(command("fill", "part.stl", "--for", "cura", "--as", "solid", "-o", "a.3mf"), "--for is 'cura'")

@@ -125,7 +125,7 @@ def two_boxes(extruders: tuple[int, int]) -> str:
     return "\n".join([*found, "</amf>"])
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @pytest.mark.skipif(bool(missing_prusa()), reason=missing_prusa())
 def test_a_print_of_two_colours_by_the_slicer(tmp_path: Path) -> None:
     """Every layer purges into the infill of one object, and prints that of the other: as many sections of each."""

@@ -87,6 +87,7 @@ def test_an_output_leaves_the_print_as_it_was(gcode: Path, tmp_path: Path) -> No
     assert gcode.read_bytes() == output.read_bytes()
 
 
+@pytest.mark.slow
 def test_an_existing_output_is_kept_without_force(gcode: Path, tmp_path: Path) -> None:
     output = tmp_path / "old.gcode"
     output.write_bytes(b"precious")
@@ -97,6 +98,7 @@ def test_an_existing_output_is_kept_without_force(gcode: Path, tmp_path: Path) -
     assert STAMP in output.read_bytes()
 
 
+@pytest.mark.slow
 def test_a_dry_run_writes_nothing(gcode: Path) -> None:
     result = run("refill", gcode, "--dry-run")
     assert result.exit_code == 0
@@ -106,6 +108,7 @@ def test_a_dry_run_writes_nothing(gcode: Path) -> None:
     assert names(gcode.parent) == [gcode.name]
 
 
+@pytest.mark.slow
 def test_a_second_run_says_that_there_is_nothing_to_do(gcode: Path) -> None:
     assert run("refill", gcode).exit_code == 0
     once = gcode.read_bytes()
@@ -174,6 +177,7 @@ def blocks_of(path: Path) -> list[Block]:
 # --- what it says ----------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_json_is_alone_on_stdout(gcode: Path, tmp_path: Path) -> None:
     output = tmp_path / "new.gcode"
     result = run("refill", gcode, "-o", output, "--json", "-q")
@@ -195,6 +199,7 @@ def test_the_summary_names_the_density_to_set(gcode: Path) -> None:
     assert f"set {density:g} % in the slicer" in run("refill", gcode, "--dry-run").stderr
 
 
+@pytest.mark.slow
 def test_nothing_is_said_when_asked_to_be_quiet(gcode: Path) -> None:
     result = run("refill", gcode, "-q")
     assert (result.stdout, result.stderr) == ("", "")
@@ -234,7 +239,6 @@ def test_the_preview_shows_a_layer_that_is_asked_for(
     assert shown == [f"layer {layer}, as sliced", f"layer {layer}, refilled"]
 
 
-@pytest.mark.slow
 def test_a_picture_that_is_in_the_way_leaves_the_print_alone(gcode: Path, tmp_path: Path) -> None:
     picture = tmp_path / "layer.png"
     picture.write_bytes(PICTURE)
@@ -294,6 +298,7 @@ def test_the_log_lies_beside_what_the_slicer_is_about_to_write(
     assert names(target.parent) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["part.gcode", "{0}/no such folder/part.gcode", "/", ""])
 def test_the_log_lies_beside_the_file_where_the_slicer_names_no_folder(
     name: str, gcode: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -333,6 +338,7 @@ def test_a_print_that_is_not_there_leaves_nothing(tmp_path: Path) -> None:
     assert names(tmp_path) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("words", [[], ["one.gcode", "two.gcode"], ["one.gcode", "--sharp"]])
 def test_wrong_usage_exits_2(words: list[str]) -> None:
     assert run("refill", *words).exit_code == 2

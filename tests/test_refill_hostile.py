@@ -51,7 +51,7 @@ def told(path: Path, old: bytes, **options: Any) -> None:
     whole_or_new(path, old)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(8))
 @pytest.mark.parametrize("data", [PRINT, ABSOLUTE], ids=["relative", "absolute"])
 def test_a_truncated_print(data: bytes, seed: int, tmp_path: Path) -> None:
@@ -102,6 +102,7 @@ def test_a_print_without_infill_stays_as_it_is(tmp_path: Path) -> None:
     assert path.read_bytes() == old
 
 
+@pytest.mark.slow
 def test_a_second_run_changes_nothing(tmp_path: Path) -> None:
     path = put(tmp_path, PRINT)
     refill(path)
@@ -210,7 +211,7 @@ def test_one_line_on_stderr_and_exit_1(tmp_path: Path) -> None:
     assert done.stdout == ""
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("size", [0, 3000, len(PRINT) - 10])
 def test_a_full_disk_leaves_the_old_print_whole(size: int, tmp_path: Path) -> None:
     path = put(tmp_path, PRINT)
@@ -236,7 +237,7 @@ def test_ctrl_c_at_any_moment_leaves_the_old_print(moment: float, calls_of_refil
     assert list(tmp_path.iterdir()) == [path]
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_ctrl_c_while_it_writes_leaves_the_old_print(tmp_path: Path) -> None:
     path = put(tmp_path, PRINT)
     interrupted(["refill", str(path)], calls=5, writing=tmp_path)

@@ -91,7 +91,7 @@ def room(path: Path) -> float:
 # --- patterns --------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("name", FAMILIES)
 def test_a_pattern_takes_the_filament_that_was_there(name: str, taller: Path, tmp_path: Path) -> None:
     """Within 1 %, with no more retractions; an independent judge finds nothing else changed."""
@@ -142,7 +142,7 @@ def test_filament_that_is_off_is_told(asked: dict[str, Any], ratio: float, told:
     assert [f"{ratio - 1:+.1%} filament" in problem for problem in problems] == [True] * told
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("density", [0.05, 0.2, 0.4])
 @pytest.mark.parametrize("name", ["honeycomb", "rectilinear", "grid"])
 def test_density_is_the_share_that_lines_fill(name: str, density: float, wide: Path, tmp_path: Path) -> None:
@@ -155,6 +155,7 @@ def test_density_is_the_share_that_lines_fill(name: str, density: float, wide: P
     assert filament["infill_after_mm"] / per_mm * SPACING / room(wide) == pytest.approx(density, rel=0.01)
 
 
+@pytest.mark.slow
 def test_a_whole_number_is_a_density_too(honeycomb: Path) -> None:
     """1 is all of it, not the filament that was there; rows of beads beside one another leave no room to turn."""
     for density in (1, 1.0):
@@ -192,7 +193,7 @@ def test_rounding_leaves_what_it_promises(honeycomb: Path, kept: Path) -> None:
     assert bonded(new) >= LEAST_SHARE * bonded(old) - 0.01
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("chosen", [0.15, 0.3, float("inf")])
 def test_a_print_that_lost_too_much_is_drawn_again(
     chosen: float, honeycomb: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -327,13 +328,14 @@ def test_what_is_refilled_already_is_copied(kept: Path, tmp_path: Path) -> None:
         refill(kept, output=copy, overwrite=False)
 
 
+@pytest.mark.slow
 def test_a_copy_that_cannot_be_written_is_told(kept: Path, tmp_path: Path) -> None:
     with pytest.raises(OutputError) as error:
         refill(kept, output=tmp_path / "no folder" / "copy.gcode")
     assert "\n" not in str(error.value)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("pattern", ["keep", "honeycomb"])
 def test_layers_asked_for(pattern: str, honeycomb: Path, tmp_path: Path) -> None:
     """Only these change, counted from 1; corners are counted where they were rounded."""
@@ -362,6 +364,7 @@ def test_radius_0_changes_nothing_of_honeycomb(honeycomb: Path, tmp_path: Path) 
     assert done.report["rounding"]["corners"] == 0
 
 
+@pytest.mark.slow
 def test_radii_are_as_asked(honeycomb: Path, kept: Path) -> None:
     """Reported by tenths of an octave, 4 % to either side."""
     report = refill(honeycomb, dry_run=True, smooth_radius=0.5).report
@@ -380,6 +383,7 @@ def test_same_filament_widens_beads(honeycomb: Path, tmp_path: Path) -> None:
     assert judge(honeycomb.read_bytes(), new.read_bytes(), filament=(0.999, 1.001)) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("asked", "said"),
     [

@@ -120,6 +120,7 @@ def test_turning_solid_into_void_turns_the_sign() -> None:
     assert np.abs(refine_bricks(~solid, TWENTY).to_dense() + field).max() < 1e-6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("axis", [0, 1, 2])
 def test_mirrored_axes(axis: int) -> None:
     """On a grid that lies on the lattice of bricks in the same way from both ends, a law; on others nearly."""
@@ -146,6 +147,7 @@ def test_data_stay_as_they_are_and_progress_is_told() -> None:
     assert told == [k / 65 for k in range(65)]
 
 
+@pytest.mark.slow
 def test_a_sphere_is_round() -> None:
     """Plain smoothing to the volume comes to 0.030: an even shift, its one error on a sphere, goes with the level."""
     centre = [0.31, -0.17, 0.43]

@@ -336,6 +336,7 @@ def with_lists(value: Any) -> Any:
     return [with_lists(item) for item in value] if isinstance(value, (list, tuple)) else value
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("word", [pytest.param(word, marks=LONG.get(word, ())) for word in REPORTS])
 def test_the_declared_keys_are_those_of_real_reports(word: str, results: Results, tmp_path: Path) -> None:
     reports = REPORTS[word](tmp_path, results)

@@ -180,6 +180,7 @@ def test_a_small_file_cannot_ask_for_all_memory(tmp_path: Path, monkeypatch: pyt
 # --- what is written is read back ------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", list(FIELD_WRITERS))
 @pytest.mark.parametrize("space", ["", "LPS"])
 @pytest.mark.parametrize("dtype", [bool, np.int16, np.uint8, np.float32, float, np.float16])

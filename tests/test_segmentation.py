@@ -252,6 +252,7 @@ def test_grey_keeps_the_sign_and_the_bounds(dtype: Any) -> None:
     assert np.array_equal(values, before)
 
 
+@pytest.mark.slow
 def test_grey_of_a_flipped_and_scaled_scan_is_the_same() -> None:
     """Grey values have no unit: another zero and another scale change nothing but rounding to 32 bits."""
     values = 200 * np.clip(ball(), -3, 3)

@@ -277,7 +277,7 @@ def test_what_was_measured_is_handed_to_a_surface_that_differs_in_a_place() -> N
     assert max(farthest(again, surface), farthest(surface, again, 3)) <= 0.11
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @pytest.mark.parametrize("shape", ["ball", "plate", "gyroid", "box with a hole"])
 @pytest.mark.parametrize("tolerance", [0.05, 0.3, 1.0])
 def test_a_level_face_has_nothing_near_that_faces_elsewhere(shape: str, tolerance: float) -> None:

@@ -37,6 +37,7 @@ def described(inventory: Path) -> set[str]:
     return {name for name, kind, *_ in map(str.split, lines) if kind.startswith("py:")}
 
 
+@pytest.mark.longest
 @pytest.mark.parametrize("package", [infill, patterns], ids=lambda package: package.__name__)
 def test_every_public_name_is_described(package: object, site: Path) -> None:
     names = {f"{package.__name__}.{name}" for name in package.__all__}

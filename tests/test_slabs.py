@@ -173,7 +173,7 @@ def test_a_large_part_is_measured_slab_by_slab(monkeypatch: pytest.MonkeyPatch) 
 # --- surfaces ---------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("radius", [0.0, 0.25, 1.5])
 @pytest.mark.parametrize("pattern", ["honeycomb", "rectilinear", "concentric-heart", "concentric"])
 def test_slabs_make_the_surfaces_of_the_whole(pattern: str, radius: float, space: Interior) -> None:
@@ -259,7 +259,6 @@ def test_too_few_layers_beside_a_slab_are_seen(space: Interior, monkeypatch: pyt
         surfaces_by_slabs(task, fields, tolerance=0.0)
 
 
-@pytest.mark.slow
 def test_pieces_that_do_not_meet_are_refused() -> None:
     whole = surface(trimesh.creation.box((4, 4, 4)).subdivide().subdivide())
     pieces = [cut_slab_piece(whole, low, high) for low, high in ((-3, 0), (0, 3))]
@@ -296,7 +295,7 @@ def test_open_edges_stay_to_the_last_bit() -> None:
     assert TriangleTree.of(few).nearest(half.vertices)[0].max() <= 0.1
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("pattern", ["honeycomb", "rectilinear", "concentric-heart"])
 def test_simplified_slabs_stay_within_the_tolerance(pattern: str, space: Interior) -> None:
     task, fields = drawn(in_slabs(space), pattern)

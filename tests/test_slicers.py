@@ -44,7 +44,7 @@ def design(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFact
     return result, result.save(tmp_path_factory.mktemp("slicers") / f"{request.param}.stl")
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @needs_prusa
 def test_a_slicer_reads_the_mesh_without_repair(design: tuple[Result, Path]) -> None:
     result, path = design
@@ -118,7 +118,7 @@ def test_a_gap_between_layers_is_a_message(slice_mesh: Slicer, tmp_path: Path) -
         assert sliced["layers"] < round(6 / slicers.LAYER_HEIGHT)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @needs_prusa
 @pytest.mark.parametrize("refine", [False, True])
 def test_a_slicer_reads_a_smoothed_scan_without_repair(refine: bool, tmp_path: Path) -> None:

@@ -77,7 +77,7 @@ def test_usage_errors_exit_2(words: list[str], folder: Path) -> None:
     assert not (folder / "a.stl").exists()
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @pytest.mark.parametrize(
     ("source", "suffix"),
     [("ball.npy", ".stl"), ("s.stl", ".3mf"), ("p.xyz", ".obj"), ("p.ply", ".ply"), ("ball.npy", ".glb")],
@@ -113,6 +113,7 @@ def test_the_report_is_one_object_on_stdout_and_talk_goes_to_stderr(folder: Path
     assert report("ball.npy")["files"] == []
 
 
+@pytest.mark.slow
 def test_quiet_means_quiet(folder: Path) -> None:
     result = run("smooth", "ball.npy", "-o", "a.stl", "-q")
     assert (result.exit_code, result.stdout, result.stderr) == (0, "", "")
@@ -134,7 +135,7 @@ def test_a_real_process_says_the_same(folder: Path) -> None:
 # --- units -----------------------------------------------------------------------------------------------
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_one_part_in_four_units_gives_one_mesh(folder: Path) -> None:
     part = trimesh.creation.box(extents=(40, 20, 10))
     volumes, meshes = [], []
@@ -163,7 +164,7 @@ def test_a_part_in_metres_is_questioned(name: str, data: Path, folder: Path) -> 
     assert 10 < max(large["extents"]) < 200
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @pytest.mark.usefixtures("log_heard")
 def test_a_fine_closed_mesh_is_told_of_filters_and_nothing_else_is(folder: Path) -> None:
     """A ball of 1280 triangles whose edges are 1.4 mm long, on the average."""
@@ -191,7 +192,7 @@ def test_a_fine_closed_mesh_is_told_of_filters_and_nothing_else_is(folder: Path)
         assert hints(*words) == 0, words
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @pytest.mark.usefixtures("log_heard")
 def test_points_in_metres_are_questioned_too(folder: Path) -> None:
     np.savetxt("m.xyz", np.loadtxt("p.xyz") / 1000)
@@ -212,7 +213,7 @@ def turn() -> np.ndarray:
     return about_z @ about_x
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @pytest.mark.parametrize("mirror", [(1, 1, 1), (-1, 1, 1), (1, 1, -1), (-1, -1, 1)])
 def test_a_ball_in_a_turned_scan_lies_at_its_physical_point(mirror: tuple[int, ...], folder: Path) -> None:
     """Written by SimpleITK, with uneven cells; the mesh stands where SimpleITK says the middle is."""
@@ -292,6 +293,7 @@ def test_ways_to_say_what_is_solid(words: list[str], folder: Path) -> None:
     assert found["grid"]["spacing"] == [0.5] * 3
 
 
+@pytest.mark.slow
 def test_spacing_may_differ_by_axis(folder: Path) -> None:
     found = report("ball.npy", "--spacing", "0.5, 1,2")
     assert found["grid"]["spacing"] == [0.5, 1, 2]  # twice as high as wide is not too thick
@@ -344,7 +346,7 @@ def test_simplified_meshes_are_closed(words: list[str], folder: Path) -> None:
     assert "simplified" in result.stderr
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_broken_walls_are_an_error_and_allowed_on_request(folder: Path) -> None:
     solid = np.zeros((60, 30, 30), dtype=bool)
     solid[4:16, 6:24, 6:24] = solid[44:56, 6:24, 6:24] = solid[16:44, 6:24, 14:16] = True
@@ -361,6 +363,7 @@ def test_broken_walls_are_an_error_and_allowed_on_request(folder: Path) -> None:
     assert_printable(read_mesh(folder / "a.stl").to_trimesh())
 
 
+@pytest.mark.slow
 def test_a_speck_that_vanishes_is_told(folder: Path) -> None:
     solid = BALL.copy()
     solid[0, 0, 0] = True
@@ -511,6 +514,7 @@ def test_all_outputs_appear_or_none(folder: Path) -> None:
     assert sorted(folder.iterdir()) == before
 
 
+@pytest.mark.slow
 def test_text_is_written_on_request(folder: Path) -> None:
     assert run("smooth", "ball.npy", "-o", "a.stl", "--ascii").exit_code == 0
     assert (folder / "a.stl").read_bytes().startswith(b"solid")

@@ -78,7 +78,7 @@ def test_ctrl_c_while_it_writes_leaves_no_file(small: Path, tmp_path: Path) -> N
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_a_device_as_output(small: Path) -> None:
     """/dev/null has no suffix; a name of a device cannot be replaced, and is not."""
     done = subprocess.run(

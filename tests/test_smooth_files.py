@@ -210,6 +210,7 @@ def test_one_solid_voxel_gives_a_closed_mesh(shape: tuple[int, int, int], tmp_pa
     assert mesh.volume == pytest.approx(1, rel=0.01)
 
 
+@pytest.mark.slow
 def test_folders_of_slices(tmp_path: Path) -> None:
     (tmp_path / "scan").mkdir()
     for k in range(BALL.shape[2]):

@@ -178,7 +178,7 @@ def test_void_around_the_data_moves_the_mesh_and_nothing_else(before: tuple[int,
     assert other.report["topology"]["result"] == one.report["topology"]["result"]
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @settings(max_examples=8)
 @given(st.floats(1e-3, 1e3))
 @example(0.3)
@@ -364,6 +364,7 @@ def test_level_volume_keeps_a_ball_and_level_0_shrinks_it(radius: int, steps: in
         assert shrunk.report["solid"]["level"]["common"] == 0
 
 
+@pytest.mark.slow
 def test_each_of_several_components_keeps_its_volume() -> None:
     """Far enough apart that none feels another: 30 cells, against 16 at which the equation forgets."""
     shape = (110, 40, 40)
@@ -378,6 +379,7 @@ def test_each_of_several_components_keeps_its_volume() -> None:
     assert result.report["solid"]["level"]["lowest"] < result.report["solid"]["level"]["highest"]
 
 
+@pytest.mark.slow
 def test_a_component_with_a_cavity_and_a_component_in_it() -> None:
     shape = (50, 50, 50)
     solid = ball(shape, (24.5,) * 3, 22) & ~ball(shape, (24.5,) * 3, 16) | ball(shape, (24.5,) * 3, 8)
@@ -417,6 +419,7 @@ def test_a_slit_of_two_cells_does_not_change_the_volume() -> None:
 # --- the edge of the grid --------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("radius", [6, 11, 14])
 def test_a_solid_that_the_grid_cuts_is_closed_there(radius: int) -> None:
     """The cut is flat, at the edge of the grid: where the data end."""
@@ -473,6 +476,7 @@ def with_specks() -> Solid:
     return solid
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("largest", "gone", "components"), [(0.0, 0, 4), (0.1249, 0, 4), (0.125, 2, 2), (1.0, 3, 1)])
 def test_despeckling_takes_what_is_small_and_nothing_else(largest: float, gone: int, components: int) -> None:
     """Cells of 0.125 mm³: two specks of one, one of eight."""
@@ -509,7 +513,7 @@ def test_a_speck_that_vanishes_is_told_and_no_error() -> None:
     assert result.mesh.volume == pytest.approx(solid.sum(), rel=VOLUME)
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @pytest.mark.parametrize(
     "options",
     [

@@ -69,6 +69,7 @@ def test_a_run_does_what_was_foreseen(words: list[str], folder: Path) -> None:
         assert plan["input"]["segmentation"]
 
 
+@pytest.mark.slow
 def test_it_is_told_in_words(folder: Path) -> None:
     result = run("smooth", "ct.npy", "--threshold", "0", "--dry-run", "-o", "a.stl")
     assert result.exit_code == 0, result.output

@@ -214,7 +214,7 @@ def test_faces_hidden_inside_are_no_loss_and_sheets_are_told() -> None:
     assert any("of faces that bound no solid are left out" in change for change in report["verdict"]["changes"])
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_finer_voxels_are_tried_where_something_thin_would_be_lost() -> None:
     """A fin of half a voxel at 200 voxels: kept at 400, and told."""
     part = union(box(100, 20, 20), box(0.4, 20, 30, (0, 0, 20)))
@@ -237,6 +237,7 @@ def test_crumbs_are_taken_out_and_real_parts_stay() -> None:
     assert smooth_mesh(surface_of(small), voxel=1.0).report["components"] == 3
 
 
+@pytest.mark.slow
 def test_thick_slices_are_interpolated() -> None:
     """A ball in slices of five pixels: nearer to the ball than with the slices as they are, and no terraces."""
     shape, size = (50, 50, 10), np.array([1.0, 1.0, 5.0])
@@ -252,7 +253,7 @@ def test_thick_slices_are_interpolated() -> None:
     assert off.std() < 0.7 * (np.linalg.norm(stretched, axis=1) - 20).std()
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @pytest.mark.parametrize(("share", "method"), [(0.0, "refine"), (0.1, "plain")])
 def test_noise_is_measured_and_smoothed_plainly(share: float, method: str, rng: np.random.Generator) -> None:
     solid = ((np.indices((60, 60, 60)) - 29.5) ** 2).sum(axis=0) < 22**2

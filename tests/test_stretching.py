@@ -127,6 +127,7 @@ def specification(table: NDArray[np.float32], coordinates: Floats, step: float, 
     return found.reshape(shape)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_the_kernel_computes_what_it_is_to(sign: float) -> None:
     from infill.kernels.stretched import from_stretched_period

@@ -152,6 +152,7 @@ def test_a_wall_between_narrow_voids_is_a_wall() -> None:
     assert compare(two, two.replace("#..#..#", "#.....#")).voids_joined == 1
 
 
+@pytest.mark.slow
 @given(seed=st.integers(0, 2**32 - 1))
 def test_the_solid_area_is_the_extruded_volume(seed: int) -> None:
     """A tall prism with sharp edges: every layer but the rounded ends has the area of the layer."""

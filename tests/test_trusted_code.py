@@ -74,7 +74,7 @@ def plain(text: str) -> str:
     return "theirs.toml"
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("write", [attached, plain])
 @pytest.mark.parametrize("where", SAYS)
 @pytest.mark.parametrize("words", [["-o", "a.stl"], ["--dry-run"], ["--save-config", "-"]])
@@ -87,6 +87,7 @@ def test_code_that_only_a_file_names_is_not_run(write: object, where: str, words
     assert not Path("a.stl").exists()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("write", [attached, plain])
 def test_code_is_run_if_it_is_typed_or_the_file_is_trusted(write: object) -> None:
     config = write(SAYS["pattern"])  # type: ignore[operator]
@@ -137,6 +138,7 @@ def test_a_trusted_file_may_name_files_from_elsewhere(tmp_path: Path) -> None:
     assert resolve_fill(typed, config=config).request.pattern == "gyroid"
 
 
+@pytest.mark.slow
 @settings(max_examples=50, deadline=None)
 @given(st.text(max_size=20), st.sampled_from(["pattern", "by", "labels"]))
 def test_whatever_is_named_is_told_on_one_line(text: str, name: str) -> None:

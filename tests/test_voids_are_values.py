@@ -40,7 +40,7 @@ def test_a_grading_for_two_parts_gives_what_fresh_ones_give(options: dict[str, A
         assert used.report["graded"] == fresh.report["graded"]
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("align", ["part", "body"])
 @pytest.mark.parametrize("pattern", ["gyroid", "honeycomb", "cross-3d", "adaptive-cubic", "lightning"])
 def test_voids_drawn_again_are_the_same(pattern: str, align: str) -> None:

@@ -133,6 +133,7 @@ def test_nifti_lies_where_nibabel_says(
     assert any("both codes are 0" in each for each in said) == (s == q == 0)
 
 
+@pytest.mark.slow
 @given(affines(), st.sampled_from(["<", ">"]), st.sampled_from([1, 2]), st.booleans())
 def test_nifti_in_every_form_lies_at_its_matrix(affine: np.ndarray, order: str, version: int, packed: bool) -> None:
     size = tuple(np.linalg.norm(affine[:3, :3], axis=0))
@@ -391,6 +392,7 @@ def test_an_encoding_that_is_not_read_is_named(encoding: str) -> None:
 # --- MetaImage -------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @given(
     affines(),
     st.sampled_from(["TransformMatrix", "Rotation", "Orientation"]),

@@ -59,6 +59,7 @@ NO_LENGTHS += ("ly", "parsec", "kg", "m/s", "mm^2", "mm2", "1", "??", "arbitrary
 WORDS = [(word, scale) for scale, words in MEANINGS.items() for word in words]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("word", "scale"), WORDS)
 def test_a_word_has_its_length(word: str, scale: float) -> None:
     assert millimetres(word) == pytest.approx(scale, rel=1e-15)  # 12 or 36 times 25.4, rounded

@@ -109,6 +109,7 @@ def test_a_diameter_of_the_settings_is_taken(tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pattern", ["keep", "gyroid"])
 def test_every_drawing_of_a_print_begins_alike(pattern: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A small print is drawn several times; the firmware and the rule of E are known before its first line."""

@@ -135,7 +135,7 @@ def test_axes_are_all_alike(order: tuple[int, ...]) -> None:
     assert np.array_equal(voxelise(turned, resolution=30).values, voxelise(mesh, resolution=30).values.transpose(order))
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @pytest.mark.parametrize("scale", [1e-3, 25.4, 1e4])
 def test_units_scale_the_grid_and_change_no_cell(scale: float) -> None:
     mesh = closed_mesh(7, 15)
@@ -219,6 +219,7 @@ def test_solid_in_a_cavity_is_solid() -> None:
         assert size(voxelise(mesh, voxel=0.25)) == pytest.approx(BALL.volume * (1 - 0.343 + 0.064), rel=0.003)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("missing", range(12))
 def test_a_box_without_a_triangle_is_the_box(missing: int) -> None:
     whole = surface(box(5, 4, 3))
