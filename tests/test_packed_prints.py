@@ -153,7 +153,7 @@ def test_the_command_names_the_plates(archive: Path, tmp_path: Path) -> None:
     assert result.exit_code == 0, result.stderr
     assert "5 of 5 sections in 9 layers" in result.stderr
     assert "plates    1, 2\n" in result.stderr
-    assert json.loads(result.stdout)["files"] == [str(output)]
+    assert json.loads(result.stdout)["files"] == [str(output), str(tmp_path / "layer.png")]
     assert archive.read_bytes() == old
     assert (tmp_path / "layer.png").stat().st_size > 1000
     refill(archive)
