@@ -16,6 +16,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Integers
 from infill.errors import GeometryError
 from infill.isosurfaces.components import Components, dilate, dilate_cores, erode_to_cores
 from infill.isosurfaces.sparse_marching import (
@@ -36,7 +37,6 @@ from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
 
 Bits = NDArray[np.uint16]
-Places = NDArray[np.int64]
 
 MANY_CHANGES = 20_000  # cells: if more than this have changed, it is faster to compare everything
 SHARE = 0.5  # of all bricks: if more than this have to be examined, it is faster to compare everything
@@ -72,8 +72,8 @@ class SignChanges:
     level: float
     data: Bits
     result: Bits
-    places: Places
-    doubt: Places
+    places: Integers
+    doubt: Integers
     euler_number: int
 
     @classmethod
@@ -105,21 +105,21 @@ class SignChanges:
         )
 
 
-def _join_places(places_a: NDArray[np.int32], places_b: NDArray[np.int32]) -> Places:
+def _join_places(places_a: NDArray[np.int32], places_b: NDArray[np.int32]) -> Integers:
     """Join two lists of places; return each place once."""
-    joined: Places = np.concatenate([places_a, places_b]).astype(np.int64)
+    joined: Integers = np.concatenate([places_a, places_b]).astype(np.int64)
     return np.unique(joined, axis=0) if len(joined) else joined
 
 
-def set_cells(field: SparseField, bits: Bits) -> Places:
+def set_cells(field: SparseField, bits: Bits) -> Integers:
     """List the cells that are set in kept bricks, (N, 3), on the lattice."""
     words = np.flatnonzero(np.ascontiguousarray(bits).view(np.uint64))  # of four rows each: most are empty
     brick, row = np.divmod(words[:, None] * WORD + np.arange(WORD), ROWS)
     brick, row = (index[bits[brick, row] != 0] for index in (brick, row))
     entry, k = np.nonzero(bits[brick, row, None] >> np.arange(BRICK[2], dtype=np.uint16) & 1)
     brick, row = brick[entry], row[entry]
-    corner: Places = field.where[brick].astype(np.int64) * BRICK
-    cells: Places = corner + np.stack([row // BRICK[1], row % BRICK[1], k], axis=1)
+    corner: Integers = field.where[brick].astype(np.int64) * BRICK
+    cells: Integers = corner + np.stack([row // BRICK[1], row % BRICK[1], k], axis=1)
     return cells
 
 
@@ -193,7 +193,7 @@ def are_surfaces_near(flips: SignChanges, *, spacing: tuple[float, ...], threads
     )
 
 
-def _cut_out(field: SparseField, cubes: Places, doubt: Places) -> SparseField | None:
+def _cut_out(field: SparseField, cubes: Integers, doubt: Integers) -> SparseField | None:
     """Cut out the bricks around some cubes and around some bricks; return None if they are many.
 
     The cut makes a surface that is not real, more than `REACH` cells away from these cubes and bricks.
@@ -212,7 +212,7 @@ def _cut_out(field: SparseField, cubes: Places, doubt: Places) -> SparseField | 
     return replace(field, slots=slots, where=where, values=field.values[chosen], data=field.data[chosen])
 
 
-def _mark_cubes(field: SparseField, cubes: Places, bricks: Places) -> Bits | None:
+def _mark_cubes(field: SparseField, cubes: Integers, bricks: Integers) -> Bits | None:
     """Mark some cubes, and those of some bricks, as bits; return None if one lies where no brick is kept."""
     bits = np.zeros((len(field.where), ROWS), dtype=np.uint16)
     place, cell = np.divmod(cubes, BRICK)

@@ -10,8 +10,8 @@ from itertools import pairwise
 from typing import TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from infill.arrays import Field
 from infill.volume import Volume
 
 WHOLE = 12_000_000  # cells: spaces with fewer are kept as one array, which takes less time
@@ -23,7 +23,6 @@ QUICKLY = 1  # fastest level of zlib
 AT_ONCE = 1_000_000  # bytes that are unpacked at a time
 BITS = 8  # in a byte
 
-Field = NDArray[np.float32]
 Outcome = TypeVar("Outcome")
 
 

@@ -16,7 +16,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.arrays import Floats
+from infill.arrays import AnyIntegers, Floats
 from infill.errors import GeometryError
 from infill.graph import label_connected
 from infill.isosurfaces.components import shell_names
@@ -24,8 +24,6 @@ from infill.meshes.shells import select_faces, split_into_batches
 from infill.meshes.solids import simplify_open_piece
 from infill.meshes.split_components import concatenate_surfaces
 from infill.surface import Surface
-
-Integers = NDArray[np.integer]
 
 AT_ONCE = 30_000  # triangles simplified at a time, if they belong to several components: this saves memory
 
@@ -65,8 +63,8 @@ class SlabShells:
     """
 
     volumes: Floats
-    low: Integers
-    high: Integers
+    low: AnyIntegers
+    high: AnyIntegers
 
 
 def cut_slab_piece(surface: Surface, low: int, high: int) -> SlabPiece | None:

@@ -8,12 +8,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Field
 from infill.interior.interior import BAND, Interior
 from infill.interior.layer_stack import LayerStack
 from infill.isosurfaces.components import shell_names
 from infill.lattices.choosing import place_pattern
 from infill.lattices.request import FillSpec
-from infill.lattices.voids import Field, Layout, VoidFields
+from infill.lattices.voids import Layout, VoidFields
 from infill.meshes.shells import select_faces, shell_volumes
 from infill.meshes.winding import winding_numbers
 

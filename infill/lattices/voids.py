@@ -13,6 +13,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Field
 from infill.interior.interior import BAND, Interior
 from infill.kernels.threads import in_threads, thread_count
 from infill.lattices.fillets import corner_angle_between_walls
@@ -23,7 +24,6 @@ from patterns.unit_cells import Bars, BinnedEdges, Cellular, Network, Planes, Su
 
 WIDE = 1000.0  # cells, in which planes at odd angles to each other lie in all relative positions
 NODES = 48  # of the table of a period, along each axis
-Field = NDArray[np.float32]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

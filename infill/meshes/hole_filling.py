@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections import defaultdict
 
 import numpy as np
-from numpy.typing import NDArray
 
-from infill.arrays import Floats
+from infill.arrays import AnyIntegers, Floats
 from infill.graph import label_connected
 from infill.meshes.shells import vertex_components
 from infill.surface import Edges
@@ -16,17 +15,15 @@ FLAT = 1e-9  # a component with less than this share of its longest side cubed h
 
 WELD = 0.01  # of a cell: corners of open edges that are closer together than this are merged
 
-Integers = NDArray[np.integer]
 
-
-def open_edges(faces: Integers) -> Integers:
+def open_edges(faces: AnyIntegers) -> AnyIntegers:
     """Return the directed edges (E, 2) that faces use more often one way than back, repeated by the surplus."""
     edges = Edges.of(faces)
     directed = np.where(edges.surplus[:, None] > 0, edges.ends, edges.ends[:, ::-1])
     return np.repeat(directed, np.abs(edges.surplus), axis=0)
 
 
-def orient_faces(faces: Integers) -> Integers:
+def orient_faces(faces: AnyIntegers) -> AnyIntegers:
     """Reverse faces so that neighbours across an edge of two faces have one orientation; return all faces.
 
     Parameters
@@ -58,7 +55,7 @@ def orient_faces(faces: Integers) -> Integers:
     return np.where(reverse[:, None], faces[:, ::-1], faces)
 
 
-def weld_boundary(vertices: Floats, faces: Integers) -> Integers:
+def weld_boundary(vertices: Floats, faces: AnyIntegers) -> AnyIntegers:
     """Merge corners on open edges that are closer than `WELD`, vertices in cells; return the faces."""
     from scipy.spatial import KDTree
 
@@ -70,7 +67,7 @@ def weld_boundary(vertices: Floats, faces: Integers) -> Integers:
     return number[faces]
 
 
-def split_loops(edges: Integers) -> list[list[int]]:
+def split_loops(edges: AnyIntegers) -> list[list[int]]:
     """Split directed edges into loops that visit no vertex twice; every vertex must have as many edges in as out.
 
     >>> split_loops(np.array([[0, 1], [1, 2], [2, 0]]))
@@ -96,7 +93,7 @@ def split_loops(edges: Integers) -> list[list[int]]:
     return cycles
 
 
-def fill_holes(vertices: Floats, faces: Integers) -> tuple[Floats, Integers, int]:
+def fill_holes(vertices: Floats, faces: AnyIntegers) -> tuple[Floats, AnyIntegers, int]:
     """Put a cap on every hole; return vertices, faces and the number of holes.
 
     Parameters
@@ -142,7 +139,7 @@ def fill_holes(vertices: Floats, faces: Integers) -> tuple[Floats, Integers, int
     return np.concatenate([vertices, np.reshape(apexes, (-1, 3))]), np.concatenate([faces, cap_faces]), len(rims)
 
 
-def component_volumes(vertices: Floats, faces: Integers) -> tuple[Integers, Floats]:
+def component_volumes(vertices: Floats, faces: AnyIntegers) -> tuple[AnyIntegers, Floats]:
     """Return the component of every face, by shared vertices, and the signed volume of each component.
 
     Parameters

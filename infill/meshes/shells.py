@@ -8,14 +8,14 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import AnyIntegers
 from infill.graph import label_connected
 from infill.surface import Surface
 
-Integers = NDArray[np.integer]
 Names = NDArray[np.int32]
 
 
-def vertex_components(faces: Integers, vertices: int, *, compiled: bool = False) -> tuple[Names, int]:
+def vertex_components(faces: AnyIntegers, vertices: int, *, compiled: bool = False) -> tuple[Names, int]:
     """Label the components of a mesh; return the component of every vertex, and the number of components.
 
     Parameters
@@ -90,7 +90,7 @@ def split_into_batches(surface: Surface, limit: int) -> Iterator[Surface]:
         yield select_faces(surface, batch[shell] == number)
 
 
-def _label_by_scipy(faces: Integers, vertices: int) -> tuple[Names, int, NDArray[np.bool_]]:
+def _label_by_scipy(faces: AnyIntegers, vertices: int) -> tuple[Names, int, NDArray[np.bool_]]:
     """Label the components, with lone vertices; return names, count and a mask of used vertices: the specification."""
     start, end = faces[:, [0, 1]].ravel(), faces[:, [1, 2]].ravel()
     names, count = label_connected(start, end, vertices)
@@ -99,7 +99,7 @@ def _label_by_scipy(faces: Integers, vertices: int) -> tuple[Names, int, NDArray
     return names, count, used
 
 
-def _label_by_kernel(faces: Integers, vertices: int) -> tuple[Names, int, NDArray[np.bool_]]:
+def _label_by_kernel(faces: AnyIntegers, vertices: int) -> tuple[Names, int, NDArray[np.bool_]]:
     """Label the components as `_label_by_scipy` does, by a compiled kernel."""
     from infill.kernels.components import join_faces, name_sets
 

@@ -8,14 +8,12 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.arrays import Floats
+from infill.arrays import AnyIntegers, Floats
 from infill.graph import label_connected
 from infill.meshes.hole_filling import component_volumes, fill_holes, open_edges, orient_faces, weld_boundary
 from infill.meshes.merging import merge_unless_closed
 from infill.meshes.winding import winding_numbers
 from infill.surface import Surface
-
-Integers = NDArray[np.integer]
 
 SAMPLES = 9  # faces of a component that are sampled to find the components around it
 EQUAL = 1e-6  # radians: faces around an edge closer than this lie on each other
@@ -60,7 +58,7 @@ def split_components(surface: Surface, cell: float) -> ComponentParts:
     [4, 4]
     """
     surface = merge_unless_closed(surface.vertices, surface.faces)
-    faces: Integers = surface.faces
+    faces: AnyIntegers = surface.faces
     if len(open_edges(faces)):
         faces = orient_faces(weld_boundary(np.asarray(surface.vertices, dtype=np.float64) / cell, faces))
     names, count = edge_components(np.asarray(surface.vertices, dtype=np.float64), faces)
@@ -96,7 +94,7 @@ def concatenate_surfaces(surfaces: list[Surface]) -> Surface:
     )
 
 
-def edge_components(vertices: Floats, faces: Integers) -> tuple[Integers, int]:
+def edge_components(vertices: Floats, faces: AnyIntegers) -> tuple[AnyIntegers, int]:
     """Label the components joined by edges, or by solid between faces; return each face's component, and the count.
 
     Parameters
@@ -120,7 +118,7 @@ def edge_components(vertices: Floats, faces: Integers) -> tuple[Integers, int]:
     return label_connected(row, column, len(faces))
 
 
-def _link_by_solid(vertices: Floats, faces: Integers, sides: Integers, ahead: NDArray[np.bool_]) -> Integers:
+def _link_by_solid(vertices: Floats, faces: AnyIntegers, sides: AnyIntegers, ahead: NDArray[np.bool_]) -> AnyIntegers:
     """Link the faces around one edge that have solid between them; return pairs of sides, (n, 2).
 
     Seen along the edge, solid begins at a face that runs back along it and ends at the next one that runs ahead. All
@@ -156,7 +154,7 @@ def _link_by_solid(vertices: Floats, faces: Integers, sides: Integers, ahead: ND
     return np.array(links)
 
 
-def _used_part(surface: Surface, faces: Integers) -> Surface:
+def _used_part(surface: Surface, faces: AnyIntegers) -> Surface:
     """Return some of the faces as a surface, with only the vertices that they use."""
     used, index = np.unique(faces, return_inverse=True)
     return Surface(vertices=surface.vertices[used], faces=index.reshape(faces.shape), space=surface.space)
@@ -187,7 +185,7 @@ def _larger_around(closed: list[Surface], volumes: Floats) -> list[list[int]]:
     return holders
 
 
-def _owners(holder_lists: list[list[int]], volumes: Floats) -> Integers:
+def _owners(holder_lists: list[list[int]], volumes: Floats) -> AnyIntegers:
     """Return the part that each component belongs to: itself, or the component of which it is a cavity."""
     owners = np.arange(len(volumes))
     for i, holders in enumerate(holder_lists):

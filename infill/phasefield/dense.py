@@ -17,11 +17,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Field
 from infill.grid import spacing_of
 from infill.kernels.dense import sweep
 from infill.phasefield.allen_cahn import Smoothing
 
-Field = NDArray[np.float32]
 Data = NDArray[np.float32] | NDArray[np.int8]
 StepCoefficients = tuple[np.float32, np.float32, np.float32, np.float32, np.float32, np.float32]
 

@@ -16,9 +16,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Field
 from infill.kernels.threads import in_threads, thread_count
-
-Field = NDArray[np.float32]
 
 CELLS_AT_ONCE = 1 << 15  # cells, which stay in the cache of a processor from one step to the next
 

@@ -37,12 +37,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Field
 from infill.grid import spacing_of
 from infill.kernels import refining as kernels
 from infill.kernels.sparse import BRICK, CELLS
 from infill.kernels.threads import in_threads, thread_count
 from infill.phasefield.allen_cahn import STEEPNESS, Smoothing, diffuse, react
-from infill.phasefield.dense import Field, StepCoefficients, on_three_axes, step_coefficients
+from infill.phasefield.dense import StepCoefficients, on_three_axes, step_coefficients
 from infill.phasefield.profile import REFINED_PROFILE
 from infill.phasefield.schedule import Schedule
 from infill.phasefield.sparse import LATER_GROWTH, Bricks, SparseField, brick_states

@@ -18,13 +18,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Field
 from infill.kernels import sparse as kernels
 from infill.kernels import transfer as transfer_kernels
 from infill.kernels.compiling import log_compilation
 from infill.kernels.sparse import BRICK, CELLS, FACES, MASKS, MIXED, OUTER, OUTSIDE, SOLID_BRICK, VOID_BRICK
 from infill.kernels.threads import in_threads, thread_count
 from infill.phasefield.allen_cahn import Smoothing
-from infill.phasefield.dense import Data, Field, StepCoefficients, on_three_axes, step_coefficients
+from infill.phasefield.dense import Data, StepCoefficients, on_three_axes, step_coefficients
 
 # Room to reserve for bricks, relative to those there are: at first enough for one more layer on both sides of the
 # surface, which 8 steps cannot cross; later half as much again, so that all copies together are at most three times

@@ -17,9 +17,9 @@ from infill.gcode.sections import SPARSE
 from infill.gcode.sliced_file import SlicedText
 from infill.gcode.table import GcodeTable
 from infill.planner.bounds import Moves
+from infill.planner.feature_sums import FeatureSums
 from infill.planner.lookahead import MotionPlan, plan_moves
 from infill.planner.printing_time import make_timeline
-from infill.planner.strokes import FeatureSums
 from infill.planner.timeline import Steps
 
 

@@ -15,7 +15,7 @@ from infill.gcode.dialect import role_of
 from infill.gcode.found_limits import FIELDS_BY_MODEL, FileLimits
 from infill.gcode.limits import Limits, Model
 from infill.gcode.sliced_file import SlicedFile, SlicedText, open_sliced
-from infill.planner.strokes import FeatureSums
+from infill.planner.feature_sums import FeatureSums
 from infill.planner.timeline import Timeline
 from infill.reports.common import declare
 from infill.reports.timing import MotionReport
