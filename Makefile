@@ -12,7 +12,7 @@ ISSUE_FORMS = $(filter-out %/config.yml,$(wildcard .github/ISSUE_TEMPLATE/*.yml)
 SOURCES = $(shell find infill patterns -name '*.py')
 
 ## make demo      the three designs of the paper as STL, with a picture of each (the default)
-## make test      the suite without its longest cases, in 6 minutes
+## make test      the suite without its longest cases, in 5 minutes
 ## make longest   the cases that make test leaves out
 ## make coverage  the whole suite at once, with the share of lines that it reaches
 ## make quick     the suite without what is slow

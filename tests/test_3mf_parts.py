@@ -286,6 +286,7 @@ def test_volumes_of_triangles_that_are_not_there_are_refused(first: str, last: s
 # --- types, and what is printed ---------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["support", "solidsupport", "surface", "other", "lattice", " Support "])
 def test_objects_of_other_types_are_no_parts(kind: str, tmp_path: Path) -> None:
     things = thing(1, PART) + thing(2, COLUMN, kind=kind)

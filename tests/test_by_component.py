@@ -114,6 +114,7 @@ def test_a_solid_that_touches_itself_is_one() -> None:
     assert len(split_components(mesh, 0.1).surfaces) == 1
 
 
+@pytest.mark.slow
 def test_cavities_belong_to_what_is_around_them_and_islands_do_not() -> None:
     nested = surface(ball(10), ball(7, inwards=True), ball(4), ball(2, inwards=True))
     for mesh in (nested, Surface(vertices=nested.vertices, faces=nested.faces[:, ::-1])):

@@ -37,7 +37,7 @@ def limited(words: list[str], size: int) -> subprocess.CompletedProcess[str]:
     )
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("suffix", ["stl", "3mf", "obj", "ply", "glb"])
 def test_a_full_disk_leaves_the_old_file_whole(suffix: str, tmp_path: Path) -> None:
     path = tmp_path / f"a.{suffix}"

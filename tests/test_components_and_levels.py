@@ -201,6 +201,7 @@ def test_the_straight_profile_has_the_same_zero_and_sign() -> None:
     assert PLAIN_PROFILE.phase_level(0.0) == 0
 
 
+@pytest.mark.slow
 def test_erasing_components() -> None:
     f = ball(40, (15, 15, 15), 8) | ball(40, (33, 33, 33), 2)
     field = smooth_bricks(f, Smoothing(steps=0))
@@ -293,6 +294,7 @@ CHANGED = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("what", CHANGED)
 def test_each_change_is_told_and_no_other(what: str) -> None:
     solid, steps, changes, problems = CHANGED[what]

@@ -65,6 +65,7 @@ INSIDE = {  # what lies inside the walls, from above
 # --- from above -------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("turned", [0.0, 17.0])
 @pytest.mark.parametrize("name", INSIDE)
 def test_the_shadow_is_what_lies_inside_the_walls(name: str, turned: float) -> None:
@@ -187,7 +188,6 @@ def test_lines_are_about_as_dense_as_their_share_of_a_cell() -> None:
     assert voids.sample.apart == 1.0
 
 
-@pytest.mark.slow
 def test_rings_of_a_box_meet_at_right_angles() -> None:
     space = compute_interior(surface(box(31, 22, 9)), wall=WALL, voxel=0.5)
     voids = place_pattern(asked("concentric", phase=(0, 0)), space.part.bounds)

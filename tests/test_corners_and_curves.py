@@ -510,6 +510,7 @@ def test_a_region_is_what_walls_leave_free(name: str, kept: float) -> None:
     assert wanted.difference(whole.buffer(0.25)).is_empty
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", AREAS)
 def test_a_region_is_bounded_exactly_by_pieces_of_beads(name: str) -> None:
     """By pieces of beads, not by points on them: its outline lies nowhere nearer than asked, and is as simple."""

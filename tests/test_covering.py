@@ -58,6 +58,7 @@ def assert_sound(paths: list[Path], region: Polygon | MultiPolygon) -> None:
 # --- parts filled ----------------------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("name", "part", "density"), ASKED)
 def test_parts_are_filled_as_asked(name: str, part: str, density: float) -> None:
     family, region = FAMILIES[name], PARTS[part]
@@ -81,6 +82,7 @@ def test_parts_are_filled_as_asked(name: str, part: str, density: float) -> None
         assert travel_length(paths) < closed.get(name, 0.35) * length_of(paths)
 
 
+@pytest.mark.long
 @every_family
 def test_the_same_again(name: str) -> None:
     one, other = (cover(BRACKET, FAMILIES[name], cell=4, line_width=WIDTH, z=Z, layer=LAYER) for _ in range(2))

@@ -151,7 +151,7 @@ def test_a_print_of_curas(plugin: ModuleType, program: Path, messages: list[str]
     assert messages == []
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_characters_and_line_ends_stay(plugin: ModuleType, program: Path) -> None:
     data = items_of(PRINT.replace("\n", "\r\n").replace(";FLAVOR", ";größe \udcff 🂡\r\n;FLAVOR"))
     new = run(plugin, data, program=str(program))

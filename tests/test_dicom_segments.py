@@ -84,7 +84,7 @@ def agrees(found: Segmentation, truth: dict[int, np.ndarray], axes: Sequence[flo
     assert seen == {n: true_centres(mask, axes) for n, mask in truth.items() if mask.any()}
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @given(
     data=st.data(),
     count=st.integers(1, 4),

@@ -316,6 +316,7 @@ BROKEN = {
 }  # fmt: skip
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", BROKEN)
 def test_a_broken_file_is_told_in_one_line(tmp_path: Path, kind: str) -> None:
     name, content, said = BROKEN[kind]
@@ -340,6 +341,7 @@ def test_a_dxf_cut_off_anywhere_is_told_in_one_line(tmp_path: Path) -> None:
         assert "\n" not in str(caught.value)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("kind", "said"),
     [
@@ -562,6 +564,7 @@ def test_what_is_repeated(folder: Path, body: str, head: str, tile: tuple[float,
     assert found == pytest.approx(tile, abs=0.01)
 
 
+@pytest.mark.slow
 def test_beads_have_room(folder: Path) -> None:
     """Wherever lines come close, other paths stay 0.8 line widths away; a hundredth may be nearer, at crossings."""
     paths = read_tile_family(scribble(folder)).strands((0, 0, 20, 20), PathSpec(cell=18, line_width=WIDTH, radius=0.6))
@@ -592,6 +595,7 @@ def test_an_outline_is_kept(folder: Path) -> None:
     assert np.array_equal(path[0], path[-1])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("radius", [0.6, 1.0, 1.8])
 def test_right_angles_get_about_the_radius(folder: Path, radius: float) -> None:
     (path,) = strands(folder, '<rect x="5" y="5" width="10" height="10"/>', radius=radius)

@@ -60,6 +60,7 @@ def test_the_warning_says_how_long_and_what_to_do(tried: list[Any]) -> None:
     assert "about 2 minutes here" in duration_warning(block("60", 150_000))
 
 
+@pytest.mark.slow
 def test_a_dry_run_tells_what_many_steps_cost(tmp_path: Path) -> None:
     words = ["make", "honeycomb", *SMALL, "--dry-run", "-o", tmp_path / "a.stl"]
     result = run(*words, "--steps", LONG)

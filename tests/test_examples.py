@@ -50,7 +50,7 @@ NUMBERS = {
 }
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", GOLDEN)
 def test_the_example_gives_its_number(name: str, tmp_path: Path) -> None:
     spec = importlib.util.spec_from_file_location(f"example_{name}", FOLDER / f"{name}.py")
@@ -77,7 +77,7 @@ def main_of(script: page.Script) -> Callable[..., Entry]:
     return importlib.import_module(f"examples.paper.{script.module}").main
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.usefixtures("compiled")
 @pytest.mark.parametrize("script", page.SCRIPTS, ids=lambda script: script.entry)
 def test_the_figure_gives_its_number(script: page.Script, tmp_path: Path) -> None:

@@ -92,6 +92,7 @@ def test_the_catalogue_loads_no_family() -> None:
     assert not {"shapely", "scipy", "infill.paths.families.rows", "infill.paths.families.level_sets"} & set(loaded)
 
 
+@pytest.mark.long
 @every_family
 @every_cell
 def test_lines_are_finite_paths_that_cover_the_box(family: Family, cell: float) -> None:
@@ -123,6 +124,7 @@ def test_lines_never_cross_and_beads_never_overlap(family: Family, cell: float, 
         assert least_spacing(paths, near=NEAR, most=0.6) > share * GAP - SAMPLED
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "family", [family for name, family in FAMILIES.items() if name != "concentric"], ids=lambda family: family.name
 )
@@ -174,6 +176,7 @@ def test_the_guess_of_the_cell_is_near(family: Family, density: float) -> None:
     assert total * GAP / square.area == pytest.approx(density, rel=0.1)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", EXACT)
 @pytest.mark.parametrize("density", [0.05, 0.15, 0.25, 0.4])
 def test_the_cell_gives_the_density(name: str, density: float) -> None:
@@ -191,6 +194,7 @@ def test_the_cell_gives_the_density(name: str, density: float) -> None:
     assert total * GAP / square.area == pytest.approx(density, rel=0.01)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", TOUCHING)
 @every_cell
 def test_rows_touch_however_they_are_rounded(name: str, cell: float) -> None:
@@ -313,7 +317,7 @@ SPATIAL = [family for family in FAMILIES.values() if not family.prismatic and fa
 AROUND = (-8.0, -8.0, 8.0, 8.0)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("family", SPATIAL, ids=lambda family: family.name)
 def test_each_layer_lies_on_the_one_below(family: Family) -> None:
     """Within half a line width of one of its lines."""

@@ -294,7 +294,7 @@ def test_the_lateral_honeycomb_takes_its_overhang() -> None:
         fill(block, "lateral-honeycomb", overhang=80.0)
 
 
-@pytest.mark.longest
+@pytest.mark.long
 @pytest.mark.parametrize(("first", "second"), [(-45.0, 45.0), (-20.0, 50.0), (0.0, 30.0)])
 def test_the_walls_of_the_lateral_lattice_lean_as_asked(first: float, second: float) -> None:
     """As lines in the plane across them, a cell apart along y; and the part is as dense as asked for."""
@@ -460,7 +460,7 @@ def test_a_root_is_found_where_there_are_jumps() -> None:
 # --- fillets -----------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.longest
+@pytest.mark.long
 @pytest.mark.parametrize("radius", [1.0, 2.0])
 def test_a_right_angle_is_rounded_to_the_radius_asked_for(radius: float) -> None:
     """A block with one void, whose edges are right angles before they are smoothed."""
@@ -589,13 +589,14 @@ def test_what_hangs_free_is_left_out_and_what_is_lost_is_told() -> None:
     assert fill(box(20, 20, 20), BAR, cell=8, line_width=1.2).report["problems"] == []
 
 
+@pytest.mark.slow
 def test_a_part_far_thinner_than_the_wall_is_refused_at_once() -> None:
     """In millimetres where metres were meant: no distance is measured over thousands of cells."""
     with pytest.raises(GeometryError, match=r"0\.04 mm, is nowhere thicker .* a thinner wall, or the right unit$"):
         fill(ball(0.02), "gyroid")
 
 
-@pytest.mark.longest
+@pytest.mark.long
 @pytest.mark.parametrize("form", ["solid", "infill"])
 def test_the_infill_alone_reaches_into_the_wall(form: str) -> None:
     block = box(20, 20, 12)

@@ -66,7 +66,7 @@ def farthest(one: Surface, other: Surface) -> float:
     return float(max(there, TriangleTree.of(other).nearest(np.asarray(one.vertices, np.float64))[0].max()))
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", EVERY)
 def test_wider_walls_and_smaller_cells_are_denser(name: str) -> None:
     sizes = far(name)
@@ -106,7 +106,7 @@ def test_walls_in_the_mesh_are_as_wide_as_asked_for(name: str) -> None:
     assert across(result.stages.voids, 2.5 * width, 12 - 1 - 1.5 * width) == pytest.approx(width, rel=0.08)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", KINDS)
 def test_turning_the_part_and_the_pattern_turns_the_result(name: str) -> None:
     sizes = far(name)
@@ -117,7 +117,7 @@ def test_turning_the_part_and_the_pattern_turns_the_result(name: str) -> None:
     assert farthest(one, replace(other, vertices=np.asarray(other.vertices) @ QUARTER[:3, :3])) < 0.1
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["gyroid", "octet", "honeycomb", "cubic"])
 def test_smoothing_and_turning_may_change_places(name: str) -> None:
     """The density is met within 0.002 of it, so volumes are equal within twice that."""
@@ -347,7 +347,7 @@ FORMS: dict[str, tuple[Any, float, Any]] = {
 TURNED: dict[str, Any] = {"voxel": 0.4, "wall": 1.0, "angle": 30}
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("name", "more"),
     [("rectilinear", EXACT), ("rectilinear", TURNED), ("waved", EXACT), ("grid", EXACT), ("grid", TURNED)],
@@ -364,7 +364,7 @@ def test_lines_and_the_function_that_is_0_on_them_fill_alike(name: str, more: di
     assert max(there.max(), back.max()) < 0.04
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", KINDS)
 def test_units_are_no_matter(name: str) -> None:
     sizes = far(name)
@@ -374,7 +374,7 @@ def test_units_are_no_matter(name: str) -> None:
     assert other.volume == pytest.approx(1000 * one.volume, rel=1e-4)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", KINDS)
 def test_what_is_made_again_is_the_same(name: str) -> None:
     one, other = (fill(PART, name, density=0.3, cell=5.0, **EXACT).surface for _ in range(2))

@@ -30,6 +30,7 @@ def block() -> trimesh.Trimesh:
     return make("honeycomb", size=20, height=3, cell=5).mesh
 
 
+@pytest.mark.slow
 @every_format
 def test_a_file_read_back_is_the_same_solid(suffix: str, block: trimesh.Trimesh, tmp_path: Path) -> None:
     path = save(block, tmp_path / f"block{suffix}")

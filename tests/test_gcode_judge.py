@@ -97,6 +97,7 @@ def sliced(tmp_path_factory: pytest.TempPathFactory) -> bytes:
     return prusa_print(box(folder, (14, 14, 2.4)), folder / "box.gcode").read_bytes()
 
 
+@pytest.mark.slow
 def test_a_real_print_with_its_moves_cut_in_two_is_lawful(sliced: bytes) -> None:
     new = halves(sliced)
     assert changed(sliced, new) == infilled(sliced) > 0
@@ -292,6 +293,7 @@ FIRMWARE_FAULTS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fault", FIRMWARE_FAULTS)
 def test_a_fault_of_firmware_retraction_is_found(fault: str) -> None:
     plant, name = FIRMWARE_FAULTS[fault]

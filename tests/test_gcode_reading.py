@@ -483,6 +483,7 @@ def role_after(text: bytes) -> str:
     return marks.after.role
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "tag", [b";TYPE:Internal infill", b"; FEATURE: Sparse infill", b";TYPE:FILL", b";TYPE:Sparse infill"]
 )

@@ -57,6 +57,7 @@ def flags_of(command: str) -> set[str]:
     return {name for each in params if getattr(each, "is_flag", False) for name in each.opts}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", COMMANDS)
 def test_mathematics_stand_in_advanced_alone(command: str) -> None:
     for title, rows in panels(command).items():

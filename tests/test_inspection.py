@@ -185,7 +185,7 @@ def test_files_that_cannot_be_read(name: str, data: Path) -> None:
         check(data / "nasty" / name)
 
 
-@pytest.mark.longest
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("name", "printable"),
     [

@@ -43,7 +43,7 @@ CASES += [("prusa", "octagramspiral", 40), ("prusa", "3dhoneycomb", 40), ("prusa
 CASES += [("cura", pattern, 20) for pattern in CURA] + [("cura", "cross", 40)]
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(("engine", "pattern", "density"), CASES)
 def test_gaps_filament_and_touch_stay(engine: str, pattern: str, density: int, tmp_path: Path) -> None:
     missing = missing_prusa() if engine == "prusa" else missing_cura()

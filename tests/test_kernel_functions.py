@@ -253,6 +253,7 @@ def test_faces_are_copied_and_flat_ones_are_noted(value: float | None) -> None:
         assert [int(each) for each in rows] == [sum(1 << int(n) for n in np.flatnonzero(each)) for each in noted]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("where", [(0, 0, 0), (1, 0, 2), (2, 1, 3), (1, 1, 1)])
 def test_cells_beyond_the_grid_repeat_its_edge(where: tuple[int, int, int]) -> None:
     shape = (19, 9, 50)
@@ -334,6 +335,7 @@ def test_gates_open_by_the_means_around_a_cell(size: int, field: SparseField) ->
 # --- triangles -------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_volumes_and_slopes_of_faces() -> None:
     """Against the determinant, and, of all faces together, against moving every vertex by a little of its rate."""
     rng = np.random.default_rng(12)
@@ -395,6 +397,7 @@ def test_states_of_bricks(shape: tuple[int, int, int], kind: str) -> None:
     assert (found[-1] == OUTER).all() == (shape[0] == 15)  # which ends a cell before a brick begins
 
 
+@pytest.mark.slow
 def test_bricks_repeat_the_edge_of_what_they_are_taken_from() -> None:
     whole = np.random.default_rng(3).uniform(-1, 1, (19, 9, 50)).astype(np.float32)
     where = np.array([(0, 0, 0), (2, 1, 3), (1, 1, 1)], dtype=np.int32)

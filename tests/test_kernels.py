@@ -258,7 +258,7 @@ class TestLaws:
             other = smooth(f, spacing=tuple(size * unit for size in spacing), method=method)
             assert np.abs(other - in_mm).max() < 1e-6
 
-    @pytest.mark.longest
+    @pytest.mark.long
     def test_the_input_is_left_alone(self, method: str, shape: tuple[int, ...], rng: np.random.Generator) -> None:
         f, mask = rng.uniform(-1, 1, shape), rng.random(shape) > 0.3
         before = f.copy(), mask.copy()
@@ -436,6 +436,7 @@ def test_rescaling_is_equation_2() -> None:
             rescale(bad)
 
 
+@pytest.mark.slow
 @every_kernel
 @pytest.mark.parametrize("interface", [0.25, 1000.0])
 @pytest.mark.parametrize("alpha", [1e-4, 0.25])

@@ -160,6 +160,7 @@ SPECK = bones()
 SPECK[10:14, 40:44, 5:9] = 9  # 64 cells, all of them despeckled
 
 
+@pytest.mark.slow
 def test_one_that_fails_is_named_and_nothing_is_returned() -> None:
     with pytest.raises(ParameterError, match=r"^label 9 \(Scapula\): despeckle is 100 mm³") as caught:
         smooth_labels(SPECK, table=[Segment(value=9, name="Scapula")], despeckle=100)
@@ -225,6 +226,7 @@ def result(compiled: None) -> Result[Any, Any]:
     return smooth_labels(bones(), table=TABLE)
 
 
+@pytest.mark.slow
 def test_a_3mf_has_an_object_for_each_with_name_and_colour(result: Result[Any, Any], tmp_path: Path) -> None:
     lib3mf = pytest.importorskip("lib3mf", reason="lib3mf is not installed (extra test)")
     path = result.save(tmp_path / "all.3mf")
@@ -264,6 +266,7 @@ def test_a_glb_has_a_node_for_each_with_name_and_colour(result: Result[Any, Any]
     assert shades[1].tolist() == [0, 0, 255, 255]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", [".3mf", ".glb"])
 def test_several_objects_are_read_back_as_one_mesh(suffix: str, result: Result[Any, Any], tmp_path: Path) -> None:
     back = read_mesh(result.save(tmp_path / f"all{suffix}"))

@@ -37,7 +37,7 @@ def predicted_components_and_holes(stamp: np.ndarray) -> tuple[int, int, int]:
     return ndimage.label(solid)[1], wide, inner + narrow
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("size", "cell", "stamp"),
     [((60, 60), 6, "block"), *((*each, "block") for each in SIZES), *((*each, "exact") for each in SIZES[::5])],
@@ -75,6 +75,7 @@ def plan_of(name: str, size: Any, cell: float) -> Any:
     )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_the_defaults_keep_every_hole_of_the_stamp(name: str) -> None:
     report = make(name).report
@@ -145,7 +146,7 @@ def test_the_block_stamp_shows_its_true_widths() -> None:
     assert width["p95"] / 0.45 == pytest.approx(1.38, abs=0.04)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("degrees", [0, 7, 15, 22.5, 45])
 def test_the_exact_stamp_keeps_its_width(degrees: float) -> None:
     width = make(Honeycomb(angle=degrees), stamp="exact", cells=5).report["wall_width"]
@@ -154,7 +155,7 @@ def test_the_exact_stamp_keeps_its_width(degrees: float) -> None:
     assert width["p95"] < 1.02 * 0.45
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("unit", [1 / 25.4, 0.001])
 def test_the_unit_of_length_does_not_matter(unit: float) -> None:
     for surface, tolerance in (("grid", 0), ("prism", 0.002)):
@@ -402,6 +403,7 @@ def test_an_open_surface_is_never_written(monkeypatch: pytest.MonkeyPatch) -> No
 # --- what it will cost -----------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("surface", ["prism", "grid"])
 @pytest.mark.parametrize("stamp", ["block", "exact"])
 @pytest.mark.parametrize("name", BUILT_IN)

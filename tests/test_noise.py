@@ -11,6 +11,7 @@ from infill.kernels.noise import count_overruled
 from infill.voxels.noise import NOISY, count_overruled_cells, noise_share, work_shape
 
 
+@pytest.mark.slow
 @given(
     shape=st.tuples(st.integers(1, 9), st.integers(1, 7), st.integers(1, 40)),
     share=st.sampled_from([0.0, 0.05, 0.5, 1.0]),

@@ -176,6 +176,7 @@ def test_make_takes_a_name_or_a_pattern(name: str) -> None:
     assert instantiate_pattern(name, {"cell": 5.0}) == instantiate_pattern(PATTERNS[name](cell=5.0), {})  # type: ignore[arg-type]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [*BUILT_IN, *IN_SPACE])
 def test_fill_takes_a_name_or_a_pattern(name: str) -> None:
     """The same request, with the same voids: cell and density are as open as they are with a name."""

@@ -271,6 +271,7 @@ def test_shared_parameters_are_flags_and_can_be_set(tmp_path: Path) -> None:
     assert (tmp_path / "a.stl").read_bytes() == (tmp_path / "b.stl").read_bytes()
 
 
+@pytest.mark.slow
 def test_a_plugin_may_name_its_parameters_as_it_likes(tmp_path: Path) -> None:
     config, mesh = tmp_path / "a.toml", tmp_path / "a.stl"
     words = ["--set", "size=2", "--set", "steps=3,1", "--set", "pattern=10", "--steps", "8"]
@@ -362,6 +363,7 @@ def test_values_of_options_are_completed() -> None:
     assert offered("infill smooth a.stl --units ") == {"um", "mm", "cm", "m", "in"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "words", ["infill make --set ", "infill make nonsense --set ", "infill make zigzag --set cell=5"]
 )

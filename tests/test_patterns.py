@@ -59,7 +59,7 @@ def test_lines_and_points_lie_inside_the_region(pattern: Pattern, region: shapel
     assert shapely.contains_xy(region.buffer(ROUNDING), points).all()
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @every_design
 def test_points_follow_the_lines_closely(pattern: Pattern) -> None:
     lines, spacing = pattern.lines(REGIONS[0]), 0.25

@@ -175,7 +175,6 @@ def test_a_layer_repeated_is_smoothed_as_the_layer() -> None:
 # --- energy, precision, the paper's sphere --------------------------------------------------------
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("dt", [1e-3, 0.1, 1.0, 100.0, 1e5])
 def test_the_energy_never_rises(dt: float) -> None:
     """Eyre: 2 phi taken implicitly is enough for any time step while phi² <= 5/3, where 3 phi² - 1 <= 2 * 2."""

@@ -103,6 +103,7 @@ def test_a_turn_keeps_the_lines(name: str) -> None:
     assert apart(plain, other) > 0.1
 
 
+@pytest.mark.long
 @every_turning
 def test_a_turned_pattern_takes_the_length_asked_for(name: str) -> None:
     """Within 1 % on a disc, inside it, without crossing, beads apart as those of the pattern are."""
@@ -296,7 +297,7 @@ def test_a_turned_pattern_takes_the_filament_that_was_there(name: str, gcode: Pa
     assert gcode.read_bytes() == texts[1]
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["rectilinear", "gyroid", "concentric", "drawing"])
 def test_the_cell_decides_the_filament(name: str, gcode: Path, tile: Path) -> None:
     """Beads are as wide as the slicer's: half the cell takes twice the filament.

@@ -275,7 +275,7 @@ def test_look_ahead_is_its_definition(rows: list[tuple[float, float]]) -> None:
     assert look_ahead(joints, reach) == pytest.approx(expected, abs=1e-9)
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @given(paths(), st.sampled_from(EVERY), st.integers(1, 7))
 @settings(deadline=None, max_examples=60)
 def test_moves_in_pieces_are_planned_as_one(moves: Moves, limits: Limits, size: int) -> None:

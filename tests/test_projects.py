@@ -379,7 +379,7 @@ def test_prusaslicer_prints_the_infill_and_no_wall_more(filled: Result[Any, Fill
     assert "edges_fixed" not in facts
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @prusa
 @pytest.mark.parametrize(
     "rule", ["too many triangles", "metadata without a type", "modifier first", "settings of no object"]

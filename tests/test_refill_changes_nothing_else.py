@@ -55,7 +55,7 @@ def refilled(path: Path, output: Path, pattern: str) -> bytes:
     return output.read_bytes()
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("pattern", FILAMENT)
 @pytest.mark.parametrize("name", CORPUS)
 def test_nothing_else_changes(name: str, pattern: str, prints_of_all_kinds: Mapping[str, Path], tmp_path: Path) -> None:
@@ -82,7 +82,7 @@ def test_nothing_else_changes(name: str, pattern: str, prints_of_all_kinds: Mapp
     assert output.read_bytes() == new
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("pattern", FILAMENT)
 def test_in_place_is_as_beside(pattern: str, prints_of_all_kinds: Mapping[str, Path], tmp_path: Path) -> None:
     path = tmp_path / "print.gcode"
@@ -105,7 +105,7 @@ def test_a_kept_path_is_shorter(prints_of_all_kinds: Mapping[str, Path], tmp_pat
     assert 0.85 * infill < kept[0] < infill
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(
     "name", ["prusa", "prusa-absolute", "prusa-grid", "prusa-gyroid", "cura-slowed", "cura", "orca"]
 )
@@ -123,7 +123,7 @@ def test_kept_paths_lie_as_near_as_is_asked(
     assert judge(old, new, deviation=deviation + 0.02, filament=FILAMENT["keep"]) == []
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(
     "name",
     [

@@ -239,6 +239,7 @@ def test_the_preview_shows_a_layer_that_is_asked_for(
     assert shown == [f"layer {layer}, as sliced", f"layer {layer}, refilled"]
 
 
+@pytest.mark.slow
 def test_a_picture_that_is_in_the_way_leaves_the_print_alone(gcode: Path, tmp_path: Path) -> None:
     picture = tmp_path / "layer.png"
     picture.write_bytes(PICTURE)

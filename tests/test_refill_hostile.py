@@ -102,7 +102,7 @@ def test_a_print_without_infill_stays_as_it_is(tmp_path: Path) -> None:
     assert path.read_bytes() == old
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_a_second_run_changes_nothing(tmp_path: Path) -> None:
     path = put(tmp_path, PRINT)
     refill(path)

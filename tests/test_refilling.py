@@ -91,7 +91,7 @@ def room(path: Path) -> float:
 # --- patterns --------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", FAMILIES)
 def test_a_pattern_takes_the_filament_that_was_there(name: str, taller: Path, tmp_path: Path) -> None:
     """Within 1 %, with no more retractions; an independent judge finds nothing else changed."""
@@ -142,7 +142,7 @@ def test_filament_that_is_off_is_told(asked: dict[str, Any], ratio: float, told:
     assert [f"{ratio - 1:+.1%} filament" in problem for problem in problems] == [True] * told
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("density", [0.05, 0.2, 0.4])
 @pytest.mark.parametrize("name", ["honeycomb", "rectilinear", "grid"])
 def test_density_is_the_share_that_lines_fill(name: str, density: float, wide: Path, tmp_path: Path) -> None:
@@ -193,7 +193,7 @@ def test_rounding_leaves_what_it_promises(honeycomb: Path, kept: Path) -> None:
     assert bonded(new) >= LEAST_SHARE * bonded(old) - 0.01
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("chosen", [0.15, 0.3, float("inf")])
 def test_a_print_that_lost_too_much_is_drawn_again(
     chosen: float, honeycomb: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -335,7 +335,7 @@ def test_a_copy_that_cannot_be_written_is_told(kept: Path, tmp_path: Path) -> No
     assert "\n" not in str(error.value)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("pattern", ["keep", "honeycomb"])
 def test_layers_asked_for(pattern: str, honeycomb: Path, tmp_path: Path) -> None:
     """Only these change, counted from 1; corners are counted where they were rounded."""

@@ -173,7 +173,7 @@ def test_a_large_part_is_measured_slab_by_slab(monkeypatch: pytest.MonkeyPatch) 
 # --- surfaces ---------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("radius", [0.0, 0.25, 1.5])
 @pytest.mark.parametrize("pattern", ["honeycomb", "rectilinear", "concentric-heart", "concentric"])
 def test_slabs_make_the_surfaces_of_the_whole(pattern: str, radius: float, space: Interior) -> None:
@@ -259,6 +259,7 @@ def test_too_few_layers_beside_a_slab_are_seen(space: Interior, monkeypatch: pyt
         surfaces_by_slabs(task, fields, tolerance=0.0)
 
 
+@pytest.mark.slow
 def test_pieces_that_do_not_meet_are_refused() -> None:
     whole = surface(trimesh.creation.box((4, 4, 4)).subdivide().subdivide())
     pieces = [cut_slab_piece(whole, low, high) for low, high in ((-3, 0), (0, 3))]

@@ -118,7 +118,7 @@ def test_a_gap_between_layers_is_a_message(slice_mesh: Slicer, tmp_path: Path) -
         assert sliced["layers"] < round(6 / slicers.LAYER_HEIGHT)
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @needs_prusa
 @pytest.mark.parametrize("refine", [False, True])
 def test_a_slicer_reads_a_smoothed_scan_without_repair(refine: bool, tmp_path: Path) -> None:

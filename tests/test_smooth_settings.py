@@ -59,6 +59,7 @@ def test_every_label_by_a_saved_config(folder: Path) -> None:
     assert b"Rib" in (folder / "b.glb").read_bytes()
 
 
+@pytest.mark.slow
 def test_a_config_alone_is_written_and_shown(folder: Path) -> None:
     """Nothing is smoothed for it, but what it says must make sense."""
     shown = run("smooth", "ct.npy", "--threshold", "300", "--save-config", "-", "-q")

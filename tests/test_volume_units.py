@@ -142,6 +142,7 @@ def ome(path: Path, **sizes: Any) -> Path:
     return path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("word", "scale"), [("µm", 1e-3), ("Å", 1e-7), ("nm", 1e-6), ("mm", 1), ("cm", 10), ("in", 25.4)]
 )

@@ -177,7 +177,7 @@ def test_a_ball_has_its_volume() -> None:
         assert size(voxelise(surface(ball()), resolution=resolution)) == pytest.approx(BALL.volume, rel=within)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("turned", [(False, False), (True, True), (False, True), (True, False)])
 def test_overlapping_balls_are_united(turned: tuple[bool, bool]) -> None:
     one, other = ball(inward=turned[0]), ball(at=(12, 0, 0), inward=turned[1])
