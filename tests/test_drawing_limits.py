@@ -19,8 +19,9 @@ from test_command_line import one_line_error, run
 from infill import FormatError
 from infill.drawing import MOST_POINTS
 from infill.drawings.drawing_files import read_drawing, read_tile
-from infill.drawings.tiled import read_tiled
+from infill.drawings.tiled import Tiled, read_tiled
 from infill.errors import GeometryError
+from infill.lattices.line_sample import LineSample
 from infill.paths.tiles.borders import find_borders
 from patterns.errors import PatternError
 
@@ -217,6 +218,18 @@ def test_too_many_copies_of_a_tile_are_refused_before_they_are_made(tmp_path: Pa
         replace(tiled, cell=0.1).lines(shapely.box(0, 0, 100, 100))
     assert caught.value.parameters == ("cell",)
     assert replace(tiled, cell=30).lines(shapely.box(0, 0, 100, 100)).length > 0
+
+
+def test_a_tile_whose_density_cannot_be_measured_is_refused_without_a_word_of_the_cell() -> None:
+    """It is measured in cells of 1 mm, whatever the cell of the part: a larger one would not help."""
+    line = np.column_stack([np.linspace(-0.5, 0.5, 50_000), np.arange(50_000) % 2 - 0.5])
+    tiled = Tiled(name="a.wkt", drawn=(line,), height=1.0)
+    with pytest.raises(
+        PatternError, match=r"49 copies of a\.wkt have 2,450,000 points; .* simplify the drawing"
+    ) as caught:
+        assert LineSample(pattern=tiled).apart
+    assert caught.value.parameters == ()
+    assert "larger" not in str(caught.value)
 
 
 def test_lines_that_vanish_in_a_small_tile_are_an_error_of_ours() -> None:

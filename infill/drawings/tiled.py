@@ -6,6 +6,7 @@ import math
 import os
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Self
 
 import numpy as np
 import shapely
@@ -18,6 +19,19 @@ from patterns.protocol import Pattern
 from patterns.shared import angle_parameter, cell_parameter
 
 MOST_PLACED = 2_000_000  # points of all copies of a tile in a region
+
+
+class TooManyCopiesError(PatternError):
+    """The copies of a tile in a region have too many points; `excess` says how many, without a remedy."""
+
+    excess = ""
+
+    @classmethod
+    def at(cls, cell: float, excess: str) -> Self:
+        """Return the error for a cell, mm."""
+        error = cls.about("cell", f"is {cell:.3g} mm: {excess}; give a larger cell, or simplify the drawing")
+        error.excess = excess
+        return error
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -46,7 +60,7 @@ class Tiled(Pattern):
     angle: float = angle_parameter()
 
     def lines(self, region: shapely.Polygon | shapely.MultiPolygon, z: float = 0.0) -> shapely.MultiLineString:  # noqa: ARG002 - prismatic
-        """Return the lines of all tiles, clipped to a region; raise PatternError if there are too many copies."""
+        """Return the lines of all tiles, clipped to a region; raise TooManyCopiesError for too many points."""
         corners = turn(shapely.get_coordinates(shapely.envelope(region)), -self.angle) / self.cell
         points = np.concatenate(self.drawn)
         size = np.array([1.0, self.height])
@@ -54,11 +68,10 @@ class Tiled(Pattern):
         upper = np.ceil((corners.max(axis=0) - points.min(axis=0)) / size)
         copies = int(np.prod(upper - lower + 1))
         if copies * len(points) > MOST_PLACED:
-            raise PatternError.about(
-                "cell",
-                f"is {self.cell:.3g} mm: {copies:,} copies of {self.name} have {copies * len(points):,} points, and "
-                f"the limit is {MOST_PLACED:,}; give a larger cell, or simplify the drawing",
+            excess = (
+                f"{copies:,} copies of {self.name} have {copies * len(points):,} points; the limit is {MOST_PLACED:,}"
             )
+            raise TooManyCopiesError.at(self.cell, excess)
         column, row = np.meshgrid(np.arange(lower[0], upper[0] + 1), np.arange(lower[1], upper[1] + 1), indexing="ij")
         shifts = np.stack([column.ravel(), row.ravel()], axis=-1) * size
         placed = [

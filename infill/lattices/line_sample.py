@@ -10,6 +10,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from infill.drawings.tiled import TooManyCopiesError
 from infill.lattices.fillets import find_polygon_corners
 from infill.lattices.root_finding import find_root
 from patterns.errors import PatternError
@@ -62,7 +63,12 @@ class LineSample:
             side = 1.0
         region = centred_square(side)
         wider = region if follows_outline(self.pattern) else centred_square(WIDER * side * 2**0.5)
-        lines = shapely.intersection(draw_lines(pattern, wider), region)
+        try:
+            lines = shapely.intersection(draw_lines(pattern, wider), region)
+        except TooManyCopiesError as error:  # whatever the cell of the part
+            raise PatternError(
+                f"the density is measured in a few cells: {error.excess}; simplify the drawing"
+            ) from error
         if not lines.length:
             raise PatternError(f"the pattern {self.pattern.name} has no lines; draw some")
         return region, lines
