@@ -105,7 +105,7 @@ def _complex(points: Floats) -> Complexes:
 
 
 def _next_kept(rings: Contours, is_corner: Flags) -> Indices:
-    """Return the kept corner that follows each kept corner in its ring; entries of other corners mean nothing."""
+    """Return the kept corner after each kept one, (N,); the first corner of every ring must be kept."""
     corners = np.flatnonzero(is_corner)
     following = np.zeros(len(is_corner), dtype=np.intp)
     following[corners] = np.append(corners[1:], 0)

@@ -274,7 +274,7 @@ def _find_unsure(lines: ParsedLines, lost: str) -> tuple[NDArray[np.bool_], str]
 def _follow_stretch(
     lines: slice, values: Floats, where: dict[str, Floats], extruded: Floats, state: MachineState
 ) -> MachineState:
-    """Follow the moves of lines with constant modes; return the state after them."""
+    """Fill `where` and `extruded` from the `values` of lines with constant modes; return the state after them."""
     if lines.start >= lines.stop:
         return state
     position: dict[str, Any] = {}

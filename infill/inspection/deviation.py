@@ -138,7 +138,7 @@ class Deviation:
 
 
 def count_all_points(points: Floats, faces: NDArray[np.integer]) -> NDArray[np.integer]:  # noqa: ARG001 - a `Kinds`
-    """Count all points: the simplest of the `Kinds`."""
+    """Return the kind `COUNTS` for every point, (N,): the simplest of the `Kinds`."""
     return np.full(len(points), COUNTS)
 
 
@@ -198,7 +198,7 @@ def measure_deviation(
 
 
 def _distances(points: Floats, surface: Surface, enough: float, threads: int | None) -> Floats:
-    """Measure the distances of points from a surface, in the order of a curve in space: see `Tree.nearest`."""
+    """Return the distance of each point from a surface, (N,), mm; one below `enough` may be too great."""
     order = morton_order(points)
     distance = np.empty(len(points))
     distance[order], _ = TriangleTree.of(surface).nearest(points[order], enough=enough, threads=threads)

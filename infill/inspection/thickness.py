@@ -23,7 +23,7 @@ LEEWAY_OF_DATA, LEEWAY = 4, 1  # steps behind the surface within which a ray ent
 def thinnest_walls(
     field: SparseField, surface: Surface, spacing: tuple[float, ...], level: float = 0.0
 ) -> tuple[float | None, float | None]:
-    """Measure how thick the solid is behind the thinnest hundredth of the surface, mm: in the data, and smoothed.
+    """Measure the wall behind the thinnest 1 % of surface, mm, in data and smoothed; None if over 16 cells.
 
     Parameters
     ----------

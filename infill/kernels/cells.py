@@ -98,7 +98,7 @@ def from_period(depth, threshold, table, turn, start, period, sign, half, ratio,
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def from_bars(depth, threshold, edges, bar_start, which, turn, start, period, half, ratio, step, out, thread, threads):
-    """Fill `out` with the lesser of depth and distance from the bars' skin; return how many cells it fills.
+    """Fill `out` with the lesser of depth and distance outside the bars; return the volume of this void, in cells.
 
     Parameters
     ----------
@@ -189,7 +189,7 @@ def from_planes(depth, threshold, slopes, start, apart, bits, half, ratio, step,
 def from_polyhedra(
     depth, threshold, turn, start, normals, halves, period, middles, half, ratio, step, out, thread, threads
 ):
-    """Fill `out` with the lesser of the depth and the distance into periodic polyhedra, in cells.
+    """Fill `out` with the lesser of depth and distance into polyhedra; return the volume of this void, in cells.
 
     Parameters
     ----------

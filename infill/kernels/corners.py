@@ -114,7 +114,7 @@ def corners_of(vertex, twin, leaving, ring):
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def _has_three(vertex, twin, leaving):
-    """Return True if a vertex has at most three faces."""
+    """Return True if a vertex has exactly three faces."""
     at = leaving[vertex]
     for _ in range(3):
         at = twin[previous_corner(at)]

@@ -98,7 +98,7 @@ def solve_quadric(s, mx, my, mz, rx, ry, rz):
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def best_place(u, v, p, q, s, place):
-    """Set the best place for the vertex of a collapsed edge, the minimum of the sum of two quadrics; return its value.
+    """Set `place` to the minimum of quadrics p + q near edge u-v, and `s` to their sum; return its value there.
 
     Where the planes do not determine a point, or one further away than the edge is long, the best of both ends and the
     middle is used. `s` is set to the sum.
