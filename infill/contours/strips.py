@@ -90,7 +90,7 @@ def _add_crossings(contours: Contours, cuts: Floats) -> tuple[Contours, Indices]
 
 
 def _steps(contours: Contours, number: Indices) -> tuple[Indices, Indices]:
-    """Return the corner that follows each corner around the pieces, and the corners on cuts, sorted.
+    """Return the next corner around each piece, (N + C,), with the C corners on cuts twice; and these C, sorted.
 
     A corner on a cut appears once for the strip on its left, and again, after all corners, for the strip on its right.
     """

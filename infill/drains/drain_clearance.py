@@ -79,7 +79,7 @@ class Skin:
         return -self.normals[:, 2] >= FACING
 
     @cached_property
-    def mouths(self) -> Integers:
+    def smooth_faces(self) -> Integers:
         """Number of the smooth face that each face of the mesh belongs to, (F,); -1 if it does not look down."""
         names = _label_components(self.neighbours, len(self.part.faces))
         return np.where(self.facing, names, -1)
@@ -100,7 +100,7 @@ class Skin:
     def tree(self, mouth: int) -> TriangleTree | None:
         """Build the tree of faces outside a mouth, or of all that do not look down for -1; None without faces."""
         if mouth not in self._trees:
-            is_outside = ~self.facing if mouth < 0 else self.mouths != mouth
+            is_outside = ~self.facing if mouth < 0 else self.smooth_faces != mouth
             self._trees[mouth] = None
             if is_outside.any():
                 self._trees[mouth] = TriangleTree.of(
@@ -158,7 +158,7 @@ class Skin:
         if highest > high:
             return None
         points, spacing = _fine_points(at, lowest, high, radius)
-        trees = [self.tree(int(self.mouths[face]))]
+        trees = [self.tree(int(self.smooth_faces[face]))]
         if len(stray):
             trees.append(TriangleTree.of(Surface(vertices=self.part.vertices, faces=self.part.faces[stray])))
         distances = np.full(len(points), np.inf)
@@ -188,7 +188,7 @@ class Skin:
     ) -> tuple[Integers, Integers]:
         """Divide the faces of the mouth near a hole into those connected to a face there, and the others."""
         lower, upper = np.array([*(at - distance), low]), np.array([*(at + distance), high])
-        nearby = np.flatnonzero(self.mouths == self.mouths[face])
+        nearby = np.flatnonzero(self.smooth_faces == self.smooth_faces[face])
         boxes = self.corners[nearby]
         nearby = nearby[(boxes.min(axis=1) <= upper).all(axis=1) & (boxes.max(axis=1) >= lower).all(axis=1)]
         inside = np.zeros(len(self.part.faces), dtype=bool)

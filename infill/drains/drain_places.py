@@ -132,7 +132,7 @@ class DrainTask:
     volumes: tuple[float, ...]
     _views: dict[bytes, TurnedPart] = field(default_factory=dict)
 
-    def narrow(self, diameter: float) -> DrainTask:
+    def with_diameter(self, diameter: float) -> DrainTask:
         """Return the same task with holes of another diameter, mm."""
         return replace(self, needs=replace(self.needs, diameter=diameter))
 
@@ -228,7 +228,7 @@ class DrainPlaces:
             batch = ways[begin : begin + AT_ONCE]
             high = np.minimum(self.ways.floor[batch] + up * needs.diameter, self.ways.ceiling[batch])
             is_passing = np.empty(len(batch), dtype=bool)
-            mouths = skin.mouths[self.ways.face[batch]]
+            mouths = skin.smooth_faces[self.ways.face[batch]]
             mouths = np.where([skin.knows(name) for name in mouths.tolist()], mouths, -1)
             for mouth in np.unique(mouths).tolist():
                 at_mouth = mouths == mouth
@@ -251,7 +251,7 @@ def _select_ways(ways: Integers) -> Integers:
 
 def _build_trees(skin: Skin, faces: Integers) -> None:
     """Build the trees of the other skin for the faces that most ways leave through."""
-    names, counts = np.unique(skin.mouths[faces], return_counts=True)
+    names, counts = np.unique(skin.smooth_faces[faces], return_counts=True)
     for mouth in names[np.argsort(-counts)][:MOUTHS].tolist():
         skin.tree(mouth)
 

@@ -173,7 +173,7 @@ def _add_remedies(plan: DrainPlan, task: DrainTask) -> DrainPlan:
         if all(void.fits is not None for void in undrained + unvented) and (lower is not None or not plan.high):
             break
         try:
-            narrower_plan = _plan_holes(task.narrow(width))
+            narrower_plan = _plan_holes(task.with_diameter(width))
         except GeometryError:
             continue
         lower = width if lower is None and not narrower_plan.high and not narrower_plan.undrained else lower

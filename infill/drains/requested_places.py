@@ -56,7 +56,9 @@ def make_hole_at(task: DrainTask, place: Place, *, remedies: bool = True) -> Hol
     remedy = _advise_place(task, point, below) if remedies else "leave it out"
     if remedies and shaft is not None:
         widths = narrower_diameters(needs.diameter)
-        fits = next((width for width in widths if _is_possible(replace(task.narrow(width), opening=None), place)), None)
+        fits = next(
+            (width for width in widths if _is_possible(replace(task.with_diameter(width), opening=None), place)), None
+        )
         remedy = remedy if fits is None else f"{remedy}, or give drains of {fits:g} mm"
     raise GeometryError.about("drain_at", f"{fault}; {remedy}")
 

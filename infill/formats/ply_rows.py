@@ -192,7 +192,7 @@ def _length(data: bytes, place: int, count: np.dtype[Any]) -> int:
 
 
 def read_text_rows(path: Path, data: bytes, elements: list[Element]) -> Iterator[tuple[Element, Columns, str]]:
-    """Yield each element, the numbers of its rows, and a description of the words behind them."""
+    """Yield each element, the numbers of its rows, and the number of words after them as text, '' if none."""
     values, count = _words_as_numbers(data)
     line_starts = _line_starts(path, data, sum(element.rows for element in elements))
     place = 0

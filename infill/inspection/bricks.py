@@ -249,11 +249,11 @@ def match_components(before: Components, after: Components) -> ComponentFate:
     return compare_components(shared, part=SMALLEST_PART, piece=LARGE, counted=counted)
 
 
-def _count_connections(solid: Components, void: Components, euler_number: int) -> ConnectionCounts:
+def _count_connections(solid: Components, void: Components, surface_euler_number: int) -> ConnectionCounts:
     """Count the components, cavities and tunnels of a solid whose void has the outside as its first component."""
     cavities = void.count - 1
     return ConnectionCounts.of(
-        components=solid.count, cavities=cavities, tunnels=solid.count + cavities - euler_number // 2
+        components=solid.count, cavities=cavities, tunnels=solid.count + cavities - surface_euler_number // 2
     )
 
 

@@ -137,7 +137,7 @@ class Deviation:
         return tuple(phrases)
 
 
-def count_all_points(points: Floats, faces: NDArray[np.integer]) -> NDArray[np.integer]:  # noqa: ARG001 - a `Kinds`
+def all_points_count(points: Floats, faces: NDArray[np.integer]) -> NDArray[np.integer]:  # noqa: ARG001 - a `Kinds`
     """Return the kind `COUNTS` for every point, (N,): the simplest of the `Kinds`."""
     return np.full(len(points), COUNTS)
 
@@ -148,7 +148,7 @@ def measure_deviation(
     *,
     cell: float,
     closed: Surface | None = None,
-    kinds: Kinds = count_all_points,
+    kinds: Kinds = all_points_count,
     exact: bool = True,
     threads: int | None = None,
 ) -> Deviation:

@@ -54,7 +54,7 @@ def fit_conformal_map(scales: NDArray[np.floating]) -> tuple[Floats, Floats]:
 
 
 def _fit_coordinates(targets: Floats) -> tuple[Floats, Floats, Floats]:
-    """Fit coordinates to the wall wanted in a volume at nodes (n, m, k); return them, their slopes, and the wall."""
+    """Fit a spline to wanted factors of wall, (n, m, k); return its coefficients, slopes and the factors reached."""
     scales, more = targets, np.ones_like(targets)
     for number in range(ROUNDS):
         if number:
@@ -103,7 +103,7 @@ def _extrapolate(nodes: Floats) -> Floats:
 
 
 def spline_slopes(coordinates: Floats) -> Floats:
-    """Compute the slopes of a spline at its nodes, (n, m, k, 3, 3): of each coordinate, along each axis."""
+    """Compute slopes (n, m, k, 3, 3) at the nodes of a spline with coefficients (n + 2, m + 2, k + 2, 3)."""
     values, slopes = (1 / 6, 2 / 3, 1 / 6), (-1 / 2, 0.0, 1 / 2)
     shape = tuple(count - 2 for count in coordinates.shape[:3])
     derivatives = np.zeros((*shape, 3, 3))

@@ -176,6 +176,7 @@ def _divide_section(
 
 
 def _open(section: manifold3d.CrossSection, width: float) -> manifold3d.CrossSection:
+    """Open a section by a disc: parts narrower than `width` vanish, the rest keeps its outline."""
     return _offset(_offset(section, -width / 2), width / 2)
 
 

@@ -196,7 +196,7 @@ def keep_clear_of_zero(value, clearance, tie):
 
 
 @njit(cache=True)
-def numbers_around(slots, index, p, q, r, masks, starts, offsets, begin, behind, crossing):
+def set_numbers_around(slots, index, p, q, r, masks, starts, offsets, begin, behind, crossing):
     """Set the first vertex numbers of the rows of a brick and of the first rows after it.
 
     Parameters
@@ -271,7 +271,7 @@ def write_surface(
         p, q, r = places[n, 0], places[n, 1], places[n, 2]
         rows_around(slots, p, q, r, bits, shape, rows)
         values_around(slots, p, q, r, values, shape, numbers, around)
-        numbers_around(slots, index, p, q, r, masks, starts, offsets, begin, behind, crossing)
+        set_numbers_around(slots, index, p, q, r, masks, starts, offsets, begin, behind, crossing)
         v, f, u = offsets[n, 0], offsets[n, 1], offsets[n, 2]
         for i in range(B0):
             for j in range(B1):

@@ -95,6 +95,7 @@ def corner_angle_between_walls(pattern: Cellular) -> float:
 
 
 def _angles_between_bars(pattern: Bars) -> Floats:
+    """Return the angles between all pairs of bars that meet at a node, degrees."""
     axes = pattern.axes()
     ends = np.concatenate([axes[:, 0], axes[:, 1]])
     directions = np.concatenate([axes[:, 1] - axes[:, 0], axes[:, 0] - axes[:, 1]])

@@ -85,7 +85,7 @@ def centred_square(half: float) -> shapely.Polygon:
 
 
 def line_segments(lines: NDArray[np.object_], start: NDArray[np.float64], size: float) -> NDArray[np.float64]:
-    """Return the segments (S, 2, 2) of lines, mm, in cells of a size from where the first one lies.
+    """Return the segments of lines, (S, 2, 2), with `start` as origin and `size` as unit.
 
     >>> line_segments(shapely.linestrings([[(1, 1), (3, 1), (3, 5)]]), np.array([1.0, 1.0]), 2.0).tolist()
     [[[0.0, 0.0], [1.0, 0.0]], [[1.0, 0.0], [1.0, 2.0]]]

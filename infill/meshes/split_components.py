@@ -119,7 +119,7 @@ def edge_components(vertices: Floats, faces: AnyIntegers) -> tuple[AnyIntegers, 
 
 
 def _link_by_solid(vertices: Floats, faces: AnyIntegers, sides: AnyIntegers, ahead: NDArray[np.bool_]) -> AnyIntegers:
-    """Link the faces around one edge that have solid between them; return pairs of sides, (n, 2).
+    """Link faces around one edge that have solid between; return pairs of positions in `sides`, (n, 2).
 
     Seen along the edge, solid begins at a face that runs back along it and ends at the next one that runs ahead. All
     faces are linked in a row if the numbers running ahead and back differ.

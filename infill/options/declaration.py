@@ -19,7 +19,7 @@ from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
 
 from infill.errors import ParameterError
 from infill.files.excerpts import quote_value
-from infill.options.keyword_options import Reader, parse_flag, parse_number, parse_whole, parse_word
+from infill.options.keyword_options import Reader, check_whole, parse_flag, parse_number, parse_word
 from patterns.given import suggest_name
 
 
@@ -101,7 +101,7 @@ def parse_path(name: str, value: object) -> Path:
 
 READERS: Mapping[Any, Reader] = {
     float: parse_number,
-    int: parse_whole,
+    int: check_whole,
     str: parse_word,
     bool: parse_flag,
     Path: parse_path,

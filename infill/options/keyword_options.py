@@ -65,8 +65,8 @@ def check_fits_float(name: str, value: float) -> float:
     return value
 
 
-def parse_whole(name: str, value: object) -> int:
-    """Return a value that must be a whole number, or raise UsageError."""
+def check_whole(name: str, value: object) -> int:
+    """Return an int unchanged, or raise UsageError; 5.0, True and text are refused."""
     if isinstance(value, bool) or not isinstance(value, int):
         raise UsageError.about(name, f"is {quote_value(value)}; it must be a whole number")
     if abs(value) > LARGEST_WHOLE:
@@ -83,7 +83,7 @@ def parse_wholes(name: str, value: object) -> tuple[int, ...]:
     values = value if isinstance(value, (list, tuple)) else (value,)
     if not values:
         raise UsageError.about(name, "is empty; give a whole number, or several")
-    return tuple(parse_whole(name, number) for number in values)
+    return tuple(check_whole(name, number) for number in values)
 
 
 def parse_numbers(name: str, value: object, counts: tuple[int, ...]) -> tuple[float, ...]:

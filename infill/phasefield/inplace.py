@@ -96,7 +96,7 @@ def _run_steps(
     threads: int,
     advance: Callable[[Flat, Flat, int, int, int, tuple[Flat, Flat]], None],
 ) -> Flat:
-    """Advance `u` by `steps`, with the cells divided among threads; return the result.
+    """Return `u` after `steps` steps, its cells divided among threads; `u` itself may be overwritten.
 
     A thread takes its cells plus a halo of `count` times `margin` cells on both sides, and does that many steps
     alone: the error at the edge of the halo moves one margin closer with each step and never reaches the thread's own

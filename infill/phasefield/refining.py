@@ -214,7 +214,7 @@ def phase_from_distance(
 
 
 def cut_off_distance(interface: float) -> float:
-    """Return the cut-off distance from the surface, cells."""
+    """Return the distance from the surface beyond which the field stays at -1 or 1, cells."""
     return REFINED_PROFILE.scale * interface / STEEPNESS
 
 

@@ -74,7 +74,7 @@ class Schedule:
 
 
 def _leading_coefficients(steps: int, plain: int, powers: int) -> NDArray[np.float64]:
-    """Return the lowest coefficients of T_0, T_1, ... in powers of x."""
+    """Return the lowest coefficients of T_k, what k steps do to a wave (not Chebyshev's), (steps + 1, powers)."""
     share = np.zeros((steps + 1, powers))
     share[0, 0] = 1
     previous = share[0]

@@ -165,5 +165,5 @@ class FeatureSums:
 
 
 def _angles_between(before: Floats, after: Floats) -> Floats:
-    """Return the angles between unit vectors, exact for small ones."""
+    """Return the angles between unit vectors, rad, exact for small ones."""
     return np.asarray(2 * np.arctan2(np.linalg.norm(after - before, axis=1), np.linalg.norm(after + before, axis=1)))

@@ -79,7 +79,7 @@ def _square_corner(bounds: BoundedMoves, limit: Limit) -> Floats:
 
 
 def _junction_deviation(bounds: BoundedMoves, limit: Limit) -> Floats:
-    """Marlin's rule, in four dimensions.
+    """Return the square of the highest speed at each corner, mm²/s², by Marlin's rule in four dimensions.
 
     v² = a J s / (1 - s) with s = cos(phi / 2), where a is what the axes allow towards the inside of the corner; where
     a move shorter than 1 mm turns by less than 45 degrees, it is an arc of its length, v² <= a d / phi.

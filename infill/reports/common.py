@@ -67,7 +67,7 @@ class SurfaceKeys(TypedDict):
 
 
 def surface_keys(surface: Surface) -> SurfaceKeys:
-    """Return the size of a surface."""
+    """Return triangles, closed, area, extents and bounds of a surface, as report keys."""
     bounds = surface.bounds
     return {
         "triangles": len(surface.faces),
@@ -86,7 +86,7 @@ class MeshKeys(SurfaceKeys):
 
 
 def mesh_keys(surface: Surface) -> MeshKeys:
-    """Return the facts about a mesh."""
+    """Return the keys of `surface_keys` with the number of vertices and the Euler number."""
     return {
         "vertices": len(surface.vertices),
         **surface_keys(surface),

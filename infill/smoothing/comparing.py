@@ -84,7 +84,7 @@ def distance_facts(surface: Surface, smoothed: SmoothedInput) -> Distance:
 
 
 def subsample(vertices: NDArray[np.floating]) -> NDArray[np.floating]:
-    """Return at most about 5000 vertices, spread evenly over all of them."""
+    """Return every n-th vertex: 5,000 to 10,000 of them, or all if there are fewer."""
     return vertices[:: max(1, len(vertices) // MAX_SAMPLES)]
 
 

@@ -18,7 +18,7 @@ VOTERS = 27  # a cell and its neighbours
 
 
 def noise_share(solid: NDArray[Any], *, threads: int | None = None) -> float:
-    """Return the ratio of cells that a majority of the 27 around each overrules to the surface cells that remain.
+    """Estimate noise: twice the lesser of solid and void cells that neighbours overrule, per surface cell.
 
     Parameters
     ----------

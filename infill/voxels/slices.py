@@ -25,7 +25,7 @@ def plan_sublayers(volume: Volume) -> tuple[int, int]:
 
 
 def interpolate_slices(volume: Volume, axis: int, count: int) -> Volume:
-    """Interpolate a solid to `count` cells in the place of each along an axis.
+    """Interpolate a solid to `count` cells for each along an axis; return a field in [-1, 1], solid above 0.
 
     Parameters
     ----------

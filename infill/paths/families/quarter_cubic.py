@@ -84,7 +84,7 @@ class QuarterCubicPaths(Family):
 
 
 def _line_pair(z: float, sign: int) -> tuple[float, float]:
-    """Return the middle of the two lines x + y (or x - y, for a sign of -1) and half of their distance, in cells."""
+    """Return middle and half difference of x + y (x - y for sign -1), in cells, of the two lines at height z."""
     from patterns.planes import QuarterCubic
 
     normals, offsets = QuarterCubic().families()

@@ -177,7 +177,7 @@ def _turn(points: Path, angle: float) -> Path:
 
 
 def _turned_bounds(bounds: Bounds, angle: float) -> Bounds:
-    """Return the bounding box of a box that is turned about (0, 0)."""
+    """Return the bounding box of a box that is turned by `angle` degrees about (0, 0)."""
     corners = _turn(np.array([[x, y] for x in bounds[::2] for y in bounds[1::2]], dtype=np.float64), angle)
     (x0, y0), (x1, y1) = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
     return x0, y0, x1, y1

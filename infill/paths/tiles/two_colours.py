@@ -30,7 +30,7 @@ EIGHT = np.ones((3, 3), dtype=bool)  # neighbours
 
 
 def two_colour_field(borders: Borders, grid: TileGrid, *, line_width: float, blur: float) -> NDArray[np.float64]:
-    """Compute the smoothed field at the nodes of the padded tile: a distance in line widths, zero on the paths.
+    """Compute the smoothed signed field at the nodes of a padded tile: zero on the paths, sign by colour.
 
     Parameters
     ----------
