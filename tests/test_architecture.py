@@ -31,7 +31,8 @@ ROWS: tuple[tuple[str, ...], ...] = (
     ("planner", "inspection", "interior"),
     ("pictures", "options", "drains"),
     ("result",),
-    ("making", "smoothing", "lattices", "refilling", "projects"),
+    ("smoothing", "lattices", "refilling", "projects"),
+    ("making",),
     ("cli", "studio"),
 )
 FLOOR = {room: floor for floor, rooms in enumerate(ROWS) for room in rooms}

@@ -13,9 +13,9 @@ import shapely
 from scipy import ndimage
 from shapes import BUILT_IN, OF_THE_PAPER, SIZES, assert_printable
 
-from infill import GeometryError, Grid, MemoryLimitError, ParameterError, Smoothing, extrude, make
+from infill import GeometryError, Grid, MemoryLimitError, ParameterError, Smoothing, UsageError, extrude, make
 from infill.inspection.layers import count_layer
-from infill.making.request import plan_block
+from infill.making.request import Block, plan_block
 from patterns import PATTERNS, Honeycomb, Pattern, PatternError
 
 STAGES = {"points", "stamp", "smooth", "check", "surface", "total"}
@@ -110,7 +110,8 @@ def test_the_report_tells_the_truth(name: str) -> None:
     )
     assert result.stages.stamp.shape == result.stages.smoothed.shape
     assert report["grid"]["shape"] == [*result.stages.stamp.shape, round(5 / 0.15)]
-    assert report["grid"]["spacing"] == pytest.approx([0.15, 0.15, 5 / round(5 / 0.15)])
+    assert report["grid"]["spacing"] == pytest.approx([0.15, 40 / round(40 / 0.15), 5 / round(5 / 0.15)])
+    assert report["request"]["size"] == pytest.approx([30, 40], rel=1e-12)
     assert (report["request"]["steps"], report["request"]["fidelity"]) == (10, 0.01)
     for key, layer in (("data", result.stages.stamp), ("result", result.stages.smoothed)):
         counts = count_layer(layer)
@@ -251,7 +252,7 @@ def test_bad_lengths_are_refused(name: str, bad: float) -> None:
         ),
         (Honeycomb(), {"cell": 3}, ParameterError, "together with a ready-made pattern"),
         (Honeycomb, {}, ParameterError, "give a name, or a pattern such as"),
-        (7, {}, ParameterError, "7 is not a pattern"),
+        (7, {}, ParameterError, "is int, which is int; give a Pattern"),
         ("honeycomb", {"phase": (1, 2, 3)}, PatternError, "it must be 2 numbers"),
         ("honeycomb", {"cell": "6"}, PatternError, "it must be a number"),
         ("honeycomb", {"frame": 1}, PatternError, "must be true or false"),
@@ -261,7 +262,8 @@ def test_bad_lengths_are_refused(name: str, bad: float) -> None:
             PatternError,
             "hearts of concentric-heart is 2.5; it must be a whole number",
         ),
-        ("honeycomb", {"size": (1, 2, 3)}, ParameterError, "size has 3 numbers"),
+        ("honeycomb", {"size": (1, 2, 3, 4)}, ParameterError, "size has 4 numbers"),
+        ("honeycomb", {"size": (20, 20, 3), "height": 4}, UsageError, "height is 4 mm, and size has 3 mm for it"),
         ("honeycomb", {"size": 1e300}, ParameterError, "from 1e-06 to 1e.06 mm"),
         ("honeycomb", {"height": 1e39}, ParameterError, "from 1e-06 to 1e.06 mm"),
         ("honeycomb", {"height": 10**400}, ParameterError, "finite number"),
@@ -318,7 +320,7 @@ def test_broken_walls_are_an_error_that_says_what_to_change(options: dict[str, A
 @pytest.mark.slow
 def test_many_narrow_holes_are_no_pinholes() -> None:
     with pytest.raises(GeometryError, match="68 hole.s. narrower than a line, 10% of all void, closed"):
-        make("zigzag", size=20, cell=1.35)
+        make("zigzag", size=19.95, cell=1.35)  # whole cells of 0.15 mm
 
 
 def test_broken_walls_can_be_had_anyway() -> None:
@@ -337,16 +339,17 @@ def test_the_defaults_stand_once_more_in_the_settings() -> None:
 
     function = {name: each.default for name, each in inspect.signature(make).parameters.items()}
     settings, smoothing = MakeSettings(pattern="honeycomb"), Smoothing()
-    for name in ("size", "height", "line_width", "stamp", "cells"):
+    for name in ("size", "height", "line_width", "density", "stamp", "cells"):
         assert getattr(settings, name) == function[name]
+    block = settings.plan()
+    assert isinstance(block, Block)
+    defaults = {"height": block.height, "line_width": block.line_width, "steps": 10, "fidelity": 0.01}
     assert function["smoothing"] == smoothing
     for name in ("steps", "fidelity", "interface", "alpha"):
         assert getattr(settings, name) == getattr(smoothing, name)
     options = inspect.signature(making.make, eval_str=True).parameters
-    shown = {
-        name: options[name].annotation.__metadata__[0].help for name in ("height", "line_width", "steps", "fidelity")
-    }
-    assert all(f"(default: {getattr(settings, name):g})" in text for name, text in shown.items())
+    shown = {name: options[name].annotation.__metadata__[0].help for name in defaults}
+    assert all(f"(default: {defaults[name]:g})" in text for name, text in shown.items())
 
 
 def test_nothing_left_is_an_error_even_then() -> None:
@@ -367,14 +370,6 @@ def test_a_pattern_that_fails_is_named() -> None:
 
     with pytest.raises(PatternError, match="the pattern failing failed: RuntimeError: boom and more"):
         make(Failing(), size=20)
-
-
-def test_patterns_that_change_with_height_are_refused() -> None:
-    class Leaning(Honeycomb):
-        prismatic = False
-
-    with pytest.raises(ParameterError, match="only prismatic patterns"):
-        make(Leaning(), size=20)
 
 
 def test_lines_that_run_together_in_the_stamp_are_an_error() -> None:
@@ -527,4 +522,4 @@ def test_results_compare_by_themselves_and_are_shown_in_a_line() -> None:
     assert one == one
     assert one != other
     assert len({one, other}) == 2
-    assert repr(one) == f"Result(block: {len(one.surface.faces):,} triangles, 19.95 x 19.95 x 3 mm)"
+    assert repr(one) == f"Result(block: {len(one.surface.faces):,} triangles, 20 x 20 x 3 mm)"

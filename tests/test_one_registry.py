@@ -129,14 +129,9 @@ def test_a_drawing_makes_too(folder: Path) -> None:
     ("words", "says"),
     [
         (
-            ("make", "gyroid", "-o", "a.stl"),
-            "gyroid offers cells and paths, and make needs lines or a level set; choose another pattern, or give it to "
-            "fill or refill",
-        ),
-        (
             ("refill", "print.gcode", "--pattern", "octet", "-o", "a.gcode"),
             "octet offers cells, and refill needs paths, lines or a level set; choose another pattern, or give it to "
-            "fill",
+            "make or fill",
         ),
     ],
 )
@@ -231,8 +226,7 @@ def test_the_cell_counts_if_it_was_given() -> None:
         Request(pattern=Zigzag(waves=3))
     with pytest.raises(ParameterError, match="octet offers cells"):
         Request(pattern=Octet())
-    with pytest.raises(PatternError, match="gyroid offers cells and paths, and make needs lines"):
-        make(Gyroid(cell=6))
+    assert make(Gyroid(cell=6), size=(12, 9, 8), density=0.2).report["infill"]["cell"] == 6.0
     with pytest.raises(UsageError, match=r"cell is 4, and gyroid is made with 5\.0; give one of them"):
         Request(pattern=Gyroid(cell=5), parameters={"cell": 4})
 

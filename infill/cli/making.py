@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from infill.making.request import Block
     from infill.reports.making import MakeReport
 
-SHOWN = 1e-3  # mm: smaller differences from the requested size are not shown
 STDOUT = Path("-")
 BLOCK, FILES, PATTERN, RUN, ADVANCED = "Block", "Files", "Pattern", "Run", "Advanced"
 
@@ -103,11 +102,13 @@ def make(
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:
-    """Make a block of infill from a pattern: smooth walls, a closed mesh for a slicer."""
+    """Make a block of infill from any pattern: smooth walls, a closed mesh for a slicer."""
+    from infill.cli.block_words import lattice_summary, show_lattice_plan
     from infill.cli.piping import check_outputs, deliver_all, with_suffix
     from infill.cli.words import parse_bytes
     from infill.formats.mesh_files import mesh_writer
     from infill.making.duration import duration_warning
+    from infill.making.request import Block
 
     flags = {
         **typed,
@@ -134,11 +135,14 @@ def make(
         check_preview(preview)
     check_outputs((*outputs, preview), text=save_config, overwrite=force, as_json=as_json, dry_run=dry_run)
     block = settings.plan()
-    if dry_run:
+    if not isinstance(block, Block):
+        if dry_run:
+            show_lattice_plan(block.facts(), as_json=as_json)
+    elif dry_run:
         _show_plan(block, limit, as_json=as_json)
     else:
         block.require_grid_memory(limit)  # no warning of a long run for a block that does not fit
-    if not quiet and (slow := duration_warning(block)):
+    if isinstance(block, Block) and not quiet and (slow := duration_warning(block)):
         say(f"warning: {slow}")
     if dry_run:
         return
@@ -157,7 +161,8 @@ def make(
             parts[save_config] = lambda file: file.write(settings.to_toml().encode())
         files = deliver_all(parts)
     if not quiet and result is not None:
-        say(_summary(result.report, files, settings.size, verbose=verbose))
+        summary = _summary if isinstance(block, Block) else lattice_summary
+        say(summary(result.report, files, verbose=verbose))
     elif not quiet and files != [str(STDOUT)]:
         say(f"wrote {', '.join(files)}")
     if as_json and result is not None:
@@ -182,7 +187,7 @@ def _show_plan(block: Block, limit: int | None, *, as_json: bool) -> None:
     typer.echo(format_table(rows, title=f"{block.pattern.name}: nothing is written (--dry-run)"))
 
 
-def _summary(report: MakeReport, files: list[str], requested_size: tuple[float, float], *, verbose: bool) -> str:
+def _summary(report: MakeReport, files: list[str], *, verbose: bool) -> str:
     """Return the short table for stderr."""
     request, grid, topology = report["request"], report["grid"], report["topology"]
     width, change = report["wall_width"], report["changes"]
@@ -208,8 +213,6 @@ def _summary(report: MakeReport, files: list[str], requested_size: tuple[float, 
     }
     if (exact := report["walls"]["exact"]) is not None:
         rows["advice"] = f"--stamp exact makes the walls {exact:.3f} mm wide (measured in the middle of the block)"
-    if any(abs(actual - requested) > SHOWN for actual, requested in zip(request["size"], requested_size, strict=True)):
-        rows["size"] = f"whole cells of the grid; {' x '.join(f'{side:g}' for side in requested_size)} mm asked for"
     if change["pinholes"]:
         share = f"{change['pinhole_share']:.2%} of the void"
         rows["pinholes"] = f"{change['pinholes']} hole(s) or neck(s) narrower than a line closed, {share}"

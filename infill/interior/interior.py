@@ -61,6 +61,8 @@ class Interior:
         Number of cells by which they do.
     opening : Opening or None
         Sides where the part has no wall: the depth there is that of a part that goes on.
+    outside : float
+        Number of cells by which voids that reach through the walls come out of the part.
     """
 
     layers: LayerStack
@@ -74,6 +76,7 @@ class Interior:
     walled: Interior | None = None
     through: float = 0.0
     opening: Opening | None = None
+    outside: float = BEYOND
 
     @property
     def depth(self) -> NDArray[np.float32]:
@@ -115,8 +118,8 @@ class Interior:
 
     @cached_property
     def unwalled(self) -> Interior:
-        """The same space, where voids reach through the wall and a little out of the part."""
-        through = self.wall / self.size + BEYOND
+        """The same space, where voids reach through the wall and out of the part."""
+        through = self.wall / self.size + self.outside
         depth = self.depth + np.float32(through)
         return replace(self, layers=LayerStack.of(depth), wall=0.0, walled=self, through=through)
 
@@ -176,8 +179,8 @@ def compute_interior(
 ) -> Interior:
     """Compute the inside of a part, without a wall, mm, along all of its skin except its open sides.
 
-    Beyond these, the inside goes on for `beyond`, mm. `held` is the number of additional bytes for each cell. With
-    `slabs`, a large space is kept in slabs.
+    Beyond these, the inside goes on for `beyond`, mm; where the wall is 0, voids may reach as far out of all the skin.
+    `held` is the number of additional bytes for each cell. With `slabs`, a large space is kept in slabs.
 
     Raises
     ------
@@ -196,10 +199,12 @@ def compute_interior(
     # Checked first, as measuring may take long; a flat sheet has a separate message.
     if extents.min() > 0 and (extents + further * UP).min() <= 2 * wall:
         raise GeometryError.about("wall", nowhere)
-    grid = grid_for_part(part, voxel=voxel, further=further)
+    outside = BEYOND if wall else BEYOND + beyond / voxel
+    margin = MARGIN + math.ceil(outside - BEYOND)
+    grid = grid_for_part(part, voxel=voxel, further=further, margin=margin)
     advice = f"the grid has {' x '.join(map(str, grid.shape))} cells; give larger voxels or larger cells"
     require_memory(_memory_bytes(grid.shape, held, slabs=slabs), max_memory, advice)
-    voxelised = voxelise_with_report(part, voxel=voxel, margin=MARGIN, max_memory=max_memory)
+    voxelised = voxelise_with_report(part, voxel=voxel, margin=margin, max_memory=max_memory)
     closed_part, skin, overlap = _repair_skin(voxelised)
     longer, cells, opening, repairs = closed_part, voxelised.volume, None, voxelised.repairs
     del voxelised  # so that its cells can be freed once their depths are known
@@ -208,7 +213,7 @@ def compute_interior(
         longer = extend_ends(closed_part, lids, further / len(lids))
         cells = voxelise_with_report(longer, voxel=voxel, margin=MARGIN, max_memory=max_memory).volume
     # Thin gaps between components count too, but not faces inside the solid.
-    reach, is_overlapping = wall / voxel + BAND, overlap > LEAST_OVERLAP
+    reach, is_overlapping = wall / voxel + BAND + outside - BEYOND, overlap > LEAST_OVERLAP
 
     def depths_of(volume: Volume) -> NDArray[np.float32]:
         depths = distances_in_cells(longer, volume, reach, several=is_overlapping, threads=threads)
@@ -234,6 +239,7 @@ def compute_interior(
         overlap=overlap,
         wall=wall,
         opening=opening,
+        outside=outside,
     )
     for end in () if open_ is None else ENDS[open_]:
         layer = np.flatnonzero(space.shares > 0)[-1 if end == "top" else 0]
@@ -259,12 +265,12 @@ def added_length(open_: Open | None, wall: float, beyond: float, voxel: float) -
     return 0.0 if open_ is None else len(ENDS[open_]) * (wall + beyond + OUT * voxel)
 
 
-def grid_for_part(part: Surface, *, voxel: float, further: float) -> Grid:
+def grid_for_part(part: Surface, *, voxel: float, further: float, margin: int = MARGIN) -> Grid:
     """Return roughly the grid that a part is filled on, extended by a length up or down, mm."""
     return grid_around(
         Surface(vertices=np.concatenate([part.bounds, part.bounds[1:] + further * UP]), faces=np.array([[0, 1, 2]])),
         voxel=voxel,
-        margin=MARGIN,
+        margin=margin,
     )
 
 

@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from infill.arrays import Floats
 from infill.errors import GeometryError
 from infill.isosurfaces.components import shell_names
-from infill.meshes.shells import first_vertex_of_shells, select_faces, shell_volumes
+from infill.meshes.shells import select_faces, shell_volumes
 from infill.meshes.solids import FINE, coincident_vertices, from_manifold, manifold_status, solid_status, to_manifold
-from infill.meshes.winding import winding_numbers
+from infill.meshes.split_components import drop_pieces
 from infill.surface import Surface
 
 Open = Literal["top", "bottom", "both"]
@@ -275,16 +275,9 @@ def _drop_loose(cut: Surface, solid: Surface, opening: Opening, threads: int | N
     volume = shell_volumes(cut, names, count)
     is_held = np.zeros(count, dtype=bool)
     is_held[names[_find_skin_vertices(cut, solid, opening)]] = True
-    loose_shells = np.flatnonzero((volume > 0) & ~is_held)
-    dropped_volume, rest = 0.0, cut
-    for shell in loose_shells:
-        piece = select_faces(cut, names[cut.faces[:, 0]] == shell)
-        rest_names, starts = shell_names(rest)[0], first_vertex_of_shells(rest)
-        is_dropped = winding_numbers(np.asarray(rest.vertices, dtype=np.float64)[starts], piece, threads=threads) > 0
-        is_dropped[rest_names[np.flatnonzero((np.asarray(rest.vertices) == piece.vertices[0]).all(axis=1))]] = True
-        dropped_volume += float(volume[shell])
-        rest = select_faces(rest, ~is_dropped[rest_names[rest.faces[:, 0]]])
-    return rest, len(loose_shells), dropped_volume
+    is_loose = (volume > 0) & ~is_held
+    rest = drop_pieces(cut, [select_faces(cut, names[cut.faces[:, 0]] == n) for n in np.flatnonzero(is_loose)], threads)
+    return rest, int(is_loose.sum()), float(volume[is_loose].sum())
 
 
 def _find_skin_vertices(cut: Surface, solid: Surface, opening: Opening) -> NDArray[np.intp]:

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from infill.interior.interior import BYTES_PER_CELL, Interior, added_length, grid_for_part
 from infill.interior.opening import clip_to_opening, cut_open
+from infill.lattices.at_skin import drop_crumbs, subtract_voids
 from infill.lattices.bodies import Fields
 from infill.lattices.drain_holes import DrainedSolid, check_drain_width, drill_drains
 from infill.lattices.groups import Graded, Meshing, Shell, add_grading, add_group
@@ -99,7 +100,8 @@ def fill(
     line_width : float, optional
         Width of walls inside, or diameter of bars, mm.
     wall : float, optional
-        Thickness of the shell, mm: 1.2 by default. In a project, that of the slicer's perimeters: 0.9 by default.
+        Thickness of the shell, mm: 1.2 by default, and 0 for none, so that the infill ends at the skin. In a project,
+        that of the slicer's perimeters: 0.9 by default.
     as_ : {"solid", "infill", "project"}
         Shell and infill as one; the infill alone, which reaches `overlap` into the shell; or the part and the infill as
         two surfaces for a slicer, which makes the shell itself: the infill goes on to the skin. See `save_project`.
@@ -227,6 +229,10 @@ def _assemble(
     request, space = task.request, hollow.space
     if project is not None:
         solid = outer = project.infill
+    elif request.wall == 0:
+        outer = space.part
+        solid, pieces, loose = drop_crumbs(task, subtract_voids(task, hollow), hollow)
+        hollow = replace(hollow, islands=hollow.islands + pieces, loose=loose)
     else:
         outer = space.part if request.form == "solid" else _inner_surface(task, space)
         if space.opening is None:
@@ -322,7 +328,8 @@ def plan_fill(part: Surface, request: FillSpec, *, threads: int | None = None) -
     task = FillTask.of(part, request, threads=threads)
     request, (cell, width) = task.request, choose_sizes(task)
     voxel = choose_voxel(task, cell, width)
-    grid = grid_for_part(part, voxel=voxel, further=added_length(request.open_, request.wall, request.beyond, voxel))
+    further = added_length(request.open_, request.wall, request.beyond, voxel)
+    grid = grid_for_part(part, voxel=voxel, further=further)
     return {
         "request": request.facts(),
         "infill": {"cell": cell, "line_width": width},

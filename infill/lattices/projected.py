@@ -14,16 +14,14 @@ from itertools import chain
 
 from infill.errors import GeometryError, ParameterError
 from infill.interior.narrow import NARROW, NarrowShares, drop_narrow, estimate_narrow
+from infill.lattices.at_skin import SHORT, subtract_voids
 from infill.lattices.hollowing import make_void_meshes
 from infill.lattices.request import LINE_WIDTH, FillSpec
-from infill.lattices.surfacing import SHARE, extract_inner_side
 from infill.lattices.task import FillTask
 from infill.lattices.void_meshes import VoidMeshes
-from infill.meshes.solids import shared_volume, simplify_solid, subtract
+from infill.meshes.solids import shared_volume, simplify_solid
 from infill.surface import Surface
 
-SHORT = 1e-3  # mm: edges of the infill of a project are longer than that, or nearly
-INTO_WALL = 0.75  # of the wall: infill reaches this far into it where voids cannot be cut out of the part
 # Of a line, and of walls: PrusaSlicer prints plates of 0.45 mm with lines of 0.45 mm, and none of 0.4 mm; but where a
 # wall of a part cuts through a wall of the pattern, it drops more. Of limits from 0.5 to 0.72 mm tried, 0.6 mm
 # left bodies nearest to the extruded ones. Of thinner walls, it prints most as they are.
@@ -91,7 +89,7 @@ def make_project_infill(task: FillTask) -> ProjectInfill:
 def _make_infill(task: FillTask) -> ProjectInfill:
     """Make the infill with the pattern where the task has it."""
     hollow, _ = make_void_meshes(task)
-    infill, narrowest = _subtract_voids(task, hollow), _narrowest_printed(hollow, task.request)
+    infill, narrowest = subtract_voids(task, hollow), _narrowest_printed(hollow, task.request)
     narrow = estimate_narrow(hollow.space.part, infill, task.request.wall, LINE_WIDTH, narrowest)
     return ProjectInfill(infill=infill, hollow=hollow, phase=task.request.phase, narrow=narrow)
 
@@ -135,20 +133,3 @@ def _narrowest_printed(hollow: VoidMeshes, request: FillSpec) -> float:
     """Return the width of the narrowest infill that slicers print, mm."""
     narrowest = LEAST_WIDTH * hollow.width * request.thinnest
     return min(max(narrowest, LEAST_LINE * LINE_WIDTH), LEAST_LINES * LINE_WIDTH)
-
-
-def _subtract_voids(task: FillTask, hollow: VoidMeshes) -> Surface:
-    """Subtract the voids from the part, or from most of it if manifold3d rejects that; return the surface.
-
-    Where voids meet the skin, they leave edges so short that both ends are one point in single precision, as in files:
-    such edges are collapsed.
-    """
-    space, voids, tolerance = hollow.space, hollow.surfaces, SHARE * task.request.tolerance
-    infill = subtract(space.part, voids)
-    if infill is None:
-        overlap = INTO_WALL * task.request.wall
-        inside = extract_inner_side(space, overlap=overlap, tolerance=tolerance, threads=task.threads)
-        infill = subtract(inside, voids)
-    if infill is None or not len(infill.faces):
-        raise GeometryError("manifold3d rejects the voids as solids; give another cell or smaller voxels")
-    return simplify_solid(infill, SHORT)

@@ -149,7 +149,7 @@ def measure_solid(
     least: float | None = None
     place: list[float] | None = None
     astray, crowded = 0, int(coincident_vertices(solid).sum())
-    if request.form != "project":
+    if not request.reaches_skin:
         part, opening = space.part, space.opening
         middle = None if opening is None else float(part.bounds[:, 2].mean())
         least, place = measure_least_wall(part, hollow.surfaces, task.threads, opening)
@@ -206,7 +206,7 @@ def find_problems(
                 f"cells cannot follow the density alone, so walls are {narrow:.2g} to {wide:.2g} mm wide: there is too "
                 "little room for cells of such sizes beside one another; give densities closer to each other"
             )
-    share = hollow.density_before if request.form == "project" else hollow.density
+    share = hollow.density_before if request.reaches_skin else hollow.density
     if share < LEAST_LEFT * facts.drawn:
         yield (
             f"the infill was drawn with a density of {facts.drawn:.1%}, and {share:.1%} is left: walls or bars are too "

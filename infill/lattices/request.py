@@ -14,6 +14,7 @@ from infill.errors import GeometryError, UsageError
 from infill.interior.opening import Open
 from infill.lattices.density_fields import resolve_field
 from infill.lattices.grading import Grading, Varies
+from infill.options.keyword_options import parse_share
 from infill.options.resolve_pattern import Kind, resolve_pattern
 from patterns.cellular import Cells
 from patterns.declared import given_parameters
@@ -60,7 +61,7 @@ class FillSpec:
     cell, line_width : float or None
         mm; None if it follows from the density.
     wall, overlap, tolerance : float
-        mm
+        mm; a wall of 0 is no shell: the infill ends at the skin.
     drain : float or None
         Diameter of a hole for each void, mm.
     vent : bool
@@ -111,6 +112,11 @@ class FillSpec:
     def beyond(self) -> float:
         """Distance by which an open side is moved out for the voids, besides some cells of the grid, mm."""
         return ROUNDED * (RADIUS if self.smooth_radius is None else self.smooth_radius)
+
+    @property
+    def reaches_skin(self) -> bool:
+        """True if voids go through the skin: a slicer makes the shell, or there is none."""
+        return self.form == "project" or self.wall == 0
 
     @property
     def held(self) -> int:
@@ -304,7 +310,7 @@ def check_request(
         option = "by" if by is not None else "grade"
         raise UsageError.about(option, "is given with one density; give two, such as 15%:40%, or leave it out")
     elif density is not None:
-        density = check_range("density", density, LOWEST, HIGHEST)
+        density = check_range("density", parse_share("density", density), LOWEST, HIGHEST)
     elif (cell is None or line_width is None) and not isinstance(kind, Lightning):
         density = DENSITY if cell is None or has_bars(kind) else None
         if density is None:
@@ -315,7 +321,12 @@ def check_request(
             f"are both given, and {name} has as many branches as the roofs need; leave one of "
             "them out, or give cell and line_width",
         )
-    wall = (SLICED_WALL if form == "project" else WALL) if wall is None else check_length("wall", wall)
+    if wall is None:
+        wall = SLICED_WALL if form == "project" else WALL
+    elif wall != 0:
+        wall = check_length("wall", wall)
+    else:
+        _check_without_shell(form=form, open_=open_, drain=drain)
     return FillSpec(
         pattern=name,
         kind=kind,
@@ -340,6 +351,15 @@ def check_request(
         vent=vent,
         drain_at=places,
     )
+
+
+def _check_without_shell(*, form: str, open_: str | None, drain: float | None) -> None:
+    """Raise an error for what a part without a shell cannot have."""
+    if form != "solid":
+        raise UsageError.about("as", f"is {form!r}, and a wall of 0 already leaves the infill alone; leave as out")
+    for option, value in (("open", open_), ("drain", drain)):
+        if value is not None:
+            raise UsageError.about(option, "is given, and with a wall of 0 there is no shell; leave it out")
 
 
 def _take_cell(kind: Kind, name: str, cell: float | None) -> tuple[Kind, float | None]:
@@ -379,6 +399,6 @@ def check_grading(densities: Sequence[float], by: object, grade: str = "width") 
         raise UsageError.about("grade", f"is {grade!r}; choose from {', '.join(get_args(Varies))}")
     if len(densities) != 2:
         raise UsageError.about("density", f"has {len(densities)} numbers; give one, or two such as 15%:40%")
-    low, high = (check_range("density", density, LOWEST, HIGHEST) for density in densities)
+    low, high = (check_range("density", parse_share("density", density), LOWEST, HIGHEST) for density in densities)
     field, name = resolve_field("z" if by is None else by)
     return Grading(first=low, last=high, by=field, name=name, varies=grade)  # type: ignore[arg-type]

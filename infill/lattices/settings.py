@@ -143,7 +143,7 @@ class FillOptions:
     wall: Annotated[
         float | None,
         Option(
-            "Thickness of the shell; in a project, what the slicer's perimeters take.",
+            "Thickness of the shell, 0 for none; in a project, what the slicer's perimeters take.",
             SOLID,
             unit="MM",
             default="1.2, in a project 0.9",

@@ -34,7 +34,7 @@ FINE = Fineness(across=2.5, lines=6.0, bars=14.0, across_bar=4.0, walls=0.9)
 LEAST_FINE = Fineness(across=1.5, lines=2.5, bars=9.0, across_bar=3.0, walls=0.58)
 SLACK = 1.01
 FIFTH = 0.2
-FEWEST, MOST, MOST_IN_SLABS = 1e6, 25e6, 1e8  # cells of the grid in all
+FEWEST, FEWEST_BARE, MOST, MOST_IN_SLABS = 1e6, 3e5, 25e6, 1e8  # cells of the grid in all; bare: without a shell
 COARSEST_LINES = 0.3  # mm: corners between lines are rounded on cells no larger than this
 
 
@@ -84,8 +84,9 @@ def choose_voxel(task: FillTask, cell: float, width: float) -> float:
     size = _largest_voxel(task, cell, width, FINE)
     if isinstance(task.pattern, Prismatic):
         size = min(size, COARSEST_LINES)
-    size = min(max(size, _finest_voxel(task)), math.cbrt(_box_volume(extents) / FEWEST))
-    if size > request.wall / LEAST_FINE.across:
+    fewest = FEWEST if request.wall else FEWEST_BARE
+    size = min(max(size, _finest_voxel(task)), math.cbrt(_box_volume(extents) / fewest))
+    if 0 < request.wall < LEAST_FINE.across * size:
         raise GeometryError.about(
             "wall",
             f"is {request.wall:g} mm, and the part {extents.max():.4g} mm long: a grid as fine as such a wall "
@@ -110,7 +111,7 @@ def _largest_voxel(task: FillTask, cell: float, width: float, fineness: Fineness
     """Return the largest side of the cells of a grid that is so fine, mm."""
     request, pattern = task.request, task.pattern
     width *= request.thinnest
-    size = request.wall / fineness.across
+    size = (request.wall or math.inf) / fineness.across
     if isinstance(pattern, Prismatic):
         return min(size, pattern.sample.apart * cell / fineness.lines)
     if has_bars(request.kind):
@@ -139,4 +140,4 @@ def goes_by_slabs(task: FillTask) -> bool:
     """Tell whether voids may be made slab by slab: upright, of one width, closed, in a part taken as one."""
     request = task.request
     is_plain = request.grading is None and request.align != "body" and request.form == "solid" and request.open_ is None
-    return is_plain and isinstance(task.pattern, Prismatic)
+    return is_plain and request.wall > 0 and isinstance(task.pattern, Prismatic)

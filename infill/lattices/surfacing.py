@@ -50,7 +50,9 @@ def make_surfaces(task: FillTask, fields: Fields) -> VoidMeshes:
     threads, inside = task.threads, fields.layout.space
     space, smoothing = inside.walled or inside, choose_smoothing(task, fields)
     out, walls = np.empty_like(space.depth), None
-    if task.request.form == "project":
+    if task.request.wall == 0:
+        walls = space.part
+    elif task.request.form == "project":
         walls = extract_inner_side(space, overlap=0.0, tolerance=task.request.tolerance / 4, threads=threads)
 
     def trace() -> Iterator[Surface]:

@@ -72,8 +72,8 @@ class FillTask:
         return extents
 
     def reach(self, space: Interior) -> Interior:
-        """Return the space that voids may take: in a project, through the walls and a little out of the part."""
-        return space.unwalled if self.request.form == "project" else space
+        """Return the space that voids may take: through the skin where a slicer makes the shell, or there is none."""
+        return space.unwalled if self.request.reaches_skin else space
 
     def draw(self, layout: Layout, known: Fields | None = None) -> Fields:
         """Draw the pattern; what suits of an earlier drawing is used again."""

@@ -8,7 +8,7 @@ and a report on the result.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -25,7 +25,16 @@ from infill.inspection.layers import LayerRegions, compare_layers, label_regions
 from infill.inspection.width import WallWidth, wall_width
 from infill.isosurfaces.stacking import extrude_surface
 from infill.making.forecast import exact_width
-from infill.making.request import DEFAULT_CELLS, Block, StampMethod, SurfaceMethod, plan_block
+from infill.making.request import (
+    DEFAULT_CELLS,
+    Block,
+    StampMethod,
+    SurfaceMethod,
+    check_sides,
+    is_stamped,
+    plan_block,
+    refuse_stamp_options,
+)
 from infill.making.stages import MakeStages
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.methods import smooth
@@ -51,11 +60,12 @@ ADVICE = "use more cells per line, fewer steps or more fidelity (or --allow-brok
 
 
 def make(
-    pattern: Pattern | Cells | Path | str,
+    pattern: Pattern | Cells | Path | str | Callable[..., Any],
     *,
-    size: float | tuple[float, float] = (60.0, 60.0),
-    height: float = 6.0,
-    line_width: float = 0.45,
+    size: float | tuple[float, ...] = (60.0, 60.0),
+    height: float | None = None,
+    line_width: float | None = None,
+    density: float | None = None,
     stamp: StampMethod = "block",
     cells: int | None = None,
     smoothing: Smoothing = Smoothing(),  # noqa: B008 - frozen
@@ -65,19 +75,26 @@ def make(
     max_memory: int | None = None,
     progress: Progress | None = None,
     **parameters: Any,  # noqa: ANN401 - whatever the pattern takes
-) -> Result[MakeStages, MakeReport]:
+) -> Result[Any, Any]:
     """Make a block of infill; return a closed mesh and a report.
+
+    Lines that are the same in every layer are stamped and smoothed as in the paper. With a density, and for patterns
+    in space, the block is a box that is filled as `infill.fill` fills a part: without a shell, or with a frame that is
+    open at the top and bottom.
 
     Parameters
     ----------
-    pattern : Pattern, Path or str
-        A pattern, the name of a registered one, a drawing, or "module.py:name".
-    size : float or (x, y)
-        Size of the block, mm, rounded to whole cells.
-    height : float
-        Height of the block, mm. It costs nothing.
-    line_width : float
-        Width of the walls, mm.
+    pattern : Pattern, Cells, Path, str or callable
+        A pattern, the name of a registered one, a drawing, "module.py:name", or a function of x, y and z, as for
+        `infill.fill`.
+    size : float, (x, y) or (x, y, z)
+        Size of the block, mm.
+    height : float, optional
+        Height of the block, mm, if the size does not have it: 6 by default. It costs nothing where lines are stamped.
+    line_width : float, optional
+        Width of the walls, mm: 0.45 by default. Of two of cell, line width and density, the third follows.
+    density : float, optional
+        Solid share of the whole block, its frame included, 0.01 to 0.9; 0.2 by default for patterns in space.
     stamp : {"block", "exact"}
         "block" is the paper's: `cells` x `cells` around every point, up to 41 % wide on diagonals.
         "exact" keeps the width in every direction.
@@ -99,12 +116,14 @@ def make(
     progress : callable, optional
         Called with the name of a stage and the share of work done, 0 to 1, when the stage begins.
     **parameters
-        Parameters of the pattern, if it is given by name: cell=8, angle=30 (degrees) …
+        Parameters of the pattern, if it is given by name: cell=8, angle=30 (degrees) … With a density, and in space,
+        cell, angle, phase and frame are understood for every pattern.
 
     Returns
     -------
     Result
-        The block is centred on x = y = 0 and stands on z = 0.
+        With the surface "block", centred on x = y = 0, on z = 0. The report is `infill.reports.making.MakeReport`, or
+        `infill.reports.making.LatticeReport` with a density and for patterns in space.
 
     Raises
     ------
@@ -125,7 +144,28 @@ def make(
 
     >>> make("honeycomb", size=20, height=3, cell=5).report["components"]
     1
+    >>> abs(make("gyroid", size=(15, 12, 8), density=0.3).report["density"] - 0.3) < 0.005
+    True
     """
+    if not is_stamped(pattern, density):
+        from infill.making.lattice_block import make_lattice, plan_lattice
+
+        given = {
+            "stamp": stamp != "block",
+            "cells": cells is not None,
+            "surface": surface is not None,
+            "smoothing": smoothing != Smoothing(),
+        }
+        refuse_stamp_options(given, density)
+        lattice = plan_lattice(
+            pattern,
+            sides=check_sides(size, height),
+            density=density,
+            line_width=line_width,
+            tolerance=tolerance,
+            values=parameters,
+        )
+        return make_lattice(lattice, max_memory=max_memory, progress=progress)
     clock = Clock(progress)
     with clock.stage("points", 0.0):
         block = plan_block(

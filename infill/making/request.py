@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields, is_dataclass
 from functools import cached_property
 from pathlib import Path
@@ -16,7 +16,7 @@ from infill.errors import ParameterError, UsageError
 from infill.grid import Grid
 from infill.isosurfaces.stacking import layer_count
 from infill.machine import require_memory
-from infill.options.resolve_pattern import resolve_lines, with_parameters
+from infill.options.resolve_pattern import resolve_lines, resolve_pattern, with_parameters
 from infill.phasefield.allen_cahn import Smoothing
 from patterns import Cells, Pattern, PatternError, lacking, parameter_values
 from patterns.declared import parameters as declared
@@ -34,6 +34,8 @@ DEFAULT_TOLERANCE = (
     0.002  # mm: far below the precision of a printer, with less than half the triangles of the full contour
 )
 MAX_TOLERANCE_SHARE = 0.1  # of the line width: the tolerance at which both sides of a wall could take a fifth of it
+LINE_WIDTH, HEIGHT = 0.45, 6.0  # mm
+EQUAL = 1e-9  # of a side: cells that miss it by less are not stretched
 DEFAULT_CELLS = {"block": 3, "exact": 5}
 LINES_PER_CELL = 3  # smallest cell of a pattern in line widths: walls, and a gap as wide as two of them
 
@@ -203,9 +205,9 @@ class Block:
 def plan_block(
     pattern: Pattern | Cells | Path | str,
     *,
-    size: float | tuple[float, float],
-    height: float,
-    line_width: float,
+    size: float | tuple[float, ...],
+    height: float | None,
+    line_width: float | None,
     stamp: StampMethod,
     cells: int | None,
     smoothing: Smoothing,
@@ -215,15 +217,8 @@ def plan_block(
 ) -> Block:
     """Check a request and return it with its grid; the parameters are the same as for `infill.make`."""
     ready_pattern = instantiate_pattern(pattern, parameters)
-    sides = list(size) if isinstance(size, Iterable) else [size, size]
-    if len(sides) != 2:
-        raise ParameterError.about("size", f"has {len(sides)} numbers; give x and y in mm, or one number for a square")
-    width, depth, height = (
-        check_length("size x", sides[0]),
-        check_length("size y", sides[1]),
-        check_length("height", height),
-    )
-    line_width = check_length("line_width", line_width)
+    width, depth, height = check_sides(size, height)
+    line_width = LINE_WIDTH if line_width is None else check_length("line_width", line_width)
     if stamp not in get_args(StampMethod):
         raise UsageError.about("stamp", f"is {stamp!r}; choose block or exact")
     across = check_whole_number("cells", DEFAULT_CELLS[stamp] if cells is None else cells, 1)
@@ -234,7 +229,7 @@ def plan_block(
             "or the exact stamp",
         )
     cell = line_width / across
-    counts = tuple(max(1, round(side / cell)) for side in (width, depth))
+    counts, spacing = zip(*(_divide_side(side, cell) for side in (width, depth)), strict=True)
     if min(counts) < (1 + LINES_PER_CELL) * across:
         raise ParameterError(
             f"a block of {width:g} × {depth:g} mm has no room for walls of {line_width:g} mm; "
@@ -244,7 +239,11 @@ def plan_block(
     surface, tolerance = _resolve_surface(surface, tolerance, line_width)
     block = Block(
         pattern=ready_pattern,
-        grid=Grid(shape=counts, spacing=cell, origin=tuple(-count * cell / 2 for count in counts)),
+        grid=Grid(
+            shape=counts,
+            spacing=spacing,
+            origin=tuple(-count * size / 2 for count, size in zip(counts, spacing, strict=True)),
+        ),
         height=height,
         line_width=line_width,
         stamp=stamp,
@@ -253,17 +252,32 @@ def plan_block(
         surface=surface,
         tolerance=tolerance,
     )
-    if not ready_pattern.prismatic:
+    apart = ready_pattern.line_spacing(block.region)
+    if not math.isfinite(apart) or apart < LINES_PER_CELL * line_width * (1 - 1e-9):
         raise ParameterError(
-            f"the lines of {ready_pattern.name} change with height; only prismatic patterns can be made"
-        )
-    spacing = ready_pattern.line_spacing(block.region)
-    if not math.isfinite(spacing) or spacing < LINES_PER_CELL * line_width * (1 - 1e-9):
-        raise ParameterError(
-            f"the lines of {ready_pattern.name} lie {spacing:.4g} mm apart, under {LINES_PER_CELL} line widths "
+            f"the lines of {ready_pattern.name} lie {apart:.4g} mm apart, under {LINES_PER_CELL} line widths "
             f"({LINES_PER_CELL * line_width:g} mm); use larger cells or a thinner line"
         )
     return block
+
+
+def check_sides(size: float | tuple[float, ...], height: float | None) -> tuple[float, float, float]:
+    """Check the sides of a block and return x, y and z, mm; the height may be the third number of the size."""
+    sides = list(size) if isinstance(size, Iterable) else [size, size]
+    if len(sides) not in (2, 3):
+        raise ParameterError.about(
+            "size", f"has {len(sides)} numbers; give x and y in mm, x, y and z, or one number for a square"
+        )
+    if len(sides) == 3 and height is not None and height != sides[2]:
+        raise UsageError.about("height", f"is {height:g} mm, and size has {sides[2]:g} mm for it; give one of them")
+    upright = sides[2] if len(sides) == 3 else HEIGHT if height is None else height
+    return check_length("size x", sides[0]), check_length("size y", sides[1]), check_length("height", upright)
+
+
+def _divide_side(side: float, cell: float) -> tuple[int, float]:
+    """Divide a side into whole cells of about a size, mm; return their number and their size."""
+    count = max(1, round(side / cell))
+    return count, cell if math.isclose(count * cell, side, rel_tol=EQUAL) else side / count
 
 
 def _resolve_surface(
@@ -290,6 +304,22 @@ def _resolve_surface(
             f"{MAX_TOLERANCE_SHARE * line_width:g} mm",
         )
     return surface or ("prism" if tolerance > 0 else "grid"), float(tolerance)
+
+
+def is_stamped(pattern: object, density: float | None) -> bool:
+    """Tell whether a block is drawn once and extruded: no density is asked for, and all layers are the same."""
+    if density is not None:
+        return False
+    kind, _ = resolve_pattern(pattern, "make")
+    return not isinstance(kind, Cells) and kind.prismatic
+
+
+def refuse_stamp_options(given: Mapping[str, bool], density: float | None) -> None:
+    """Raise UsageError for an option that is given and only serves blocks that are drawn once and extruded."""
+    for option, is_given in given.items():
+        if is_given:
+            reason = "this pattern changes with height" if density is None else "a density is asked for"
+            raise UsageError.about(option, f"serves blocks that are stamped layer by layer, and {reason}; leave it out")
 
 
 def instantiate_pattern(pattern: Pattern | Cells | Path | str, parameters: dict[str, Any]) -> Pattern:

@@ -21,26 +21,26 @@ from infill.errors import ParameterError, UsageError
 from infill.files.excerpts import quote_value
 from infill.options.assignments import SET, collect_parameters, pop_table
 from infill.options.declaration import Option, by_key, declared_options, read_options
-from infill.options.keyword_options import parse_number, parse_word
+from infill.options.keyword_options import parse_number, parse_share, parse_word
 from infill.options.toml import format_rows, read_toml
 from infill.options.trust import check_trusted
 
 if TYPE_CHECKING:
+    from infill.making.lattice_block import LatticeBlock
     from infill.making.request import Block
-    from infill.making.stages import MakeStages
-    from infill.reports.making import MakeReport
     from infill.result import Progress, Result
     from patterns import Pattern
 
 
 BLOCK, ADVANCED = "Block", "Advanced"
+STAMP_OPTIONS = ("stamp", "cells", "surface", "steps", "fidelity", "interface", "alpha")
 
 
-def parse_size(name: str, size: object) -> tuple[float, float]:
-    """Return x and y in mm from ``60x40``, ``60``, 60 or [60, 40].
+def parse_size(name: str, size: object) -> tuple[float, ...]:
+    """Return x and y in mm, and the height if it is given, from ``60x40``, ``60x40x20``, ``60``, 60 or [60, 40].
 
-    >>> parse_size("size", "60x40")
-    (60.0, 40.0)
+    >>> parse_size("size", "60x40"), parse_size("size", "60x40x20")
+    ((60.0, 40.0), (60.0, 40.0, 20.0))
     """
     parts = re.split(r"\s*[x×X]\s*", size.strip()) if isinstance(size, str) else size
     numbers = list(parts) if isinstance(parts, (list, tuple)) else [parts]
@@ -48,9 +48,11 @@ def parse_size(name: str, size: object) -> tuple[float, float]:
         lengths = [float(number) for number in numbers]  # type: ignore[arg-type]
     except (TypeError, ValueError, OverflowError):
         lengths = []
-    if len(lengths) not in (1, 2):
-        raise UsageError.about(name, f"is {quote_value(size)}; give millimetres as 60x40, or 60 for a square")
-    return lengths[0], lengths[-1]
+    if len(lengths) not in (1, 2, 3):
+        raise UsageError.about(
+            name, f"is {quote_value(size)}; give millimetres as 60x40, as 60x40x20 with the height, or 60 for a square"
+        )
+    return tuple(lengths if len(lengths) > 1 else 2 * lengths)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,10 +63,12 @@ class MakeSettings:
     ----------
     pattern : str
         Its name, a drawing, or "module.py:name".
-    size : (x, y)
+    size : (x, y) or (x, y, z)
         mm.
-    height, line_width : float
-        mm.
+    height, line_width : float or None
+        mm; None for 6 and 0.45, or what follows from the size and the density.
+    density : float or None
+        Solid share of the whole block; None for that of the lines, or 0.2 in space.
     stamp : {"block", "exact"}
     cells : int or None
         Grid cells across a line; None for 3 (block) or 5 (exact).
@@ -80,9 +84,9 @@ class MakeSettings:
 
     pattern: str
     size: Annotated[
-        tuple[float, float],
+        tuple[float, ...],
         Option(
-            "Block in x and y: 60x40, or 60 for a square.",
+            "Block in x and y: 60x40, or 60 for a square; with its height: 60x40x20.",
             BLOCK,
             unit="MMxMM",
             default="60x60",
@@ -90,8 +94,21 @@ class MakeSettings:
             typed=str,
         ),
     ] = (60.0, 60.0)
-    height: Annotated[float, Option("Height of the block.", BLOCK, unit="MM", default="6")] = 6.0
-    line_width: Annotated[float, Option("Width of the walls.", BLOCK, unit="MM", default="0.45")] = 0.45
+    height: Annotated[float | None, Option("Height of the block.", BLOCK, unit="MM", default="6")] = None
+    line_width: Annotated[
+        float | None, Option("Width of the walls, or diameter of bars.", BLOCK, unit="MM", default="0.45")
+    ] = None
+    density: Annotated[
+        float | None,
+        Option(
+            "Solid share of the block: 20%, 20 or 0.2; the cell follows from it, or the line width beside a cell.",
+            BLOCK,
+            unit="SHARE",
+            default="as drawn; 20% in space",
+            read=parse_share,
+            typed=str,
+        ),
+    ] = None
     stamp: Annotated[
         Literal["block", "exact"],
         Option(
@@ -150,6 +167,13 @@ class MakeSettings:
     parameters: dict[str, Any] = field(default_factory=dict)
     kind: Any = field(default=None, repr=False, compare=False)  # of patterns, as read
 
+    @property
+    def is_stamped(self) -> bool:
+        """True if the block is drawn once and extruded."""
+        from infill.making.request import is_stamped
+
+        return is_stamped(self.kind or self.pattern, self.density)
+
     def build_pattern(self) -> Pattern:
         """Return the pattern with its parameters."""
         from infill.options.resolve_pattern import resolve_lines, with_parameters
@@ -173,26 +197,46 @@ class MakeSettings:
             "tolerance": self.tolerance,
         }
 
-    def plan(self) -> Block:
+    def plan(self) -> Block | LatticeBlock:
         """Check the settings, but not the memory they need; return the block with its grid, without drawing it."""
-        from infill.making.request import plan_block
+        from infill.making.request import check_sides, plan_block, refuse_stamp_options
 
-        return plan_block(**self._request(), parameters={})
+        if self.is_stamped:
+            return plan_block(**self._request(), parameters={})
+        from infill.making.lattice_block import plan_lattice
+
+        defaults = {name: type(self).__dataclass_fields__[name].default for name in STAMP_OPTIONS}
+        refuse_stamp_options({name: getattr(self, name) != defaults[name] for name in STAMP_OPTIONS}, self.density)
+        lattice = plan_lattice(
+            self.kind or self.pattern,
+            sides=check_sides(self.size, self.height),
+            density=self.density,
+            line_width=self.line_width,
+            tolerance=self.tolerance,
+            values=self.parameters,
+        )
+        return lattice.rename(self.pattern)
 
     def make(
         self, *, allow_broken: bool = False, max_memory: int | None = None, progress: Progress | None = None
-    ) -> Result[MakeStages, MakeReport]:
+    ) -> Result[Any, Any]:
         """Run `infill.make` with these settings."""
         from infill.making.block import make
 
-        return make(**self._request(), allow_broken=allow_broken, max_memory=max_memory, progress=progress)
+        if self.is_stamped:
+            return make(**self._request(), allow_broken=allow_broken, max_memory=max_memory, progress=progress)
+        from infill.making.lattice_block import LatticeBlock, make_lattice
+
+        lattice = self.plan()
+        assert isinstance(lattice, LatticeBlock)
+        return make_lattice(lattice, max_memory=max_memory, progress=progress)
 
     def to_toml(self) -> str:
         """Return all settings, defaults included, as a TOML document that `resolve` reads back."""
         plain = {"pattern": self.pattern, **by_key(self)}
         from patterns import parameter_values
 
-        pattern_values = parameter_values(self.build_pattern())
+        pattern_values = parameter_values(self.build_pattern()) if self.is_stamped else self.parameters
         lines = [
             "# infill make --config THIS_FILE -o OUT",
             *format_rows(plain),
@@ -228,7 +272,8 @@ def resolve(
     FormatError
         If the file is missing or not TOML, or asks for what it is not trusted with.
     """
-    from infill.options.resolve_pattern import resolve_lines
+    from infill.making.request import is_stamped
+    from infill.options.resolve_pattern import resolve_pattern
 
     file_values = read_toml(config, example="size = [60, 40]") if config else {}
     flag_values = {name: value for name, value in flags.items() if value is not None}
@@ -241,10 +286,15 @@ def resolve(
         raise ParameterError(
             "no pattern is given; name one ('infill list' shows all), or set pattern in the config file"
         )
-    kind = resolve_lines(parse_word("pattern", values["pattern"]))
+    kind, _ = resolve_pattern(parse_word("pattern", values["pattern"]), "make")
+    declared: Any = kind
+    if not is_stamped(kind, values.get("density")):
+        from infill.making.lattice_block import declare_placed
+
+        declared = declare_placed(kind)
     common = {"pattern", *declared_options(MakeSettings)}
     parameters_given = collect_parameters(
-        kind, common, flags=flag_values, assigned=assigned, filed=file_values, table=table
+        declared, common, flags=flag_values, assigned=assigned, filed=file_values, table=table
     )
     options = read_options(
         "make", MakeSettings, {name: values[name] for name in values if name in common - {"pattern"}}

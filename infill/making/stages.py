@@ -17,6 +17,25 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class LatticeStages:
+    """The stages of a block that is filled as a part is.
+
+    Parameters
+    ----------
+    box : Surface, mm
+        The block if it were solid.
+    """
+
+    box: Surface
+
+    def picture(self, surface: Surface, report: Mapping[str, Any]) -> Image.Image:
+        """Return the block whole and cut open."""
+        from infill.pictures.cuts import draw_block
+
+        return draw_block(surface, self.box, report)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class MakeStages:
     """The stages of `infill.make`.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -12,6 +13,7 @@ from infill.arrays import AnyIntegers, Floats
 from infill.graph import label_connected
 from infill.meshes.hole_filling import component_volumes, fill_holes, open_edges, orient_faces, weld_boundary
 from infill.meshes.merging import merge_unless_closed
+from infill.meshes.shells import first_vertex_of_shells, select_faces, vertex_components
 from infill.meshes.winding import winding_numbers
 from infill.surface import Surface
 
@@ -78,6 +80,25 @@ def split_components(surface: Surface, cell: float) -> ComponentParts:
         ),
         sheets=count - len(solid),
     )
+
+
+def drop_pieces(surface: Surface, pieces: Iterable[Surface], threads: int | None = None) -> Surface:
+    """Drop outer shells of a surface, given as surfaces of their own, with the shells that lie in them.
+
+    >>> import trimesh
+    >>> balls = [trimesh.creation.icosphere(1), trimesh.creation.icosphere(1).apply_translation((5, 0, 0))]
+    >>> first, second = (Surface(vertices=ball.vertices, faces=ball.faces) for ball in balls)
+    >>> drop_pieces(concatenate_surfaces([first, second]), [second]).bounds[1].round(9).tolist()
+    [1.0, 1.0, 1.0]
+    """
+    for piece in pieces:
+        names, _ = vertex_components(surface.faces, len(surface.vertices), compiled=True)
+        starts = first_vertex_of_shells(surface)
+        vertices = np.asarray(surface.vertices, dtype=np.float64)
+        is_dropped = winding_numbers(vertices[starts], piece, threads=threads) > 0
+        is_dropped[names[np.flatnonzero((vertices == piece.vertices[0]).all(axis=1))]] = True
+        surface = select_faces(surface, ~is_dropped[names[surface.faces[:, 0]]])
+    return surface
 
 
 def concatenate_surfaces(surfaces: list[Surface]) -> Surface:

@@ -25,21 +25,31 @@ def parse_word(name: str, value: object) -> str:
 
 
 def parse_share(name: str, value: object, advice: str = "give a share such as 20%") -> float:
-    """Parse the share in ``20%`` or 0.2, up to 1; raise UsageError, or ParameterError if it is out of range.
+    """Parse a share in percent, as ``20%`` or 20, or up to 1 as 0.2; raise UsageError, or ParameterError off range.
 
-    >>> parse_share("density", "20%"), parse_share("density", 0.2)
-    (0.2, 0.2)
+    >>> [parse_share("density", value) for value in ("20%", "20", 20, "0,2", 0.2, 1)]
+    [0.2, 0.2, 0.2, 0.2, 0.2, 1.0]
     """
     if isinstance(value, str):
-        match = re.fullmatch(r"\s*([+-]?\d+(?:\.\d+)?|nan|[+-]?inf)\s*(%?)\s*", value)
+        match = re.fullmatch(r"\s*([+-]?\d*[.,]?\d+|nan|[+-]?inf)\s*(%?)\s*", value)
         if not match:
             raise UsageError.about(name, f"is {quote_value(value)}; {advice}")
-        share = float(match[1]) / (100 if match[2] else 1)
+        number = float(match[1].replace(",", "."))
+        share = number / 100 if match[2] else to_share(number)
     else:
-        share = parse_number(name, value)
+        share = to_share(parse_number(name, value))
     if not 0 < share <= 1:
         raise ParameterError.about(name, f"is {quote_value(value)}; {advice}, up to 100%")
     return share
+
+
+def to_share(value: float) -> float:
+    """Return a share from a share of 1 or less, or from a percentage above 1.
+
+    >>> to_share(0.2), to_share(20), to_share(1)
+    (0.2, 0.2, 1)
+    """
+    return value / 100 if value > 1 else value
 
 
 def parse_flag(name: str, value: object) -> bool:

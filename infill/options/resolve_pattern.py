@@ -20,7 +20,7 @@ from patterns.unit_cells import Surfaces
 DRAWINGS = (".svg", ".dxf", ".wkt", ".png", ".jpg", ".jpeg", ".bmp")
 SAMPLES = 16  # points along a cell at which a function is tested
 NEEDS = {  # of these, a product needs one
-    "make": (LINES, LEVEL_SET),
+    "make": (LINES, LEVEL_SET, CELLS),
     "fill": (LINES, LEVEL_SET, CELLS),
     "refill": (PATHS, LINES, LEVEL_SET),
 }

@@ -50,6 +50,23 @@ def draw_cuts(
     return arrange_panels(panels, facts, [(CUT, "cut"), (BEHIND, f"behind it; {voids['count']:,} void(s)")])
 
 
+def draw_block(surface: Surface, box: Surface, report: Mapping[str, Any]) -> Image.Image:
+    """Draw a block of infill whole, and cut open where that shows its inside best.
+
+    Parameters
+    ----------
+    surface, box : Surface, mm
+        The block, and the same block if it were solid.
+    report : mapping
+        See docs/report.md.
+    """
+    whole = Image.fromarray(render(surface, width=PANEL, height=PANEL, colour=BEHIND))
+    panels = {"block": whole} | {f"cut at {cut}": _draw_half(surface, cut) for cut in choose_cuts(surface, box)}
+    size = " x ".join(f"{length:.4g}" for length in report["extents"])
+    facts = f"{size} mm, {report['request']['pattern']}, {report['density']:.1%} solid"
+    return arrange_panels(panels, facts, [(CUT, "cut")])
+
+
 def render_thumbnail(surface: Surface, side: int = THUMBNAIL) -> bytes:
     """Render a small PNG of a closed surface without its front half."""
     with io.BytesIO() as file:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Any
 
-from infill.checks import check_positive, check_range
+from infill.checks import check_range
 from infill.errors import ParameterError, UsageError
 from infill.files.excerpts import quote_value
 from infill.options.declaration import Option
@@ -157,13 +157,8 @@ class Request:
     lines: Any = field(default=None, init=False)
 
     def __post_init__(self) -> None:
-        if self.density is None:
-            pass
-        elif isinstance(self.density, str):
-            if self.density != SAME:
-                raise UsageError.about("density", f"is {self.density!r}; give 'same', or a number above 0 and up to 1")
-        elif not 0 < check_positive("density", self.density) <= 1:
-            raise ParameterError.about("density", f"is {self.density:g}; give 'same', or a number above 0 and up to 1")
+        if self.density is not None:
+            object.__setattr__(self, "density", parse_share_or_same("density", self.density))
         if isinstance(self.smooth_radius, str):
             if self.smooth_radius != AUTO:
                 raise UsageError.about("smooth_radius", f"is {self.smooth_radius!r}; give 'auto', or a number in mm")

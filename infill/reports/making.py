@@ -10,10 +10,13 @@ from infill.reports.common import (
     MeshKeys,
     Pair,
     Report,
+    ReportHead,
     SmoothingKeys,
     SmoothSeconds,
     Solid,
+    SurfaceKeys,
 )
+from infill.reports.filling import FillSeconds, PlannedSizes
 
 
 class BlockRequest(SmoothingKeys):
@@ -89,6 +92,65 @@ class MakeReport(Report):
     changes: BlockChanges
     walls: BlockWalls
     seconds: BlockSeconds
+
+
+class LatticeRequest(TypedDict):
+    """Requested block."""
+
+    pattern: Annotated[str, "Name of the pattern"]
+    parameters: Annotated[dict[str, Any], "Parameters of the pattern by name, angles in degrees"]
+    size: Annotated[Pair, "Size of the block in x and y, mm"]
+    height: Annotated[float, "Height of the block, mm"]
+    density: Annotated[float | None, "Solid share of the whole block; null if other sizes decide it"]
+    cell: Annotated[float | None, "Period of the pattern, mm; null if it follows from the density"]
+    line_width: Annotated[float | None, "Width of walls or bars, mm; null if it follows from the density"]
+    angle: Annotated[float, "Angle of the pattern, degrees"]
+    phase: Annotated[Pair, "Shift of the pattern, mm"]
+    frame: Annotated[float, "Width of the frame, mm; 0 without a frame"]
+    tolerance: Annotated[float, "Largest distance by which simplification may move the walls, mm"]
+
+
+class LatticeMesh(TypedDict):
+    """Mesh of the block."""
+
+    vertices: Annotated[int, "Number of vertices"]
+    manifold: Annotated[str, "Verdict of manifold3d: `NoError` if it accepts the mesh"]
+    tolerance: Annotated[
+        float | None,
+        "Largest distance by which simplification may have moved the walls, mm: more than requested where there were "
+        "too many triangles; null if unknown",
+    ]
+
+
+class LatticeInfill(PlannedSizes):
+    """Sizes of the infill."""
+
+    radius: Annotated[float, "Radius of the fillets, mm"]
+    density: Annotated[float, "Solid share inside the frame; of the whole block without one"]
+    crumbs: Annotated[int, "Number of loose pieces, cut off the pattern by the sides, which were left out"]
+
+
+class LatticeReport(ReportHead, SurfaceKeys):
+    """The report of `infill.make` for a pattern in space, or for a density."""
+
+    volume: Annotated[float, "Volume of the block, mm³"]
+    components: Annotated[int, "Number of pieces that hang together"]
+    density: Annotated[float, "Volume over that of the full block"]
+    problems: Annotated[list[str], "Differences from the request, one phrase each; empty without differences"]
+    request: LatticeRequest
+    grid: GridKeys
+    mesh: LatticeMesh
+    infill: LatticeInfill
+    seconds: FillSeconds
+
+
+class LatticePlan(TypedDict):
+    """The report of ``infill make --dry-run`` for a pattern in space, or for a density."""
+
+    request: LatticeRequest
+    infill: PlannedSizes
+    grid: GridKeys
+    memory: Annotated[int, "Expected memory, bytes"]
 
 
 class MakePlan(TypedDict):

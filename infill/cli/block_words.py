@@ -1,0 +1,59 @@
+"""Texts of ``infill make`` for blocks that are filled as a part is: their plan, and their summary."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import typer
+
+from infill.cli.console import format_bytes, format_table, print_json
+
+if TYPE_CHECKING:
+    from infill.reports.making import LatticePlan, LatticeReport, LatticeRequest
+
+
+def show_lattice_plan(plan: LatticePlan, *, as_json: bool) -> None:
+    """Print the plan of a block: infill, grid and memory."""
+    if as_json:
+        print_json(plan)
+        return
+    grid, infill = plan["grid"], plan["infill"]
+    rows = {
+        "infill": f"cell about {infill['cell']:.4g} mm, line width about {infill['line_width']:.4g} mm",
+        "grid": f"{' x '.join(map(str, grid['shape']))} cells of {grid['spacing'][0]:.4g} mm",
+        "memory": f"about {format_bytes(plan['memory'])}",
+    }
+    typer.echo(format_table(rows, title=f"{_format_request(plan['request'])}: nothing is written (--dry-run)"))
+
+
+def lattice_summary(report: LatticeReport, files: list[str], *, verbose: bool) -> str:
+    """Format the report of a block as a short table for stderr."""
+    request, infill = report["request"], report["infill"]
+    pieces = report["components"]
+    rows = {
+        "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, "
+        f"{pieces:,} {'piece' if pieces == 1 else 'pieces'}",
+        "solid": f"{report['volume']:.1f} mm³, {report['density']:.1%} of the block",
+        "infill": f"cells of {infill['cell']:.4g} mm, lines of {infill['line_width']:.3g} mm",
+    }
+    if request["frame"]:
+        rows["frame"] = f"{request['frame']:.3g} mm wide; {infill['density']:.1%} inside it is solid"
+    if infill["crumbs"]:
+        count = infill["crumbs"]
+        rows["left out"] = f"{count:,} loose {'piece' if count == 1 else 'pieces'}, cut off the pattern by the sides"
+    if report["problems"]:
+        rows["PROBLEMS"] = "; ".join(report["problems"])
+    if verbose:
+        grid = report["grid"]
+        rows["grid"] = f"{' x '.join(map(str, grid['shape']))} cells of {grid['spacing'][0]:.4g} mm"
+        rows["fillets"] = f"{infill['radius']:.3g} mm"
+        rows["seconds"] = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in report["seconds"].items())
+    for path in files:
+        rows[f"wrote {path}"] = format_bytes(Path(path).stat().st_size) if Path(path).is_file() else ""
+    return format_table(rows, title=_format_request(request))
+
+
+def _format_request(request: LatticeRequest) -> str:
+    size = " x ".join(f"{length:g}" for length in (*request["size"], request["height"]))
+    return f"{request['pattern']}, {size} mm"
