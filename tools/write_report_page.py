@@ -82,6 +82,22 @@ CHAPTERS = (
         known=(making.BlockRequest, common.GridKeys),
     ),
     Chapter(
+        title="Make: a block with a density, or of a pattern in space",
+        word="make",
+        text="Such a block is filled as a part is. `make` returns this report, and `infill make` prints it. `seconds` "
+        "has the keys of [a filled part](#fill-a-part-with-its-infill).",
+        report=making.LatticeReport,
+        known=(common.GridKeys, filling.FillSeconds),
+    ),
+    Chapter(
+        title="Make: a dry run of such a block",
+        word="make --dry-run",
+        text="`request` and `grid` have the keys of [the full report]"
+        "(#make-a-block-with-a-density-or-of-a-pattern-in-space).",
+        report=making.LatticePlan,
+        known=(making.LatticeRequest, common.GridKeys, filling.PlannedSizes),
+    ),
+    Chapter(
         title="Smooth: a volume, a mesh or points",
         word="smooth",
         text="`smooth_volume`, `smooth_mesh` and `smooth_points` return this report, and `infill smooth` prints it. "

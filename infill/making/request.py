@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, fields, is_dataclass
 from functools import cached_property
 from pathlib import Path
@@ -203,7 +203,7 @@ class Block:
 
 
 def plan_block(
-    pattern: Pattern | Cells | Path | str,
+    pattern: Pattern | Cells | Path | str | Callable[..., Any],
     *,
     size: float | tuple[float, ...],
     height: float | None,
@@ -322,7 +322,9 @@ def refuse_stamp_options(given: Mapping[str, bool], density: float | None) -> No
             raise UsageError.about(option, f"serves blocks that are stamped layer by layer, and {reason}; leave it out")
 
 
-def instantiate_pattern(pattern: Pattern | Cells | Path | str, parameters: dict[str, Any]) -> Pattern:
+def instantiate_pattern(
+    pattern: Pattern | Cells | Path | str | Callable[..., Any], parameters: dict[str, Any]
+) -> Pattern:
     """Return the pattern that a name and its parameters describe, or the pattern itself."""
     if not isinstance(pattern, (str, Path)):
         if isinstance(pattern, type) or lacking(pattern):
