@@ -3,10 +3,23 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 
 from infill.errors import ParameterError
 
 SHORTEST, LONGEST = 1e-6, 1e6  # of a length in mm; beyond these, files of 32-bit numbers lose it
+OTHER_NAMES = {  # of choices, in lower case
+    "inch": "in",
+    "inches": "in",
+    "millimetre": "mm",
+    "millimeter": "mm",
+    "µm": "um",
+    "micron": "um",
+    "prusa": "prusaslicer",
+    "orca": "orcaslicer",
+    "bambu": "bambustudio",
+    "ultimaker": "cura",
+}
 FARTHEST = 1e5  # mm: no machine is larger
 
 
@@ -60,3 +73,14 @@ def _to_float(name: str, value: float) -> float:
         raise ParameterError.about(name, f"is {value!r}; it must be a number") from None
     except OverflowError:
         return math.inf
+
+
+def choose_word(word: str, choices: Collection[str]) -> str:
+    """Return the choice that a word means: itself, whatever its case, or another name of it; else the word.
+
+    >>> choose_word("Prusa", ["prusaslicer", "cura"]), choose_word("inch", ["mm", "in"]), choose_word("x", ["mm"])
+    ('prusaslicer', 'in', 'x')
+    """
+    lower = word.strip().lower()
+    meant = OTHER_NAMES.get(lower, lower)
+    return word if word in choices or meant not in choices else meant

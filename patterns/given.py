@@ -19,6 +19,7 @@ from patterns.declared import (
     value_count,
 )
 from patterns.errors import PatternError, PatternUsageError
+from patterns.quantities import parse_quantity
 
 BOOLEANS = {"true": True, "yes": True, "on": True, "1": True, "false": False, "no": False, "off": False, "0": False}
 NONE = "none"
@@ -91,9 +92,8 @@ def _parse_value(text: str, field: dataclasses.Field[Any], described: Parameter)
         return None
     if isinstance(default, bool):
         return BOOLEANS.get(word, text)
-    try:
-        if value_count(default, described) is not None:
-            return tuple(float(part) for part in text.split(","))
-        return float(text)
-    except ValueError:
+    is_single = value_count(default, described) is None
+    numbers = tuple(parse_quantity(part, described.unit) for part in ([text] if is_single else text.split(",")))
+    if None in numbers:
         return text
+    return numbers[0] if is_single else numbers

@@ -99,6 +99,19 @@ def make_plans(folder: Path, results: Results) -> dict[str, Any]:
     return {"block": printed("make", "honeycomb", "--size", 20, "--height", 3, "--dry-run")}
 
 
+def lattice_reports(folder: Path, results: Results) -> dict[str, Any]:
+    words = ("make", "gyroid", "--size", "12x10x8", "--density", 0.3)
+    command = printed(*words, "-o", folder / "a.stl")
+    return {"command": command, "library": make("honeycomb", size=(12, 12, 5), cell=4, density=0.4).report}
+
+
+def lattice_plans(folder: Path, results: Results) -> dict[str, Any]:
+    return {
+        "block": printed("make", "gyroid", "--dry-run"),
+        "cell": printed("make", "gyroid", "--cell", 8, "--dry-run"),
+    }
+
+
 def smooth_reports(folder: Path, results: Results) -> dict[str, Any]:
     np.save(folder / "ball.npy", BALL)
     reports = {name: result.report for name, result in results.items() if result.report["product"] == "smooth"}
@@ -251,6 +264,8 @@ CHAPTER = {chapter.word: chapter for chapter in CHAPTERS}
 REPORTS: dict[str, Callable[[Path, Results], dict[str, Any]]] = {
     "make": make_reports,
     "make --dry-run": make_plans,
+    "make --density": lattice_reports,
+    "make --density --dry-run": lattice_plans,
     "smooth": smooth_reports,
     "smooth --dry-run": smooth_plans,
     "labels": labels_reports,

@@ -83,7 +83,7 @@ CHAPTERS = (
     ),
     Chapter(
         title="Make: a block with a density, or of a pattern in space",
-        word="make",
+        word="make --density",
         text="Such a block is filled as a part is. `make` returns this report, and `infill make` prints it. `seconds` "
         "has the keys of [a filled part](#fill-a-part-with-its-infill).",
         report=making.LatticeReport,
@@ -91,7 +91,7 @@ CHAPTERS = (
     ),
     Chapter(
         title="Make: a dry run of such a block",
-        word="make --dry-run",
+        word="make --density --dry-run",
         text="`request` and `grid` have the keys of [the full report]"
         "(#make-a-block-with-a-density-or-of-a-pattern-in-space).",
         report=making.LatticePlan,

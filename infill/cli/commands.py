@@ -14,6 +14,7 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 
 from infill.cli.console import say
+from infill.cli.typed_values import TypedValueError, rewrite_values
 from infill.errors import InfillError, UsageError
 from patterns.errors import PatternError, PatternUsageError
 
@@ -43,7 +44,9 @@ class Command(TyperCommand):
         if not args:
             return super().parse_args(ctx, args)
         try:
-            return super().parse_args(ctx, args)
+            return super().parse_args(ctx, rewrite_values(self.params, args))
+        except TypedValueError as error:
+            raise _usage_exit(ctx, str(error)) from error
         except UsageException as error:
             raise _usage_exit(ctx, _plain_message(error)) from error
 

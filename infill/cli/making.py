@@ -88,8 +88,8 @@ def make(
             rich_help_panel=PATTERN,
         ),
     ] = None,
-    waves: Annotated[float | None, typer.Option(hidden=True)] = None,
-    hearts: Annotated[int | None, typer.Option(hidden=True)] = None,
+    waves: Annotated[float | None, typer.Option(metavar="NUMBER", hidden=True)] = None,
+    hearts: Annotated[int | None, typer.Option(metavar="N", hidden=True)] = None,
     typed: dict[str, Any],
     allow_broken: Annotated[
         bool, typer.Option("--allow-broken", help="Write the mesh even if smoothing broke walls.", rich_help_panel=RUN)

@@ -24,6 +24,7 @@ from infill.options.declaration import Option, by_key, declared_options, read_op
 from infill.options.keyword_options import parse_number, parse_share, parse_word
 from infill.options.toml import format_rows, read_toml
 from infill.options.trust import check_trusted
+from patterns.quantities import parse_quantity
 
 if TYPE_CHECKING:
     from infill.making.lattice_block import LatticeBlock
@@ -39,20 +40,24 @@ STAMP_OPTIONS = ("stamp", "cells", "surface", "steps", "fidelity", "interface", 
 def parse_size(name: str, size: object) -> tuple[float, ...]:
     """Return x and y in mm, and the height if it is given, from ``60x40``, ``60x40x20``, ``60``, 60 or [60, 40].
 
-    >>> parse_size("size", "60x40"), parse_size("size", "60x40x20")
-    ((60.0, 40.0), (60.0, 40.0, 20.0))
+    >>> parse_size("size", "60x40"), parse_size("size", "6cm x 40mm x 20,5")
+    ((60.0, 40.0), (60.0, 40.0, 20.5))
     """
     parts = re.split(r"\s*[x×X]\s*", size.strip()) if isinstance(size, str) else size
     numbers = list(parts) if isinstance(parts, (list, tuple)) else [parts]
-    try:
-        lengths = [float(number) for number in numbers]  # type: ignore[arg-type]
-    except (TypeError, ValueError, OverflowError):
-        lengths = []
-    if len(lengths) not in (1, 2, 3):
+    lengths = [parse_quantity(part, "mm") if isinstance(part, str) else _as_float(part) for part in numbers]
+    if len(lengths) not in (1, 2, 3) or None in lengths:
         raise UsageError.about(
             name, f"is {quote_value(size)}; give millimetres as 60x40, as 60x40x20 with the height, or 60 for a square"
         )
-    return tuple(lengths if len(lengths) > 1 else 2 * lengths)
+    return tuple(side for side in (lengths if len(lengths) > 1 else 2 * lengths) if side is not None)
+
+
+def _as_float(number: object) -> float | None:
+    try:
+        return float(number)  # type: ignore[arg-type]
+    except (TypeError, ValueError, OverflowError):
+        return None
 
 
 @dataclass(frozen=True, kw_only=True)

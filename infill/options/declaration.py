@@ -17,10 +17,12 @@ from pathlib import Path
 from types import NoneType
 from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
 
+from infill.checks import choose_word
 from infill.errors import ParameterError
 from infill.files.excerpts import quote_value
 from infill.options.keyword_options import Reader, check_whole, parse_flag, parse_number, parse_word
 from patterns.given import suggest_name
+from patterns.quantities import UNITS, parse_quantity
 
 
 @dataclass(frozen=True)
@@ -89,9 +91,25 @@ class DeclaredOption:
         return self.option.unit or ("|".join(get_args(self.kind)) if get_origin(self.kind) is Literal else None)
 
     def read(self, value: object) -> Any:  # noqa: ANN401 - of the type of the field
-        """Check a value from the command line or a config file."""
+        """Check a value from the command line or a config file; units and other names of a choice are understood."""
+        choices = get_args(self.kind) if get_origin(self.kind) is Literal else ()
+        if isinstance(value, str) and choices:
+            value = choose_word(value, choices)
+        if isinstance(value, str) and self.kind is float and self.option.read is None:
+            number = parse_quantity(value, unit_of(self.option.unit))
+            value = value if number is None else number
         reader = self.option.read or READERS[str if get_origin(self.kind) is Literal else self.kind]
         return reader(self.key, value)
+
+
+def unit_of(placeholder: str) -> str:
+    """Return the unit that the placeholder of an option stands for, or "".
+
+    >>> unit_of("MM MM"), unit_of("MM/S2"), unit_of("CELLS")
+    ('mm', 'mm/s2', '')
+    """
+    word = placeholder.split()[0].lower() if placeholder else ""
+    return word if word in UNITS else ""
 
 
 def parse_path(name: str, value: object) -> Path:

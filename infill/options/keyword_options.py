@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Sequence
 from typing import Any, Literal
 
 from infill.errors import ParameterError, UsageError
 from infill.files.excerpts import quote_value
+from patterns.quantities import parse_quantity
 
 LONGEST_WORD = 1000  # signs of a name, also of a file
 LARGEST_WHOLE = 2**53  # as floating-point numbers count without gaps
@@ -31,16 +31,16 @@ def parse_share(name: str, value: object, advice: str = "give a share such as 20
     [0.2, 0.2, 0.2, 0.2, 0.2, 1.0]
     """
     if isinstance(value, str):
-        match = re.fullmatch(r"\s*([+-]?\d*[.,]?\d+|nan|[+-]?inf)\s*(%?)\s*", value)
-        if not match:
+        bare = value.strip().removesuffix("%")
+        number = parse_quantity(bare)
+        if number is None:
             raise UsageError.about(name, f"is {quote_value(value)}; {advice}")
-        number = float(match[1].replace(",", "."))
-        share = number / 100 if match[2] else to_share(number)
+        share = to_share(number) if bare == value.strip() else number / 100
     else:
         share = to_share(parse_number(name, value))
     if not 0 < share <= 1:
         raise ParameterError.about(name, f"is {quote_value(value)}; {advice}, up to 100%")
-    return share
+    return float(share)
 
 
 def to_share(value: float) -> float:
@@ -75,6 +75,20 @@ def check_fits_float(name: str, value: float) -> float:
     return value
 
 
+def read_number(name: str, value: object, unit: str = "") -> float:
+    """Read a number, or a text with one and perhaps a unit; raise ValueError for another text, or as `parse_number`.
+
+    >>> read_number("radius", "0,5"), read_number("radius", "2 mm", "mm"), read_number("radius", 3)
+    (0.5, 2.0, 3.0)
+    """
+    if not isinstance(value, str):
+        return float(parse_number(name, value))
+    number = parse_quantity(value, unit)
+    if number is None:
+        raise ValueError(value)
+    return number
+
+
 def check_whole(name: str, value: object) -> int:
     """Return an int unchanged, or raise UsageError; 5.0, True and text are refused."""
     if isinstance(value, bool) or not isinstance(value, int):
@@ -106,8 +120,8 @@ def parse_numbers(name: str, value: object, counts: tuple[int, ...]) -> tuple[fl
         value.split(",") if isinstance(value, str) else value if isinstance(value, (list, tuple)) else [value]
     )
     try:
-        numbers = tuple(float(part) for part in parts if not isinstance(part, bool))
-    except (TypeError, ValueError, OverflowError):
+        numbers = tuple(read_number(name, part) for part in parts)
+    except (ValueError, ParameterError):
         numbers = ()
     if len(numbers) not in counts:
         expected = " or ".join(map(str, counts))
@@ -126,6 +140,6 @@ def parse_level(name: str, value: object) -> Literal["volume"] | float:
     if value == "volume":
         return "volume"
     try:
-        return float(value) if isinstance(value, str) else parse_number(name, value)
+        return read_number(name, value)
     except ValueError:
         raise UsageError.about(name, f"is {quote_value(value)}; give volume, or a number between -1 and 1") from None

@@ -6,7 +6,9 @@ import os
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
+from typing import cast
 
+from infill.checks import choose_word
 from infill.errors import UsageError
 from infill.projects import bambustudio, cura, prusaslicer
 from infill.projects.findings import Finding, PrintedVolume, Severity, as_problem, as_warning
@@ -64,6 +66,7 @@ def check_project(path: str | os.PathLike[str], slicer: Slicer) -> Diagnosis:
     -----
     The rules are those that the readers of the slicers follow; their own exit status is 0 in most of these cases.
     """
+    slicer = cast("Slicer", choose_word(slicer, SLICERS))
     if slicer not in SLICERS:
         raise UsageError.about("slicer", f"is {slicer!r}; choose from {', '.join(SLICERS)}")
     package = read_package(Path(path))

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, BinaryIO
 
+from infill.checks import choose_word
 from infill.errors import FormatError, UsageError
 from infill.files.whole_files import atomic_file
 from infill.options.toml import format_options
@@ -17,6 +18,7 @@ from infill.result import Result
 
 def writer_for(slicer: str) -> Callable[[Project, BinaryIO], None]:
     """Look up the function that writes projects for a slicer, or raise UsageError."""
+    slicer = choose_word(slicer, SLICERS)
     if slicer not in SLICERS:
         raise UsageError.about("slicer", f"is {slicer!r}; choose from {', '.join(SLICERS)}")
     return WRITERS[slicer]

@@ -12,7 +12,7 @@ from infill.checks import check_range
 from infill.errors import ParameterError, UsageError
 from infill.files.excerpts import quote_value
 from infill.options.declaration import Option
-from infill.options.keyword_options import parse_number, parse_share
+from infill.options.keyword_options import parse_share, read_number
 from patterns.errors import PatternError
 
 Progress = Callable[[str, float], None]
@@ -33,7 +33,7 @@ def parse_radius(name: str, value: object) -> str | float:
     if value == AUTO:
         return AUTO
     try:
-        return float(value) if isinstance(value, str) else parse_number(name, value)
+        return read_number(name, value, "mm")
     except ValueError:
         raise UsageError.about(name, f"is {quote_value(value)}; give auto, or a number in mm") from None
 

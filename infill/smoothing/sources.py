@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal, Unpack, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.checks import choose_word
 from infill.errors import FormatError, GeometryError, ParameterError, UsageError
 from infill.files.broken import READER_ERRORS
 from infill.formats.mesh_files import READERS, read_mesh
@@ -107,6 +108,7 @@ def read_source(
     source = Path(path)
     if kind is not None and kind not in KINDS:
         raise UsageError.about("kind", f"is {kind!r}; choose from {', '.join(KINDS)}")
+    units = units and choose_word(units, UNITS)
     if units is not None and units not in UNITS:
         raise UsageError.about("units", f"is {units!r}; choose from {', '.join(UNITS)}")
     source_kind = kind or _guess_kind(source)
