@@ -18,7 +18,7 @@ from infill.lattices.bodies import Fields
 from infill.lattices.density_search import has_uniform_width, requested_density, solid_share
 from infill.lattices.drain_holes import DrainedSolid, drain_problems, find_closed_voids
 from infill.lattices.grading import LocalWidths, densities_by_share
-from infill.lattices.request import GAP, LINE_WIDTH, FillSpec
+from infill.lattices.request import DENSITY, GAP, LINE_WIDTH, FillSpec
 from infill.lattices.task import FillTask
 from infill.lattices.void_meshes import VoidMeshes
 from infill.meshes.distance import TriangleTree
@@ -38,6 +38,8 @@ STEPS = 3  # of a density that changes
 LEAST_LEFT = 0.75  # of the pattern as drawn: fillets only add to it
 THINNEST = 0.4  # mm: a nozzle
 THIN = 0.8  # mm: two lines of a nozzle of 0.4
+HAIRLINE = 0.2  # mm: the thinnest walls that printers with resin and powder are sure to make
+USUAL = 2.0  # times the default density, or as many times less: a density outside was hardly wanted
 AT_ONCE = 50_000  # triangles or points in a batch
 LEAST_WALL = 0.9  # of the requested wall
 
@@ -186,6 +188,22 @@ def is_width_ok(width: float, requested: float) -> bool:
     return abs(width / requested - 1) <= OFF_WIDTH
 
 
+def size_problems(request: FillSpec, hollow: VoidMeshes) -> Iterator[str]:
+    """Yield a message for a requested cell that is too large for the part, or that alone decides the density."""
+    room = hollow.space.across
+    if request.cell is not None and request.cell >= room:
+        yield (
+            f"cells of {request.cell:g} mm are as large as the inside of the part, {room:.3g} mm across, so that little "
+            f"of the pattern lies in it; give cells of {room / 3:.2g} mm or less"
+        )
+    elif request.cell_alone and not DENSITY / USUAL <= hollow.density <= DENSITY * USUAL:
+        yield (
+            f"cells of {request.cell:g} mm with walls of {hollow.width:.3g} mm leave a density of "
+            f"{hollow.density:.1%}, and not {DENSITY:.0%}, the default without a cell; give a density beside the cell "
+            "for wider walls"
+        )
+
+
 def find_problems(
     request: FillSpec, hollow: VoidMeshes, facts: SolidMeasures, drained: DrainedSolid, lost: NarrowShares | None = None
 ) -> Iterator[str]:
@@ -214,6 +232,12 @@ def find_problems(
         )
     if request.line_width is not None and request.grading is None and not is_width_ok(facts.width, request.line_width):
         yield f"walls or bars inside are {facts.width:.3g} mm wide, and {request.line_width:g} mm was asked for"
+    elif request.form != "project" and facts.width < HAIRLINE:
+        yield (
+            f"walls or bars inside are {facts.width:.2g} mm wide, thinner than most printers make; give a larger cell, "
+            "a line width or a higher density"
+        )
+    yield from size_problems(request, hollow)
     if request.form == "project" and facts.width < THINNEST:
         yield (
             f"walls or bars inside are {facts.width:.2g} mm wide, less than a line of a usual nozzle: slicers leave "

@@ -83,6 +83,8 @@ class FillSpec:
     voxel : float or None
         mm
     max_triangles : int or None
+    cell_alone : bool
+        True if only the cell was given, so that the density follows from it and the default line width.
     """
 
     pattern: str
@@ -107,6 +109,7 @@ class FillSpec:
     open_: Open | None = None
     vent: bool = False
     drain_at: tuple[tuple[float, float, float], ...] = ()
+    cell_alone: bool = False
 
     @property
     def beyond(self) -> float:
@@ -296,7 +299,7 @@ def check_request(
     if len(phase) not in (2, 3):
         raise UsageError.about("phase", f"has {len(phase)} numbers; give two or three, mm")
     shift = [check_range("phase", step, -FURTHEST, FURTHEST, "mm") for step in phase]
-    grading = None
+    grading, asked_width = None, line_width
     if isinstance(density, (tuple, list)):
         if isinstance(kind, Lightning):
             raise UsageError.about(
@@ -315,6 +318,7 @@ def check_request(
         density = DENSITY if cell is None or has_bars(kind) else None
         if density is None:
             line_width = SLICED_WIDTH if form == "project" else LINE_WIDTH
+    cell_alone = density is None and cell is not None and asked_width is None and not isinstance(kind, Lightning)
     if density is not None and line_width is not None and isinstance(kind, Lightning):
         raise UsageError.about(
             ("density", "line_width"),
@@ -350,6 +354,7 @@ def check_request(
         open_=open_,  # type: ignore[arg-type]
         vent=vent,
         drain_at=places,
+        cell_alone=cell_alone,
     )
 
 
