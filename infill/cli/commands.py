@@ -29,6 +29,7 @@ FLAGS_OF_ARGUMENT = {
     "method": ("--smooth",),
     "kind": ("--as",),
     "slicer": ("--for",),
+    "part": ("--object",),
 }
 
 

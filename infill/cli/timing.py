@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import typer
 
 from infill.cli.console import format_table, print_json, say
+from infill.gcode.ending import describe_missing_end
 
 if TYPE_CHECKING:
     from infill.planner.printing_time import FeatureMotion, Motion
@@ -172,6 +173,8 @@ def _summary(path: Path, plan: Motion) -> str:
         "model": plan.limits["model"],
         "limits": limits,
     }
+    if plan.missing_end:
+        rows["CUT OFF"] = describe_missing_end(plan.missing_end)
     if plan.unread_lines:
         rows["NOT READ"] = (
             f"{plan.unread_lines} line(s) that may move or extrude are left out; the first is line "

@@ -13,6 +13,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Final
 
+from infill.gcode.ending import find_missing_end
 from infill.gcode.limits import JERK_MODELS, Axes, Limits, Model, apply_command, is_valid_limit
 from infill.gcode.machine_state import DIAMETER, MAX_TOOLS
 
@@ -102,6 +103,8 @@ class FileLimits:
         As the argument of `apply_command`.
     rule_of_e : str
         As `MachineState.firmware`.
+    missing_end : str
+        The line with which the slicer ends a file, if it lacks that; else "".
     """
 
     limits: Limits
@@ -116,6 +119,7 @@ class FileLimits:
     start: tuple[Limits, Mapping[str, str]]
     firmware: str
     rule_of_e: str = ""
+    missing_end: str = ""
 
     def after(self, code: str, line: bytes) -> FileLimits:
         """Return the limits in force after a command."""
@@ -152,6 +156,7 @@ def read_limits(
         If a limit that was given is out of range.
     """
     fixed = dict(fixed or {})
+    missing_end = "" if settings else find_missing_end(_find_slicer(head), tail)
     settings = dict(settings or {})
     for text in (head, tail):
         settings |= {name.decode(): value.decode("latin-1").strip() for name, value in _SETTING.findall(text)}
@@ -159,8 +164,7 @@ def read_limits(
     by_minute = flavour in ("reprapfirmware", "sprinter") or (
         (b"M566" in head or b"M203" in head) and _BY_MINUTE.search(head) is not None
     )
-    named = _SLICER.search(head)
-    slicer = b" ".join(named.groups()).decode("latin-1") if named else ""
+    slicer = _find_slicer(head)
     start, stated = _default_limits(flavour, head, slicer), {}
     if settings.get("machine_limits_usage") != "ignore":
         stated = _parse_settings(settings, start)
@@ -186,7 +190,14 @@ def read_limits(
         slicer=slicer,
         filament_diameter=diameters[0],
         estimate=_slicer_estimate(settings, head, tail),
+        missing_end=missing_end,
     )
+
+
+def _find_slicer(head: bytes) -> str:
+    """Return the name and version of the slicer, "" if the beginning of the file does not state it."""
+    named = _SLICER.search(head)
+    return b" ".join(named.groups()).decode("latin-1") if named else ""
 
 
 def filament_units(head: bytes, settings: Mapping[str, str]) -> tuple[bool, tuple[float, ...]]:

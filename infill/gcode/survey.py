@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from typing import BinaryIO
 
 from infill.errors import FormatError
+from infill.gcode.ending import find_missing_end
 from infill.gcode.found_limits import extrusion_rule, filament_units
 from infill.gcode.limits import is_valid_limit
 from infill.gcode.machine_state import MachineState
@@ -63,6 +64,8 @@ class Survey:
         Approximate number of layers.
     small : bool
         True if nearly every layer was read.
+    missing_end : str
+        The line with which its slicer ends a file, if it lacks that; else "".
     """
 
     size: int
@@ -74,6 +77,7 @@ class Survey:
     windows: tuple[bytes, ...]
     layers: float
     small: bool
+    missing_end: str = ""
 
     def number(self, *names: str, limit: str = "") -> float | None:
         """Return the first of several settings that is present, as a number; the first item of a list.
@@ -138,11 +142,12 @@ def survey_print(file: BinaryIO, *, more: bool = False, settings: Mapping[str, s
     windows = ALL_WINDOWS if size <= SMALL_FILE else MORE_WINDOWS if more else WINDOWS
     samples = [text for text in (_read_window(file, size, (k + 0.5) / windows) for k in range(windows)) if text]
     samples = list(dict.fromkeys(samples))
+    slicer_name = slicer[1].decode("latin-1").strip() if slicer else ""
     tags = sum(len(LAYER_TAG.findall(text)) for text in samples)
     file.seek(0)
     return Survey(
         size=size,
-        slicer=slicer[1].decode("latin-1").strip() if slicer else "",
+        slicer=slicer_name,
         settings=all_settings,
         begin=begin,
         stamped=STAMP in head,
@@ -150,6 +155,7 @@ def survey_print(file: BinaryIO, *, more: bool = False, settings: Mapping[str, s
         windows=tuple(samples),
         layers=size * tags / max(1, sum(map(len, samples))),
         small=size <= SMALL_FILE,
+        missing_end="" if settings else find_missing_end(slicer_name, tail),
     )
 
 

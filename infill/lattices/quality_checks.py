@@ -193,8 +193,8 @@ def size_problems(request: FillSpec, hollow: VoidMeshes) -> Iterator[str]:
     room = hollow.space.across
     if request.cell is not None and request.cell >= room:
         yield (
-            f"cells of {request.cell:g} mm are as large as the inside of the part, {room:.3g} mm across, so that little "
-            f"of the pattern lies in it; give cells of {room / 3:.2g} mm or less"
+            f"cells of {request.cell:g} mm are as large as the inside of the part, {room:.3g} mm across, so that "
+            f"little of the pattern lies in it; give cells of {room / 3:.2g} mm or less"
         )
     elif request.cell_alone and not DENSITY / USUAL <= hollow.density <= DENSITY * USUAL:
         yield (

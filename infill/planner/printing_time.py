@@ -69,6 +69,7 @@ class Motion:
     unread_lines: int = 0
     first_unread_line: int = 0
     first_unread_text: str = ""
+    missing_end: str = ""
     macros: tuple[str, ...] = ()
     volumetric: bool = False
     filament_diameter: float = 1.75
@@ -166,6 +167,7 @@ def motion(
         unread_lines=timeline.unread.lines,
         first_unread_line=timeline.unread.first,
         first_unread_text=timeline.unread.text,
+        missing_end=file_limits.missing_end,
         macros=tuple(timeline.macros),
         volumetric=timeline.state.volumetric,
         filament_diameter=timeline.state.diameter,

@@ -19,11 +19,13 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
+from infill.errors import ParameterError
+from infill.files.excerpts import quote_value
 from infill.files.whole_files import atomic_file, check_target, scratch_file
 from infill.gcode.estimates import EstimateChange, Restatement, StatedAmounts, restate
 from infill.gcode.sliced_file import SlicedText, open_sliced
 from infill.gcode.stream import edited_text
-from infill.refilling.request import AUTO, KEEP, Progress, Request
+from infill.refilling.request import AUTO, ENDLESS, KEEP, Progress, Request, describe_objects
 from infill.version import __version__
 
 if TYPE_CHECKING:
@@ -144,6 +146,7 @@ def refill(
             plate_progress = _scale_progress(progress, number, len(sliced.parts))
             with sliced.text(plate, folder) as text:
                 drafted[plate] = _refill_text(text, scratch, request, plate_progress)
+        _check_choice(request, [draft.tally for draft in drafted.values() if draft.tally is not None])
         report = _joint_report(request, list(drafted.values()), sliced.plates)
         changed = {plate: draft for plate, draft in drafted.items() if draft.tally is not None and draft.tally.replaced}
         if dry_run or (not changed and output is None):
@@ -165,6 +168,20 @@ def refill(
     return RefillResult(report=report, path=target)
 
 
+def _check_choice(request: Request, prints: Sequence[RefillStats]) -> None:
+    """Raise ParameterError if the layers or the object asked for are in none of the prints."""
+    most = max((stats.layers for stats in prints), default=0)
+    if request.layers is not None and most and request.layers[0] > most:
+        low, high = request.layers
+        asked = f"{low}" if low == high else f"{low} and more" if high == ENDLESS else f"{low} to {high}"
+        raise ParameterError.about("layers", f"is {asked}, and the print has {most:,}; give some from 1 to {most}")
+    names = [name for stats in prints for name in stats.objects]
+    if request.part is not None and prints and not any(request.part in name for name in names):
+        raise ParameterError.about(
+            "part", f"is {quote_value(request.part)}, which is in no name of an object; {describe_objects(names)}"
+        )
+
+
 def _scale_progress(progress: Progress | None, number: int, count: int) -> Progress | None:
     """Scale the progress of one of several prints to that of all."""
     if progress is None or count == 1:
@@ -177,6 +194,7 @@ def _refill_lines(lines: Iterable[str], request: Request, progress: Progress | N
     text = "".join(line if line.endswith("\n") else f"{line}\n" for line in lines)
     sliced = SlicedText(text=io.BytesIO(text.encode("utf-8", "surrogateescape")))
     drafted = _refill_text(sliced, io.BytesIO(), request, progress)
+    _check_choice(request, [] if drafted.tally is None else [drafted.tally])
     if drafted.tally is not None and drafted.tally.replaced:
         text = b"".join(edited_text(drafted.draft, drafted.edits)).decode("utf-8", "surrogateescape")
     # Not splitlines: comments may hold characters that it treats as line ends.

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from infill.gcode.ending import describe_missing_end
 from infill.gcode.survey import Survey
 from infill.refilling.placement import facts
 from infill.refilling.request import KEEP, Request
@@ -90,6 +91,8 @@ def refill_report(
     }
     report["contact"] = contact_section(tally)
     report["problems"] = _problems(report, tally)
+    if print_survey.missing_end:
+        report["problems"].insert(0, describe_missing_end(print_survey.missing_end))
     if keeps_paths and loses_filament(tally):
         lost = f"the infill takes {ratio - 1:+.1%} filament"
         if remedy is not None and not loses_filament(remedy):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Any
 
@@ -21,6 +21,7 @@ AUTO = "auto"
 SAME = "same"
 LARGEST_RADIUS = 100.0  # mm
 ENDLESS = 10**9  # layers
+MOST_LISTED = 10  # objects in a message
 PATHS, WHERE = "Paths", "Where"
 
 
@@ -62,6 +63,17 @@ def parse_range(name: str, value: object) -> tuple[int, int]:
         raise UsageError.about(name, f"is {quote_value(value)}; give a range such as 5-20, or 5-")
     lowest = int(match[1])
     return lowest, int(match[3]) if match[3] else ENDLESS if match[2] else lowest
+
+
+def describe_objects(names: Iterable[str]) -> str:
+    """List the objects of a print in words, the first ten of many.
+
+    >>> describe_objects(["a", "b"]), describe_objects([])
+    ("it has 'a', 'b'", 'no comment of its file names one')
+    """
+    listed = [quote_value(name) for name in dict.fromkeys(names) if name]
+    more = f" and {len(listed) - MOST_LISTED:,} more" if len(listed) > MOST_LISTED else ""
+    return f"it has {', '.join(listed[:MOST_LISTED])}{more}" if listed else "no comment of its file names one"
 
 
 @dataclass(frozen=True, kw_only=True)

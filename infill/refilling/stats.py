@@ -166,6 +166,8 @@ class RefillStats:
         Time that the print stated; 0 without one.
     unread, first_unread : int
         Lines that may move or extrude and are not understood, and the number of the first in its print.
+    objects : dict of str to int
+        Names of the objects of the print, as keys.
     """
 
     layers: int = 0
@@ -187,6 +189,7 @@ class RefillStats:
     slicer_seconds: float = 0.0
     unread: int = 0
     first_unread: int = 0
+    objects: dict[str, int] = field(default_factory=dict)
 
     @property
     def filament_error(self) -> float:
@@ -280,6 +283,7 @@ def count_refill(layers: Layers, new: NewInfill, seconds: Floats) -> RefillStats
         filament=_sum_by_tool(layers.tools, layers.table.extruded),
         change=_sum_by_tool(layers.tools[new.lines], new.increase),
         corners=len(arcs),
+        objects=dict.fromkeys(layers.marks.names.values(), 1),
     )
     stats.radii.add(arcs)
     replaced = np.unique(layers.section[new.changed])

@@ -64,6 +64,9 @@ class MotionReport(TypedDict):
     unread_lines: Annotated[int, "Number of lines that may move or extrude and are left out"]
     first_unread_line: Annotated[int, "Number of the first of these lines, from 1; 0 without one"]
     first_unread_text: Annotated[str, "Text of that line"]
+    missing_end: Annotated[
+        str, "Line with which its slicer ends a file, if this one lacks it and was cut off; else empty"
+    ]
     macros: Annotated[tuple[str, ...], "Macros of the printer that may move, such as `PRINT_START`; they are left out"]
     volumetric: Annotated[bool, "Whether E counts mm³ at the end of the file"]
     filament_diameter: Annotated[float, "Diameter of the filament, mm"]
