@@ -44,6 +44,7 @@ if TYPE_CHECKING:
     from infill.projects.saving import save_project
     from infill.refilling.job import RefillResult, refill
     from infill.result import Result
+    from infill.samples.catalogue import write_sample
     from infill.smoothing.job import smooth_mesh, smooth_points, smooth_volume
     from infill.smoothing.labels import smooth_labels
     from infill.surface import Surface
@@ -71,6 +72,7 @@ _HOMES = {
     "making.block": ("make",),
     "result": ("Result",),
     "formats.point_files": ("read_points",),
+    "samples.catalogue": ("write_sample",),
     "smoothing.labels": ("smooth_labels",),
     "imaging.label_tables": ("Segment", "read_labels"),
     "imaging.segmentations": ("Segmentation", "read_segmentation"),
@@ -136,6 +138,7 @@ __all__ = [
     "stamp",
     "stamp_lines",
     "wall_width",
+    "write_sample",
 ]
 
 

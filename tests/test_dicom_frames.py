@@ -736,4 +736,4 @@ def test_without_pydicom_the_extra_is_named(tmp_path: Path, monkeypatch: pytest.
     for each, what in ((path, ".dcm"), (tmp_path, "a DICOM folder")):
         with pytest.raises(FormatError) as caught:
             read_volume(each)
-        assert str(caught.value) == f"reading {what} needs the extra medical: pip install 'phasefill[medical]'"
+        assert str(caught.value) == f"reading {what} needs the extra medical: pip install pydicom SimpleITK"

@@ -254,7 +254,7 @@ def test_a_value_that_is_missing_is_wrong_usage(command: str) -> None:
 @pytest.mark.parametrize("command", COMMANDS)
 def test_an_unknown_option_is_wrong_usage(command: str) -> None:
     usage_error(run(command, "x", "--nonsense"), "--nonsense")
-    if command != "check":  # which takes any number of meshes
+    if command not in ("check", "sample"):  # which take any number of words
         usage_error(run(command, "x", "y", "z", "more"), "more|unexpected")
 
 
@@ -285,6 +285,8 @@ def test_an_unknown_option_is_wrong_usage(command: str) -> None:
         "motion print.gcode --layer 3",
         "motion print.gcode --jerk 5 --square-corner-velocity 5",
         "list --preview a.png",
+        "sample -o a.stl",
+        "sample part scan -o a.stl",
     ],
 )
 def test_what_excludes_each_other_or_leaves_nothing_to_do_is_wrong_usage(line: str, folder: Path) -> None:
@@ -308,6 +310,11 @@ def test_what_excludes_each_other_or_leaves_nothing_to_do_is_wrong_usage(line: s
         "motion none.gcode",
         "list honycomb",
         "check none.stl",
+        "sample none",
+        "sample part -o a.gcode",
+        "sample scan -o a.npy",
+        "sample print -o a.stl",
+        "sample part part",
     ],
 )
 def test_what_is_not_there_or_does_not_fit_is_an_error(line: str, folder: Path) -> None:

@@ -1,4 +1,7 @@
-"""What README and the pages show works: their blocks run in order, each page in a folder with a user's own files."""
+"""What README and the pages show works: their blocks run in order, each page in a folder of its own.
+
+README and the tutorials begin in an empty folder; the pages that say how, in one with a user's own files.
+"""
 
 from __future__ import annotations
 
@@ -17,21 +20,19 @@ from test_scans import write_series
 
 ROOT = Path(__file__).resolve().parents[1]
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-# The pages whose blocks run: README, the tutorials and the pages that say how.
-PAGES = [
+# The pages whose blocks run: README and the tutorials, which bring all they need, and the pages that say how.
+COMPLETE = [
     "README.md",
     *sorted(page.relative_to(ROOT).as_posix() for page in (ROOT / "docs" / "tutorials").glob("*.md")),
-    *(f"docs/{name}.md" for name in ("make", "smooth", "fill", "refill", "motion")),
 ]
-# Lines that install something, or build in a clone.
+HOW_TO = [f"docs/{name}.md" for name in ("make", "smooth", "fill", "refill", "motion")]
+PAGES = [*COMPLETE, *HOW_TO]
+# Lines that install from a clone.
 SKIPPED = {
     "git clone https://github.com/phasefill/phasefill",
-    "cd phasefill",
-    "pip install .",
-    "make demo      # optional: three designs as STL, with a picture of each",
-    "pip install phasefill          # or: pipx install phasefill, or: uvx phasefill make honeycomb -o honeycomb.stl",
+    "pip install ./phasefill",
 }
-# What a user has, and the pages therefore do not make.
+# What a user has, and the pages that say how therefore do not make.
 GIVEN = {
     "scan.nrrd",
     "scan.nii.gz",
@@ -132,14 +133,34 @@ def test_every_line_runs_or_installs(page: str) -> None:
     for line in lines:
         assert line.startswith("infill ") or line in SKIPPED
     if page == "README.md":
+        assert [line for line in lines if line in SKIPPED] == lines[: len(SKIPPED)]  # the first block installs
         assert {language for language, _ in page_blocks(page)} == {"bash", "python", "text"}
         assert set(lines) >= SKIPPED
 
 
 @pytest.mark.longest
-@pytest.mark.parametrize("page", PAGES)
-def test_the_blocks_of_a_page_run_in_their_order(page: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """And a block of text shows rows that the block before it printed."""
+@pytest.mark.parametrize("page", COMPLETE)
+def test_the_blocks_of_a_page_run_in_an_empty_folder(
+    page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """In their order, with nothing that a reader must bring."""
+    monkeypatch.chdir(tmp_path)
+    run_page(page, capsys)
+
+
+@pytest.mark.longest
+@pytest.mark.parametrize("page", HOW_TO)
+def test_the_blocks_of_a_page_run_with_the_files_of_a_user(
+    page: str, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    run_page(page, capsys)
+
+
+def run_page(page: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """Run the blocks of a page in their order; a block of text shows rows that the block before it printed.
+
+    No block of Python replaces a file: where a command would refuse, a reader would not expect it.
+    """
     printed = ""
     for language, block in page_blocks(page):
         if language in ("bash", "python"):
@@ -147,7 +168,9 @@ def test_the_blocks_of_a_page_run_in_their_order(page: str, folder: Path, capsys
         if language == "python" and (saved := re.match(r"# (\w+\.py)\n", block)):
             Path(saved[1]).write_text(block)
         elif language == "python":
+            before = {path: path.stat().st_mtime_ns for path in Path().iterdir()}
             exec(compile(block, page, "exec"), {})
+            assert {path: path.stat().st_mtime_ns for path in before} == before, block
             printed = capsys.readouterr().out
         for line in block.splitlines() if language == "bash" else []:
             if line in SKIPPED:

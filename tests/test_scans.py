@@ -475,7 +475,7 @@ def test_without_simpleitk_the_extra_is_named(tmp_path: Path, monkeypatch: pytes
     for path, what in (("a.dcm", ".dcm"), (".", "a DICOM folder")):
         with pytest.raises(FormatError) as caught:
             read_volume(tmp_path / path)
-        assert str(caught.value) == f"reading {what} needs the extra medical: pip install 'phasefill[medical]'"
+        assert str(caught.value) == f"reading {what} needs the extra medical: pip install pydicom SimpleITK"
 
 
 def write_series(

@@ -14,8 +14,8 @@ import typer
 from infill.cli.commands import Command, Group
 from infill.version import __version__
 
-# By name: module and function, which are loaded when the command is built, and an example. All but `list` show their
-# help when nothing is given.
+# By name: module and function, which are loaded when the command is built, and an example. Those not in
+# `LISTING` show their help when nothing is given.
 COMMANDS: dict[str, tuple[str, str, str]] = {
     "make": ("making", "make", "infill make zigzag --size 60x40 --cell 5 -o zigzag.3mf"),
     "smooth": ("smoothing", "smooth", "infill smooth scan.nrrd --threshold 226 -o bone.stl"),
@@ -24,7 +24,10 @@ COMMANDS: dict[str, tuple[str, str, str]] = {
     "list": ("listing", "list_patterns", "infill list honeycomb --preview honeycomb.png"),
     "check": ("checking", "check", "infill check part.stl smooth.stl --json"),
     "motion": ("timing", "motion", "infill motion part.gcode smooth.gcode --plot speeds.png"),
+    "sample": ("sampling", "sample", "infill sample part scan print"),
 }
+
+LISTING = ("list", "sample")  # commands that list things when nothing is given
 
 
 def build_app(command_name: str = "") -> typer.Typer:
@@ -49,7 +52,7 @@ def build_app(command_name: str = "") -> typer.Typer:
     for name in [command_name] if command_name in COMMANDS else COMMANDS:
         module, attribute, example = COMMANDS[name]
         function: Callable[..., Any] = getattr(importlib.import_module(f"infill.cli.{module}"), attribute)
-        app.command(name, cls=Command, no_args_is_help=name != "list", epilog=f"Example: {example}")(function)
+        app.command(name, cls=Command, no_args_is_help=name not in LISTING, epilog=f"Example: {example}")(function)
     return app
 
 

@@ -17,6 +17,13 @@ def pattern_names(incomplete: str) -> list[tuple[str, str]]:
     return [(name, kind.summary) for name, kind in PATTERNS.items() if name.startswith(incomplete) and kind.prismatic]
 
 
+def sample_names(incomplete: str) -> list[tuple[str, str]]:
+    """Return the samples whose names begin with the word, each with its summary."""
+    from infill.samples.catalogue import SAMPLES
+
+    return [(name, sample.summary) for name, sample in SAMPLES.items() if name.startswith(incomplete)]
+
+
 def fill_names(incomplete: str) -> list[tuple[str, str]]:
     """Return all patterns whose names begin with the word, each with its summary."""
     from patterns import PATTERNS

@@ -41,7 +41,7 @@ def _import_ezdxf() -> ModuleType:
     try:
         import ezdxf
     except ImportError as error:
-        raise FormatError("reading .dxf needs the extra drawings: pip install 'phasefill[drawings]'") from error
+        raise FormatError("reading .dxf needs the extra drawings: pip install ezdxf") from error
     module: ModuleType = ezdxf
     return module
 

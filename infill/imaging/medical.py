@@ -30,7 +30,7 @@ def unpacked_frames(path: Path, source: Path) -> tuple[NDArray[Any], tuple[str, 
     MemoryLimitError
     """
     if importlib.util.find_spec("SimpleITK") is None:
-        raise FormatError("reading .dcm needs the extra medical: pip install 'phasefill[medical]'")
+        raise FormatError("reading .dcm needs the extra medical: pip install pydicom SimpleITK")
     reply = read_in_child(f"{__name__}:unpack_frames", str(path), path=source)
     return reply.arrays["values"], reply.said
 

@@ -149,7 +149,7 @@ def require_pydicom(what: str) -> None:
     try:
         import pydicom  # noqa: F401
     except ImportError as error:
-        raise FormatError(f"reading {what} needs the extra medical: pip install 'phasefill[medical]'") from error
+        raise FormatError(f"reading {what} needs the extra medical: pip install pydicom SimpleITK") from error
 
 
 def is_dicom(path: Path) -> bool:
