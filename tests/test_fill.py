@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,7 @@ from test_command_line import one_line_error
 from test_command_line import run as command
 
 from infill import GeometryError, MemoryLimitError, ParameterError, Surface, UsageError, fill, read_mesh
+from infill.cli.filled_words import summary
 from infill.interior.opening import Opening
 from infill.lattices import quality_checks as telling
 from infill.lattices.grading import UNIFORM_WIDTH
@@ -1102,3 +1104,18 @@ def test_large_fillets_do_not_draw_voids_into_the_wall_where_the_skin_bends_inwa
     report = fill(part, "cubic", density=0.25, wall=1.0, smooth_radius=0.8, voxel=0.25).report
     assert report["walls"]["least"] >= 0.97
     assert report["problems"] == []
+
+
+@pytest.mark.slow
+def test_the_summary_says_that_filament_wants_something_else() -> None:
+    """Of one solid alone: drains are for resin and powder, and infill alone and projects are for slicers."""
+
+    def told(**options: Any) -> bool:
+        report = fill(box(14, 14, 14), "cubic", cell=6, line_width=1, voxel=0.7, **options).report
+        lines = summary(report, [], "part.stl", verbose=False).splitlines()
+        return any(re.match(r"  filament  .*--for SLICER.* infill refill$", line) for line in lines)
+
+    assert told()
+    assert not told(drain=2)
+    assert not told(as_="infill")
+    assert not told(as_="project")
