@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from infill.isosurfaces.stacking import extrude, stack
     from infill.lattices.groups import Graded, Meshing, Shell
     from infill.lattices.job import fill
+    from infill.lattices.regions import Region
     from infill.making.block import make
     from infill.phasefield.allen_cahn import Smoothing, rescale
     from infill.phasefield.methods import smooth
@@ -65,6 +66,7 @@ _HOMES = {
     "refilling.job": ("RefillResult", "refill"),
     "lattices.groups": ("Graded", "Meshing", "Shell"),
     "lattices.job": ("fill",),
+    "lattices.regions": ("Region",),
     "formats.mesh_files": ("read_mesh", "save"),
     "grid": ("Grid",),
     "inspection.printability": ("Inspection", "check"),
@@ -104,6 +106,7 @@ __all__ = [
     "OutputError",
     "ParameterError",
     "RefillResult",
+    "Region",
     "Result",
     "Segment",
     "Segmentation",

@@ -71,6 +71,13 @@ def summary(report: FillReport, files: list[str], name: str, *, verbose: bool) -
         if request["grade"] == "cell":
             (small, large), (narrow, wide) = infill["cells"] or (0, 0), infill["widths"] or (0, 0)
             rows["graded"] += f"; cells of {small:.3g} to {large:.3g} mm, lines of {narrow:.2g} to {wide:.2g} mm"
+    regions = [
+        f"{region['density']:.1%} {'elsewhere' if region['place'] == 'rest' else 'in ' + region['place']}"
+        for region in report["regions"]
+        if region["density"] is not None
+    ]
+    if regions:
+        rows["regions"] = ", ".join(regions)
     if infill["phase"] != request["phase"]:
         shift = ", ".join(f"{length:.3g}" for length in infill["phase"])
         rows["shifted"] = f"by {shift} mm in x, y and z: slicers print more of it there"

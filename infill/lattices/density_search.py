@@ -10,6 +10,8 @@ import numpy as np
 
 from infill.lattices.bodies import Fields
 from infill.lattices.grading import LocalWidths, densities_by_share
+from infill.lattices.region_densities import CLOSE as REGION_CLOSE
+from infill.lattices.region_densities import RegionSecant, measure_regions, sample_regions, widen_regions
 from infill.lattices.request import Size, has_bars
 from infill.lattices.root_finding import find_root
 from infill.lattices.slabwise import count_filled_cells, defer_voids
@@ -24,6 +26,7 @@ LEAST = 1e-6  # densities below this count as none
 TRIES, ROUNDS = 8, 9  # of the search before smoothing, and of that on meshes
 TRIANGLES_A_CELL = 2.5  # for a cell within half a cell of the surface of a void, before simplifying
 GRADING_STEPS, GRADING_ROUNDS, GRADING_CLOSE, MOST_OFF = 24, 4, 0.01, 0.5  # of a density that changes
+REGION_ROUNDS = 6  # of widths in regions
 
 
 def make_voids(task: FillTask, layout: Layout, known: Fields | None = None) -> tuple[VoidMeshes, Fields]:
@@ -107,6 +110,8 @@ def fit_density(
 ) -> tuple[VoidMeshes, Fields]:
     """Make voids whose meshes leave the requested density, as smoothing and the grid fill corners of voids."""
     hollow, fields = make_voids(task, layout, fields)
+    if layout.local is not None and layout.local.regions is not None:
+        return _match_region_densities(task, hollow, fields)
     if task.request.grading is not None:
         return _match_local_densities(task, hollow, fields)
     density = task.request.density or LEAST
@@ -146,3 +151,25 @@ def _match_local_densities(task: FillTask, hollow: VoidMeshes, fields: Fields) -
         local = replace(local, ratio=(local.ratio * factors).astype(np.float32))
         hollow, fields = make_voids(task, replace(layout, local=local), fields)
     return hollow, fields
+
+
+def _match_region_densities(task: FillTask, hollow: VoidMeshes, fields: Fields) -> tuple[VoidMeshes, Fields]:
+    """Make voids whose meshes leave the density requested in every region; return the best that were tried."""
+    local = hollow.layout.local
+    assert local is not None
+    assert local.regions is not None
+    wanted, drawn = local.regions.densities, local.regions.ratios
+    sample = sample_regions(hollow.space, local)
+    secant = RegionSecant(wanted=wanted, power=2 if has_bars(task.request.kind) else 1)
+    best, least = hollow, math.inf
+    for attempt in range(REGION_ROUNDS):
+        measured = measure_regions(sample, hollow.space, hollow.surface, mean=hollow.density)
+        worst = float(np.nanmax(np.abs(measured - wanted)))
+        if worst < least:
+            best, least = hollow, worst
+        if worst < REGION_CLOSE or attempt == REGION_ROUNDS - 1:
+            break
+        assert local.regions is not None
+        local = widen_regions(local, secant.step(local.regions.ratios, measured), drawn)
+        hollow, fields = make_voids(task, replace(hollow.layout, local=local), fields)
+    return best, fields

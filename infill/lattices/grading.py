@@ -14,6 +14,7 @@ from infill.errors import GeometryError
 from infill.interior.conformal_map import fit_conformal_map, spline_slopes
 from infill.interior.interior import Interior
 from infill.lattices.density_fields import LEAST_SHARE, Field
+from infill.lattices.region_nodes import SHIFTS, RegionNodes
 from infill.surface import Surface
 from infill.voxels.scanlines import fill_rows, intersect_rows
 
@@ -23,12 +24,6 @@ TABLE = 9  # densities for which widths are computed; they are linear in between
 AT_ONCE = 100_000
 SAMPLES = 20_000  # cells at which a field is evaluated, to find its lowest and highest values
 POINTS = 200_000  # at which the density of a filled part is measured
-SHIFTS = (  # of a cell: along every axis, the middles of its four quarters
-    (-0.375, -0.125, 0.125),
-    (0.125, 0.375, -0.375),
-    (-0.125, 0.125, 0.375),
-    (0.375, -0.375, -0.125),
-)
 UNIFORM_WIDTH = (np.ones((1, 1, 1), dtype=np.float32), 1.0)  # walls of one width everywhere, as kernels take it
 
 
@@ -49,6 +44,8 @@ class LocalWidths:
         True for nodes inside the walls.
     spline : (n + 2, m + 2, k + 2, 3) float64 or None
         Places of the nodes in a pattern whose cells follow the field: see `fit_conformal_map`. None if cells are alike.
+    regions : RegionNodes or None
+        The regions that have these densities; None if the density follows a field.
     """
 
     ratio: NDArray[np.float32]
@@ -57,6 +54,7 @@ class LocalWidths:
     shares: NDArray[np.float32]
     within: NDArray[np.bool_]
     spline: Floats | None = None
+    regions: RegionNodes | None = None
 
     @property
     def widths(self) -> tuple[float, float]:
@@ -78,8 +76,8 @@ class LocalWidths:
 
         counts = np.ceil((np.array(shape) - 1) / self.step).astype(int) + 1
         nodes = np.indices(tuple(counts.tolist())) + corner.reshape(3, 1, 1, 1) / self.step
-        ratio, shares = (map_coordinates(field, nodes, order=1, mode="nearest") for field in (self.ratio, self.shares))
-        return replace(self, ratio=ratio, shares=shares, within=np.ones(ratio.shape, dtype=bool))
+        ratio, shares = (map_coordinates(each, nodes, order=1, mode="nearest") for each in (self.ratio, self.shares))
+        return replace(self, ratio=ratio, shares=shares, within=np.ones(ratio.shape, dtype=bool), regions=None)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -109,6 +107,11 @@ class Grading:
         return (self.first + self.last) / 2
 
     @property
+    def lowest(self) -> float:
+        """The lower density."""
+        return min(self.first, self.last)
+
+    @property
     def thinnest(self) -> float:
         """The lower density over the middle: roughly the width of walls there over the line width."""
         return 1.0 if self.varies == "cell" else min(self.first, self.last) / self.middle
@@ -126,21 +129,21 @@ class Grading:
         nodes = [step * np.arange(count) for count in counts]
         points = np.stack(np.meshgrid(*nodes, indexing="ij"), axis=-1).reshape(-1, 3)
         places = space.origin + space.size * points
-        field = np.concatenate(
+        values = np.concatenate(
             [self.by.at(places[low : low + AT_ONCE], space) for low in range(0, len(places), AT_ONCE)]
         )
-        inside = _inside(space, points)
-        if not np.isfinite(field[inside]).all():
+        inside = cells_inside(space, points)
+        if not np.isfinite(values[inside]).all():
             raise GeometryError.about("by", f"is {self.name}, which is not finite everywhere in the part; check it")
         drawn, outermost = _sample_cells(space)
         drawn, outermost = (self.by.at(space.origin + space.size * cells, space) for cells in (drawn, outermost))
-        inside_values = np.concatenate([field[inside], drawn, outermost])
+        inside_values = np.concatenate([values[inside], drawn, outermost])
         low, high = float(np.nanmin(inside_values)), float(np.nanmax(inside_values))
         if high - low <= 1e-9 * max(abs(low), abs(high), 1e-30):
             raise GeometryError.about(
                 "by", f"is {self.name}, which is {low:g} everywhere in the part; give one density, or a field"
             )
-        share = np.clip((np.nan_to_num(field, nan=low) - low) / (high - low), 0, 1)
+        share = np.clip((np.nan_to_num(values, nan=low) - low) / (high - low), 0, 1)
         shares = self.first + (self.last - self.first) * share
         table = np.linspace(min(self.first, self.last), max(self.first, self.last), TABLE)
         wide = np.array([widths(density) for density in table]) / widths(self.middle)
@@ -159,7 +162,7 @@ class Grading:
         )
 
 
-def _inside(space: Interior, points: Floats) -> NDArray[np.bool_]:
+def cells_inside(space: Interior, points: Floats) -> NDArray[np.bool_]:
     """Test which points, in cells, lie inside the walls; all are, if none are because the part is too thin."""
     at = tuple(np.minimum(points.round().astype(int), np.array(space.depth.shape) - 1).T)
     inside = (space.depth[at] > 0) & (space.shares[at[2]] >= LEAST_SHARE)
@@ -194,9 +197,9 @@ def densities_by_share(
         void = fill_rows(intersect_rows(corners - shift, voids.faces, depth.shape), depth.shape)
         solid[indices] = ~void[tuple(cells[indices].T)]
         places[indices] += shift
-    inside = _interpolate(depth, places) > 0
+    inside = interpolate_nodes(depth, places) > 0
     places, solid = places[inside], solid[inside]
-    shares = _interpolate(local.shares, places / local.step)
+    shares = interpolate_nodes(local.shares, places / local.step)
     groups = np.array_split(np.argsort(shares), count)
     scale = (1 - mean) / max(1 - float(solid.mean()), 1e-9)
     return (
@@ -205,7 +208,7 @@ def densities_by_share(
     )
 
 
-def _interpolate(nodes: NDArray[np.float32], at: Floats) -> Floats:
+def interpolate_nodes(nodes: NDArray[np.float32], at: Floats) -> Floats:
     """Interpolate linearly between nodes."""
     from scipy.ndimage import map_coordinates
 

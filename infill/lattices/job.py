@@ -22,6 +22,7 @@ from infill.lattices.groups import Graded, Meshing, Shell, add_grading, add_grou
 from infill.lattices.hollowing import make_void_meshes
 from infill.lattices.projected import ProjectInfill, make_project_infill
 from infill.lattices.quality_checks import SolidMeasures, find_problems, measure_solid
+from infill.lattices.regions import Region
 from infill.lattices.request import TOLERANCE, FillSpec, check_request
 from infill.lattices.sizing import choose_sizes, choose_voxel
 from infill.lattices.stages import FillStages
@@ -49,6 +50,7 @@ def fill(
     density: float | tuple[float, float] | Graded | None = None,
     by: object = None,
     grade: str | None = None,
+    regions: Sequence[Region | str] = (),
     cell: float | None = None,
     line_width: float | None = None,
     wall: float | None = None,
@@ -95,6 +97,10 @@ def fill(
         How the density rises: by wider walls in cells of one size, the default; or by smaller cells with walls of one
         width, for walls along a surface. Cells are whole everywhere, flatter or longer where they must be; where they
         cannot follow in a flat part, widths do, and the report says so.
+    regions : sequence of Region or str, optional
+        Other densities in ranges of heights, boxes and meshes: `Region(density=0.4, z=(10, 20))`, or
+        "z=10..20:density=40%". Where regions overlap, the last one counts. Walls are wider or narrower there, and
+        change within a few cells of the grid.
     cell : float, optional
         Period of the pattern, mm.
     line_width : float, optional
@@ -152,7 +158,7 @@ def fill(
         If a number is out of range, or the pattern is unknown.
     GeometryError
         If the part encloses nothing, has no room inside its walls, has no flat side to be open at, cannot be filled to
-        this density, is too narrow for the drains, or cannot have one at a requested place.
+        this density, is too narrow for the drains, cannot have one at a requested place, or has nothing in a region.
     MemoryLimitError
         If memory will not suffice; raised before anything is computed.
 
@@ -171,6 +177,7 @@ def fill(
         "density": density,
         "by": by,
         "grade": grade,
+        "regions": regions,
         "cell": cell,
         "line_width": line_width,
         "wall": wall,
@@ -292,6 +299,7 @@ def _fill_report(
             "left_out": hollow.loose,
         },
         "graded": facts.graded,
+        "regions": facts.regions,
         "part": {
             "triangles": len(part.faces),
             "volume": space.repairs.volume,

@@ -18,6 +18,8 @@ from infill.lattices.bodies import Fields
 from infill.lattices.density_search import has_uniform_width, requested_density, solid_share
 from infill.lattices.drain_holes import DrainedSolid, drain_problems, find_closed_voids
 from infill.lattices.grading import LocalWidths, densities_by_share
+from infill.lattices.region_densities import measure_regions, sample_regions
+from infill.lattices.region_nodes import REST, RegionNodes
 from infill.lattices.request import DENSITY, GAP, LINE_WIDTH, FillSpec
 from infill.lattices.task import FillTask
 from infill.lattices.void_meshes import VoidMeshes
@@ -28,7 +30,7 @@ from infill.meshes.winding import winding_numbers
 from infill.surface import Surface
 
 if TYPE_CHECKING:
-    from infill.reports.filling import GradedStep
+    from infill.reports.filling import FillRegion, GradedStep
 
 OFF = 0.005  # of the density: larger errors are reported
 OFF_LOCAL = 0.03  # of the density in a step: chance alone causes an error of 0.01, in three of a thousand
@@ -124,6 +126,8 @@ class SolidMeasures:
         Requested density, on average.
     graded : list of dict
         Of a density that changes: requested and measured density, in steps.
+    regions : list of dict
+        Of regions: requested and measured density of each.
     cells, widths : list of float or None
         Of a density that changes: the smallest and the largest cell, as cubes of their volume, and the narrowest and
         the widest walls, mm.
@@ -139,6 +143,7 @@ class SolidMeasures:
     drawn: float
     wanted: float | None
     graded: list[GradedStep]
+    regions: list[FillRegion]
     cells: list[float] | None = None
     widths: list[float] | None = None
 
@@ -170,7 +175,8 @@ def measure_solid(
         width=(hollow.median[0] if has_uniform_width(task) else None) or hollow.width,
         drawn=solid_share(task.draw(hollow.layout, fields)),
         wanted=requested_density(task, local),
-        graded=[] if local is None else density_steps(hollow, local),
+        graded=[] if local is None or local.regions is not None else density_steps(hollow, local),
+        regions=[] if local is None or local.regions is None else region_facts(hollow, local, local.regions),
         cells=None if local is None else [hollow.cell * factor for factor in local.cells],
         widths=None if local is None else [hollow.width * factor for factor in local.widths],
     )
@@ -181,6 +187,17 @@ def density_steps(hollow: VoidMeshes, local: LocalWidths) -> list[GradedStep]:
     requested, actual = densities_by_share(hollow.space, hollow.surface, local, STEPS, mean=hollow.density)
     pairs = zip(requested.tolist(), actual.tolist(), strict=True)
     return [{"wanted": target, "density": density} for target, density in pairs]
+
+
+def region_facts(hollow: VoidMeshes, local: LocalWidths, regions: RegionNodes) -> list[FillRegion]:
+    """Return the requested and the measured density of each region, and its volume away from borders, mm³."""
+    sample = sample_regions(hollow.space, local)
+    measured = measure_regions(sample, hollow.space, hollow.surface, mean=hollow.density).tolist()
+    rows = zip(regions.names, regions.densities.tolist(), measured, sample.volumes.tolist(), strict=False)
+    return [
+        {"place": name, "wanted": wanted, "density": density if volume > 0 else None, "volume": volume}
+        for name, wanted, density, volume in rows
+    ]
 
 
 def is_width_ok(width: float, requested: float) -> bool:
@@ -209,13 +226,23 @@ def find_problems(
 ) -> Iterator[str]:
     """Yield a message for everything that differs from the request, and for every change to the part."""
     overlap, moved, opening = hollow.space.overlap, hollow.tolerance, hollow.space.opening
-    if facts.wanted is not None and not abs(hollow.density - facts.wanted) <= OFF:  # nan too
+    if facts.wanted is not None and not facts.regions and not abs(hollow.density - facts.wanted) <= OFF:  # nan too
         yield f"the density is {hollow.density:.1%}, and {facts.wanted:.1%} was asked for"
     for step in facts.graded:
         if not abs(step["density"] - step["wanted"]) <= OFF_LOCAL:
             yield (
                 f"where {step['wanted']:.1%} was asked for, the density is {step['density']:.1%}; smaller cells follow "
                 "the field better"
+            )
+    for region in facts.regions:
+        place, density = region["place"], region["density"]
+        if density is None:
+            if place != REST:
+                yield f"nothing is left of the region {place}: later regions or walls cover it"
+        elif not abs(density - region["wanted"]) <= OFF:
+            yield (
+                f"in the region {place}, the density is {density:.1%}, and {region['wanted']:.1%} was asked for; "
+                "smaller cells follow regions better"
             )
     if request.grading is not None and request.grading.varies == "cell" and facts.widths is not None:
         narrow, wide = facts.widths

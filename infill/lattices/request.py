@@ -14,6 +14,8 @@ from infill.errors import GeometryError, UsageError
 from infill.interior.opening import Open
 from infill.lattices.density_fields import resolve_field
 from infill.lattices.grading import Grading, Varies
+from infill.lattices.placed_regions import HIGHEST, LOWEST, RegionDensities, place_region
+from infill.lattices.region_nodes import PlacedRegion
 from infill.options.keyword_options import parse_share
 from infill.options.resolve_pattern import Kind, resolve_pattern
 from patterns.cellular import Cells
@@ -32,7 +34,6 @@ DENSITY, LINE_WIDTH, WALL, TOLERANCE, RADIUS = 0.2, 0.45, 1.2, 0.03, 0.25  # a s
 SLICED_WIDTH, SLICED_WALL = 0.9, 0.9  # mm, in a project: two lines of a usual nozzle, as slicers fill bodies with
 GAP = 1.0, 1.5  # mm: between these, slicers fill walls with two lines of 0.45 mm that are too far apart, 7 % short
 SLICED_BAR = 2.7  # mm, in a project: slicers fill thinner ones less than to the full
-LOWEST, HIGHEST = 0.01, 0.9  # densities
 MOST_TRIANGLES, LEAST_TRIANGLES = 1_000_000, 250_000  # of part and voids by default, and of voids at least
 FURTHEST = 1e4  # mm
 FEWEST_TRIANGLES = 1000  # of voids
@@ -56,7 +57,7 @@ class FillSpec:
     density : float or None
         Solid share inside the walls; None if it follows from cell and line width, or from the roofs of a part. With a
         grading, its middle.
-    grading : Grading or None
+    grading : Grading, RegionDensities or None
         Variation of the density from place to place.
     cell, line_width : float or None
         mm; None if it follows from the density.
@@ -105,7 +106,7 @@ class FillSpec:
     resolution: int | None
     voxel: float | None
     max_triangles: int | None
-    grading: Grading | None = None
+    grading: Grading | RegionDensities | None = None
     open_: Open | None = None
     vent: bool = False
     drain_at: tuple[tuple[float, float, float], ...] = ()
@@ -170,7 +171,12 @@ class FillSpec:
     @property
     def lowest(self) -> float | None:
         """The lowest requested density."""
-        return self.density if self.grading is None else min(self.grading.first, self.grading.last)
+        return self.density if self.grading is None else self.grading.lowest
+
+    @property
+    def regions(self) -> tuple[PlacedRegion, ...]:
+        """Regions with a density of their own."""
+        return self.grading.regions if isinstance(self.grading, RegionDensities) else ()
 
     @property
     def varied(self) -> tuple[Size, ...]:
@@ -208,13 +214,15 @@ class FillSpec:
 
     def facts(self) -> FillRequest:
         """Return the request as the report has it."""
+        graded = self.grading if isinstance(self.grading, Grading) else None
         return {
             "pattern": self.pattern,
             "parameters": dict(self.parameters),
-            "density": None if self.grading is not None else self.density,
-            "densities": None if self.grading is None else [self.grading.first, self.grading.last],
-            "by": None if self.grading is None else self.grading.name,
-            "grade": None if self.grading is None else self.grading.varies,
+            "density": None if graded is not None else self.density,
+            "densities": None if graded is None else [graded.first, graded.last],
+            "by": None if graded is None else graded.name,
+            "grade": None if graded is None else graded.varies,
+            "region": [region.text for region in self.regions if region.is_requested],
             "cell": self.cell,
             "line_width": self.line_width,
             "wall": self.wall,
@@ -246,6 +254,7 @@ def check_request(
     own: Mapping[str, Any],
     density: float | tuple[float, ...] | None = None,
     by: object = None,
+    regions: Sequence[object] = (),
     cell: float | None = None,
     line_width: float | None = None,
     wall: float | None = None,
@@ -299,7 +308,8 @@ def check_request(
     if len(phase) not in (2, 3):
         raise UsageError.about("phase", f"has {len(phase)} numbers; give two or three, mm")
     shift = [check_range("phase", step, -FURTHEST, FURTHEST, "mm") for step in phase]
-    grading, asked_width = None, line_width
+    asked_width = line_width
+    grading: Grading | RegionDensities | None = None
     if isinstance(density, (tuple, list)):
         if isinstance(kind, Lightning):
             raise UsageError.about(
@@ -315,7 +325,7 @@ def check_request(
     elif density is not None:
         density = check_range("density", parse_share("density", density), LOWEST, HIGHEST)
     elif (cell is None or line_width is None) and not isinstance(kind, Lightning):
-        density = DENSITY if cell is None or has_bars(kind) else None
+        density = DENSITY if cell is None or has_bars(kind) or regions else None
         if density is None:
             line_width = SLICED_WIDTH if form == "project" else LINE_WIDTH
     cell_alone = density is None and cell is not None and asked_width is None and not isinstance(kind, Lightning)
@@ -325,6 +335,10 @@ def check_request(
             f"are both given, and {name} has as many branches as the roofs need; leave one of "
             "them out, or give cell and line_width",
         )
+    if regions:
+        if grading is not None or density is None or isinstance(kind, Lightning):
+            raise UsageError.about("region", f"is given, and {_region_problem(kind, name, grading is not None)}")
+        grading = RegionDensities(base=density, regions=tuple(map(place_region, regions)))
     if wall is None:
         wall = SLICED_WALL if form == "project" else WALL
     elif wall != 0:
@@ -365,6 +379,15 @@ def _check_without_shell(*, form: str, open_: str | None, drain: float | None) -
     for option, value in (("open", open_), ("drain", drain)):
         if value is not None:
             raise UsageError.about(option, "is given, and with a wall of 0 there is no shell; leave it out")
+
+
+def _region_problem(kind: Kind, name: str, graded: bool) -> str:
+    """Return why a request cannot have regions, and a remedy."""
+    if graded:
+        return "the density changes everywhere; give one density"
+    if isinstance(kind, Lightning):
+        return f"branches of {name} follow roofs; choose another pattern"
+    return "cell and line_width decide the density; give density and one of them"
 
 
 def _take_cell(kind: Kind, name: str, cell: float | None) -> tuple[Kind, float | None]:

@@ -13,15 +13,16 @@ A project that the command wrote has its settings attached, and can be given in 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from infill.errors import UsageError
+from infill.lattices.regions import Region, parse_region
 from infill.options.assignments import pop_table
 from infill.options.declaration import Option, by_field, drop_replaced, read_options
-from infill.options.keyword_options import parse_numbers, parse_share
+from infill.options.keyword_options import parse_numbers, parse_share, parse_word
 from infill.options.toml import format_options, read_toml
 from infill.options.trust import check_trusted
 
@@ -52,6 +53,16 @@ def parse_places(name: str, value: object) -> tuple[tuple[float, ...], ...]:
     is_list = isinstance(value, (list, tuple)) and all(isinstance(part, (list, tuple, str)) for part in value)
     places = value if is_list and isinstance(value, (list, tuple)) else [value]
     return tuple(parse_numbers(name, place, (3,)) for place in places)
+
+
+def parse_regions(name: str, value: object) -> tuple[Region, ...]:
+    """Read one or more regions, or raise UsageError.
+
+    >>> [region.density for region in parse_regions("region", ["z=0..5:density=40%", "a.stl:density=60%"])]
+    [0.4, 0.6]
+    """
+    texts = value if isinstance(value, (list, tuple)) else [value]
+    return tuple(parse_region(name, parse_word(name, text)) for text in texts)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -102,6 +113,18 @@ class FillOptions:
             default="width",
         ),
     ] = None
+    regions: Annotated[
+        tuple[Region, ...],
+        Option(
+            "Another density in a range of heights (z=10..20:density=40%), a box (box=x0,y0,z0,x1,y1,z1:density=40%) "
+            "or a mesh (modifier.stl:density=60%), mm; may be given again, and later ones win.",
+            PATTERN,
+            unit="WHERE:density=SHARE",
+            name="region",
+            read=parse_regions,
+            typed=list[str],
+        ),
+    ] = ()
     cell: Annotated[
         float | None, Option("Period of the pattern.", PATTERN, unit="MM", default="by density and line width")
     ] = None
@@ -299,6 +322,7 @@ def resolve(
         own_values = add_seed(options.pattern, own_values, options.seed)
     apart = ("units", "slicer", "form", "seed")
     values = {field: getattr(options, field) for field in FillOptions.__dataclass_fields__ if field not in apart}
+    values["regions"] = tuple(replace(region, units=options.units) for region in options.regions)
     return FillSettings(request=check_request(own=own_values, form=form, **values), units=options.units, slicer=slicer)
 
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from infill.interior.interior import Interior
 from infill.lattices.bodies import BodyFields, Fields, draw_in_bodies
 from infill.lattices.choosing import place_pattern
+from infill.lattices.placed_regions import RegionDensities
 from infill.lattices.request import FillSpec
 from infill.lattices.voids import Layout, VoidFields, VoidPattern
 from infill.result import Clock
@@ -48,7 +49,9 @@ class FillTask:
         threads: int | None = None,
         max_memory: int | None = None,
     ) -> FillTask:
-        """Make the task of a request; raise ParameterError if the pattern cannot be had as requested."""
+        """Make the task of a request; raise an error if pattern or regions cannot be had as requested."""
+        if isinstance(request.grading, RegionDensities):
+            request.grading.check_place(part.bounds)
         if request.resolution is not None:
             request = replace(request, voxel=float(np.ptp(part.bounds, axis=0).max()) / request.resolution)
         return cls(

@@ -16,7 +16,7 @@ from infill.errors import FormatError
 from infill.files.excerpts import excerpt
 from infill.options.modules import names_code
 
-FILES = ("pattern", "by", "labels")  # options whose value may be the name of a file
+FILES = ("pattern", "by", "labels", "region")  # options whose value may be the name of a file
 ELSEWHERE = re.compile(r"[\\/]{2}|[A-Za-z]:|~")  # another machine, another drive, another home
 
 

@@ -18,6 +18,7 @@ class FillRequest(TypedDict):
     densities: Annotated[Pair | None, "Density where the field is lowest and where it is highest"]
     by: Annotated[str | None, "Field that the density follows"]
     grade: Annotated[str | None, "Size that varies with the density: `width` or `cell`; null for one density"]
+    region: Annotated[list[str], "Regions with another density, as on the command line; later ones win"]
     cell: Annotated[float | None, "Period of the pattern, mm; null if it follows from the density"]
     line_width: Annotated[float | None, "Width of walls or bars, mm; null if it follows from the density"]
     wall: Annotated[float, "Thickness of the shell, mm"]
@@ -90,6 +91,15 @@ class GradedStep(TypedDict):
 
     wanted: Annotated[float, "Requested density"]
     density: Annotated[float, "Actual density, at random cells inside the walls, to a hundredth"]
+
+
+class FillRegion(TypedDict):
+    """Regions with another density, and the rest of the part first; empty if none were requested."""
+
+    place: Annotated[str, "Place of the region; `rest` outside of all regions"]
+    wanted: Annotated[float, "Requested density"]
+    density: Annotated[float | None, "Actual density inside the walls; null where nothing of the region is left"]
+    volume: Annotated[float, "Volume of the region inside the walls, mm³"]
 
 
 class FillPart(TypedDict):
@@ -193,6 +203,7 @@ class UntimedFillReport(ReportHead, SurfaceKeys):
     mesh: FillMesh
     infill: FillSizes
     graded: list[GradedStep]
+    regions: list[FillRegion]
     part: FillPart
     voids: FillVoids
     drains: FillDrains

@@ -51,7 +51,7 @@ def intersect_rows(vertices: Floats, faces: NDArray[np.integer], shape: tuple[in
     Parameters
     ----------
     vertices : (V, 3) float64
-        In cells: the centre of the first cell is 0, that of the next 1. All lie within the grid.
+        In cells: the centre of the first cell is 0, that of the next 1. What lies beyond the grid crosses no row.
     faces : (F, 3) int, counter-clockwise seen from outside
     shape : (nx, ny, nz)
 
@@ -68,8 +68,8 @@ def intersect_rows(vertices: Floats, faces: NDArray[np.integer], shape: tuple[in
     x, y, _ = vertices.T
     high_y = np.ceil(y).astype(np.int64)[faces]
     high_x = np.ceil(x).astype(np.int64)[faces]
-    low_plane = high_y.min(axis=1)
-    count = high_y.max(axis=1) - low_plane
+    low_plane = np.maximum(high_y.min(axis=1), 0)
+    count = np.maximum(np.minimum(high_y.max(axis=1), shape[1]) - low_plane, 0)
     count[high_x.min(axis=1) == high_x.max(axis=1)] = 0
     order = np.argsort(y[faces], axis=1, kind="stable")
     low, middle, high = np.take_along_axis(faces, order, axis=1).T
@@ -88,15 +88,16 @@ def intersect_rows(vertices: Floats, faces: NDArray[np.integer], shape: tuple[in
         leftwards = x_short < x_long
         x_left, x_right = np.minimum(x_long, x_short), np.maximum(x_long, x_short)
         z_left, z_right = np.where(leftwards, z_short, z_long), np.where(leftwards, z_long, z_short)
-        begin = np.ceil(x_left).astype(np.int64)
-        for crossed, along in expand_rows(np.ceil(x_right).astype(np.int64) - begin, AT_ONCE):
+        begin = np.maximum(np.ceil(x_left).astype(np.int64), 0)
+        end = np.minimum(np.ceil(x_right).astype(np.int64), shape[0])
+        for crossed, along in expand_rows(np.maximum(end - begin, 0), AT_ONCE):
             column = begin[crossed] + along
             share = (column - x_left[crossed]) / (x_right[crossed] - x_left[crossed])
             depth = z_left[crossed] + share * (z_right[crossed] - z_left[crossed])
             parts.append(
                 (
                     (column * shape[1] + plane[crossed]).astype(np.int32),
-                    np.ceil(depth).astype(np.int32),
+                    np.clip(np.ceil(depth), 0, shape[2]).astype(np.int32),
                     triangle[crossed].astype(np.int32),
                     np.where(is_even[triangle[crossed]] == leftwards[crossed], 1, -1).astype(np.int8),
                     depth.astype(np.float32),
