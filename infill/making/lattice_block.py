@@ -18,7 +18,8 @@ from infill.errors import ParameterError
 from infill.isosurfaces.components import shell_names
 from infill.lattices.choosing import HELD
 from infill.lattices.job import fill_request, plan_fill
-from infill.lattices.request import HIGHEST, LINE_WIDTH, LOWEST, TOLERANCE, FillSpec, check_request
+from infill.lattices.placed_regions import HIGHEST, LOWEST
+from infill.lattices.request import LINE_WIDTH, TOLERANCE, FillSpec, check_request
 from infill.making.stages import LatticeStages
 from infill.meshes.shells import shell_volumes
 from infill.options.keyword_options import parse_share

@@ -18,7 +18,7 @@ from infill.gcode.table import GcodeTable
 from infill.paths.contact import STEP, Samples, sample_paths
 from infill.paths.neighbours import BeadIndex, index_beads
 from infill.ragged import select_rows
-from infill.refilling.regions import BEAD_STEP, INFILL_STEP, LayerBeads, Region, find_region
+from infill.refilling.regions import BEAD_STEP, INFILL_STEP, FreeAreas, LayerBeads, find_region
 
 LINE_WIDTH = 0.45  # mm, where no tag gives it
 LEAST_SPEED = 1.0  # mm/s
@@ -229,7 +229,7 @@ class Layer:
             half=np.concatenate([samples.half, np.zeros(ends.shape)]),
         )
 
-    def find_region(self, below: Region | None) -> Region:
+    def find_region(self, below: FreeAreas | None) -> FreeAreas:
         """Find the region of its infill; `below` is that of the previous layer, which it may have too."""
         return find_region(self.beads, sample_paths(*self.paths, INFILL_STEP).points, below)
 

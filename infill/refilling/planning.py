@@ -14,7 +14,7 @@ from infill.paths.families.family import TOUCH, CentredFamily, Family
 from infill.paths.neighbours import index_beads
 from infill.paths.rounding import Rounding, round_paths
 from infill.refilling.layers import Layers
-from infill.refilling.regions import Region
+from infill.refilling.regions import FreeAreas
 
 if TYPE_CHECKING:
     from shapely import MultiPolygon
@@ -89,7 +89,7 @@ def plan_refill(
 
     regions: list[tuple[MultiPolygon, float, int]] = []
     walls, length, width, spacing = [], 0.0, 0.0, 1.0
-    region: Region | None = None
+    region: FreeAreas | None = None
     visited: set[tuple[float, bytes]] = set()
     area = shapely.MultiPolygon()
     for layer in (layer for layers in samples for layer in layers.typical):

@@ -85,7 +85,7 @@ class LayerBeads:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Region:
+class FreeAreas:
     """The free areas of a layer that hold infill.
 
     Parameters
@@ -118,7 +118,7 @@ class Region:
         return grown
 
 
-def find_region(around: LayerBeads, infill: Floats, before: Region | None = None) -> Region:
+def find_region(around: LayerBeads, infill: Floats, before: FreeAreas | None = None) -> FreeAreas:
     """Find the region of a layer.
 
     Parameters
@@ -127,17 +127,17 @@ def find_region(around: LayerBeads, infill: Floats, before: Region | None = None
         Points on the other beads of the layer, at most `BEAD_STEP` apart.
     infill : (M, 2) float64, mm
         Points on the slicer's infill.
-    before : Region, optional
+    before : FreeAreas, optional
         Of the previous layer; returned if it fits.
     """
     if not len(around.points) or not len(infill):
-        return Region(polygons=(), distance=USUAL_DISTANCE, skin_distance=USUAL_DISTANCE)
+        return FreeAreas(polygons=(), distance=USUAL_DISTANCE, skin_distance=USUAL_DISTANCE)
     wall_distance = _kept_distance(around.walls.near(infill, 0, ALONG_WALLS), SHARE_BESIDE, USUAL_DISTANCE)
     skin_distance = _kept_distance(around.skins.near(infill, 0, ALONG_WALLS), SHARE_BESIDE_SKINS, wall_distance)
     skin_distance = float(np.clip(skin_distance, wall_distance, wall_distance + SKINS_FARTHER))
     if before is not None and _is_same_region(before, around, infill, wall_distance, skin_distance):
         return before
-    region = Region(polygons=(), distance=wall_distance, skin_distance=skin_distance)
+    region = FreeAreas(polygons=(), distance=wall_distance, skin_distance=skin_distance)
     low, high = infill.min(axis=0) - REACH, infill.max(axis=0) + REACH
     wide, deep = ((high - low) / NODES).tolist()
     if wide * deep > MOST_NODES:
@@ -157,7 +157,7 @@ def _kept_distance(distances: Floats, share: float, usual: float) -> float:
 
 
 def _is_same_region(
-    region: Region, around: LayerBeads, infill: Floats, wall_distance: float, skin_distance: float
+    region: FreeAreas, around: LayerBeads, infill: Floats, wall_distance: float, skin_distance: float
 ) -> bool:
     """Tell whether the region of the previous layer is that of this one too."""
     import shapely

@@ -31,7 +31,7 @@ from infill.refilling.fitting import (
 )
 from infill.refilling.layers import LEAST_SPEED, Layer, LayerPaths, Layers
 from infill.refilling.planning import RefillPlan
-from infill.refilling.regions import NO_REGION, LayerBeads, Region
+from infill.refilling.regions import NO_REGION, FreeAreas, LayerBeads
 from infill.refilling.rules import RefillRules, may_be_slowed, unchangeable_strokes
 from infill.refilling.sharing import SectionGroup, group_sections
 from infill.refilling.stats import InfillAmounts, NewInfill
@@ -55,7 +55,7 @@ class LayerMemory:
     Parameters
     ----------
     ways : TravelSettings
-    region : Region, optional
+    region : FreeAreas, optional
     drawn : dict of (area, layer) to FittedPaths
         Of the areas of the region; for a pattern that repeats in every layer, the layer is 0.
     columns : list of Column
@@ -71,7 +71,7 @@ class LayerMemory:
     """
 
     ways: TravelSettings = field(default_factory=TravelSettings)
-    region: Region | None = None
+    region: FreeAreas | None = None
     drawn: dict[tuple[int, int], FittedPaths] = field(default_factory=dict)
     columns: list[Column] = field(default_factory=list)
     ground: LayerBelow | None = None
@@ -79,7 +79,7 @@ class LayerMemory:
     owed: float = 0.0
     fitted: int = -AGAIN_AFTER
 
-    def enter(self, region: Region, others: BeadIndex, plan: RefillPlan) -> None:
+    def enter(self, region: FreeAreas, others: BeadIndex, plan: RefillPlan) -> None:
         """Go on to a layer with this region and these other beads."""
         if region is not self.region:
             self.ground = None
@@ -302,11 +302,11 @@ def draw_sections(
     return sorted(new, key=lambda section: section.body.first), {**kept, NO_REGION: layers.section}
 
 
-def _region_finder(initial: Region | None) -> Callable[[Layer], tuple[Region, LayerBeads]]:
+def _region_finder(initial: FreeAreas | None) -> Callable[[Layer], tuple[FreeAreas, LayerBeads]]:
     """Return a function that finds the region of a layer and its other beads, one layer after another."""
     region = initial
 
-    def find_next(layer: Layer) -> tuple[Region, LayerBeads]:
+    def find_next(layer: Layer) -> tuple[FreeAreas, LayerBeads]:
         nonlocal region
         region = layer.find_region(region)
         return region, layer.beads
@@ -317,7 +317,7 @@ def _region_finder(initial: Region | None) -> Callable[[Layer], tuple[Region, La
 def _fill_group(
     group: SectionGroup,
     members: Sequence[InfillSection],
-    region: Region,
+    region: FreeAreas,
     plan: RefillPlan,
     memory: LayerMemory,
     acceleration: Floats,

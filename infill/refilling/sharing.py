@@ -11,7 +11,7 @@ from infill.gcode.infill_sections import SECTION_RATE_VARIATION, InfillSection
 from infill.paths.contact import sample_paths
 from infill.ragged import select_rows
 from infill.refilling.layers import Layer
-from infill.refilling.regions import NO_REGION, Region
+from infill.refilling.regions import NO_REGION, FreeAreas
 
 IGNORED_SHARE = 0.02  # share of an area's infill up to which another section is ignored
 MOST_LOST = 0.1  # share of the infill of a group that may lie outside every area
@@ -47,7 +47,7 @@ class SectionGroup:
         return "lines of different widths" if rates and max(rates) > (1 + SECTION_RATE_VARIATION) * min(rates) else ""
 
 
-def group_sections(layer: Layer, region: Region) -> list[SectionGroup]:
+def group_sections(layer: Layer, region: FreeAreas) -> list[SectionGroup]:
     """Group the sections of a layer that share areas of its region."""
     import shapely
 

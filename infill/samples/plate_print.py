@@ -101,7 +101,7 @@ def plate_print() -> bytes:
     >>> plate_print().count(b";TYPE:Internal infill")
     24
     """
-    pen = _Pen()
+    pen = _PrintPen()
     for layer, features in enumerate(_features(_plate())):
         pen.rise(layer)
         for feature, lines in features:
@@ -132,7 +132,7 @@ def plate_print() -> bytes:
     ).encode("ascii")
 
 
-class _Pen:
+class _PrintPen:
     """The lines of the print so far, and where the nozzle is."""
 
     def __init__(self) -> None:
