@@ -6,6 +6,7 @@ import math
 from collections.abc import Collection
 
 from infill.errors import ParameterError
+from infill.plain_numbers import plain_argument
 
 SHORTEST, LONGEST = 1e-6, 1e6  # of a length in mm; beyond these, files of 32-bit numbers lose it
 OTHER_NAMES = {  # of choices, in lower case
@@ -31,7 +32,9 @@ def check_positive(name: str, value: float, unit: str = "") -> float:
     """
     number = _to_float(name, value)
     if not math.isfinite(number) or number <= 0:
-        raise ParameterError.about(name, f"is {number:g} {unit}".rstrip() + "; it must be a finite number above 0")
+        raise ParameterError.about(
+            name, f"is {plain_argument(number)} {unit}".rstrip() + "; it must be a finite number above 0"
+        )
     return number
 
 
@@ -50,7 +53,9 @@ def check_range(name: str, value: float, low: float, high: float, unit: str = ""
     number = _to_float(name, value)
     if not low <= number <= high:
         raise ParameterError.about(
-            name, f"is {number:.10g}; it must be a number from {low:g} to {high:g} {unit}".rstrip()
+            name,
+            f"is {plain_argument(number, 10)}; it must be a number from {plain_argument(low)} to "
+            f"{plain_argument(high)} {unit}".rstrip(),
         )
     return number
 
@@ -59,7 +64,9 @@ def check_whole_number(name: str, value: float, low: int) -> int:
     """Return `value` as an int, or raise ParameterError if it is not a whole number of at least `low`."""
     number = _to_float(name, value)
     if not math.isfinite(number) or number != int(number) or number < low:
-        raise ParameterError.about(name, f"is {number:.10g}; it must be a whole number of at least {low}")
+        raise ParameterError.about(
+            name, f"is {plain_argument(number, 10)}; it must be a whole number of at least {low}"
+        )
     return int(value)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
+from infill.plain_numbers import plain_argument, plain_number
 
 Line = NDArray[np.float64]
 Bounds = tuple[float, float, float, float]
@@ -100,7 +101,8 @@ def build_drawing(
     largest = np.abs(points).max()
     if not largest <= LARGEST_COORDINATE:
         raise FormatError(
-            f"{path} holds a point at {largest:g} mm; the limit is {LARGEST_COORDINATE:g} mm; check its units"
+            f"{path} holds a point at {plain_argument(largest)} mm; the limit is {plain_number(LARGEST_COORDINATE, 6)} "
+            "mm; check its units"
         )
     size = float(np.ptp(points, axis=0).max())
     if size == 0:

@@ -23,6 +23,7 @@ from infill.imaging.label_tables import Colour
 from infill.meshes.split_components import concatenate_surfaces
 from infill.pictures.preview import SUFFIXES as PICTURES
 from infill.pictures.preview import is_picture
+from infill.plain_numbers import plain_number
 from infill.reports.common import Declared, declare
 from infill.surface import Surface
 
@@ -75,7 +76,7 @@ class Result(Generic[Stages, Told]):
         """Return the names of the surfaces, with their triangles and sizes."""
         summaries = (
             f"{name}: {len(surface.faces):,} triangles, "
-            f"{' x '.join(f'{side:.4g}' for side in np.ptp(surface.bounds, axis=0))} mm"
+            f"{' x '.join(plain_number(side, 4) for side in np.ptp(surface.bounds, axis=0))} mm"
             for name, surface in self.surfaces.items()
         )
         return f"Result({'; '.join(summaries)})"

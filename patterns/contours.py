@@ -24,6 +24,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from patterns.declared import format_decimal
 from patterns.errors import PatternError
 
 Floats = NDArray[np.float64]
@@ -58,7 +59,7 @@ def zero_lines(
     (True, True)
     """
     if not (math.isfinite(spacing) and spacing > 0):
-        raise PatternError(f"the spacing of lines is {spacing:g} mm; it must be a number above 0")
+        raise PatternError(f"the spacing of lines is {format_decimal(spacing)} mm; it must be a number above 0")
     step = spacing / STEPS_PER_SPACING
     x, y = (_nodes(bounds[i], bounds[i + 2], step, OFFSET[i]) for i in (0, 1))
 

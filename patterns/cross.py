@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from patterns.declared import parameter
+from patterns.declared import format_decimal, parameter
 from patterns.errors import PatternError
 from patterns.protocol import Pattern
 from patterns.shared import angle_parameter, cell_parameter, frame_parameter, phase_parameter
@@ -53,7 +53,9 @@ class Cross(Pattern):
         corners = turn(shapely.get_coordinates(shapely.envelope(region)) - self.phase, -self.angle) / pitch
         low, high = np.floor(corners.min(axis=0)), np.ceil(corners.max(axis=0))
         if max(-low.min(), high.max()) > ORIGIN:
-            raise PatternError(f"the cell is {self.cell:g} mm; the curve reaches {ORIGIN} octagons: give a larger one")
+            raise PatternError(
+                f"the cell is {format_decimal(self.cell)} mm; the curve reaches {ORIGIN} octagons: give a larger one"
+            )
         parts = shapely.get_parts(shapely.line_merge(shapely.multilinestrings(curve_steps(low, high))))
         placed_lines = shapely.transform(parts, lambda ends: turn(ends * pitch, self.angle) + np.array(self.phase))
         lines = clip(placed_lines, region)

@@ -10,6 +10,7 @@ import dataclasses
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from decimal import Decimal
 from numbers import Real
 from typing import Any, Literal, Protocol, get_args
 
@@ -68,11 +69,11 @@ class Parameter:
         low, high = self.low, self.high
         unit = SHOWN_UNITS[self.unit]
         if math.isfinite(low) and math.isfinite(high):
-            return f"from {low:.10g} to {high:.10g}{unit}"
+            return f"from {format_decimal(low)} to {format_decimal(high)}{unit}"
         if math.isfinite(low):
-            return f"of at least {low:.10g}{unit}"
+            return f"of at least {format_decimal(low)}{unit}"
         if math.isfinite(high):
-            return f"of at most {high:.10g}{unit}"
+            return f"of at most {format_decimal(high)}{unit}"
         return ""
 
 
@@ -249,12 +250,23 @@ def _number(value: object, declaration: Parameter) -> float | None:
     return number
 
 
+def format_decimal(number: float) -> str:
+    """Format a number as a person writes it, without an exponent.
+
+    >>> format_decimal(0.0000001), format_decimal(2.50), format_decimal(float("nan"))
+    ('0.0000001', '2.5', 'nan')
+    """
+    text = f"{number:.10g}"
+    text = f"{Decimal(text):f}" if "e" in text else text
+    return text if len(text) <= MAX_SHOWN_LENGTH else text[:MAX_SHOWN_LENGTH] + "…"
+
+
 def format_value(value: object, declaration: Parameter) -> str:
     """Format a value as users enter it, with its unit; numbers of a tuple are separated by commas."""
     items = value if isinstance(value, (tuple, list)) else (value,)
     try:
         if items and all(isinstance(item, Real) and not isinstance(item, bool) for item in items):
-            return ",".join(f"{float(item):.10g}" for item in items) + SHOWN_UNITS[declaration.unit]
+            return ",".join(format_decimal(float(item)) for item in items) + SHOWN_UNITS[declaration.unit]
         text = repr(value)
     except (OverflowError, ValueError):
         return "a number of hundreds of digits"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
+from patterns.declared import format_decimal
 from patterns.errors import PatternError
 from patterns.protocol import Pattern
 from patterns.shared import angle_parameter, cell_parameter, frame_parameter, phase_parameter
@@ -72,7 +73,9 @@ def hilbert_curve(bounds: NDArray[np.float64], cell: float) -> list[NDArray[np.f
 
     low, high = np.floor(np.array(bounds[:2]) / cell) - 1, np.ceil(np.array(bounds[2:]) / cell) + 1
     if max(-low.min(), high.max()) > ORIGIN:
-        raise PatternError(f"the cell is {cell:g} mm; Hilbert's curve reaches {ORIGIN} cells: give a larger one")
+        raise PatternError(
+            f"the cell is {format_decimal(cell)} mm; Hilbert's curve reaches {ORIGIN} cells: give a larger one"
+        )
     axes = [
         np.arange(low_square, high_square + 1, dtype=np.int64)
         for low_square, high_square in zip(low, high, strict=True)

@@ -26,7 +26,7 @@ class Honeycomb(Pattern):
     """
 
     name: ClassVar[str] = "honeycomb"
-    summary: ClassVar[str] = "stiff in every direction for little material"
+    summary: ClassVar[str] = "hexagons: stiff from above, equally soft from all sides"
     paths: ClassVar[bool] = True
 
     cell: float = cell_parameter()

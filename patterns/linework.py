@@ -10,6 +10,7 @@ import shapely
 from numpy.typing import NDArray
 from shapely import MultiLineString, MultiPolygon, Polygon
 
+from patterns.declared import format_decimal
 from patterns.errors import PatternError
 
 
@@ -108,7 +109,7 @@ def sample_points(lines: MultiLineString, spacing: float) -> NDArray[np.float64]
     [0.0, 0.5, 1.0]
     """
     if not (math.isfinite(spacing) and spacing > 0):
-        raise PatternError(f"the spacing of points is {spacing:g} mm; it must be a number above 0")
+        raise PatternError(f"the spacing of points is {format_decimal(spacing)} mm; it must be a number above 0")
     coordinates: NDArray[np.float64] = shapely.get_coordinates(shapely.segmentize(lines, spacing))
     return coordinates
 

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
-from patterns.declared import parameter
+from patterns.declared import format_decimal, parameter
 from patterns.errors import PatternError
 from patterns.unit_cells import Planes
 
@@ -76,8 +76,9 @@ class LateralLattice(Planes):
         if abs(self.first - self.second) < MIN_ANGLE_BETWEEN:
             raise PatternError.about(
                 ("first", "second"),
-                f"of {self.name} are {self.first:g} and {self.second:g} degrees; they must be at "
-                f"least {MIN_ANGLE_BETWEEN:g} degrees apart",
+                f"of {self.name} are {format_decimal(self.first)} and {format_decimal(self.second)} degrees; they "
+                "must be at "
+                f"least {format_decimal(MIN_ANGLE_BETWEEN)} degrees apart",
             )
         angles = (self.first, self.second)
         normals = tuple((0.0, 1.0, round(math.tan(math.radians(angle)), 12)) for angle in angles)

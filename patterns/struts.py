@@ -58,7 +58,7 @@ class Octet(Bars):
     """Bars along the edges of octahedra and tetrahedra."""
 
     name: str = "octet"
-    summary: str = "octahedra and tetrahedra: the stiffest for its weight"
+    summary: str = "octahedra and tetrahedra: bars without a soft direction"
     edges: tuple[Edge, ...] = _edges_between((*CORNERS, *FACES), FACES, math.sqrt(0.5))
 
 

@@ -36,7 +36,20 @@ ROWS: tuple[tuple[str, ...], ...] = (
     ("cli", "studio"),
 )
 FLOOR = {room: floor for floor, rooms in enumerate(ROWS) for room in rooms}
-HALL = {"version", "errors", "arrays", "checks", "machine", "ragged", "graph", "grid", "volume", "surface", "drawing"}
+HALL = {
+    "version",
+    "errors",
+    "plain_numbers",
+    "arrays",
+    "checks",
+    "machine",
+    "ragged",
+    "graph",
+    "grid",
+    "volume",
+    "surface",
+    "drawing",
+}
 MOST_FLOORS = 12
 
 # Packages of others that only some may import: a room, or one module.

@@ -272,7 +272,7 @@ def test_check_says_yes_and_no(tmp_path: Path) -> None:
     infill.save(mesh, bad)
     result = run("check", good)
     assert result.exit_code == 0
-    assert "printable           yes" in result.stdout
+    assert "printable       yes" in result.stdout
     result = run("check", bad)
     assert result.exit_code == 1
     assert "NO" in result.stdout
@@ -304,8 +304,8 @@ def test_check_takes_several_meshes(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     assert result.exit_code == 1
     assert re.fullmatch("error: there is no file gone.stl; .*\n", result.stderr)
     good, bad, tiny = result.stdout.splitlines()
-    assert re.fullmatch(r"good\.stl +yes +12 triangles, 1 component\(s\), 10 x 20 x 30", good)
-    assert re.fullmatch(r"bad\.stl +NO +3 edge\(s\) without exactly two faces.*", bad)
+    assert re.fullmatch(r"good\.stl +yes +12 triangles, 1 part, 10 x 20 x 30 mm", good)
+    assert re.fullmatch(r"bad\.stl +NO +3 edges without exactly two faces.*", bad)
     assert re.fullmatch(r"tiny\.stl +yes .*; warning: the size suggests that the unit is m, not mm", tiny)
     assert run("check", "good.stl", "tiny.stl").exit_code == 0
     assert run("check", "good.stl", "tiny.stl", "--strict").exit_code == 1
@@ -385,7 +385,7 @@ def test_make_writes_stl_as_text(tmp_path: Path) -> None:
 @pytest.mark.slow
 def test_make_tells_pinholes_and_problems(tmp_path: Path) -> None:
     words = ["make", "honeycomb", "--size", "25", "--cell", "2.5", "--height", "2", "-o", tmp_path / "a.stl"]
-    assert "pinholes" in run(*words).stderr
+    assert re.search(r"closed up +\d+ gaps? narrower than a line", run(*words).stderr)
     words = ["make", "honeycomb", *SMALL, "--stamp", "exact", "--cells", "3", "--steps", "25", "-o", tmp_path / "b.stl"]
     one_line_error(run(*words), "--allow-broken")
     assert not (tmp_path / "b.stl").exists()
@@ -530,7 +530,7 @@ def test_sizes_and_bytes_are_read_as_people_write_them() -> None:
         "12.3 kB",
         "10.6 MB",
         "3 GB",
-        "5e+03 GB",
+        "5,000 GB",
     ]
 
 

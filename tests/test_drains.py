@@ -409,7 +409,7 @@ def test_the_command_takes_places_and_vents(tmp_path: Path) -> None:
     saved = ["--save-config", str(config), "-o", str(tmp_path / "a.stl")]
     done = CliRunner().invoke(build_app("fill"), [*words, *drains, *saved])
     assert done.exit_code == 0, done.output
-    assert "2 drain(s) of 3 mm; 1 vent(s) of 3 mm" in done.output
+    assert "2 drains of 3 mm; 1 vent of 3 mm" in done.output
     again = CliRunner().invoke(build_app("fill"), [*words[:2], "--config", str(config), "-o", str(tmp_path / "b.stl")])
     assert again.exit_code == 0, again.output
     assert (tmp_path / "a.stl").read_bytes() == (tmp_path / "b.stl").read_bytes()

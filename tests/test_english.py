@@ -45,6 +45,27 @@ def test_a_planted_sentence_is_found(sentence: str, found: str, tmp_path: Path) 
         assert f"{found}; write" in done.stderr
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("line", "found"),
+    [
+        ('f"{area:.3g} mm²"', ".3g"),
+        ('f"{x:e}"', "e"),
+        ('"up to %.3g mm"', "%.3g"),
+        ('"at {:g}".format(1)', "{:g}"),
+        ('f"{count} hole(s)"', "e(s)"),
+        ('"2 branch(es)"', "h(es)"),
+    ],
+)
+def test_a_number_or_count_for_machines_is_found(line: str, found: str, tmp_path: Path) -> None:
+    """1.94e+03 and hole(s) are for no reader."""
+    module = tmp_path / "module.py"
+    module.write_text(f"area = count = x = 1\ntext = {line}\n", encoding="utf-8")
+    done = run_check(module)
+    assert done.returncode == 1
+    assert f":2: '{found}'; write: infill.plain_numbers." in done.stderr
+
+
 def test_plain_sentences_and_code_pass(tmp_path: Path) -> None:
     page = tmp_path / "page.md"
     page.write_text("There is no pattern here.\n\n```\nbut for\n```\n\nIt is no longer than 2 mm.\n", encoding="utf-8")

@@ -458,6 +458,8 @@ def test_a_file_that_is_not_there(tmp_path: Path) -> None:
         ({"minimum_cruise_ratio": 0.0}, "klipper"),
         ({"acceleration": 4000.0}, "jerk"),
         ({"model": "vector-jerk"}, "vector-jerk"),
+        ({"model": "junction-deviation"}, "junction"),
+        ({"model": "junction"}, "junction"),
         ({"model": "klipper"}, "klipper"),
     ],
 )

@@ -20,7 +20,7 @@ from typer.testing import CliRunner
 
 from infill import ParameterError, make, motion, smooth_mesh, smooth_volume
 from infill.cli.app import build_app
-from infill.gcode.limits import MODELS
+from infill.gcode.limits import JUNCTION_DEVIATION, MODELS
 from infill.making.settings import resolve
 from infill.smoothing.request import METHODS
 from infill.smoothing.sources import KINDS
@@ -374,12 +374,12 @@ def test_the_choices_are_those_of_the_library() -> None:
     assert told["fill", "--open"].split("|") == [*get_args(Open)]
     assert told["fill", "--grade"].split("|") == [*get_args(Varies)]
     assert told["make", "--stamp"].split("|") == [*DEFAULT_CELLS]
-    assert set(told["motion", "--model"].split("|")) == {*MODELS}
+    assert set(told["motion", "--model"].split("|")) == {*MODELS} - {"junction"} | {JUNCTION_DEVIATION}
     from infill.cli import checking, timing
 
     for module, function, argument, wanted in (
         (checking, "check", "slicer", SLICERS),
-        (timing, "motion", "model", MODELS),
+        (timing, "motion", "model", (*MODELS, JUNCTION_DEVIATION)),
     ):
         from typing import get_type_hints
 

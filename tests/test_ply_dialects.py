@@ -155,7 +155,7 @@ def test_what_follows_the_last_row_is_told(form: str, tmp_path: Path) -> None:
     more = b"3 0 1 2\n" if form == "ascii" else b"\3" + bytes(12)
     assert read_mesh(write(tmp_path, data + b"\n \n")).notes == ()
     (note,) = read_mesh(write(tmp_path, data + more)).notes
-    assert note.startswith("4 word(s) follow" if form == "ascii" else "13 byte(s) follow")
+    assert note.startswith("left out 4 words after" if form == "ascii" else "left out 13 bytes after")
 
 
 def test_text_with_odd_blanks(tmp_path: Path) -> None:
@@ -252,7 +252,7 @@ WRONG = {
     "a word": (PLAIN.replace("20 30 40", "20 x 40"), "'x' is not a number"),
     "more columns than announced": (
         PLAIN.replace("0 0 0\n", "0 0 0 255\n", 1),
-        "announces 3 number.s. or lists for each 'vertex', and row 1 does not begin or end",
+        "announces 3 numbers or lists for each 'vertex', and row 1 does not begin or end",
     ),
     "two rows in one line": (PLAIN.replace("20 0 0\n", "20 0 0 ", 1), "row 2 does not begin or end with a line"),
     "two rows run together": (PLAIN.replace("20 0 0\n", "20 0 0", 1), "row 2 does not begin or end with a line"),
@@ -341,7 +341,7 @@ WRONG_OFFS = {
     "cut off": (off(BOX)[:-30], "cut off|not in lines|corners with"),
     "a corner beyond": (off(BOX).replace("4 3 2 1 0", "4 3 2 1 8"), "corner 8, which does not exist: it holds 8"),
     "a face of too few": (off(BOX).replace("4 3 2 1 0", "5 3 2 1 0"), "line 11: a face of 5 corners with 4"),
-    "a vertex of too few": (off(BOX).replace("20.0 30.0 40.0", "20.0 30.0"), r"line 9: a vertex of 2 number\(s\)"),
+    "a vertex of too few": (off(BOX).replace("20.0 30.0 40.0", "20.0 30.0"), r"line 9: a vertex of 2 numbers"),
     "a decimal comma": (off(BOX).replace("20.0 30.0 40.0", "20,0 30.0 40.0"), "line 9: '20,0' has a decimal comma"),
 }
 
@@ -392,7 +392,7 @@ def test_a_text_stl_in_every_dialect(name: str, tmp_path: Path) -> None:
     assert mesh.closed
 
 
-LEFT_OUT = "{} byte(s) follow the last triangle that it announces: they are left out"
+LEFT_OUT = "left out {} bytes after the last triangle that it announces"
 
 
 def test_a_binary_stl_with_bytes_behind(tmp_path: Path) -> None:

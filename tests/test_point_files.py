@@ -156,7 +156,7 @@ def test_ply_of_trimesh(encoding: Any, tmp_path: Path) -> None:
         ("a.xyz", "1 2 3\n4 5\n", "broken or holds no points .*row 2"),
         ("a.xyz", "1 2 3\n4 five 6\n", "five"),
         ("a.csv", "1,2,3\n4,,6\n", "broken or holds no points"),
-        ("a.csv", "x,y,z\n1,2,3\n4,nan,6\n7,8,inf\n", r"2 point\(s\) with NaN .* number 2"),
+        ("a.csv", "x,y,z\n1,2,3\n4,nan,6\n7,8,inf\n", r"2 points with NaN .* number 2"),
         ("a.txt", "some words only\nand more of them\n", "broken or holds no points"),
         ("a.xyz", "2\nwater\nO 0 0 0\nH 0 0 1\n", "broken or holds no points"),
         ("a.ply", "plx\n", "is not a PLY"),
@@ -213,7 +213,7 @@ def test_a_broken_file_is_one_clear_line(name: str, content: str, says: str, tmp
         (np.zeros((4, 3), complex), "type complex"),
         (np.full((4, 3), "x"), "type <U1"),
         (np.array([[object()] * 3]), "is empty"),
-        (np.full((4, 3), np.nan), r"4 point\(s\) with NaN"),
+        (np.full((4, 3), np.nan), r"4 points with NaN"),
     ],
 )
 def test_an_npy_of_something_else(array: np.ndarray, says: str, tmp_path: Path) -> None:

@@ -127,7 +127,7 @@ def test_the_order_of_points_does_not_matter_and_doubles_do_not(rng: np.random.G
 @pytest.mark.parametrize(
     ("points", "options", "error", "says"),
     [
-        (np.eye(3), {"voxel": 0.1}, ParameterError, r"3 point\(s\)"),
+        (np.eye(3), {"voxel": 0.1}, ParameterError, "3 points given"),
         (np.zeros((5, 6)), {"voxel": 0.1}, ParameterError, r"\(5, 6\)"),
         (np.full((5, 3), np.nan), {"voxel": 0.1}, ParameterError, "5 of 5 points"),
         (np.eye(5, 3), {"voxel": 0}, ParameterError, "voxel is 0"),

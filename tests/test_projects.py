@@ -319,7 +319,7 @@ def test_edges_with_four_faces_are_a_warning(project: Project, tmp_path: Path) -
     touching.merge_vertices()
     found = check_project(saved(replace(project, part=surface(touching)), tmp_path / "a.3mf", "plain"), "plain")
     assert found.fine
-    assert "part has 1 edge(s) with more than two faces" in found.warnings[1] + found.warnings[0]
+    assert "part has 1 edge with more than two faces" in found.warnings[1] + found.warnings[0]
 
 
 def test_parts_in_files_of_their_own_are_found(project: Project, tmp_path: Path) -> None:

@@ -108,14 +108,14 @@ def test_check_says_so(tmp_path: Path) -> None:
     assert found.printable
     assert found.sealed_voids == 9
     assert found.components == 10
-    assert found.warnings == ("9 sealed void(s): resin and powder stay in them",)
+    assert found.warnings == ("9 sealed cavities, in which resin and powder stay",)
     result = run("check", str(path))
     assert result.exit_code == 0
-    assert "sealed voids        9, in which resin and powder stay" in result.stdout
+    assert "1 part with 9 sealed cavities" in result.stdout
     assert json.loads(run("check", str(path), "--json").stdout)["sealed_voids"] == 9
     assert run("check", str(path), "--strict").exit_code == 1
     both = run("check", str(path), str(save(CUBE, tmp_path / "b.stl")))
-    assert "9 sealed void(s): resin and powder stay in them" in both.stdout
+    assert "9 sealed cavities, in which resin and powder stay" in both.stdout
     assert both.stdout.count("sealed") == 1
 
 
@@ -123,7 +123,7 @@ def test_an_open_mesh_has_no_voids_that_can_be_counted(tmp_path: Path) -> None:
     surface = together(*CASES["nine voids"][0])
     path = save(Surface(vertices=surface.vertices, faces=surface.faces[1:]), tmp_path / "a.stl")
     assert check(path).sealed_voids is None
-    assert "unknown: the mesh is not closed" in run("check", str(path)).stdout
+    assert "sealed cavities unknown: the mesh is not watertight" in run("check", str(path)).stdout
     assert not any("sealed" in each for each in check(path).warnings)
 
 

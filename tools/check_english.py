@@ -26,10 +26,39 @@ TURNS = {
     r"\b(?:is|are|was|were|be) told\b|\btells? of\b": "is reported, states",
     r"\bmend(?:s|ed|ing)?\b": "repair, fix",
     r"\bdoes not take\b": "rejects",
+    r"\w\((?:s|es|ies)\)": "infill.plain_numbers.count_noun",
+}
+# Formats that write 1,940 as 1.94e+03, in f-strings, str.format and logging.
+EXPONENT = re.compile(r"[gGeE]$")
+TEMPLATE = re.compile(r"%[-+ #0\d.]*[geGE](?![a-z])|\{[^{}\s]*:[-+ #,\d.]*[gGeE]\}")
+# Modules that write numbers for machines, or that the formatting itself is made of.
+FOR_MACHINES = {
+    "infill/formats/obj.py",
+    "infill/formats/stl.py",
+    "infill/formats/threemf.py",
+    "infill/gcode/dialect.py",
+    "infill/imaging/dicom/stacks.py",
+    "infill/imaging/nrrd.py",
+    "infill/plain_numbers.py",
+    "patterns/declared.py",
 }
 # Pages that programs write: their words come from those programs.
 WRITTEN = {"commands.md", "paper.md", "slicer-report.md", "smooth-report.md"}
 FENCED = re.compile(r"^( *)(```|~~~).*?^\1\2 *$", re.MULTILINE | re.DOTALL)
+
+
+def find_exponents(path: Path) -> list[str]:
+    """Return a line for each format in a module that may write a number with an exponent."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    docstrings = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+    found = []
+    for node in ast.walk(tree):
+        if isinstance(node, ast.FormattedValue) and isinstance(node.format_spec, ast.JoinedStr):
+            specs = [part.value for part in node.format_spec.values if isinstance(part, ast.Constant)]
+            found += [(node.lineno, spec) for spec in specs if EXPONENT.search(spec)]
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in docstrings:
+            found += [(node.lineno, match[0]) for match in TEMPLATE.finditer(node.value)]
+    return [f"{path}:{line}: '{text}'; write: infill.plain_numbers.plain_number" for line, text in found]
 
 
 def texts(path: Path) -> Iterator[tuple[int, str]]:
@@ -64,5 +93,8 @@ def readers_files() -> list[Path]:
 if __name__ == "__main__":
     files = [Path(name) for name in sys.argv[1:]] or readers_files()
     complaints = [line for path in files for line in find_turns(path)]
+    for path in files:
+        if path.suffix == ".py" and path.resolve().as_posix().removeprefix(f"{ROOT.as_posix()}/") not in FOR_MACHINES:
+            complaints += find_exponents(path)
     print("\n".join(complaints), file=sys.stderr, end="\n" if complaints else "")
     sys.exit(bool(complaints))

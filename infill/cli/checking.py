@@ -9,6 +9,7 @@ import typer
 
 from infill.cli.console import format_table, print_json, say
 from infill.errors import InfillError
+from infill.plain_numbers import count_noun, plain_number
 
 if TYPE_CHECKING:
     from infill.inspection.printability import Inspection
@@ -120,8 +121,8 @@ def _verdict_line(inspection: Inspection) -> str:
     """Format the verdict on one of several meshes as a line, with its reasons."""
     if not inspection.printable:
         return f"NO   {'; '.join(inspection.problems)}"
-    size = " x ".join(f"{length:.4g}" for length in inspection.extents)
-    text = f"yes  {inspection.triangles:,} triangles, {inspection.components} component(s), {size}"
+    size = " x ".join(plain_number(length, 4) for length in inspection.extents)
+    text = f"yes  {inspection.triangles:,} triangles, {_count_parts(inspection)}, {size} mm"
     return "; ".join([text, *(f"warning: {warning}" for warning in inspection.warnings)])
 
 
@@ -131,26 +132,37 @@ def _inspection_table(inspection: Inspection, name: str) -> str:
         "printable": "yes" if inspection.printable else "NO",
         **{f"problem {i}": text for i, text in enumerate(inspection.problems, 1)},
         **{f"warning {i}": text for i, text in enumerate(inspection.warnings, 1)},
-        "closed": f"{_yes_or_no(inspection.closed)}, {inspection.open_edges} open edge(s)",
-        "outward": _yes_or_no(inspection.outward),
-        "manifold3d": inspection.manifold,
-        "self-intersections": str(inspection.self_intersections),
-        "components": str(inspection.components),
-        "sealed voids": _sealed_text(inspection.sealed_voids),
-        "triangles": f"{inspection.triangles:,}, {inspection.degenerate} degenerate, {inspection.duplicate} duplicate",
-        "volume, area": f"{inspection.volume:.6g}, {inspection.area:.6g}",
-        "extents": " x ".join(f"{length:.4g}" for length in inspection.extents),
+        "watertight": _watertight_text(inspection),
+        "parts": _parts_text(inspection),
+        "faces outwards": "yes" if inspection.outward else "no",
+        "triangles": f"{inspection.triangles:,}, {inspection.degenerate:,} without an area, {inspection.duplicate:,} "
+        f"duplicate, {count_noun(inspection.self_intersections, 'pair')} that cross",
+        "volume, area": f"{plain_number(inspection.volume, 6)} mm³, {plain_number(inspection.area, 6)} mm²",
+        "size": f"{' x '.join(plain_number(length, 4) for length in inspection.extents)} mm",
     }
     return format_table(rows, title=name)
 
 
-def _sealed_text(voids: int | None) -> str:
-    """Describe the number of sealed voids, which is None for an open mesh."""
-    if voids is None:
-        return "unknown: the mesh is not closed"
-    return f"{voids}, in which resin and powder stay" if voids else "none"
+def _watertight_text(inspection: Inspection) -> str:
+    """Tell whether a mesh is watertight, and if not, why."""
+    if inspection.closed:
+        return "yes"
+    if inspection.open_edges:
+        return f"no, {count_noun(inspection.open_edges, 'open edge')}"
+    return "no, neighbouring faces disagree about which side is out"
 
 
-def _yes_or_no(holds: bool) -> str:
-    """Return "yes" or "no"."""
-    return "yes" if holds else "no"
+def _parts_text(inspection: Inspection) -> str:
+    """Format the numbers of parts and of cavities sealed inside of them, which are unknown for an open mesh."""
+    if inspection.sealed_voids is None:
+        return f"{_count_parts(inspection)}, sealed cavities unknown: the mesh is not watertight"
+    cavities = count_noun(inspection.sealed_voids, "sealed cavity", "sealed cavities")
+    return f"{_count_parts(inspection)} with {cavities}" if inspection.sealed_voids else _count_parts(inspection)
+
+
+def _count_parts(inspection: Inspection) -> str:
+    """Count the parts; of an open mesh, whose surfaces may bound solid or cavities, the components."""
+    if inspection.sealed_voids is None:
+        return count_noun(inspection.components, "component")
+    # Cavities that touch in a vertex are one component.
+    return count_noun(max(inspection.components - inspection.sealed_voids, 1), "part")

@@ -12,6 +12,7 @@ from typing import Any, TextIO
 import typer
 
 from infill.errors import escape_unprintable
+from infill.plain_numbers import plain_number
 
 UNITS = ("B", "kB", "MB", "GB")
 
@@ -104,4 +105,4 @@ def format_bytes(count: float) -> str:
         if count < 1000 or unit == UNITS[-1]:
             break
         count /= 1000
-    return f"{count:.3g} {unit}"
+    return f"{plain_number(count)} {unit}"

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from infill.cli.console import format_bytes, format_table, print_json
+from infill.plain_numbers import count_noun, plain_number
 
 if TYPE_CHECKING:
     from infill.reports.filling import FillForecast, FillReport
@@ -20,6 +21,13 @@ REPAIR_TEXTS = {
 }
 # Measured: 4 h 56 m for the solid, 2 h 53 m with PrusaSlicer's own gyroid of the same density.
 FILAMENT_ADVICE = "prints slowly as one solid; write --for SLICER, or slice the part itself and run infill refill"
+# Where a built-in field of density is lowest and where it is highest.
+PLACES = {
+    "skin": ("at the walls", "in the middle"),
+    "z": ("at the bottom", "at the top"),
+    "x": ("at the lowest x", "at the highest x"),
+    "y": ("at the lowest y", "at the highest y"),
+}
 END_TEXTS = {"top": "top", "bottom": "bottom", "both": "top and bottom"}
 
 
@@ -30,8 +38,9 @@ def show_plan(plan: FillForecast, name: str, *, as_json: bool) -> None:
         return
     grid, infill = plan["grid"], plan["infill"]
     rows = {
-        "infill": f"cell about {infill['cell']:.4g} mm, line width about {infill['line_width']:.4g} mm",
-        "grid": f"{' x '.join(map(str, grid['shape']))} cells of {grid['spacing'][0]:.4g} mm",
+        "infill": f"cell about {plain_number(infill['cell'], 4)} mm, line width about "
+        f"{plain_number(infill['line_width'], 4)} mm",
+        "grid": f"{' x '.join(map(str, grid['shape']))} cells of {plain_number(grid['spacing'][0], 4)} mm",
         "memory": f"about {format_bytes(plan['memory'])}",
     }
     typer.echo(format_table(rows, title=f"{name}, {plan['request']['pattern']}: nothing is written (--dry-run)"))
@@ -51,26 +60,31 @@ def summary(report: FillReport, files: list[str], name: str, *, verbose: bool) -
         skin += ", except for the drains"
     if request["open"]:
         skin += f", except for the open {END_TEXTS[request['open']]}"
-    graded = report["graded"]
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}; skin {skin}",
-        "solid": f"{report['volume']:.6g} mm³, {report['volume'] / report['part']['volume']:.1%} of the part",
-        "density": f"{report['density']:.1%} inside the walls: cells of {infill['cell']:.4g} mm, lines of "
-        f"{infill['line_width']:.3g} mm",
-        "walls": f"{walls['least'] or 0.0:.3g} mm at least, {walls['requested']:g} asked for",
+        "solid": f"{plain_number(report['volume'], 6)} mm³, {report['volume'] / report['part']['volume']:.1%} of the "
+        "part",
+        "density": f"{report['density']:.1%} inside the walls: cells of {plain_number(infill['cell'], 4)} mm, lines "
+        f"of {plain_number(infill['line_width'])} mm",
+        "walls": f"{plain_number(walls['least'] or 0.0)} mm at least, {plain_number(walls['requested'], 6)} asked for",
         "voids": f"{voids['count']:,}, {_drain_text(report)}",
     }
     if request["form"] != "solid":
         rows["mesh"] = f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}"
-        rows["solid"] = f"{report['volume']:.6g} mm³ of infill"
+        rows["solid"] = f"{plain_number(report['volume'], 6)} mm³ of infill"
         del rows["walls"], rows["voids"]
-    if graded:
-        ends = f"{graded[0]['density']:.0%} to {graded[-1]['density']:.0%}"
-        requested = f"{graded[0]['wanted']:.0%} to {graded[-1]['wanted']:.0%}"
-        rows["graded"] = f"{ends} by {request['by']}, where {requested} was asked for"
+    if request["densities"] is not None:
+        first, last = request["densities"]
+        lowest, highest = PLACES.get(str(request["by"]), ("where the field is lowest", "where it is highest"))
+        ends = f"{plain_number(100 * first, 6)}% {lowest} to {plain_number(100 * last, 6)}% {highest}"
+        sizes = f"cells of {plain_number(infill['cell'], 4)} mm, lines of {plain_number(infill['line_width'])} mm"
         if request["grade"] == "cell":
             (small, large), (narrow, wide) = infill["cells"] or (0, 0), infill["widths"] or (0, 0)
-            rows["graded"] += f"; cells of {small:.3g} to {large:.3g} mm, lines of {narrow:.2g} to {wide:.2g} mm"
+            sizes = (
+                f"cells of {plain_number(small)} to {plain_number(large)} mm, lines of {plain_number(narrow, 2)} to "
+                f"{plain_number(wide, 2)} mm"
+            )
+        rows["density"] = f"{ends}; {report['density']:.1%} on average: {sizes}"
     regions = [
         f"{region['density']:.1%} {'elsewhere' if region['place'] == 'rest' else 'in ' + region['place']}"
         for region in report["regions"]
@@ -79,20 +93,22 @@ def summary(report: FillReport, files: list[str], name: str, *, verbose: bool) -
     if regions:
         rows["regions"] = ", ".join(regions)
     if infill["phase"] != request["phase"]:
-        shift = ", ".join(f"{length:.3g}" for length in infill["phase"])
+        shift = ", ".join(plain_number(length) for length in infill["phase"])
         rows["shifted"] = f"by {shift} mm in x, y and z: slicers print more of it there"
     if request["form"] == "project" and infill["left_out"]:
-        rows["too narrow"] = f"{infill['left_out']:.3g} mm³ of infill, left out: slicers would print none of it"
+        rows["too narrow"] = (
+            f"{plain_number(infill['left_out'])} mm³ of infill, left out: slicers would print none of it"
+        )
     if voids["islands"]:
-        rows["left out"] = f"{voids['islands']:,} piece(s) of infill that would have hung free"
+        rows["left out"] = f"{count_noun(voids['islands'], 'piece')} of infill that would have hung free"
     if request["form"] == "solid" and not report["drains"]["count"]:  # drains are for resin and powder
         rows["filament"] = FILAMENT_ADVICE
     if report["problems"]:
         rows["PROBLEMS"] = "; ".join(report["problems"])
     if verbose:
         grid = report["grid"]
-        rows["grid"] = f"{' x '.join(map(str, grid['shape']))} cells of {grid['spacing'][0]:.4g} mm"
-        rows["fillets"] = f"{infill['radius']:.3g} mm"
+        rows["grid"] = f"{' x '.join(map(str, grid['shape']))} cells of {plain_number(grid['spacing'][0], 4)} mm"
+        rows["fillets"] = f"{plain_number(infill['radius'])} mm"
         rows["seconds"] = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in report["seconds"].items())
     for path in files:
         rows[f"wrote {path}"] = format_bytes(Path(path).stat().st_size) if Path(path).is_file() else ""
@@ -106,11 +122,17 @@ def _drain_text(report: FillReport) -> str:
     if not (holes or side):
         return "sealed: nothing drains from them"
     phrases = [f"{report['voids']['open']:,} open at the {END_TEXTS[side]}"] if side else []
-    for kinds, noun in ((("drain", "place"), "drain(s)"), (("vent",), "vent(s)"), (("branch",), "branch(es)")):
+    for kinds, noun, plural in (
+        (("drain", "place"), "drain", "drains"),
+        (("vent",), "vent", "vents"),
+        (("branch",), "branch", "branches"),
+    ):
         widths = [hole["diameter"] for hole in holes if hole["kind"] in kinds]
         if widths:
-            low, high = min(widths), max(widths)
-            phrases.append(f"{len(widths):,} {noun} of {low:g}{'' if low == high else f' to {high:g}'} mm")
+            low, high = plain_number(min(widths), 6), plain_number(max(widths), 6)
+            phrases.append(
+                f"{count_noun(len(widths), noun, plural)} of {low if low == high else f'{low} to {high}'} mm"
+            )
     if closed:
         phrases.append(f"{closed:,} still sealed" if holes else f"{closed:,} sealed")
     return "; ".join(phrases)

@@ -18,6 +18,7 @@ from infill.cli.console import format_table, print_json, progress_bar, say
 from infill.cli.declared import takes_options
 from infill.cli.piping import STDOUT, check_outputs, is_piped, send_file
 from infill.errors import InfillError
+from infill.plain_numbers import plain_number
 from infill.refilling.request import PATHS, Request
 from infill.refilling.settings import resolve
 from patterns.errors import PatternError
@@ -201,7 +202,7 @@ def _summary(report: RefillReport, name: str, files: list[str]) -> str:
         rows["filament"] = f"{after / 1000:.3f} m of infill, {after / before - 1:+.1%}"
         density = filament["density_for_the_same_percent"]
         if density and after < before * 0.999:
-            rows["filament"] += f"; for the old amount, set {density:g} % in the slicer"
+            rows["filament"] += f"; for the old amount, set {plain_number(density, 6)} % in the slicer"
             if (filament["ratio_with_density_same"] or 0.0) > ALIKE:
                 rows["filament"] += ", or give --density same"
         before, after = seconds["infill_before_s"], seconds["infill_after_s"]

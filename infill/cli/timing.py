@@ -11,6 +11,7 @@ import typer
 
 from infill.cli.console import format_table, print_json, say
 from infill.gcode.ending import describe_missing_end
+from infill.plain_numbers import count_noun, plain_argument, plain_number
 
 if TYPE_CHECKING:
     from infill.planner.printing_time import FeatureMotion, Motion
@@ -27,7 +28,7 @@ COLUMNS: dict[str, Callable[[FeatureMotion], str]] = {
     "retractions": lambda each: f"{each.retractions}",
     "turns >30°": lambda each: f"{each.turns}",
     "°/mm": lambda each: f"{each.turning:.1f}",
-    "segment mm": lambda each: "-" if each.median_segment is None else f"{each.median_segment:.2g}",
+    "segment mm": lambda each: "-" if each.median_segment is None else plain_number(each.median_segment, 2),
     "<0.1 mm": lambda each: "-" if each.short_segments is None else f"{each.short_segments:.1%}",
     "mm³/s": lambda each: f"{each.peak_flow:.1f}",
 }
@@ -41,9 +42,9 @@ def motion(
         Path | None, typer.Argument(metavar="[B.gcode]", help="A second print, to compare with the first.")
     ] = None,
     model: Annotated[
-        Literal["jerk", "vector-jerk", "junction", "klipper"] | None,
+        Literal["jerk", "vector-jerk", "junction-deviation", "junction", "klipper"] | None,
         typer.Option(
-            metavar="jerk|vector-jerk|junction|klipper",
+            metavar="jerk|vector-jerk|junction-deviation|klipper",
             help="What bounds the speed at corners: jerk as PrusaSlicer estimates, vector-jerk as CuraEngine does, "
             "Marlin's junction deviation, or Klipper. (default: as in the file)",
             rich_help_panel=MACHINE,
@@ -168,16 +169,17 @@ def _summary(path: Path, plan: Motion) -> str:
         "slicer": plan.slicer or "unknown",
         "its estimate": "none" if plan.estimate is None else _format_clock(plan.estimate),
         "layers": f"{plan.layers}",
-        "filament": f"{format_length(plan.filament, 2)}, {plan.retractions} retraction(s){_volumetric_note(plan)}",
+        "filament": f"{format_length(plan.filament, 2)}, "
+        f"{count_noun(plan.retractions, 'retraction')}{_volumetric_note(plan)}",
         "laid, travelled": f"{format_length(plan.length, 1)}, {format_length(plan.travel, 1)}",
-        "model": plan.limits["model"],
+        "model": "junction-deviation" if plan.limits["model"] == "junction" else plan.limits["model"],
         "limits": limits,
     }
     if plan.missing_end:
         rows["CUT OFF"] = describe_missing_end(plan.missing_end)
     if plan.unread_lines:
         rows["NOT READ"] = (
-            f"{plan.unread_lines} line(s) that may move or extrude are left out; the first is line "
+            f"left out {count_noun(plan.unread_lines, 'line')} that may move or extrude, first at line "
             f"{plan.first_unread_line}: {plan.first_unread_text}"
         )
     if plan.macros:
@@ -198,7 +200,7 @@ def format_length(mm: float, decimals: int) -> str:
 
 def _volumetric_note(plan: Motion) -> str:
     """Note that a file counts filament in mm³, else return an empty string."""
-    return f"; E in mm³, of filament {plan.filament_diameter:g} mm thick" if plan.volumetric else ""
+    return f"; E in mm³, of filament {plain_number(plan.filament_diameter, 6)} mm thick" if plan.volumetric else ""
 
 
 def _plate_text(plan: Motion) -> str:
@@ -210,7 +212,7 @@ def _plate_text(plan: Motion) -> str:
 
 def _plain_value(value: float | Sequence[float]) -> str:
     """Return a number, or numbers with spaces between them, without trailing zeros."""
-    return f"{value:g}" if isinstance(value, float | int) else " ".join(f"{component:g}" for component in value)
+    return plain_argument(value) if isinstance(value, float | int) else " ".join(map(plain_argument, value))
 
 
 def _feature_table(plan: Motion) -> str:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from infill.arrays import Flags, Floats
 from infill.errors import GeometryError
 from infill.grid import VOID
+from infill.plain_numbers import plain_argument
 
 Indices = NDArray[np.intp]
 
@@ -194,7 +195,8 @@ def nudge_field(field: NDArray[np.float32], level: float = 0.0) -> NDArray[np.bo
     solid: NDArray[np.bool_] = field > 0
     if not solid.any():
         raise GeometryError(
-            f"nothing is left above the level {level:g}: no surface; smooth less, or use walls of more cells"
+            f"nothing is left above the level {plain_argument(level)}: no surface; smooth less, or use walls of more "
+            "cells"
         )
     too_close = np.abs(field) < CLEARANCE
     field[too_close] = np.where(solid[too_close], np.float32(CLEARANCE), np.float32(-CLEARANCE))

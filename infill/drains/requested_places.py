@@ -12,6 +12,7 @@ from infill.drains.drain_columns import LineLattice, find_ways
 from infill.drains.drain_places import UP, DrainPlaces, DrainTask, TurnedPart
 from infill.drains.holes import Hole, Shaft
 from infill.errors import GeometryError
+from infill.plain_numbers import plain_argument, plain_place
 
 Place = tuple[float, float, float]  # x, y, z, mm
 
@@ -21,7 +22,7 @@ NARROWER, NARROWEST = (0.75, 0.5, 0.35, 0.25), 0.5  # of the diameter: tried in 
 
 def make_hole_at(task: DrainTask, place: Place, *, remedies: bool = True) -> Hole:
     """Make the hole at a place of the skin, straight in from there, or raise GeometryError."""
-    needs, request = task.needs, "is ({:g}, {:g}, {:g})".format(*place)
+    needs, request = task.needs, f"is {plain_place(place, 6)}"
     point, normal, distance = _nearest_on_skin(np.array(place), task)
     below = task.along(_rotation_down(normal))
     x, y, z = below.turned @ point
@@ -42,16 +43,17 @@ def make_hole_at(task: DrainTask, place: Place, *, remedies: bool = True) -> Hol
         lowest = float(np.asarray(task.voids.vertices, dtype=np.float64)[task.names == void, 2].min())
         return replace(hole, above=max(0.0, float(below.back(np.array([*shaft.at, shaft.floor]))[2]) - lowest))
     if distance > needs.radius:
-        fault = f"{request}, {distance:.3g} mm from the skin of the part"
+        fault = f"{request}, {plain_argument(distance, 3)} mm from the skin of the part"
     elif way is None:
         fault = f"{request}, and no void lies straight behind it"
     elif shaft is None:
-        fault = f"{request}, and a hole of {needs.diameter:g} mm runs over the edge of the face there"
+        fault = f"{request}, and a hole of {plain_argument(needs.diameter)} mm runs over the edge of the face there"
     else:
-        worst = ", ".join(f"{coordinate:.4g}" for coordinate in below.back(shaft.near))
+        worst = plain_place(below.back(shaft.near))
         fault = (
-            f"{request}, and a hole of {needs.diameter:g} mm there leaves {shaft.clearance:.2g} mm of wall at "
-            f"({worst}), less than the {needs.wall:g} mm requested"
+            f"{request}, and a hole of {plain_argument(needs.diameter)} mm there leaves "
+            f"{plain_argument(shaft.clearance, 2)} mm of wall at {worst}, less than the {plain_argument(needs.wall)} "
+            "mm requested"
         )
     remedy = _advise_place(task, point, below) if remedies else "leave it out"
     if remedies and shaft is not None:
@@ -59,7 +61,7 @@ def make_hole_at(task: DrainTask, place: Place, *, remedies: bool = True) -> Hol
         fits = next(
             (width for width in widths if _is_possible(replace(task.with_diameter(width), opening=None), place)), None
         )
-        remedy = remedy if fits is None else f"{remedy}, or give drains of {fits:g} mm"
+        remedy = remedy if fits is None else f"{remedy}, or give drains of {plain_argument(fits)} mm"
     raise GeometryError.about("drain_at", f"{fault}; {remedy}")
 
 
@@ -82,7 +84,7 @@ def _advise_place(task: DrainTask, point: Floats, below: TurnedPart) -> str:
     if shaft is not None:
         place = _round_place(below.back(shaft.mouth))
         if _is_possible(replace(task, opening=None), place):
-            return "give ({:g}, {:g}, {:g})".format(*place)
+            return f"give {plain_place(place, 6)}"
     return "leave it out: no place that was tried on that side keeps the wall"
 
 

@@ -25,6 +25,7 @@ from infill.drawing import (
 )
 from infill.errors import FormatError
 from infill.files.broken import error_text, wrap_reader_errors
+from infill.plain_numbers import plain_argument
 
 SAVE_ADVICE = "save it again as DXF (R2000 or later, text)"
 LARGEST_FILE = 10_000_000  # bytes: reading takes a second per million
@@ -107,7 +108,7 @@ def _read_lines(document: Any, left_out: Counter[str]) -> list[Line]:  # noqa: A
         return []
     size = float(np.ptp(np.concatenate(corners), axis=0).max())
     if not (math.isfinite(size) and size > 0):
-        raise ValueError(f"its lines extend over {size:g}")
+        raise ValueError(f"its lines extend over {plain_argument(size)}")
     parts = (part for curve in paths for part in (curve.sub_paths() if curve.has_sub_paths else [curve]) if len(part))
     flat = (np.array([(v.x, v.y) for v in part.flattening(CHORD_TOLERANCE * size / 2)]) for part in parts)
     return list(count_points(flat))

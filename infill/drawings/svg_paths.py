@@ -13,6 +13,7 @@ import re
 import numpy as np
 
 from infill.drawing import MOST_POINTS, Line, require_at_most
+from infill.plain_numbers import plain_number
 
 TURN_ANGLE = 0.03  # rad
 LARGEST_NUMBER = 1e9
@@ -73,7 +74,7 @@ def _number_rows(letter: str, text: str) -> list[list[float]]:
     if not rows:
         raise ValueError(f"a path gives {letter} a wrong number of numbers")
     if not all(abs(number) < LARGEST_NUMBER for row in rows for number in row):
-        raise ValueError(f"a path holds a number beyond {LARGEST_NUMBER:g}")
+        raise ValueError(f"a path holds a number beyond {plain_number(LARGEST_NUMBER, 6)}")
     return rows
 
 

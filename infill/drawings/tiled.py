@@ -13,6 +13,7 @@ import shapely
 from numpy.typing import NDArray
 
 from infill.drawings.drawing_files import read_tile
+from infill.plain_numbers import plain_argument
 from patterns.errors import PatternError
 from patterns.linework import clip, turn
 from patterns.protocol import Pattern
@@ -29,7 +30,9 @@ class TooManyCopiesError(PatternError):
     @classmethod
     def at(cls, cell: float, excess: str) -> Self:
         """Return the error for a cell, mm."""
-        error = cls.about("cell", f"is {cell:.3g} mm: {excess}; give a larger cell, or simplify the drawing")
+        error = cls.about(
+            "cell", f"is {plain_argument(cell, 3)} mm: {excess}; give a larger cell, or simplify the drawing"
+        )
         error.excess = excess
         return error
 

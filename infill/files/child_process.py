@@ -30,6 +30,7 @@ from infill import errors
 from infill.errors import FormatError, InfillError, MemoryLimitError
 from infill.files.broken import READER_ERRORS
 from infill.machine import GIB, available_memory
+from infill.plain_numbers import plain_argument
 
 TIME_LIMIT = 600.0  # for one file: the slowest network drive fills memory in that time
 BASE_MEMORY = GIB  # bytes of address space for the interpreter and its libraries
@@ -149,7 +150,8 @@ def _run_child(request: str, seconds: float, path: Path, files: tuple[int, ...])
             printed, _ = child.communicate(request, timeout=seconds)
         except subprocess.TimeoutExpired as error:
             raise FormatError(
-                f"{path} takes over {seconds:g} s to read; check that it is whole, or copy it to a fast disk"
+                f"{path} takes over {plain_argument(seconds)} s to read; check that it is whole, or copy it to a fast "
+                "disk"
             ) from error
         finally:
             child.kill()  # on an interrupt too; nothing happens if it has ended

@@ -14,6 +14,7 @@ from infill.files.excerpts import quote_word
 from infill.formats.rows import write_rows
 from infill.formats.text_lines import Lines, are_separators, blank_breaks, blank_comments, read_plain_text
 from infill.meshes.polygons import CORNERS, split_polygons
+from infill.plain_numbers import count_noun
 from infill.surface import Surface
 from infill.version import __version__
 
@@ -75,7 +76,7 @@ def _check_statements(lines: Lines, rows: NDArray[np.int64]) -> tuple[str, ...]:
     if not unknown:
         return ()
     names = ", ".join(map(quote_word, list(unknown)[:MOST_NAMED])) + (" …" if len(unknown) > MOST_NAMED else "")
-    return (f"{sum(unknown.values())} line(s) that begin with {names}, which OBJ does not have, are left out",)
+    return (f"left out {count_noun(sum(unknown.values()), 'line')} starting with {names}: OBJ has no such lines",)
 
 
 def _vertices(lines: Lines, rows: NDArray[np.int64]) -> NDArray[np.float64]:
@@ -84,7 +85,9 @@ def _vertices(lines: Lines, rows: NDArray[np.int64]) -> NDArray[np.float64]:
     short = np.flatnonzero(numbers < 3)
     if len(short):
         count = int(numbers[short[0]])
-        raise lines.error(int(lines.first[rows[short[0]]]), f"a vertex of {count} number(s), not three or more")
+        raise lines.error(
+            int(lines.first[rows[short[0]]]), f"a vertex of {count_noun(count, 'number')}, not three or more"
+        )
     values = lines.numbers(rows, 1, np.float64).astype(np.float64, copy=False)
     if len(numbers) and (numbers == numbers[0]).all():
         return values.reshape(-1, int(numbers[0]))[:, :3].copy()
@@ -100,7 +103,9 @@ def _corners(
     short = np.flatnonzero(counts < CORNERS)
     if len(short):
         count = int(counts[short[0]])
-        raise lines.error(int(lines.first[rows[short[0]]]), f"a face of {count} corner(s), not three or more")
+        raise lines.error(
+            int(lines.first[rows[short[0]]]), f"a face of {count_noun(count, 'corner')}, not three or more"
+        )
     corners = lines.numbers(rows, 1, np.int64, slashes=True).astype(np.int64, copy=False)
     total = len(vertex_rows)
     if len(corners) and (corners.min() < 1 or corners.max() > total):

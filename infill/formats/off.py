@@ -12,6 +12,7 @@ from infill.errors import FormatError
 from infill.formats.ply import require_corners
 from infill.formats.text_lines import Lines, blank_comments, number_complaint, read_plain_text
 from infill.meshes.polygons import split_polygons
+from infill.plain_numbers import count_noun, plain_argument
 
 # Texture coordinates, colours, normals, a fourth coordinate, and any number of coordinates, which come next.
 KEYWORD = re.compile(rb"\s*((?:ST)?C?N?4?n?OFF)(?![A-Za-z])", re.IGNORECASE)
@@ -64,7 +65,9 @@ def _read_lines(
     short = np.flatnonzero(width < 3)
     if len(short):
         count = int(width[short[0]])
-        raise lines.error(int(lines.first[vertex_rows[short[0]]]), f"a vertex of {count} number(s), not three or more")
+        raise lines.error(
+            int(lines.first[vertex_rows[short[0]]]), f"a vertex of {count_noun(count, 'number')}, not three or more"
+        )
     values = lines.numbers(vertex_rows, 0, np.float64).astype(np.float64, copy=False)
     begins = np.cumsum(width) - width
     vertices = values[begins[:, None] + np.arange(3)]
@@ -76,7 +79,8 @@ def _read_lines(
     if len(short):
         stated, available = int(counts[short[0]]), int(width[short[0]]) - 1
         raise lines.error(
-            int(lines.first[face_rows[short[0]]]), f"a face of {stated} corners with {available} number(s)"
+            int(lines.first[face_rows[short[0]]]),
+            f"a face of {count_noun(stated, 'corner')} with {count_noun(available, 'number')}",
         )
     positions = np.repeat(begins + 1 - (np.cumsum(counts) - counts), counts)
     corners = _to_integers(lines, np.repeat(face_rows, counts), face_numbers[positions + np.arange(len(positions))])
@@ -89,7 +93,9 @@ def _to_integers(lines: Lines, rows: NDArray[np.int64], values: NDArray[np.gener
     numbers = values.astype(np.float64)
     wrong = np.flatnonzero(~((np.abs(numbers) < 2**53) & (numbers == np.floor(numbers))))
     if len(wrong):
-        raise lines.error(int(lines.first[rows[wrong[0]]]), f"{numbers[wrong[0]]:g} is not a whole number")
+        raise lines.error(
+            int(lines.first[rows[wrong[0]]]), f"{plain_argument(numbers[wrong[0]])} is not a whole number"
+        )
     return numbers.astype(np.int64)
 
 

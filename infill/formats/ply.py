@@ -78,7 +78,7 @@ def read_ply(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64], tuple[
         require_corners(path, flat, len(vertices))
         triangles.append(split_polygons(vertices, flat, counts))
     triangles += [split_strips(flat, counts) for flat, counts in strips]
-    notes = (f"{note} follow the last row that it announces: they are left out",) if note else ()
+    notes = (f"left out {note} after the last row that it announces",) if note else ()
     return vertices, np.concatenate(triangles), notes
 
 

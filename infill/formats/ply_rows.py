@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from infill.errors import FormatError
 from infill.files.excerpts import quote_word
 from infill.formats.text_lines import Lines, number_complaint
+from infill.plain_numbers import count_noun, plain_argument
 
 CORNER_LISTS = ("vertex_indices", "vertex_index", "vertex_indexes")
 MOST_ROWS = 2**40
@@ -86,7 +87,7 @@ def read_binary_rows(
             columns, place = uniform if uniform else _varying_rows(path, data, place, order, element)
         remaining = len(data) - place
         is_blank = remaining <= LONGEST_BLANK and not data[place:].strip(BLANK)
-        yield element, columns, "" if is_blank else f"{remaining:,} byte(s)"
+        yield element, columns, "" if is_blank else count_noun(remaining, "byte")
 
 
 def _plain_rows(data: bytes, place: int, order: str, element: Element) -> Columns:
@@ -212,11 +213,11 @@ def read_text_rows(path: Path, data: bytes, elements: list[Element]) -> Iterator
         if line_starts is not None and smallest and not line_starts[starts].all():
             row = int(np.argmin(line_starts[starts]))
             raise FormatError(
-                f"{path} announces {smallest} number(s) or lists for each {quote_word(element.name)}, and row {row} "
-                "does not begin or end with a line; export the mesh again"
+                f"{path} announces {count_noun(smallest, 'number')} or lists for each {quote_word(element.name)}, and "
+                f"row {row} does not begin or end with a line; export the mesh again"
             )
         place = int(starts[-1])
-        yield element, columns, f"{count - place:,} word(s)" if count > place else ""
+        yield element, columns, count_noun(count - place, "word") if count > place else ""
 
 
 def _line_starts(path: Path, data: bytes, rows: int) -> NDArray[np.bool_] | None:
@@ -278,7 +279,7 @@ def _text_lists(
                     raise EOFError
                 written = float(values[place])
                 if not (0 <= written < MOST_ROWS) or written != int(written):
-                    raise FormatError(f"{path} has a list of {written:g} numbers; export the mesh again")
+                    raise FormatError(f"{path} has a list of {plain_argument(written)} numbers; export the mesh again")
                 number = int(written)
                 place += 1
                 lengths[i].append(number)

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from infill.errors import FormatError
 from infill.files.broken import require_readable, wrap_reader_errors
+from infill.plain_numbers import count_noun, plain_argument
 
 AXES = 3
 MOST_COLUMNS = 16  # of a point: a place, a normal, a colour and more; an array with more is a picture
@@ -89,7 +90,7 @@ def read_points_and_normals(path: str | os.PathLike[str]) -> tuple[NDArray[np.fl
     broken = np.flatnonzero(~np.isfinite(coordinates).all(axis=1))
     if broken.size:
         raise FormatError(
-            f"{source} holds {broken.size} point(s) with NaN or infinite coordinates, the first is number "
+            f"{source} holds {count_noun(broken.size, 'point')} with NaN or infinite coordinates, first at number "
             f"{broken[0] + 1}; leave them out"
         )
     normals: NDArray[np.float64] = np.array(points[:, AXES : 2 * AXES], dtype=np.float64)
@@ -152,7 +153,7 @@ def _read_columns(path: Path, *, normals: bool) -> NDArray[np.floating]:
             quotechar='"',
         )
     if count is not None and count != len(points):
-        raise FormatError(f"{path} announces {count:g} points and holds {len(points)}; export them again")
+        raise FormatError(f"{path} announces {plain_argument(count)} points and holds {len(points)}; export them again")
     return points
 
 

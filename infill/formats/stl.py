@@ -17,6 +17,7 @@ from infill.formats.rows import AT_ONCE
 from infill.formats.text_lines import read_plain_text, wide_encoding
 from infill.kernels.compiling import log_compilation
 from infill.kernels.threads import in_threads, thread_count
+from infill.plain_numbers import count_noun
 from infill.surface import Surface
 from infill.version import __version__
 
@@ -76,7 +77,7 @@ def _check_rest(path: Path, count: int, rest: bytes) -> tuple[str, ...]:
         )
     if not rest.strip(b"\0\t\n\r "):
         return ()
-    return (f"{len(rest):,} byte(s) follow the last triangle that it announces: they are left out",)
+    return (f"left out {count_noun(len(rest), 'byte')} after the last triangle that it announces",)
 
 
 def _text_corners(path: Path, text: bytes) -> NDArray[np.floating]:
@@ -135,7 +136,7 @@ def _compiled_facets(surface: Surface) -> Iterator[tuple[NDArray[np.float32], ND
     for low in range(0, len(surface.faces), AT_ONCE):
         faces = np.ascontiguousarray(surface.faces[low : low + AT_ONCE], dtype=np.int32)
         facets = np.empty((len(faces), 12), dtype=np.float32)
-        with log_compilation("the writer of STL"):
+        with log_compilation("the STL writer"):
             in_threads(write_facets, vertices, faces, facets, threads=thread_count())
         yield facets[:, :3], facets[:, 3:].reshape(-1, 3, 3)
 

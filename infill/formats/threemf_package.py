@@ -21,6 +21,7 @@ from infill.errors import FormatError, InfillError
 from infill.files.broken import wrap_reader_errors
 from infill.files.excerpts import excerpt
 from infill.machine import require_memory
+from infill.plain_numbers import plain_number
 
 EXPORT_ADVICE = "export the mesh again"
 LARGEST_RATIO, SMALL = 200, 1 << 20  # unpacked to packed; below this many bytes a package counts as this large
@@ -61,7 +62,7 @@ class Mesh:
     def fault(self) -> str:
         """Defect of the mesh, or an empty string."""
         if not (np.abs(self.vertices) <= FARTHEST).all():  # NaN is neither
-            return f"coordinates that are not numbers up to {FARTHEST:g}"
+            return f"coordinates that are not numbers up to {plain_number(FARTHEST, 6)}"
         if len(self.faces) and (self.faces.min() < 0 or self.faces.max() >= len(self.vertices)):
             return "triangles with corners that do not exist"
         return ""

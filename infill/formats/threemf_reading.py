@@ -44,6 +44,7 @@ from infill.formats.threemf_roles import (
 )
 from infill.meshes.merging import merge_unless_closed
 from infill.meshes.solids import subtract
+from infill.plain_numbers import count_noun, plain_number
 from infill.surface import Surface
 
 UNITS = {"micron": 1e-3, "millimeter": 1.0, "centimeter": 10.0, "inch": 25.4, "foot": 304.8, "meter": 1000.0}
@@ -241,7 +242,7 @@ class _Reading:
             else:
                 self.note(f"{label} is a {volume.role}, not a part: it is left out")
         if not covered.all():
-            self.note(f"{int((~covered).sum()):,} triangle(s) of {name} are in none of its volumes: they are left out")
+            self.note(f"left out {count_noun(int((~covered).sum()), 'triangle')} of {name} that no volume of it covers")
 
     def _count_rows(self, rows: int) -> None:
         """Count triangles and vertices that are placed, or raise FormatError."""
@@ -380,5 +381,5 @@ def _compose(inner: Transform, outer: Transform) -> Transform:
 def _require_finite(transform: Transform) -> Transform:
     """Return a transform, or raise ValueError if its numbers are not finite or so large that products overflow."""
     if not (np.abs(transform) <= FARTHEST).all():  # NaN is neither
-        raise ValueError(f"a transform has numbers beyond {FARTHEST:g}")
+        raise ValueError(f"a transform has numbers beyond {plain_number(FARTHEST, 6)}")
     return transform

@@ -11,10 +11,12 @@ from functools import lru_cache
 from typing import Final, Literal, get_args
 
 from infill.errors import ParameterError, UsageError
+from infill.plain_numbers import plain_argument, plain_number
 
 Model = Literal["jerk", "vector-jerk", "junction", "klipper"]
 JERK_MODELS: Final = ("jerk", "vector-jerk")
 MODELS: Final[tuple[str, ...]] = get_args(Model)
+JUNCTION_DEVIATION: Final = "junction-deviation"  # the model "junction" as firmware calls it
 Axes = tuple[float, float, float, float]
 INFINITE: Final = float("inf")
 LIMITING_CODES: Final = frozenset(
@@ -90,14 +92,18 @@ class Limits:
 
     def __post_init__(self) -> None:
         if self.model not in MODELS:
-            raise UsageError.about("model", f"is {self.model!r}; give one of {', '.join(MODELS)}")
+            raise UsageError.about(
+                "model", f"is {self.model!r}; give one of {', '.join(MODELS).replace('junction', JUNCTION_DEVIATION)}"
+            )
         for limit in fields(self)[1:]:
             limit_value = getattr(self, limit.name)
             for value in limit_value if isinstance(limit_value, tuple) else (limit_value,):
                 if not (
                     is_valid_limit(value, limit.name) or (value == INFINITE and limit.name != "minimum_cruise_ratio")
                 ):
-                    raise ParameterError.about(limit.name, f"is {value:g}; give {_describe_valid(limit.name)}")
+                    raise ParameterError.about(
+                        limit.name, f"is {plain_argument(value)}; give {_describe_valid(limit.name)}"
+                    )
         for name in ("acceleration", "travel_acceleration", "retract_acceleration"):
             if getattr(self, name) == INFINITE:
                 raise ParameterError.about(name, "is infinite; give a number in mm/s²")
@@ -120,7 +126,10 @@ def _describe_valid(name: str) -> str:
     if name == "minimum_cruise_ratio":
         return "a number from 0 and below 1"
     lower = MIN_DEVIATION if name == "junction_deviation" else MIN_LIMIT
-    return f"a number from {lower:g} to {MAX_LIMIT:g}{', or 0' if name in _MAY_BE_ZERO else ''}"
+    return (
+        f"a number from {plain_argument(lower)} to "
+        f"{plain_number(MAX_LIMIT, 6)}{', or 0' if name in _MAY_BE_ZERO else ''}"
+    )
 
 
 @lru_cache(maxsize=256)  # slicers switch between a few accelerations, ten thousand times

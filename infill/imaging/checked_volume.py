@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from infill.errors import FormatError, ParameterError
 from infill.imaging.assumed import warn
+from infill.plain_numbers import plain_argument, plain_number
 from infill.volume import AXES, Volume
 
 MOST_CELLS_AWAY = 1e6  # 32-bit numbers tell an eighth of a cell apart there
@@ -34,7 +35,9 @@ def checked_volume(path: Path, values: NDArray[Any], *, varied: bool = True, **p
     if not (math.isfinite(low) and math.isfinite(high)):
         raise FormatError(f"{path} holds cells that are NaN or infinite; fill or cut those cells first")
     if varied and low == high:
-        raise FormatError(f"{path} holds {low:g} in all cells, so no surface; check that it is the right file")
+        raise FormatError(
+            f"{path} holds {plain_argument(low)} in all cells, so no surface; check that it is the right file"
+        )
     try:
         volume = Volume(values=values, **place)
     except ParameterError as error:
@@ -44,16 +47,16 @@ def checked_volume(path: Path, values: NDArray[Any], *, varied: bool = True, **p
     farthest, cell = float(np.abs([origin, opposite]).max()), float(volume.cell_size.min())
     if not farthest <= FARTHEST_PLACE:
         raise FormatError(
-            f"{path} lies {farthest:.3g} mm away; the limit is {FARTHEST_PLACE:g} mm; check its place and units, or "
-            "save it again"
+            f"{path} lies {plain_number(farthest)} mm away; the limit is {plain_number(FARTHEST_PLACE, 6)} mm; check "
+            "its place and units, or save it again"
         )
     if farthest > MOST_CELLS_AWAY * cell:
         warn(
-            "%s lies up to %.3g mm from the origin: files of 32-bit numbers, such as .stl, lose details of %.2g mm "
-            "there, and its cells are %.3g mm; check its place and units",
+            "%s lies up to %s mm from the origin: files of 32-bit numbers, such as .stl, lose details of %s mm "
+            "there, and its cells are %s mm; check its place and units",
             path,
-            farthest,
-            farthest / 2**23,
-            cell,
+            plain_number(farthest),
+            plain_number(farthest / 2**23, 2),
+            plain_number(cell),
         )
     return volume

@@ -16,6 +16,7 @@ from infill.imaging.assumed import warn
 from infill.imaging.checked_volume import checked_volume
 from infill.imaging.frames import choose_frame
 from infill.imaging.units import millimetres
+from infill.plain_numbers import plain_argument
 from infill.volume import AXES, Volume
 
 MOST_AXES = 16
@@ -167,4 +168,4 @@ def scales_of(path: Path, words: Sequence[str], what: str, axes: Sequence[str]) 
 
 def _format_matrix(matrix: NDArray[np.float64]) -> str:
     """Format a matrix as text."""
-    return "; ".join(" ".join(f"{number:.4g}" for number in row) for row in matrix)
+    return "; ".join(" ".join(plain_argument(number, 4) for number in row) for row in matrix)

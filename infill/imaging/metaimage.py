@@ -16,6 +16,7 @@ from infill.files.broken import wrap_reader_errors
 from infill.imaging.assumed import warn
 from infill.imaging.detached import DataFile, find_data_file, numbered_names, read_data_files
 from infill.imaging.images import CellReader, ImageHeader, read_frame, require_sizes, scale_of
+from infill.plain_numbers import plain_argument
 from infill.volume import AXES, Volume
 
 LONGEST_LINE = 2**16  # bytes
@@ -120,8 +121,8 @@ def _affine(path: Path, fields: _MetaFields, count: int) -> NDArray[np.float64]:
             "%s states cells of %s mm, %s mm apart (ElementSize, ElementSpacing); they are taken as that large as they "
             "are apart",
             path,
-            " x ".join(f"{length:.6g}" for length in gaps[:AXES]),
-            " x ".join(f"{length:.6g}" for length in sizes[:AXES]),
+            " x ".join(plain_argument(length) for length in gaps[:AXES]),
+            " x ".join(plain_argument(length) for length in sizes[:AXES]),
         )
     spacing = sizes if sizes is not None else gaps if gaps is not None else np.ones(count)
     directions = np.eye(count) if matrix is None else matrix.reshape(count, count).T

@@ -24,6 +24,7 @@ from infill.files.broken import error_text, wrap_reader_errors
 from infill.imaging.assumed import warn
 from infill.imaging.images import ImageHeader, read_frame, require_sizes
 from infill.imaging.packed import cut_off_error, read_bytes
+from infill.plain_numbers import plain_argument
 from infill.volume import AXES, Volume
 
 LOG = logging.getLogger("infill")
@@ -222,7 +223,9 @@ def _first_cell(path: Path, header: _NiftiHeader) -> int:
     if begin == 0:  # some programs leave it out
         return header.form.first
     if not header.form.first <= begin < 2**62 or begin != int(begin):
-        raise FormatError(f"{path} says that its cells begin at byte {begin:.6g}, within its header; save it again")
+        raise FormatError(
+            f"{path} says that its cells begin at byte {plain_argument(begin)}, within its header; save it again"
+        )
     return int(begin)
 
 
@@ -269,10 +272,10 @@ def _affine(path: Path, header: _NiftiHeader, sizes: tuple[int, ...]) -> NDArray
             and (distance := _corner_distance(by_matrix, by_quaternion, sizes)) > AGREEMENT_TOLERANCE
         ):
             warn(
-                "%s states two places, up to %.3g cells apart: by its sform (code %d), which is taken, and by its "
+                "%s states two places, up to %s cells apart: by its sform (code %d), which is taken, and by its "
                 "qform (code %d)",
                 path,
-                distance,
+                plain_argument(distance, 3),
                 codes["sform"],
                 codes["qform"],
             )
@@ -295,7 +298,10 @@ def _affine_of_quaternion(path: Path, header: _NiftiHeader, steps: NDArray[np.fl
     b, c, d, *offset = (float(number) for number in header.all("quaternion"))
     squared_real = 1 - (b * b + c * c + d * d)
     if not squared_real > -QUATERNION_TOLERANCE:
-        raise FormatError(f"{path} has a quaternion that is not a rotation ({b:.4g}, {c:.4g}, {d:.4g}); save it again")
+        raise FormatError(
+            f"{path} has a quaternion that is not a rotation ({plain_argument(b, 4)}, {plain_argument(c, 4)}, "
+            f"{plain_argument(d, 4)}); save it again"
+        )
     if squared_real < 1e-7:  # a half turn, rounded
         length = math.sqrt(b * b + c * c + d * d)
         a, b, c, d = 0.0, b / length, c / length, d / length
@@ -320,8 +326,8 @@ def _warn_if_sizes_differ(path: Path, affine: NDArray[np.float64], steps: NDArra
         warn(
             "%s states cells of %s (pixdim) and %s (sform), of which the latter are taken",
             path,
-            " x ".join(f"{size:.6g}" for size in steps),
-            " x ".join(f"{size:.6g}" for size in lengths),
+            " x ".join(plain_argument(size) for size in steps),
+            " x ".join(plain_argument(size) for size in lengths),
         )
 
 

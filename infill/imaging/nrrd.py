@@ -31,6 +31,7 @@ from infill.imaging.images import (
     require_sizes,
     scales_of,
 )
+from infill.plain_numbers import plain_argument
 from infill.version import __version__
 from infill.volume import AXES, Volume
 
@@ -272,8 +273,8 @@ def _require_agreeing(path: Path, fields: _NrrdFields, axes: list[int], lengths:
         size = abs(stated[axis]) if axis < len(stated) else math.nan
         if math.isfinite(size) and not math.isclose(size, length, rel_tol=LENGTH_TOLERANCE):
             raise FormatError(
-                f"{path} states two sizes of a cell along axis {axis}, {size:.6g} (spacings) and {length:.6g} (space "
-                "directions); delete the wrong one from its header"
+                f"{path} states two sizes of a cell along axis {axis}, {plain_argument(size)} (spacings) and "
+                f"{plain_argument(length)} (space directions); delete the wrong one from its header"
             )
 
 

@@ -20,6 +20,7 @@ from infill.imaging.assumed import LOG, warn
 from infill.imaging.checked_volume import checked_volume
 from infill.imaging.images import CELL_SIZE_PHRASE, scales_of
 from infill.machine import require_memory
+from infill.plain_numbers import plain_argument
 from infill.volume import AXES, Volume
 
 SLICE_SUFFIXES = {".tif", ".tiff", ".png"}
@@ -171,11 +172,11 @@ def _fill_missing_sizes(path: Path, sizes: list[float | None], has_depth: bool) 
     missing = [axis for axis, size in zip("xyz", sizes, strict=True) if size is None]
     if missing and (has_depth or missing != ["z"]):
         warn(
-            "%s does not say the size of its cells along %s; %.6g mm is taken, as along another axis, unless "
-            "--spacing gives it",
+            "%s does not say the size of its cells along %s; %s mm is taken, as along another axis, unless --spacing "
+            "gives it",
             path,
             " and ".join(missing),
-            known_sizes[0],
+            plain_argument(known_sizes[0]),
         )
     return tuple(known_sizes[0] if size is None else size for size in sizes)
 

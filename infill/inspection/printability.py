@@ -18,6 +18,7 @@ from infill.meshes.intersections import count_self_intersections
 from infill.meshes.merging import merge_unless_closed, merge_vertices, surface_of
 from infill.meshes.sealed_voids import count_sealed_voids
 from infill.meshes.shells import vertex_components
+from infill.plain_numbers import count_noun
 from infill.reports.checking import CheckReport
 from infill.reports.common import declare
 from infill.surface import Edges, Surface
@@ -103,17 +104,17 @@ def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspectio
     extents = bounds[1] - bounds[0]
     unit = "mm" if stated else guess_unit(float(extents.max()))
     problems = {
-        f"{open_edges} edge(s) without exactly two faces: the mesh is not closed": open_edges,
+        f"{count_noun(open_edges, 'edge')} without exactly two faces: the mesh is not closed": open_edges,
         "neighbouring faces disagree about which side is out": not open_edges and not surface.closed,
         "the mesh is inside out": surface.closed and not outward,
         f"manifold3d rejects the mesh: {status}": surface.closed and status != "NoError",
-        f"{duplicate} triangle(s) stand twice": duplicate,
+        f"{count_noun(duplicate, 'duplicate triangle')}": duplicate,
     }
     warnings = {
         **dict.fromkeys(notes, True),
-        f"{crossings} pair(s) of triangles pass through each other": crossings,
-        f"{degenerate} triangle(s) have no area": degenerate,
-        f"{sealed} sealed void(s): resin and powder stay in them": sealed,
+        f"{count_noun(crossings, 'pair')} of triangles that pass through each other": crossings,
+        f"{count_noun(degenerate, 'triangle')} without an area": degenerate,
+        f"{count_noun(sealed or 0, 'sealed cavity', 'sealed cavities')}, in which resin and powder stay": sealed,
         f"the size suggests that the unit is {unit}, not mm": unit != "mm",
     }
     return Inspection(

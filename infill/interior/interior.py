@@ -16,6 +16,7 @@ from infill.interior.opening import ENDS, Open, Opening, extend_ends, find_flat_
 from infill.machine import require_memory
 from infill.meshes.solids import FINE, manifold_status, unite
 from infill.meshes.split_components import concatenate_surfaces, split_components
+from infill.plain_numbers import plain_argument, plain_number
 from infill.surface import Surface
 from infill.volume import Volume
 from infill.voxels.from_mesh import MeshRepairs, VoxelisedMesh, grid_around, voxelise_with_report
@@ -191,10 +192,10 @@ def compute_interior(
     """
     extents = np.ptp(part.bounds, axis=0)
     further = added_length(open_, wall, beyond, voxel)
-    sides = " x ".join(f"{side:.3g}" for side in extents)
+    sides = " x ".join(plain_number(side) for side in extents)
     nowhere = (
-        f"is {wall:g} mm, and the part, {sides} mm, is nowhere thicker than two of those; "
-        f"give a thinner wall{', or the right unit' if extents.max() < TINY else ''}"
+        f"is {plain_argument(wall)} mm, and the part, {sides} mm, is nowhere thicker than two of those; give a thinner "
+        f"wall{', or the right unit' if extents.max() < TINY else ''}"
     )
     # Checked first, as measuring may take long; a flat sheet has a separate message.
     if extents.min() > 0 and (extents + further * UP).min() <= 2 * wall:
@@ -246,8 +247,8 @@ def compute_interior(
         if not (space.depth[:, :, layer] > 0).any():
             raise GeometryError.about(
                 "open",
-                f"is {open_!r}, and the flat {end} of the part is nowhere wider than two walls of {wall:g} mm; "
-                "give a thinner wall, or turn the part",
+                f"is {open_!r}, and the flat {end} of the part is nowhere wider than two walls of "
+                f"{plain_argument(wall)} mm; give a thinner wall, or turn the part",
             )
     return space
 

@@ -17,6 +17,7 @@ from infill.isosurfaces.components import shell_names
 from infill.meshes.shells import select_faces, shell_volumes
 from infill.meshes.solids import FINE, coincident_vertices, from_manifold, manifold_status, solid_status, to_manifold
 from infill.meshes.split_components import drop_pieces
+from infill.plain_numbers import plain_argument
 from infill.surface import Surface
 
 Open = Literal["top", "bottom", "both"]
@@ -141,8 +142,8 @@ def find_flat_ends(part: Surface, name: Open) -> tuple[Opening, list[tuple[NDArr
         if not flat.any():
             raise GeometryError.about(
                 "open",
-                f"is {name!r}, and the part has no flat face at its {end}, z = {at:.4g} mm; turn it so that one "
-                "lies there, or cut it off flat",
+                f"is {name!r}, and the part has no flat face at its {end}, z = {plain_argument(at, 4)} mm; turn it so "
+                "that one lies there, or cut it off flat",
             )
         low, high = (low, at) if is_top else (at, high)
         ends.append((flat, 1.0 if is_top else -1.0))

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from infill.contours.zero_contours import nudge_field
 from infill.errors import GeometryError, ParameterError
 from infill.grid import VOID, spacing_of
+from infill.plain_numbers import plain_argument
 from infill.surface import Surface
 
 if TYPE_CHECKING:
@@ -79,7 +80,7 @@ def isosurface(
     if field.ndim != 3 or field.size == 0:
         raise ParameterError(f"the volume has the shape {field.shape}; give three axes [x, y, z] with cells")
     if not -1 < level < 1:
-        raise ParameterError(f"the level is {level:g}; it must lie between -1 and 1")
+        raise ParameterError(f"the level is {plain_argument(level)}; it must lie between -1 and 1")
     if field.dtype == bool:
         field = np.where(field, np.float32(1), np.float32(-1))
     if np.isnan(field.min()):

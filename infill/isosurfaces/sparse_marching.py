@@ -22,6 +22,7 @@ from infill.kernels import sparse_marching as kernels
 from infill.kernels.sparse import BRICK, CELLS, SOLID_BRICK
 from infill.kernels.threads import in_threads, thread_count
 from infill.phasefield.sparse import SparseField
+from infill.plain_numbers import plain_argument
 from infill.surface import Surface
 
 # Corner i, j, k of a cube has number i + 2 j + 4 k. An edge leads from its lower corner along its axis.
@@ -138,7 +139,9 @@ def extract_level(
     )
     offsets = np.cumsum(counts, axis=0)
     if offsets[-1, 0] == 0:
-        raise GeometryError(f"nothing is left above the level {level:g}: no surface; smooth less, or use finer voxels")
+        raise GeometryError(
+            f"nothing is left above the level {plain_argument(level)}: no surface; smooth less, or use finer voxels"
+        )
     vertices = np.empty((offsets[-1, 0], 3))
     rate = np.zeros((offsets[-1, 0], 3), dtype=np.float32)
     faces = np.empty((offsets[-1, 1], 3), dtype=np.int32)

@@ -12,6 +12,11 @@ from typing import Any
 
 LOG = logging.getLogger("infill")
 REPORTED = threading.Event()  # set once compilation was reported in this process
+UNCACHED = threading.Event()  # set if compiled code cannot be kept for later runs
+_CACHED_TEXT = "first use of %s: preparing it takes up to a minute, only once"
+_UNCACHED_TEXT = (
+    "preparing %s takes up to a minute in every run, because no folder for it is writable; set NUMBA_CACHE_DIR to one"
+)
 SOLE_COMPILER = threading.Event()  # set if no other thread compiles in this process
 BLAS = "scipy.linalg.cython_blas"
 _WATCHED = ContextVar("watched", default=False)
@@ -28,6 +33,7 @@ def njit(**options: Any) -> Callable[[Callable[..., Any]], Any]:  # noqa: ANN401
         try:
             return numba.njit(**options)(function)
         except RuntimeError:
+            UNCACHED.set()
             return numba.njit(**(options | {"cache": False}))(function)
 
     return compiled
@@ -52,7 +58,7 @@ def _load_without_blas() -> None:
 def log_compilation(what: str) -> Iterator[None]:
     """Report to the log "infill" as soon as code inside is compiled rather than loaded from disk.
 
-    Report once per process, in the outermost of nested uses; also works as a decorator. `what` follows "compiling".
+    Report once per process, in the outermost of nested uses; also works as a decorator. `what` follows "first use of".
     """
     if _WATCHED.get() or REPORTED.is_set():
         yield
@@ -63,7 +69,7 @@ def log_compilation(what: str) -> Iterator[None]:
         def on_start(self, event: object) -> None:  # noqa: ARG002 - any compilation counts
             if not REPORTED.is_set():
                 REPORTED.set()
-                LOG.warning("compiling %s: up to a minute, and kept for later runs", what)
+                LOG.warning(_UNCACHED_TEXT if UNCACHED.is_set() else _CACHED_TEXT, what)
 
         def on_end(self, event: object) -> None:
             pass

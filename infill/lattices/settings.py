@@ -86,7 +86,7 @@ class FillOptions:
     density: Annotated[
         float | tuple[float, ...] | None,
         Option(
-            "Solid share of the space inside the walls: 20%, or 0.2; two, such as 15%:40%, for one that changes.",
+            "Infill density: 20%, or 0.2; two, such as 15%:40%, for one that changes.",
             PATTERN,
             unit="SHARE",
             default="20%",
@@ -97,8 +97,8 @@ class FillOptions:
     by: Annotated[
         str | None,
         Option(
-            "What the density follows from its first value to its second: x, y, z, skin (from the walls "
-            "inwards), a .csv of x, y, z, value, a .npy, a picture from above, or module.py:name.",
+            "Direction in which the density changes from its first value to its second: x, y, z, or skin (from the "
+            "skin inwards); or a field: a .csv of x, y, z, value, a .npy, a picture from above, or module.py:name.",
             PATTERN,
             unit="FIELD",
             default="z",
@@ -161,7 +161,7 @@ class FillOptions:
         ),
     ] = (0.0, 0.0, 0.0)
     seed: Annotated[
-        int | None, Option("Seed of the random patterns, voronoi and voronoi-foam.", PATTERN, unit="N", default="0")
+        int | None, Option("Random seed, for voronoi and voronoi-foam.", PATTERN, unit="N", default="0")
     ] = None
     wall: Annotated[
         float | None,
@@ -175,8 +175,8 @@ class FillOptions:
     drain: Annotated[
         float | None,
         Option(
-            "Diameter of a hole down from the lowest place of every void, for powder and resin; it keeps the "
-            "wall from all sides.",
+            "Add drain holes of this diameter, one at the bottom of each closed cavity (for resin and powder), a "
+            "wall away from every side.",
             SOLID,
             unit="MM",
             default="none",

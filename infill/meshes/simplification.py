@@ -9,6 +9,7 @@ import numpy as np
 from infill.checks import check_positive, check_whole_number
 from infill.errors import GeometryError
 from infill.meshes.edge_collapse import collapse_edges
+from infill.plain_numbers import plain_argument
 from infill.surface import Surface
 
 FEWEST = 4
@@ -50,7 +51,7 @@ def simplify_surface(
             "the surface cannot be simplified: not every edge is shared by exactly two triangles; leave it as it is"
         )
     if triangles is not None and len(result.faces) > limit:
-        leeway = "" if leeway_mm is None else f" and {leeway_mm:g} mm of leeway"
+        leeway = "" if leeway_mm is None else f" and {plain_argument(leeway_mm)} mm of leeway"
         raise GeometryError(
             f"the surface has {len(surface.faces):,} triangles; it cannot be simplified to at most {limit:,} triangles"
             f"{leeway}, only to {len(result.faces):,}; allow more"

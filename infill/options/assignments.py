@@ -13,6 +13,7 @@ from typing import Any
 
 from infill.errors import ParameterError, UsageError
 from infill.files.excerpts import excerpt, quote_value
+from infill.plain_numbers import plain_argument
 from patterns.declared import HasName, parameters
 from patterns.errors import PatternError, PatternUsageError
 from patterns.given import check_named_value, parse_assignment, suggest_name
@@ -186,4 +187,4 @@ def _format_typed(name: str, value: object, source: ParameterSource) -> str:
     if isinstance(value, bool):
         return f"--{word}" if value else f"--no-{word}"
     shown = value if isinstance(value, (tuple, list)) else (value,)
-    return " ".join([f"--{word}", *(f"{number:g}" for number in shown)])
+    return " ".join([f"--{word}", *(plain_argument(number) for number in shown)])

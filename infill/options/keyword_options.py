@@ -125,7 +125,8 @@ def parse_numbers(name: str, value: object, counts: tuple[int, ...]) -> tuple[fl
         numbers = ()
     if len(numbers) not in counts:
         expected = " or ".join(map(str, counts))
-        raise UsageError.about(name, f"is {quote_value(value)}; give {expected} number(s), with commas between")
+        noun = "number" if counts == (1,) else "numbers"
+        raise UsageError.about(name, f"is {quote_value(value)}; give {expected} {noun}, with commas between")
     if not all(map(math.isfinite, numbers)):
         raise ParameterError.about(name, f"is {quote_value(value)}; give finite numbers")
     return numbers

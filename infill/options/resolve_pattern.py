@@ -11,6 +11,7 @@ import numpy as np
 
 from infill.errors import ParameterError
 from infill.options.modules import load_object, names_code
+from infill.plain_numbers import plain_argument
 from patterns import PATTERNS
 from patterns.cellular import Cells
 from patterns.errors import PatternError
@@ -136,6 +137,6 @@ def _pattern_from_function(function: Any, name: str) -> Surfaces:  # noqa: ANN40
         raise ParameterError.about(
             "pattern",
             f"is {name}, which is 0 nowhere: in a cell, x, y and z from 0 to 2 pi, it runs from "
-            f"{level.min():.3g} to {level.max():.3g}",
+            f"{plain_argument(level.min(), 3)} to {plain_argument(level.max(), 3)}",
         )
     return Surfaces(name=name, summary="walls where a function is 0", value=function)

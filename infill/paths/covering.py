@@ -19,6 +19,7 @@ from infill.paths.joining import join
 from infill.paths.layer_below import LayerBelow
 from infill.paths.ordering import order_paths
 from infill.paths.outlines import Outline, outline_of
+from infill.plain_numbers import plain_argument, plain_number
 
 if TYPE_CHECKING:
     from shapely import MultiPolygon, Polygon
@@ -132,7 +133,8 @@ def solve_cell(
     area = sum(outlines[region].region.area * number for (region, _, _), number in places.items())
     if not places or target * smallest > area:
         raise ParameterError(
-            f"{target:g} mm of beads {smallest:g} mm apart do not fit into {area:g} mm²; ask for a lower density"
+            f"{plain_argument(target)} mm of beads {plain_argument(smallest)} mm apart do not fit into "
+            f"{plain_number(area, 6)} mm²; ask for a lower density"
         )
 
     def ratio(cell: float) -> float:
@@ -220,4 +222,8 @@ def check_cell(cell: float, line_width: float) -> None:
     """Raise ParameterError if a cell is too small for beads."""
     smallest = TOUCH * check_positive("line width", line_width, "mm")
     if check_positive("cell", cell, "mm") < smallest * (1 - 1e-9):
-        raise ParameterError.about("cell", f"is {cell:g} mm; beads of {line_width:g} mm need at least {smallest:g} mm")
+        raise ParameterError.about(
+            "cell",
+            f"is {plain_argument(cell)} mm; beads of {plain_argument(line_width)} mm need at least "
+            f"{plain_argument(smallest)} mm",
+        )

@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from infill.checks import check_positive, check_range, check_whole_number
 from infill.errors import ParameterError
 from infill.grid import spacing_of
+from infill.plain_numbers import plain_argument
 
 # Within these ranges no kernel divides 0 by 0, not even in 32 bits.
 PARAMETER_RANGES = {"fidelity": (0.0, 1e6), "interface": (0.25, 1e3), "alpha": (1e-4, 1.0)}
@@ -98,8 +99,8 @@ class Smoothing:
         if self.alpha > limit * (1 + 1e-12):
             raise ParameterError.about(
                 "alpha",
-                f"is {self.alpha:g}, the time step over h²; explicit diffusion is stable up to {limit:g} "
-                f"on this {len(spacing)}D grid; lower alpha",
+                f"is {plain_argument(self.alpha)}, the time step over h²; explicit diffusion is stable up to "
+                f"{plain_argument(limit)} on this {len(spacing)}D grid; lower alpha",
             )
         return tuple(self.alpha * share for share in shares)
 
@@ -124,7 +125,8 @@ def as_phase_field(data: ArrayLike, name: str = "the data") -> NDArray[np.generi
         raise ParameterError.about(name, "holds NaN; fill or cut those cells first")
     if not (low >= -1 and high <= 1):
         raise ParameterError(
-            f"{name} ranges from {low:g} to {high:g}; scale it to [-1, 1] first: rescale(data), Eq. (2)"
+            f"{name} ranges from {plain_argument(low)} to {plain_argument(high)}; scale it to [-1, 1] first: "
+            "rescale(data), Eq. (2)"
         )
     return field
 
@@ -138,7 +140,10 @@ def rescale(data: ArrayLike) -> NDArray[np.float64]:
     psi = np.asarray(data, dtype=np.float64)
     low, high = (psi.min(), psi.max()) if psi.size else (math.nan, math.nan)
     if not high > low or not math.isfinite(high - low):
-        raise ParameterError(f"the data range from {low:g} to {high:g}; there must be two different finite values")
+        raise ParameterError(
+            f"the data range from {plain_argument(low)} to {plain_argument(high)}; there must be two different finite "
+            "values"
+        )
     return ((psi - low) - (high - psi)) / (high - low)  # no sum that could overflow
 
 

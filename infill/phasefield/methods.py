@@ -107,7 +107,7 @@ def smooth(
         return KERNELS[chosen](field, smoothing, spacing=spacing, initial=start, mask=domain)
     from infill.kernels.compiling import log_compilation
 
-    with log_compilation(f"the {chosen} kernel"):
+    with log_compilation("the smoother"):
         return KERNELS[chosen](field, smoothing, spacing=spacing, initial=start, mask=domain)
 
 

@@ -87,7 +87,7 @@ def smooth_sparse(
     return smooth_bricks(f, smoothing, spacing=spacing, initial=initial, mask=mask).to_dense().reshape(f.shape)
 
 
-@log_compilation("the bricks' kernels")
+@log_compilation("the smoother")
 def smooth_bricks(
     f: NDArray[np.generic],
     smoothing: Smoothing,

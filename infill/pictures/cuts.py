@@ -16,6 +16,7 @@ from infill.meshes.solids import FINE, from_manifold, solid_status, to_manifold
 from infill.pictures.render import AZIMUTH, ELEVATION, Colour, render
 from infill.pictures.sections import Cut, choose_cuts
 from infill.pictures.sheet import BACKGROUND, PANEL, arrange_panels
+from infill.plain_numbers import count_noun, plain_number
 from infill.surface import Surface
 
 CUT: Colour = (240, 160, 60)
@@ -44,10 +45,13 @@ def draw_cuts(
         Cuts; by default, or for a missing upright or level cut, the one that shows the inside best.
     """
     panels = {f"cut at {cut}": _draw_half(surface, cut) for cut in choose_cuts(surface, part, given)}
-    size = " x ".join(f"{length:.4g}" for length in report["extents"])
+    size = " x ".join(plain_number(length, 4) for length in report["extents"])
     request, voids = report["request"], report["voids"]
-    facts = f"{size} mm, {request['pattern']}, {report['density']:.1%} solid inside walls of {request['wall']:g} mm"
-    return arrange_panels(panels, facts, [(CUT, "cut"), (BEHIND, f"behind it; {voids['count']:,} void(s)")])
+    facts = (
+        f"{size} mm, {request['pattern']}, {report['density']:.1%} solid inside walls of "
+        f"{plain_number(request['wall'], 6)} mm"
+    )
+    return arrange_panels(panels, facts, [(CUT, "cut"), (BEHIND, f"behind it; {count_noun(voids['count'], 'void')}")])
 
 
 def draw_block(surface: Surface, box: Surface, report: Mapping[str, Any]) -> Image.Image:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from infill.errors import ParameterError, UsageError
 from infill.meshes.solids import FINE, solid_status, to_manifold
+from infill.plain_numbers import plain_argument
 from infill.surface import Surface
 
 if TYPE_CHECKING:
@@ -46,7 +47,7 @@ class Cut:
         >>> str(Cut(axis=2, at=10.0))
         'z = 10 mm'
         """
-        return f"{AXES[self.axis]} = {self.at:.4g} mm"
+        return f"{AXES[self.axis]} = {plain_argument(self.at, 4)} mm"
 
 
 def parse_cut(text: str) -> Cut:
@@ -71,8 +72,9 @@ def check_cuts(cuts: Sequence[Cut], bounds: NDArray[np.floating]) -> None:
             axis = AXES[cut.axis]
             raise ParameterError.about(
                 "cut",
-                f"is {axis}={cut.at:g}, and the part goes from {axis} = {low:.4g} to {high:.4g} mm; give a place "
-                f"between, such as {axis}={(low + high) / 2:.4g}",
+                f"is {axis}={plain_argument(cut.at)}, and the part goes from {axis} = {plain_argument(low, 4)} to "
+                f"{plain_argument(high, 4)} mm; give a place between, such as "
+                f"{axis}={plain_argument((low + high) / 2, 4)}",
             )
 
 

@@ -8,12 +8,12 @@ import os
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, Literal
 
 from infill.errors import FormatError, UsageError
 from infill.gcode.dialect import role_of
 from infill.gcode.found_limits import FIELDS_BY_MODEL, FileLimits
-from infill.gcode.limits import Limits, Model
+from infill.gcode.limits import JUNCTION_DEVIATION, Limits, Model
 from infill.gcode.sliced_file import SlicedFile, SlicedText, open_sliced
 from infill.planner.feature_sums import FeatureSums
 from infill.planner.timeline import Timeline
@@ -92,7 +92,7 @@ class Motion:
 def motion(
     path: str | os.PathLike[str],
     *,
-    model: Model | None = None,
+    model: Model | Literal["junction-deviation"] | None = None,
     acceleration: float | None = None,
     jerk: float | None = None,
     junction_deviation: float | None = None,
@@ -109,8 +109,9 @@ def motion(
     ----------
     path : path
         G-code as text, binary G-code, or an archive of plates (.gcode.3mf).
-    model : {"jerk", "vector-jerk", "junction", "klipper"}, optional
-        Bound on the speed at corners. By default that of the file, or the one implied by the limits given here.
+    model : {"jerk", "vector-jerk", "junction-deviation", "klipper"}, optional
+        Bound on the speed at corners. By default that of the file, or the one implied by the limits given here. The
+        report calls junction deviation "junction", and so may you.
     acceleration : float, optional
         mm/s², of printing and travel.
     jerk : float, optional
@@ -224,6 +225,8 @@ def collect_limits(**given: Any) -> dict[str, Any]:  # noqa: ANN401
     fixed = {name: value for name, value in given.items() if value is not None}
     means = {"square_corner_velocity": "klipper", "minimum_cruise_ratio": "klipper", "junction_deviation": "junction"}
     means["jerk"] = "jerk"
+    if fixed.get("model") == JUNCTION_DEVIATION:
+        fixed["model"] = "junction"
     meant = {model for name, model in means.items() if name in fixed}
     if "model" not in fixed and len(meant) > 1:
         names = tuple(name for name in means if name in fixed)

@@ -10,6 +10,7 @@ from typing import cast
 
 from infill.checks import choose_word
 from infill.errors import UsageError
+from infill.plain_numbers import count_noun
 from infill.projects import bambustudio, cura, prusaslicer
 from infill.projects.findings import Finding, PrintedVolume, Severity, as_problem, as_warning
 from infill.projects.project import NAMES, SLICERS, Slicer
@@ -168,7 +169,9 @@ def _check_mesh(volume: PrintedVolume) -> Iterator[Finding]:
     elif not volume.outward:
         yield as_problem(f"{volume.name} faces inwards")
     elif volume.shared:
-        yield as_warning(f"{volume.name} has {volume.shared:,} edge(s) with more than two faces: slicers mostly cope")
+        yield as_warning(
+            f"{volume.name} has {count_noun(volume.shared, 'edge')} with more than two faces: slicers mostly cope"
+        )
 
 
 def _volumes_of_plain(package: Package) -> Iterator[PrintedVolume | Finding]:

@@ -150,12 +150,12 @@ def _problems(report: RefillReport, tally: RefillStats) -> list[str]:
     contact = report["contact"]
     if contact["measured_mm"] and contact["kept_supported"] < LEAST_SHARE:
         problems.append(
-            f"support on the layer below fell to {contact['kept_supported']:.2f} of the slicer's own; "
-            + ("give a smaller --max-deviation" if keeps else "take another pattern, or keep")
+            f"{1 - contact['kept_supported']:.0%} less of this infill rests on the layer below than before; "
+            + ("give a smaller --max-deviation" if keeps else "try another --pattern, or leave --pattern out")
         )
     if keeps and contact["measured_mm"] and contact["kept_bonded"] < LEAST_SHARE:
         problems.append(
-            f"contact of doubled lines fell to {contact['kept_bonded']:.2f} of the slicer's own; "
-            "give a smaller --max-deviation"
+            f"{1 - contact['kept_bonded']:.0%} less of the doubled lines touch each other than before; give a smaller "
+            "--max-deviation"
         )
     return problems

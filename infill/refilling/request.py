@@ -186,7 +186,8 @@ class Request:
             self._resolve_pattern()
         if self.pattern == KEEP and isinstance(self.density, int | float):
             raise UsageError.about(
-                "density", "is for built-in patterns; keep has the slicer's: leave it out, or set it there"
+                "density",
+                "only works with --pattern NAME; to change the slicer's own infill, set the density in the slicer",
             )
         if self.parameters:
             from infill.refilling.placement import check_pattern_parameters

@@ -20,6 +20,7 @@ from infill.grid import spacing_of
 from infill.imaging.segmentations import Segmentation, read_segmentation
 from infill.imaging.units import STATED_UNITS, UNITS, guess_unit
 from infill.imaging.volume_files import read_volume
+from infill.plain_numbers import plain_number
 from infill.smoothing.request import SmoothOptions
 from infill.surface import Surface
 from infill.volume import Volume
@@ -282,13 +283,15 @@ def _unit_in_mm(path: Path, points: NDArray[np.floating], units: str | None) -> 
     unit = guess_unit(longest)
     if unit == "µm":  # as likely to be large on purpose as not, and easy to notice
         LOG.warning(
-            "%s is %.4g mm long if its numbers are millimetres; give --units um if they are micrometres", path, longest
+            "%s is %s mm long if its numbers are millimetres; give --units um if they are micrometres",
+            path,
+            plain_number(longest, 4),
         )
     elif unit != "mm" and longest > 0:
         LOG.warning(
-            "%s is %.3g mm long if its numbers are millimetres; give --units m if they are metres (%.4g mm long)",
+            "%s is %s mm long if its numbers are millimetres; give --units m if they are metres (%s mm long)",
             path,
-            longest,
-            longest * 1000,
+            plain_number(longest),
+            plain_number(longest * 1000, 4),
         )
     return 1.0

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from infill.checks import check_length
 from infill.errors import ParameterError
+from infill.plain_numbers import plain_argument
 from infill.volume import Volume
 
 SLAB = 2**24  # cells averaged at a time
@@ -45,11 +46,15 @@ def coarsen(volume: Volume, voxel: float) -> Volume:
     shortest, longest = float(size.min()), float((size * volume.values.shape).max())
     if voxel < shortest * (1 - NEAR):
         raise ParameterError.about(
-            "voxel", f"is {voxel:g} mm and the volume has {shortest:g} mm; give no less, or leave it out"
+            "voxel",
+            f"is {plain_argument(voxel)} mm and the volume has {plain_argument(shortest)} mm; give no less, or leave "
+            "it out",
         )
     if voxel > longest / FEWEST + NEAR:
         raise ParameterError.about(
-            "voxel", f"is {voxel:g} mm and the volume {longest:g} mm long; give at most {longest / FEWEST:g} mm"
+            "voxel",
+            f"is {plain_argument(voxel)} mm and the volume {plain_argument(longest)} mm long; give at most "
+            f"{plain_argument(longest / FEWEST)} mm",
         )
     factors = np.maximum(voxel / size, 1.0)
     counts = np.maximum(1, np.ceil(np.array(volume.values.shape) / factors - NEAR)).astype(int)

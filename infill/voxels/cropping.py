@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import ParameterError
+from infill.plain_numbers import plain_argument
 from infill.volume import AXES, Volume
 
 LOG = logging.getLogger("infill")
@@ -69,11 +70,16 @@ def crop(volume: Volume, roi: Box, *, varied: bool = True) -> Volume:
     turned = np.abs(direction).max(axis=0)
     if (np.sqrt(np.clip(1 - turned**2, 0, 1)) * count > SKEW * count.max()).any():
         angle = math.degrees(math.acos(min(1.0, float(turned.min()))))
-        LOG.warning("the grid is turned by %.3g degrees, so that more of it is kept than lies in the roi", angle)
+        LOG.warning(
+            "the grid is turned by %s degrees, so that more of it is kept than lies in the roi",
+            plain_argument(angle, 3),
+        )
     cropped_volume = cut_cells(volume, tuple(low.tolist()), tuple(high.tolist()))
     lowest, highest = cropped_volume.values.min().item(), cropped_volume.values.max().item()
     if varied and lowest == highest:
-        raise ParameterError.about("roi", f"holds {lowest:g} in all cells, so no surface; make it larger, or move it")
+        raise ParameterError.about(
+            "roi", f"holds {plain_argument(lowest)} in all cells, so no surface; make it larger, or move it"
+        )
     return cropped_volume
 
 
@@ -85,7 +91,10 @@ def _box_ends(roi: Box) -> NDArray[np.float64]:
     ends = numbers.reshape(AXES, 2)
     for name, (low, high) in zip("xyz", ends.tolist(), strict=True):
         if low >= high:
-            raise ParameterError.about("roi", f"goes from {low:g} to {high:g} mm in {name}; give the lower end first")
+            raise ParameterError.about(
+                "roi",
+                f"goes from {plain_argument(low)} to {plain_argument(high)} mm in {name}; give the lower end first",
+            )
     return ends
 
 
@@ -100,4 +109,4 @@ def _describe_extent(volume: Volume) -> str:
 
 def _format_ends(ends: NDArray[np.float64]) -> str:
     """Format the ends of a box, for a message."""
-    return ", ".join(f"{low:g} to {high:g}" for low, high in ends.tolist())
+    return ", ".join(f"{plain_argument(low)} to {plain_argument(high)}" for low, high in ends.tolist())

@@ -14,6 +14,7 @@ from infill.grid import Grid
 from infill.machine import require_memory
 from infill.meshes.hole_filling import component_volumes, fill_holes
 from infill.meshes.merging import merge_unless_closed
+from infill.plain_numbers import plain_argument, plain_number
 from infill.surface import Surface
 from infill.volume import Volume
 from infill.voxels.partial import EnclosedVolumes, measure_enclosed
@@ -89,8 +90,8 @@ def grid_around(
     if voxel is not None and size > longest / FEWEST:
         raise ParameterError.about(
             "voxel",
-            f"is {size:g} mm and the part {' x '.join(f'{side:g}' for side in extents)} mm; "
-            f"give at most {longest / FEWEST:g} mm",
+            f"is {plain_argument(size)} mm and the part {' x '.join(plain_number(side, 6) for side in extents)} mm; "
+            f"give at most {plain_argument(longest / FEWEST)} mm",
         )
     shape = tuple(max(1, math.ceil(side / size - ROUNDING)) + 2 * margin for side in extents.tolist())
     origin = (lower + upper) / 2 - np.array(shape) * size / 2
@@ -236,8 +237,8 @@ def voxelise_with_report(
     if not inside.any():
         raise ParameterError.about(
             "voxel",
-            f"is {size:g} mm and the part {' x '.join(f'{side:g}' for side in extents)} mm: no centre of a "
-            "cell lies inside; give a voxel of at most half the thinnest wall",
+            f"is {plain_argument(size)} mm and the part {' x '.join(plain_number(side, 6) for side in extents)} mm: "
+            "no centre of a cell lies inside; give a voxel of at most half the thinnest wall",
         )
     closed = Surface(vertices=(vertices + 0.5) * size + origin, faces=faces) if holes else mesh
     cells = Volume(values=inside, spacing=size, origin=tuple(origin.tolist()))

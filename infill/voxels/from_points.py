@@ -14,6 +14,7 @@ from infill.errors import GeometryError, ParameterError
 from infill.grid import Grid
 from infill.kernels.threads import thread_count
 from infill.machine import require_memory
+from infill.plain_numbers import count_noun, plain_argument, plain_number
 from infill.ragged import expand_rows
 from infill.volume import Volume
 from infill.voxels.flooding import enclosed_void
@@ -175,10 +176,11 @@ def _check_points(points: ArrayLike) -> Floats:
     farthest = float(np.abs(positions).max(initial=0.0))
     if farthest > FARTHEST:
         raise ParameterError(
-            f"a point lies at {farthest:g} mm; the limit is {FARTHEST:g} mm; leave it out, or check units"
+            f"a point lies at {plain_number(farthest, 6)} mm; the limit is {plain_number(FARTHEST, 6)} mm; leave it "
+            "out, or check units"
         )
     if len(positions) < FEWEST:
-        raise ParameterError(f"{len(positions)} point(s) are given; give at least {FEWEST}")
+        raise ParameterError(f"{count_noun(len(positions), 'point')} given; give at least {FEWEST}")
     return positions
 
 
@@ -201,8 +203,8 @@ def _voxelise_shell(positions: Floats, size: float, shell: float, margin: int, l
     if shell < size:
         raise ParameterError.about(
             "shell",
-            f"is {shell:g} mm and voxel {size:g} mm: the shell would have gaps; give a shell of at least "
-            "one voxel, better three",
+            f"is {plain_argument(shell)} mm and voxel {plain_argument(size)} mm: the shell would have gaps; give a "
+            "shell of at least one voxel, better three",
         )
     radius = shell / 2 / size
     shape, origin, placed = _lay_grid(positions, size, margin + math.ceil(radius))
@@ -224,7 +226,9 @@ def _voxelise_solid(positions: Floats, size: float, margin: int, limit: int | No
         )
     if thickness < 2 * size:
         raise ParameterError.about(
-            "voxel", f"is {size:g} mm and the points are {thickness:.4g} mm thick; give a voxel of at most half of that"
+            "voxel",
+            f"is {plain_argument(size)} mm and the points are {plain_argument(thickness, 4)} mm thick; give a voxel "
+            "of at most half of that",
         )
     _require_room(_lay_grid(positions, size, margin)[0], len(positions), SOLID_BYTES, limit)
     distinct = np.unique(positions, axis=0)
@@ -248,9 +252,9 @@ def _voxelise_solid(positions: Floats, size: float, margin: int, limit: int | No
     if best_volume is not None:
         return best_volume
     raise GeometryError(
-        f"the points do not enclose a solid: no more than {leaking:.0%} of them have an inside behind them in "
-        f"a shell of {2 * radii[0]:.3g} to {2 * radii[-1]:.3g} mm; "
-        "give more points, more evenly spread ones, or a shell"
+        f"the points do not enclose a solid: no more than {leaking:.0%} of them have an inside behind them in a shell "
+        f"of {plain_argument(2 * radii[0], 3)} to {plain_argument(2 * radii[-1], 3)} mm; give more points, more evenly "
+        "spread ones, or a shell"
     )
 
 

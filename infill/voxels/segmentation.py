@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from infill.checks import check_positive, check_range
 from infill.errors import ParameterError, UsageError
 from infill.kernels.threads import in_threads, thread_count
+from infill.plain_numbers import plain_argument
 from infill.volume import Volume
 
 if TYPE_CHECKING:
@@ -92,8 +93,8 @@ def segment_volume(
     if count in (0, solid.size):
         amount = "no cell" if count == 0 else "every cell"
         problem = (
-            f"{_describe(used)}, and {amount} would be solid; the values go from {lowest:g} to {highest:g}"
-            f"{_labels(values)}; choose within them"
+            f"{_describe(used)}, and {amount} would be solid; the values go from {plain_argument(lowest)} to "
+            f"{plain_argument(highest)}{_labels(values)}; choose within them"
         )
         parameter = {"label": "label", "range": "threshold"}.get(used["method"])
         raise ParameterError(problem) if parameter is None else ParameterError.about(parameter, problem)
@@ -166,7 +167,7 @@ def otsu_threshold(volume: Volume) -> float:
 
     lowest, largest = _value_range(volume.values)
     if lowest == largest:
-        raise ParameterError(f"all values are {lowest:g}; there is nothing for Otsu's method to separate")
+        raise ParameterError(f"all values are {plain_argument(lowest)}; there is nothing for Otsu's method to separate")
     counts, edges = _histogram(volume.values)
     middles = (edges[:-1] + edges[1:]) / 2
     highest = threshold_otsu(hist=(counts, middles))  # type: ignore[no-untyped-call]
@@ -212,7 +213,9 @@ def scale_grey_values(volume: Volume, level: float, window: float | None = None)
     level = check_range("level", level, -math.inf, math.inf)
     if not lowest <= level < highest:
         raise ParameterError.about(
-            "level", f"is {level:g} and the values go from {lowest:g} to {highest:g}; choose within them"
+            "level",
+            f"is {plain_argument(level)} and the values go from {plain_argument(lowest)} to "
+            f"{plain_argument(highest)}; choose within them",
         )
     width = edge_window(volume, level) if window is None else check_positive("window", window)
     field = np.subtract(volume.values, np.float32(level), dtype=np.float32, casting="unsafe")
@@ -268,7 +271,10 @@ def contrast(volume: Volume, level: float) -> float:
             total, pairs = total + float(np.abs(step).sum()), pairs + step.size
     if pairs == 0:
         lowest, highest = _value_range(values)
-        raise ParameterError(f"no surface lies at {level:g}; the values go from {lowest:g} to {highest:g}")
+        raise ParameterError(
+            f"no surface lies at {plain_argument(level)}; the values go from {plain_argument(lowest)} to "
+            f"{plain_argument(highest)}"
+        )
     return total / pairs
 
 
@@ -285,10 +291,10 @@ def _interpret_values(volume: Volume, lowest: float, highest: float) -> tuple[ND
         return values == highest, {"method": "mask"}
     if values.dtype.kind == "f" and -1 <= lowest < 0 < highest <= 1:
         return values > 0, {"method": "phase", "low": 0.0}
-    hint = f" (finds {otsu_threshold(volume):.6g})" if lowest < highest else ""
+    hint = f" (finds {plain_argument(otsu_threshold(volume))})" if lowest < highest else ""
     raise ParameterError(
-        f"the values go from {lowest:g} to {highest:g} and do not say what is solid; "
-        f"give --threshold X, --range LOW,HIGH, --label N or --otsu{hint}"
+        f"the values go from {plain_argument(lowest)} to {plain_argument(highest)} and do not say what is solid; give "
+        f"--threshold X, --range LOW,HIGH, --label N or --otsu{hint}"
     )
 
 
@@ -298,7 +304,9 @@ def _check_ends(low: float | None, high: float | None) -> None:
         if value is not None:
             check_range("threshold", value, -math.inf, math.inf)
     if low is not None and high is not None and low > high:
-        raise ParameterError.about("threshold", f"goes from {low:g} to {high:g}; give the lower end first")
+        raise ParameterError.about(
+            "threshold", f"goes from {plain_argument(low)} to {plain_argument(high)}; give the lower end first"
+        )
 
 
 def _mark_range(values: NDArray[Any], low: float | None, high: float | None) -> NDArray[np.bool_]:
@@ -374,9 +382,9 @@ def _describe(used: SegmentationRule) -> str:
     if used["method"] == "label":
         return f"is {', '.join(str(label) for label in used['label'])}"
     if used["method"] != "range":
-        threshold_text = f", {used['low']:g}" if "low" in used else ""
+        threshold_text = f", {plain_argument(used['low'])}" if "low" in used else ""
         return f"what is solid is found by {used['method']}{threshold_text}"
     low, high = (used.get(end) for end in ("low", "high"))
     if low is None or high is None:
-        return f"is {f'{low:g}' if high is None else f'up to {high:g}'}"
-    return f"is {low:g} to {high:g}"
+        return f"is {plain_argument(low) if high is None else f'up to {plain_argument(high)}'}"
+    return f"is {plain_argument(low)} to {plain_argument(high)}"

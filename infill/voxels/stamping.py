@@ -17,6 +17,7 @@ from shapely import MultiLineString
 from infill.checks import check_positive, check_whole_number
 from infill.errors import ParameterError
 from infill.grid import SOLID, VOID, Grid
+from infill.plain_numbers import plain_place
 from infill.ragged import expand_rows
 
 ROUNDING = 1e-9  # of a cell: a point this near to a border of cells lies on it, and belongs to the cell above
@@ -71,10 +72,10 @@ def stamp(
     cell = (place - grid.origin) / grid.cell_size
     inside = ((cell >= -ROUNDING) & (cell <= np.array(grid.shape) + ROUNDING)).all(axis=1)
     if outside == "error" and not inside.all():
-        example = ", ".join(f"{x:g}" for x in place[~inside][0])
+        example = plain_place(place[~inside][0], 6)
         raise ParameterError(
-            f"{int((~inside).sum())} of {len(place)} points lie outside the grid, the first at ({example}) mm; "
-            "enlarge the grid, or ask for them to be clipped"
+            f"{int((~inside).sum())} of {len(place)} points lie outside the grid, the first at {example} mm; enlarge "
+            "the grid, or ask for them to be clipped"
         )
     # A straight line along a border of cells stays on one side of it, whichever way its points were rounded.
     index = np.clip(np.floor(cell[inside] + ROUNDING).astype(np.intp), 0, np.array(grid.shape) - 1)

@@ -19,6 +19,7 @@ from infill.imaging.dicom.headers import Image, Pixels, inflate, wrap_pydicom_er
 from infill.imaging.dicom.places import Frame
 from infill.imaging.medical import unpacked_frames
 from infill.machine import require_memory
+from infill.plain_numbers import plain_argument
 
 INTEGER_TYPES = (np.uint8, np.int16, np.uint16, np.int32, np.uint32, np.int64)
 PLAIN_STORAGE = "1.2.840.10008.5.1.4.1.1.7.3"  # a multi-frame secondary capture, which holds only pixels
@@ -207,7 +208,10 @@ def _replace_padding(values: NDArray[Any], padded: list[tuple[int, NDArray[np.bo
     count = sum(int(mask.sum()) for _, mask in padded)
     for k, mask in padded:
         values[k][mask] = lowest
-    return (f"{path}: {count} cells hold a value for no pixel (up to {highest:g}); they are taken as {lowest:g}",)
+    return (
+        f"{path}: {count} cells hold a value for no pixel (up to {plain_argument(highest)}); they are taken as "
+        f"{plain_argument(lowest)}",
+    )
 
 
 def _read_plain_pixels(image: Image) -> memoryview:

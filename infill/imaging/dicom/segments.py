@@ -23,6 +23,7 @@ from infill.imaging.dicom.stacks import STEP_TOLERANCE, Plane, Uneven, place_fra
 from infill.imaging.frames import choose_frame
 from infill.imaging.label_tables import Segment
 from infill.machine import require_memory
+from infill.plain_numbers import plain_argument
 from infill.volume import AXES, Volume
 
 EMPTY_MARGIN = 2  # empty slices on both sides: omitted frames are empty
@@ -151,9 +152,9 @@ def _grid(image: Image) -> tuple[SliceGrid, tuple[str, ...]]:
             hints = _warn_if_sparse(image, fit[0], step) or _warn_if_thin(image, frames[0], step)
             return _padded_grid(frames, fit, plane), (*warnings, *hints)
     raise FormatError(
-        f"{image.path} has slices away from even steps of {stated or float(gaps.min()):.4g} mm (the steps are "
-        f"{float(gaps.min()):.4g} to {widest:.4g} mm, or slices are shifted sideways); resample it, or save it as "
-        ".seg.nrrd"
+        f"{image.path} has slices away from even steps of {plain_argument(stated or float(gaps.min()), 4)} mm (the "
+        f"steps are {plain_argument(float(gaps.min()), 4)} to {plain_argument(widest, 4)} mm, or slices are shifted "
+        "sideways); resample it, or save it as .seg.nrrd"
     )
 
 
@@ -180,8 +181,8 @@ def _warn_if_sparse(image: Image, slices: NDArray[np.int64], step: float) -> tup
     if len(gaps) < 2 or gaps.min() < 2:
         return ()
     return (
-        f"{image.path} says that slices are {step:g} mm apart and holds none that lie side by side; those between them "
-        "are empty",
+        f"{image.path} says that slices are {plain_argument(step)} mm apart and holds none that lie side by side; "
+        "those between them are empty",
     )
 
 
@@ -194,8 +195,9 @@ def _warn_if_thin(image: Image, frame: Frame, step: float) -> tuple[str, ...]:
     if frame.between or not thick or step <= (1 + STEP_TOLERANCE) * thick:
         return ()
     return (
-        f"{image.path} does not say how far apart slices are: its frames lie {step:g} mm apart and are {thick:g} mm "
-        f"thick, and {step:g} mm are taken; if slices between them are empty, the solid is too large",
+        f"{image.path} does not say how far apart slices are: its frames lie {plain_argument(step)} mm apart and are "
+        f"{plain_argument(thick)} mm thick, and {plain_argument(step)} mm are taken; if slices between them are "
+        "empty, the solid is too large",
     )
 
 

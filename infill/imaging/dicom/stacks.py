@@ -18,6 +18,7 @@ from infill.errors import FormatError
 from infill.imaging.dicom.elements import Mark
 from infill.imaging.dicom.headers import Image
 from infill.imaging.dicom.places import DIRECTION_TOLERANCE, OTHER_MARKS, VOLUME_MARKS, Frame
+from infill.plain_numbers import plain_argument
 from infill.volume import AXES
 
 STEP_TOLERANCE = 0.05  # of a step: tolerance of frames against even steps
@@ -123,7 +124,9 @@ def place_frames(image: Image, spacing: tuple[float, ...] | None) -> tuple[tuple
     if not image.stacked:
         raise FormatError(f"{path} {image.unplaced}; save the volume that it came from, as .nrrd or .nii.gz")
     if step is None:
-        thick = "" if template.thickness is None else f", only how thick they are ({template.thickness:g} mm)"
+        thick = (
+            "" if template.thickness is None else f", only how thick they are ({plain_argument(template.thickness)} mm)"
+        )
         raise FormatError(
             f"{path} {image.unplaced} or how far apart{thick}; if they are the slices of a volume, in their order, "
             "give the size of a cell: --spacing X,Y,Z"
@@ -141,7 +144,10 @@ def place_frames(image: Image, spacing: tuple[float, ...] | None) -> tuple[tuple
         for frame in frames
     )
     caveat = "" if is_located else ", so the part may be mirrored and lies at the origin"
-    return placed, (f"{path} {image.unplaced}: they are taken as slices {abs(step):g} mm apart in their order{caveat}",)
+    return placed, (
+        f"{path} {image.unplaced}: they are taken as slices {plain_argument(abs(step))} mm apart in their "
+        f"order{caveat}",
+    )
 
 
 def split_into_stacks(path: Path, frames: Sequence[Frame]) -> Stacks:
@@ -171,8 +177,8 @@ def split_into_stacks(path: Path, frames: Sequence[Frame]) -> Stacks:
     volumes = _split_at_places(frames) if single.doubled else _split_by_first_mark(frames, VOLUME_MARKS[:1])
     if volumes is None:
         raise FormatError(
-            f"{path} has slices up to {single.off:.2g} of a slice away from even steps (missing, doubled, or a tilted "
-            f"scanner): {single.why}; resample the series to even slices first"
+            f"{path} has slices up to {plain_argument(single.off, 2)} of a slice away from even steps (missing, "
+            f"doubled, or a tilted scanner): {single.why}; resample the series to even slices first"
         )
     return volumes
 
@@ -348,7 +354,10 @@ def _describe_unevenness(steps: NDArray[np.float64], along: NDArray[np.float64])
         return "each is shifted sideways against the one before"
     usual = float(np.median(steps))
     outlier = int(np.abs(steps - usual).argmax())
-    return f"the step is {usual:.4g} mm, and {steps[outlier]:.4g} mm after the one at {along[outlier]:.4g} mm"
+    return (
+        f"the step is {plain_argument(usual, 4)} mm, and {plain_argument(steps[outlier], 4)} mm after the one at "
+        f"{plain_argument(along[outlier], 4)} mm"
+    )
 
 
 def plane_of(frames: Sequence[Frame]) -> Plane | Uneven:
@@ -367,5 +376,5 @@ def plane_of(frames: Sequence[Frame]) -> Plane | Uneven:
     column /= np.linalg.norm(column)
     down, across = (round_length(x) for x in np.mean([frame.pixel for frame in frames if frame.pixel], axis=0))
     if down <= 0 or across <= 0:
-        return Uneven(off=1.0, why=f"pixels are {across:g} x {down:g} mm")
+        return Uneven(off=1.0, why=f"pixels are {plain_argument(across)} x {plain_argument(down)} mm")
     return Plane(direction=np.column_stack([row, column, np.cross(row, column)]), pixel=(across, down))

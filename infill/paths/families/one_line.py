@@ -10,6 +10,7 @@ import numpy as np
 
 from infill.errors import ParameterError
 from infill.paths.families.family import Bounds, CentredFamily, Family, Path, PathSpec
+from infill.plain_numbers import plain_argument
 from patterns.cross import ORIGIN, SIDE, curve_steps
 from patterns.errors import PatternError
 from patterns.hilbert import hilbert_curve
@@ -55,7 +56,7 @@ class CrossPaths(Family):
         low, high = np.floor(corners[0]) - MARGIN, np.ceil(corners[1]) + MARGIN
         if max(-low.min(), high.max()) > ORIGIN:
             raise ParameterError(
-                f"the cell is {spec.cell:g} mm; the curve reaches {ORIGIN} octagons: give a larger one"
+                f"the cell is {plain_argument(spec.cell)} mm; the curve reaches {ORIGIN} octagons: give a larger one"
             )
         merged = shapely.line_merge(shapely.multilinestrings(curve_steps(low, high)))
         return [shapely.get_coordinates(part) * pitch for part in shapely.get_parts(merged)]

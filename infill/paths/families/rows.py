@@ -83,7 +83,7 @@ class HoneycombPaths(WaveFamily):
     """
 
     name: str = "honeycomb"
-    summary: str = "hexagons drawn as touching waves; stiff in every direction for little material"
+    summary: str = "hexagons drawn as touching waves; stiff from above, equally soft from all sides"
     flats: float = 1.0
     corner_share: ClassVar[float] = 0.5  # where the arcs of a flank meet; flanks alone are the limit
 

@@ -29,6 +29,7 @@ from infill.drawing import MOST_POINTS, Line
 from infill.errors import GeometryError
 from infill.graph import label_connected
 from infill.paths.tiles.pairing import TileGraph, choose_doubled_parts
+from infill.plain_numbers import plain_argument
 
 CLOSE = 0.25  # line widths within which open ends are merged
 TOUCH = 0.905  # line widths between the centres of two beads that touch
@@ -83,8 +84,8 @@ def find_borders(lines: list[Line], size: tuple[float, float], *, line_width: fl
     merged = _merge_ends(lines, size, CLOSE * line_width)
     if not merged:
         raise GeometryError(
-            f"every line of the drawing is shorter than {CLOSE * line_width:.3g} mm in tiles of "
-            f"{size[0]:.4g} × {size[1]:.4g} mm; make the cell larger"
+            f"every line of the drawing is shorter than {plain_argument(CLOSE * line_width, 3)} mm in tiles of "
+            f"{plain_argument(size[0], 4)} × {plain_argument(size[1], 4)} mm; make the cell larger"
         )
     graph = _cut_to_torus(_copies_in_tile(merged, size), size)
     double = choose_doubled_parts(graph)
@@ -138,8 +139,9 @@ def _copies_in_tile(lines: list[Line], size: tuple[float, float]) -> list[Line]:
         points += len(line) * count
         if points > MOST_POINTS or count > MOST_COPIES:
             raise GeometryError(
-                f"draw on the page: {count} copies of a line, or {points} points, meet in a "
-                f"tile of {size[0]:.4g} × {size[1]:.4g} mm; the limits are {MOST_COPIES} and {MOST_POINTS}"
+                f"draw on the page: {count} copies of a line, or {points} points, meet in a tile of "
+                f"{plain_argument(size[0], 4)} × {plain_argument(size[1], 4)} mm; the limits are {MOST_COPIES} and "
+                f"{MOST_POINTS}"
             )
         for i in range(lowest[0], highest[0] + 1):
             copies += [line + box * (i, j) for j in range(lowest[1], highest[1] + 1)]

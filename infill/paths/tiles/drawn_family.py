@@ -17,6 +17,7 @@ from infill.paths.tiles.borders import TOUCH, find_borders
 from infill.paths.tiles.nodes import tile_grid
 from infill.paths.tiles.strands import Strand, repeat_strands, tile_strands
 from infill.paths.tiles.two_colours import two_colour_field
+from infill.plain_numbers import plain_argument
 
 CELL_STEP = 1.04  # between the cells whose fields are computed
 CELL_CORRECTIONS = 2  # corrections of the first guess of the cell: lines are doubled, rounded and left out
@@ -125,7 +126,7 @@ def _strands(
     strands = tile_strands(field, grid)
     if not strands:
         raise GeometryError(
-            f"nothing is left of {name} in tiles of {size[0]:.4g} × {size[1]:.4g} mm with lines of "
-            f"{line_width:g} mm; make the cell larger"
+            f"nothing is left of {name} in tiles of {plain_argument(size[0], 4)} × {plain_argument(size[1], 4)} mm "
+            f"with lines of {plain_argument(line_width)} mm; make the cell larger"
         )
     return strands, size

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from infill.arrays import Floats
 from infill.errors import GeometryError
+from infill.plain_numbers import plain_argument
 from infill.ragged import expand_rows
 
 CELLS_PER_LINE = 8  # grid cells in a line width, so that touching paths stay seven cells apart
@@ -64,8 +65,9 @@ def tile_grid(size: tuple[float, float], *, line_width: float, blur: float) -> T
     if fine < COARSEST:
         limit = math.sqrt(MOST_CELLS) * line_width / COARSEST
         raise GeometryError(
-            f"a tile of {size[0]:.4g} × {size[1]:.4g} mm is too large for lines of {line_width:g} mm; the limit is "
-            f"{limit:.0f} × {limit:.0f} mm or the same area; make the cell smaller"
+            f"a tile of {plain_argument(size[0], 4)} × {plain_argument(size[1], 4)} mm is too large for lines of "
+            f"{plain_argument(line_width)} mm; the limit is {limit:.0f} × {limit:.0f} mm or the same area; make the "
+            "cell smaller"
         )
     spacing = line_width / fine
     shape = max(16, round(size[0] / spacing)), max(16, round(size[1] / spacing))
