@@ -649,7 +649,7 @@ def test_a_void_that_stays_closed_is_told() -> None:
     (void,) = report["drains"]["undrained"]
     closed = report["voids"]["closed"]
     assert sorted(each["volume"] for each in closed) == pytest.approx(sorted([15 * 15 * 2, void["volume"]]))
-    assert any("2 void(s) are still sealed" in each for each in report["problems"])
+    assert any("2 voids still sealed" in each for each in report["problems"])
 
 
 # --- bodies ------------------------------------------------------------------------------------------------------------

@@ -21,6 +21,7 @@ from infill.lattices.subdivided import Subdivided
 from infill.lattices.voids import Periodic, VoidPattern
 from infill.options.assignments import ParameterSource, merge_parameters, parse_assignments, parse_values
 from infill.options.resolve_pattern import resolve_pattern, with_parameters
+from infill.plain_numbers import plain_argument
 from patterns.cellular import Cells
 from patterns.declared import parameters
 from patterns.given import suggest_name
@@ -101,8 +102,8 @@ def configure_cellular(kind: Cells, request: FillSpec) -> Cells:
     if isinstance(kind, Network) and (request.lowest or 1.0) < kind.thinnest:
         raise ParameterError.about(
             "density",
-            f"is {request.lowest:.3g}, and the bars of {kind.name} break below {kind.thinnest:g}; give a "
-            f"higher one, or choose {kind.surfaces.name}",
+            f"is {plain_argument(request.lowest, 3)}, and the bars of {kind.name} break below "
+            f"{plain_argument(kind.thinnest)}; give a higher one, or choose {kind.surfaces.name}",
         )
     return replace(kind, **request.parameters) if request.parameters else kind
 
@@ -116,14 +117,15 @@ def configure_lines(kind: Pattern | type[Pattern], request: FillSpec) -> Pattern
             raise ParameterError(f"{request.pattern} has no parameter {name!r}; {suggest_name(name, settable)}")
     if request.angle and "angle" not in declared:
         raise ParameterError.about(
-            "angle", f"is {request.angle:g} degrees, and {request.pattern} cannot be turned; leave it out"
+            "angle",
+            f"is {plain_argument(request.angle)} degrees, and {request.pattern} cannot be turned; leave it out",
         )
     own_angle = 0.0 if isinstance(kind, type) else float(getattr(kind, "angle", 0.0))
     rotation = {"angle": math.remainder(own_angle + request.angle, 360.0)} if "angle" in declared else {}
     values = {**request.parameters, **rotation}
     made_pattern = with_parameters(kind, values)
     if follows_outline(made_pattern) and any(request.phase):
-        shift = ", ".join(f"{step:g}" for step in request.phase)
+        shift = ", ".join(plain_argument(step) for step in request.phase)
         raise ParameterError.about("phase", f"is {shift} mm, and {request.pattern} follows the part; leave it out")
     if follows_outline(made_pattern) and request.grading is not None and request.grading.name == SKIN:
         raise ParameterError.about(

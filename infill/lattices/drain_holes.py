@@ -21,6 +21,7 @@ from infill.lattices.task import FillTask
 from infill.lattices.void_meshes import VoidMeshes
 from infill.meshes.shells import select_faces, shell_volumes
 from infill.meshes.solids import FINE, coincident_vertices, from_manifold, solid_status, to_manifold
+from infill.plain_numbers import count_noun, plain_argument, plain_number, plain_place
 from infill.surface import Surface
 
 if TYPE_CHECKING:
@@ -97,15 +98,15 @@ def check_drain_width(request: FillSpec, bounds: NDArray[np.floating]) -> None:
     width = float(np.ptp(np.asarray(bounds, dtype=np.float64), axis=0)[:2].min())
     room = width - 2 * request.wall
     if request.drain > room:
-        fault = f"is {request.drain:g} mm, and the part is {width:.4g} mm wide"
+        fault = f"is {plain_argument(request.drain)} mm, and the part is {plain_argument(width, 4)} mm wide"
         if room <= 0:
             raise GeometryError.about(
-                "drain", f"{fault}, no more than two walls of {request.wall:g} mm; leave drain out"
+                "drain", f"{fault}, no more than two walls of {plain_argument(request.wall)} mm; leave drain out"
             )
         raise GeometryError.about(
             "drain",
-            f"{fault}: between walls of {request.wall:g} mm there is room for no more than {room:.3g}; give a thinner "
-            "drain or wall",
+            f"{fault}: between walls of {plain_argument(request.wall)} mm there is room for no more than "
+            f"{plain_argument(room, 3)}; give a thinner drain or wall",
         )
 
 
@@ -207,45 +208,47 @@ def drain_problems(request: FillSpec, drained: DrainedSolid, closed: list[tuple[
     undrained = drained.plan.undrained
     if closed:
         volume, at = closed[0]
-        message = f"{len(closed)} void(s) are still sealed"
+        message = f"{count_noun(len(closed), 'void')} still sealed"
         if undrained:
             largest = undrained[0]
             volume, at = largest.volume, largest.at.tolist()
-        message += f", the largest, of {volume:.3g} mm³, with its lowest place at ({_xyz(at)})"
+        message += f", the largest, of {plain_number(volume)} mm³, with its lowest place at {plain_place(at)}"
         if undrained and undrained[0].blocked:
             message += (
-                ": below it lie other voids or faces too steep for a hole, and no wall beside it has room for a branch "
-                f"of {request.drain:g} mm; {_advise(undrained)}"
+                ": below it lie other voids or faces too steep for a hole, and no wall beside it has room for a "
+                f"branch of {plain_argument(request.drain)} mm; {_advise(undrained)}"
             )
         elif undrained:
             message += (
-                f": straight down from it, a hole of {request.drain:g} mm leaves less than a wall of {request.wall:g} "
-                f"mm; {_advise(undrained)}"
+                f": straight down from it, a hole of {plain_argument(request.drain)} mm leaves less than a wall of "
+                f"{plain_argument(request.wall)} mm; {_advise(undrained)}"
             )
         yield message
     if drained.plan.unvented:
         unvented = drained.plan.unvented[0]
         thinner = "" if unvented.fits is None else f"{_advise_thinner(drained.plan.unvented, 'have one')}; or "
         yield (
-            f"{len(drained.plan.unvented)} void(s) have no vent, the largest, of {unvented.volume:.3g} mm³, with "
-            f"its highest place at ({_xyz(unvented.at.tolist())}): there is no way for a hole of {request.drain:g} mm "
-            f"up from it; {thinner}leave vent out"
+            f"{count_noun(len(drained.plan.unvented), 'void')} without a vent, the largest, of "
+            f"{plain_number(unvented.volume)} mm³, with its highest place at {plain_place(unvented.at)}: there is no "
+            f"way for a hole of {plain_argument(request.drain)} mm up from it; {thinner}leave vent out"
         )
     if narrow := drained.plan.narrow:
         worst, place = narrow[0], drained.plan.beside
         yield (
-            f"{len(narrow)} void(s) drain through branches narrower than {request.drain:g} mm, the largest, of "
-            f"{drained.plan.volumes[worst.void]:.3g} mm³, through one of {worst.diameter:g} mm at "
-            f"({_xyz(worst.at.tolist())}), where no wider one was found that keeps the wall"
-            + ("" if place is None else "; it has room for a drain at ({:g}, {:g}, {:g})".format(*place))
+            f"{count_noun(len(narrow), 'void')} drained only through branches narrower than "
+            f"{plain_argument(request.drain)} mm, the largest, of {plain_number(drained.plan.volumes[worst.void])} "
+            f"mm³, through one of {plain_argument(worst.diameter)} mm at {plain_place(worst.at)}, where no wider one "
+            "was found that "
+            "keeps the wall" + ("" if place is None else f"; it has room for a drain at {plain_place(place, 6)}")
         )
     if high := drained.plan.high:
         worst = max(high, key=lambda hole: hole.above)
         lower = drained.plan.lower
         yield (
-            f"{len(high)} drain(s) begin more than {request.drain:g} mm above the lowest place of their void, at most "
-            f"{worst.above:.3g} mm, at ({_xyz(worst.at.tolist())}): what lies below runs out only if the part is "
-            "tilted" + ("" if lower is None else f"; with drains of {lower:g} mm, none does")
+            f"{count_noun(len(high), 'drain')} with a start more than {plain_argument(request.drain)} mm above the "
+            f"lowest place of the void, at most {plain_argument(worst.above, 3)} mm, at {plain_place(worst.at)}: what "
+            "lies below runs out only if the part is "
+            "tilted" + ("" if lower is None else f"; with drains of {plain_argument(lower)} mm, none does")
         )
 
 
@@ -254,7 +257,7 @@ def _advise(undrained: tuple[SealedVoid, ...]) -> str:
     if undrained[0].fits is not None:
         return _advise_thinner(undrained, "drain")
     if undrained[0].place is not None:
-        return "a drain at ({:g}, {:g}, {:g}) opens it".format(*undrained[0].place)
+        return f"a drain at {plain_place(undrained[0].place, 6)} opens it"
     return "no thinner drain, and none upwards or from a side, has room either; patterns of bars leave fewer voids"
 
 
@@ -262,11 +265,7 @@ def _advise_thinner(undrained: tuple[SealedVoid, ...], does: str) -> str:
     """Say which diameter gives the largest void its hole, and how many of the other voids."""
     largest = undrained[0]
     who = "all of them" if largest.together == len(undrained) else f"this and {largest.together - 1} of the others"
-    return f"with drains of {largest.fits:g} mm, {who} {does}"
-
-
-def _xyz(place: list[float]) -> str:
-    return ", ".join(f"{coordinate:.4g}" for coordinate in place)
+    return f"with drains of {plain_argument(largest.fits)} mm, {who} {does}"
 
 
 def find_closed_voids(solid: Surface) -> list[tuple[float, list[float]]]:

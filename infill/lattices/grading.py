@@ -15,6 +15,7 @@ from infill.interior.conformal_map import fit_conformal_map, spline_slopes
 from infill.interior.interior import Interior
 from infill.lattices.density_fields import LEAST_SHARE, Field
 from infill.lattices.region_nodes import SHIFTS, RegionNodes
+from infill.plain_numbers import plain_argument
 from infill.surface import Surface
 from infill.voxels.scanlines import fill_rows, intersect_rows
 
@@ -141,7 +142,8 @@ class Grading:
         low, high = float(np.nanmin(inside_values)), float(np.nanmax(inside_values))
         if high - low <= 1e-9 * max(abs(low), abs(high), 1e-30):
             raise GeometryError.about(
-                "by", f"is {self.name}, which is {low:g} everywhere in the part; give one density, or a field"
+                "by",
+                f"is {self.name}, which is {plain_argument(low)} everywhere in the part; give one density, or a field",
             )
         share = np.clip((np.nan_to_num(values, nan=low) - low) / (high - low), 0, 1)
         shares = self.first + (self.last - self.first) * share

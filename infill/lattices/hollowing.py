@@ -21,6 +21,7 @@ from infill.meshes.shells import split_into_batches
 from infill.meshes.simplification import simplify_surface
 from infill.meshes.solids import simplify_solid
 from infill.meshes.split_components import concatenate_surfaces
+from infill.plain_numbers import plain_argument
 
 REFITS = 3
 MOST_LARGER = 3.0  # most that cells and walls grow at a time, where there are too many triangles
@@ -97,8 +98,8 @@ def make_void_meshes(task: FillTask) -> tuple[VoidMeshes, Fields]:
             voxel = coarser
     if not hollow.surfaces:
         raise GeometryError(
-            f"the pattern leaves no void inside walls of {request.wall:g} mm; give larger cells, narrower lines, a "
-            "lower density or a thinner wall"
+            f"the pattern leaves no void inside walls of {plain_argument(request.wall)} mm; give larger cells, "
+            "narrower lines, a lower density or a thinner wall"
         )
     if hollow.triangles > room:
         with clock.stage("simplify", 0.8):

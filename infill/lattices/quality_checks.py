@@ -27,6 +27,7 @@ from infill.meshes.distance import TriangleTree
 from infill.meshes.shells import first_vertex_of_shells, split_into_batches
 from infill.meshes.solids import FINE, coincident_vertices, manifold_status
 from infill.meshes.winding import winding_numbers
+from infill.plain_numbers import count_noun, plain_argument, plain_place
 from infill.surface import Surface
 
 if TYPE_CHECKING:
@@ -248,8 +249,9 @@ def find_problems(
         narrow, wide = facts.widths
         if narrow < LEAST_WIDTH * hollow.width:
             yield (
-                f"cells cannot follow the density alone, so walls are {narrow:.2g} to {wide:.2g} mm wide: there is too "
-                "little room for cells of such sizes beside one another; give densities closer to each other"
+                f"cells cannot follow the density alone, so walls are {plain_argument(narrow, 2)} to "
+                f"{plain_argument(wide, 2)} mm wide: there is too little room for cells of such sizes beside one "
+                "another; give densities closer to each other"
             )
     share = hollow.density_before if request.reaches_skin else hollow.density
     if share < LEAST_LEFT * facts.drawn:
@@ -258,46 +260,54 @@ def find_problems(
             "thin for the grid, or were smoothed away; give smaller voxels, a smaller smooth radius or wider lines"
         )
     if request.line_width is not None and request.grading is None and not is_width_ok(facts.width, request.line_width):
-        yield f"walls or bars inside are {facts.width:.3g} mm wide, and {request.line_width:g} mm was asked for"
+        yield (
+            f"walls or bars inside are {plain_argument(facts.width, 3)} mm wide, and "
+            f"{plain_argument(request.line_width)} mm was asked for"
+        )
     elif request.form != "project" and facts.width < HAIRLINE:
         yield (
-            f"walls or bars inside are {facts.width:.2g} mm wide, thinner than most printers make; give a larger cell, "
+            f"walls or bars inside are {plain_argument(facts.width, 2)} mm wide, thinner than most printers make; give a larger cell, "
             "a line width or a higher density"
         )
     yield from size_problems(request, hollow)
     if request.form == "project" and facts.width < THINNEST:
         yield (
-            f"walls or bars inside are {facts.width:.2g} mm wide, less than a line of a usual nozzle: slicers leave "
-            "most of them out; give a line width of 0.9 mm, or print so small a part solid"
+            f"walls or bars inside are {plain_argument(facts.width, 2)} mm wide, less than a line of a usual nozzle: "
+            "slicers leave most of them out; give a line width of 0.9 mm, or print so small a part solid"
         )
     elif request.form == "project" and facts.width < THIN:
         yield (
-            f"walls or bars inside are {facts.width:.2g} mm wide, less than two lines of a usual nozzle: slicers fill "
-            "such bodies in many short moves, and extrude up to a tenth more or less; give a line width of 0.9 mm"
+            f"walls or bars inside are {plain_argument(facts.width, 2)} mm wide, less than two lines of a usual "
+            "nozzle: slicers fill such bodies in many short moves, and extrude up to a tenth more or less; give a "
+            "line width of 0.9 mm"
         )
     elif request.gaps_in(facts.width):
         yield (
-            f"walls inside are {facts.width:.2g} mm wide, more than two lines of a usual nozzle and less than three: "
-            f"slicers leave gaps in them, 7 % of the infill in all; give a line width of 0.9 mm, or {GAP[1]:g} or more"
+            f"walls inside are {plain_argument(facts.width, 2)} mm wide, more than two lines of a usual nozzle and "
+            "less than three: slicers leave gaps in them, 7 % of the infill in all; give a line width of 0.9 mm, or "
+            f"{plain_argument(GAP[1])} or more"
         )
     if lost is not None and lost.all > NARROW:
         effect = ", so that was left out" if hollow.loose else ""
         yield (
-            f"{lost.all:.0%} of the infill lies where walls of {request.wall:g} mm leave less room than a line of "
-            f"{LINE_WIDTH:g} mm, or is itself as narrow there, and slicers print none of it{effect}; shift the pattern "
-            "by --phase, print with fewer perimeters and give their --wall, or with so many that they fill such places"
+            f"{lost.all:.0%} of the infill lies where walls of {plain_argument(request.wall)} mm leave less room than "
+            f"a line of {plain_argument(LINE_WIDTH)} mm, or is itself as narrow there, and slicers print none of "
+            f"it{effect}; shift the pattern by --phase, print with fewer perimeters and give their --wall, or with so "
+            "many that they fill such places"
         )
     if moved > request.tolerance:
-        distance = f"up to {moved:.2g} mm" if np.isfinite(moved) else "an unknown distance"
+        distance = f"up to {plain_argument(moved, 2)} mm" if np.isfinite(moved) else "an unknown distance"
         yield f"for so few triangles, the voids were moved by {distance}; give larger cells, or more triangles"
     if facts.least is not None and facts.least < LEAST_WALL * request.wall:
-        place = ", ".join(f"{coordinate:.4g}" for coordinate in facts.at or ())
-        yield f"the wall is {facts.least:.3g} mm thin at ({place}), and {request.wall:g} mm was asked for"
+        yield (
+            f"the wall is {plain_argument(facts.least, 3)} mm thin at {plain_place(facts.at or ())}, and "
+            f"{plain_argument(request.wall)} mm was asked for"
+        )
     if opening is not None:
         for end in opening.closed_ends(hollow.surfaces):
             yield f"no void is open at the {end}: walls of the pattern lie along it; shift the pattern by --phase"
     if facts.astray:
-        yield f"{facts.astray} void(s) lie outside of the part"
+        yield f"{count_noun(facts.astray, 'void')} outside of the part"
     if not hollow.space.part.closed:
         yield "the part has edges with more than two faces, and so has the result"
     if overlap > LEAST_OVERLAP:

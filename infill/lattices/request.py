@@ -18,6 +18,7 @@ from infill.lattices.placed_regions import HIGHEST, LOWEST, RegionDensities, pla
 from infill.lattices.region_nodes import PlacedRegion
 from infill.options.keyword_options import parse_share
 from infill.options.resolve_pattern import Kind, resolve_pattern
+from infill.plain_numbers import plain_argument
 from patterns.cellular import Cells
 from patterns.declared import given_parameters
 from patterns.lightning import Lightning
@@ -395,7 +396,10 @@ def _take_cell(kind: Kind, name: str, cell: float | None) -> tuple[Kind, float |
     if isinstance(kind, type) or (own := given_parameters(kind).get("cell")) is None:
         return kind, cell
     if cell is not None and cell != own:
-        raise UsageError.about("cell", f"is {cell:g} mm, and {name} is made with {own:g} mm; give one of them")
+        raise UsageError.about(
+            "cell",
+            f"is {plain_argument(cell)} mm, and {name} is made with {plain_argument(own)} mm; give one of them",
+        )
     return replace(kind, cell=None) if isinstance(kind, Cells) else kind, own
 
 

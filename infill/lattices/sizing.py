@@ -14,6 +14,7 @@ from infill.lattices.drawn_voids import Prismatic
 from infill.lattices.layered import NonPrismatic
 from infill.lattices.request import GAP, FillSpec, has_bars
 from infill.lattices.task import FillTask
+from infill.plain_numbers import plain_argument
 
 
 class Fineness(NamedTuple):
@@ -89,15 +90,16 @@ def choose_voxel(task: FillTask, cell: float, width: float) -> float:
     if 0 < request.wall < LEAST_FINE.across * size:
         raise GeometryError.about(
             "wall",
-            f"is {request.wall:g} mm, and the part {extents.max():.4g} mm long: a grid as fine as such a wall "
-            f"needs has more than {MOST:,.0f} cells; give a wall of {LEAST_FINE.across * size:.2g} mm, or the right "
-            "unit",
+            f"is {plain_argument(request.wall)} mm, and the part {plain_argument(extents.max(), 4)} mm long: a grid "
+            f"as fine as such a wall needs has more than {MOST:,.0f} cells; give a wall of "
+            f"{plain_argument(LEAST_FINE.across * size, 2)} mm, or the right unit",
         )
     if size > (most := coarsest_voxel(task, cell, width)):
         raise GeometryError.about(
             "cell",
-            f"is {cell:.3g} mm, and the part {extents.max():.4g} mm long: a grid as fine as such cells need has "
-            f"more than {MOST:,.0f} cells; give a cell of {math.ceil(cell * size / most)} mm, or a lower density",
+            f"is {plain_argument(cell, 3)} mm, and the part {plain_argument(extents.max(), 4)} mm long: a grid as "
+            f"fine as such cells need has more than {MOST:,.0f} cells; give a cell of {math.ceil(cell * size / most)} "
+            "mm, or a lower density",
         )
     return size
 
