@@ -14,6 +14,7 @@ from infill.cli.completing import pattern_assignments, pattern_names
 from infill.cli.console import format_bytes, format_table, print_json, progress_bar, say
 from infill.cli.declared import takes_options
 from infill.making.settings import MakeSettings, resolve
+from infill.plain_numbers import count_noun, plain_number
 
 if TYPE_CHECKING:
     from infill.making.request import Block
@@ -179,7 +180,7 @@ def _show_plan(block: Block, limit: int | None, *, as_json: bool) -> None:
         print_json(facts)
         return
     rows = {
-        "grid": f"{' x '.join(map(str, block.grid.shape))} cells of {facts['grid']['spacing'][0]:.4g} mm",
+        "grid": f"{' x '.join(map(str, block.grid.shape))} cells of {plain_number(facts['grid']['spacing'][0], 4)} mm",
         "memory": f"about {format_bytes(block.memory)}",
         "triangles": f"about {block.triangles:,}",
         "binary STL": f"about {format_bytes(block.stl_bytes)}",
@@ -191,17 +192,18 @@ def _summary(report: MakeReport, files: list[str], *, verbose: bool) -> str:
     """Return the short table for stderr."""
     request, grid, topology = report["request"], report["grid"], report["topology"]
     width, change = report["wall_width"], report["changes"]
-    size = " x ".join(f"{length:g}" for length in (*request["size"], request["height"]))
+    size = " x ".join(plain_number(length, 6) for length in (*request["size"], request["height"]))
     measured = (
         "not measured: every wall is too close to another"
         if width["mean"] is None
         else f"{width['mean']:.3f} mm mean, {width['p5']:.3f} to {width['p95']:.3f} (5 to 95 %), "
-        f"{width['requested']:g} asked for"
+        f"{plain_number(width['requested'], 6)} asked for"
     )
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, "
-        f"{report['components']} component(s)",
-        "surface": f"{request['surface']}, within {request['tolerance']:g} mm of the isosurface at mid height"
+        f"{count_noun(report['components'], 'component')}",
+        "surface": f"{request['surface']}, within {plain_number(request['tolerance'], 6)} mm of the isosurface at mid "
+        "height"
         if request["tolerance"]
         else f"{request['surface']}, the isosurface as it is"
         if request["surface"] == "grid"
@@ -215,15 +217,15 @@ def _summary(report: MakeReport, files: list[str], *, verbose: bool) -> str:
         rows["advice"] = f"--stamp exact makes the walls {exact:.3f} mm wide (measured in the middle of the block)"
     if change["pinholes"]:
         share = f"{change['pinhole_share']:.2%} of the void"
-        rows["pinholes"] = f"{change['pinholes']} hole(s) or neck(s) narrower than a line closed, {share}"
+        rows["closed up"] = f"{count_noun(change['pinholes'], 'gap')} narrower than a line, {share}"
     if report["problems"]:
         rows["PROBLEMS"] = "; ".join(report["problems"])
     if verbose:
-        rows["fidelity"] = f"{request['fidelity']:g}"
+        rows["fidelity"] = f"{plain_number(request['fidelity'], 6)}"
         rows["Euler number"] = f"{report['mesh']['euler_number']}"
-        rows["grid"] = f"{' x '.join(map(str, grid['shape'][:2]))} cells of {grid['spacing'][0]:.4g} mm"
+        rows["grid"] = f"{' x '.join(map(str, grid['shape'][:2]))} cells of {plain_number(grid['spacing'][0], 4)} mm"
         for name, counts in (("stamp", topology["data"]), ("result", topology["result"])):
-            rows[name] = f"{counts['components']} component(s), {counts['tunnels']} holes"
+            rows[name] = f"{count_noun(counts['components'], 'component')}, {count_noun(counts['tunnels'], 'hole')}"
         rows["seconds"] = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in report["seconds"].items())
     for path in files:
         rows[f"wrote {path}"] = format_bytes(Path(path).stat().st_size) if Path(path).is_file() else ""

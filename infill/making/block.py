@@ -38,6 +38,7 @@ from infill.making.request import (
 from infill.making.stages import MakeStages
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.methods import smooth
+from infill.plain_numbers import count_noun, plain_argument
 from infill.reports.common import Topology, declare, mesh_keys, report_head, surface_keys
 from infill.reports.making import BlockChanges, BlockSeconds, MakeReport, Width
 from infill.result import Clock, Progress, Result
@@ -278,25 +279,25 @@ def _count_fused_lines(lines: MultiLineString, before: LayerRegions, line_width:
 def _problems(tally: TopologyChanges, width: WallWidth, fused_lines: int) -> Iterator[str]:
     """Describe the problems of the walls, one phrase each."""
     if fused_lines:
-        yield f"{fused_lines} separate line(s) of the pattern run together at this line width: use larger cells"
-    for count, event in (
-        (tally.broken + tally.voids_joined + tally.walls_pierced, "wall(s) broke"),
-        (tally.vanished, "part(s) vanished"),
-        (tally.appeared, "part(s) appeared from nowhere"),
-        (tally.fused + tally.voids_cut, "gap(s) between walls closed up"),
-        (tally.voids_closed, "hole(s) closed"),
+        yield f"{count_noun(fused_lines, 'line')} of the pattern fused with others at this line width: use larger cells"
+    for count, noun, event in (
+        (tally.broken + tally.voids_joined + tally.walls_pierced, "wall", "broke"),
+        (tally.vanished, "part", "vanished"),
+        (tally.appeared, "part", "appeared from nowhere"),
+        (tally.fused + tally.voids_cut, "gap", "between walls closed up"),
+        (tally.voids_closed, "hole", "closed"),
     ):
         if count:
-            yield f"{count} {event} in smoothing"
+            yield f"{count_noun(count, noun)} {event} in smoothing"
     if tally.pinhole_share and tally.pinhole_share > MAX_PINHOLE_SHARE:
         yield (
-            f"{tally.pinholes} hole(s) narrower than a line, {tally.pinhole_share:.0%} of all void, closed in "
-            "smoothing: use larger cells or a thinner line"
+            f"{count_noun(tally.pinholes, 'hole')} narrower than a line, {tally.pinhole_share:.0%} of all void, closed "
+            "in smoothing: use larger cells or a thinner line"
         )
     if width.p5 < MIN_WIDTH_SHARE * width.requested:
         yield (
-            f"the walls are {width.p5:.3g} mm thin at the 5th percentile, under {MIN_WIDTH_SHARE:.0%} of the "
-            f"{width.requested:g} mm asked for"
+            f"the walls are {plain_argument(width.p5, 3)} mm thin at the 5th percentile, under {MIN_WIDTH_SHARE:.0%} "
+            f"of the {plain_argument(width.requested)} mm asked for"
         )
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from infill.phasefield.methods import smooth
+from infill.plain_numbers import plain_number
 
 if TYPE_CHECKING:
     from infill.making.request import Block
@@ -59,4 +60,4 @@ def format_duration(seconds: float) -> str:
     ('about 100 seconds', 'about 3 minutes', 'about 9 days')
     """
     unit = next((candidate for candidate in reversed(UNITS) if seconds >= 2 * UNITS[candidate]), "seconds")
-    return f"about {float(f'{seconds / UNITS[unit]:.2g}'):,.0f} {unit}"
+    return f"about {plain_number(round(seconds / UNITS[unit]), 2)} {unit}"

@@ -18,6 +18,7 @@ from infill.isosurfaces.stacking import layer_count
 from infill.machine import require_memory
 from infill.options.resolve_pattern import resolve_lines, resolve_pattern, with_parameters
 from infill.phasefield.allen_cahn import Smoothing
+from infill.plain_numbers import plain_argument
 from patterns import Cells, Pattern, PatternError, lacking, parameter_values
 from patterns.declared import parameters as declared
 from patterns.protocol import draw_lines
@@ -232,8 +233,9 @@ def plan_block(
     counts, spacing = zip(*(_divide_side(side, cell) for side in (width, depth)), strict=True)
     if min(counts) < (1 + LINES_PER_CELL) * across:
         raise ParameterError(
-            f"a block of {width:g} × {depth:g} mm has no room for walls of {line_width:g} mm; "
-            f"make it at least {(1 + LINES_PER_CELL) * line_width:g} mm in x and y"
+            f"a block of {plain_argument(width)} × {plain_argument(depth)} mm has no room for walls of "
+            f"{plain_argument(line_width)} mm; make it at least {plain_argument((1 + LINES_PER_CELL) * line_width)} mm "
+            "in x and y"
         )
     smoothing.weights((1.0, 1.0))  # raises above the stability limit
     surface, tolerance = _resolve_surface(surface, tolerance, line_width)
@@ -255,8 +257,8 @@ def plan_block(
     apart = ready_pattern.line_spacing(block.region)
     if not math.isfinite(apart) or apart < LINES_PER_CELL * line_width * (1 - 1e-9):
         raise ParameterError(
-            f"the lines of {ready_pattern.name} lie {apart:.4g} mm apart, under {LINES_PER_CELL} line widths "
-            f"({LINES_PER_CELL * line_width:g} mm); use larger cells or a thinner line"
+            f"the lines of {ready_pattern.name} lie {plain_argument(apart, 4)} mm apart, under {LINES_PER_CELL} line "
+            f"widths ({plain_argument(LINES_PER_CELL * line_width)} mm); use larger cells or a thinner line"
         )
     return block
 
@@ -294,14 +296,14 @@ def _resolve_surface(
     if surface == "grid" and tolerance > 0:
         raise UsageError.about(
             ("surface", "tolerance"),
-            f"exclude each other: grid is the isosurface as it is, and not {tolerance:g} mm "
-            "off; leave the tolerance out, or take prism",
+            f"exclude each other: grid is the isosurface as it is, and not {plain_argument(tolerance)} mm off; leave "
+            "the tolerance out, or take prism",
         )
     if tolerance > MAX_TOLERANCE_SHARE * line_width:
         raise ParameterError.about(
             "tolerance",
-            f"is {tolerance:g} mm; it must be at most a tenth of the line width, "
-            f"{MAX_TOLERANCE_SHARE * line_width:g} mm",
+            f"is {plain_argument(tolerance)} mm; it must be at most a tenth of the line width, "
+            f"{plain_argument(MAX_TOLERANCE_SHARE * line_width)} mm",
         )
     return surface or ("prism" if tolerance > 0 else "grid"), float(tolerance)
 
