@@ -11,6 +11,7 @@ import typer
 
 from infill.cli.console import format_bytes, format_table, print_json, print_log
 from infill.machine import available_memory
+from infill.plain_numbers import plain_number
 
 if TYPE_CHECKING:
     from infill.reports.smoothing import PlannedInput
@@ -42,14 +43,14 @@ def _plan_table(plan: SmoothPlan, files: list[str], name: str) -> str:
     """Return the plan as a table of text: grid, method, triangles, memory, time and files."""
     grid, request, facts = plan.grid, plan.request, plan.facts
     cells = " x ".join(map(str, grid.shape))
-    fidelity = "" if request.refined else f", fidelity {request.smoothing.fidelity:g}"
+    fidelity = "" if request.refined else f", fidelity {plain_number(request.smoothing.fidelity, 6)}"
     free_memory = available_memory()
     share = f"{plan.solid / grid.cells:.1%} of {grid.cells:,}"
     about_word = "" if facts["source"] == "volume" else "about "
     rows = {
         "input": _source_text(facts),
-        "grid": f"{cells} voxels of {' x '.join(f'{side:.4g}' for side in grid.cell_size)} mm",
-        "solid": f"{about_word}{plan.solid:,.0f} voxels, {share}, {plan.volume:.6g} mm³",
+        "grid": f"{cells} voxels of {' x '.join(plain_number(side, 4) for side in grid.cell_size)} mm",
+        "solid": f"{about_word}{plan.solid:,.0f} voxels, {share}, {plain_number(plan.volume, 6)} mm³",
         "method": f"{plan.ways[0]}: {request.smoothing.steps} steps{fidelity}",
         "triangles": f"about {plan.triangles:,}, before it is simplified",
         "memory": f"about {format_bytes(plan.memory)}"
@@ -71,19 +72,27 @@ def _source_text(facts: PlannedInput) -> str:
     """Describe the input, and the choice of its solid."""
     if facts["source"] == "points":
         return f"{facts['points']:,} points, " + (
-            "the solid inside them" if facts["shell"] is None else f"a wall of {facts['shell']:g} mm along them"
+            "the solid inside them"
+            if facts["shell"] is None
+            else f"a wall of {plain_number(facts['shell'], 6)} mm along them"
         )
     if facts["source"] == "mesh":
         return f"mesh of {facts['triangles']:,} triangles"
     segmentation = facts["segmentation"]
     bounds = [
-        f"{word} {value:g}"
+        f"{word} {plain_number(value, 6)}"
         for word, value in (("from", segmentation.get("low")), ("up to", segmentation.get("high")))
         if value is not None
     ]
     choice = [f"label {', '.join(map(str, segmentation['label']))}"] if "label" in segmentation else bounds
     low, high = segmentation["values"]
-    return " ".join([f"volume of values from {low:g} to {high:g}, solid by", segmentation["method"], *choice])
+    return " ".join(
+        [
+            f"volume of values from {plain_number(low, 6)} to {plain_number(high, 6)}, solid by",
+            segmentation["method"],
+            *choice,
+        ]
+    )
 
 
 def _format_span(seconds: float) -> str:
@@ -92,4 +101,4 @@ def _format_span(seconds: float) -> str:
     >>> _format_span(0.8432), _format_span(37.2), _format_span(412.0)
     ('0.84 s', '37 s', '6.9 minutes')
     """
-    return f"{seconds:.2g} s" if seconds < MINUTE else f"{seconds / MINUTE:.2g} minutes"
+    return f"{plain_number(seconds, 2)} s" if seconds < MINUTE else f"{plain_number(seconds / MINUTE, 2)} minutes"

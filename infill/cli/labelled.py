@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, BinaryIO
 import typer
 
 from infill.cli.console import format_bytes, format_table, print_json, print_log, progress_bar, say
+from infill.plain_numbers import plain_number
 
 if TYPE_CHECKING:
     from infill.reports.smoothing import LabelsReport
@@ -162,7 +163,8 @@ def _summary(result: Result[LabelStages, LabelsReport], files: Sequence[str], na
     for label in report["labels"][:MOST_ROWS]:
         part = label["report"]
         rows[f"{label['number']} {label['name']}"] = (
-            f"{part['triangles']:,} triangles, {part['volume']:.6g} mm³, {part['volume_change']:+.4%} of the data"
+            f"{part['triangles']:,} triangles, {plain_number(part['volume'], 6)} mm³, {part['volume_change']:+.4%} of "
+            "the data"
         )
     if len(report["labels"]) > MOST_ROWS:
         rows["…"] = f"and {len(report['labels']) - MOST_ROWS} more"

@@ -28,6 +28,7 @@ from infill.cli.console import format_bytes, format_table, print_json, print_log
 from infill.cli.declared import takes_options
 from infill.cli.foreseeing import show_smooth_plan
 from infill.cli.labelled import SmoothOutput, refuse_options, smooth_every_label, wants_every_label
+from infill.plain_numbers import count_noun, plain_number
 from infill.smoothing.settings import SmoothSettings, resolve
 
 if TYPE_CHECKING:
@@ -194,16 +195,16 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
 
     request, grid, level = report["request"], report["grid"], report["solid"]["level"]
     result, data = report["topology"]["result"], report["topology"]["data"]
-    size = " x ".join(f"{length:.4g}" for length in report["extents"])
+    size = " x ".join(plain_number(length, 4) for length in report["extents"])
     level_range = (
         f", {level['lowest']:.3f} to {level['highest']:.3f} for its components" if level["components"] > 1 else ""
     )
     refined_text = ", refined" if request["refine"] else ""
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, {size} mm",
-        "solid": f"{report['volume']:.6g} mm³, {report['volume_change']:+z.4%} of the data",
-        "smoothing": f"{request['steps']} steps{refined_text}, "
-        f"{' x '.join(map(str, grid['shape']))} voxels of {' x '.join(f'{h:.4g}' for h in grid['spacing'])} mm",
+        "solid": f"{plain_number(report['volume'], 6)} mm³, {report['volume_change']:+z.4%} of the data",
+        "smoothing": f"{request['steps']} steps{refined_text}, {' x '.join(map(str, grid['shape']))} voxels of "
+        f"{' x '.join(plain_number(h, 4) for h in grid['spacing'])} mm",
         "components": f"{result['components']} ({data['components']} in the data), {result['cavities']} cavities "
         f"({data['cavities']}), {result['tunnels']} tunnels ({data['tunnels']})",
     }
@@ -212,13 +213,14 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
     if verbose or not (isinstance(report, Sections) and report.pending("distance")):
         distance = report["distance"]
         rows["distance"] = (
-            f"{distance['result']['p95']:.3g} mm (95 %), {distance['result']['max']:.3g} mm at most, "
-            f"from the {distance['from']}; back {distance['input']['p95']:.3g} mm, {distance['input']['max']:.3g} mm"
+            f"{plain_number(distance['result']['p95'])} mm (95 %), {plain_number(distance['result']['max'])} mm at "
+            f"most, from the {distance['from']}; back {plain_number(distance['input']['p95'])} mm, "
+            f"{plain_number(distance['input']['max'])} mm"
         )
     if simplified := report["mesh"].get("simplified"):
         rows["simplified"] = (
-            f"from {simplified['triangles_before']:,} triangles, {simplified['distance']['max']:.3g} mm at most, "
-            f"volume {simplified['volume_change']:+z.4%} by that, {simplified['shells']} shell(s)"
+            f"from {simplified['triangles_before']:,} triangles, {plain_number(simplified['distance']['max'])} mm at "
+            f"most, volume {simplified['volume_change']:+z.4%} by that, {count_noun(simplified['shells'], 'shell')}"
         )
     verdict = report["verdict"]
     rows["verdict"] = "; ".join(
@@ -228,10 +230,10 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
         rows["tried"] = f"{', '.join(verdict['tried'])}: taken is {verdict['taken']}"
     if verbose:
         if not request["refine"]:
-            rows["fidelity"] = f"{request['fidelity']:g}"
+            rows["fidelity"] = f"{plain_number(request['fidelity'], 6)}"
         rows["level"] = f"{level['common']:.3f}{level_range}"
         thin = report["walls"]["thinnest"]
-        rows["thinnest wall"] = " -> ".join("none" if x is None else f"{x:.3g} mm" for x in thin.values())
+        rows["thinnest wall"] = " -> ".join("none" if x is None else f"{plain_number(x)} mm" for x in thin.values())
         rows["Euler number"] = f"{data['euler_number']} -> {result['euler_number']}"
         rows["seconds"] = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in report["seconds"].items())
     for path in files:

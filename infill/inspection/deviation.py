@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from infill.arrays import Floats
 from infill.meshes.distance import TriangleTree, morton_order
 from infill.meshes.measuring import face_areas
+from infill.plain_numbers import plain_argument, plain_number
 from infill.surface import Surface
 
 if TYPE_CHECKING:
@@ -127,13 +128,16 @@ class Deviation:
         ):
             if gap.max <= KEPT * self.cell:
                 continue
-            place = ", ".join(f"{x:.4g}" for x in gap.at)
+            place = ", ".join(plain_argument(x, 4) for x in gap.at)
             if patches:
                 number = f"{len(patches)} places, " if len(patches) > 1 else ""
                 area = sum(patch.area for patch in patches)
-                phrases.append(f"{number}{area:.3g} mm² {change}, up to {gap.max:.3g} mm away, at ({place})")
+                phrases.append(
+                    f"{number}{plain_number(area)} mm² {change}, up to {plain_argument(gap.max, 3)} mm away, at "
+                    f"({place})"
+                )
             else:
-                phrases.append(f"the surface moved by up to {gap.max:.3g} mm, at ({place})")
+                phrases.append(f"the surface moved by up to {plain_argument(gap.max, 3)} mm, at ({place})")
         return tuple(phrases)
 
 

@@ -18,6 +18,7 @@ from infill.meshes.distance import TriangleTree
 from infill.meshes.winding import is_solid_boundary
 from infill.pictures.render import AZIMUTH, ELEVATION, Colour, Window, directions, render
 from infill.pictures.sheet import BACKGROUND, PANEL, arrange_panels
+from infill.plain_numbers import plain_number
 from infill.surface import Surface
 
 FAR_VOXELS = 1.5  # voxels: points further away are marked
@@ -121,15 +122,21 @@ def draw_before_and_after(
     window = _square_window((given, result), view)
     pictures = [_draw_marked(marked, view, window) for marked in (lost, added)]
     panels = {caption: picture for caption, (picture, _) in zip(captions, pictures, strict=True)}
-    size = " x ".join(f"{length:.4g}" for length in report["extents"])
-    facts = f"{size} mm, volume {report['volume']:.6g} cubic mm ({report['volume_change']:+.4%})"
+    size = " x ".join(plain_number(length, 4) for length in report["extents"])
+    facts = f"{size} mm, volume {plain_number(report['volume'], 6)} cubic mm ({report['volume_change']:+.4%})"
     legend = [
-        (marked.colour, f"{float(f'{marked.area:.3g}'):,g} square mm {word}{'' if shown else ', not seen here'}")
+        (
+            marked.colour,
+            f"{plain_number(marked.area)} square mm {word}{'' if shown else ', not seen here'}",
+        )
         if marked.area
         else (None, f"nothing {word}")
         for marked, word, (_, shown) in zip((lost, added), ("lost", "added"), pictures, strict=True)
     ]
-    ends = f"{facts}; marked if more than {FAR_VOXELS * cell:.3g} mm ({FAR_VOXELS:g} voxels) apart"
+    ends = (
+        f"{facts}; marked if more than {plain_number(FAR_VOXELS * cell)} mm ({plain_number(FAR_VOXELS, 6)} voxels) "
+        "apart"
+    )
     return arrange_panels(panels, ends, [(None, f"{report['verdict']['word']}:"), *legend])
 
 

@@ -32,6 +32,7 @@ from infill.meshes.simplification import restore_volume, simplify_surface
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.refining import refine_bricks
 from infill.phasefield.sparse import smooth_bricks
+from infill.plain_numbers import plain_argument, plain_number
 from infill.reports.common import Topology, declare, mesh_keys, report_head, surface_keys
 from infill.reports.sections import with_late_sections
 from infill.reports.smoothing import Distance, SmoothReport, SolidChanges, SolidMesh, SolidSeconds
@@ -192,7 +193,9 @@ def _require_memory(data: Volume, request: SmoothRequest) -> None:
     allowed = available_memory() if request.max_memory is None else request.max_memory
     # Half as many voxels along each side leave an eighth of the cells of a surface that fills the volume, like noise.
     larger = float(data.cell_size.max()) * 1.1 * (needed / max(allowed or needed, 1)) ** (1 / 3)
-    require_memory(int(needed), request.max_memory, f"give --voxel {larger:.2g} or more, or --roi for a part of it")
+    require_memory(
+        int(needed), request.max_memory, f"give --voxel {plain_argument(larger, 2)} or more, or --roi for a part of it"
+    )
 
 
 def _remove_specks(data: Volume, request: SmoothRequest) -> tuple[Volume, int]:
@@ -206,8 +209,8 @@ def _remove_specks(data: Volume, request: SmoothRequest) -> tuple[Volume, int]:
     if small.all():
         raise ParameterError.about(
             "despeckle",
-            f"is {largest:g} mm³ and the largest component has "
-            f"{components.cells.max() * data.cell_volume:g} mm³; give less",
+            f"is {plain_number(largest, 6)} mm³ and the largest component has "
+            f"{plain_number(components.cells.max() * data.cell_volume, 6)} mm³; give less",
         )
     if not small.any():
         return data, 0
@@ -392,7 +395,8 @@ def _cleaning_remarks(crumbs: Crumbs, specks: int) -> list[str]:
     phrases = []
     if crumbs.count:
         phrases.append(
-            f"{crumbs.count} crumbs of up to {crumbs.limit:.3g} mm³ taken out, {crumbs.volume:.3g} mm³ in all"
+            f"{crumbs.count} crumbs of up to {plain_number(crumbs.limit)} mm³ taken out, {plain_number(crumbs.volume)} "
+            "mm³ in all"
         )
     if specks:
         phrases.append(f"{specks} specks taken out beforehand")

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from infill.inspection.deviation import COUNTS, HIDDEN, SHEET, THIN, Deviation, Kinds, Word, measure_deviation
 from infill.isosurfaces.components import data_bits, look_up_cells, open_by_blocks
 from infill.meshes.distance import distances
+from infill.plain_numbers import plain_number
 from infill.smoothing.stages import raw_surface
 from infill.surface import Surface
 from infill.voxels.noise import NOISY
@@ -168,9 +169,9 @@ def find_differences(
             if smooth_input.mesh_volumes is None
             else "slits narrower than a voxel are closed"
         )
-        remarks.append(f"{feature}, {deviation.thin:.3g} mm² of their faces")
+        remarks.append(f"{feature}, {plain_number(deviation.thin)} mm² of their faces")
     if deviation and deviation.sheet:
-        remarks.append(f"{deviation.sheet:.3g} mm² of faces that bound no solid are left out")
+        remarks.append(f"{plain_number(deviation.sheet)} mm² of faces that bound no solid are left out")
     if smooth_input.mesh_volumes is not None and smooth_input.topology is None:
         mesh_parts, result_parts = int((smooth_input.mesh_volumes.volumes > 0).sum()), topology.result.components
         if result_parts < mesh_parts:

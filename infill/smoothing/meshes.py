@@ -11,6 +11,7 @@ from infill.errors import ParameterError
 from infill.inspection.changes import ConnectionCounts
 from infill.machine import require_memory
 from infill.phasefield.schedule import MIN_STEPS
+from infill.plain_numbers import plain_argument
 from infill.reports.common import declare
 from infill.reports.smoothing import RepairKeys
 from infill.smoothing.request import AUTO, MeshOnGrid, Method, SmoothInput, SmoothRequest, Way
@@ -120,9 +121,9 @@ def _hint_at_filters(surface: Surface, voxelised: VoxelisedMesh) -> None:
     if edge_length >= DENSE * cell_size or voxelised.several or voxelised.repairs.holes:
         return
     LOG.info(
-        "hint: the mesh is closed, and its edges (%.3g mm in the mean) are short for voxels of %.3g mm; if it is a "
-        "noisy scan, a filter of the mesh itself, such as Taubin's or Humphrey's in trimesh, keeps its triangles and "
-        "may be nearer",
-        edge_length,
-        cell_size,
+        "hint: the mesh is closed, and its edges (%s mm in the mean) are short for voxels of %s mm; if it is a noisy "
+        "scan, a filter of the mesh itself, such as Taubin's or Humphrey's in trimesh, keeps its triangles and may "
+        "be nearer",
+        plain_argument(edge_length, 3),
+        plain_argument(cell_size, 3),
     )

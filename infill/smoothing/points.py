@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from infill.errors import GeometryError, ParameterError
 from infill.inspection.deviation import LOST
 from infill.meshes.distance import distances
+from infill.plain_numbers import plain_argument, plain_place
 from infill.smoothing.comparing import summarise_distances
 from infill.smoothing.meshes import MARGIN
 from infill.smoothing.request import SmoothRequest, Way
@@ -126,8 +127,8 @@ def compare_with_points(
         lost = (distance[neighbours] > LOST * voxel).all(axis=1)
         facts["lost"] = int(lost.sum())
         phrase = (
-            f"{len(far_points):,} of {len(cloud):,} points lie over {LOST:g} voxels from the surface, up to "
-            f"{facts['max']:.3g} mm, at ({', '.join(f'{part:.4g}' for part in facts['at'])})"
+            f"{len(far_points):,} of {len(cloud):,} points lie over {plain_argument(LOST)} voxels from the surface, up "
+            f"to {plain_argument(facts['max'], 3)} mm, at {plain_place(facts['at'])}"
         )
         if lost.any() and not request.allow_broken:
             raise GeometryError(

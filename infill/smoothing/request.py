@@ -10,6 +10,7 @@ from infill.checks import check_positive, check_range
 from infill.errors import ParameterError, UsageError
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.schedule import MIN_STEPS, SNAPSHOT_QUARTERS
+from infill.plain_numbers import plain_argument
 
 if TYPE_CHECKING:
     from infill.inspection.changes import ConnectionCounts
@@ -133,8 +134,9 @@ class SmoothRequest:
             if steps > MOST_STEPS:
                 raise ParameterError.about(
                     "radius",
-                    f"is {self.radius:g} mm, {self.radius / cell:.3g} voxels, which would take {steps} "
-                    f"steps; give at most {cell * math.sqrt(MOST_STEPS / STEPS_PER_VARIANCE):.3g} mm, or larger voxels",
+                    f"is {plain_argument(self.radius)} mm, {plain_argument(self.radius / cell, 3)} voxels, which "
+                    f"would take {steps} steps; give at most "
+                    f"{plain_argument(cell * math.sqrt(MOST_STEPS / STEPS_PER_VARIANCE), 3)} mm, or larger voxels",
                 )
             smoothing = replace(smoothing, steps=steps)
         if isinstance(tolerance, str):

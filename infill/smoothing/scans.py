@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from infill.errors import ParameterError
 from infill.phasefield.schedule import MIN_STEPS
+from infill.plain_numbers import plain_argument
 from infill.smoothing.request import AUTO, SmoothInput, SmoothRequest, Way
 from infill.smoothing.stages import surface_of_data
 from infill.volume import Volume
@@ -59,7 +60,7 @@ def volume_ways(
             solid = replace(scan, values=np.asarray(scan.values) > 0)
         if not np.asarray(solid.values).any():
             raise ParameterError.about(
-                "voxel", f"is {voxel:g} mm, and nothing of the solid fills half of one; give less"
+                "voxel", f"is {plain_argument(voxel)} mm, and nothing of the solid fills half of one; give less"
             )
     facts: InputKeys = {
         "source": "volume",
