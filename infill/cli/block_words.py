@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from infill.cli.console import format_bytes, format_table, print_json
+from infill.plain_numbers import count_noun
 
 if TYPE_CHECKING:
     from infill.reports.making import LatticePlan, LatticeReport, LatticeRequest
@@ -30,18 +31,16 @@ def show_lattice_plan(plan: LatticePlan, *, as_json: bool) -> None:
 def lattice_summary(report: LatticeReport, files: list[str], *, verbose: bool) -> str:
     """Format the report of a block as a short table for stderr."""
     request, infill = report["request"], report["infill"]
-    pieces = report["components"]
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, "
-        f"{pieces:,} {'piece' if pieces == 1 else 'pieces'}",
+        f"{count_noun(report['components'], 'piece')}",
         "solid": f"{report['volume']:.1f} mm³, {report['density']:.1%} of the block",
         "infill": f"cells of {infill['cell']:.4g} mm, lines of {infill['line_width']:.3g} mm",
     }
     if request["frame"]:
         rows["frame"] = f"{request['frame']:.3g} mm wide; {infill['density']:.1%} inside it is solid"
     if infill["crumbs"]:
-        count = infill["crumbs"]
-        rows["left out"] = f"{count:,} loose {'piece' if count == 1 else 'pieces'}, cut off the pattern by the sides"
+        rows["left out"] = f"{count_noun(infill['crumbs'], 'loose piece')}, cut off the pattern by the sides"
     if report["problems"]:
         rows["PROBLEMS"] = "; ".join(report["problems"])
     if verbose:

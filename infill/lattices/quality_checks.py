@@ -266,8 +266,8 @@ def find_problems(
         )
     elif request.form != "project" and facts.width < HAIRLINE:
         yield (
-            f"walls or bars inside are {plain_argument(facts.width, 2)} mm wide, thinner than most printers make; give a larger cell, "
-            "a line width or a higher density"
+            f"walls or bars inside are {plain_argument(facts.width, 2)} mm wide, thinner than most printers make; "
+            "give a larger cell, a line width or a higher density"
         )
     yield from size_problems(request, hollow)
     if request.form == "project" and facts.width < THINNEST:
