@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -58,6 +58,23 @@ class Edges:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Modifier:
+    """A volume of a slicer's project in which another infill density is set.
+
+    Parameters
+    ----------
+    name : str
+    surface : Surface, mm
+    density : float
+        The share that the slicer fills, 0 to 1.
+    """
+
+    name: str
+    surface: Surface
+    density: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class Surface:
     """Triangles as plain arrays, so that writing a file needs no mesh library.
 
@@ -69,12 +86,15 @@ class Surface:
         Name of the coordinate system, if it has one: "LPS" for medical images.
     notes : tuple of str
         Remarks of the reader on changes and omissions, a phrase each.
+    modifiers : tuple of Modifier
+        Volumes of a slicer's project that are no part of the surface; later ones lie over earlier ones.
     """
 
     vertices: NDArray[np.floating]
     faces: NDArray[np.integer]
     space: str = ""
     notes: tuple[str, ...] = ()
+    modifiers: tuple[Modifier, ...] = ()
 
     @cached_property
     def closed(self) -> bool:
@@ -149,6 +169,11 @@ class Surface:
         if self.knows_closed:
             copy.__dict__["closed"] = self.closed
         return copy
+
+    def scaled(self, times: float) -> Surface:
+        """Return the surface and its modifiers, several times as large."""
+        modifiers = tuple(replace(each, surface=each.surface.scaled(times)) for each in self.modifiers)
+        return replace(self, vertices=self.vertices * times, modifiers=modifiers)
 
     def to_trimesh(self) -> trimesh.Trimesh:
         """Return the same mesh as a trimesh.Trimesh; vertices are neither merged nor reordered."""

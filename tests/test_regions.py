@@ -10,13 +10,29 @@ import numpy as np
 import pytest
 import trimesh
 from made_shapes import box
+from test_3mf_parts import (
+    BAMBU,
+    COLUMN,
+    PART,
+    PRUSA,
+    by_ranges,
+    component,
+    group,
+    model,
+    packed,
+    prusa_config,
+    thing,
+    volume,
+)
 from test_command_line import one_line_error, run
 
-from infill import GeometryError, InfillError, Region, UsageError, fill, save
+from infill import GeometryError, InfillError, Region, UsageError, fill, read_mesh, save
 from infill.errors import FormatError
+from infill.lattices.modifiers import add_modifiers
 from infill.lattices.request import check_request
 from infill.lattices.settings import resolve
 from infill.meshes.solids import to_manifold
+from infill.smoothing.sources import read_source
 from infill.voxels.scanlines import fill_rows, intersect_rows
 
 pytestmark = pytest.mark.usefixtures("compiled")
@@ -219,3 +235,83 @@ def test_rows_of_a_grid_leave_out_what_lies_beyond_it() -> None:
     large = fill_rows(intersect_rows(corners + 6, ball.faces, (22, 22, 22)), (22, 22, 22))
     assert 0 < small.sum() < small.size
     assert np.array_equal(small, large[6:15, 6:14, 6:13])
+
+
+def bambu(path: Path, density: str) -> Path:
+    """A modifier as Bambu Studio writes it: a component of the type "other"."""
+    rows = f'<metadata key="name" value="boss"/><metadata key="sparse_infill_density" value="{density}"/>'
+    parts = f'<part id="1" subtype="normal_part"/><part id="2" subtype="modifier_part">{rows}</part>'
+    things = thing(1, PART) + thing(2, COLUMN, kind="other") + group(3, component(1), component(2))
+    item = '<item objectid="3" transform="1 0 0 0 1 0 0 0 1 100 0 0"/>'
+    return packed(path, model(things, item), **{BAMBU: f'<config><object id="3">{parts}</object></config>'})
+
+
+def cura(path: Path, density: str) -> Path:
+    rows = {"infill_mesh": "True", "infill_sparse_density": density}
+    told = "".join(f'<metadata name="c:{key}">{value}</metadata>' for key, value in rows.items())
+    things = thing(1, PART) + thing(2, COLUMN, inner=f"<metadatagroup>{told}</metadatagroup>")
+    space = 'xmlns:c="http://software.ultimaker.com/xml/cura/3mf/2015/10"'
+    item = '<item objectid="3" transform="1 0 0 0 1 0 0 0 1 100 0 0"/>'
+    return packed(path, model(things + group(3, component(1), component(2)), item, more=space))
+
+
+def prusa(path: Path, density: str) -> Path:
+    told = prusa_config(
+        volume(0, 11, volume_type="ModelPart"),
+        volume(12, 23, volume_type="ParameterModifier", name="boss", fill_density=density),
+    )
+    item = '<item objectid="1" transform="1 0 0 0 1 0 0 0 1 100 0 0"/>'
+    return packed(path, model(thing(1, PART, COLUMN), item), **{PRUSA: told})
+
+
+SLICERS = {"prusa": prusa, "bambu": bambu, "cura": cura}
+
+
+@pytest.mark.parametrize("slicer", SLICERS)
+def test_a_modifier_of_a_slicer_is_a_region_where_its_project_places_it(slicer: str, tmp_path: Path) -> None:
+    """Below the regions that were asked for; its note says so, and a unit moves it with the part."""
+    path = SLICERS[slicer](tmp_path / "project.3mf", "60%" if slicer != "cura" else "60")
+    part = read_mesh(path)
+    assert len(part.faces) == 12
+    assert "is a modifier with 60 % infill, not a part: only 'infill fill' uses it" in part.notes[0]
+    asked = check_request(pattern="gyroid", own={}, density=0.2, regions=["z=0..2:density=30%"])
+    _, request = add_modifiers(part, asked)
+    assert [region.density for region in request.regions] == [0.6, 0.3]
+    assert request.regions[0].low.tolist() == [110, 5, -5]
+    assert request.regions[0].high.tolist() == [120, 15, 40]
+    assert request.facts()["region"] == ["z=0..2:density=30%"]
+    assert read_source(path, units="cm").modifiers[0].surface.bounds[0].tolist() == [1100, 50, -50]
+
+
+@pytest.mark.longest
+def test_a_project_is_filled_with_the_density_of_its_modifier(tmp_path: Path) -> None:
+    result = fill(read_mesh(prusa(tmp_path / "project.3mf", "60%")), density=0.2, **COARSE)
+    rest, region = result.report["regions"]
+    assert "volume 'boss'" in region["place"]
+    assert [rest["density"], region["density"]] == pytest.approx([0.2, 0.6], abs=HALF_A_POINT)
+    assert share_in(result, (110, 5, 1), (120, 15, 9)) == pytest.approx(0.6, abs=2 * HALF_A_POINT)
+    assert result.report["problems"] == []
+
+
+@pytest.mark.parametrize(
+    ("density", "given", "says"),
+    [
+        ("100%", {}, "regions have a density of 1% to 90%"),
+        ("0%", {}, "regions have a density of 1% to 90%"),
+        ("60%", {"density": (0.1, 0.3)}, "the density is not one number"),
+        ("60%", {"cell": 5.0, "line_width": 0.5}, "the density is not one number"),
+    ],
+)
+def test_a_modifier_that_can_be_no_region_is_left_out_with_a_note(
+    density: str, given: dict[str, Any], says: str, tmp_path: Path
+) -> None:
+    part = read_mesh(prusa(tmp_path / "project.3mf", density))
+    noted, request = add_modifiers(part, check_request(**{"pattern": "gyroid", "own": {}, **given}))
+    assert request.regions == ()
+    assert noted.notes[-1].endswith(f"is left out, as {says}")
+
+
+def test_a_modifier_without_a_density_is_no_region(tmp_path: Path) -> None:
+    part = read_mesh(by_ranges(tmp_path / "project.3mf", volume_type="ParameterModifier", layer_height="0.1"))
+    assert part.modifiers == ()
+    assert part.notes[0].endswith("is a modifier, not a part: it is left out")

@@ -26,7 +26,7 @@ from infill.formats.threemf import write_3mf, write_3mf_parts
 from infill.formats.threemf_reading import read_3mf
 from infill.meshes.merging import merge_unless_closed, surface_of
 from infill.plain_numbers import plain_number
-from infill.surface import Surface
+from infill.surface import Modifier, Surface
 
 if TYPE_CHECKING:
     import trimesh
@@ -107,7 +107,8 @@ def read_mesh(path: str | os.PathLike[str]) -> Surface:
     Returns
     -------
     Surface
-        With `notes` on omitted parts of a 3MF, such as the modifiers of a slicer.
+        With `notes` on omitted parts of a 3MF, such as the modifiers of a slicer, and `modifiers` that have an infill
+        density.
 
     Raises
     ------
@@ -128,6 +129,7 @@ def read_mesh(path: str | os.PathLike[str]) -> Surface:
     try:
         with wrap_reader_errors(source, "is broken", "export the mesh again"):
             vertices, faces, *extra = READERS[source.suffix.lower()](source)
+            notes, modifiers = (*extra, (), ())[:2]
     except OSError as error:
         raise FormatError(f"cannot read {source}: {error.strerror or error}; check the file") from error
     if len(faces) == 0:
@@ -143,10 +145,9 @@ def read_mesh(path: str | os.PathLike[str]) -> Surface:
     if faces.min() < 0 or faces.max() >= len(vertices):
         raise FormatError(f"{source} has triangles with corners that do not exist; export the mesh again")
     mesh = merge_unless_closed(vertices, faces)
-    notes = tuple(extra[0]) if extra else ()
     for note in notes:
         LOG.warning("%s: %s", source, note)
-    return replace(mesh, notes=notes) if notes else mesh
+    return replace(mesh, notes=tuple(notes), modifiers=tuple(modifiers)) if notes else mesh
 
 
 WRITERS: dict[str, Callable[[Surface, BinaryIO], None]] = {
@@ -160,9 +161,11 @@ PART_WRITERS: dict[str, Callable[[Sequence[Part], BinaryIO], None]] = {
     ".3mf": write_3mf_parts,
     ".glb": write_glb_parts,
 }
-# Vertices and faces; some readers add notes.
+# Vertices and faces; some readers add notes, and that of 3MF modifiers.
 MeshArrays = (
-    tuple[NDArray[np.floating], NDArray[np.integer]] | tuple[NDArray[np.floating], NDArray[np.integer], tuple[str, ...]]
+    tuple[NDArray[np.floating], NDArray[np.integer]]
+    | tuple[NDArray[np.floating], NDArray[np.integer], tuple[str, ...]]
+    | tuple[NDArray[np.floating], NDArray[np.integer], tuple[str, ...], tuple[Modifier, ...]]
 )
 READERS: dict[str, Callable[[Path], MeshArrays]] = {
     ".stl": read_stl,

@@ -30,11 +30,14 @@ from infill.formats.threemf_package import (
 )
 from infill.formats.threemf_roles import (
     BAMBU_CONFIG,
+    MODIFIER,
     NEGATIVE,
     PART,
     TriangleRange,
     bambu_parts,
     cura_role,
+    cura_settings,
+    infill_density,
     is_part_type,
     is_unprinted,
     object_key,
@@ -45,7 +48,7 @@ from infill.formats.threemf_roles import (
 from infill.meshes.merging import merge_unless_closed
 from infill.meshes.solids import subtract
 from infill.plain_numbers import count_noun, plain_number
-from infill.surface import Surface
+from infill.surface import Modifier, Surface
 
 UNITS = {"micron": 1e-3, "millimeter": 1.0, "centimeter": 10.0, "inch": 25.4, "foot": 304.8, "meter": 1000.0}
 IDENTITY = "1 0 0 0 1 0 0 0 1 0 0 0"
@@ -83,11 +86,12 @@ class PlacedVolume:
 
 @dataclass(kw_only=True, eq=False)
 class _Reading:
-    """A package that is read: its models, each parsed when first needed, and the notes."""
+    """A package that is read: its models, each parsed when first needed, the notes, and the modifiers it places."""
 
     path: Path
     package: zipfile.ZipFile
     notes: dict[str, None] = field(default_factory=dict)
+    modifiers: list[Modifier] = field(default_factory=list)
     models: dict[str, Model] = field(default_factory=dict)
     objects: dict[str, dict[str, ElementTree.Element]] = field(default_factory=dict)
     placements: int = 0
@@ -141,20 +145,21 @@ class _Reading:
         return volumes
 
     @cached_property
-    def bambu(self) -> dict[str, dict[str, tuple[str, str]]]:
+    def bambu(self) -> dict[str, dict[str, tuple[str, str, float | None]]]:
         """Roles of parts by object in the settings of Bambu Studio and OrcaSlicer."""
         if part_key(BAMBU_CONFIG) not in self.parts:
             return {}
         with wrap_reader_errors(self.path, f"has a broken {BAMBU_CONFIG}", EXPORT_ADVICE):
             return bambu_parts(parse_xml(read_entry(self.package, BAMBU_CONFIG), self.path))
 
-    def told_role(self, chain: tuple[Key, ...]) -> tuple[str, str]:
-        """Return role and name of an object in the build by Bambu Studio and OrcaSlicer.
+    def told_role(self, chain: tuple[Key, ...]) -> tuple[str, str, float | None]:
+        """Return role, name and infill density of an object in the build by Bambu Studio and OrcaSlicer.
 
         They write every object except parts with the type "other", so for a negative volume the role counts.
         """
         (top_part, top), (_, number) = chain[0], chain[-1]
-        return self.bambu.get(top, {}).get(number, (PART, "")) if top_part == self.main else (PART, "")
+        is_part = PART, "", None
+        return self.bambu.get(top, {}).get(number, is_part) if top_part == self.main else is_part
 
     def note(self, text: str) -> None:
         """Add a note, once."""
@@ -184,11 +189,16 @@ class _Reading:
             self.note(f"{excerpt(part)} is in {excerpt(model_unit)}, and read in {build_unit}, as what is built says")
         if (element_name := element.get("name")) and excerpt(element_name):
             name = f"{name} '{excerpt(element_name)}'"
-        if not is_part_type(element.get("type")) and self.told_role(chain)[0] != NEGATIVE:
+        told, _, told_density = self.told_role(chain)
+        is_modifier = told == MODIFIER and told_density is not None
+        if not is_part_type(element.get("type")) and told != NEGATIVE and not is_modifier:
             self.note(f"{name} is of type '{excerpt(element.get('type', ''))}', not a part: it is left out")
             return
-        if (role := cura_role(settings_of(element, model.core, model.spaces))) != PART:
-            self.note(f"{name} is a {role}, not a part: it is left out")
+        settings = settings_of(element, model.core, model.spaces)
+        if (role := cura_role(settings)) != PART:
+            mesh = (model.mesh_of(element) or (None, None))[1]
+            surface = None if mesh is None or mesh.fault else self._place(mesh.vertices, mesh.faces, outer)
+            self._leave_out(name, role, infill_density(cura_settings(settings)), surface)
             return
         self._note_extensions(model, element, name)
         if model.mesh_of(element) is not None:
@@ -207,21 +217,20 @@ class _Reading:
         if mesh.fault:
             raise FormatError(f"{self.path} has {mesh.fault}; {EXPORT_ADVICE}")
         self._count_rows(len(mesh.faces) + len(mesh.vertices))
-        role, role_name = self.told_role(chain)
+        role, role_name, density = self.told_role(chain)
         if role_name and excerpt(role_name):
             name = f"object {excerpt(number)} '{excerpt(role_name)}'"
+        placed = self._place(mesh.vertices, mesh.faces, outer)
         if role not in (PART, NEGATIVE):
-            self.note(f"{name} is a {role}, not a part: it is left out")
+            self._leave_out(name, role, density, placed)
             return
-        vertices = mesh.vertices @ outer[:3] + outer[3]
-        # A mirrored part would face inwards: its corners are taken in reverse order.
-        faces = mesh.faces[:, :: -1 if np.linalg.det(outer[:3]) < 0 else 1]
+        vertices, faces = placed.vertices, placed.faces
         ranges = [] if part != self.main and self.find(self.main, number) is not None else self.prusa.get(number, [])
         ranges = ranges or slic3r_volumes(element)
         scope = 0 if role == NEGATIVE or not ranges else self.placements
         if role == NEGATIVE or not ranges:
             if len(faces):
-                yield PlacedVolume(surface=Surface(vertices=vertices, faces=faces), role=role, name=name, scope=scope)
+                yield PlacedVolume(surface=placed, role=role, name=name, scope=scope)
             return
         covered = np.zeros(len(faces), dtype=bool)
         for volume in ranges:
@@ -235,14 +244,28 @@ class _Reading:
             self._count_rows(triangle_range[1] - triangle_range[0])
             label = f"volume '{excerpt(volume.name)}'" if excerpt(volume.name) else "a volume"
             label = f"{label} of {name}"
+            vertex_indices, corners = np.unique(faces[slice(*triangle_range)], return_inverse=True)
+            surface = Surface(vertices=vertices[vertex_indices], faces=corners.reshape(-1, 3))
             if volume.role in (PART, NEGATIVE):
-                vertex_indices, corners = np.unique(faces[slice(*triangle_range)], return_inverse=True)
-                surface = Surface(vertices=vertices[vertex_indices], faces=corners.reshape(-1, 3))
                 yield PlacedVolume(surface=surface, role=volume.role, name=label, scope=scope)
             else:
-                self.note(f"{label} is a {volume.role}, not a part: it is left out")
+                self._leave_out(label, volume.role, volume.density, surface)
         if not covered.all():
             self.note(f"left out {count_noun(int((~covered).sum()), 'triangle')} of {name} that no volume of it covers")
+
+    def _place(self, vertices: NDArray[np.floating], faces: NDArray[np.integer], outer: Transform) -> Surface:
+        """Return a mesh where a transform places it."""
+        # A mirrored part would face inwards: its corners are taken in reverse order.
+        outwards = faces[:, :: -1 if np.linalg.det(outer[:3]) < 0 else 1]
+        return Surface(vertices=vertices @ outer[:3] + outer[3], faces=outwards)
+
+    def _leave_out(self, name: str, role: str, density: float | None, surface: Surface | None) -> None:
+        """Note a volume that is no part; keep a modifier that has an infill density."""
+        if role != MODIFIER or density is None or surface is None or not len(surface.faces):
+            self.note(f"{name} is a {role}, not a part: it is left out")
+            return
+        self.note(f"{name} is a modifier with {100 * density:g} % infill, not a part: only 'infill fill' uses it")
+        self.modifiers.append(Modifier(name=name, surface=surface, density=density))
 
     def _count_rows(self, rows: int) -> None:
         """Count triangles and vertices that are placed, or raise FormatError."""
@@ -299,11 +322,13 @@ class _Reading:
                 self.note(f"{volume.name} is a negative volume: {outcome}")
 
 
-def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer], tuple[str, ...]]:
+def read_3mf(
+    path: Path,
+) -> tuple[NDArray[np.floating], NDArray[np.integer], tuple[str, ...], tuple[Modifier, ...]]:
     """Read the parts that a 3MF builds, where their components and transforms place them.
 
     Modifiers, blockers and enforcers of supports, objects of types other than "model", and items that are not to be
-    printed are left out; negative volumes are taken off.
+    printed are left out; negative volumes are taken off. Modifiers with an infill density are returned apart.
 
     Parameters
     ----------
@@ -315,6 +340,7 @@ def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer], tup
     faces : (F, 3) int
     notes : tuple of str
         Omissions and subtracted volumes.
+    modifiers : tuple of Modifier
 
     Raises
     ------
@@ -346,11 +372,15 @@ def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer], tup
                 raise FormatError(
                     f"{path} holds no part: {'; '.join(notes[:3])}; make it a part in the slicer, or export an STL"
                 )
-            return np.empty((0, 3)), np.empty((0, 3), dtype=np.int64), ()
+            return np.empty((0, 3)), np.empty((0, 3), dtype=np.int64), (), ()
         starts = np.cumsum([0, *(len(surface.vertices) for surface in surfaces[:-1])])
         vertices = np.concatenate([surface.vertices for surface in surfaces]) * UNITS[unit]
         faces = np.concatenate([surface.faces + start for surface, start in zip(surfaces, starts, strict=True)])
-    return vertices, faces, notes
+        modifiers = tuple(
+            replace(each, surface=merge_unless_closed(each.surface.vertices, each.surface.faces).scaled(UNITS[unit]))
+            for each in reading.modifiers
+        )
+    return vertices, faces, notes, modifiers
 
 
 def _outward(surface: Surface) -> Surface:

@@ -8,34 +8,37 @@ Cura                         settings of objects
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from xml.etree import ElementTree
 
-PART, NEGATIVE = "part", "negative"
+PART, NEGATIVE, MODIFIER = "part", "negative", "modifier"
 PRUSA_CONFIG, BAMBU_CONFIG = "Metadata/Slic3r_PE_model.config", "Metadata/model_settings.config"
 PRUSA_ROLES = {
     "ModelPart": PART,
-    "ParameterModifier": "modifier",
+    "ParameterModifier": MODIFIER,
     "NegativeVolume": NEGATIVE,
     "SupportEnforcer": "support enforcer",
     "SupportBlocker": "support blocker",
 }
 BAMBU_ROLES = {
     "normal_part": PART,
-    "modifier_part": "modifier",
+    "modifier_part": MODIFIER,
     "negative_part": NEGATIVE,
     "support_enforcer": "support enforcer",
     "support_blocker": "support blocker",
 }
 CURA_ROLES = {
-    "infill_mesh": "modifier",
+    "infill_mesh": MODIFIER,
     "cutting_mesh": "cutting mesh",
     "support_mesh": "support",
     "anti_overhang_mesh": "support blocker",
 }
 CURA_NAMESPACE = "http://software.ultimaker.com/xml/cura/3mf/2015/10"
 LONGEST_ID = 18  # digits of a number of an object
+DENSITIES = ("fill_density", "sparse_infill_density", "infill_sparse_density")  # of PrusaSlicer, Bambu Studio and Cura
+PERCENT = re.compile(r"\s*(\d{1,3}(?:\.\d+)?)\s*%?\s*")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,12 +51,15 @@ class TriangleRange:
         As in the file: counted from 0, both inclusive.
     role : str
     name : str
+    density : float or None
+        Infill density, 0 to 1, if the volume has one of its own.
     """
 
     first: str
     last: str
     role: str
     name: str
+    density: float | None = None
 
     def span(self, count: int) -> tuple[int, int] | None:
         """Return the first triangle and the one behind the last; None if a mesh with `count` triangles lacks them.
@@ -91,6 +97,16 @@ def metadata_of(element: ElementTree.Element) -> dict[str, str]:
     return {entry.get("key", ""): entry.get("value", "") for entry in element.findall("metadata")}
 
 
+def infill_density(settings: Mapping[str, str]) -> float | None:
+    """Return the infill density among settings by key, 0 to 1; None without one that can be read.
+
+    >>> infill_density({"fill_density": "60%"}), infill_density({"infill_sparse_density": "25"}), infill_density({})
+    (0.6, 0.25, None)
+    """
+    found = next((match for key in DENSITIES if (match := PERCENT.fullmatch(settings.get(key, "")))), None)
+    return None if found is None or float(found[1]) > 100 else float(found[1]) / 100
+
+
 def prusa_role(volume: ElementTree.Element) -> str:
     """Return this package's role of a PrusaSlicer volume: the last row with a role counts; otherwise a part.
 
@@ -120,6 +136,7 @@ def prusa_volumes(config: ElementTree.Element) -> dict[str, list[TriangleRange]]
                 last=volume.get("lastid", ""),
                 role=prusa_role(volume),
                 name=metadata_of(volume).get("name", ""),
+                density=infill_density(metadata_of(volume)),
             )
             for volume in item.findall("volume")
         ]
@@ -142,13 +159,14 @@ def slic3r_volumes(mesh: ElementTree.Element) -> list[TriangleRange]:
     ]
 
 
-def bambu_parts(config: ElementTree.Element) -> dict[str, dict[str, tuple[str, str]]]:
-    """Return role and name of the parts of the build, by object and part number."""
+def bambu_parts(config: ElementTree.Element) -> dict[str, dict[str, tuple[str, str, float | None]]]:
+    """Return role, name and infill density of the parts of the build, by object and part number."""
     return {
         object_key(item.get("id")): {
             object_key(part.get("id")): (
                 BAMBU_ROLES.get(part.get("subtype", "normal_part"), PART),
                 metadata_of(part).get("name", ""),
+                infill_density(metadata_of(part)),
             )
             for part in item.findall("part")
         }
@@ -158,10 +176,18 @@ def bambu_parts(config: ElementTree.Element) -> dict[str, dict[str, tuple[str, s
 
 def cura_role(settings: Mapping[str, str]) -> str:
     """Return the role of an object by its settings, whose names are {namespace}key or prefix:key."""
-    for key, role in CURA_ROLES.items():
-        if settings.get(f"{{{CURA_NAMESPACE}}}{key}", settings.get(f"cura:{key}")) == "True":
-            return role
-    return PART
+    own = cura_settings(settings)
+    return next((role for key, role in CURA_ROLES.items() if own.get(key) == "True"), PART)
+
+
+def cura_settings(settings: Mapping[str, str]) -> dict[str, str]:
+    """Return the settings of Cura among those of an object, by key."""
+    own = {name.removeprefix("cura:"): value for name, value in settings.items() if name.startswith("cura:")}
+    namespace = f"{{{CURA_NAMESPACE}}}"
+    return {
+        **own,
+        **{name.removeprefix(namespace): value for name, value in settings.items() if name.startswith(namespace)},
+    }
 
 
 def settings_of(element: ElementTree.Element, core: str, spaces: Mapping[str, str]) -> dict[str, str]:

@@ -20,6 +20,7 @@ from infill.lattices.bodies import Fields
 from infill.lattices.drain_holes import DrainedSolid, check_drain_width, drill_drains
 from infill.lattices.groups import Graded, Meshing, Shell, add_grading, add_group
 from infill.lattices.hollowing import make_void_meshes
+from infill.lattices.modifiers import add_modifiers
 from infill.lattices.projected import ProjectInfill, make_project_infill
 from infill.lattices.quality_checks import SolidMeasures, find_problems, measure_solid
 from infill.lattices.regions import Region
@@ -215,6 +216,7 @@ def fill_request(
     progress: Progress | None = None,
 ) -> Result[FillStages, FillReport]:
     """Fill a part as a request says: see `fill`."""
+    part, request = add_modifiers(part, request)
     check_drain_width(request, part.bounds)
     task = FillTask.of(part, request, clock=Clock(progress), threads=threads, max_memory=max_memory)
     project = make_project_infill(task) if request.form == "project" else None
@@ -333,6 +335,7 @@ def _inner_surface(task: FillTask, space: Interior) -> Surface:
 
 def plan_fill(part: Surface, request: FillSpec, *, threads: int | None = None) -> FillForecast:
     """Return the report of a dry run."""
+    part, request = add_modifiers(part, request)
     task = FillTask.of(part, request, threads=threads)
     request, (cell, width) = task.request, choose_sizes(task)
     voxel = choose_voxel(task, cell, width)

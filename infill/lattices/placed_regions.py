@@ -6,7 +6,7 @@ box around a node, the width is a mean, so it changes within one step between no
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -134,6 +134,10 @@ class RegionDensities:
             if not ((region.low < bounds[1]) & (region.high > bounds[0])).all():
                 raise _miss(region, "lies outside the part", bounds)
 
+    def with_modifiers(self, regions: Sequence[PlacedRegion]) -> RegionDensities:
+        """Return the same with other regions below these."""
+        return replace(self, regions=(*regions, *self.regions))
+
     def over(self, space: Interior, widths: Callable[[float], float]) -> LocalWidths:
         """Return the widths of walls in a space; `widths` gives the width for a density, in cells of the pattern.
 
@@ -150,7 +154,7 @@ class RegionDensities:
         covers = []
         for region in self.regions:
             cover = region.cover(space, counts, step=step)
-            if not cover[within].any():
+            if region.is_requested and not cover[within].any():
                 raise _miss(region, "holds nothing of the space inside the walls", np.asarray(space.part.bounds))
             covers.append(cover)
         wide = np.array([widths(density) for density in self.densities]) / widths(self.base)

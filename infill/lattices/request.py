@@ -175,6 +175,13 @@ class FillSpec:
         return self.density if self.grading is None else self.grading.lowest
 
     @property
+    def can_have_regions(self) -> bool:
+        """True if the density is one number, which regions may change."""
+        return (
+            self.density is not None and not isinstance(self.grading, Grading) and not isinstance(self.kind, Lightning)
+        )
+
+    @property
     def regions(self) -> tuple[PlacedRegion, ...]:
         """Regions with a density of their own."""
         return self.grading.regions if isinstance(self.grading, RegionDensities) else ()

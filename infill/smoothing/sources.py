@@ -130,7 +130,7 @@ def read_source(
     mesh = read_mesh(source)
     stated = STATED_UNITS.get(source.suffix.lower())
     if stated is not None:
-        return replace(mesh, vertices=mesh.vertices * (UNITS[units] / stated)) if units else mesh
+        return mesh.scaled(UNITS[units] / stated) if units else mesh
     return replace(mesh, vertices=mesh.vertices * _unit_in_mm(source, mesh.vertices, units))
 
 
