@@ -21,7 +21,7 @@ from benchmarks.slicer_judge import ROLE, windows
 from infill import refill
 from infill.errors import InfillError
 from infill.paths.families.catalogue import FAMILIES
-from infill.planner.printing_time import motion
+from infill.timing.printing_time import motion
 from tests.gcode_judge import lines_of, replayed
 from tests.gcode_structure import layers_of, samples
 from tests.prints import prusa_print

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from infill.planner.printing_time import motion
+from infill.timing.printing_time import motion
 from tests.gcode_judge import replayed
 from tests.gcode_structure import held_up, touched
 

@@ -40,7 +40,6 @@ if TYPE_CHECKING:
     from infill.making.block import make
     from infill.phasefield.allen_cahn import Smoothing, rescale
     from infill.phasefield.methods import smooth
-    from infill.planner.printing_time import Motion, motion
     from infill.projects.doctor import Diagnosis, check_project
     from infill.projects.saving import save_project
     from infill.refilling.job import RefillResult, refill
@@ -49,6 +48,7 @@ if TYPE_CHECKING:
     from infill.smoothing.job import smooth_mesh, smooth_points, smooth_volume
     from infill.smoothing.labels import smooth_labels
     from infill.surface import Surface
+    from infill.timing.printing_time import Motion, motion
     from infill.volume import Volume
     from infill.voxels.stamping import stamp, stamp_lines
 
@@ -70,7 +70,7 @@ _HOMES = {
     "formats.mesh_files": ("read_mesh", "save"),
     "grid": ("Grid",),
     "inspection.printability": ("Inspection", "check"),
-    "planner.printing_time": ("Motion", "motion"),
+    "timing.printing_time": ("Motion", "motion"),
     "making.block": ("make",),
     "result": ("Result",),
     "formats.point_files": ("read_points",),

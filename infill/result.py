@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import os
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import accumulate
@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO, Generic, Protocol, TypeVar
 
 import numpy as np
 
-from infill.errors import OutputError
+from infill.errors import InfillError, OutputError
 from infill.files.whole_files import atomic_file
 from infill.formats.mesh_files import PART_WRITERS, mesh_writer, parts_writer
 from infill.formats.parts import Part
@@ -34,6 +34,25 @@ if TYPE_CHECKING:
 Progress = Callable[[str, float], None]
 
 
+class Picturable:
+    """A result with a picture, which notebooks show."""
+
+    def picture(self) -> Image.Image:
+        """Return the picture."""
+        raise NotImplementedError
+
+    def write_picture(self, file: BinaryIO) -> None:
+        """Write `picture` as PNG."""
+        self.picture().save(file, format="PNG")
+
+    def _repr_png_(self) -> bytes | None:
+        """Return the picture for notebooks; None if it cannot be drawn any more."""
+        with io.BytesIO() as file, contextlib.suppress(InfillError):
+            self.write_picture(file)
+            return file.getvalue()
+        return None
+
+
 class Pictured(Protocol):
     """Stages that can be shown."""
 
@@ -47,7 +66,7 @@ Told = TypeVar("Told", bound=Mapping[str, Any], covariant=True)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Result(Generic[Stages, Told]):
+class Result(Picturable, Generic[Stages, Told]):
     """Surfaces, a report, and the intermediate stages.
 
     Parameters
@@ -99,16 +118,6 @@ class Result(Generic[Stages, Told]):
     def picture(self) -> Image.Image:
         """Return the stages as one picture: points, stamp, field and mesh of a block; before and after of a solid."""
         return self.stages.picture(self.whole, self.report)
-
-    def write_picture(self, file: BinaryIO) -> None:
-        """Write `picture` as PNG."""
-        self.picture().save(file, format="PNG")
-
-    def _repr_png_(self) -> bytes:
-        """Return the picture of the result for notebooks."""
-        with io.BytesIO() as file:
-            self.write_picture(file)
-            return file.getvalue()
 
     def save(self, path: str | os.PathLike[str], *, overwrite: bool = True) -> Path:
         """Write the mesh, or a picture of the stages, in the format of the suffix; return the path.
@@ -177,7 +186,7 @@ class Clock:
         self.seconds: dict[str, float] = {}
         self._progress = progress
 
-    @contextmanager
+    @contextlib.contextmanager
     def stage(self, name: str, share: float) -> Iterator[None]:
         """Time the enclosed code; `share` is the share of the work that is done when it begins."""
         self.tell(name, share)

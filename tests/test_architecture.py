@@ -31,7 +31,7 @@ ROWS: tuple[tuple[str, ...], ...] = (
     ("planner", "inspection", "interior"),
     ("pictures", "options", "drains"),
     ("result",),
-    ("smoothing", "lattices", "refilling", "projects", "samples"),
+    ("smoothing", "lattices", "refilling", "projects", "samples", "timing"),
     ("making",),
     ("cli", "studio"),
 )

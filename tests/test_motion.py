@@ -24,9 +24,9 @@ from infill.pictures.speeds import speed_colours
 from infill.planner import timeline
 from infill.planner.chords import cut_chords
 from infill.planner.layer_speeds import PIECE_LENGTH, layer_speeds
-from infill.planner.printing_time import FeatureMotion
 from infill.planner.struct_of_arrays import concatenate_rows, slice_rows
 from infill.planner.timeline import Timeline
+from infill.timing.printing_time import FeatureMotion
 from tests import slicers
 from tests.prints import FAST, box, cura_print, prusa_print
 
@@ -500,7 +500,7 @@ def test_one_file_is_told(tmp_path: Path) -> None:
     told = json.loads(run(path, "--json", "--jerk", "6").stdout)
     assert told["file"] == str(path)
     assert told["limits"]["jerk"][:2] == [6, 6]
-    assert {each.name for each in fields(Motion)} | {"file"} == set(told)
+    assert {each.name for each in fields(Motion)} - {"source"} | {"file"} == set(told)
     assert told["features"][1] == asdict(motion(path, jerk=6).features[1])
 
 

@@ -494,7 +494,7 @@ def test_despeckling_takes_what_is_small_and_nothing_else(largest: float, gone: 
 
 def test_despeckling_that_would_take_everything_is_an_error() -> None:
     with pytest.raises(
-        ParameterError, match=r"despeckle is 1e\+06 mm³ and the largest component has 702 mm³; give less"
+        ParameterError, match="despeckle is 1,000,000 mm³ and the largest component has 702 mm³; give less"
     ):
         smooth_volume(with_specks(), spacing=0.5, despeckle=1e6)
     for wrong in (-1.0, math.nan):

@@ -14,8 +14,8 @@ from infill.gcode.ending import describe_missing_end
 from infill.plain_numbers import count_noun, plain_argument, plain_number
 
 if TYPE_CHECKING:
-    from infill.planner.printing_time import FeatureMotion, Motion
     from infill.reports.timing import MotionReports
+    from infill.timing.printing_time import FeatureMotion, Motion
 
 MACHINE, FILES = "The machine, instead of the limits in the file", "Files"
 UNITS = {"feedrate": "mm/s", "axis_acceleration": "mm/s²", "acceleration": "mm/s²", "jerk": "mm/s"}
@@ -104,7 +104,7 @@ def motion(
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object to stdout.")] = False,
 ) -> None:
     """Plan every move of a print as firmware does, and say how long each feature takes and why."""
-    from infill.planner.printing_time import motion as planned
+    from infill.timing.printing_time import motion as planned
 
     planner_options: dict[str, Any] = {
         "model": model,

@@ -15,7 +15,7 @@ from infill.formats.mesh_files import read_mesh
 from infill.imaging.units import STATED_UNITS, guess_unit
 from infill.meshes import solids
 from infill.meshes.intersections import count_self_intersections
-from infill.meshes.merging import merge_unless_closed, merge_vertices, surface_of
+from infill.meshes.merging import WholeMesh, merge_unless_closed, merge_vertices, surface_of
 from infill.meshes.sealed_voids import count_sealed_voids
 from infill.meshes.shells import vertex_components
 from infill.plain_numbers import count_noun
@@ -61,8 +61,8 @@ class Inspection:
         return declare(CheckReport, asdict(self))
 
 
-def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspection:
-    """Inspect a mesh, or a mesh file.
+def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface | WholeMesh) -> Inspection:
+    """Inspect a mesh, the file of one, or a result of `make`, `smooth_mesh`, `fill` and the others.
 
     Raises
     ------

@@ -9,10 +9,12 @@ inside of it and apart from one another.
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from infill.formats.units import to_surface
 from infill.interior.interior import BYTES_PER_CELL, Interior, added_length, grid_for_part
 from infill.interior.opening import clip_to_opening, cut_open
 from infill.lattices.at_skin import drop_crumbs, subtract_voids
@@ -31,7 +33,6 @@ from infill.lattices.surfacing import SHARE, extract_inner_side
 from infill.lattices.task import FillTask
 from infill.lattices.void_meshes import VoidMeshes
 from infill.meshes.measuring import measure_surface
-from infill.meshes.merging import surface_of
 from infill.meshes.split_components import concatenate_surfaces
 from infill.reports.common import report_head, surface_keys
 from infill.reports.filling import FillSeconds
@@ -45,7 +46,7 @@ if TYPE_CHECKING:
 
 
 def fill(
-    part: Surface | trimesh.Trimesh,
+    part: Surface | trimesh.Trimesh | str | os.PathLike[str],
     pattern: object = "gyroid",
     *,
     density: float | tuple[float, float] | Graded | None = None,
@@ -80,8 +81,8 @@ def fill(
 
     Parameters
     ----------
-    part : Surface or trimesh.Trimesh, mm
-        Closed; holes in it are closed first, and the report says so.
+    part : Surface or trimesh.Trimesh, mm; or a path
+        A mesh, its file, or a result of phasefill. Closed; holes in it are closed first, and the report says so.
     pattern : str, Path, Pattern, Cells or callable
         A name in `patterns.PATTERNS`; a drawing, which is repeated; "module.py:name"; a pattern itself, such as
         `patterns.Gyroid(cell=6)`, which has that cell; or a function of x, y and z, of one shape, in radians (2 pi is
@@ -204,7 +205,7 @@ def fill(
     if meshing is not None:
         keywords = add_group(keywords, "meshing", meshing)
     request = check_request(pattern=pattern, own=parameters, **keywords)
-    return fill_request(surface_of(part), request, threads=threads, max_memory=max_memory, progress=progress)
+    return fill_request(to_surface(part), request, threads=threads, max_memory=max_memory, progress=progress)
 
 
 def fill_request(

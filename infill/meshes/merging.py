@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,18 +14,26 @@ if TYPE_CHECKING:
     import trimesh
 
 
-def surface_of(mesh: trimesh.Trimesh | Surface) -> Surface:
-    """Convert a mesh to plain arrays; raise GeometryError if there is nothing to write or read."""
-    if not hasattr(mesh, "vertices") or not hasattr(mesh, "faces"):
-        is_path = isinstance(mesh, (str, Path))
-        advice = "read the file with infill.read_mesh" if is_path else "give a trimesh.Trimesh or a Surface"
-        raise GeometryError(f"a {type(mesh).__name__} is not a mesh; {advice}")
-    vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
+class WholeMesh(Protocol):
+    """A result with all its surfaces as one."""
+
+    @property
+    def whole(self) -> Surface:
+        """All surfaces, mm."""
+        ...
+
+
+def surface_of(mesh: trimesh.Trimesh | Surface | WholeMesh) -> Surface:
+    """Convert a mesh, or a result of phasefill, to plain arrays; raise GeometryError if there is nothing in it."""
+    given: Any = getattr(mesh, "whole", mesh)
+    if not hasattr(given, "vertices") or not hasattr(given, "faces"):
+        raise GeometryError(f"a {type(mesh).__name__} is not a mesh; give a trimesh.Trimesh, a Surface or a path")
+    vertices, faces = np.asarray(given.vertices), np.asarray(given.faces)
     if len(faces) == 0 or not np.isfinite(vertices).all():
         raise GeometryError("the mesh has no faces, or corners that are not finite numbers; make it again")
     if faces.min() < 0 or faces.max() >= len(vertices):
         raise GeometryError("the mesh has faces with corners that do not exist; make it again")
-    return mesh if isinstance(mesh, Surface) else Surface(vertices=vertices, faces=faces)
+    return given if isinstance(given, Surface) else Surface(vertices=vertices, faces=faces)
 
 
 def merge_unless_closed(vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> Surface:

@@ -29,13 +29,17 @@ def speed_colours(speed: NDArray[np.floating], top: float) -> NDArray[np.uint8]:
 
 
 def write_speeds(layers: Mapping[str, LayerSpeeds], file: BinaryIO) -> None:
-    """Draw the speeds of layers side by side, as PNG.
+    """Write the picture of `draw_speeds` as PNG."""
+    draw_speeds(layers).save(file, format="PNG", optimize=True)
+
+
+def draw_speeds(layers: Mapping[str, LayerSpeeds]) -> Image.Image:
+    """Draw the speeds of layers side by side.
 
     Parameters
     ----------
     layers : mapping of str to LayerSpeeds
         By caption.
-    file : binary file
     """
     drawn = [layer.speed[layer.draws] for layer in layers.values()]
     top = max([float(np.percentile(speed, 99)) for speed in drawn if len(speed)], default=1.0)
@@ -50,7 +54,7 @@ def write_speeds(layers: Mapping[str, LayerSpeeds], file: BinaryIO) -> None:
         draw.text((x, MARGIN), caption, fill=INK, font=font)
         sheet.paste(_draw_panel(layer, low, float((high - low).max()) or 1.0, top), (x, MARGIN + CAPTION))
     _draw_scale(sheet, draw, font, top)
-    sheet.save(file, format="PNG", optimize=True)
+    return sheet
 
 
 def _draw_panel(layer: LayerSpeeds, low: NDArray[np.floating], extent: float, top: float) -> Image.Image:

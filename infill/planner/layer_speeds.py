@@ -16,7 +16,7 @@ from infill.gcode.dialect import role_of
 from infill.gcode.sliced_file import open_sliced
 from infill.gcode.stream import LAYER_TAG, batches
 from infill.planner.lookahead import MotionPlan
-from infill.planner.printing_time import collect_limits, open_timeline
+from infill.planner.open_timeline import collect_limits, open_timeline
 from infill.planner.struct_of_arrays import concatenate_rows, slice_rows
 from infill.planner.timeline import Steps
 

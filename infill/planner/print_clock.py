@@ -19,7 +19,7 @@ from infill.gcode.table import GcodeTable
 from infill.planner.bounds import Moves
 from infill.planner.feature_sums import FeatureSums
 from infill.planner.lookahead import MotionPlan, plan_moves
-from infill.planner.printing_time import make_timeline
+from infill.planner.open_timeline import make_timeline
 from infill.planner.timeline import Steps
 
 

@@ -19,16 +19,19 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from infill.errors import ParameterError
+from infill.errors import FormatError, ParameterError
 from infill.files.excerpts import quote_value
 from infill.files.whole_files import atomic_file, check_target, scratch_file
 from infill.gcode.estimates import EstimateChange, Restatement, StatedAmounts, restate
 from infill.gcode.sliced_file import SlicedText, open_sliced
 from infill.gcode.stream import edited_text
 from infill.refilling.request import AUTO, ENDLESS, KEEP, Progress, Request, describe_objects
+from infill.result import Picturable
 from infill.version import __version__
 
 if TYPE_CHECKING:
+    from PIL import Image
+
     from infill.gcode.survey import Survey
     from infill.planner.print_clock import PrintTime
     from infill.refilling.rules import RefillRules
@@ -38,8 +41,8 @@ if TYPE_CHECKING:
 HEAD = 1 << 16  # bytes in which the header ends
 
 
-@dataclass(frozen=True, kw_only=True)
-class RefillResult:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class RefillResult(Picturable):
     """Report and output of a refill.
 
     Parameters
@@ -50,11 +53,40 @@ class RefillResult:
         The file written; None if nothing changes, for a dry run, or for lines.
     lines : tuple of str, optional
         The new lines with their line ends, if the input was lines.
+    source : Path, optional
+        The print that was refilled, if it was a file.
     """
 
     report: RefillReport
     path: Path | None
-    lines: tuple[str, ...] | None = field(default=None, repr=False)
+    lines: tuple[str, ...] | None = None
+    source: Path | None = None
+
+    def __repr__(self) -> str:
+        """Return the file, the sections that changed, and the time of the infill."""
+        sections, time = self.report.get("sections"), self.report.get("time")
+        if sections is None or time is None:
+            return f"RefillResult({self.path or 'no file'}: refilled before, unchanged)"
+        before, after = time["infill_before_s"], time["infill_after_s"]
+        change = f", infill {after / before - 1:+.1%} of its time" if before else ""
+        return f"RefillResult({self.path or 'no file'}: {sections['replaced']} of {sections['all']} sections{change})"
+
+    def picture(self) -> Image.Image:
+        """Return the layer in the middle before and after, coloured by speed; raise FormatError without a file."""
+        from infill.pictures.speeds import draw_speeds
+        from infill.planner.layer_speeds import layer_speeds
+
+        old = self.source
+        if old is not None and self.path == Path(os.path.realpath(old)):
+            old = None  # the new print took its place
+        named = {"as sliced": old, "refilled": self.path}
+        files = {name: path for name, path in named.items() if path is not None and path.is_file()}
+        if not files:
+            raise FormatError("a picture needs the files of the print; refill a file")
+        layer = max(self.report["print"].get("layers", 2) // 2, 1)
+        plates = self.report["print"]["plates"]
+        plate = plates[0] if plates else None
+        return draw_speeds({f"layer {layer}, {name}": layer_speeds(path, layer, plate) for name, path in files.items()})
 
 
 def refill(
@@ -150,9 +182,9 @@ def refill(
         report = _joint_report(request, list(drafted.values()), sliced.plates)
         changed = {plate: draft for plate, draft in drafted.items() if draft.tally is not None and draft.tally.replaced}
         if dry_run or (not changed and output is None):
-            return RefillResult(report=report, path=None)
+            return RefillResult(report=report, path=None, source=source)
         if not changed and target.exists() and target.samefile(source):
-            return RefillResult(report=report, path=target)
+            return RefillResult(report=report, path=target, source=source)
         if changed and progress is not None:
             progress("writing", 0.95)
         with atomic_file(target) as file:
@@ -165,7 +197,7 @@ def refill(
             else:  # a copy
                 sliced.file.seek(0)
                 shutil.copyfileobj(sliced.file, file)
-    return RefillResult(report=report, path=target)
+    return RefillResult(report=report, path=target, source=source)
 
 
 def _check_choice(request: Request, prints: Sequence[RefillStats]) -> None:

@@ -9,14 +9,18 @@ Each of the three functions lists the ways to smooth its input, the preferred on
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Literal, Unpack, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from infill.formats.point_files import read_points_and_normals
+from infill.formats.units import to_surface, unit_in_mm
 from infill.grid import spacing_of
-from infill.meshes.merging import surface_of
+from infill.imaging.volume_files import read_volume
 from infill.result import Result
 from infill.smoothing.by_component import ComponentStages, smooth_components
 from infill.smoothing.meshes import mesh_ways
@@ -36,9 +40,9 @@ if TYPE_CHECKING:
 
 
 def smooth_volume(
-    volume: ArrayLike | Volume,
+    volume: ArrayLike | Volume | str | os.PathLike[str],
     *,
-    spacing: float | tuple[float, ...] = 1.0,
+    spacing: float | tuple[float, ...] | None = None,
     origin: tuple[float, ...] = (0.0, 0.0, 0.0),
     threshold: float | tuple[float | None, float | None] | Literal["otsu"] | None = None,
     label: int | Sequence[int] | None = None,
@@ -50,11 +54,11 @@ def smooth_volume(
 
     Parameters
     ----------
-    volume : (nx, ny, nz) array or Volume
-        Booleans, a mask, a phase field in [-1, 1], labels or grey values, [x, y, z]. Cells that a
-        numpy.ma.MaskedArray masks are void.
-    spacing : float or (hx, hy, hz)
-        Cell size, mm; only for an array.
+    volume : (nx, ny, nz) array, Volume or path
+        A file or folder of a volume, see `infill.read_volume`; or booleans, a mask, a phase field in [-1, 1], labels or
+        grey values, [x, y, z]. Cells that a numpy.ma.MaskedArray masks are void.
+    spacing : float or (hx, hy, hz), optional
+        Cell size, mm, of an array, 1 by default; or of a file, instead of the one that it states.
     origin : (x, y, z)
         Lower corner of the first cell, mm; only for an array.
     threshold : float, (low, high) or "otsu", optional
@@ -121,16 +125,18 @@ def smooth_volume(
     request = SmoothRequest(**options)
     low, _ = threshold_range(threshold)
     chosen = threshold is not None or label is not None
-    if not isinstance(volume, Volume):
+    if isinstance(volume, (str, os.PathLike)):
+        volume = read_volume(volume, spacing=spacing)
+    elif not isinstance(volume, Volume):
         values = fill_masked_with_void(np.asanyarray(volume), low, chosen=chosen)
-        volume = Volume(values=values, spacing=spacing_of(spacing, 3), origin=origin)
+        volume = Volume(values=values, spacing=spacing_of(1.0 if spacing is None else spacing, 3), origin=origin)
     ways = volume_ways(volume, request, threshold=threshold, label=label, grey=grey, voxel=voxel)
     return first_sound(ways, request)
 
 
 @overload
 def smooth_mesh(
-    mesh: trimesh.Trimesh | Surface,
+    mesh: trimesh.Trimesh | Surface | str | os.PathLike[str],
     *,
     resolution: int | None = None,
     voxel: float | None = None,
@@ -139,7 +145,7 @@ def smooth_mesh(
 ) -> Result[SmoothStages, SmoothReport]: ...
 @overload
 def smooth_mesh(
-    mesh: trimesh.Trimesh | Surface,
+    mesh: trimesh.Trimesh | Surface | str | os.PathLike[str],
     *,
     resolution: int | None = None,
     voxel: float | None = None,
@@ -147,7 +153,7 @@ def smooth_mesh(
     **options: Unpack[SmoothOptions],
 ) -> Result[ComponentStages, ComponentsReport]: ...
 def smooth_mesh(
-    mesh: trimesh.Trimesh | Surface,
+    mesh: trimesh.Trimesh | Surface | str | os.PathLike[str],
     *,
     resolution: int | None = None,
     voxel: float | None = None,
@@ -158,8 +164,9 @@ def smooth_mesh(
 
     Parameters
     ----------
-    mesh : trimesh.Trimesh or Surface, mm
-        It may be open, inside out, intersect itself, or have several components.
+    mesh : trimesh.Trimesh or Surface, mm; or a path
+        A mesh, its file, or a result of phasefill. It may be open, inside out, intersect itself, or have several
+        components.
     resolution : int, optional
         Cells along the longest side; 200 if neither this nor `voxel` is given.
     voxel : float, optional
@@ -174,7 +181,7 @@ def smooth_mesh(
     >>> smooth_mesh(trimesh.creation.icosphere(radius=10), voxel=0.5).report["components"]
     1
     """
-    surface, request = surface_of(mesh), SmoothRequest(**options)
+    surface, request = to_surface(mesh), SmoothRequest(**options)
     if by_component:
         return smooth_components(surface, request, resolution=resolution, voxel=voxel)
     fixed = resolution is not None or voxel is not None
@@ -183,7 +190,7 @@ def smooth_mesh(
 
 
 def smooth_points(
-    points: ArrayLike,
+    points: ArrayLike | str | os.PathLike[str],
     *,
     voxel: float,
     shell: float | None = None,
@@ -194,8 +201,8 @@ def smooth_points(
 
     Parameters
     ----------
-    points : (N, 3) float, mm
-        Points on a surface.
+    points : (N, 3) float, mm; or a path
+        Points on a surface, or their file, with normals if it has them.
     voxel : float
         Cell size, mm.
     shell : float, optional
@@ -219,6 +226,12 @@ def smooth_points(
     The cells show the solid that the points enclose; points and normals place the surface within a cell: see
     `infill.voxels.point_fields.distance_from_points`. A shell, or `method="plain"`, smooths the cells alone.
     """
-    cloud, request = np.asarray(points, dtype=np.float64), SmoothRequest(**options)
+    request = SmoothRequest(**options)
+    if isinstance(points, (str, os.PathLike)):
+        path = Path(points)
+        points, read_normals = read_points_and_normals(path)
+        points = points * unit_in_mm(path, points, None)
+        normals = read_normals if normals is None else normals
+    cloud = np.asarray(points, dtype=np.float64)
     result = first_sound(points_ways(cloud, request, voxel=voxel, shell=shell, normals=normals), request)
     return compare_with_points(result, cloud, voxel, request) if shell is None else result

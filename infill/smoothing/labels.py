@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Unpack
@@ -14,7 +15,7 @@ from infill.errors import InfillError, ParameterError
 from infill.formats.parts import hex_colour
 from infill.grid import spacing_of
 from infill.imaging.label_tables import Segment
-from infill.imaging.segmentations import Segmentation
+from infill.imaging.segmentations import Segmentation, read_segmentation
 from infill.kernels.sparse import BRICK
 from infill.reports.common import report_head
 from infill.reports.smoothing import LabelSeconds
@@ -77,9 +78,9 @@ class _Piece:
 
 
 def smooth_labels(
-    volume: ArrayLike | Volume | Segmentation,
+    volume: ArrayLike | Volume | Segmentation | str | os.PathLike[str],
     *,
-    spacing: float | tuple[float, ...] = 1.0,
+    spacing: float | tuple[float, ...] | None = None,
     origin: tuple[float, ...] = (0.0, 0.0, 0.0),
     label: int | tuple[int, ...] | None = None,
     table: Iterable[Segment] = (),
@@ -90,10 +91,11 @@ def smooth_labels(
 
     Parameters
     ----------
-    volume : (nx, ny, nz) array, Volume or Segmentation
-        Whole numbers [x, y, z], 0 for cells without a label.
+    volume : (nx, ny, nz) array, Volume, Segmentation or path
+        A file or folder of labels, see `infill.read_segmentation`; or whole numbers [x, y, z], 0 for cells without a
+        label.
     spacing, origin
-        See `infill.smooth_volume`; only for an array.
+        See `infill.smooth_volume`.
     label : int or tuple of int, optional
         Only these, instead of every value but 0.
     table : iterable of Segment
@@ -129,7 +131,10 @@ def smooth_labels(
     {'label_1': True, 'label_2': True}
     """
     request = SmoothRequest(**options)  # so that a mistake in the options is not reported for the first label
-    segmentation = _as_segmentation(volume, spacing, origin)
+    if isinstance(volume, (str, os.PathLike)):
+        segmentation = read_segmentation(volume, spacing=spacing)
+    else:
+        segmentation = _as_segmentation(volume, 1.0 if spacing is None else spacing, origin)
     clock = Clock(request.progress)
     with clock.stage("labels", 0.0):
         pieces = _find_pieces(segmentation, label, tuple(table))

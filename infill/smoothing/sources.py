@@ -11,16 +11,14 @@ from typing import TYPE_CHECKING, Any, Literal, Unpack, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.checks import choose_word
 from infill.errors import FormatError, GeometryError, ParameterError, UsageError
 from infill.files.broken import READER_ERRORS
-from infill.formats.mesh_files import READERS, read_mesh
+from infill.formats.mesh_files import READERS
 from infill.formats.point_files import read_points_and_normals
+from infill.formats.units import check_units, read_mesh_in_mm, unit_in_mm
 from infill.grid import spacing_of
 from infill.imaging.segmentations import Segmentation, read_segmentation
-from infill.imaging.units import STATED_UNITS, UNITS, guess_unit
 from infill.imaging.volume_files import read_volume
-from infill.plain_numbers import plain_number
 from infill.smoothing.request import SmoothOptions
 from infill.surface import Surface
 from infill.volume import Volume
@@ -109,9 +107,7 @@ def read_source(
     source = Path(path)
     if kind is not None and kind not in KINDS:
         raise UsageError.about("kind", f"is {kind!r}; choose from {', '.join(KINDS)}")
-    units = units and choose_word(units, UNITS)
-    if units is not None and units not in UNITS:
-        raise UsageError.about("units", f"is {units!r}; choose from {', '.join(UNITS)}")
+    units = check_units(units)
     source_kind = kind or _guess_kind(source)
     if source_kind == "volume":
         if units is not None:
@@ -125,13 +121,9 @@ def read_source(
         raise ParameterError.about(names, f"is for volumes, and {source} is read as {source_kind}; leave it out")
     if source_kind == "points":
         points, normals = read_points_and_normals(source)
-        points = points * _unit_in_mm(source, points, units)
+        points = points * unit_in_mm(source, points, units)
         return points if normals is None else np.concatenate([points, normals], axis=1)
-    mesh = read_mesh(source)
-    stated = STATED_UNITS.get(source.suffix.lower())
-    if stated is not None:
-        return mesh.scaled(UNITS[units] / stated) if units else mesh
-    return replace(mesh, vertices=mesh.vertices * _unit_in_mm(source, mesh.vertices, units))
+    return read_mesh_in_mm(source, units)
 
 
 def read_label_source(
@@ -273,25 +265,3 @@ def _ply_has_faces(path: Path) -> bool:
         raise FormatError(f"cannot read {path}: {error.strerror or error}; check the file") from error
     lines = [line.split() for line in head.splitlines()]
     return any(words[:2] == [b"element", b"face"] and words[-1] != b"0" for words in lines)
-
-
-def _unit_in_mm(path: Path, points: NDArray[np.floating], units: str | None) -> float:
-    """Return mm per unit; if no unit is given, warn of implausible sizes in mm."""
-    if units is not None:
-        return UNITS[units]
-    longest = float(np.ptp(points, axis=0).max())
-    unit = guess_unit(longest)
-    if unit == "µm":  # as likely to be large on purpose as not, and easy to notice
-        LOG.warning(
-            "%s is %s mm long if its numbers are millimetres; give --units um if they are micrometres",
-            path,
-            plain_number(longest, 4),
-        )
-    elif unit != "mm" and longest > 0:
-        LOG.warning(
-            "%s is %s mm long if its numbers are millimetres; give --units m if they are metres (%s mm long)",
-            path,
-            plain_number(longest),
-            plain_number(longest * 1000, 4),
-        )
-    return 1.0

@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
-import contextlib
 import math
 import os
-from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Any, BinaryIO, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
-from infill.errors import FormatError, UsageError
+from infill.errors import FormatError
 from infill.gcode.dialect import role_of
 from infill.gcode.found_limits import FIELDS_BY_MODEL, FileLimits
-from infill.gcode.limits import JUNCTION_DEVIATION, Limits, Model
-from infill.gcode.sliced_file import SlicedFile, SlicedText, open_sliced
+from infill.gcode.limits import Model
+from infill.gcode.sliced_file import open_sliced
+from infill.plain_numbers import count_noun
 from infill.planner.feature_sums import FeatureSums
-from infill.planner.timeline import Timeline
+from infill.planner.open_timeline import collect_limits, open_timeline
 from infill.reports.common import declare
 from infill.reports.timing import MotionReport
+from infill.result import Picturable
+
+if TYPE_CHECKING:
+    from PIL import Image
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,12 +48,12 @@ class FeatureMotion:
     peak_flow: float
 
 
-@dataclass(frozen=True, kw_only=True)
-class Motion:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Motion(Picturable):
     """Result of `motion`.
 
     The attributes are the keys of `infill.reports.timing.MotionReport`, which docs/report.md explains; lengths are in
-    mm, times in s.
+    mm, times in s. `source` is the file that was planned.
     """
 
     seconds: float
@@ -73,10 +76,34 @@ class Motion:
     macros: tuple[str, ...] = ()
     volumetric: bool = False
     filament_diameter: float = 1.75
+    source: Path | None = field(default=None, compare=False)
+
+    def __repr__(self) -> str:
+        """Return the time, the slicer, the layers and the filament."""
+        minutes, seconds = divmod(round(self.seconds), 60)
+        time = f"{minutes // 60}:{minutes % 60:02}:{seconds:02}"
+        slicer = self.slicer or "unknown slicer"
+        return f"Motion({time}, {slicer}, {count_noun(self.layers, 'layer')}, {self.filament / 1000:.2f} m of filament)"
+
+    def picture(self) -> Image.Image:
+        """Return the layer in the middle, coloured by speed; raise FormatError without a file."""
+        from infill.pictures.speeds import draw_speeds
+        from infill.planner.layer_speeds import layer_speeds
+
+        if self.source is None or not self.source.is_file():
+            raise FormatError("the file that was planned is gone; plan it again")
+        layer = max(self.layers // 2, 1)
+        caption = f"{self.source.name}, layer {layer}"
+        return draw_speeds({caption: layer_speeds(self.source, layer, self.plate, **self._given())})
+
+    def _given(self) -> dict[str, Any]:
+        """Return the limits that were given, as arguments of `motion`."""
+        given = {name: self.limits[name] for name, source in self.sources.items() if source == "given"}
+        return {"model": self.limits["model"], **given}
 
     def to_dict(self) -> MotionReport:
         """Return plain numbers and strings, as printed by ``--json``."""
-        return declare(MotionReport, asdict(self))
+        return declare(MotionReport, {name: value for name, value in asdict(self).items() if name != "source"})
 
     def of_role(self, role: str) -> float:
         """Return the seconds of all features of a role.
@@ -172,73 +199,8 @@ def motion(
         macros=tuple(timeline.macros),
         volumetric=timeline.state.volumetric,
         filament_diameter=timeline.state.diameter,
+        source=Path(path),
     )
-
-
-@contextlib.contextmanager
-def open_timeline(file: SlicedFile, plate: int | None, fixed: Mapping[str, Any]) -> Iterator[Timeline]:
-    """Open the moves of a print, with the settings that its file has outside the text.
-
-    Parameters
-    ----------
-    file : SlicedFile
-    plate : int or None
-        One of its `parts`.
-    fixed : mapping
-        As `collect_limits` returns it.
-    """
-    with file.text(plate) as sliced_text:
-        yield make_timeline(sliced_text, fixed=fixed)
-
-
-def make_timeline(
-    sliced_text: SlicedText,
-    text: BinaryIO | None = None,
-    fixed: Mapping[str, Any] | None = None,
-    found: FileLimits | None = None,
-) -> Timeline:
-    """Return the moves of a print, or of another text in its place, with its settings from outside the text.
-
-    Parameters
-    ----------
-    sliced_text : SlicedText
-    text : binary file, optional
-    fixed : mapping, optional
-        As `collect_limits` returns it.
-    found : FileLimits, optional
-        The limits of the file, if already read.
-    """
-    metadata = {
-        name.decode("utf-8", "replace"): value.decode("utf-8", "replace") for name, value in sliced_text.metadata
-    }
-    timeline = Timeline(text or sliced_text.text, fixed, {**sliced_text.settings, **metadata}, found)
-    timeline.found = replace(timeline.found, slicer=timeline.found.slicer or sliced_text.slicer)
-    return timeline
-
-
-def collect_limits(**given: Any) -> dict[str, Any]:  # noqa: ANN401
-    """Collect the fields of `Limits` that the arguments of `motion` set.
-
-    >>> collect_limits(square_corner_velocity=8)
-    {'square_corner_velocity': 8, 'model': 'klipper'}
-    """
-    fixed = {name: value for name, value in given.items() if value is not None}
-    means = {"square_corner_velocity": "klipper", "minimum_cruise_ratio": "klipper", "junction_deviation": "junction"}
-    means["jerk"] = "jerk"
-    if fixed.get("model") == JUNCTION_DEVIATION:
-        fixed["model"] = "junction"
-    meant = {model for name, model in means.items() if name in fixed}
-    if "model" not in fixed and len(meant) > 1:
-        names = tuple(name for name in means if name in fixed)
-        raise UsageError.about(names, f"belong to {len(meant)} models, {', '.join(sorted(meant))}; give model")
-    if "model" not in fixed and meant - {"jerk"}:  # two models have jerk: the file decides
-        fixed["model"] = meant.pop()
-    if "acceleration" in fixed:
-        fixed["travel_acceleration"] = fixed["acceleration"]
-    if "jerk" in fixed:
-        still = Limits().jerk
-        fixed["jerk"] = (fixed["jerk"], fixed["jerk"], *still[2:])
-    return fixed
 
 
 def _sum_feature(number: int, name: bytes, strokes: FeatureSums) -> FeatureMotion:
