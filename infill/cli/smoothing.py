@@ -24,7 +24,7 @@ from infill.cli.common import (
     Verbose,
 )
 from infill.cli.components import check_fields, component_summary, component_writer
-from infill.cli.console import format_bytes, format_table, print_json, print_log, progress_bar, say
+from infill.cli.console import format_bytes, format_digits, format_table, print_json, print_log, progress_bar, say
 from infill.cli.declared import takes_options
 from infill.cli.foreseeing import show_smooth_plan
 from infill.cli.labelled import SmoothOutput, refuse_options, smooth_every_label, wants_every_label
@@ -32,7 +32,7 @@ from infill.plain_numbers import count_noun, plain_number
 from infill.smoothing.settings import SmoothSettings, resolve
 
 if TYPE_CHECKING:
-    from infill.reports.smoothing import SmoothReport
+    from infill.reports.smoothing import FacetKeys, SmoothReport
     from infill.smoothing.request import SmoothOptions
 
 
@@ -226,6 +226,8 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
     rows["verdict"] = "; ".join(
         [verdict["word"].upper() if verdict["word"] == "lost" else verdict["word"], *verdict["changes"]]
     )
+    if facets := report["facets"]:
+        rows["facets"] = _facet_text(facets, max(grid["spacing"]))
     if len(verdict["tried"]) > 1:
         rows["tried"] = f"{', '.join(verdict['tried'])}: taken is {verdict['taken']}"
     if verbose:
@@ -239,3 +241,13 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
     for path in files:
         rows[f"wrote {path}"] = format_bytes(Path(path).stat().st_size) if Path(path).is_file() else ""
     return format_table(rows, title=name)
+
+
+def _facet_text(facets: FacetKeys, voxel: float) -> str:
+    """Describe the flat facets that are left, and the options that round them."""
+    larger = f"--voxel {format_digits(facets['voxel'])} " if facets["voxel"] > voxel else ""
+    return (
+        f"{facets['share']:.0%} of the surface still has the flat facets of the mesh, about "
+        f"{format_digits(facets['width'])} mm wide; {larger}--smooth-radius {format_digits(facets['radius'])} rounds "
+        "them, and details of their size"
+    )

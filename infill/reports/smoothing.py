@@ -192,6 +192,15 @@ Distance = TypedDict(
 )
 
 
+class FacetKeys(TypedDict):
+    """Meshes: flat facets that are as flat as before, if they are half of the surface or more; else null."""
+
+    share: Annotated[float, "Share of the surface of the mesh"]
+    width: Annotated[float, "Median width of a facet, mm"]
+    radius: Annotated[float, "Radius of smoothing that rounds facets of this width, mm"]
+    voxel: Annotated[float, "Size of the voxels for that radius, mm"]
+
+
 class SolidSeconds(SmoothSeconds):
     """Time of each stage."""
 
@@ -209,6 +218,7 @@ class SmoothReport(Report):
     walls: SolidWalls
     verdict: VerdictKeys
     distance: Annotated[Distance, "Distance between result and input, measured when it is first read"]
+    facets: FacetKeys | None
     seconds: SolidSeconds
 
 

@@ -41,6 +41,7 @@ from infill.smoothing.comparing import (
     Differences,
     compare_with_input,
     distance_facts,
+    facet_facts,
     find_differences,
     subsample,
     summarise_distances,
@@ -315,6 +316,7 @@ def finish_attempt(
         },
         "input": {**smooth_input.facts, "despeckled": best.specks},
         "distance": declare(Distance, {}),  # measured when it is first read
+        "facets": None,  # so are they
         "verdict": {
             "word": differences.word,
             "changes": [*problems, *differences.remarks, *_cleaning_remarks(best.crumbs, best.specks)],
@@ -336,7 +338,9 @@ def finish_attempt(
         "walls": _wall_facts(best),
         "seconds": clock.timings(SolidSeconds),
     }
-    report = with_late_sections(report, distance=partial(distance_facts, surface, smoothed))
+    report = with_late_sections(
+        report, distance=partial(distance_facts, surface, smoothed), facets=partial(facet_facts, surface, smoothed)
+    )
     stages = SmoothStages(data=data, levelled=surfaced.levelled, given=smooth_input.mesh)
     return Result(surfaces={"solid": surface}, report=report, stages=stages), differences
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.inspection.deviation import COUNTS, HIDDEN, SHEET, THIN, Deviation, Kinds, Word, measure_deviation
+from infill.inspection.facets import find_flat_facets
 from infill.isosurfaces.components import data_bits, look_up_cells, open_by_blocks
 from infill.meshes.distance import distances
 from infill.plain_numbers import plain_number
@@ -19,7 +20,7 @@ from infill.voxels.noise import NOISY
 if TYPE_CHECKING:
     from infill.inspection.bricks import TopologyCheck
     from infill.reports.common import Spread
-    from infill.reports.smoothing import Distance
+    from infill.reports.smoothing import Distance, FacetKeys
     from infill.smoothing.levelling import SurfaceAtLevel
     from infill.smoothing.request import SmoothedInput, SmoothInput
 
@@ -82,6 +83,15 @@ def distance_facts(surface: Surface, smoothed: SmoothedInput) -> Distance:
         vertices = subsample(_input_surface(smoothed).vertices)
         facts["data"] = summarise_distances(distances(vertices, smooth_input.closed_mesh, threads=smoothed.threads))
     return facts
+
+
+def facet_facts(surface: Surface, smoothed: SmoothedInput) -> FacetKeys | None:
+    """Return the flat facets of a coarse mesh that the result still has, for the report; None if they are few."""
+    mesh = smoothed.smooth_input.mesh
+    if mesh is None:
+        return None
+    found = find_flat_facets(mesh, surface, cell=max(smoothed.spacing), threads=smoothed.threads)
+    return None if found is None else found.facts()
 
 
 def subsample(vertices: NDArray[np.floating]) -> NDArray[np.floating]:
