@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from infill.drawings.drawing_files import read_tile
 from infill.plain_numbers import plain_argument
+from patterns.declared import parameter
 from patterns.errors import PatternError
 from patterns.linework import clip, turn
 from patterns.protocol import Pattern
@@ -39,7 +40,7 @@ class TooManyCopiesError(PatternError):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Tiled(Pattern):
-    """The lines of a repeated tile; one tile has its middle at (0, 0).
+    """The lines of a tile that is repeated, or drawn once; one tile has its middle at (0, 0).
 
     Parameters
     ----------
@@ -53,6 +54,8 @@ class Tiled(Pattern):
         Width of the tile, mm.
     angle : float
         Degrees.
+    repeat : bool
+        False for a single tile.
     """
 
     name: str  # type: ignore[misc]
@@ -61,6 +64,7 @@ class Tiled(Pattern):
     height: float
     cell: float = cell_parameter()
     angle: float = angle_parameter()
+    repeat: bool = parameter(True, "the drawing again and again; false for once, in the middle", unit="")
 
     def lines(self, region: shapely.Polygon | shapely.MultiPolygon, z: float = 0.0) -> shapely.MultiLineString:  # noqa: ARG002 - prismatic
         """Return the lines of all tiles, clipped to a region; raise TooManyCopiesError for too many points."""
@@ -69,6 +73,8 @@ class Tiled(Pattern):
         size = np.array([1.0, self.height])
         lower = np.floor((corners.min(axis=0) - points.max(axis=0)) / size)
         upper = np.ceil((corners.max(axis=0) - points.min(axis=0)) / size)
+        if not self.repeat:
+            lower = upper = np.zeros(2)
         copies = int(np.prod(upper - lower + 1))
         if copies * len(points) > MOST_PLACED:
             excess = (
@@ -85,6 +91,11 @@ class Tiled(Pattern):
     def line_spacing(self, region: shapely.Polygon | shapely.MultiPolygon) -> float:  # noqa: ARG002 - the same everywhere
         """Return the width of the tile, mm."""
         return self.cell
+
+
+def is_drawn_once(pattern: object) -> bool:
+    """Tell whether a pattern is a single drawing."""
+    return isinstance(pattern, Tiled) and not pattern.repeat
 
 
 def read_tiled(path: str | os.PathLike[str]) -> Tiled:

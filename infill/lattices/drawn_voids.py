@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from infill.drawings.tiled import Tiled, is_drawn_once
+from infill.errors import GeometryError
 from infill.interior.interior import BAND, Interior
 from infill.lattices.fillets import find_polygon_corners, sharpest_angle
 from infill.lattices.line_sample import WIDER, LineSample, centred_square, faces_between, follows_outline, line_segments
@@ -44,8 +46,9 @@ class Prismatic:
 
     @cached_property
     def sample(self) -> LineSample:
-        """A sample of such lines far from any skin."""
-        return LineSample(pattern=self.pattern)
+        """A sample of such lines far from any skin; of a single drawing, as if it were repeated."""
+        pattern = self.pattern
+        return LineSample(pattern=replace(pattern, repeat=True) if isinstance(pattern, Tiled) else pattern)
 
     def widths(self, density: float) -> float:
         """Return the width of lines, in cells, that gives a density far from any skin, as measured on a sample."""
@@ -73,6 +76,18 @@ class Prismatic:
         room = shapely.transform(silhouette(space), lambda points: points - self.anchor[:2])
         return shapely.buffer(room, (self.share - 1) / 2 * cell, quad_segs=ROUND)
 
+    def _miss(self, space: Interior, cell: float) -> GeometryError:
+        """Return the error that a single drawing lies beside the part."""
+        everywhere = centred_square(WIDER * float(np.abs(np.asarray(space.part.bounds) - [*self.anchor]).max() + cell))
+        drawn = shapely.bounds(draw_lines(with_cell(self.pattern, cell), everywhere)) + np.tile(self.anchor[:2], 2)
+        spans = [
+            ", ".join(f"{axis} {low:.4g} to {high:.4g}" for axis, low, high in zip("xy", box[:2], box[2:], strict=True))
+            for box in (drawn.tolist(), np.asarray(space.part.bounds)[:, :2].ravel().tolist())
+        ]
+        return GeometryError.about(
+            "phase", f"puts the drawing at {spans[0]} mm, and the part spans {spans[1]} mm; give another"
+        )
+
     def _make_faces(self, space: Interior, cell: float, width: float, reach: float) -> _Faces:
         lower, upper = (np.array([side.min() - 1, side.max() + 1]) for side in np.nonzero(space.deepest > -BAND))
         low = space.origin[:2] + np.array([lower[0], upper[0]]) * space.size - self.anchor[:2]
@@ -84,6 +99,8 @@ class Prismatic:
         else:
             room = centred_square(WIDER * float(np.linalg.norm(np.abs([low, high]).max(axis=0))))
         lines = shapely.intersection(draw_lines(with_cell(self.pattern, cell), room), region)
+        if is_drawn_once(self.pattern) and not shapely.intersects(lines, box):
+            raise self._miss(space, cell)
         polygons = faces_between(lines, region, cell=cell)
         polygons = polygons[shapely.intersects(polygons, box)]
         nx, ny, _ = space.shape

@@ -97,7 +97,7 @@ def _make_infill(task: FillTask) -> ProjectInfill:
 def _can_shift(task: FillTask, project: ProjectInfill) -> bool:
     """Tell whether shifting a pattern may help: its place was not requested, and more is lost than the lack of room."""
     request, narrow, size = task.request, project.narrow, math.prod(project.hollow.space.shape)
-    is_placed = any(request.phase) or request.align == "bed" or request.grading is not None
+    is_placed = any(request.phase) or request.align == "bed" or request.grading is not None or request.is_drawn_once
     return narrow is not None and not is_placed and size <= MOST_CELLS and narrow.all - narrow.room > MUCH
 
 

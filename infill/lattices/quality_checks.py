@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.drawings.tiled import Tiled
 from infill.interior.interior import LEAST_OVERLAP
 from infill.interior.narrow import NARROW, NarrowShares
 from infill.interior.opening import Opening
@@ -254,7 +255,12 @@ def find_problems(
                 "another; give densities closer to each other"
             )
     share = hollow.density_before if request.reaches_skin else hollow.density
-    if share < LEAST_LEFT * facts.drawn:
+    if isinstance(request.kind, Tiled) and hollow.islands:
+        yield (
+            f"pieces of the drawing that touch no wall were left out: {hollow.islands}; draw lines from them to the "
+            "rest, or close the top or the bottom of the part"
+        )
+    elif share < LEAST_LEFT * facts.drawn:
         yield (
             f"the infill was drawn with a density of {facts.drawn:.1%}, and {share:.1%} is left: walls or bars are too "
             "thin for the grid, or were smoothed away; give smaller voxels, a smaller smooth radius or wider lines"

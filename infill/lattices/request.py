@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 import numpy as np
 
 from infill.checks import check_length, check_positive, check_range, check_whole_number
+from infill.drawings.tiled import Tiled
 from infill.errors import GeometryError, UsageError
 from infill.interior.opening import Open
 from infill.lattices.density_fields import resolve_field
@@ -175,6 +176,11 @@ class FillSpec:
         return self.density if self.grading is None else self.grading.lowest
 
     @property
+    def is_drawn_once(self) -> bool:
+        """True if the pattern is a single drawing."""
+        return _draws_once(self.kind, self.parameters)
+
+    @property
     def can_have_regions(self) -> bool:
         """True if the density is one number, which regions may change."""
         return (
@@ -285,6 +291,13 @@ def check_request(
     """Check that numbers are in range; return a request in which sizes that follow from others are open."""
     kind, name = resolve_pattern(pattern, "fill")
     kind, cell = _take_cell(kind, name, cell)
+    once = _draws_once(kind, own)
+    if once and cell is None:
+        raise UsageError.about("cell", f"is missing, and {name} is drawn once; give the width of the drawing in mm")
+    if once and density is not None:
+        raise UsageError.about(
+            "density", f"is given, and {name} is drawn once, whose lines decide the density; leave it out"
+        )
     if density is not None and cell is not None and line_width is not None:
         raise UsageError.about(
             ("density", "cell", "line_width"), "are all given; give two of them, and the third follows"
@@ -333,10 +346,11 @@ def check_request(
     elif density is not None:
         density = check_range("density", parse_share("density", density), LOWEST, HIGHEST)
     elif (cell is None or line_width is None) and not isinstance(kind, Lightning):
-        density = DENSITY if cell is None or has_bars(kind) or regions else None
+        density = DENSITY if cell is None or has_bars(kind) or (regions and not once) else None
         if density is None:
             line_width = SLICED_WIDTH if form == "project" else LINE_WIDTH
     cell_alone = density is None and cell is not None and asked_width is None and not isinstance(kind, Lightning)
+    cell_alone = cell_alone and not once
     if density is not None and line_width is not None and isinstance(kind, Lightning):
         raise UsageError.about(
             ("density", "line_width"),
@@ -345,7 +359,8 @@ def check_request(
         )
     if regions:
         if grading is not None or density is None or isinstance(kind, Lightning):
-            raise UsageError.about("region", f"is given, and {_region_problem(kind, name, grading is not None)}")
+            problem = _region_problem(kind, name, graded=grading is not None, once=once)
+            raise UsageError.about("region", f"is given, and {problem}")
         grading = RegionDensities(base=density, regions=tuple(map(place_region, regions)))
     if wall is None:
         wall = SLICED_WALL if form == "project" else WALL
@@ -389,12 +404,19 @@ def _check_without_shell(*, form: str, open_: str | None, drain: float | None) -
             raise UsageError.about(option, "is given, and with a wall of 0 there is no shell; leave it out")
 
 
-def _region_problem(kind: Kind, name: str, graded: bool) -> str:
+def _draws_once(kind: Kind, own: Mapping[str, Any]) -> bool:
+    """Tell whether a pattern with parameters of its own is a single drawing."""
+    return isinstance(kind, Tiled) and not own.get("repeat", kind.repeat)
+
+
+def _region_problem(kind: Kind, name: str, *, graded: bool, once: bool) -> str:
     """Return why a request cannot have regions, and a remedy."""
     if graded:
         return "the density changes everywhere; give one density"
     if isinstance(kind, Lightning):
         return f"branches of {name} follow roofs; choose another pattern"
+    if once:
+        return f"{name} is drawn once, whose lines decide the density; leave it out"
     return "cell and line_width decide the density; give density and one of them"
 
 

@@ -1,0 +1,107 @@
+"""A drawing once, at a place: its lines stand there and nowhere else, and what touches nothing is told."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import manifold3d
+import pytest
+import shapely
+from made_shapes import box
+
+from infill import GeometryError, UsageError, fill
+from infill.drawings.tiled import read_tiled
+from infill.meshes.solids import to_manifold
+
+pytestmark = pytest.mark.usefixtures("compiled")
+
+LINE = 0.6
+
+
+@pytest.fixture
+def logo(tmp_path: Path) -> str:
+    """A square of 6 x 6 in the left half of a page of 16 x 8, and a stroke of 6 in the right half."""
+    path = tmp_path / "logo.svg"
+    path.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="16mm" height="8mm" viewBox="0 0 16 8"><g fill="none" '
+        'stroke="black"><rect x="1" y="1" width="6" height="6"/><path d="M9 4 L15 4"/></g></svg>'
+    )
+    return str(path)
+
+
+def once(part: Any, logo: str, **more: Any) -> Any:
+    return fill(part, logo, repeat=False, cell=16.0, line_width=LINE, wall=1, voxel=0.3, **more)
+
+
+def solid_in(result: Any, low: tuple[float, ...], high: tuple[float, ...]) -> float:
+    """Volume of infill in a box, mm³."""
+    cube = manifold3d.Manifold.cube([h - a for a, h in zip(low, high, strict=True)]).translate(low)
+    return cube.volume() - (to_manifold(result.stages.voids) ^ cube).volume()
+
+
+def test_a_drawing_once_stands_where_it_is_placed(logo: str) -> None:
+    """Lines of 24 and 6 mm, and nothing else; the tile is the box around them, as for tiles."""
+    drawn = replace(read_tiled(logo), cell=16.0, repeat=False).lines(shapely.box(-50, -50, 50, 50))
+    result = once(box(44, 30, 8), logo, phase=(10, 5))
+    report = result.report
+    assert report["problems"] == []
+    assert report["closed"]
+    assert report["mesh"]["manifold"] == "NoError"
+    assert report["voids"]["count"] == 2  # within the square, and around
+    x0, y0, x1, y1 = drawn.bounds
+    middle = solid_in(result, (x0 + 9, y0 + 4, -1), (x1 + 11, y1 + 6, 1))
+    assert middle == pytest.approx(2 * LINE * drawn.length, rel=0.1)  # fillets at five ends and corners
+    assert solid_in(result, (-20, -13, -1), (20, 13, 1)) == pytest.approx(middle, rel=1e-6)
+
+
+def test_a_drawing_once_is_one_of_its_tiles(logo: str) -> None:
+    """Within one tile, the lines are the same; beyond it, there are none."""
+    tiled = replace(read_tiled(logo), cell=1.0)
+    single = replace(tiled, repeat=False)
+    inside, wide = shapely.box(-0.49, -0.24, 0.49, 0.24), shapely.box(-3, -3, 3, 3)
+    assert single.lines(inside).equals(tiled.lines(inside))
+    assert single.lines(wide).length < 1.2 * single.lines(inside).length
+    assert tiled.lines(wide).length > 20 * single.lines(wide).length
+
+
+def test_pieces_that_touch_no_wall_are_left_out_and_told(logo: str) -> None:
+    report = once(box(44, 30, 8), logo, open_="both").report
+    assert report["voids"]["islands"] == 2
+    assert report["problems"] == [
+        "pieces of the drawing that touch no wall were left out: 2; draw lines from them to the rest, or close the top "
+        "or the bottom of the part"
+    ]
+    assert once(box(44, 30, 8), logo, open_="top").report["problems"] == []  # what it recommends
+
+
+def test_a_drawing_beside_the_part_is_refused(logo: str) -> None:
+    with pytest.raises(GeometryError, match=r"phase puts the drawing at x 7.*, and the part spans x -22 to 22, y -15"):
+        once(box(44, 30, 8), logo, phase=(80, 5))
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        ({"cell": None}, "cell is missing, and .*logo.svg is drawn once; give the width"),
+        ({"density": 0.2}, "density is given, and .*logo.svg is drawn once"),
+        ({"regions": ["z=0..:density=40%"]}, "region is given, and .*logo.svg is drawn once"),
+    ],
+)
+def test_a_single_drawing_has_a_width_and_no_density(given: dict[str, Any], says: str, logo: str) -> None:
+    with pytest.raises(UsageError, match=says):
+        fill(box(44, 30, 8), logo, repeat=False, **{"cell": 16.0, **given})
+
+
+def test_a_project_does_not_move_a_single_drawing(tmp_path: Path) -> None:
+    """A square that touches the walls of the part, where slicers print little of it."""
+    path = tmp_path / "square.svg"
+    path.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="8mm" height="8mm" viewBox="0 0 8 8"><g fill="none" '
+        'stroke="black"><rect x="0" y="0" width="8" height="8"/><path d="M0 4 L8 4"/></g></svg>'
+    )
+    sizes: dict[str, Any] = {"cell": 9.0, "line_width": 0.9, "voxel": 0.3}
+    report = fill(box(10, 10, 6), str(path), repeat=False, as_="project", **sizes).report
+    assert report["infill"]["phase"] == [0, 0, 0]
+    assert report["infill"]["narrow"] > 0.1
