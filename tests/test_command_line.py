@@ -155,14 +155,33 @@ def test_list_is_one_line_a_pattern() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["gyroid", "octet"])
-def test_list_shows_a_pattern_that_repeats_in_space(name: str, tmp_path: Path) -> None:
+def test_list_shows_a_pattern_that_repeats_in_space(name: str) -> None:
     assert run("list", name).stdout.startswith(f"{name}: {IN_SPACE[name].summary}\n  repeats in space")
     assert json.loads(run("list", name, "--json").stdout) == {
         "patterns": {},
         "in_space": {name: IN_SPACE[name].summary},
     }
-    assert run("list", name, "--preview", tmp_path / "a.png").exit_code == 2
-    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.long  # fills a cube: seconds
+@pytest.mark.parametrize("name", ["octet", "lightning"])
+def test_list_draws_a_cube_of_a_pattern_in_space(name: str, tmp_path: Path) -> None:
+    """Cut open, so that the colour of cuts is seen, and what lies behind them; written as other outputs are."""
+    path = tmp_path / "a.png"
+    path.write_text("mine", encoding="utf-8")
+    one_line_error(run("list", name, "--preview", path), "exists; .* --force")
+    one_line_error(run("list", name, "--preview", tmp_path / "a.jpg"), r"ends in \.png")
+    assert path.read_text(encoding="utf-8") == "mine"
+    result = run("list", name, "--preview", path, "--force")
+    assert result.stderr == f"wrote {path}\n"
+    assert result.stdout.startswith(f"{name}: ")
+    assert list(tmp_path.iterdir()) == [path]
+    with Image.open(path) as picture:
+        assert picture.size == (600, 600)
+        red, _, blue = np.asarray(picture.convert("RGB"), dtype=int).transpose(2, 0, 1)
+    cut, paper = red > blue + 60, (red == 255) & (blue == 255)
+    assert 0.01 < cut.mean() < 0.2
+    assert 0.1 < (~cut & ~paper).mean() < 0.9
 
 
 @pytest.mark.parametrize("name", ["adaptive-cubic", "support-cubic"])

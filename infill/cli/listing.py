@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from infill.cli.completing import fill_names
-from infill.cli.console import can_show, format_table, print_json, say
+from infill.cli.console import can_show, format_table, print_json, progress_bar, say
 
 if TYPE_CHECKING:
     from infill.reports.checking import PatternKeys, PatternList
@@ -29,7 +29,10 @@ def list_patterns(
     ] = None,
     preview: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="Picture to write of the pattern in its default block: a .png."),
+        typer.Option(
+            metavar="FILE",
+            help="Picture to write of the pattern: in its default block, or in space in a cube cut open; a .png.",
+        ),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object to stdout.")] = False,
@@ -42,11 +45,11 @@ def list_patterns(
     shown: Mapping[str, PatternClass] = PATTERNS if pattern is None else {pattern: PATTERNS.find(pattern)}
     kinds = {name: kind for name, kind in shown.items() if kind.prismatic and not issubclass(kind, Cells)}
     in_space = {name: kind.summary for name, kind in shown.items() if name not in kinds}
-    if pattern in in_space:
-        _show_in_space(shown[str(pattern)], pictured=preview is not None, as_json=as_json)
-        return
     if preview is not None:
-        _write_preview(kinds[str(pattern)], preview, overwrite=force)
+        _write_preview(shown[str(pattern)], preview, overwrite=force)
+    if pattern in in_space:
+        _show_in_space(shown[str(pattern)], as_json=as_json)
+        return
     if as_json:
         listed: PatternList = {"patterns": {name: _facts(kind) for name, kind in kinds.items()}}
         if pattern is None:
@@ -60,11 +63,9 @@ def list_patterns(
         typer.echo(_pattern_text(kinds[pattern]))
 
 
-def _show_in_space(kind: PatternClass, *, pictured: bool, as_json: bool) -> None:
-    """Print the purpose of a pattern in space, and its parameters unless as JSON; raise BadParameter if `pictured`."""
+def _show_in_space(kind: PatternClass, *, as_json: bool) -> None:
+    """Print the purpose of a pattern in space, and its parameters unless as JSON."""
     name = kind.name
-    if pictured:
-        raise typer.BadParameter(f"'infill fill PART --pattern {name} --preview FILE' shows {name}, in a part")
     if as_json:
         listed: PatternList = {"patterns": {}, "in_space": {name: kind.summary}}
         print_json(listed)
@@ -74,14 +75,21 @@ def _show_in_space(kind: PatternClass, *, pictured: bool, as_json: bool) -> None
         typer.echo(_parameter_table(kind, title, own=True).rstrip("\n"))
 
 
-def _write_preview(kind: type[Pattern], path: Path, *, overwrite: bool) -> None:
-    """Draw a pattern with its defaults into a picture file."""
+def _write_preview(kind: PatternClass, path: Path, *, overwrite: bool) -> None:
+    """Draw a pattern with its defaults into a picture file: its lines, or in space, a cube of it cut open."""
     from infill.files.whole_files import check_targets, write_all_files
     from infill.pictures.drawing import write_drawing
     from infill.pictures.preview import check_preview
+    from patterns import Cells
 
     check_targets([check_preview(path)], overwrite=overwrite)
-    write_all_files({path: partial(write_drawing, kind())})
+    if kind.prismatic and not issubclass(kind, Cells):
+        write_all_files({path: partial(write_drawing, kind())})
+    else:
+        from infill.lattices.specimen import write_specimen
+
+        with progress_bar(shown=True) as progress:
+            write_all_files({path: partial(write_specimen, kind.name, progress=progress)})
     say(f"wrote {path}")
 
 
