@@ -2,7 +2,8 @@
 
 InfillError
 ├── ParameterError(ValueError)      a number out of range
-│   └── UsageError                  a word for a number, none of the choices, or things that exclude each other
+│   ├── UsageError                  a word for a number, none of the choices, or things that exclude each other
+│   └── LabelChoiceError            a volume of labels, and nothing says which are wanted
 ├── FormatError(ValueError)         a file suffix or file contents we cannot use
 ├── GeometryError(ValueError)       the mesh would come out wrong: open, broken, a feature lost
 ├── MemoryLimitError(ValueError)    a grid that exceeds the available memory
@@ -113,6 +114,10 @@ class ParameterError(InfillError, ValueError):
 
 class UsageError(ParameterError):
     """An argument has the wrong type or is not one of the choices, or two arguments exclude each other."""
+
+
+class LabelChoiceError(ParameterError):
+    """A volume holds labels, and nothing says which of them are wanted."""
 
 
 class FormatError(InfillError, ValueError):

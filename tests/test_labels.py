@@ -29,9 +29,10 @@ from infill import (
     smooth_labels,
     smooth_volume,
 )
-from infill.errors import FormatError
+from infill.errors import FormatError, LabelChoiceError
 from infill.voxels.labels import MOST_LABELS, label_extents
 
+NAMED = "Segment0_Name:=Femur\nSegment0_LabelValue:=1\nSegment1_Name:=Tibia\nSegment1_LabelValue:=7\n"
 pytestmark = pytest.mark.usefixtures("compiled", "silent_compiler")
 
 
@@ -360,7 +361,7 @@ def test_each_label_into_one_file(folder: Path) -> None:
 def test_a_segmentation_of_slicer_with_layers(folder: Path) -> None:
     pytest.importorskip("SimpleITK", reason="SimpleITK is not installed (extra medical)")
     seg_nrrd(folder / "a.seg.nrrd", FIELDS + "Segment11_Name:=plan\nSegment11_LabelValue:=7\nSegment11_Layer:=1\n")
-    done = run("smooth", "a.seg.nrrd", "-o", "{label}.stl", "--allow-broken")
+    done = run("smooth", "a.seg.nrrd", "-o", "{label}.stl", "--allow-broken", "--smooth", "plain")
     assert done.exit_code == 0, done.output
     assert names(folder) == {"a.seg.nrrd", "Femur, left_right.stl", "Cartilage.stl", "Plan.stl"}
     assert "without a cell" in done.stderr
@@ -486,3 +487,76 @@ def test_a_real_segmentation(data: Path, tmp_path: Path) -> None:
     for each in result.report["labels"]:
         cells = int((skull.values == each["number"]).sum())
         assert each["report"]["volume"] == pytest.approx(cells * skull.cell_volume, rel=0.01)
+
+
+# --- a label map, and nothing says which labels ----------------------------------------------------------
+
+
+def knee() -> np.ndarray:
+    """Two bones that touch nothing, 1 and 7."""
+    values = np.zeros((30, 14, 14), dtype=np.uint8)
+    for value, x in ((1, 7.0), (7, 21.0)):
+        values[ball(values.shape, (x, 6.5, 6.5), 4.0)] = value
+    return values
+
+
+def test_the_labels_of_a_map_are_listed_with_their_sizes() -> None:
+    values = knee()
+    cells = np.bincount(values.ravel())
+    with pytest.raises(LabelChoiceError) as caught:
+        smooth_volume(values, spacing=0.5)
+    listed = f"2 labels: 1 ({cells[1] / 8:.3g} mm³), 7 ({cells[7] / 8:.3g} mm³)"
+    assert str(caught.value).startswith(f"the volume holds {listed}; give -o")
+    assert "otsu" not in str(caught.value)
+    assert smooth_volume(values, label=7).surface.closed
+
+
+def test_a_map_of_many_labels_is_listed_in_part() -> None:
+    values = np.repeat(np.arange(1, 41), 50).reshape(40, 5, 10)
+    with pytest.raises(LabelChoiceError, match=r"holds 40 labels: 1 \(50 mm³\), .*, 11 \(50 mm³\), 29 more; give"):
+        smooth_volume(values)
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        np.random.default_rng(1).integers(0, 200, (12, 12, 12)),
+        np.arange(-864, 864).reshape(12, 12, 12),
+        np.add.outer(np.add.outer(np.arange(12.0), np.arange(12.0)), np.arange(12.0)) / 3,
+    ],
+    ids=["noise", "a ramp", "fractions"],
+)
+def test_grey_values_are_no_label_map(values: np.ndarray) -> None:
+    with pytest.raises(ParameterError, match=r"--otsu \(finds"):
+        smooth_volume(values)
+
+
+def test_what_is_said_of_a_label_map_works(tmp_path: Path) -> None:
+    """By its names; and the remedies, as they are written."""
+    path = seg_nrrd(tmp_path / "knee.seg.nrrd", NAMED, knee())
+    for more in ([], ["--dry-run"]):
+        result = run("smooth", path, "-o", tmp_path / "a.stl", *more)
+        one_line_error(result, r"knee.seg.nrrd holds 2 labels: 1 Femur \(\d+ mm³\), 7 Tibia \(\d+ mm³\); ")
+    template = re.search(r'-o "(.*?)"', result.stderr)
+    assert template
+    assert not list(tmp_path.glob("*.stl"))
+    assert run("smooth", path, "-o", tmp_path / template[1]).exit_code == 0
+    assert sorted(each.name for each in tmp_path.glob("*.stl")) == ["Femur.stl", "Tibia.stl"]
+    assert run("smooth", path, "-o", tmp_path / "a.stl", "--label", "7").exit_code == 0
+
+
+def test_every_label_has_its_verdict(tmp_path: Path) -> None:
+    """A rod of one voxel is lost from a ball; another ball is kept."""
+    values = np.zeros((40, 20, 20), dtype=np.uint8)
+    values[ball(values.shape, (9, 9.5, 9.5), 6.0)] = 1
+    values[ball(values.shape, (29, 9.5, 6), 4.0)] = 2
+    values[29, 9, 10:18] = 2
+    np.save(tmp_path / "labels.npy", values)
+    result = run(
+        "smooth", tmp_path / "labels.npy", "-o", tmp_path / "{label}.stl", "--allow-broken", "--smooth", "plain"
+    )
+    assert result.exit_code == 0, result.stderr
+    rows = [line for line in result.stderr.splitlines() if "of the data; " in line]
+    words = [row.partition("of the data; ")[2].partition(";")[0] for row in rows]
+    assert words[0] == "kept"
+    assert words[1] in ("changed a little", "lost")

@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from skimage.filters import threshold_otsu
 
-from infill.errors import ParameterError
+from infill.errors import LabelChoiceError, ParameterError
 from infill.imaging.volume_files import read_volume
 from infill.volume import Volume
 from infill.voxels.segmentation import contrast, edge_window, otsu_threshold, scale_grey_values, segment_volume
@@ -103,10 +103,8 @@ def test_a_field_of_both_signs_is_a_phase() -> None:
         (RAMP, -8, 18),
         (RAMP / 27.0 + 0.3, 0.0037, 0.967),
         (RAMP / 10, -0.8, 1.8),
-        (np.where(RAMP > 3, 2, 1), 1, 2),  # neither is 0
         (np.where(RAMP > 3, 0, -1000), -1000, 0),  # which of them is void, air or water?
         (np.clip(RAMP, -1, 1), -1, 1),
-        (np.clip(RAMP, 0, 2), 0, 2),
     ],
 )
 def test_values_that_do_not_tell_are_not_guessed(values: np.ndarray, least: float, most: float) -> None:
@@ -118,6 +116,12 @@ def test_values_that_do_not_tell_are_not_guessed(values: np.ndarray, least: floa
         assert offer in said
     hint = float(said.partition("(finds ")[2].rstrip(")"))
     assert hint == pytest.approx(otsu_threshold(volume(values)), rel=1e-5)
+
+
+@pytest.mark.parametrize("values", [np.where(RAMP > 3, 2, 1), np.clip(RAMP, 0, 2)], ids=["neither is 0", "0 and two"])
+def test_few_values_that_fill_regions_are_labels(values: np.ndarray) -> None:
+    with pytest.raises(LabelChoiceError, match=r"holds 2 labels: 1 \(\d+ mm³\), 2 \(\d+ mm³\); give -o"):
+        segment_volume(volume(values))
 
 
 @pytest.mark.parametrize(

@@ -27,10 +27,10 @@ def show_smooth_plan(
 ) -> None:
     """Print the plan of smoothing a file or folder."""
     from infill.smoothing.plan import plan_smoothing
-    from infill.smoothing.sources import read_source
+    from infill.smoothing.sources import name_labels, read_source
 
     begin = time.perf_counter()
-    with print_log(shown=not quiet):
+    with print_log(shown=not quiet), name_labels(source, **settings.reading):
         plan = plan_smoothing(read_source(source, **settings.reading), begin=begin, **settings.choice, **options)
     names = [str(path) for path in files]
     if as_json:

@@ -162,9 +162,10 @@ def _summary(result: Result[LabelStages, LabelsReport], files: Sequence[str], na
     rows = {}
     for label in report["labels"][:MOST_ROWS]:
         part = label["report"]
+        verdict = "; ".join([part["verdict"]["word"], *part["verdict"]["changes"]])
         rows[f"{label['number']} {label['name']}"] = (
             f"{part['triangles']:,} triangles, {plain_number(part['volume'], 6)} mm³, {part['volume_change']:+.4%} of "
-            "the data"
+            f"the data; {verdict}"
         )
     if len(report["labels"]) > MOST_ROWS:
         rows["…"] = f"and {len(report['labels']) - MOST_ROWS} more"

@@ -159,11 +159,11 @@ def _smooth_source(source: Path, settings: SmoothSettings, options: SmoothOption
     from infill.imaging.volume_files import field_writer
 
     with progress_bar(shown=not output.quiet) as progress:
-        from infill.smoothing.sources import read_source, smooth_source
+        from infill.smoothing.sources import name_labels, read_source, smooth_source
 
         if progress is not None:
             progress("read", 0.0)
-        with print_log(shown=not output.quiet):
+        with print_log(shown=not output.quiet), name_labels(source, **settings.reading):
             data = read_source(source, **settings.reading)
             smoothing_options = cast("SmoothOptions", {**options, "progress": progress})
             result: Any = smooth_source(data, **settings.choice, **smoothing_options)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from infill.arrays import Floats
-    from patterns.protocol import Cells
+    from patterns.cellular import Cells
 
 SIDE, WALL = 18.0, 0.6  # mm: of the cube
 VOXEL = 0.25  # mm: fine enough for the picture
@@ -58,7 +58,7 @@ def write_specimen(
         )
 
     def paint(points: Floats) -> NDArray[np.number]:
-        is_cut = (np.abs(points - corner) < TOLERANCE).any(axis=1)
+        is_cut = np.any(np.abs(points - corner) < TOLERANCE, axis=1)
         return np.where(is_cut[:, None], np.array(CUT), np.array(BEHIND))
 
     picture = Image.fromarray(render(cut, width=PIXELS, height=PIXELS, paint=paint))

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import logging
 import os
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Unpack, cast
@@ -11,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal, Unpack, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.errors import FormatError, GeometryError, ParameterError, UsageError
+from infill.errors import FormatError, GeometryError, LabelChoiceError, ParameterError, UsageError
 from infill.files.broken import READER_ERRORS
 from infill.formats.mesh_files import READERS
 from infill.formats.point_files import read_points_and_normals
@@ -24,6 +26,7 @@ from infill.surface import Surface
 from infill.volume import Volume
 from infill.voxels.cropping import crop
 from infill.voxels.from_mesh import voxel_size
+from infill.voxels.labels import LABEL_ADVICE, describe_labels
 
 if TYPE_CHECKING:
     from infill.reports.smoothing import ComponentsReport, SmoothReport
@@ -172,6 +175,24 @@ def _resize_and_crop(
     """Set the cell size of a volume, if one is given, and crop it to a box."""
     sized = volume if spacing is None else replace(volume, spacing=spacing_of(spacing, 3))
     return sized if roi is None else crop(sized, roi, varied=varied)
+
+
+@contextlib.contextmanager
+def name_labels(path: str | os.PathLike[str], **reading: Any) -> Iterator[None]:  # noqa: ANN401 - hands on
+    """Name the labels of a file in the error that says that nothing chooses one of them.
+
+    Parameters
+    ----------
+    path : str or Path
+    **reading
+        As for `read_source`.
+    """
+    try:
+        yield
+    except LabelChoiceError as error:
+        segmentation = read_label_source(path, **{name: value for name, value in reading.items() if name != "units"})
+        names = {(segment.layer, segment.value): segment.name for segment in segmentation.segments}
+        raise LabelChoiceError(f"{path} holds {describe_labels(segmentation.layers, names)}; {LABEL_ADVICE}") from error
 
 
 def smooth_source(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,11 +10,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import ParameterError
+from infill.plain_numbers import count_noun, plain_number
 from infill.volume import Volume
 
 DIRECT = 65536  # labels up to here are looked up by their number
 MOST_LABELS = 4096  # labels; a volume with more is one of grey values
 SLAB = 2**22  # cells examined in one go
+ALIKE = 0.5  # of all pairs of neighbours, without those of two zeros: labels fill regions, grey values change
+MOST_LISTED = 12  # labels in a message
+LABEL_ADVICE = (
+    'give -o "{label}.stl" for a file of each, --label N for one of them, or --threshold X if the values are grey '
+    "levels"
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -69,6 +77,61 @@ def label_extents(volume: Volume) -> tuple[LabelExtent, ...]:
         LabelExtent(value=value, low=tuple(side.start for side in box), high=tuple(side.stop for side in box))
         for value, box in boxes
     )
+
+
+def is_label_map(volume: Volume) -> bool:
+    """Tell whether a volume holds labels rather than grey values: whole numbers that fill regions, from 0 upwards.
+
+    >>> levels = np.arange(64).reshape(4, 4, 4)
+    >>> is_label_map(Volume(values=levels // 32)), is_label_map(Volume(values=levels // 16)), is_label_map(
+    ...     Volume(values=levels))
+    (False, True, False)
+    """
+    try:
+        values = _whole_numbers(volume.values)
+    except ParameterError:
+        return False
+    if values.min() < 0 or values.max() < 2:  # 0 and 1 are a mask
+        return False
+    found: set[int] = set()
+    pairs = alike = 0
+    for part in _slabs(values.transpose(np.argsort([-abs(step) for step in values.strides], kind="stable"))):
+        found.update(np.unique(part).tolist())
+        if len(found) > MOST_LABELS:
+            return False
+        first, second = part[..., :-1], part[..., 1:]
+        labelled = (first != 0) | (second != 0)
+        pairs += int(labelled.sum())
+        alike += int(((first == second) & labelled).sum())
+    return len(found - {0}) > 1 and alike >= ALIKE * pairs
+
+
+def describe_labels(layers: Iterable[Volume], names: Mapping[tuple[int, int], str] | None = None) -> str:
+    """List the labels of layers for a message, with their sizes, and their names by layer and number where known.
+
+    >>> describe_labels([Volume(values=np.array([[[0, 7, 3, 7]]]))], {(0, 7): "femur"})
+    '2 labels: 3 (1 mm³), 7 femur (2 mm³)'
+    """
+    labels = [
+        f"{value} {(names or {}).get((layer, value), '')}".rstrip()
+        + f" ({plain_number(volume.cell_volume * count)} mm³)"
+        for layer, volume in enumerate(layers)
+        for value, count in _count_labels(volume)
+    ]
+    shown = (
+        labels if len(labels) <= MOST_LISTED else [*labels[: MOST_LISTED - 1], f"{len(labels) - MOST_LISTED + 1} more"]
+    )
+    return f"{count_noun(len(labels), 'label')}: {', '.join(shown)}"
+
+
+def _count_labels(volume: Volume) -> Iterator[tuple[int, int]]:
+    """Yield each label and the number of its cells."""
+    counts: dict[int, int] = {}
+    for part in _slabs(_whole_numbers(volume.values)):
+        for value, count in zip(*np.unique(part, return_counts=True), strict=True):
+            counts[int(value)] = counts.get(int(value), 0) + int(count)
+    counts.pop(0, None)
+    yield from sorted(counts.items())
 
 
 def _whole_numbers(values: NDArray[Any]) -> NDArray[Any]:

@@ -12,10 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.checks import check_positive, check_range
-from infill.errors import ParameterError, UsageError
+from infill.errors import LabelChoiceError, ParameterError, UsageError
 from infill.kernels.threads import in_threads, thread_count
 from infill.plain_numbers import plain_argument
 from infill.volume import Volume
+from infill.voxels.labels import LABEL_ADVICE, describe_labels, is_label_map
 
 if TYPE_CHECKING:
     from infill.reports.smoothing import SegmentationKeys, SegmentationRule
@@ -291,6 +292,8 @@ def _interpret_values(volume: Volume, lowest: float, highest: float) -> tuple[ND
         return values == highest, {"method": "mask"}
     if values.dtype.kind == "f" and -1 <= lowest < 0 < highest <= 1:
         return values > 0, {"method": "phase", "low": 0.0}
+    if is_label_map(volume):
+        raise LabelChoiceError(f"the volume holds {describe_labels([volume])}; {LABEL_ADVICE}")
     hint = f" (finds {plain_argument(otsu_threshold(volume))})" if lowest < highest else ""
     raise ParameterError(
         f"the values go from {plain_argument(lowest)} to {plain_argument(highest)} and do not say what is solid; give "
