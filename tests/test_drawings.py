@@ -400,7 +400,7 @@ def test_pictures_without_a_picture(tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
 def test_dxf_without_ezdxf_names_the_extra(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "ezdxf", None)
-    with pytest.raises(FormatError, match=r"pip install 'phasefill\[drawings\]'"):
+    with pytest.raises(FormatError, match="needs the extra drawings: pip install ezdxf"):
         read_drawing(written(tmp_path, "0\nEOF\n", "tile.dxf"))
 
 

@@ -73,25 +73,7 @@ def summary(report: FillReport, files: list[str], name: str, *, verbose: bool) -
         rows["mesh"] = f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}"
         rows["solid"] = f"{plain_number(report['volume'], 6)} mm³ of infill"
         del rows["walls"], rows["voids"]
-    if request["densities"] is not None:
-        first, last = request["densities"]
-        lowest, highest = PLACES.get(str(request["by"]), ("where the field is lowest", "where it is highest"))
-        ends = f"{plain_number(100 * first, 6)}% {lowest} to {plain_number(100 * last, 6)}% {highest}"
-        sizes = f"cells of {plain_number(infill['cell'], 4)} mm, lines of {plain_number(infill['line_width'])} mm"
-        if request["grade"] == "cell":
-            (small, large), (narrow, wide) = infill["cells"] or (0, 0), infill["widths"] or (0, 0)
-            sizes = (
-                f"cells of {plain_number(small)} to {plain_number(large)} mm, lines of {plain_number(narrow, 2)} to "
-                f"{plain_number(wide, 2)} mm"
-            )
-        rows["density"] = f"{ends}; {report['density']:.1%} on average: {sizes}"
-    regions = [
-        f"{region['density']:.1%} {'elsewhere' if region['place'] == 'rest' else 'in ' + region['place']}"
-        for region in report["regions"]
-        if region["density"] is not None
-    ]
-    if regions:
-        rows["regions"] = ", ".join(regions)
+    rows |= _density_rows(report)
     if infill["phase"] != request["phase"]:
         shift = ", ".join(plain_number(length) for length in infill["phase"])
         rows["shifted"] = f"by {shift} mm in x, y and z: slicers print more of it there"
@@ -113,6 +95,31 @@ def summary(report: FillReport, files: list[str], name: str, *, verbose: bool) -
     for path in files:
         rows[f"wrote {path}"] = format_bytes(Path(path).stat().st_size) if Path(path).is_file() else ""
     return format_table(rows, title=f"{name}, {request['pattern']}")
+
+
+def _density_rows(report: FillReport) -> dict[str, str]:
+    """Describe a density that changes from place to place; no rows if it does not."""
+    request, infill, rows = report["request"], report["infill"], dict[str, str]()
+    if request["densities"] is not None:
+        first, last = request["densities"]
+        lowest, highest = PLACES.get(str(request["by"]), ("where the field is lowest", "where it is highest"))
+        ends = f"{plain_number(100 * first, 6)}% {lowest} to {plain_number(100 * last, 6)}% {highest}"
+        sizes = f"cells of {plain_number(infill['cell'], 4)} mm, lines of {plain_number(infill['line_width'])} mm"
+        if request["grade"] == "cell":
+            (small, large), (narrow, wide) = infill["cells"] or (0, 0), infill["widths"] or (0, 0)
+            sizes = (
+                f"cells of {plain_number(small)} to {plain_number(large)} mm, lines of {plain_number(narrow, 2)} to "
+                f"{plain_number(wide, 2)} mm"
+            )
+        rows["density"] = f"{ends}; {report['density']:.1%} on average: {sizes}"
+    regions = [
+        f"{region['density']:.1%} {'elsewhere' if region['place'] == 'rest' else 'in ' + region['place']}"
+        for region in report["regions"]
+        if region["density"] is not None
+    ]
+    if regions:
+        rows["regions"] = ", ".join(regions)
+    return rows
 
 
 def _drain_text(report: FillReport) -> str:

@@ -99,10 +99,11 @@ def configure_cellular(kind: Cells, request: FillSpec) -> Cells:
         if name not in names:
             hint = suggest_name(name, names) if names else "it has none but cell and line width"
             raise ParameterError(f"{request.pattern} has no parameter {name!r}; {hint}")
-    if isinstance(kind, Network) and (request.lowest or 1.0) < kind.thinnest:
+    lowest = request.lowest or 1.0
+    if isinstance(kind, Network) and lowest < kind.thinnest:
         raise ParameterError.about(
             "density",
-            f"is {plain_argument(request.lowest, 3)}, and the bars of {kind.name} break below "
+            f"is {plain_argument(lowest, 3)}, and the bars of {kind.name} break below "
             f"{plain_argument(kind.thinnest)}; give a higher one, or choose {kind.surfaces.name}",
         )
     return replace(kind, **request.parameters) if request.parameters else kind

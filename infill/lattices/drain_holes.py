@@ -265,7 +265,7 @@ def _advise_thinner(undrained: tuple[SealedVoid, ...], does: str) -> str:
     """Say which diameter gives the largest void its hole, and how many of the other voids."""
     largest = undrained[0]
     who = "all of them" if largest.together == len(undrained) else f"this and {largest.together - 1} of the others"
-    return f"with drains of {plain_argument(largest.fits)} mm, {who} {does}"
+    return f"with drains of {plain_argument(largest.fits or 0.0)} mm, {who} {does}"
 
 
 def find_closed_voids(solid: Surface) -> list[tuple[float, list[float]]]:

@@ -349,8 +349,8 @@ def check_request(
         density = DENSITY if cell is None or has_bars(kind) or (regions and not once) else None
         if density is None:
             line_width = SLICED_WIDTH if form == "project" else LINE_WIDTH
-    cell_alone = density is None and cell is not None and asked_width is None and not isinstance(kind, Lightning)
-    cell_alone = cell_alone and not once
+    cell_alone = density is None and cell is not None and asked_width is None
+    cell_alone = cell_alone and not (once or isinstance(kind, Lightning))
     if density is not None and line_width is not None and isinstance(kind, Lightning):
         raise UsageError.about(
             ("density", "line_width"),

@@ -289,7 +289,7 @@ def _problems(tally: TopologyChanges, width: WallWidth, fused_lines: int) -> Ite
     ):
         if count:
             yield f"{count_noun(count, noun)} {event} in smoothing"
-    if tally.pinhole_share and tally.pinhole_share > MAX_PINHOLE_SHARE:
+    if tally.pinholes and tally.pinhole_share and tally.pinhole_share > MAX_PINHOLE_SHARE:
         yield (
             f"{count_noun(tally.pinholes, 'hole')} narrower than a line, {tally.pinhole_share:.0%} of all void, closed "
             "in smoothing: use larger cells or a thinner line"

@@ -385,9 +385,10 @@ def _describe(used: SegmentationRule) -> str:
     if used["method"] == "label":
         return f"is {', '.join(str(label) for label in used['label'])}"
     if used["method"] != "range":
-        threshold_text = f", {plain_argument(used['low'])}" if "low" in used else ""
+        low = used.get("low")
+        threshold_text = "" if low is None else f", {plain_argument(low)}"
         return f"what is solid is found by {used['method']}{threshold_text}"
-    low, high = (used.get(end) for end in ("low", "high"))
-    if low is None or high is None:
-        return f"is {plain_argument(low) if high is None else f'up to {plain_argument(high)}'}"
-    return f"is {plain_argument(low)} to {plain_argument(high)}"
+    low, high = used.get("low"), used.get("high")
+    words = [] if low is None else [plain_argument(low)]
+    words += [] if high is None else [f"{'up ' if low is None else ''}to {plain_argument(high)}"]
+    return f"is {' '.join(words)}"
