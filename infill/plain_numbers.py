@@ -20,7 +20,7 @@ def plain_number(value: SupportsFloat, digits: int = 3, *, separator: str = ",")
     if number == 0 or not math.isfinite(number):
         return "0" if number == 0 else str(number)
     sign = "-" if number < 0 else ""
-    if abs(number) >= LARGEST:
+    if abs(number) > LARGEST:
         return f"{'under' if sign else 'over'} {sign}{LARGEST:{separator}.0f}"
     if abs(number) < SMALLEST:
         return f"{'over' if sign else 'under'} {sign}{SMALLEST:.9f}"

@@ -192,7 +192,7 @@ XMLS = {
     "no corner": (GOOD.replace('v1="0"', ""), "holds a number that is not one, among nothing"),
     "nan": (GOOD.replace('x="30"', 'x="nan"'), "coordinates that are not numbers"),
     "infinite": (GOOD.replace('x="30"', 'x="1e999"'), "coordinates that are not numbers"),
-    "huge": (GOOD.replace('x="30"', 'x="1e300"'), "coordinates that are not numbers up to 1e.15"),
+    "huge": (GOOD.replace('x="30"', 'x="1e300"'), "coordinates that are not numbers up to 1,000,000,000,000,000"),
 }
 
 

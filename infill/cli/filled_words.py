@@ -46,8 +46,10 @@ def show_plan(plan: FillForecast, name: str, *, as_json: bool) -> None:
     typer.echo(format_table(rows, title=f"{name}, {plan['request']['pattern']}: nothing is written (--dry-run)"))
 
 
-def summary(report: FillReport, files: list[str], name: str, *, verbose: bool) -> str:
-    """Format the report of a fill as a short table for stderr."""
+def summary(
+    report: FillReport, files: list[str], name: str, *, verbose: bool, objects: tuple[int, int] | None = None
+) -> str:
+    """Format the report of a fill as a short table for stderr; `objects` are those written, and those of the part."""
     request, mesh, voids, walls, infill = (
         report["request"],
         report["mesh"],
@@ -83,6 +85,11 @@ def summary(report: FillReport, files: list[str], name: str, *, verbose: bool) -
         )
     if voids["islands"]:
         rows["left out"] = f"{count_noun(voids['islands'], 'piece')} of infill that would have hung free"
+    if objects is not None and objects[1] > 1:
+        kept, count = objects
+        rows["objects"] = f"{count} in the file, {kept} in the result, with their names and colours"
+        if kept < count:
+            rows["objects"] += "; objects that overlap become one"
     if request["form"] == "solid" and not report["drains"]["count"]:  # drains are for resin and powder
         rows["filament"] = FILAMENT_ADVICE
     if report["problems"]:

@@ -29,10 +29,13 @@ from infill.cli.declared import takes_options
 from infill.lattices.settings import FillOptions, resolve
 
 if TYPE_CHECKING:
+    from infill.formats.parts import Part
+    from infill.formats.threemf_reading import FileObject
     from infill.lattices.settings import FillSettings
     from infill.pictures.sections import Cut
     from infill.reports.filling import FillReport
     from infill.result import Result
+    from infill.surface import Surface
 
 PATTERN = "Pattern"
 
@@ -130,6 +133,7 @@ def fill(
             say(f"wrote {', '.join(written)}")
         return
     with progress_bar(shown=not quiet and not dry_run) as progress:
+        from infill.formats.mesh_files import PART_WRITERS
         from infill.lattices.job import fill_request, plan_fill
         from infill.smoothing.sources import read_source
 
@@ -145,19 +149,46 @@ def fill(
                 show_plan(plan_fill(mesh, settings.request, threads=threads), str(part), as_json=as_json)
                 return
             result = fill_request(mesh, settings.request, threads=threads, max_memory=limit, progress=progress)
+        objects = _file_objects(part, outputs, settings)
+        divided = _divide(result, mesh, objects, threads=threads) if objects else []
         if progress is not None:
             progress("write", 0.95)
         parts: dict[Path, Callable[[BinaryIO], object]] = {
             path: partial(write, result, part.stem) for path, write in writers.items()
         }
+        for path in outputs if divided else ():
+            if path.suffix.lower() in PART_WRITERS:
+                parts[path] = partial(PART_WRITERS[path.suffix.lower()], divided)
         if preview is not None:
             pictured = replace(result, stages=replace(result.stages, cuts=cuts))
             parts[preview] = pictured.write_picture
         files = deliver_all({**parts, **saved})
     if not quiet:
-        say(summary(result.report, files, str(part), verbose=verbose))
+        kept = (len(divided), len(objects)) if divided else None
+        say(summary(result.report, files, str(part), verbose=verbose, objects=kept))
     if as_json:
         print_json({**result.report, "files": files})
+
+
+def _file_objects(part: Path, outputs: list[Path], settings: FillSettings) -> tuple[FileObject, ...]:
+    """Return the objects of a 3MF whose solid goes into a file of objects; none for other files."""
+    from infill.formats.mesh_files import PART_WRITERS
+
+    solid = settings.slicer is None and settings.request.form == "solid"
+    if not solid or part.suffix.lower() != ".3mf" or not any(path.suffix.lower() in PART_WRITERS for path in outputs):
+        return ()
+    from infill.formats.threemf_reading import read_objects
+
+    return read_objects(part)
+
+
+def _divide(
+    result: Result[Any, FillReport], mesh: Surface, objects: tuple[FileObject, ...], *, threads: int | None
+) -> list[Part]:
+    """Divide a filled part into the objects of its file."""
+    from infill.lattices.objects import divide_by_objects
+
+    return divide_by_objects(result.surface, mesh, objects, threads=threads)
 
 
 def _parse_cuts(texts: list[str], *, drawn: bool) -> tuple[Cut, ...]:

@@ -44,7 +44,9 @@ from infill.formats.threemf_roles import (
     prusa_volumes,
     settings_of,
     slic3r_volumes,
+    whole_number,
 )
+from infill.imaging.label_tables import Colour
 from infill.meshes.merging import merge_unless_closed
 from infill.meshes.solids import subtract
 from infill.plain_numbers import count_noun, plain_number
@@ -58,6 +60,7 @@ MOST_PLACED = 100_000  # objects: nested components can request any number in a 
 MOST_PLACED_ROWS = 100_000_000  # triangles and vertices
 MOST_NESTED = 20  # components in one another
 MOST_NOTES = 20
+COLOUR = re.compile("#([0-9a-fA-F]{2})([0-9a-fA-F]{2})([0-9a-fA-F]{2})(?:[0-9a-fA-F]{2})?")
 PRUSA_CONFIGS = re.compile(r"metadata/[^/]*_model\.config")  # of PrusaSlicer and its forks
 
 Key = tuple[str, str]  # a file of the package, and the number of an object in it
@@ -76,12 +79,36 @@ class PlacedVolume:
     name : str
     scope : int
         Negative volumes are subtracted from earlier parts of the same scope.
+    title : str
+        Its own name in the file; empty for none.
+    colour : (red, green, blue), optional
+        Of its base material, from 0 to 1, sRGB.
     """
 
     surface: Surface
     role: str
     name: str
     scope: int
+    title: str = ""
+    colour: Colour | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class FileObject:
+    """An object of a 3MF, in the order in which `read_3mf` returns its triangles.
+
+    Parameters
+    ----------
+    name : str
+        Empty for none.
+    colour : (red, green, blue) or None
+        From 0 to 1, sRGB.
+    triangles : int
+    """
+
+    name: str
+    colour: Colour | None
+    triangles: int
 
 
 @dataclass(kw_only=True, eq=False)
@@ -228,9 +255,17 @@ class _Reading:
         ranges = [] if part != self.main and self.find(self.main, number) is not None else self.prusa.get(number, [])
         ranges = ranges or slic3r_volumes(element)
         scope = 0 if role == NEGATIVE or not ranges else self.placements
+        title, colour = role_name or item.get("name", ""), base_colour(model, item)
         if role == NEGATIVE or not ranges:
             if len(faces):
-                yield PlacedVolume(surface=placed, role=role, name=name, scope=scope)
+                yield PlacedVolume(
+                    surface=placed,
+                    role=role,
+                    name=name,
+                    scope=scope,
+                    title=title,
+                    colour=colour,
+                )
             return
         covered = np.zeros(len(faces), dtype=bool)
         for volume in ranges:
@@ -247,7 +282,14 @@ class _Reading:
             vertex_indices, corners = np.unique(faces[slice(*triangle_range)], return_inverse=True)
             surface = Surface(vertices=vertices[vertex_indices], faces=corners.reshape(-1, 3))
             if volume.role in (PART, NEGATIVE):
-                yield PlacedVolume(surface=surface, role=volume.role, name=label, scope=scope)
+                yield PlacedVolume(
+                    surface=surface,
+                    role=volume.role,
+                    name=label,
+                    scope=scope,
+                    title=volume.name or title,
+                    colour=colour,
+                )
             else:
                 self._leave_out(label, volume.role, volume.density, surface)
         if not covered.all():
@@ -285,11 +327,11 @@ class _Reading:
         if any(key.endswith("}meshresolution") and value == "lowres" for key, value in item.items()):
             self.note(f"{name} has a mesh of low resolution beside its slices, which are left out")
 
-    def without_negatives(self, volumes: Sequence[PlacedVolume]) -> Iterator[Surface]:
+    def without_negatives(self, volumes: Sequence[PlacedVolume]) -> Iterator[PlacedVolume]:
         """Yield the parts of the build, minus the negative volumes that follow them."""
         negatives = [number for number, volume in enumerate(volumes) if volume.role == NEGATIVE]
         if not negatives:
-            yield from (volume.surface for volume in volumes)
+            yield from volumes
             return
         low, high = zip(*(volume.surface.bounds for volume in volumes), strict=True)
         used_cutters = set()
@@ -306,7 +348,7 @@ class _Reading:
             ]
             used_cutters.update(cutters)
             if not cutters:
-                yield part.surface
+                yield part
                 continue
             remainder = subtract(_outward(part.surface), [_outward(volumes[cutter].surface) for cutter in cutters])
             if remainder is None:
@@ -315,7 +357,7 @@ class _Reading:
                     "not closed; repair them in the slicer, or export the part as an STL without it"
                 )
             if len(remainder.faces):
-                yield remainder
+                yield replace(part, surface=remainder)
         for number, volume in enumerate(volumes):
             if volume.role == NEGATIVE:
                 outcome = "it is taken off" if number in used_cutters else "it meets no part before it"
@@ -347,6 +389,46 @@ def read_3mf(
     FormatError
         If it is broken, builds nothing, or requires an extension that is not read.
     """
+    build = _read_build(path)
+    if not build.parts:
+        return np.empty((0, 3)), np.empty((0, 3), dtype=np.int64), (), ()
+    surfaces = [part.surface for part in build.parts]
+    starts = np.cumsum([0, *(len(surface.vertices) for surface in surfaces[:-1])])
+    vertices = np.concatenate([surface.vertices for surface in surfaces]) * build.scale
+    faces = np.concatenate([surface.faces + start for surface, start in zip(surfaces, starts, strict=True)])
+    return vertices, faces, build.notes, build.modifiers
+
+
+def read_objects(path: Path) -> tuple[FileObject, ...]:
+    """Return names and colours of the parts that `read_3mf` reads, in its order; raise FormatError as it does."""
+    return tuple(
+        FileObject(name=part.title, colour=part.colour, triangles=len(part.surface.faces))
+        for part in _read_build(path).parts
+    )
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Build:
+    """The parts that a 3MF builds, minus negative volumes.
+
+    Parameters
+    ----------
+    parts : list of PlacedVolume
+        In the unit of the file.
+    scale : float
+        That unit, mm.
+    notes : tuple of str
+    modifiers : tuple of Modifier
+        mm
+    """
+
+    parts: list[PlacedVolume]
+    scale: float
+    notes: tuple[str, ...]
+    modifiers: tuple[Modifier, ...]
+
+
+def _read_build(path: Path) -> _Build:
     with open_package(path) as package:
         reading = _Reading(path=path, package=package)
         main = reading.model(reading.main) if reading.main else None
@@ -355,7 +437,7 @@ def read_3mf(
         unit = main.root.get("unit", "millimeter").strip().lower()
         if unit not in UNITS:
             raise FormatError(f"{path} is in '{excerpt(unit)}', and 3MF knows {', '.join(UNITS)}; {EXPORT_ADVICE}")
-        surfaces: list[Surface] = []
+        parts: list[PlacedVolume] = []
         with wrap_reader_errors(path, "holds a number that is not one", EXPORT_ADVICE):
             for item in main.items:
                 key = reading.reference(item, reading.main)
@@ -363,24 +445,33 @@ def read_3mf(
                     reading.note(f"object {excerpt(key[1])} is not to be printed: it is left out")
                     continue
                 volumes = list(reading.placed(key, _parse_transform(item.get("transform", IDENTITY))))
-                surfaces.extend(reading.without_negatives(volumes))
-        notes = tuple(reading.notes)
-        if len(notes) > MOST_NOTES:
-            notes = (*notes[:MOST_NOTES], f"and {len(notes) - MOST_NOTES:,} more")
-        if not surfaces:
-            if notes:
-                raise FormatError(
-                    f"{path} holds no part: {'; '.join(notes[:3])}; make it a part in the slicer, or export an STL"
-                )
-            return np.empty((0, 3)), np.empty((0, 3), dtype=np.int64), (), ()
-        starts = np.cumsum([0, *(len(surface.vertices) for surface in surfaces[:-1])])
-        vertices = np.concatenate([surface.vertices for surface in surfaces]) * UNITS[unit]
-        faces = np.concatenate([surface.faces + start for surface, start in zip(surfaces, starts, strict=True)])
-        modifiers = tuple(
-            replace(each, surface=merge_unless_closed(each.surface.vertices, each.surface.faces).scaled(UNITS[unit]))
-            for each in reading.modifiers
+                parts.extend(reading.without_negatives(volumes))
+    notes = tuple(reading.notes)
+    if len(notes) > MOST_NOTES:
+        notes = (*notes[:MOST_NOTES], f"and {len(notes) - MOST_NOTES:,} more")
+    if notes and not parts:
+        raise FormatError(
+            f"{path} holds no part: {'; '.join(notes[:3])}; make it a part in the slicer, or export an STL"
         )
-    return vertices, faces, notes, modifiers
+    modifiers = tuple(
+        replace(each, surface=merge_unless_closed(each.surface.vertices, each.surface.faces).scaled(UNITS[unit]))
+        for each in reading.modifiers
+    )
+    return _Build(parts=parts, scale=UNITS[unit], notes=notes, modifiers=modifiers)
+
+
+def base_colour(model: Model, element: ElementTree.Element) -> Colour | None:
+    """Return the colour of the base material of an object; None without one, or if it is not #RRGGBB."""
+    group, number = element.get("pid"), whole_number(element.get("pindex", "0"))
+    for materials in model.below(model.root, "resources/basematerials"):
+        if group is not None and materials.get("id") == group:
+            bases = list(model.below(materials, "base"))
+            text = bases[number].get("displaycolor", "") if 0 <= number < len(bases) else ""
+            found = COLOUR.fullmatch(text.strip())
+            if found is not None:
+                red, green, blue = (int(channel, 16) / 255 for channel in found.groups())
+                return red, green, blue
+    return None
 
 
 def _outward(surface: Surface) -> Surface:
