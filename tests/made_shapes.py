@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 import trimesh
+from numpy.typing import NDArray
 from trimesh import creation, transformations
 
 
@@ -95,6 +96,37 @@ def gear() -> trimesh.Trimesh:
 def blade(degrees: float) -> trimesh.Trimesh:
     corners = [(0, 0), (40, 0), (40, 40 * np.tan(np.radians(degrees)))]
     return creation.extrude_polygon(shapely.Polygon(corners), 30)
+
+
+def wing(thick: float) -> trimesh.Trimesh:
+    """A curved plate with eight holes in it, like the wing of a pelvis."""
+    holes = [rod(2, 80, (9 * np.cos(a), 9 * np.sin(a), 0)) for a in np.arange(8) * np.pi / 4]
+    return less(bowl(thick), *holes)
+
+
+def spiked() -> trimesh.Trimesh:
+    """A block with eight spikes, thinner than a cell near their tips."""
+    spikes = [creation.cone(radius=0.6, height=14, sections=12) for _ in range(8)]
+    for number, spike in enumerate(spikes):
+        spike.apply_translation((6 * number - 21, 0, 3.5))
+    return union(box(50, 6, 8), *spikes)
+
+
+def vessels(side: int, rng: np.random.Generator) -> NDArray[np.float64]:
+    """Distances from fourteen straight vessels of one to three cells across, below 0 inside, at cells of a cube."""
+    places = np.indices((side,) * 3).reshape(3, -1).T
+    distance = np.full(len(places), np.inf)
+    for _ in range(14):
+        start, end = rng.uniform(4, side - 4, (2, 3))
+        along = np.clip((places - start) @ (end - start) / ((end - start) ** 2).sum(), 0, 1)
+        off = np.linalg.norm(places - start - along[:, None] * (end - start), axis=1)
+        distance = np.minimum(distance, off - rng.choice((0.6, 1.0, 1.5)))
+    return distance.reshape((side,) * 3)
+
+
+def speckled(solid: NDArray[np.bool_], share: float, rng: np.random.Generator) -> NDArray[np.bool_]:
+    """Flip a share of the cells at random."""
+    return solid ^ (rng.random(solid.shape) < share)
 
 
 def bust() -> tuple[trimesh.Trimesh, float]:

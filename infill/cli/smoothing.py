@@ -28,7 +28,7 @@ from infill.cli.console import format_bytes, format_digits, format_table, print_
 from infill.cli.declared import takes_options
 from infill.cli.foreseeing import show_smooth_plan
 from infill.cli.labelled import SmoothOutput, refuse_options, smooth_every_label, wants_every_label
-from infill.plain_numbers import count_noun, plain_number
+from infill.plain_numbers import plain_number
 from infill.smoothing.settings import SmoothSettings, resolve
 
 if TYPE_CHECKING:
@@ -212,15 +212,17 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
         rows["sealed voids"] = f"{result['cavities']}, in which resin and powder stay"
     if verbose or not (isinstance(report, Sections) and report.pending("distance")):
         distance = report["distance"]
+        near, far, back, far_back = (
+            plain_number(distance[side][key]) for side in ("result", "input") for key in ("p95", "max")
+        )
         rows["distance"] = (
-            f"{plain_number(distance['result']['p95'])} mm (95 %), {plain_number(distance['result']['max'])} mm at "
-            f"most, from the {distance['from']}; back {plain_number(distance['input']['p95'])} mm, "
-            f"{plain_number(distance['input']['max'])} mm"
+            f"{near} mm (95 %), {far} mm at most, from the {distance['from']}; back {back} mm, {far_back} mm"
         )
     if simplified := report["mesh"].get("simplified"):
+        shells = "1 shell" if simplified["shells"] == 1 else f"{simplified['shells']:,} shells"
         rows["simplified"] = (
             f"from {simplified['triangles_before']:,} triangles, {plain_number(simplified['distance']['max'])} mm at "
-            f"most, volume {simplified['volume_change']:+z.4%} by that, {count_noun(simplified['shells'], 'shell')}"
+            f"most, volume {simplified['volume_change']:+z.4%} by that, {shells}"
         )
     verdict = report["verdict"]
     rows["verdict"] = "; ".join(

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from infill.arrays import Floats
 from infill.meshes.distance import TriangleTree, morton_order
 from infill.meshes.measuring import face_areas
-from infill.plain_numbers import plain_argument, plain_number
+from infill.plain_numbers import plain_number, plain_place, plain_share
 from infill.surface import Surface
 
 if TYPE_CHECKING:
@@ -32,6 +32,8 @@ COUNTS, THIN, SHEET, HIDDEN = 0, 1, 2, 3
 KEPT = 1.25  # cells: a sharp corner recedes this far at most; a point further away has changed
 LOST = 2.0  # cells: a point further away is lost
 PATCH = 4.0  # cells², as large as a face of 2 x 2: if less than this is lost in one place, it is a change
+LOST_SHARE = 0.05  # of the surface: if this much lies further away, in however many places, it is lost
+LOST_AREA = 16.0  # cells², as large as a face of 4 x 4: if less than this lies further away in all, it is a change
 PITCH = 0.7  # cells between points
 MOST_SAMPLES = 80_000  # points on a surface, beside as many vertices
 FINEST = 250  # boxes along a side, which group points into places
@@ -93,9 +95,14 @@ class Deviation:
         From the result to the given surface, and back.
     added, lost : tuple of ChangedPatch
         Places that the result added, and places that it lacks; the largest first.
-    thin, sheet, hidden : float
-        Area of the given surface that is far from the result, but too thin to count, on a sheet without solid, or
-        inside the solid, mm².
+    thin : tuple of ChangedPatch
+        Places further away than `LOST` whose solid or void is too thin to count; the largest first.
+    thin_distance : float, mm
+        Largest distance of such places from the result; 0 without any.
+    sheet, hidden : float
+        Area of the given surface that is far from the result, but on a sheet without solid, or inside the solid, mm².
+    given_area, result_area : float
+        Area of both surfaces, without sheets and what is hidden, mm².
     cell : float, mm
     exact : bool
         Whether near distances are exact too, and not only known to be within `KEPT`.
@@ -105,39 +112,68 @@ class Deviation:
     back: SurfaceGap
     added: tuple[ChangedPatch, ...]
     lost: tuple[ChangedPatch, ...]
-    thin: float
+    thin: tuple[ChangedPatch, ...]
+    thin_distance: float
     sheet: float
     hidden: float
+    given_area: float
+    result_area: float
     cell: float
     exact: bool = True
 
     @property
     def word(self) -> Word:
-        """`lost` if at least four cells² in one place are missing or new; `kept` if nothing is over 1.25 cells away."""
+        """`lost` if much is missing or new, in one place or in all; `kept` if nothing is over 1.25 cells away.
+
+        Much is at least four cells² in one place, or a twentieth of the surface and 16 cells² in all places together.
+        """
         if any(place.area >= PATCH * self.cell**2 for place in (*self.added, *self.lost)):
+            return "lost"
+        if self.is_large(self.missing_area, self.given_area) or self.is_large(self.new_area, self.result_area):
             return "lost"
         return "kept" if max(self.there.max, self.back.max) <= KEPT * self.cell else "changed a little"
 
     @property
+    def missing_area(self) -> float:
+        """Area of the given surface that lies further than `LOST` from the result and counts, mm²."""
+        return float(sum(patch.area for patch in self.lost))
+
+    @property
+    def new_area(self) -> float:
+        """Area of the result that lies further than `LOST` from the given surface, mm²."""
+        return float(sum(patch.area for patch in self.added))
+
+    @property
+    def thin_area(self) -> float:
+        """Area of the given surface that lies further than `LOST` from the result and is too thin to count, mm²."""
+        return float(sum(patch.area for patch in self.thin))
+
+    def is_large(self, area: float, whole: float) -> bool:
+        """Tell whether an area, mm², is large by its size and by its share of a whole surface."""
+        return area >= LOST_AREA * self.cell**2 and area >= LOST_SHARE * whole
+
+    @property
     def phrases(self) -> tuple[str, ...]:
         """The changes, one phrase each."""
+        moved = max((self.back, self.there), key=lambda gap: gap.max)
         phrases = []
-        for gap, patches, change in (
-            (self.back, self.lost, "of the input is missing"),
-            (self.there, self.added, "was not in the input"),
+        for patches, whole, owner, change in (
+            (self.lost, self.given_area, "the input", "is missing"),
+            (self.added, self.result_area, "the result", "was not in the input"),
         ):
-            if gap.max <= KEPT * self.cell:
+            if not patches:
                 continue
-            place = ", ".join(plain_argument(x, 4) for x in gap.at)
-            if patches:
-                number = f"{len(patches)} places, " if len(patches) > 1 else ""
-                area = sum(patch.area for patch in patches)
-                phrases.append(
-                    f"{number}{plain_number(area)} mm² {change}, up to {plain_argument(gap.max, 3)} mm away, at "
-                    f"({place})"
-                )
-            else:
-                phrases.append(f"the surface moved by up to {plain_argument(gap.max, 3)} mm, at ({place})")
+            worst = max(patches, key=lambda patch: patch.distance)
+            area = float(sum(patch.area for patch in patches))
+            share = (
+                f"{plain_number(area)} mm² of {owner} ({plain_share(area / whole)})" if area else f"a tip of {owner}"
+            )
+            number = f" in {len(patches)} places" if len(patches) > 1 else ""
+            phrases.append(
+                f"{share} {change}{number}, up to {plain_number(worst.distance)} mm away, at {plain_place(worst.at)}"
+            )
+        if not phrases and moved.max > KEPT * self.cell:
+            phrases.append(f"the surface moved by up to {plain_number(moved.max)} mm, at {plain_place(moved.at)}")
         return tuple(phrases)
 
 
@@ -178,11 +214,16 @@ def measure_deviation(
     points, _, area = sample_surface(result, PITCH * cell)
     distance = _distances(points, given if closed is None else closed, enough, threads)
     there, added = _gap(points, distance, area), _patches(points, distance, area, cell)
+    result_area = float(area.sum())
     points, faces, area = sample_surface(given, PITCH * cell)
     distance = _distances(points, result, enough, threads)
     distant = np.flatnonzero(distance > KEPT * cell)
     kind = kinds(points[distant], faces[distant]) if len(distant) else np.empty(0, dtype=np.int64)
-    thin, sheet, hidden = (float(area[distant[kind == code]].sum()) for code in (THIN, SHEET, HIDDEN))
+    thin_points = distant[kind == THIN]
+    sheet, hidden = (float(area[distant[kind == code]].sum()) for code in (SHEET, HIDDEN))
+    given_area = float(area.sum()) - sheet - hidden
+    thin = _patches(points[thin_points], distance[thin_points], area[thin_points], cell)
+    thin_distance = float(distance[thin_points].max(initial=0.0))
     counting = np.ones(len(points), dtype=bool)
     counting[distant[kind != COUNTS]] = False
     if not counting.any():
@@ -194,8 +235,11 @@ def measure_deviation(
         added=added,
         lost=_patches(points, distance, area, cell),
         thin=thin,
+        thin_distance=thin_distance,
         sheet=sheet,
         hidden=hidden,
+        given_area=given_area,
+        result_area=result_area,
         cell=cell,
         exact=exact,
     )

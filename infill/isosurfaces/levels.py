@@ -259,9 +259,7 @@ def surface_at_volume(
             break
         level = _next_level(trial.level, trial.volume, trial.slope, total)
     if best is None:
-        raise GeometryError(
-            "nothing is left of the solid after smoothing; use finer voxels, fewer steps or more fidelity"
-        )
+        raise GeometryError("nothing is left of the solid after smoothing, which is too thin for its voxels")
     if data.count == 1:
         return LevelSurface(
             field=field,

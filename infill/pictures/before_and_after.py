@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from infill.arrays import Floats
-from infill.inspection.deviation import sample_surface
+from infill.inspection.deviation import LOST, sample_surface
 from infill.meshes.distance import TriangleTree
 from infill.meshes.winding import is_solid_boundary
 from infill.pictures.render import AZIMUTH, ELEVATION, Colour, Window, directions, render
@@ -21,12 +21,12 @@ from infill.pictures.sheet import BACKGROUND, PANEL, arrange_panels
 from infill.plain_numbers import plain_number
 from infill.surface import Surface
 
-FAR_VOXELS = 1.5  # voxels: points further away are marked
+FAR_VOXELS = LOST  # voxels: points further away are marked
 SAMPLE_PITCH = 0.7  # voxels between the sample points of the area
 PROBE_OFFSET = 1e-4  # of the far distance: offset at which solid beside a face is searched
 PLAIN: Colour = (214, 206, 192)
-LOST: Colour = (214, 39, 40)
-ADDED: Colour = (31, 119, 220)
+LOST_COLOUR: Colour = (214, 39, 40)
+ADDED_COLOUR: Colour = (31, 119, 220)
 MARGIN = 1.06  # of the frame
 VIEW_SHARE = 0.6  # of the maximum over all views
 MIN_VISIBLE = 8  # quarters of a pixel: smaller marks are invisible
@@ -116,28 +116,31 @@ def draw_before_and_after(
     """
     if given.volume < 0:  # inside out
         given = replace(given, faces=given.faces[:, ::-1])
-    lost = MarkedSurface(surface=given, other=result, far=FAR_VOXELS * cell, colour=LOST)
-    added = MarkedSurface(surface=result, other=given, far=FAR_VOXELS * cell, colour=ADDED)
+    far = float(report["verdict"].get("far", FAR_VOXELS * cell))
+    lost = MarkedSurface(surface=given, other=result, far=far, colour=LOST_COLOUR)
+    added = MarkedSurface(surface=result, other=given, far=far, colour=ADDED_COLOUR)
     view = _choose_view(lost, added)
     window = _square_window((given, result), view)
     pictures = [_draw_marked(marked, view, window) for marked in (lost, added)]
     panels = {caption: picture for caption, (picture, _) in zip(captions, pictures, strict=True)}
-    size = " x ".join(plain_number(length, 4) for length in report["extents"])
+    size = " x ".join(plain_number(length, 4, separator="") for length in report["extents"])
     facts = f"{size} mm, volume {plain_number(report['volume'], 6)} cubic mm ({report['volume_change']:+.4%})"
     legend = [
-        (
-            marked.colour,
-            f"{plain_number(marked.area)} square mm {word}{'' if shown else ', not seen here'}",
+        (marked.colour, f"{area} {word}{'' if shown else ', not seen here'}") if area else (None, f"nothing {word}")
+        for marked, area, word, (_, shown) in zip(
+            (lost, added), _describe_areas(lost, added, report["verdict"]), ("lost", "added"), pictures, strict=True
         )
-        if marked.area
-        else (None, f"nothing {word}")
-        for marked, word, (_, shown) in zip((lost, added), ("lost", "added"), pictures, strict=True)
     ]
-    ends = (
-        f"{facts}; marked if more than {plain_number(FAR_VOXELS * cell)} mm ({plain_number(FAR_VOXELS, 6)} voxels) "
-        "apart"
-    )
+    ends = f"{facts}; marked if more than {plain_number(far)} mm ({FAR_VOXELS:g} voxels) apart"
     return arrange_panels(panels, ends, [(None, f"{report['verdict']['word']}:"), *legend])
+
+
+def _describe_areas(lost: MarkedSurface, added: MarkedSurface, verdict: Mapping[str, Any]) -> tuple[str, str]:
+    """Describe the areas that were lost and added, as the verdict does if it has them; empty for none."""
+    missing, new = verdict.get("missing", lost.area), verdict.get("new", added.area)
+    thin = verdict.get("thin", 0.0)
+    counted, narrow, grown = (f"{plain_number(area)} square mm" if area else "" for area in (missing, thin, new))
+    return " and ".join(filter(None, (counted, narrow and f"{narrow} too thin to count,"))).rstrip(","), grown
 
 
 def _draw_marked(marked: MarkedSurface, view: tuple[float, float], window: Window) -> tuple[Image.Image, bool]:

@@ -157,6 +157,10 @@ class VerdictKeys(TypedDict):
     changes: Annotated[list[str], "Changes, one phrase each"]
     lost: Annotated[list[Place], "Five largest places of the input more than 2 voxels from the result"]
     added: Annotated[list[Place], "Five largest places of the result more than 2 voxels from the input"]
+    far: Annotated[float, "2 voxels, mm: what lies further away is missing or new"]
+    missing: Annotated[float, "Area of the input that is missing, mm²"]
+    thin: Annotated[float, "Area of the input that is gone but was too thin to count, mm²: walls or slits of one voxel"]
+    new: Annotated[float, "Area of the result that is new, mm²"]
     crumbs: CrumbKeys
     tried: Annotated[list[str], "Ways of smoothing that were tried, in order"]
     taken: Annotated[str, "Way of smoothing that was chosen"]
@@ -183,7 +187,7 @@ Distance = TypedDict(
         "from": Annotated[str, "Surface to compare with: `voxels`, or the `mesh` of the input"],
         "result": Annotated[Distances, "From the result to the input: additions"],
         "input": Annotated[Distances, "From the input to the result: losses"],
-        "thin": Annotated[float, "Area that was lost and too thin to last, mm²: walls or slits of one voxel"],
+        "thin": Annotated[float, "The same as `verdict.thin`"],
         "sheet": Annotated[float, "Area of faces that bound no solid, mm²"],
         "hidden": Annotated[float, "Area of faces inside the solid, far from its surface, mm²"],
         "data": NotRequired[Annotated[Spread, "Meshes: distance of the surface of the voxels from the mesh"]],

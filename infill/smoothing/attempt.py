@@ -18,7 +18,7 @@ import numpy as np
 
 from infill.errors import GeometryError, ParameterError
 from infill.inspection.bricks import TopologyCheck, check_topology, check_topology_by_signs
-from infill.inspection.deviation import Deviation
+from infill.inspection.deviation import LOST, Deviation
 from infill.inspection.sign_changes import SignChanges, are_surfaces_near
 from infill.inspection.thickness import thinnest_walls
 from infill.isosurfaces.components import data_bits, erase_components, find_components, shell_names
@@ -47,7 +47,7 @@ from infill.smoothing.comparing import (
     summarise_distances,
     volume_error,
 )
-from infill.smoothing.levelling import Crumbs, SurfaceAtLevel, extract_surface, remove_crumbs
+from infill.smoothing.levelling import CRUMB_CELLS, Crumbs, SurfaceAtLevel, extract_surface, remove_crumbs
 from infill.smoothing.request import SmoothedInput
 from infill.smoothing.stages import SmoothStages, place_surface
 
@@ -67,6 +67,7 @@ BYTES_PER_SURFACE_CELL = 600  # bricks, faces, labels and mesh, for every cell a
 BYTES_TO_REFINE = 500  # three filtered fields and the last but one, on top of that
 SAMPLED_LAYERS = 16  # layers that are sampled to estimate the surface
 FACES_PER_CROSSING = 1.5  # along two of the three axes
+LEAST_CRUMBS = 0.1  # of the largest crumb: less than this, of all crumbs together, is not worth its digits
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -118,7 +119,8 @@ class Attempt:
         """Sort key of attempts: the lowest is the best."""
         patches = (*self.deviation.lost, *self.deviation.added) if self.deviation else ()
         area = float(sum(patch.area for patch in patches))
-        return self.differences.word == "lost", len(self.differences.problems), area
+        differences = self.differences
+        return differences.word == "lost", len(differences.losses) + len(differences.problems), area
 
 
 @log_compilation("the smoother")
@@ -135,7 +137,7 @@ def run_attempt(smooth_input: SmoothInput, request: SmoothRequest) -> Attempt:
     clock = Clock(request.progress)
     with clock.stage("smooth", 0.05):
         _require_memory(smooth_input.data, request)
-        data, specks = _remove_specks(smooth_input.data, request)
+        data, specks = remove_specks(smooth_input.data, request)
         smooth_input = replace(smooth_input, data=data)
         field = _smooth_field(smooth_input, request, clock)
         smoothed = SmoothedInput(smooth_input=smooth_input, request=request, field=field)
@@ -153,7 +155,7 @@ def run_attempt(smooth_input: SmoothInput, request: SmoothRequest) -> Attempt:
         if surfaced.levelled.surface is not raised.levelled.surface:
             surface = _measured_surface(surfaced, data)
         if not surface.closed:
-            raise GeometryError("the surface is not closed; use finer voxels or fewer steps")
+            raise GeometryError("the surface is not closed")
         topology, thinnest = run_together(
             partial(_check_topology, surfaced, flips, smoothed),
             partial(_wall_thickness, surfaced, smoothed),
@@ -172,6 +174,31 @@ def run_attempt(smooth_input: SmoothInput, request: SmoothRequest) -> Attempt:
         differences=find_differences(topology, deviation, surfaced, smoothed),
         clock=clock,
     )
+
+
+def remove_specks(data: Volume, request: SmoothRequest) -> tuple[Volume, int]:
+    """Remove components up to the requested volume; return the data and the number removed.
+
+    Raises
+    ------
+    ParameterError
+        If no component is larger.
+    """
+    largest = request.despeckle
+    if not largest:
+        return data, 0
+    field = smooth_bricks(data.values, Smoothing(steps=0), threads=request.threads)
+    components = find_components(field, data_bits(field, threads=request.threads))
+    small = components.cells * data.cell_volume <= largest
+    if small.all():
+        raise ParameterError.about(
+            "despeckle",
+            f"is {plain_number(largest)} mm³ and the largest component has "
+            f"{plain_number(components.cells.max() * data.cell_volume)} mm³; give less",
+        )
+    if not small.any():
+        return data, 0
+    return replace(data, values=erase_components(data.values, field, components, small)), int(small.sum())
 
 
 def estimate_surface_cells(data: Volume) -> float:
@@ -197,25 +224,6 @@ def _require_memory(data: Volume, request: SmoothRequest) -> None:
     require_memory(
         int(needed), request.max_memory, f"give --voxel {plain_argument(larger, 2)} or more, or --roi for a part of it"
     )
-
-
-def _remove_specks(data: Volume, request: SmoothRequest) -> tuple[Volume, int]:
-    """Remove components up to the requested volume; return the data and the number removed."""
-    largest = request.despeckle
-    if not largest:
-        return data, 0
-    field = smooth_bricks(data.values, Smoothing(steps=0), threads=request.threads)
-    components = find_components(field, data_bits(field, threads=request.threads))
-    small = components.cells * data.cell_volume <= largest
-    if small.all():
-        raise ParameterError.about(
-            "despeckle",
-            f"is {plain_number(largest, 6)} mm³ and the largest component has "
-            f"{plain_number(components.cells.max() * data.cell_volume, 6)} mm³; give less",
-        )
-    if not small.any():
-        return data, 0
-    return replace(data, values=erase_components(data.values, field, components, small)), int(small.sum())
 
 
 def _smooth_field(smooth_input: SmoothInput, request: SmoothRequest, clock: Clock) -> SparseField:
@@ -319,9 +327,13 @@ def finish_attempt(
         "facets": None,  # so are they
         "verdict": {
             "word": differences.word,
-            "changes": [*problems, *differences.remarks, *_cleaning_remarks(best.crumbs, best.specks)],
+            "changes": [*problems, *differences.remarks, *_cleaning_remarks(best.crumbs, best.specks, smoothed)],
             "lost": [patch.facts() for patch in deviation.lost[:MAX_LISTED_PLACES]] if deviation else [],
             "added": [patch.facts() for patch in deviation.added[:MAX_LISTED_PLACES]] if deviation else [],
+            "far": LOST * smooth_input.distance_unit,
+            "missing": deviation.missing_area if deviation else 0.0,
+            "thin": deviation.thin_area if deviation else 0.0,
+            "new": deviation.new_area if deviation else 0.0,
             "crumbs": {"removed": best.crumbs.count, "volume": best.crumbs.volume, "limit": best.crumbs.limit},
             "tried": tried,
             "taken": taken,
@@ -345,6 +357,11 @@ def finish_attempt(
     return Result(surfaces={"solid": surface}, report=report, stages=stages), differences
 
 
+def advise_all_triangles(request: SmoothRequest) -> str:
+    """Return the advice not to simplify, which is certain to help: the surface was judged before it was simplified."""
+    return "give --tolerance 0" + ("" if request.max_triangles is None else ", and no --max-triangles")
+
+
 def _simplify_result(full: Surface, request: SmoothRequest) -> tuple[Surface, Simplified | None]:
     """Simplify the surface as requested; return it and the changes, None if it stays as it is."""
     if request.tolerance is None and request.max_triangles is None:
@@ -363,7 +380,7 @@ def _simplify_result(full: Surface, request: SmoothRequest) -> tuple[Surface, Si
     if abs(change) > MAX_VOLUME_CHANGE and not request.allow_broken:
         raise GeometryError(
             f"simplifying to {len(result.faces):,} triangles would change the volume by {change:+.0%}; "
-            "allow more triangles or give a smaller tolerance"
+            f"{advise_all_triangles(request)}"
         )
     return result, {
         "triangles_before": len(full.faces),
@@ -394,14 +411,15 @@ def _wall_facts(best: Attempt) -> SolidWalls:
     }
 
 
-def _cleaning_remarks(crumbs: Crumbs, specks: int) -> list[str]:
+def _cleaning_remarks(crumbs: Crumbs, specks: int, smoothed: SmoothedInput) -> list[str]:
     """Describe crumbs and specks that were removed on purpose, one phrase each."""
     phrases = []
     if crumbs.count:
-        phrases.append(
-            f"{crumbs.count} crumbs of up to {plain_number(crumbs.limit)} mm³ taken out, {plain_number(crumbs.volume)} "
-            "mm³ in all"
-        )
+        limit = f"{CRUMB_CELLS:g} voxels" if smoothed.request.crumbs is None else f"{plain_number(crumbs.limit)} mm³"
+        noun = "crumb" if crumbs.count == 1 else "crumbs"
+        in_all = f", {plain_number(crumbs.volume)} mm³ in all" if crumbs.volume > LEAST_CRUMBS * crumbs.limit else ""
+        phrases.append(f"{crumbs.count:,} {noun} of up to {limit} taken out{in_all}")
     if specks:
-        phrases.append(f"{specks} specks taken out beforehand")
+        limit = plain_number(smoothed.request.despeckle)
+        phrases.append(f"{specks:,} {'speck' if specks == 1 else 'specks'} of up to {limit} mm³ taken out beforehand")
     return phrases

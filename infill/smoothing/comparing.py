@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,7 +12,7 @@ from infill.inspection.deviation import COUNTS, HIDDEN, SHEET, THIN, Deviation, 
 from infill.inspection.facets import find_flat_facets
 from infill.isosurfaces.components import data_bits, look_up_cells, open_by_blocks
 from infill.meshes.distance import distances
-from infill.plain_numbers import plain_number
+from infill.plain_numbers import plain_number, plain_share
 from infill.smoothing.stages import raw_surface
 from infill.surface import Surface
 from infill.voxels.noise import NOISY
@@ -30,6 +30,8 @@ SLIT_WIDTH = 1.0  # cells: a slit as narrow as this may close
 THICK, THICK_IN_NOISE = 2, 4
 MIN_CAP_SHARE = 0.001  # of the area: caps smaller than this are not mentioned
 VOLUME_TOLERANCE = 0.01  # of the volume: tolerated error, because of specks that are gone
+LOST_VOLUME = 0.1  # of the volume: a solid that is off by more is not the one that was given
+LOST_HOLES = 10  # holes that broke through, at least as many as there were before: a wall that became a sieve
 MAX_SAMPLES = 5_000  # vertices whose distance is measured
 
 
@@ -41,7 +43,7 @@ class Differences:
     ----------
     word : {"kept", "changed a little", "lost"}
     losses : tuple of str
-        Features that are lost.
+        Features that are lost: much of the surface, a tenth of the volume, or a wall that is full of holes.
     problems : tuple of str
         Parts that broke, fused, opened or vanished, however small.
     remarks : tuple of str
@@ -60,7 +62,7 @@ def compare_with_input(surface: Surface, smoothed: SmoothedInput, *, exact: bool
     return measure_deviation(
         _input_surface(smoothed) if smooth_input.mesh is None else smooth_input.mesh,
         surface,
-        cell=smooth_input.cell or float(smooth_input.data.cell_size.max()),
+        cell=smooth_input.distance_unit,
         closed=smooth_input.closed_mesh,
         kinds=_loss_classifier(smoothed),
         exact=exact,
@@ -75,7 +77,7 @@ def distance_facts(surface: Surface, smoothed: SmoothedInput) -> Distance:
         "from": "voxels" if smooth_input.mesh is None else "mesh",
         "result": deviation.there.facts(),
         "input": deviation.back.facts(),
-        "thin": deviation.thin,
+        "thin": deviation.thin_area,
         "sheet": deviation.sheet,
         "hidden": deviation.hidden,
     }
@@ -135,7 +137,7 @@ def _loss_classifier(smoothed: SmoothedInput) -> Kinds:
             return np.where((sides == COUNTS) & narrow & inside, THIN, sides)
 
         return bounding
-    cells = THICK_IN_NOISE if smooth_input.facts.get("noise", 0.0) > NOISY else THICK
+    cells = THICK_IN_NOISE if _is_noisy(smooth_input) else THICK
     data, turn = smooth_input.data, np.asarray(smooth_input.data.direction)
 
     def thick(points: NDArray[np.float64], faces: NDArray[np.integer]) -> NDArray[np.integer]:  # noqa: ARG001
@@ -167,19 +169,27 @@ def find_differences(
     smoothed : SmoothedInput
     """
     smooth_input = smoothed.smooth_input
-    problems = [*topology.problems, *_topology_changes(topology, smooth_input)]
+    losses: list[str] = []
+    remarks: list[str] = []
+    if deviation:
+        (losses if deviation.word == "lost" else remarks).extend(deviation.phrases)
+    new_holes, holes = _holes_through(topology, smooth_input)
+    is_sieve = new_holes >= max(LOST_HOLES, holes)
+    if is_sieve or smooth_input.topology is not None:  # told in other words
+        topology = replace(topology, changes=replace(topology.changes, walls_pierced=0))
+    problems = [*topology.problems, *_topology_changes(topology, smooth_input, but_tunnels=is_sieve)]
     if off := volume_error(surfaced, smoothed):
-        problems.append(f"the volume is off by {off:+.1%}, which no level can correct")
-    remarks = []
+        phrase = f"the volume is {abs(off):.1%} too {'large' if off > 0 else 'small'}"
+        (losses if abs(off) >= LOST_VOLUME else problems).append(phrase)
+    if is_sieve:
+        beside = f", beside {holes} {'hole' if holes == 1 else 'holes'}" if holes else ""
+        losses.append(f"{new_holes:,} pinholes broke through walls{beside}")
     if thin_count := topology.changes.vanished_thin:
-        remarks.append(f"{thin_count} specks or flakes one voxel thick are gone")
-    if deviation and deviation.thin:
-        feature = (
-            "walls or gaps one voxel thick are gone"
-            if smooth_input.mesh_volumes is None
-            else "slits narrower than a voxel are closed"
-        )
-        remarks.append(f"{feature}, {plain_number(deviation.thin)} mm² of their faces")
+        specks = "1 speck or flake" if thin_count == 1 else f"{thin_count:,} specks or flakes"
+        remarks.append(f"{specks} one voxel thick {'is' if thin_count == 1 else 'are'} gone")
+    if deviation and deviation.thin_distance:
+        phrase, is_lost = _describe_thin(deviation, smooth_input)
+        (losses if is_lost else remarks).append(phrase)
     if deviation and deviation.sheet:
         remarks.append(f"{plain_number(deviation.sheet)} mm² of faces that bound no solid are left out")
     if smooth_input.mesh_volumes is not None and smooth_input.topology is None:
@@ -194,16 +204,40 @@ def find_differences(
     repairs = smooth_input.facts.get("repairs", {})
     if (share := repairs.get("hole_share", 0.0)) > MIN_CAP_SHARE:
         remarks.append(f"{repairs['holes']} holes of the mesh were closed by caps, {share:.1%} of the area")
-    phrases = deviation.phrases if deviation else ()
-    lost = deviation is not None and deviation.word == "lost"
-    losses = phrases if lost else ()
-    if not lost:
-        remarks = [*phrases, *remarks]
-    word: Word = "lost" if lost else "changed a little" if problems or remarks else "kept"
-    return Differences(word=word, losses=losses, problems=tuple(problems), remarks=tuple(remarks))
+    word: Word = "lost" if losses else "changed a little" if problems or remarks else "kept"
+    return Differences(word=word, losses=tuple(losses), problems=tuple(problems), remarks=tuple(remarks))
 
 
-def _topology_changes(topology: TopologyCheck, smooth_input: SmoothInput) -> list[str]:
+def _is_noisy(smooth_input: SmoothInput) -> bool:
+    """Tell whether the input is so noisy that only what is thick counts."""
+    return smooth_input.facts.get("noise", 0.0) > NOISY
+
+
+def _describe_thin(deviation: Deviation, smooth_input: SmoothInput) -> tuple[str, bool]:
+    """Describe what is gone and was too thin to count; return the phrase, and whether it is so much that it is lost."""
+    area = deviation.thin_area
+    if smooth_input.mesh_volumes is not None:
+        feature, change = "slits narrower than a voxel", "are closed"
+    elif _is_noisy(smooth_input):
+        feature, change = f"noise, up to {THICK_IN_NOISE - 1} voxels thick,", "is gone"
+    else:
+        feature, change = "walls or gaps one voxel thick", "are gone"
+    if not area:
+        return f"{feature} moved by up to {plain_number(deviation.thin_distance)} mm", False
+    share = plain_share(area / deviation.given_area)
+    is_scan = smooth_input.mesh_volumes is None and not _is_noisy(smooth_input)
+    is_lost = is_scan and deviation.is_large(area, deviation.given_area)
+    return f"{feature} {change}, {plain_number(area)} mm² ({share}) of the surface of the input", is_lost
+
+
+def _holes_through(topology: TopologyCheck, smooth_input: SmoothInput) -> tuple[int, int]:
+    """Return the number of holes that broke through walls, and the number of holes before."""
+    after = topology.result.tunnels
+    new = topology.changes.walls_pierced if smooth_input.topology is None else after - smooth_input.topology.tunnels
+    return new, after - new
+
+
+def _topology_changes(topology: TopologyCheck, smooth_input: SmoothInput, *, but_tunnels: bool) -> list[str]:
     """Describe differences in topology between mesh and result, if the topology of the mesh is known."""
     if smooth_input.topology is None:
         return []
@@ -214,8 +248,10 @@ def _topology_changes(topology: TopologyCheck, smooth_input: SmoothInput) -> lis
         ("cavities", "cavity", mesh_counts.cavities, result_counts.cavities),
         ("holes through the part", "hole through the part", mesh_counts.tunnels, result_counts.tunnels),
     ):
-        if before != after:
-            phrases.append(f"the mesh has {before} {singular if before == 1 else name}, the result {after}")
+        if before != after and not (but_tunnels and name.startswith("holes")):
+            fused = name == "components" and (topology.changes.fused or topology.data.components < before)
+            hint = "; --by-component keeps them apart" if fused and after < before else ""
+            phrases.append(f"the mesh has {before} {singular if before == 1 else name}, the result {after}{hint}")
     return phrases
 
 

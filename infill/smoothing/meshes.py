@@ -11,7 +11,7 @@ from infill.errors import ParameterError
 from infill.inspection.changes import ConnectionCounts
 from infill.machine import require_memory
 from infill.phasefield.schedule import MIN_STEPS
-from infill.plain_numbers import plain_argument
+from infill.plain_numbers import plain_argument, plain_number
 from infill.reports.common import declare
 from infill.reports.smoothing import RepairKeys
 from infill.smoothing.request import AUTO, MeshOnGrid, Method, SmoothInput, SmoothRequest, Way
@@ -36,7 +36,7 @@ def mesh_ways(
     fixed: bool = True,
     hint: bool = False,
 ) -> list[Way]:
-    """List the ways to smooth a mesh: refined, then with finer voxels unless their size is fixed.
+    """List the ways to smooth a mesh: refined, then with finer voxels, which are only recommended if the size is fixed.
 
     Parameters
     ----------
@@ -55,12 +55,20 @@ def mesh_ways(
         raise ParameterError("grey levels are those of scans; choose plain or refine for a mesh")
     data = MeshOnGrid(surface=surface, resolution=resolution, voxel=voxel, hint=hint)
     ways = [Way(name=chosen.method, data=data, request=chosen)]
-    if request.method == AUTO and not fixed:
-        for times in FINER:
-            finer = round(times * RESOLUTION)
-            size = (finer, None) if voxel is None else (None, voxel / times)
-            data = MeshOnGrid(surface=surface, resolution=size[0], voxel=size[1])
-            ways.append(Way(name=f"{finer} voxels", data=data, request=chosen, cost=times**COST_POWER))
+    is_free = request.method == AUTO and not fixed
+    for times in FINER:
+        finer, size = round(times * (resolution or RESOLUTION)), None if voxel is None else voxel / times
+        if size is not None and not is_free:
+            size = float(f"{size:.3g}")
+        name = f"{round(times * RESOLUTION)} voxels"
+        option = f"--resolution {finer}" if size is None else f"--voxel {plain_number(size, separator='')}"
+        data = MeshOnGrid(surface=surface, resolution=finer if size is None else None, voxel=size)
+        cost = times**COST_POWER
+        ways.append(
+            Way(name=name, data=data, request=chosen, cost=cost)
+            if is_free
+            else Way(name=option, data=data, request=chosen, cost=cost, option=option)
+        )
     return ways
 
 

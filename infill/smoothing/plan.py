@@ -196,7 +196,7 @@ def _survey_volume(ways: Sequence[Way]) -> _InputSurvey:
         facts=declare(PlannedInput, smooth_input.facts),
         solid=solid,
         vertices=vertices,
-        ways=tuple(way.name for way in ways),
+        ways=tuple(way.name for way in ways if way.option is None),
     )
 
 
@@ -212,7 +212,7 @@ def _survey_mesh(surface: Surface, request: SmoothRequest, resolution: int | Non
         facts={"source": "mesh", "triangles": len(surface.faces)},
         solid=estimate_solid_cells(mesh, grid),
         vertices=_crossings_per_area(mesh) / float(grid.cell_size[0]) ** 2,
-        ways=tuple(way.name for way in ways),
+        ways=tuple(way.name for way in ways if way.option is None),
         bytes_per_cell=MESH_BYTES_PER_CELL,
         share=MESH_TIME_SHARE,
     )
@@ -238,7 +238,7 @@ def _survey_points(
         facts=declare(PlannedInput, facts),
         solid=cells * coarsening**3,
         vertices=vertices * coarsening**2,
-        ways=tuple(way.name for way in ways),
+        ways=tuple(way.name for way in ways if way.option is None),
         seconds=seconds * (coarsening**2 - 1),
     )
 

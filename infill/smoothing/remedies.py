@@ -10,7 +10,14 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from infill.errors import GeometryError, MemoryLimitError, ParameterError
-from infill.smoothing.attempt import Attempt, estimate_surface_cells, finish_attempt, run_attempt
+from infill.smoothing.attempt import (
+    Attempt,
+    advise_all_triangles,
+    estimate_surface_cells,
+    finish_attempt,
+    remove_specks,
+    run_attempt,
+)
 from infill.smoothing.meshes import voxelise_input
 from infill.smoothing.request import MeshOnGrid, SmoothInput, SmoothRequest, Way
 
@@ -26,6 +33,7 @@ OTHER_STEPS = 100
 # one core. With the usual 20 steps, refined, that leaves the three finer grids to meshes of up to 190,000 cells at the
 # surface, two of them up to 510,000, and one up to 1,300,000; all 42 take the ways that they took within 100 s.
 MAX_WORK = 8e8
+STRICT_ADVICE = "leave out --strict, so that other ways are tried"
 
 
 def first_sound(ways: Iterable[Way], request: SmoothRequest) -> Result[SmoothStages, SmoothReport]:
@@ -34,7 +42,8 @@ def first_sound(ways: Iterable[Way], request: SmoothRequest) -> Result[SmoothSta
     Parameters
     ----------
     ways : iterable of Way
-        The first is the requested one. The others are tried as long as work and memory allow.
+        The first is the requested one. The others are tried as long as work and memory allow; those with an option
+        only if all others lose something, so that the message can name an option that helps.
     request : SmoothRequest
 
     Raises
@@ -48,14 +57,15 @@ def first_sound(ways: Iterable[Way], request: SmoothRequest) -> Result[SmoothSta
     best_name = ""
     tried: list[str] = []
     failed: GeometryError | None = None
-    for way in ways:
-        if tried and (request.strict or (request.allow_broken and best is not None)):
+    all_ways = list(ways)
+    for way in all_ways:
+        if way.option is not None or (tried and (request.strict or (request.allow_broken and best is not None))):
             break
         total_cost += way.cost
         if way.cost > 1 and total_cost * first_work > MAX_WORK:
             break
         try:
-            smooth_input = voxelise_input(way.data, way.request) if isinstance(way.data, MeshOnGrid) else way.data
+            smooth_input = _input_of(way)
             first_work = first_work or estimate_work(smooth_input, way.request) / way.cost
             attempt = run_attempt(smooth_input, way.request)
         except GeometryError as error:
@@ -70,14 +80,53 @@ def first_sound(ways: Iterable[Way], request: SmoothRequest) -> Result[SmoothSta
         tried.append(way.name)
         if best is not None and (best.is_sound or (best.differences.word != "lost" and len(tried) > 1)):
             break  # a difference in topology is worth one more run, a loss all of them
+    remedies = [] if request.strict else [way for way in all_ways if way.option is not None]
+    work_left = MAX_WORK - total_cost * first_work
     if best is None:
         assert failed is not None
-        raise GeometryError(f"{failed}{_list_tried(tried[1:])}") from failed
+        remedy = STRICT_ADVICE if request.strict and len(all_ways) > 1 else _find_remedy(remedies, work_left)
+        raise GeometryError(f"{failed}{_list_tried(tried[1:])}{'; ' + remedy if remedy else ''}") from failed
     result, differences = finish_attempt(best, tried, best_name)
     reasons = differences.losses if not request.strict else (*differences.losses, *differences.problems)
     if reasons and not request.allow_broken:
-        raise GeometryError(f"{'; '.join(reasons)}{_list_tried(tried[1:])}; {_advice(best)}")
+        advice = _advice(best) or _find_remedy(remedies, work_left)
+        anyway = f"{advice}, or give --allow-broken" if advice else "give --allow-broken"
+        raise GeometryError(f"{'; '.join(reasons)}{_list_tried(tried[1:])}; {anyway} to have it anyway")
     return result
+
+
+def _input_of(way: Way) -> SmoothInput:
+    """Return the input of a way, on a grid."""
+    return voxelise_input(way.data, way.request) if isinstance(way.data, MeshOnGrid) else way.data
+
+
+def _find_remedy(remedies: Iterable[Way], work_left: float) -> str | None:
+    """Run ways that take an option until one loses nothing; return advice to give it, None if none helps.
+
+    Parameters
+    ----------
+    remedies : iterable of Way
+    work_left : float
+        They are tried as long as they take less work than this, in cells at the surface times steps.
+    """
+    for way in remedies:
+        try:
+            smooth_input = _input_of(way)
+            work_left -= estimate_work(smooth_input, way.request)
+            if work_left < 0:
+                return None
+            if way.request.despeckle and not remove_specks(smooth_input.data, way.request)[1]:
+                continue
+            attempt = run_attempt(smooth_input, way.request)
+            if attempt.differences.losses:
+                continue
+            _, differences = finish_attempt(attempt, [way.name], way.name)
+        except (GeometryError, MemoryLimitError, ParameterError):
+            continue
+        if not differences.losses:
+            specks = "1 speck" if attempt.specks == 1 else f"{attempt.specks:,} specks"
+            return f"give {way.option}" + (f", which takes out {specks}" if attempt.specks else "")
+    return None
 
 
 def estimate_work(smooth_input: SmoothInput, request: SmoothRequest) -> float:
@@ -91,11 +140,9 @@ def _list_tried(ways: list[str]) -> str:
     return f" (tried in vain: {', '.join(ways)})" if ways else ""
 
 
-def _advice(best: Attempt) -> str:
-    """Return advice on a loss: about simplification if only that caused it."""
+def _advice(best: Attempt) -> str | None:
+    """Return advice that is certain to help against a loss by simplification or by `strict`; None for others."""
     request = best.smoothed.request
     if not best.differences.losses and (request.tolerance is not None or request.max_triangles is not None):
-        return "give a smaller --tolerance or more --max-triangles, or --allow-broken to have it anyway"
-    if request.strict:
-        return "leave out --strict, so that remedies are tried, or give finer voxels or fewer steps"
-    return "give finer voxels or fewer steps, or --allow-broken to have it anyway"
+        return advise_all_triangles(request)
+    return STRICT_ADVICE if request.strict else None

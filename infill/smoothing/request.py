@@ -205,6 +205,11 @@ class SmoothInput:
     volume: float | None = None
     cell: float | None = None
 
+    @property
+    def distance_unit(self) -> float:
+        """Unit by which distances are judged, mm."""
+        return self.cell or float(self.data.cell_size.max())
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class SmoothedInput:
@@ -266,9 +271,13 @@ class Way:
         Its method and steps, and the other options.
     cost : float
         Its work, relative to the first way.
+    option : str, optional
+        The option to give for it, such as "--despeckle 27". Such a way is run only to find out what a message may
+        recommend: its surface is not taken.
     """
 
     name: str
     data: SmoothInput | MeshOnGrid
     request: SmoothRequest
     cost: float = 1.0
+    option: str | None = None

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from infill.errors import ParameterError
 from infill.phasefield.schedule import MIN_STEPS
-from infill.plain_numbers import plain_argument
+from infill.plain_numbers import plain_argument, plain_number
 from infill.smoothing.request import AUTO, SmoothInput, SmoothRequest, Way
 from infill.smoothing.stages import surface_of_data
 from infill.volume import Volume
@@ -27,6 +27,8 @@ Threshold = float | tuple[float | None, float | None] | Literal["otsu"] | None
 
 SAMPLED_LAYERS = 16  # sampled for grey values
 SPECK_CELLS = 27  # cells: specks up to this size are taken out of noisy data
+DESPECKLE_CELLS = (SPECK_CELLS, 125)  # cells: sizes of specks to take out that are tried before one is recommended
+HELD = 1.0  # a fidelity at which the data hold, tried before it is recommended
 
 
 def volume_ways(
@@ -144,7 +146,32 @@ def scan_ways(
         ways.append(Way(name=f"{method}, {steps} steps", data=smooth_input, request=fewer))
     if request.method == AUTO and method != "plain":
         ways.append(Way(name="plain", data=smooth_input, request=replace(first, method="plain"), cost=0.5))
-    return ways
+    gentlest = replace(first, smoothing=replace(first.smoothing, steps=steps), radius=None)
+    return [*ways, *_remedies(gentlest if steps < request.smoothing.steps else first, smooth_input)]
+
+
+def _remedies(request: SmoothRequest, smooth_input: SmoothInput) -> list[Way]:
+    """List the ways that a message may recommend if they work: without specks, and held to the data.
+
+    Parameters
+    ----------
+    request : SmoothRequest
+        The gentlest way of those that are tried whatever options are given.
+    smooth_input : SmoothInput
+    """
+    remedies = []
+    for cells in DESPECKLE_CELLS:
+        volume = float(f"{cells * smooth_input.data.cell_volume:.3g}")
+        if volume > request.despeckle:
+            option = f"--despeckle {plain_number(volume, separator='')}"
+            remedies.append(
+                Way(name=option, data=smooth_input, request=replace(request, despeckle=volume), option=option)
+            )
+    if request.method != "grey" and request.smoothing.fidelity < HELD:
+        held = replace(request, method="plain", smoothing=replace(request.smoothing, fidelity=HELD))
+        option = f"--fidelity {HELD:g}"
+        remedies.append(Way(name=option, data=smooth_input, request=held, option=option))
+    return remedies
 
 
 def _has_grey_values(values: NDArray[Any], ends: list[float]) -> bool:
