@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from made_shapes import box, speckled, together, turned, union, vessels, wing
+from made_shapes import box, speckled, spiked, together, turned, union, vessels, wing
 from numpy.typing import NDArray
 
 from infill import GeometryError, Smoothing, Surface, smooth_mesh, smooth_volume
@@ -182,6 +182,48 @@ def test_strict_is_advised_against() -> None:
     with pytest.raises(GeometryError, match="leave out --strict, so that other ways are tried, or give --allow-broken"):
         smooth_volume(slab(), method="plain", smoothing=Smoothing(steps=60), strict=True)
     assert smooth_volume(slab(), smoothing=Smoothing(steps=60)).report["verdict"]["word"] != "lost"
+
+
+# --- crumbs ----------------------------------------------------------------------------------------------
+
+
+def test_spikes_leave_no_crumbs_beside_a_small_body() -> None:
+    """A body of some voxels in the file does not keep what broke off the spikes of another."""
+    mesh = together(turned(spiked(), np.random.default_rng(2)), box(2, 2, 2, (60, 3, 2)))
+    result = smooth_mesh(surface_of(mesh), voxel=1.0, allow_broken=True)
+    assert sorted(np.abs([piece.volume for piece in result.mesh.split()]) > 3) == [True, True]
+    assert result.report["verdict"]["crumbs"]["removed"] > 10
+    kept = smooth_mesh(surface_of(mesh), voxel=1.0, allow_broken=True, crumbs=0.0)
+    assert len(kept.mesh.split(only_watertight=False)) > 10
+
+
+def test_a_noisy_scan_of_vessels_leaves_no_dust() -> None:
+    """No piece, and no cavity, of an eighth of a voxel."""
+    rng = np.random.default_rng(0)
+    grey = 200 * np.clip(0.5 - vessels(28, rng), 0, 1) + rng.normal(0, 34, (28,) * 3)
+    options: dict[str, Any] = {"threshold": "otsu", "allow_broken": True}
+    result, whole = smooth_volume(grey, **options), smooth_volume(grey, crumbs=0.0, **options)
+    volumes, all_volumes = (
+        np.array([piece.volume for piece in each.mesh.split(only_watertight=False)]) for each in (result, whole)
+    )
+    assert (np.abs(all_volumes) <= 1 / 8).sum() > 5
+    assert not (np.abs(volumes) <= 1 / 8).any()
+    assert result.report["verdict"]["crumbs"]["removed"] == len(all_volumes) - len(volumes)
+
+
+def test_what_is_left_of_a_vanished_speck_is_a_crumb_and_a_small_part_that_stays_is_none() -> None:
+    solid = np.zeros((48, 30, 30), dtype=bool)
+    solid[4:16, 6:24, 6:24] = True
+    line, cube = solid.copy(), solid.copy()
+    line[30, 14, 10:17] = cube[30:32, 14:16, 14:16] = True
+    steps = Smoothing(steps=4)
+    kept = smooth_volume(line, smoothing=steps, crumbs=0.0).report
+    assert (kept["components"], kept["verdict"]["crumbs"]["removed"]) == (2, 0)
+    cleaned = smooth_volume(line, smoothing=steps).report
+    assert (cleaned["components"], cleaned["verdict"]["crumbs"]["removed"]) == (1, 1)
+    assert "1 crumb of up to 8 voxels taken out" in cleaned["verdict"]["changes"]
+    small = smooth_volume(cube, smoothing=steps).report
+    assert (small["components"], small["verdict"]["word"]) == (2, "kept")
 
 
 def test_bodies_that_become_one_get_the_hint_that_keeps_them_apart() -> None:

@@ -19,7 +19,9 @@ from infill.isosurfaces.levels import (
     surface_at_level,
     surface_at_volume,
 )
+from infill.meshes.distance import TriangleTree
 from infill.phasefield.profile import PLAIN_PROFILE, REFINED_PROFILE
+from infill.smoothing.stages import place_surface
 from infill.surface import Surface
 
 if TYPE_CHECKING:
@@ -31,6 +33,9 @@ if TYPE_CHECKING:
 # Of the largest area of a mesh component that is nearest to one component of the data: smaller areas nearest to other
 # components are chance, as where two components touch.
 MIN_AREA_SHARE = 0.02
+REMNANT_SHARE = 0.25  # of its volume: a small piece that has less of a component is what is left where it vanished
+DUST_CELLS = 0.125  # cells, a block of half a cell: no component of the data is as small
+VOTERS = 500  # vertices of a shell, about, that say which mesh component it belongs to
 CRUMB_CELLS = 8.0  # cells, a block of 2 x 2 x 2: pieces of this size remain of a wall that breaks up
 
 
@@ -173,8 +178,10 @@ def remove_crumbs(surfaced: SurfaceAtLevel, smoothed: SmoothedInput) -> tuple[Su
     """Remove crumbs from a surface; return it and their number and volume.
 
     A piece of solid is a crumb if it has at most `request.crumbs` mm³, by default the volume of 8 cells, and is not
-    the largest piece of a component of the data. If all components of a mesh are larger than that, every such piece
-    is a crumb, and every such cavity too: the surface around it is removed, so that it is filled.
+    the largest piece of a component of the data. Of a scan, the largest piece is one too if it has at most a quarter
+    of the volume of its component, and so is every piece and cavity of an eighth of a cell. Of a mesh component larger
+    than the limit, every such piece and every such cavity is a crumb. The surface around a cavity is removed, so that
+    it is filled.
     """
     smooth_input, request = smoothed.smooth_input, smoothed.request
     limit = CRUMB_CELLS * smooth_input.data.cell_volume if request.crumbs is None else request.crumbs
@@ -184,26 +191,60 @@ def remove_crumbs(surfaced: SurfaceAtLevel, smoothed: SmoothedInput) -> tuple[Su
         levelled = _without_shells(levelled, np.zeros(len(volume), dtype=bool))
         surfaced = replace(surfaced, levelled=levelled)
     enclosed = smooth_input.mesh_volumes
-    all_small = enclosed is not None and not (np.abs(enclosed.volumes[enclosed.volumes != 0]) <= limit).any()
-    small = (np.abs(volume) if all_small else np.where(volume > 0, volume, np.inf)) <= limit
-    if not small.any() or small.all():
+    small = np.abs(volume) <= limit
+    if not small.any() or small[volume > 0].all():
         return surfaced, Crumbs(count=0, volume=0.0, limit=limit)
-    if all_small:
-        return replace(surfaced, levelled=_without_shells(levelled, small)), Crumbs(
-            count=int(small.sum()), volume=float(np.abs(volume[small]).sum()), limit=limit
-        )
-    component = component_of_shells(levelled, surfaced.components, spacing=smoothed.spacing)
+    if enclosed is not None and not (np.abs(enclosed.volumes[enclosed.volumes != 0]) <= limit).any():
+        crumb = small
+    else:
+        remnant_share = REMNANT_SHARE if enclosed is None else 0.0
+        crumb = small & (volume > 0) & _is_broken_off(surfaced, smoothed, remnant_share)
+        if enclosed is None:
+            crumb |= small & (np.abs(volume) <= DUST_CELLS * smooth_input.data.cell_volume)
+        else:
+            crumb |= small & _is_of_large_body(levelled, smoothed, enclosed, limit)
+    if not crumb.any():
+        return surfaced, Crumbs(count=0, volume=0.0, limit=limit)
+    return replace(surfaced, levelled=_without_shells(levelled, crumb)), Crumbs(
+        count=int(crumb.sum()), volume=float(np.abs(volume[crumb]).sum()), limit=limit
+    )
+
+
+def _is_broken_off(surfaced: SurfaceAtLevel, smoothed: SmoothedInput, remnant_share: float) -> NDArray[np.bool_]:
+    """Tell for every shell whether it is not the largest piece of a component of the data, or only a share of it."""
+    volume = surfaced.levelled.shells.volume
+    component = component_of_shells(surfaced.levelled, surfaced.components, spacing=smoothed.spacing)
     largest = np.full(surfaced.components.count, -math.inf)
     has_component = component >= 0
     np.maximum.at(largest, component[has_component], volume[has_component])
     is_largest = np.where(has_component, largest[component], math.inf) <= volume
-    crumb = small & ~is_largest
-    if not crumb.any():
-        return surfaced, Crumbs(count=0, volume=0.0, limit=limit)
-    crumbless = _without_shells(levelled, crumb)
-    return replace(surfaced, levelled=crumbless), Crumbs(
-        count=int(crumb.sum()), volume=float(volume[crumb].sum()), limit=limit
-    )
+    is_remnant = has_component & (volume <= remnant_share * surfaced.targets[component])
+    broken_off: NDArray[np.bool_] = ~is_largest | is_remnant
+    return broken_off
+
+
+def _is_of_large_body(
+    levelled: LevelSurface, smoothed: SmoothedInput, enclosed: EnclosedVolumes, limit: float
+) -> NDArray[np.bool_]:
+    """Tell for every shell whether the mesh component nearest to it is large, and has a larger shell, too."""
+    smooth_input, volume = smoothed.smooth_input, np.abs(levelled.shells.volume)
+    assert smooth_input.closed_mesh is not None
+    names, count = levelled.shells.names, len(enclosed.volumes)
+    numbers, sizes = np.unique(names, return_counts=True)
+    stride = np.ones(len(volume), dtype=np.int64)
+    stride[numbers] = np.maximum(1, sizes // VOTERS)
+    chosen = np.arange(len(names)) % stride[names] == 0
+    points = place_surface(levelled.surface, smooth_input.data).vertices[chosen]
+    _, face = TriangleTree.of(smooth_input.closed_mesh).nearest(np.asarray(points), threads=smoothed.threads)
+    key, votes = np.unique(names[chosen].astype(np.int64) * count + enclosed.component[face], return_counts=True)
+    shell, voted = np.divmod(key, count)
+    order = np.argsort(votes, kind="stable")  # the last write has the most votes
+    body = np.zeros(len(volume), dtype=np.int64)
+    body[shell[order]] = voted[order]
+    largest = np.zeros(count)
+    np.maximum.at(largest, body, volume)
+    of_large: NDArray[np.bool_] = (np.abs(enclosed.volumes[body]) > limit) & (volume < largest[body])
+    return of_large
 
 
 def _without_shells(levelled: LevelSurface, removed: NDArray[np.bool_]) -> LevelSurface:
