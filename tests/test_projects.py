@@ -458,6 +458,25 @@ def test_a_project_makes_itself_again(folder: Path) -> None:
 
 
 @pytest.mark.slow
+def test_projects_for_several_slicers_are_those_of_one_each(folder: Path) -> None:
+    """One fill, a file for each slicer, with the bytes that it has alone; its settings name that slicer only."""
+    words = ["fill", "part.stl", "--pattern", "grid", "--cell", "6", "--voxel", "0.8", "-q"]
+    both = command(*words, "--for", "cura", "--for", "prusaslicer", "-o", "{slicer}.3mf", "--json")
+    assert both.exit_code == 0
+    assert json.loads(both.stdout)["files"] == ["cura.3mf", "prusaslicer.3mf"]
+    for slicer in ("cura", "prusaslicer"):
+        assert command(*words, "--for", slicer, "-o", "alone-{slicer}.3mf").exit_code == 0
+        assert Path(f"alone-{slicer}.3mf").read_bytes() == Path(f"{slicer}.3mf").read_bytes()
+    assert command(*words, "--for", "cura", "--for", "plain", "--save-config", "a.toml").exit_code == 0
+    assert 'for = ["cura", "plain"]' in Path("a.toml").read_text()
+    one_name = ["fill", "part.stl", "--config", "a.toml", "-o", "a.3mf"]
+    one_line_error(command(*one_name), "for is given for 2 slicers, and a.3mf is one file; give -o a-{slicer}.3mf")
+    usage_error(command("fill", "part.stl", "--for", "cura", "--for", "plain", "-o", "a.3mf"), "--for is given for 2")
+    assert command(*one_name[:-1], "a-{slicer}.3mf", "--dry-run", "-q").exit_code == 0  # what it recommends
+    one_line_error(command(*words, "--for", "cura", "-o", "{slicer}.3mf"), "cura.3mf exists")
+
+
+@pytest.mark.slow
 def test_what_is_typed_wins_over_the_file(folder: Path) -> None:
     Path("a.toml").write_text(
         'pattern = "honeycomb"\ndensity = "30%"\nline-width = 0.6\nas = "project"\nfor = "cura"\n'

@@ -31,6 +31,13 @@ def fill_names(incomplete: str) -> list[tuple[str, str]]:
     return [(name, kind.summary) for name, kind in PATTERNS.items() if name.startswith(incomplete)]
 
 
+def slicer_names(incomplete: str) -> list[str]:
+    """Return the slicers whose names begin with the word."""
+    from infill.projects.project import SLICERS
+
+    return [slicer for slicer in SLICERS if slicer.startswith(incomplete)]
+
+
 def fill_assignments(context: typer.Context, incomplete: str) -> list[tuple[str, str]]:
     """Return ``name=`` for the parameters of the pattern of a fill, without those that are options of `fill`."""
     from patterns import PATTERNS, parameters

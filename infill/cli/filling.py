@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -23,9 +23,10 @@ from infill.cli.common import (
     TrustCode,
     Verbose,
 )
-from infill.cli.completing import fill_assignments, fill_names
+from infill.cli.completing import fill_assignments, fill_names, slicer_names
 from infill.cli.console import print_json, print_log, progress_bar, say
 from infill.cli.declared import takes_options
+from infill.errors import UsageError
 from infill.lattices.settings import FillOptions, resolve
 
 if TYPE_CHECKING:
@@ -38,9 +39,10 @@ if TYPE_CHECKING:
     from infill.surface import Surface
 
 PATTERN = "Pattern"
+SLICER = "{slicer}"  # the placeholder in names of files
 
 
-@takes_options(FillOptions, pattern=fill_names)
+@takes_options(FillOptions, pattern=fill_names, slicer=slicer_names)
 def fill(
     part: Annotated[
         Path,
@@ -115,7 +117,9 @@ def fill(
     if not (outputs or preview or as_json or save_config or dry_run):
         raise typer.BadParameter("nothing to write; give -o FILE, --json to see the report, or --dry-run")
     settings = resolve(typed, assigned or [], config, trust=trust)
-    writers = {path: _writer(path, settings, ascii_stl=ascii_stl) for path in outputs}
+    files = _name_for_slicers(outputs, settings.slicers)
+    writers = {path: _writer(path, settings, slicer, ascii_stl=ascii_stl) for path, slicer in files}
+    outputs = [path for path, _ in files]
     if preview is not None:
         from infill.pictures.preview import check_preview
 
@@ -162,12 +166,12 @@ def fill(
         if preview is not None:
             pictured = replace(result, stages=replace(result.stages, cuts=cuts))
             parts[preview] = pictured.write_picture
-        files = deliver_all({**parts, **saved})
+        written = deliver_all({**parts, **saved})
     if not quiet:
         kept = (len(divided), len(objects)) if divided else None
-        say(summary(result.report, files, str(part), verbose=verbose, objects=kept))
+        say(summary(result.report, written, str(part), verbose=verbose, objects=kept))
     if as_json:
-        print_json({**result.report, "files": files})
+        print_json({**result.report, "files": written})
 
 
 def _file_objects(part: Path, outputs: list[Path], settings: FillSettings) -> tuple[FileObject, ...]:
@@ -203,18 +207,34 @@ def _parse_cuts(texts: list[str], *, drawn: bool) -> tuple[Cut, ...]:
     return cuts
 
 
+def _name_for_slicers(outputs: list[Path], slicers: Sequence[str]) -> list[tuple[Path, str | None]]:
+    """Return each file, with the slicer in place of {slicer} in its name; raise UsageError where names would clash."""
+    from infill.cli.piping import is_piped
+
+    if not slicers:
+        return [(path, None) for path in outputs]
+    for path in outputs:
+        if len(slicers) > 1 and SLICER not in str(path):
+            named = Path("part.3mf") if is_piped(path) else path
+            example = named.with_name(f"{named.stem}-{SLICER}{named.suffix}")
+            raise UsageError.about(
+                "for", f"is given for {len(slicers)} slicers, and {path} is one file; give -o {example}"
+            )
+    return [(Path(str(path).replace(SLICER, slicer)), slicer) for path in outputs for slicer in slicers]
+
+
 def _writer(
-    path: Path, settings: FillSettings, *, ascii_stl: bool
+    path: Path, settings: FillSettings, slicer: str | None, *, ascii_stl: bool
 ) -> Callable[[Result[Any, FillReport], str, BinaryIO], object]:
     """Return a function that writes a result with a title, as a mesh or the slicer's project, or raise FormatError."""
     from infill.formats.mesh_files import mesh_writer
 
     write = mesh_writer(path, ascii=ascii_stl)
-    if settings.slicer is None:
+    if slicer is None:
         return lambda result, title, file: write(result.surface, file)  # noqa: ARG005 - as projects are written
     from infill.projects.saving import check_suffix, make_project, writer_for
 
-    slicer, units = settings.slicer, settings.units
+    units = settings.units
     check_suffix(path)
     write_project = writer_for(slicer)
     return lambda result, title, file: write_project(

@@ -16,9 +16,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args
 
 from infill.errors import UsageError
+from infill.files.excerpts import quote_value
 from infill.lattices.regions import Region, parse_region
 from infill.options.assignments import pop_table
 from infill.options.declaration import Option, by_field, drop_replaced, read_options
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     from infill.lattices.request import FillSpec
 
 THIRDS = ("density", "line_width", "cell")  # two of them determine the third; the first is dropped first
+Slicer = Literal["prusaslicer", "orcaslicer", "bambustudio", "cura", "plain"]
 FILES, PATTERN, SOLID = "Files", "Pattern", "Solid"
 
 
@@ -53,6 +55,21 @@ def parse_places(name: str, value: object) -> tuple[tuple[float, ...], ...]:
     is_list = isinstance(value, (list, tuple)) and all(isinstance(part, (list, tuple, str)) for part in value)
     places = value if is_list and isinstance(value, (list, tuple)) else [value]
     return tuple(parse_numbers(name, place, (3,)) for place in places)
+
+
+def parse_slicers(name: str, value: object) -> tuple[Slicer, ...]:
+    """Read one or more slicers, each once, or raise UsageError.
+
+    >>> parse_slicers("for", ["cura", "prusaslicer", "cura"]), parse_slicers("for", "plain")
+    (('cura', 'prusaslicer'), ('plain',))
+    """
+    slicers: dict[Slicer, None] = {}
+    for word in value if isinstance(value, (list, tuple)) else [value]:
+        known = next((slicer for slicer in get_args(Slicer) if slicer == word), None)
+        if known is None:
+            raise UsageError.about(name, f"is {quote_value(word)}; choose from {', '.join(get_args(Slicer))}")
+        slicers[known] = None
+    return tuple(slicers)
 
 
 def parse_regions(name: str, value: object) -> tuple[Region, ...]:
@@ -223,9 +240,17 @@ class FillOptions:
         ),
     ] = None
     slicer: Annotated[
-        Literal["prusaslicer", "orcaslicer", "bambustudio", "cura", "plain"] | None,
-        Option("Slicer that a project is for; plain: two objects without settings.", SOLID, name="for"),
-    ] = None
+        tuple[Slicer, ...],
+        Option(
+            "Slicer that a project is for; plain: two objects without settings. May be given again, with {slicer} in "
+            "the name of the file.",
+            SOLID,
+            name="for",
+            unit="|".join(get_args(Slicer)),
+            read=parse_slicers,
+            typed=list[str],
+        ),
+    ] = ()
     overlap: Annotated[
         float | None, Option("How far the infill alone reaches into the shell.", SOLID, unit="MM", default="0.15")
     ] = None
@@ -265,17 +290,18 @@ class FillSettings:
     request : FillSpec
     units : str or None
         Of the mesh.
-    slicer : str or None
-        The slicer that a project is for.
+    slicers : tuple of str
+        The slicers that a project is for; empty for a mesh.
     """
 
     request: FillSpec
     units: str | None
-    slicer: str | None
+    slicers: tuple[Slicer, ...] = ()
 
     def to_toml(self) -> str:
         """Write all settings as a TOML document that `resolve` reads back."""
-        options = {**self.request.facts(), "units": self.units, "for": self.slicer}
+        slicer = self.slicers[0] if len(self.slicers) == 1 else self.slicers or None
+        options = {**self.request.facts(), "units": self.units, "for": slicer}
         return format_options(options, "infill fill PART --config THIS_FILE -o OUT")
 
 
@@ -316,14 +342,16 @@ def resolve(
     if typed.get("pattern", filed.get("pattern")) != filed.get("pattern"):
         table = {}  # the parameters of another pattern
     options = FillOptions(**by_field(FillOptions, {**filed, **typed}))
-    form, slicer = _choose_form(options, typed)
+    form, slicers = _choose_form(options, typed)
     own_values = read_own_parameters(options.pattern, assigned, table)
     if options.seed is not None:
         own_values = add_seed(options.pattern, own_values, options.seed)
     apart = ("units", "slicer", "form", "seed")
     values = {field: getattr(options, field) for field in FillOptions.__dataclass_fields__ if field not in apart}
     values["regions"] = tuple(replace(region, units=options.units) for region in options.regions)
-    return FillSettings(request=check_request(own=own_values, form=form, **values), units=options.units, slicer=slicer)
+    return FillSettings(
+        request=check_request(own=own_values, form=form, **values), units=options.units, slicers=slicers
+    )
 
 
 def _drop_dependent(typed: Mapping[str, Any], filed: Mapping[str, Any]) -> dict[str, Any]:
@@ -340,20 +368,20 @@ def _drop_dependent(typed: Mapping[str, Any], filed: Mapping[str, Any]) -> dict[
     return kept
 
 
-def _choose_form(options: FillOptions, typed: Mapping[str, Any]) -> tuple[str, str | None]:
-    """Return the form and the slicer: either implies the other, and a typed one wins over the file."""
-    form, slicer = options.form or ("solid" if options.slicer is None else "project"), options.slicer
-    if slicer is not None and form != "project":
+def _choose_form(options: FillOptions, typed: Mapping[str, Any]) -> tuple[str, tuple[Slicer, ...]]:
+    """Return the form and the slicers: either implies the other, and a typed one wins over the file."""
+    form, slicers = options.form or ("project" if options.slicer else "solid"), options.slicer
+    if slicers and form != "project":
         if "as" not in typed:
             form = "project"
         elif "for" in typed:
             raise UsageError.about(
-                "for", f"is {slicer!r}, and projects for slicers are as project, not {form}; leave one out"
+                "for", f"is {slicers[0]!r}, and projects for slicers are as project, not {form}; leave one out"
             )
         else:
-            slicer = None
-    if form == "project" and slicer is None:
+            slicers = ()
+    if form == "project" and not slicers:
         raise UsageError.about(
             "as", "is 'project', and for is missing; say which slicer it is for, such as --for prusaslicer"
         )
-    return form, slicer
+    return form, slicers
