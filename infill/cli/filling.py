@@ -178,7 +178,7 @@ def _file_objects(part: Path, outputs: list[Path], settings: FillSettings) -> tu
     """Return the objects of a 3MF whose solid goes into a file of objects; none for other files."""
     from infill.formats.mesh_files import PART_WRITERS
 
-    solid = settings.slicer is None and settings.request.form == "solid"
+    solid = not settings.slicers and settings.request.form == "solid"
     if not solid or part.suffix.lower() != ".3mf" or not any(path.suffix.lower() in PART_WRITERS for path in outputs):
         return ()
     from infill.formats.threemf_reading import read_objects
