@@ -13,7 +13,8 @@ from test_command_line import run
 
 from infill import FormatError, OutputError, Smoothing, Surface, make, smooth_labels, smooth_mesh, smooth_volume
 from infill.meshes.winding import is_solid_boundary, winding_numbers
-from infill.pictures.before_and_after import FAR_VOXELS, MarkedSurface
+from infill.pictures.before_and_after import FAR_VOXELS, LEAST_HITS, MarkedSurface, draw_before_and_after
+from infill.pictures.close_up import FRAME, SIDE, SURROUNDINGS
 from infill.pictures.preview import check_preview
 from infill.pictures.render import render
 from infill.pictures.sheet import CAPTION, MARGIN, PANEL
@@ -214,6 +215,48 @@ def test_winding_counts_bodies() -> None:
     face = np.flatnonzero(inside.vertices[inside.faces][..., 0].min(axis=1) == 5)[:1]
     assert is_solid_boundary(np.array([[5.0, 1, 2]]), face, inside, 1e-3).all()
     assert len(is_solid_boundary(np.zeros((0, 3)), np.zeros(0, int), inside, 1e-3)) == 0
+
+
+def before_and_after(one: trimesh.Trimesh, other: trimesh.Trimesh) -> list[np.ndarray]:
+    """The panels of two meshes, with a voxel of 0.5 mm."""
+    report = {"extents": [1, 1, 1], "volume": 1.0, "volume_change": 0.0, "verdict": {"word": "lost"}}
+    picture = draw_before_and_after(surface(one), surface(other), cell=0.5, report=report, captions=("before", "after"))
+    return panels(np.asarray(picture))
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("compiled")
+def test_a_small_loss_has_a_close_up() -> None:
+    """A pin of a sixtieth of the part: some pixels in the picture, a tenth of the close-up."""
+    block = trimesh.creation.box((100, 60, 40))
+    pin = trimesh.creation.cylinder(radius=0.8, height=6).apply_translation((-49, 0, -21))
+    before, after = before_and_after(trimesh.boolean.union([block, pin], engine="manifold"), block)
+    framed = 4 * (SIDE - FRAME) * FRAME
+    assert reddish(before) > framed + 0.05 * SIDE**2
+    assert reddish(after) + bluish(after) == 0
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("compiled")
+def test_what_is_lost_inside_is_cut_open() -> None:
+    """No view shows a cavity; the close-up does: half a ball, on a cut that is not marked."""
+    block = trimesh.creation.box((100, 60, 40))
+    ball = trimesh.creation.icosphere(subdivisions=3, radius=3).apply_translation((10, 5, 2))
+    before, _ = before_and_after(trimesh.boolean.difference([block, ball], engine="manifold"), block)
+    framed, disc = 4 * (SIDE - FRAME) * FRAME, math.pi * (SIDE / (2 * SURROUNDINGS)) ** 2
+    assert framed + 0.6 * disc < reddish(before) < framed + 1.1 * disc  # some of the ball lies in the dark
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("compiled")
+def test_a_large_loss_needs_no_close_up() -> None:
+    """It is seen in the picture itself, which keeps its corners."""
+    block = trimesh.creation.box((40, 40, 40))
+    half = trimesh.creation.box((40, 40, 20)).apply_translation((0, 0, -10))
+    before, _ = before_and_after(block, half)
+    assert reddish(before) > LEAST_HITS / 4
+    corners = [before[y, x] for y in (slice(0, 5), slice(-5, None)) for x in (slice(0, 5), slice(-5, None))]
+    assert all((corner >= WHITE).all() for corner in corners)
 
 
 # --- of a result -----------------------------------------------------------------------------------------

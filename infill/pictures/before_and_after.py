@@ -16,7 +16,16 @@ from infill.arrays import Floats
 from infill.inspection.deviation import LOST, sample_surface
 from infill.meshes.distance import TriangleTree
 from infill.meshes.winding import is_solid_boundary
-from infill.pictures.render import AZIMUTH, ELEVATION, Colour, Window, directions, render
+from infill.pictures.close_up import (
+    LEAST_FACTOR,
+    LEAST_SEEN,
+    SIDE,
+    choose_view,
+    draw_close_up,
+    find_largest_place,
+    insert_close_up,
+)
+from infill.pictures.render import AZIMUTH, ELEVATION, Colour, Paint, Window, directions, render
 from infill.pictures.sheet import BACKGROUND, PANEL, arrange_panels
 from infill.plain_numbers import plain_number
 from infill.surface import Surface
@@ -30,6 +39,7 @@ ADDED_COLOUR: Colour = (31, 119, 220)
 MARGIN = 1.06  # of the frame
 VIEW_SHARE = 0.6  # of the maximum over all views
 MIN_VISIBLE = 8  # quarters of a pixel: smaller marks are invisible
+LEAST_HITS = 1600  # quarters of a pixel, as a square of 20 pixels: smaller marks get a close-up
 TRIAL_PIXELS = 64  # pixels along a side of the pictures that select the view
 
 # From above at four corners, the usual one first, then from below, and horizontally from the sides.
@@ -144,7 +154,7 @@ def _describe_areas(lost: MarkedSurface, added: MarkedSurface, verdict: Mapping[
 
 
 def _draw_marked(marked: MarkedSurface, view: tuple[float, float], window: Window) -> tuple[Image.Image, bool]:
-    """Render a surface from one side; return the picture, and True if a mark is visible."""
+    """Render a surface from one side, with a close-up if marks are small; return it, and True if a mark is visible."""
     hits = 0
 
     def paint(points: Floats) -> NDArray[np.number]:
@@ -163,7 +173,27 @@ def _draw_marked(marked: MarkedSurface, view: tuple[float, float], window: Windo
         window=window,
         paint=paint,
     )
-    return Image.fromarray(pixels), hits >= MIN_VISIBLE
+    picture = Image.fromarray(pixels)
+    if not marked.area or hits >= LEAST_HITS:
+        return picture, hits >= MIN_VISIBLE
+    close_up = _insert_close_up(marked, picture, view, window, paint)
+    return close_up or picture, close_up is not None or hits >= MIN_VISIBLE
+
+
+def _insert_close_up(
+    marked: MarkedSurface, picture: Image.Image, view: tuple[float, float], window: Window, paint: Paint
+) -> Image.Image | None:
+    """Insert a close-up of the largest marked place; return None where it would show no more than the picture."""
+    points, is_far_point, area = marked.samples
+    size, pitch = float(np.ptp(points, axis=0).max()), SAMPLE_PITCH / FAR_VOXELS * marked.far
+    place = find_largest_place(points[is_far_point], area[is_far_point], size, pitch)
+    best, share = choose_view(place, points, (view, *VIEWS), pitch)
+    cut = share < LEAST_SEEN
+    factor = (window[1] - window[0]) / (2 * place.half) * SIDE / PANEL
+    if factor < LEAST_FACTOR and not cut:
+        return None
+    close_up = draw_close_up(marked.surface, place, best, paint, cut=cut, cut_colour=PLAIN, background=BACKGROUND)
+    return insert_close_up(picture, close_up, factor, marked.colour)
 
 
 def _choose_view(lost: MarkedSurface, added: MarkedSurface) -> tuple[float, float]:
