@@ -9,7 +9,13 @@ from typing import Any
 import numpy as np
 import pytest
 import trimesh
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 from test_command_line import one_line_error, run
+
+from infill import Volume
+from infill.smoothing.plan import _count_cells, plan_smoothing
 
 pytestmark = pytest.mark.usefixtures("compiled", "silent_compiler")
 
@@ -105,3 +111,25 @@ def test_what_would_fail_fails_beforehand(words: str, says: str, folder: Path) -
 
 def test_labels_have_no_plan(folder: Path) -> None:
     assert run("smooth", "ball.npy", "--each-label", "-o", "a.3mf", "--dry-run").exit_code == 2
+
+
+def test_the_program_is_loaded_with_a_small_ball(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One tenth of the ball that is timed: it is smoothed for what it loads, and nobody reads its time."""
+    balls = []
+
+    def smooth_nothing(ways: Any, request: Any) -> None:
+        balls.append(int(np.count_nonzero(ways[0].data.data.values)))
+
+    monkeypatch.setattr("infill.smoothing.plan.first_sound", smooth_nothing)
+    values = np.zeros((12, 12, 12), dtype=bool)
+    values[3:9, 3:9, 3:9] = True
+    plan_smoothing(Volume(values=values), begin=0.0)
+    loading, timed = balls
+    assert loading < timed / 10
+
+
+@given(arrays(bool, st.tuples(*3 * [st.integers(1, 5)])))
+def test_crossings_are_the_sign_changes_of_the_padded_grid(solid: np.ndarray) -> None:
+    padded = np.pad(solid, 1)
+    changes = sum(int((np.diff(padded.astype(int), axis=axis) != 0).sum()) for axis in range(3))
+    assert _count_cells(solid) == (int(solid.sum()), changes)

@@ -38,6 +38,7 @@ from infill.voxels.from_points import grid_around_points, voxelise_points
 
 TRIANGLES_PER_VERTEX = 2  # triangles
 BALL_RADIUS = 16.0  # cells: the radius of the ball on which the time per triangle is measured
+LOADING_RADIUS = 5.0  # cells: the radius of the ball that is smoothed first, to load what a run needs
 MESH_TIME_SHARE = (
     0.85  # of that time, measured: a triangle of a mesh takes 0.5 to 1.6 times as long, one of a scan 1.0 to 1.2
 )
@@ -137,7 +138,8 @@ def plan_smoothing(source: Source, *, begin: float, **options: Unpack[SourceOpti
         needed = round(max(cells, surface))
         require_memory(needed, request.max_memory, "give larger voxels, or --roi for a part of a volume")
     shortest_smoothing = replace(cell_request.smoothing, steps=min(cell_request.smoothing.steps, MIN_STEPS))
-    _seconds_per_triangle(replace(cell_request, smoothing=shortest_smoothing), grid)  # loads what a run needs
+    # Loads what a run needs.
+    _seconds_per_triangle(replace(cell_request, smoothing=shortest_smoothing), grid, radius=LOADING_RADIUS)
     loaded = time.perf_counter()
     work = survey.share * _seconds_per_triangle(cell_request, grid) * TRIANGLES_PER_VERTEX * survey.vertices
     return SmoothPlan(
@@ -244,10 +246,10 @@ def _survey_points(
 
 
 @log_compilation("the smoother")
-def _seconds_per_triangle(request: SmoothRequest, grid: Grid) -> float:
+def _seconds_per_triangle(request: SmoothRequest, grid: Grid, *, radius: float = BALL_RADIUS) -> float:
     """Measure the seconds per triangle before simplification, by smoothing a ball of cells of the same size."""
-    offsets = np.indices((round(2 * BALL_RADIUS) + 2 * MARGIN,) * 3) - (BALL_RADIUS + MARGIN - 0.5)
-    ball = Volume(values=(offsets**2).sum(axis=0) <= BALL_RADIUS**2, spacing=tuple(grid.cell_size.tolist()))
+    offsets = np.indices((round(2 * radius) + 2 * MARGIN,) * 3) - (radius + MARGIN - 0.5)
+    ball = Volume(values=(offsets**2).sum(axis=0) <= radius**2, spacing=tuple(grid.cell_size.tolist()))
     trial_request = replace(
         request,
         method="refine" if request.refined else "plain",
@@ -267,7 +269,8 @@ def _seconds_per_triangle(request: SmoothRequest, grid: Grid) -> float:
 def _count_cells(solid: NDArray[np.bool_]) -> tuple[int, int]:
     """Count the solid cells, and the grid edges that cross their surface, including the rim of the grid."""
     inside = sum(int(np.count_nonzero(np.diff(solid, axis=axis))) for axis in range(solid.ndim))
-    rim = sum(int(np.count_nonzero(solid.take((0, -1), axis))) for axis in range(solid.ndim))
+    faces = (solid.swapaxes(0, axis)[[0, -1]] for axis in range(solid.ndim))
+    rim = sum(int(np.count_nonzero(face)) for face in faces)
     return int(np.count_nonzero(solid)), inside + rim
 
 
