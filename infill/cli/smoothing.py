@@ -208,6 +208,8 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
         "components": f"{result['components']} ({data['components']} in the data), {result['cavities']} cavities "
         f"({data['cavities']}), {result['tunnels']} tunnels ({data['tunnels']})",
     }
+    if (isosurface := report.get("isosurface")) is not None and isosurface["change"] is not None:
+        rows["solid"] += f", {isosurface['change']:+z.2%} of the isosurface of the grey values"
     if result["cavities"]:
         rows["sealed voids"] = f"{result['cavities']}, in which resin and powder stay"
     if verbose or not (isinstance(report, Sections) and report.pending("distance")):

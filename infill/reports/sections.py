@@ -76,6 +76,13 @@ class Sections(dict[str, Any]):
     __hash__ = None
 
 
+def add_late_section(report: Mapping[str, Any], name: str, compute: Callable[[], Any]) -> None:
+    """Add a section at the end of a report of `with_late_sections`, which is computed when it is first read."""
+    sections = cast("Sections", report)
+    sections[name] = None
+    sections.late[name] = compute
+
+
 def with_late_sections(report: Keys, **late: Callable[[], Any]) -> Keys:
     """Return a report that computes some of its sections when they are first read."""
     return cast("Keys", Sections(report, late))

@@ -205,6 +205,13 @@ class FacetKeys(TypedDict):
     voxel: Annotated[float, "Size of the voxels for that radius, mm"]
 
 
+class Isosurface(TypedDict):
+    """Isosurface of the unsmoothed grey values."""
+
+    volume: Annotated[float, "Volume inside it, mm³"]
+    change: Annotated[float | None, "Volume of the result over it, minus 1; null if it encloses nothing"]
+
+
 class SolidSeconds(SmoothSeconds):
     """Time of each stage."""
 
@@ -224,6 +231,9 @@ class SmoothReport(Report):
     distance: Annotated[Distance, "Distance between result and input, measured when it is first read"]
     facets: FacetKeys | None
     seconds: SolidSeconds
+    isosurface: NotRequired[
+        Annotated[Isosurface, "Grey values with one threshold: their isosurface, measured when it is first read"]
+    ]
 
 
 class LabelName(TypedDict):

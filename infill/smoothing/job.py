@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, Unpack, overload
 
@@ -21,13 +22,15 @@ from infill.formats.point_files import read_points_and_normals
 from infill.formats.units import to_surface, unit_in_mm
 from infill.grid import spacing_of
 from infill.imaging.volume_files import read_volume
+from infill.reports.sections import add_late_section
 from infill.result import Result
 from infill.smoothing.by_component import ComponentStages, smooth_components
+from infill.smoothing.grey_isosurface import compare_with_isosurface
 from infill.smoothing.meshes import mesh_ways
 from infill.smoothing.points import compare_with_points, points_ways
 from infill.smoothing.remedies import first_sound
 from infill.smoothing.request import SmoothOptions, SmoothRequest
-from infill.smoothing.scans import threshold_range, volume_ways
+from infill.smoothing.scans import has_grey_values, threshold_range, volume_ways
 from infill.smoothing.stages import SmoothStages
 from infill.surface import Surface
 from infill.volume import Volume
@@ -131,7 +134,12 @@ def smooth_volume(
         values = fill_masked_with_void(np.asanyarray(volume), low, chosen=chosen)
         volume = Volume(values=values, spacing=spacing_of(1.0 if spacing is None else spacing, 3), origin=origin)
     ways = volume_ways(volume, request, threshold=threshold, label=label, grey=grey, voxel=voxel)
-    return first_sound(ways, request)
+    result = first_sound(ways, request)
+    rule = result.report["input"]["segmentation"]
+    if threshold is not None and rule.get("high") is None and has_grey_values(volume.values, rule["values"]):
+        compare = partial(compare_with_isosurface, result.surface.volume, volume, float(rule["low"]), request.threads)
+        add_late_section(result.report, "isosurface", compare)
+    return result
 
 
 @overload

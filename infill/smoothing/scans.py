@@ -127,7 +127,7 @@ def scan_ways(
     noise = noise_share(np.asarray(solid.values), threads=request.threads)
     method, despeckle, paper = request.method, request.despeckle, False
     if method == AUTO:
-        keeps_grey = level is not None and not phase and _has_grey_values(np.asarray(scan.values), used["values"])
+        keeps_grey = level is not None and not phase and has_grey_values(np.asarray(scan.values), used["values"])
         paper = request.level != "volume" or request.smoothing.steps < MIN_STEPS
         method = "plain" if noise > NOISY or paper else "grey" if grey or keeps_grey else "refine"
         despeckle = despeckle or (SPECK_CELLS * scan.cell_volume if noise > NOISY and not paper else 0.0)
@@ -174,7 +174,7 @@ def _remedies(request: SmoothRequest, smooth_input: SmoothInput) -> list[Way]:
     return remedies
 
 
-def _has_grey_values(values: NDArray[Any], ends: list[float]) -> bool:
+def has_grey_values(values: NDArray[Any], ends: list[float]) -> bool:
     """Tell whether sampled layers have values between the lowest and the highest: those of a mask have none."""
     sampled_layers = values[:: max(1, len(values) // SAMPLED_LAYERS)]
     return bool(((sampled_layers > ends[0]) & (sampled_layers < ends[1])).any())
