@@ -223,6 +223,35 @@ def size_problems(request: FillSpec, hollow: VoidMeshes) -> Iterator[str]:
         )
 
 
+def slicer_problems(request: FillSpec, hollow: VoidMeshes, width: float, lost: NarrowShares | None) -> Iterator[str]:
+    """Yield a message for what slicers leave out of the infill of a project, with walls or bars of a width, mm."""
+    if request.form == "project" and width < THINNEST:
+        yield (
+            f"walls or bars inside are {plain_argument(width, 2)} mm wide, less than a line of a usual nozzle: "
+            "slicers leave most of them out; give a line width of 0.9 mm, or print so small a part solid"
+        )
+    elif request.form == "project" and width < THIN:
+        yield (
+            f"walls or bars inside are {plain_argument(width, 2)} mm wide, less than two lines of a usual "
+            "nozzle: slicers fill such bodies in many short moves, and extrude up to a tenth more or less; give a "
+            "line width of 0.9 mm"
+        )
+    elif request.gaps_in(width):
+        yield (
+            f"walls inside are {plain_argument(width, 2)} mm wide, more than two lines of a usual nozzle and "
+            "less than three: slicers leave gaps in them, 7 % of the infill in all; give a line width of 0.9 mm, or "
+            f"{plain_argument(GAP[1])} or more"
+        )
+    if lost is not None and lost.all > NARROW:
+        effect = ", so that was left out" if hollow.loose else ""
+        yield (
+            f"{lost.all:.0%} of the infill lies where walls of {plain_argument(request.wall)} mm leave less room than "
+            f"a line of {plain_argument(LINE_WIDTH)} mm, or is itself as narrow there, and slicers print none of "
+            f"it{effect}; shift the pattern by --phase, print with fewer perimeters and give their --wall, or with so "
+            "many that they fill such places"
+        )
+
+
 def find_problems(
     request: FillSpec, hollow: VoidMeshes, facts: SolidMeasures, drained: DrainedSolid, lost: NarrowShares | None = None
 ) -> Iterator[str]:
@@ -276,31 +305,7 @@ def find_problems(
             "give a larger cell, a line width or a higher density"
         )
     yield from size_problems(request, hollow)
-    if request.form == "project" and facts.width < THINNEST:
-        yield (
-            f"walls or bars inside are {plain_argument(facts.width, 2)} mm wide, less than a line of a usual nozzle: "
-            "slicers leave most of them out; give a line width of 0.9 mm, or print so small a part solid"
-        )
-    elif request.form == "project" and facts.width < THIN:
-        yield (
-            f"walls or bars inside are {plain_argument(facts.width, 2)} mm wide, less than two lines of a usual "
-            "nozzle: slicers fill such bodies in many short moves, and extrude up to a tenth more or less; give a "
-            "line width of 0.9 mm"
-        )
-    elif request.gaps_in(facts.width):
-        yield (
-            f"walls inside are {plain_argument(facts.width, 2)} mm wide, more than two lines of a usual nozzle and "
-            "less than three: slicers leave gaps in them, 7 % of the infill in all; give a line width of 0.9 mm, or "
-            f"{plain_argument(GAP[1])} or more"
-        )
-    if lost is not None and lost.all > NARROW:
-        effect = ", so that was left out" if hollow.loose else ""
-        yield (
-            f"{lost.all:.0%} of the infill lies where walls of {plain_argument(request.wall)} mm leave less room than "
-            f"a line of {plain_argument(LINE_WIDTH)} mm, or is itself as narrow there, and slicers print none of "
-            f"it{effect}; shift the pattern by --phase, print with fewer perimeters and give their --wall, or with so "
-            "many that they fill such places"
-        )
+    yield from slicer_problems(request, hollow, facts.width, lost)
     if moved > request.tolerance:
         distance = f"up to {plain_argument(moved, 2)} mm" if np.isfinite(moved) else "an unknown distance"
         yield f"for so few triangles, the voids were moved by {distance}; give larger cells, or more triangles"

@@ -231,8 +231,9 @@ class SmoothReport(Report):
     distance: Annotated[Distance, "Distance between result and input, measured when it is first read"]
     facets: FacetKeys | None
     seconds: SolidSeconds
-    isosurface: NotRequired[
-        Annotated[Isosurface, "Grey values with one threshold: their isosurface, measured when it is first read"]
+    isosurface: Annotated[
+        Isosurface | None,
+        "Grey values with one threshold: their isosurface, measured when it is first read; null for other input",
     ]
 
 

@@ -325,6 +325,7 @@ def finish_attempt(
         "input": {**smooth_input.facts, "despeckled": best.specks},
         "distance": declare(Distance, {}),  # measured when it is first read
         "facets": None,  # so are they
+        "isosurface": None,  # and these
         "verdict": {
             "word": differences.word,
             "changes": [*problems, *differences.remarks, *_cleaning_remarks(best.crumbs, best.specks, smoothed)],

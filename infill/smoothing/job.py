@@ -136,8 +136,9 @@ def smooth_volume(
     ways = volume_ways(volume, request, threshold=threshold, label=label, grey=grey, voxel=voxel)
     result = first_sound(ways, request)
     rule = result.report["input"]["segmentation"]
-    if threshold is not None and rule.get("high") is None and has_grey_values(volume.values, rule["values"]):
-        compare = partial(compare_with_isosurface, result.surface.volume, volume, float(rule["low"]), request.threads)
+    level = rule.get("low") if rule.get("high") is None else None
+    if threshold is not None and level is not None and has_grey_values(volume.values, rule["values"]):
+        compare = partial(compare_with_isosurface, result.surface.volume, volume, float(level), request.threads)
         add_late_section(result.report, "isosurface", compare)
     return result
 
