@@ -26,7 +26,7 @@ SHARPEST = math.radians(172)  # a path that turns back on itself keeps its corne
 LEAST_DEVIATION = 0.001  # mm: less than the numbers of G-code can tell
 UNIT = 0.001  # mm: the last decimal of a position in G-code
 COARSEST = 0.02  # mm between a chord and its arc
-SHORTEST_CHORD = 0.06  # mm: speed is no reason for shorter ones
+SHORTEST_CHORD = 0.06  # mm
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,6 +47,7 @@ class Machine:
     acceleration: float | Floats = 1000.0
     speed: float | Floats = 80.0
     corner: float = 9.0
+    shortest: float | Floats = SHORTEST_CHORD
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -160,7 +161,7 @@ def _chord_counts(arc: Floats, turn: Floats, machine: Machine, corners: Places) 
     arc = np.where(np.isfinite(arc), np.maximum(arc, 1e-9), 1e9)
     speed = np.minimum(np.sqrt(_take(machine.acceleration, corners) * arc), _take(machine.speed, corners))
     speed_count = np.ceil(turn * speed / machine.corner - 1e-9)
-    speed_count = np.minimum(speed_count, np.floor(turn * arc / SHORTEST_CHORD))
+    speed_count = np.minimum(speed_count, np.floor(turn * arc / _take(machine.shortest, corners)))
     shape_count = np.ceil(turn / (2 * np.arccos(np.maximum(1 - COARSEST / arc, 0.0))) - 1e-9)
     number: Places = np.maximum(np.maximum(speed_count, shape_count), 1).astype(np.intp)
     return number

@@ -146,7 +146,9 @@ def _chord_density(control: Floats, bent: Places, machine: Machine) -> Floats:
         for value in (machine.acceleration, machine.speed)
     )
     pace = np.minimum(np.sqrt(acceleration / curvature), speed)
-    number: Floats = length * np.maximum(curvature * pace / machine.corner, np.sqrt(curvature / (8 * COARSEST)))
+    shortest = machine.shortest[bent][:, None] if isinstance(machine.shortest, np.ndarray) else machine.shortest
+    wanted = np.minimum(curvature * pace / machine.corner, 1 / shortest)
+    number: Floats = length * np.maximum(wanted, np.sqrt(curvature / (8 * COARSEST)))
     return number
 
 
@@ -180,7 +182,7 @@ def _resample_runs(
     ends[before[1:] - 1] = points[bent[np.append(opens[1:], len(bent)) - 1] + 1]
     joint = np.setdiff1d(np.arange(len(bent)), opens)
     chord = np.clip(along[joint * PIECES].astype(np.intp), before[run[joint]], before[run[joint] + 1] - 1)
-    astray = joint[_distances(points[bent[joint]], starts[chord], ends[chord]) > MOST_MISSED]
+    astray = joint[segment_distances(points[bent[joint]], starts[chord], ends[chord]) > MOST_MISSED]
     stays = np.ones(count, dtype=bool)
     stays[bent] = False
     stays[bent[opens]] = True
@@ -200,8 +202,8 @@ def _resample_runs(
     return result, astray
 
 
-def _distances(points: Floats, starts: Floats, ends: Floats) -> Floats:
-    """Return the distance, mm, of each point from its own chord."""
+def segment_distances(points: Floats, starts: Floats, ends: Floats) -> Floats:
+    """Return the distance, mm, of each point from its own segment; all are (N, 2)."""
     chord, delta = ends - starts, points - starts
     share = (delta * chord).sum(axis=1) / np.maximum((chord**2).sum(axis=1), 1e-300)
     return np.asarray(np.hypot(*(delta - np.clip(share, 0.0, 1.0)[:, None] * chord).T))

@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 
 from infill.arrays import Floats, Places
 from infill.paths.corner_offset import CornerFreedom, corner_freedom, offset_corners
-from infill.paths.corners import UNIT, Machine, RoundedPaths, round_corners
+from infill.paths.corners import SHORTEST_CHORD, UNIT, Machine, RoundedPaths, round_corners
 from infill.paths.curves import MOST_BULGE, RecutPaths, recut_curves
 from infill.paths.neighbours import BESIDE, TOWARDS_LIMIT, BeadIndex, deviation_beside_beads
+from infill.paths.short_segments import merge_short_segments
 from infill.paths.touch import touch_preserving_deviations
 from infill.ragged import concatenate_rows, split_rows
 
@@ -37,6 +38,8 @@ class Rounding:
         See `Machine`.
     same_filament : bool
         Widen the beads so that each stroke keeps its filament, up to 8 %.
+    segments_per_second : float
+        That the controller of the machine can take at the commanded speed.
     """
 
     deviation: float = math.inf
@@ -44,6 +47,11 @@ class Rounding:
     radius: float = math.inf
     corner: float = 9.0
     same_filament: bool = False
+    segments_per_second: float = math.inf
+
+    def shortest_segments(self, speed: Floats) -> Floats:
+        """Return the length, mm, below which segments are merged at some speeds, mm/s."""
+        return speed / self.segments_per_second
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -125,6 +133,7 @@ def find_corners(
     speed: Floats,
     corner: float,
     line_width: float,
+    segments_per_second: float = math.inf,
     hard: NDArray[np.bool_] | None = None,
     wide: bool = False,
     limit: Floats | None = None,
@@ -146,6 +155,8 @@ def find_corners(
     corner : float
         See `Machine`.
     line_width : float, mm
+    segments_per_second : float
+        See `Rounding`.
     hard : (N,) bool, optional
         Points that stay as they are.
     wide : bool
@@ -158,7 +169,12 @@ def find_corners(
 
     def machine(begins: Places) -> Machine:
         count = np.diff(begins)
-        return Machine(acceleration=np.repeat(acceleration, count), speed=np.repeat(speed, count), corner=corner)
+        return Machine(
+            acceleration=np.repeat(acceleration, count),
+            speed=np.repeat(speed, count),
+            corner=corner,
+            shortest=np.repeat(np.maximum(speed / segments_per_second, SHORTEST_CHORD), count),
+        )
 
     layer_of = np.repeat(layer, np.diff(offsets))
     distance = walls.near(points, layer_of, BESIDE * line_width)
@@ -220,8 +236,9 @@ def round_paths(
         speed=np.full(len(paths), speed),
         corner=rounding.corner,
         line_width=line_width,
+        segments_per_second=rounding.segments_per_second,
         hard=hard,
         wide=wide,
     )
-    result = corners.rounded(rounding)
+    result = merge_short_segments(corners.rounded(rounding), float(rounding.shortest_segments(np.array(speed))))
     return split_rows(result.points, result.first), result.radius

@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from infill.arrays import Floats
-from infill.paths.corners import UNIT
+from infill.paths.corners import UNIT, RoundedPaths
 from infill.paths.covering import cover, total_length
 from infill.paths.families.family import TOUCH
 from infill.paths.layer_below import LayerBelow
 from infill.paths.neighbours import BeadIndex
 from infill.paths.rounding import round_paths
+from infill.paths.short_segments import merge_short_segments
+from infill.ragged import concatenate_rows, split_rows
 from infill.refilling.planning import RefillPlan
 
 if TYPE_CHECKING:
@@ -220,7 +222,15 @@ def _cover_smoothly(area: Polygon, cell: float, setting: AreaSetting) -> FittedP
         hard |= shapely.dwithin(
             corners, shapely.union_all(shapely.difference(lines[~inside], tolerance_area)), SHARP_RADIUS
         )
-    plain = [np.rint(path / UNIT) * UNIT for path in strands]
+    points, first = concatenate_rows(strands)
+    sharp_paths = RoundedPaths(
+        points=np.rint(points / UNIT) * UNIT,
+        first=first,
+        source=np.arange(len(points)),
+        radius=np.full(len(points), 0.0),
+    )
+    merged = merge_short_segments(sharp_paths, float(plan.rounding.shortest_segments(np.array(setting.speed))))
+    plain = split_rows(merged.points, merged.first)
     paths = [
         smooth if fits else sharp for smooth, sharp, fits in zip(smooth_paths, plain, inside.tolist(), strict=True)
     ]

@@ -97,6 +97,7 @@ def refill(
     density: str | float | None = None,
     smooth_radius: str | float = AUTO,
     max_deviation: float | None = None,
+    max_segments: str | float = AUTO,
     layers: tuple[int, int] | None = None,
     part: str | None = None,
     dry_run: bool = False,
@@ -127,6 +128,9 @@ def refill(
         Largest radius of a corner, mm. "auto": as large as support and contact allow. 0 leaves corners.
     max_deviation : float, optional
         Largest move of a path, mm.
+    max_segments : "auto", "none" or float
+        Segments per second that the controller of the printer can take at the speed of the infill. "auto": 200 where
+        the file is for Marlin (legacy), else no limit.
     layers : tuple of int, optional
         The first and the last layer to refill, counted from 1.
     part : str, optional
@@ -160,6 +164,7 @@ def refill(
         density=density,
         smooth_radius=smooth_radius,
         max_deviation=max_deviation,
+        max_segments=max_segments,
         layers=layers,
         part=part,
         parameters=parameters,

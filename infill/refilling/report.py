@@ -43,6 +43,7 @@ def refill_report(
             "density": request.density,
             "smooth_radius_mm": request.smooth_radius,
             "max_deviation_mm": request.max_deviation,
+            "max_segments": request.max_segments,
             "layers": list(request.layers) if request.layers else None,
             "part": request.part,
         },
@@ -63,6 +64,7 @@ def refill_report(
         "deviation_mm": _finite(rules.rounding.deviation),
         "corners": tally.corners,
         "radius_mm": tally.radii.report(),
+        "segments_per_s": _finite(rules.rounding.segments_per_second),
     }
     keeps_paths = request.pattern == KEEP
     keeps = keeps_paths and request.density is None

@@ -19,6 +19,8 @@ Progress = Callable[[str, float], None]
 KEEP = "keep"
 AUTO = "auto"
 SAME = "same"
+NO_LIMIT = "none"
+FEWEST_SEGMENTS, MOST_SEGMENTS = 10.0, 100_000.0  # per second
 LARGEST_RADIUS = 100.0  # mm
 ENDLESS = 10**9  # layers
 MOST_LISTED = 10  # objects in a message
@@ -37,6 +39,22 @@ def parse_radius(name: str, value: object) -> str | float:
         return read_number(name, value, "mm")
     except ValueError:
         raise UsageError.about(name, f"is {quote_value(value)}; give auto, or a number in mm") from None
+
+
+def parse_segments(name: str, value: object) -> str | float:
+    """Parse "auto", "none" or a number of segments per second, or raise ParameterError.
+
+    >>> parse_segments("max_segments", "150"), parse_segments("max_segments", "none")
+    (150.0, 'none')
+    """
+    if value in (AUTO, NO_LIMIT):
+        return str(value)
+    try:
+        return float(value) if isinstance(value, str) else parse_number(name, value)
+    except ValueError:
+        raise UsageError.about(
+            name, f"is {quote_value(value)}; give auto, none, or a number of segments per second"
+        ) from None
 
 
 def parse_share_or_same(name: str, value: object) -> str | float:
@@ -91,6 +109,8 @@ class Request:
         mm; 0 leaves corners as they are.
     max_deviation : float, optional
         Largest move of a path, mm.
+    max_segments : "auto", "none" or float
+        Segments per second that the controller takes. "auto": as the file's G-code flavour implies.
     layers : tuple of int, optional
         First and last layer to refill, counted from 1.
     part : str, optional
@@ -150,6 +170,18 @@ class Request:
             default="no limit",
         ),
     ] = None
+    max_segments: Annotated[
+        str | float,
+        Option(
+            "Segments per second that the controller can take at the speed of the infill; auto: 200 where the file is "
+            "for Marlin (legacy), as on 8-bit boards, else none.",
+            PATHS,
+            unit="auto|none|N",
+            default="auto",
+            read=parse_segments,
+            typed=str,
+        ),
+    ] = AUTO
     layers: Annotated[
         tuple[int, int] | None,
         Option(
@@ -178,6 +210,13 @@ class Request:
             check_range("smooth_radius", self.smooth_radius, 0, LARGEST_RADIUS, "mm")
         if self.max_deviation is not None:
             check_range("max_deviation", self.max_deviation, 0, LARGEST_RADIUS, "mm")
+        if isinstance(self.max_segments, str):
+            if self.max_segments not in (AUTO, NO_LIMIT):
+                raise UsageError.about(
+                    "max_segments", f"is {self.max_segments!r}; give 'auto', 'none', or a number of segments per second"
+                )
+        else:
+            check_range("max_segments", self.max_segments, FEWEST_SEGMENTS, MOST_SEGMENTS, "segments per second")
         if self.layers is not None and not 1 <= self.layers[0] <= self.layers[1]:
             raise ParameterError.about(
                 "layers", f"is {self.layers[0]} to {self.layers[1]}; count from 1, the lower one first"

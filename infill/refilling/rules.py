@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -13,7 +14,7 @@ from infill.paths.contact import MOST_POINTS, STEP
 from infill.paths.corners import UNIT
 from infill.paths.rounding import Rounding
 from infill.refilling.layers import Layers
-from infill.refilling.request import SAME, Request
+from infill.refilling.request import AUTO, SAME, Request
 
 ACCELERATION = 1000.0  # mm/s², where neither the print nor its settings give it
 CORNER = 9.0  # mm/s × rad: of a square corner velocity of 5 mm/s
@@ -23,6 +24,8 @@ SLOWED_SHARE = 0.97  # of the usual speed of infill: a slower layer was slowed d
 LEAST_LEFT = 0.9  # of the length of a layer's infill after rounding, at least
 TARGET_LAYERS = 16  # layers measured of a print, about; more of small layers, so that points are about as many
 MOST_LAYERS = 128
+LEGACY_FLAVOUR = "marlin"  # as slicers write it: "Marlin (legacy)"; "marlin2" is another
+LEGACY_SEGMENTS = 200.0  # per second: what Marlin's own configuration gives a delta printer on an 8-bit board
 LARGE = MOST_POINTS * STEP  # mm of infill in a layer: larger layers are sampled
 
 
@@ -80,6 +83,7 @@ def derive_rules(request: Request, print_survey: Survey, samples: Sequence[Layer
             radius=request.radius,
             corner=max(jerk or CORNER, LEAST_CORNER),
             same_filament=request.density == SAME,
+            segments_per_second=segment_limit(request, print_survey),
         ),
         acceleration=print_survey.number(*settings, limit="acceleration") or ACCELERATION,
         usual_speed=float(np.median(np.concatenate(feeds))) if feeds else 0.0,
@@ -87,6 +91,19 @@ def derive_rules(request: Request, print_survey: Survey, samples: Sequence[Layer
         resets_filament=print_survey.resets_filament,
         stride=sampling_stride(print_survey.layers, float(np.median(lengths)) if lengths else 0.0),
     )
+
+
+def segment_limit(request: Request, print_survey: Survey) -> float:
+    """Return the segments per second that the controller of a print can take; infinite without a limit.
+
+    Bambu Lab's printers name the legacy flavour too, and have fast controllers.
+    """
+    if isinstance(request.max_segments, float | int):
+        return float(request.max_segments)
+    settings = print_survey.settings
+    flavour, names = settings.get("gcode_flavor", ""), (print_survey.slicer, settings.get("printer_model", ""))
+    is_legacy = flavour.strip().lower() == LEGACY_FLAVOUR and not any("bambu" in name.lower() for name in names)
+    return LEGACY_SEGMENTS if is_legacy and request.max_segments == AUTO else math.inf
 
 
 def sampling_stride(layers: float, length: float) -> int:

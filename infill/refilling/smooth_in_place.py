@@ -12,6 +12,7 @@ from infill.gcode.splicing import NewPaths, splice_paths, verify_replay
 from infill.gcode.strokes import InfillStrokes
 from infill.paths.corners import UNIT, RoundedPaths
 from infill.paths.rounding import PathCorners, Rounding, find_corners
+from infill.paths.short_segments import merge_short_segments
 from infill.planner.print_clock import path_seconds
 from infill.ragged import concatenate_rows, select_rows, split_rows
 from infill.refilling.layers import LayerPaths, Layers
@@ -36,11 +37,13 @@ def smooth_in_place(layers: Layers, rules: RefillRules, seconds: Floats) -> NewI
         Times of the old strokes.
     """
     infill, section = layers.infill, layers.section
-    smooth = stroke_corners(layers, rules.rounding.corner, acceleration=rules.acceleration).rounded(rules.rounding)
+    smooth = stroke_corners(layers, rules.rounding, acceleration=rules.acceleration).rounded(rules.rounding)
+    moved = _moved_strokes(infill, smooth)
+    smooth = merge_short_segments(smooth, rules.rounding.shortest_segments(layers.speed))
     acceleration = layers.acceleration(rules.acceleration)
     new_seconds = path_seconds(smooth.points, smooth.first, layers.speed, acceleration)
     reasons = {**unchangeable_strokes(layers, rules), "no faster": new_seconds > seconds * SLOWER}
-    new = redraw_strokes(infill, smooth, ~np.any(list(reasons.values()), axis=0), rules.rounding)
+    new = redraw_strokes(infill, smooth, moved & ~np.any(list(reasons.values()), axis=0), rules.rounding)
     spliced = splice_paths(layers.table, infill, new)
     fault = verify_replay(layers.table, infill, new, spliced)
     if fault:
@@ -70,14 +73,13 @@ def smooth_in_place(layers: Layers, rules: RefillRules, seconds: Floats) -> NewI
     )
 
 
-def stroke_corners(layers: Layers, corner: float, *, acceleration: float) -> PathCorners:
+def stroke_corners(layers: Layers, rounding: Rounding, *, acceleration: float) -> PathCorners:
     """Recut the curves in the strokes of some layers, and find their corners.
 
     Parameters
     ----------
     layers : Layers
-    corner : float
-        See `Machine`.
+    rounding : Rounding
     acceleration : float, mm/s²
         Where the print commands none.
     """
@@ -88,7 +90,8 @@ def stroke_corners(layers: Layers, corner: float, *, acceleration: float) -> Pat
         layer=layers.layer,
         acceleration=layers.acceleration(acceleration),
         speed=layers.speed,
-        corner=corner,
+        corner=rounding.corner,
+        segments_per_second=rounding.segments_per_second,
         line_width=layers.line_width,
         wide=True,
         limit=largest_moves(layers),
@@ -103,8 +106,8 @@ def path_lengths(points: Floats, offsets: Places) -> Floats:
 
 
 def redraw_strokes(infill: InfillStrokes, new: RoundedPaths, chosen: NDArray[np.bool_], rounding: Rounding) -> NewPaths:
-    """Select the strokes to redraw: those chosen that rounding changed."""
-    strokes = np.flatnonzero(chosen & _moved_strokes(infill, new))
+    """Return the new paths of the chosen strokes."""
+    strokes = np.flatnonzero(chosen)
     points_at, offsets = select_rows(new.first, strokes)
     length = path_lengths(new.points, new.first)[strokes]
     rate = infill.filament[strokes] / infill.length[strokes]

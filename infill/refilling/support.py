@@ -142,7 +142,7 @@ class _SampledLayers:
     def of(cls, layers: Layers, rounding: Rounding, acceleration: float) -> _SampledLayers:
         return cls(
             layers=layers,
-            corners=stroke_corners(layers, rounding.corner, acceleration=acceleration),
+            corners=stroke_corners(layers, rounding, acceleration=acceleration),
             walls={layer.number: layers.bead_samples(layer.number - 1) for layer in layers.typical},
         )
 

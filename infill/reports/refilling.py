@@ -15,6 +15,7 @@ class RefillRequest(TypedDict):
     density: Annotated[float | str | None, "Share of the volume, or `same`; null for the filament of the slicer"]
     smooth_radius_mm: Annotated[float | str, "Largest radius of a corner, mm, or `auto`"]
     max_deviation_mm: Annotated[float | None, "Largest distance by which a path may move, mm"]
+    max_segments: Annotated[float | str, "Segments per second, or `auto` or `none`"]
     layers: Annotated[Annotated[list[int], 2] | None, "First and last layer, counted from 1; null for all layers"]
     part: Annotated[str | None, "Text in the names of the objects to refill; null for all objects"]
 
@@ -54,6 +55,7 @@ class RoundingKeys(TypedDict):
     deviation_mm: Annotated[float | None, "Largest move of a path at its corners, mm; null if only lines limit it"]
     corners: Annotated[int, "Number of rounded corners"]
     radius_mm: RadiusKeys | None
+    segments_per_s: Annotated[float | None, "Segments per second that the controller can take; null without a limit"]
 
 
 class FilamentKeys(TypedDict):
