@@ -105,7 +105,12 @@ OUT_OF_RANGE = {
     },
     "fill honeycomb": {"--set": "waves=3 cell=3", "--seed": "3"},
     "fill voronoi": {"--seed": "-1 9999999999", "--set": "seed=-1"},
-    "refill": {"--smooth-radius": "-1 nan", "--max-deviation": "-1 nan", "--layers": "9-2 0-3"},
+    "refill": {
+        "--smooth-radius": "-1 nan",
+        "--max-deviation": "-1 nan",
+        "--max-segments": "-1 0 nan",
+        "--layers": "9-2 0-3",
+    },
     "refill gyroid": {"--density": "-5% 150% nan%", "--set": "cell=-1 angle=nan"},
     "motion": {
         "--acceleration": "-1 nan",

@@ -50,7 +50,7 @@ def parse_segments(name: str, value: object) -> str | float:
     if value in (AUTO, NO_LIMIT):
         return str(value)
     try:
-        return float(value) if isinstance(value, str) else parse_number(name, value)
+        return read_number(name, value)
     except ValueError:
         raise UsageError.about(
             name, f"is {quote_value(value)}; give auto, none, or a number of segments per second"
