@@ -11,7 +11,7 @@ from infill.gcode.survey import Survey
 from infill.refilling.placement import facts
 from infill.refilling.request import KEEP, Request
 from infill.refilling.rules import RefillRules
-from infill.refilling.stats import RefillStats
+from infill.refilling.stats import PURGED, UNREAD, RefillStats
 from infill.refilling.support import LEAST_LENGTH, LEAST_SHARE, kept_shares
 from infill.reports.common import FORM
 from infill.version import __version__
@@ -20,6 +20,14 @@ if TYPE_CHECKING:
     from infill.reports.refilling import ContactKeys, RefillReport
 
 FILAMENT_TOLERANCE = 0.01  # relative error of the filament of all infill that is reported
+TIME_TOLERANCE = 0.01  # relative increase of the time of all infill that is reported
+MANY_KEPT = 0.1  # of the sections: as many that stay for one of these reasons are reported
+WHY_KEPT = {
+    UNREAD: "they hold arcs (G2, G3) or moves that cannot be redrawn; slice with arc fitting off",
+    "arcs": "they hold arcs (G2, G3); slice with arc fitting off",
+    PURGED: "a tool change purges filament into them, and that must stay; they get no faster",
+    "no faster": "round corners would save no time in them",
+}
 
 
 def refill_report(
@@ -141,6 +149,17 @@ def _problems(report: RefillReport, tally: RefillStats) -> list[str]:
     elif not tally.replaced:
         reasons = ", ".join(f"{reason} ({number})" for reason, number in sorted(tally.kept.items()))
         problems.append(f"none of {tally.sections} sections of infill was changed: {reasons or 'no corner to round'}")
+    problems += [
+        f"{tally.kept[reason]} of {tally.sections} sections stay as sliced: {words}"
+        for reason, words in WHY_KEPT.items()
+        if tally.kept.get(reason, 0) >= MANY_KEPT * max(tally.sections, 1)
+    ]
+    before, after = report["time"]["infill_before_s"], report["time"]["infill_after_s"]
+    if tally.replaced and before and after > before * (1 + TIME_TOLERANCE):
+        problems.append(
+            f"the new infill is slower than the slicer's: it takes {after / before - 1:+.0%} printing time; "
+            "for less, take another pattern, or keep, which is never slower"
+        )
     failed = sum(number for reason, number in tally.kept.items() if reason.startswith("a check failed"))
     if failed:
         problems.append(f"{failed} sections were kept because a check of the new text failed")

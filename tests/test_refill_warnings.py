@@ -1,0 +1,65 @@
+"""What a refill says in plain words: infill that is slower than before, and sections that stay as sliced."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+
+import pytest
+from handmade_prints import Dialect, written
+from test_command_line import run
+
+from infill import refill
+from infill.gcode.survey import survey_print
+from infill.paths.rounding import Rounding
+from infill.refilling.report import refill_report
+from infill.refilling.request import Request
+from infill.refilling.rules import RefillRules
+from infill.refilling.stats import PURGED, PrintAmounts, RefillStats
+
+
+def problems(pattern: str, tally: RefillStats) -> list[str]:
+    request = Request(pattern=pattern)
+    survey = survey_print(io.BytesIO(written(Dialect())))
+    rules = RefillRules(request=request, rounding=Rounding())
+    return refill_report(request, survey, tally, already=False, rules=rules)["problems"]
+
+
+@pytest.mark.parametrize(("seconds", "words"), [(144.0, "+44%"), (127.0, "+27%"), (100.5, ""), (80.0, "")])
+def test_infill_that_is_slower_is_told(seconds: float, words: str) -> None:
+    tally = RefillStats(
+        sections=1,
+        replaced=1,
+        print_before=PrintAmounts(seconds=500.0, infill_seconds=100.0),
+        print_after=PrintAmounts(seconds=400.0 + seconds, infill_seconds=seconds),
+    )
+    told = [problem for problem in problems("gyroid", tally) if "slower" in problem]
+    assert len(told) == bool(words)
+    assert all(f"takes {words} printing time" in problem for problem in told)
+
+
+@pytest.mark.parametrize(
+    ("reason", "number", "words"),
+    [
+        (PURGED, 4, "4 of 10 sections stay as sliced: a tool change purges filament into them"),
+        ("arcs", 9, "slice with arc fitting off"),
+        ("no faster", 5, "round corners would save no time in them"),
+        (PURGED, 0, ""),
+    ],
+)
+def test_many_sections_that_stay_are_told(reason: str, number: int, words: str) -> None:
+    tally = RefillStats(sections=10, replaced=10 - number, kept={reason: number} if number else {})
+    told = [problem for problem in problems("keep", tally) if "stay as sliced" in problem]
+    assert len(told) == bool(words)
+    assert all(words in problem for problem in told)
+
+
+def test_a_print_with_arcs_says_what_to_do(tmp_path: Path) -> None:
+    """In the report and in the summary."""
+    path = tmp_path / "arcs.gcode"
+    path.write_bytes(written(Dialect(slicer="orca", arcs=True)))
+    told = refill(path, dry_run=True, pattern="honeycomb").report["problems"]
+    assert any("arcs (G2, G3)" in problem and "arc fitting off" in problem for problem in told)
+    assert "slice with arc fitting off" in " ".join(run("refill", path, "--dry-run", "--pattern", "honeycomb").stderr.split())
+    path.write_bytes(written(Dialect(slicer="orca")))
+    assert not any("stay as sliced" in problem for problem in refill(path, dry_run=True, pattern="honeycomb").report["problems"])
