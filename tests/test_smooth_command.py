@@ -319,7 +319,7 @@ def test_specks_are_taken_out_and_counted(folder: Path) -> None:
         found["topology"]["data"]["components"],
         found["topology"]["result"]["components"],
     ) == (2, 1, 1)
-    assert "2 specks taken out beforehand" in result.stderr
+    assert "2 specks of up to 1 mm³ taken out beforehand" in result.stderr
     assert run("smooth", "ball.npy", "-o", "b.stl").exit_code == 0
     assert (folder / "a.stl").read_bytes() == (folder / "b.stl").read_bytes()
 
@@ -352,7 +352,7 @@ def test_broken_walls_are_an_error_and_allowed_on_request(folder: Path) -> None:
     solid[4:16, 6:24, 6:24] = solid[44:56, 6:24, 6:24] = solid[16:44, 6:24, 14:16] = True
     np.save("plate.npy", solid)
     words = ["smooth", "plate.npy", "-o", "a.stl", "--steps", "60", "--smooth", "plain"]
-    one_line_error(run(*words, "--strict"), r"mm² of the input is missing, .*leave out --strict")
+    one_line_error(run(*words, "--strict"), r"mm² of the input \(.*%\) is missing.*leave out --strict")
     assert not (folder / "a.stl").exists()
     assert "tried" in run(*words).stderr
     (folder / "a.stl").unlink()
@@ -370,7 +370,7 @@ def test_a_speck_that_vanishes_is_told(folder: Path) -> None:
     np.save("speck.npy", solid)
     result = run("smooth", "speck.npy", "-o", "a.stl")
     assert result.exit_code == 0
-    assert "1 specks or flakes" in result.stderr
+    assert "1 speck or flake one voxel thick is gone" in result.stderr
 
 
 # --- errors: one clear line, exit 1, nothing written -----------------------------------------------------

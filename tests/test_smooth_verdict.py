@@ -7,6 +7,7 @@ with holes, spikes thinner than a voxel.
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -127,6 +128,10 @@ def test_one_sentence_says_how_much_is_missing_and_how_far() -> None:
     assert few.phrases == ("5.88 mm² of the input (1.5%) is missing, up to 4.1 mm away, at (1, 2, 3)",)
     assert many.phrases == ("5.9 mm² of the input (1.5%) is missing in 2 places, up to 4.1 mm away, at (1, 2, 3)",)
     assert tip.phrases == ("a tip of the input is missing, up to 4.1 mm away, at (1, 2, 3)",)
+    near = deviation([], whole=400.0, far=1.6)
+    assert near.phrases == ("the surface moved by up to 1.6 mm, at (1, 2, 3)",)
+    thin = replace(near, thin=many.lost, thin_distance=4.1)
+    assert thin.phrases == ("the rest of the surface moved by up to 1.6 mm, at (1, 2, 3)",)
 
 
 def test_large_and_small_numbers_have_no_exponent() -> None:

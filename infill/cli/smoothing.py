@@ -233,7 +233,7 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
     if facets := report["facets"]:
         rows["facets"] = _facet_text(facets, max(grid["spacing"]))
     if len(verdict["tried"]) > 1:
-        rows["tried"] = f"{', '.join(verdict['tried'])}: taken is {verdict['taken']}"
+        rows["tried"] = f"{'; '.join(verdict['tried'])}: taken is {verdict['taken']}"
     if verbose:
         if not request["refine"]:
             rows["fidelity"] = f"{plain_number(request['fidelity'], 6)}"

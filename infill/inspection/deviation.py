@@ -173,7 +173,8 @@ class Deviation:
                 f"{share} {change}{number}, up to {plain_number(worst.distance)} mm away, at {plain_place(worst.at)}"
             )
         if not phrases and moved.max > KEPT * self.cell:
-            phrases.append(f"the surface moved by up to {plain_number(moved.max)} mm, at {plain_place(moved.at)}")
+            what = "the rest of the surface" if self.thin_area else "the surface"
+            phrases.append(f"{what} moved by up to {plain_number(moved.max)} mm, at {plain_place(moved.at)}")
         return tuple(phrases)
 
 

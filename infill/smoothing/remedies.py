@@ -137,7 +137,7 @@ def estimate_work(smooth_input: SmoothInput, request: SmoothRequest) -> float:
 
 def _list_tried(ways: list[str]) -> str:
     """List the ways tried in vain, as the end of a phrase."""
-    return f" (tried in vain: {', '.join(ways)})" if ways else ""
+    return f" (tried in vain: {'; '.join(ways)})" if ways else ""
 
 
 def _advice(best: Attempt) -> str | None:
