@@ -110,7 +110,7 @@ def test_a_density_of_one_or_less_is_a_share() -> None:
 )
 def test_choices_have_other_names(option: str, typed: str, meant: str) -> None:
     assert rewrite_values(list(options_of("fill")), [f"--{option}", typed]) == [f"--{option}", meant]
-    assert declared_options(FillOptions)[option].read(typed) == meant
+    assert declared_options(FillOptions)[option].read(typed) == ((meant,) if option == "for" else meant)
 
 
 def test_a_choice_that_is_none_shows_what_was_typed() -> None:

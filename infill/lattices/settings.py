@@ -18,6 +18,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args
 
+from infill.checks import choose_word
 from infill.errors import UsageError
 from infill.files.excerpts import quote_value
 from infill.lattices.regions import Region, parse_region
@@ -65,7 +66,8 @@ def parse_slicers(name: str, value: object) -> tuple[Slicer, ...]:
     """
     slicers: dict[Slicer, None] = {}
     for word in value if isinstance(value, (list, tuple)) else [value]:
-        known = next((slicer for slicer in get_args(Slicer) if slicer == word), None)
+        meant = choose_word(word, get_args(Slicer)) if isinstance(word, str) else word
+        known = next((slicer for slicer in get_args(Slicer) if slicer == meant), None)
         if known is None:
             raise UsageError.about(name, f"is {quote_value(word)}; choose from {', '.join(get_args(Slicer))}")
         slicers[known] = None
