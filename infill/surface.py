@@ -87,7 +87,7 @@ class Surface:
     notes : tuple of str
         Remarks of the reader on changes and omissions, a phrase each.
     modifiers : tuple of Modifier
-        Volumes of a slicer's project that are no part of the surface; later ones lie over earlier ones.
+        Volumes of a slicer's project that do not belong to the surface; later ones lie over earlier ones.
     """
 
     vertices: NDArray[np.floating]

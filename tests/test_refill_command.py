@@ -261,7 +261,7 @@ def test_a_picture_that_is_in_the_way_leaves_the_print_alone(gcode: Path, tmp_pa
         (["--smooth-radius", "-1"], "--smooth-radius is -1"),
         (["--max-deviation", "1000"], "--max-deviation is 1000"),
         (["--density", "150%"], "--density is '150%'; give same, or a share such as 20%"),
-        (["--density", "20%"], "--density is for built-in patterns; keep has the slicer's"),
+        (["--density", "20%"], "--density only works with --pattern NAME; to change the slicer's own infill"),
         (["--layers", "ten"], "--layers is 'ten'; give a range such as 5-20"),
         (["--layers", "9-2"], "--layers is 9 to 2; count from 1, the lower one first"),
         (["--pattern", "honycomb"], "there is no pattern 'honycomb'; did you mean 'honeycomb'"),

@@ -60,6 +60,10 @@ def test_a_print_with_arcs_says_what_to_do(tmp_path: Path) -> None:
     path.write_bytes(written(Dialect(slicer="orca", arcs=True)))
     told = refill(path, dry_run=True, pattern="honeycomb").report["problems"]
     assert any("arcs (G2, G3)" in problem and "arc fitting off" in problem for problem in told)
-    assert "slice with arc fitting off" in " ".join(run("refill", path, "--dry-run", "--pattern", "honeycomb").stderr.split())
+    assert "slice with arc fitting off" in " ".join(
+        run("refill", path, "--dry-run", "--pattern", "honeycomb").stderr.split()
+    )
     path.write_bytes(written(Dialect(slicer="orca")))
-    assert not any("stay as sliced" in problem for problem in refill(path, dry_run=True, pattern="honeycomb").report["problems"])
+    assert not any(
+        "stay as sliced" in problem for problem in refill(path, dry_run=True, pattern="honeycomb").report["problems"]
+    )

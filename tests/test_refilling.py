@@ -392,7 +392,7 @@ def test_same_filament_widens_beads(honeycomb: Path, tmp_path: Path) -> None:
         ({"pattern": "xyz"}, "give keep, or one of"),
         ({"pattern": ""}, "there is no pattern"),
         ({"pattern": "no such file.svg"}, "no such file.svg"),
-        ({"density": 0.2}, "keep has the slicer's"),
+        ({"density": 0.2}, "only works with --pattern NAME"),
         ({"pattern": "grid", "density": 0}, "density is 0"),
         ({"pattern": "grid", "density": 200}, "density is 200"),
         ({"pattern": "grid", "density": -0.1}, "density is -0.1"),

@@ -37,9 +37,9 @@ FOR_MACHINES = {
     "infill/formats/stl.py",
     "infill/formats/threemf.py",
     "infill/gcode/dialect.py",
-    "infill/imaging/dicom/stacks.py",
     "infill/imaging/nrrd.py",
     "infill/plain_numbers.py",
+    "infill/samples/plate_print.py",
     "patterns/declared.py",
 }
 # Pages that programs write: their words come from those programs.
@@ -51,8 +51,17 @@ def find_exponents(path: Path) -> list[str]:
     """Return a line for each format in a module that may write a number with an exponent."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     docstrings = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+    rounded = {
+        id(part)
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "float"
+        for argument in node.args
+        for part in ast.walk(argument)
+    }  # float(f"{size:.3g}") is no text
     found = []
     for node in ast.walk(tree):
+        if id(node) in rounded:
+            continue
         if isinstance(node, ast.FormattedValue) and isinstance(node.format_spec, ast.JoinedStr):
             specs = [part.value for part in node.format_spec.values if isinstance(part, ast.Constant)]
             found += [(node.lineno, spec) for spec in specs if EXPONENT.search(spec)]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from infill.cli.console import format_bytes, format_table, print_json
-from infill.plain_numbers import count_noun
+from infill.plain_numbers import count_noun, plain_argument
 
 if TYPE_CHECKING:
     from infill.reports.making import LatticePlan, LatticeReport, LatticeRequest
@@ -21,8 +21,9 @@ def show_lattice_plan(plan: LatticePlan, *, as_json: bool) -> None:
         return
     grid, infill = plan["grid"], plan["infill"]
     rows = {
-        "infill": f"cell about {infill['cell']:.4g} mm, line width about {infill['line_width']:.4g} mm",
-        "grid": f"{' x '.join(map(str, grid['shape']))} cells of {grid['spacing'][0]:.4g} mm",
+        "infill": f"cell about {plain_argument(infill['cell'], 4)} mm, line width about "
+        f"{plain_argument(infill['line_width'], 4)} mm",
+        "grid": f"{' x '.join(map(str, grid['shape']))} cells of {plain_argument(grid['spacing'][0], 4)} mm",
         "memory": f"about {format_bytes(plan['memory'])}",
     }
     typer.echo(format_table(rows, title=f"{_format_request(plan['request'])}: nothing is written (--dry-run)"))
@@ -35,18 +36,19 @@ def lattice_summary(report: LatticeReport, files: list[str], *, verbose: bool) -
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, "
         f"{count_noun(report['components'], 'piece')}",
         "solid": f"{report['volume']:.1f} mm³, {report['density']:.1%} of the block",
-        "infill": f"cells of {infill['cell']:.4g} mm, lines of {infill['line_width']:.3g} mm",
+        "infill": f"cells of {plain_argument(infill['cell'], 4)} mm, lines of "
+        f"{plain_argument(infill['line_width'], 3)} mm",
     }
     if request["frame"]:
-        rows["frame"] = f"{request['frame']:.3g} mm wide; {infill['density']:.1%} inside it is solid"
+        rows["frame"] = f"{plain_argument(request['frame'], 3)} mm wide; {infill['density']:.1%} inside it is solid"
     if infill["crumbs"]:
         rows["left out"] = f"{count_noun(infill['crumbs'], 'loose piece')}, cut off the pattern by the sides"
     if report["problems"]:
         rows["PROBLEMS"] = "; ".join(report["problems"])
     if verbose:
         grid = report["grid"]
-        rows["grid"] = f"{' x '.join(map(str, grid['shape']))} cells of {grid['spacing'][0]:.4g} mm"
-        rows["fillets"] = f"{infill['radius']:.3g} mm"
+        rows["grid"] = f"{' x '.join(map(str, grid['shape']))} cells of {plain_argument(grid['spacing'][0], 4)} mm"
+        rows["fillets"] = f"{plain_argument(infill['radius'], 3)} mm"
         rows["seconds"] = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in report["seconds"].items())
     for path in files:
         rows[f"wrote {path}"] = format_bytes(Path(path).stat().st_size) if Path(path).is_file() else ""
@@ -54,5 +56,5 @@ def lattice_summary(report: LatticeReport, files: list[str], *, verbose: bool) -
 
 
 def _format_request(request: LatticeRequest) -> str:
-    size = " x ".join(f"{length:g}" for length in (*request["size"], request["height"]))
+    size = " x ".join(f"{plain_argument(length)}" for length in (*request["size"], request["height"]))
     return f"{request['pattern']}, {size} mm"

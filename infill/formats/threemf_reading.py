@@ -49,7 +49,7 @@ from infill.formats.threemf_roles import (
 from infill.imaging.label_tables import Colour
 from infill.meshes.merging import merge_unless_closed
 from infill.meshes.solids import subtract
-from infill.plain_numbers import count_noun, plain_number
+from infill.plain_numbers import count_noun, plain_argument, plain_number
 from infill.surface import Modifier, Surface
 
 UNITS = {"micron": 1e-3, "millimeter": 1.0, "centimeter": 10.0, "inch": 25.4, "foot": 304.8, "meter": 1000.0}
@@ -302,11 +302,12 @@ class _Reading:
         return Surface(vertices=vertices @ outer[:3] + outer[3], faces=outwards)
 
     def _leave_out(self, name: str, role: str, density: float | None, surface: Surface | None) -> None:
-        """Note a volume that is no part; keep a modifier that has an infill density."""
+        """Note a volume that is not a part; keep a modifier that has an infill density."""
         if role != MODIFIER or density is None or surface is None or not len(surface.faces):
             self.note(f"{name} is a {role}, not a part: it is left out")
             return
-        self.note(f"{name} is a modifier with {100 * density:g} % infill, not a part: only 'infill fill' uses it")
+        percent = plain_argument(100 * density)
+        self.note(f"{name} is a modifier with {percent} % infill, not a part: only 'infill fill' uses it")
         self.modifiers.append(Modifier(name=name, surface=surface, density=density))
 
     def _count_rows(self, rows: int) -> None:

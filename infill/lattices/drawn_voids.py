@@ -15,6 +15,7 @@ from infill.interior.interior import BAND, Interior
 from infill.lattices.fillets import find_polygon_corners, sharpest_angle
 from infill.lattices.line_sample import WIDER, LineSample, centred_square, faces_between, follows_outline, line_segments
 from infill.lattices.voids import Layout, VoidFields
+from infill.plain_numbers import plain_argument
 from patterns.protocol import Pattern, draw_lines, with_cell
 
 LOW = 0.1  # cells: where no cell of a column lies deeper, rounding decides whether one lies inside
@@ -81,7 +82,10 @@ class Prismatic:
         everywhere = centred_square(WIDER * float(np.abs(np.asarray(space.part.bounds) - [*self.anchor]).max() + cell))
         drawn = shapely.bounds(draw_lines(with_cell(self.pattern, cell), everywhere)) + np.tile(self.anchor[:2], 2)
         spans = [
-            ", ".join(f"{axis} {low:.4g} to {high:.4g}" for axis, low, high in zip("xy", box[:2], box[2:], strict=True))
+            ", ".join(
+                f"{axis} {plain_argument(low, 4)} to {plain_argument(high, 4)}"
+                for axis, low, high in zip("xy", box[:2], box[2:], strict=True)
+            )
             for box in (drawn.tolist(), np.asarray(space.part.bounds)[:, :2].ravel().tolist())
         ]
         return GeometryError.about(

@@ -24,6 +24,7 @@ from infill.lattices.region_nodes import PlacedRegion, RegionNodes
 from infill.lattices.regions import SHARE, Region, parse_region
 from infill.meshes.merging import surface_of
 from infill.options.keyword_options import parse_share
+from infill.plain_numbers import plain_argument
 from infill.surface import Surface
 
 FINEST_STEP, MOST_NODES = 1.0, 4e6  # cells between nodes, at least; and how many there may be
@@ -36,7 +37,7 @@ def place_region(region: object) -> PlacedRegion:
     Raises
     ------
     UsageError
-        If it is no region, has several places, or its ends are in the wrong order.
+        If it is not a region, has several places, or its ends are in the wrong order.
     FormatError
         If its file cannot be read.
     GeometryError
@@ -174,5 +175,8 @@ class RegionDensities:
 
 def _miss(region: PlacedRegion, problem: str, bounds: Floats) -> GeometryError:
     """Return the error that a region holds nothing of a part."""
-    spans = ", ".join(f"{axis} {low:.4g} to {high:.4g}" for axis, low, high in zip("xyz", *bounds, strict=True))
+    spans = ", ".join(
+        f"{axis} {plain_argument(low, 4)} to {plain_argument(high, 4)}"
+        for axis, low, high in zip("xyz", *bounds, strict=True)
+    )
     return GeometryError.about("region", f"{region.place} {problem}; the part spans {spans} mm; give a place in it")

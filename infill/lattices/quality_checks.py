@@ -209,15 +209,18 @@ def is_width_ok(width: float, requested: float) -> bool:
 
 def size_problems(request: FillSpec, hollow: VoidMeshes) -> Iterator[str]:
     """Yield a message for a requested cell that is too large for the part, or that alone decides the density."""
-    room = hollow.space.across
-    if request.cell is not None and request.cell >= room:
+    room, cell = hollow.space.across, request.cell
+    if cell is None:
+        return
+    if cell >= room:
         yield (
-            f"cells of {request.cell:g} mm are as large as the inside of the part, {room:.3g} mm across, so that "
-            f"little of the pattern lies in it; give cells of {room / 3:.2g} mm or less"
+            f"cells of {plain_argument(cell)} mm are as large as the inside of the part, {plain_argument(room, 3)} mm "
+            "across, so that little of the pattern lies in it; give cells of "
+            f"{plain_argument(room / 3, 2)} mm or less"
         )
     elif request.cell_alone and not DENSITY / USUAL <= hollow.density <= DENSITY * USUAL:
         yield (
-            f"cells of {request.cell:g} mm with walls of {hollow.width:.3g} mm leave a density of "
+            f"cells of {plain_argument(cell)} mm with walls of {plain_argument(hollow.width, 3)} mm leave a density of "
             f"{hollow.density:.1%}, and not {DENSITY:.0%}, the default without a cell; give a density beside the cell "
             "for wider walls"
         )

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from infill.errors import UsageError
 from infill.files.excerpts import quote_value
 from infill.options.keyword_options import parse_share
+from infill.plain_numbers import plain_argument
 
 if TYPE_CHECKING:
     import trimesh
@@ -53,15 +54,15 @@ class Region:
     def place(self) -> str:
         """The place as the command line has it."""
         if self.z is not None:
-            return "z=" + "..".join(f"{end:.10g}" if math.isfinite(end) else "" for end in self.z)
+            return "z=" + "..".join(f"{plain_argument(end, 10)}" if math.isfinite(end) else "" for end in self.z)
         if self.box is not None:
-            return "box=" + ",".join(f"{end:.10g}" for end in self.box)
+            return "box=" + ",".join(f"{plain_argument(end, 10)}" for end in self.box)
         return str(self.mesh) if isinstance(self.mesh, (str, Path)) else "a mesh"
 
     @property
     def text(self) -> str:
         """The region as the command line has it."""
-        return f"{self.place}:density={100 * parse_share('density', self.density):.10g}%"
+        return f"{self.place}:density={plain_argument(100 * parse_share('density', self.density), 10)}%"
 
 
 def parse_region(name: str, text: str) -> Region:

@@ -64,7 +64,7 @@ class FillSpec:
     cell, line_width : float or None
         mm; None if it follows from the density.
     wall, overlap, tolerance : float
-        mm; a wall of 0 is no shell: the infill ends at the skin.
+        mm; without a shell, a wall of 0: the infill ends at the skin.
     drain : float or None
         Diameter of a hole for each void, mm.
     vent : bool

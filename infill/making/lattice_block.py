@@ -24,6 +24,7 @@ from infill.making.stages import LatticeStages
 from infill.meshes.shells import shell_volumes
 from infill.options.keyword_options import parse_share
 from infill.options.resolve_pattern import Kind, resolve_pattern
+from infill.plain_numbers import plain_argument
 from infill.reports.common import declare, report_head, surface_keys
 from infill.reports.making import LatticeInfill, LatticeMesh
 from infill.result import Progress, Result
@@ -163,8 +164,8 @@ def plan_lattice(
     frame = (line_width or LINE_WIDTH) if (has_frame(kind) if framed is None else framed) else 0.0
     if frame and min(x, y) < NARROWEST * frame:
         raise ParameterError(
-            f"a block of {x:g} × {y:g} mm has no room in a frame of {frame:g} mm; make it at least "
-            f"{NARROWEST * frame:g} mm in x and y, or leave the frame out"
+            f"a block of {plain_argument(x)} × {plain_argument(y)} mm has no room in a frame of {plain_argument(frame)} "
+            f"mm; make it at least {plain_argument(NARROWEST * frame)} mm in x and y, or leave the frame out"
         )
     cell, roof = values.get("cell"), isinstance(kind, Lightning) and frame > 0
     inside = None
@@ -175,8 +176,8 @@ def plan_lattice(
         if inside < LOWEST:
             raise ParameterError.about(
                 "density",
-                f"is {density:.3g}, and the frame alone takes {1 - open_share:.1%} of the block; give a higher one, "
-                "a thinner line, or leave the frame out",
+                f"is {plain_argument(density, 3)}, and the frame alone takes {1 - open_share:.1%} of the block; give "
+                "a higher one, a thinner line, or leave the frame out",
             )
     spec = check_request(
         pattern=kind,

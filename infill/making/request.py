@@ -271,7 +271,10 @@ def check_sides(size: float | tuple[float, ...], height: float | None) -> tuple[
             "size", f"has {len(sides)} numbers; give x and y in mm, x, y and z, or one number for a square"
         )
     if len(sides) == 3 and height is not None and height != sides[2]:
-        raise UsageError.about("height", f"is {height:g} mm, and size has {sides[2]:g} mm for it; give one of them")
+        raise UsageError.about(
+            "height",
+            f"is {plain_argument(height)} mm, and size has {plain_argument(sides[2])} mm for it; give one of them",
+        )
     upright = sides[2] if len(sides) == 3 else HEIGHT if height is None else height
     return check_length("size x", sides[0]), check_length("size y", sides[1]), check_length("height", upright)
 

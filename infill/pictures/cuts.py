@@ -16,7 +16,7 @@ from infill.meshes.solids import FINE, from_manifold, solid_status, to_manifold
 from infill.pictures.render import AZIMUTH, ELEVATION, Colour, render
 from infill.pictures.sections import Cut, choose_cuts
 from infill.pictures.sheet import BACKGROUND, PANEL, arrange_panels
-from infill.plain_numbers import count_noun, plain_number
+from infill.plain_numbers import count_noun, plain_argument, plain_number
 from infill.surface import Surface
 
 CUT: Colour = (240, 160, 60)
@@ -66,7 +66,7 @@ def draw_block(surface: Surface, box: Surface, report: Mapping[str, Any]) -> Ima
     """
     whole = Image.fromarray(render(surface, width=PANEL, height=PANEL, colour=BEHIND))
     panels = {"block": whole} | {f"cut at {cut}": _draw_half(surface, cut) for cut in choose_cuts(surface, box)}
-    size = " x ".join(f"{length:.4g}" for length in report["extents"])
+    size = " x ".join(f"{plain_argument(length, 4)}" for length in report["extents"])
     facts = f"{size} mm, {report['request']['pattern']}, {report['density']:.1%} solid"
     return arrange_panels(panels, facts, [(CUT, "cut")])
 

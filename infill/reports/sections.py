@@ -77,10 +77,8 @@ class Sections(dict[str, Any]):
 
 
 def add_late_section(report: Mapping[str, Any], name: str, compute: Callable[[], Any]) -> None:
-    """Add a section at the end of a report of `with_late_sections`, which is computed when it is first read."""
-    sections = cast("Sections", report)
-    sections[name] = None
-    sections.late[name] = compute
+    """Let another section of a report of `with_late_sections` be computed when it is first read."""
+    cast("Sections", report).late[name] = compute
 
 
 def with_late_sections(report: Keys, **late: Callable[[], Any]) -> Keys:

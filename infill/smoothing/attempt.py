@@ -416,7 +416,11 @@ def _cleaning_remarks(crumbs: Crumbs, specks: int, smoothed: SmoothedInput) -> l
     """Describe crumbs and specks that were removed on purpose, one phrase each."""
     phrases = []
     if crumbs.count:
-        limit = f"{CRUMB_CELLS:g} voxels" if smoothed.request.crumbs is None else f"{plain_number(crumbs.limit)} mm³"
+        limit = (
+            f"{plain_argument(CRUMB_CELLS)} voxels"
+            if smoothed.request.crumbs is None
+            else f"{plain_number(crumbs.limit)} mm³"
+        )
         noun = "crumb" if crumbs.count == 1 else "crumbs"
         in_all = f", {plain_number(crumbs.volume)} mm³ in all" if crumbs.volume > LEAST_CRUMBS * crumbs.limit else ""
         phrases.append(f"{crumbs.count:,} {noun} of up to {limit} taken out{in_all}")

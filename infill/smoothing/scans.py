@@ -169,7 +169,7 @@ def _remedies(request: SmoothRequest, smooth_input: SmoothInput) -> list[Way]:
             )
     if request.method != "grey" and request.smoothing.fidelity < HELD:
         held = replace(request, method="plain", smoothing=replace(request.smoothing, fidelity=HELD))
-        option = f"--fidelity {HELD:g}"
+        option = f"--fidelity {plain_argument(HELD)}"
         remedies.append(Way(name=option, data=smooth_input, request=held, option=option))
     return remedies
 
