@@ -164,8 +164,9 @@ def plan_lattice(
     frame = (line_width or LINE_WIDTH) if (has_frame(kind) if framed is None else framed) else 0.0
     if frame and min(x, y) < NARROWEST * frame:
         raise ParameterError(
-            f"a block of {plain_argument(x)} × {plain_argument(y)} mm has no room in a frame of {plain_argument(frame)} "
-            f"mm; make it at least {plain_argument(NARROWEST * frame)} mm in x and y, or leave the frame out"
+            f"a block of {plain_argument(x)} × {plain_argument(y)} mm has no room in a frame of "
+            f"{plain_argument(frame)} mm; make it at least {plain_argument(NARROWEST * frame)} mm in x and y, or leave "
+            "the frame out"
         )
     cell, roof = values.get("cell"), isinstance(kind, Lightning) and frame > 0
     inside = None
