@@ -110,7 +110,7 @@ def _facet_bends(faces: NDArray[np.integer], normals: Floats) -> Floats:
     order = np.lexsort(edges.T)
     shared = (edges[order[1:]] == edges[order[:-1]]).all(axis=1)
     one, other = order[1:][shared] // 3, order[:-1][shared] // 3
-    angles = np.arccos(np.clip(np.einsum("nd,nd->n", normals[one], normals[other]), -1.0, 1.0))
+    angles = np.arccos(np.clip(np.einsum("ij,ij->i", normals[one], normals[other]), -1.0, 1.0))
     angles[(angles < BENDS[0]) | (angles > BENDS[1])] = 0.0
     bends = np.zeros(len(faces))
     for face in (one, other):

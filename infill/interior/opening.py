@@ -184,11 +184,17 @@ def _move_out(part: Surface, flat: NDArray[np.bool_], distance: float) -> Surfac
 
 
 def cut_open(
-    solid: Surface, voids: Sequence[Surface], opening: Opening, size: float, *, threads: int | None = None
+    solid: Surface,
+    voids: Sequence[Surface],
+    opening: Opening,
+    size: float,
+    *,
+    keep_loose: bool = False,
+    threads: int | None = None,
 ) -> tuple[Surface, int, float]:
     """Subtract voids that reach out of the open sides of a solid; return it with the count and mm³ of dropped pieces.
 
-    Dropped are pieces of infill that were held only by material beyond the side.
+    Dropped are pieces of infill that were held only by material beyond the side, unless `keep_loose`.
 
     Parameters
     ----------
@@ -211,7 +217,7 @@ def cut_open(
             break
     if best is None:
         raise GeometryError("manifold3d rejects the voids as solids; give another cell or smaller voxels")
-    return _drop_loose(best, solid, opening, threads)
+    return (best, 0, 0.0) if keep_loose else _drop_loose(best, solid, opening, threads)
 
 
 def clip_to_opening(surface: Surface, opening: Opening, size: float) -> Surface:

@@ -250,7 +250,11 @@ def _assemble(
                 [outer, *(replace(surface, faces=surface.faces[:, ::-1]) for surface in hollow.surfaces)]
             )
         else:
-            solid, pieces, loose = cut_open(outer, hollow.surfaces, space.opening, space.size, threads=task.threads)
+            solid, pieces, loose = cut_open(
+                outer, hollow.surfaces, space.opening, space.size, keep_loose=request.is_block, threads=task.threads
+            )
+            if request.is_block:
+                solid, pieces, loose = drop_crumbs(task, solid, hollow)
             hollow = replace(hollow, islands=hollow.islands + pieces, loose=loose)
     drained = drill_drains(task, solid, hollow)
     if drained.pieces:

@@ -49,7 +49,7 @@ def divide_by_objects(
     picked = _pick_faces(shell_of, np.where(skins, SKIN_SAMPLES, VOID_SAMPLES))
     nearest = TriangleTree.of(part).nearest(corners[picked].mean(axis=1), threads=threads)[1]
     found = np.asarray(part.vertices, dtype=np.float64)[part.faces[nearest]]
-    agree = np.einsum("nd,nd->n", _unit_normals(corners[picked]), _unit_normals(found)) > SAME_SIDE
+    agree = np.einsum("ij,ij->i", _unit_normals(corners[picked]), _unit_normals(found)) > SAME_SIDE
     counted = agree | ~skins[shell_of[picked]]
     votes = np.zeros((count, len(objects)), dtype=int)
     np.add.at(votes, (shell_of[picked][counted], np.searchsorted(ends, nearest[counted], side="right")), 1)

@@ -88,6 +88,8 @@ class FillSpec:
     max_triangles : int or None
     cell_alone : bool
         True if only the cell was given, so that the density follows from it and the default line width.
+    is_block : bool
+        True for a block of infill, in which pieces may stand by themselves, such as the rings of concentric.
     """
 
     pattern: str
@@ -113,6 +115,7 @@ class FillSpec:
     vent: bool = False
     drain_at: tuple[tuple[float, float, float], ...] = ()
     cell_alone: bool = False
+    is_block: bool = False
 
     @property
     def beyond(self) -> float:

@@ -192,7 +192,9 @@ def plan_lattice(
         phase=tuple(values.get("phase") or (0.0, 0.0)),
         tolerance=TOLERANCE if tolerance is None else tolerance,
     )
-    return LatticeBlock(spec=replace(spec, pattern=name), sides=(x, y, height), density=density, frame=frame)
+    return LatticeBlock(
+        spec=replace(spec, pattern=name, is_block=True), sides=(x, y, height), density=density, frame=frame
+    )
 
 
 def make_lattice(
