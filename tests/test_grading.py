@@ -144,7 +144,7 @@ def test_the_thinnest_walls_are_about_as_wide_as_walls_are_otherwise(given: dict
     [
         ({"density": 0.2, "by": "x"}, UsageError, "by is given with one density; give two"),
         ({"density": (0.1, 0.2, 0.3)}, UsageError, "density has 3 numbers"),
-        ({"density": (0.1, 1.2)}, InfillError, "density is 1.2"),
+        ({"density": (0.1, 120)}, InfillError, "density is 120"),
         ({"density": (0.1, 0.3), "by": "w"}, UsageError, "by is 'w'; give x, y, z, skin"),
         ({"density": (0.1, 0.3), "by": 5}, UsageError, "by is 5; give"),
         ({"density": (0.1, 0.3), "by": "none.csv"}, FormatError, "no file none.csv"),

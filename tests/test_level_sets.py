@@ -14,7 +14,7 @@ from shapely import box
 from shapes import REGIONS, Ripples, SchwarzP, assert_printable
 
 import patterns.contours
-from infill import ParameterError, make
+from infill import make
 from patterns import Pattern, PatternError
 from patterns.contours import zero_lines
 
@@ -203,6 +203,7 @@ def test_a_block_is_made_of_a_level_set(stamp: str) -> None:
     assert result.report["problems"] == []
 
 
-def test_what_changes_with_height_is_no_block() -> None:
-    with pytest.raises(ParameterError, match="the lines of schwarz-p change with height"):
-        make(SchwarzP(), size=30, height=3)
+def test_what_changes_with_height_is_a_block_too() -> None:
+    block = make(SchwarzP(), size=12, height=8, density=0.3)
+    assert block.surface.closed
+    assert block.report["density"] == pytest.approx(0.3, abs=0.005)

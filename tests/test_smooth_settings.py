@@ -106,7 +106,7 @@ def test_a_flag_that_is_typed_wins_even_if_it_is_the_default(folder: Path) -> No
         ("treshold = 3", "smooth has no option 'treshold'; did you mean 'threshold'"),
         ("qqq = 3", "smooth has no option 'qqq'; it has as, units"),
         ("threads = 3", "smooth has no option 'threads'"),
-        ('threshold = "3"', "threshold is '3'; it must be a number"),
+        ('threshold = "three"', "threshold is 'three'; it must be a number"),
         ("threshold = true", "threshold is True; it must be a number"),
         ("steps = 2.5", "steps is 2.5; it must be a whole number"),
         ("grey = 1", "grey is 1; it must be true or false"),

@@ -182,15 +182,14 @@ def make(
             tolerance=tolerance,
         )
         block.require_memory(max_memory)
-    return _make_stamped(block, clock, cells=cells, allow_broken=allow_broken)
+        points = _points(block)
+    return _make_stamped(block, points, clock, cells=cells, allow_broken=allow_broken)
 
 
 def _make_stamped(
-    block: Block, clock: Clock, *, cells: int | None, allow_broken: bool
+    block: Block, points: NDArray[np.float64], clock: Clock, *, cells: int | None, allow_broken: bool
 ) -> Result[MakeStages, MakeReport]:
     """Make a block that is drawn once and extruded: stamp, smooth and check its layer."""
-    with clock.stage("points", 0.0):
-        points = _points(block)
     with clock.stage("stamp", 0.1):
         if block.stamp == "exact":
             data = stamp_lines(block.lines, block.grid, width=block.line_width)
