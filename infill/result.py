@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import io
 import os
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -15,12 +14,13 @@ from typing import TYPE_CHECKING, Any, BinaryIO, Generic, Protocol, TypeVar
 
 import numpy as np
 
-from infill.errors import InfillError, OutputError
+from infill.errors import OutputError
 from infill.files.whole_files import atomic_file
 from infill.formats.mesh_files import PART_WRITERS, mesh_writer, parts_writer
 from infill.formats.parts import Part
 from infill.imaging.label_tables import Colour
 from infill.meshes.split_components import concatenate_surfaces
+from infill.pictures.picturable import Picturable
 from infill.pictures.preview import SUFFIXES as PICTURES
 from infill.pictures.preview import is_picture
 from infill.plain_numbers import plain_number
@@ -32,25 +32,6 @@ if TYPE_CHECKING:
     from PIL import Image
 
 Progress = Callable[[str, float], None]
-
-
-class Picturable:
-    """A result with a picture, which notebooks show."""
-
-    def picture(self) -> Image.Image:
-        """Return the picture."""
-        raise NotImplementedError
-
-    def write_picture(self, file: BinaryIO) -> None:
-        """Write `picture` as PNG."""
-        self.picture().save(file, format="PNG")
-
-    def _repr_png_(self) -> bytes | None:
-        """Return the picture for notebooks; None if it cannot be drawn any more."""
-        with io.BytesIO() as file, contextlib.suppress(InfillError):
-            self.write_picture(file)
-            return file.getvalue()
-        return None
 
 
 class Pictured(Protocol):

@@ -421,7 +421,10 @@ BAD = [
         for name in ("s.stl", "p.xyz")
         for number in ("0", "-1", "nan")
     ],
-    *[(f"{name} --voxel 1e-9", "voxel is 1e-09; it must be a number from 1e-06") for name in ("s.stl", "p.xyz")],
+    *[
+        (f"{name} --voxel 1e-9", "voxel is 0.000000001; it must be a number from 0.000001")
+        for name in ("s.stl", "p.xyz")
+    ],
     *[(f"{name} --voxel 0.001", "GiB is at hand; the grid has .* give larger voxels") for name in ("s.stl", "p.xyz")],
     *[(f"{name} --resolution 1000000", "GiB is at hand; the grid has") for name in ("s.stl", "p.xyz")],
     ("p.xyz --voxel 100", "voxel is 100 mm and the points are 20 mm thick"),
@@ -431,7 +434,7 @@ BAD = [
     ("ball.npy --fidelity -1", "fidelity is -1"),
     ("ball.npy --fidelity nan", "fidelity is nan"),
     ("ball.npy --interface 0", "interface is 0; it must be a number from 0.25"),
-    ("ball.npy --despeckle 1e9", r"despeckle is 1e\+09 mm³ and the largest component has .* mm³; give less"),
+    ("ball.npy --despeckle 1e9", r"despeckle is 1,000,000,000 mm³ and the largest component has .* mm³; give less"),
     ("ball.npy --despeckle -1", "despeckle is -1"),
     ("ball.npy --tolerance -1", "tolerance is -1 mm"),
     ("ball.npy --smooth best", "'--smooth': .*'best' is not one of 'auto', 'plain', 'refine', 'grey'"),

@@ -14,7 +14,7 @@ import numpy as np
 
 from infill.arrays import Floats
 from infill.checks import check_range
-from infill.errors import GeometryError, UsageError
+from infill.errors import GeometryError, ParameterError, UsageError
 from infill.files.excerpts import quote_value
 from infill.formats.mesh_files import read_mesh
 from infill.imaging.units import STATED_UNITS, UNITS
@@ -60,7 +60,9 @@ def place_region(region: object) -> PlacedRegion:
         low, high = np.asarray(surface.bounds, dtype=np.float64)
         return replace(placed, low=low, high=high, surface=surface)
     ends = region.box if region.z is None else (-np.inf, -np.inf, region.z[0], np.inf, np.inf, region.z[1])
-    if ends is None or len(ends) != 6 or np.isnan(ends).any():
+    if ends is not None and np.isnan(ends).any():
+        raise ParameterError.about("region", f"is {region.place!r}; give numbers that are finite")
+    if ends is None or len(ends) != 6:
         raise UsageError.about("region", f"is {region.place!r}; give six numbers, such as box=0,0,0,10,10,5")
     low, high = np.array(ends, dtype=np.float64).reshape(2, 3)
     if not (low < high).all():

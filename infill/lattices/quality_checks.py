@@ -302,7 +302,7 @@ def find_problems(
             f"walls or bars inside are {plain_argument(facts.width, 3)} mm wide, and "
             f"{plain_argument(request.line_width)} mm was asked for"
         )
-    elif request.form != "project" and facts.width < HAIRLINE:
+    elif request.form != "project" and request.grading is None and facts.width < HAIRLINE:
         yield (
             f"walls or bars inside are {plain_argument(facts.width, 2)} mm wide, thinner than most printers make; "
             "give a larger cell, a line width or a higher density"

@@ -25,8 +25,8 @@ from infill.files.whole_files import atomic_file, check_target, scratch_file
 from infill.gcode.estimates import EstimateChange, Restatement, StatedAmounts, restate
 from infill.gcode.sliced_file import SlicedText, open_sliced
 from infill.gcode.stream import edited_text
+from infill.pictures.picturable import Picturable
 from infill.refilling.request import AUTO, ENDLESS, KEEP, Progress, Request, describe_objects
-from infill.result import Picturable
 from infill.version import __version__
 
 if TYPE_CHECKING:

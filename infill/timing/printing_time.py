@@ -13,12 +13,12 @@ from infill.gcode.dialect import role_of
 from infill.gcode.found_limits import FIELDS_BY_MODEL, FileLimits
 from infill.gcode.limits import Model
 from infill.gcode.sliced_file import open_sliced
+from infill.pictures.picturable import Picturable
 from infill.plain_numbers import count_noun
 from infill.planner.feature_sums import FeatureSums
 from infill.planner.open_timeline import collect_limits, open_timeline
 from infill.reports.common import declare
 from infill.reports.timing import MotionReport
-from infill.result import Picturable
 
 if TYPE_CHECKING:
     from PIL import Image
