@@ -66,6 +66,7 @@ def every_result() -> Iterator[tuple[str, Result[Any, Any]]]:
     yield "lost", smooth_volume(FIN, smoothing=Smoothing(steps=40), method="plain", allow_broken=True)
     yield "mesh", smooth_mesh(SPHERE, resolution=24, refine=True, despeckle=1.0)
     yield "simplified", smooth_mesh(SPHERE, resolution=24, tolerance=0.3)
+    yield "facets", smooth_mesh(trimesh.creation.icosphere(1, 15.0), resolution=40)
     yield "few", smooth_mesh(SPHERE, resolution=24, max_triangles=500)
     yield "points", smooth_points(CLOUD, voxel=1.0)
     yield "shell", smooth_points(CLOUD, voxel=1.0, shell=3.0)
@@ -208,12 +209,14 @@ def archive(folder: Path) -> Path:
 def refill_reports(folder: Path, results: Results) -> dict[str, Any]:
     sliced, smooth, bare = sliced_print(folder), folder / "smooth.gcode", folder / "bare.gcode"
     bare.write_bytes(written(Dialect(slicer="cura", layers=5)).replace(b";TYPE:FILL", b";TYPE:SKIN"))
+    named = folder / "named.gcode"
+    named.write_bytes(written(Dialect(labels="comment")))
     every = {"layers": (2, 3), "max_deviation": 0.1, "smooth_radius": 1.0, "part": "box", "density": "same"}
     reports = {
         "kept": refill(sliced, output=smooth).report,
         "already": refill(smooth).report,
         "two plates": refill(archive(folder), dry_run=True).report,
-        "every option": refill(sliced, dry_run=True, **every).report,
+        "every option": refill(named, dry_run=True, **every).report,
         "another pattern": refill(sliced, dry_run=True, pattern="honeycomb", density=0.2).report,
         "no infill": refill(bare, dry_run=True).report,
         "command": printed("refill", sliced, "-o", folder / "a.gcode"),
