@@ -168,7 +168,7 @@ def test_the_command_grades_and_remembers(tmp_path: Path, monkeypatch: pytest.Mo
     done = run(*words, "-o", "a.stl", "--save-config", "a.toml", "--json")
     assert done.exit_code == 0
     assert json.loads(done.stdout)["request"]["by"] == "y"
-    assert "by y, where 1" in done.stderr
+    assert "15% at the lowest y to 40% at the highest y" in done.stderr
     again = run("fill", "part.stl", "--config", "a.toml", "-q", "-o", "b.stl")
     assert again.exit_code == 0
     assert Path("a.stl").read_bytes() == Path("b.stl").read_bytes()
