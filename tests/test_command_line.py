@@ -147,7 +147,7 @@ def test_list_is_one_line_a_pattern() -> None:
     assert rest[:3] == [
         "'infill list PATTERN' shows one, with its parameters and a picture.",
         "",
-        "in space, for 'infill fill':",
+        "in space:",
     ]
     for (name, each), line in zip(IN_SPACE.items(), rest[3:], strict=True):
         assert line.split() == [name, *each.summary.split()]
@@ -177,10 +177,10 @@ def test_list_draws_a_cube_of_a_pattern_in_space(name: str, tmp_path: Path) -> N
     assert result.stdout.startswith(f"{name}: ")
     assert list(tmp_path.iterdir()) == [path]
     with Image.open(path) as picture:
-        assert picture.size == (600, 600)
+        assert picture.width > 2 * picture.height  # the block, and two cuts
         red, _, blue = np.asarray(picture.convert("RGB"), dtype=int).transpose(2, 0, 1)
     cut, paper = red > blue + 60, (red == 255) & (blue == 255)
-    assert 0.01 < cut.mean() < 0.2
+    assert 0.005 < cut.mean() < 0.2
     assert 0.1 < (~cut & ~paper).mean() < 0.9
 
 
@@ -245,7 +245,7 @@ def test_list_writes_a_picture(tmp_path: Path) -> None:
     result = run("list", "concentric-heart", "--preview", path)
     assert result.stderr == f"wrote {path}\n"
     with Image.open(path) as picture:
-        assert picture.size == (600, 600)
+        assert picture.width > 2 * picture.height  # the block, and two cuts
         dark = np.asarray(picture.convert("L")) < 128
     lines = PATTERNS["concentric-heart"]().lines(box(-29.775, -29.775, 29.775, 29.775))
     assert dark.mean() == pytest.approx(lines.length * 0.45 / 3600, rel=0.05)  # joints and ends

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from infill.cli.console import format_bytes, format_table, print_json
+from infill.cli.filled_words import format_plan
 from infill.plain_numbers import count_noun, plain_argument
 
 if TYPE_CHECKING:
@@ -19,14 +20,7 @@ def show_lattice_plan(plan: LatticePlan, *, as_json: bool) -> None:
     if as_json:
         print_json(plan)
         return
-    grid, infill = plan["grid"], plan["infill"]
-    rows = {
-        "infill": f"cell about {plain_argument(infill['cell'], 4)} mm, line width about "
-        f"{plain_argument(infill['line_width'], 4)} mm",
-        "grid": f"{' x '.join(map(str, grid['shape']))} cells of {plain_argument(grid['spacing'][0], 4)} mm",
-        "memory": f"about {format_bytes(plan['memory'])}",
-    }
-    typer.echo(format_table(rows, title=f"{_format_request(plan['request'])}: nothing is written (--dry-run)"))
+    typer.echo(format_plan(plan, _format_request(plan["request"])))
 
 
 def lattice_summary(report: LatticeReport, files: list[str], *, verbose: bool) -> str:

@@ -95,16 +95,6 @@ def print_json(value: Mapping[str, Any] | Sequence[Mapping[str, Any]]) -> None:
     typer.echo(json.dumps(value, indent=2, allow_nan=False))
 
 
-def format_digits(value: float) -> str:
-    """Format a number with two significant digits, never in powers of ten.
-
-    >>> format_digits(0.0012345), format_digits(3.149), format_digits(1234.5)
-    ('0.0012', '3.1', '1200')
-    """
-    rounded = float(f"{value:.2g}")
-    return f"{rounded:.12f}".rstrip("0").rstrip(".")
-
-
 def format_bytes(count: float) -> str:
     """Format a number of bytes in a readable unit.
 

@@ -12,6 +12,7 @@ from infill.plain_numbers import count_noun, plain_number
 
 if TYPE_CHECKING:
     from infill.reports.filling import FillForecast, FillReport
+    from infill.reports.making import LatticePlan
 
 REPAIR_TEXTS = {
     "turned": "faces turned outwards",
@@ -36,6 +37,11 @@ def show_plan(plan: FillForecast, name: str, *, as_json: bool) -> None:
     if as_json:
         print_json(plan)
         return
+    typer.echo(format_plan(plan, f"{name}, {plan['request']['pattern']}"))
+
+
+def format_plan(plan: FillForecast | LatticePlan, title: str) -> str:
+    """Format the plan of a part or a block as a short table."""
     grid, infill = plan["grid"], plan["infill"]
     rows = {
         "infill": f"cell about {plain_number(infill['cell'], 4)} mm, line width about "
@@ -43,7 +49,7 @@ def show_plan(plan: FillForecast, name: str, *, as_json: bool) -> None:
         "grid": f"{' x '.join(map(str, grid['shape']))} cells of {plain_number(grid['spacing'][0], 4)} mm",
         "memory": f"about {format_bytes(plan['memory'])}",
     }
-    typer.echo(format_table(rows, title=f"{name}, {plan['request']['pattern']}: nothing is written (--dry-run)"))
+    return format_table(rows, title=f"{title}: nothing is written (--dry-run)")
 
 
 def summary(

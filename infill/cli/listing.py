@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from patterns import Pattern
     from patterns.registry import PatternClass
 
+CUBE = (18.0, 18.0, 18.0)  # mm, of the picture of a pattern in space
 BRAILLE_BLANK = "\N{BRAILLE PATTERN BLANK}"
 
 
@@ -58,7 +59,7 @@ def list_patterns(
     elif pattern is None:
         typer.echo(format_table({name: kind.summary for name, kind in kinds.items()}))
         typer.echo("'infill list PATTERN' shows one, with its parameters and a picture.")
-        typer.echo(format_table(in_space, title="\nin space, for 'infill fill':"))
+        typer.echo(format_table(in_space, title="\nin space:"))
     else:
         typer.echo(_pattern_text(kinds[pattern]))
 
@@ -71,7 +72,7 @@ def _show_in_space(kind: PatternClass, *, as_json: bool) -> None:
         print_json(listed)
     else:
         place = "follows the part" if not getattr(kind, "repeats", True) else "repeats in space"
-        title = f"{name}: {kind.summary}\n  {place}, for 'infill fill': see its --cell and --line-width\n"
+        title = f"{name}: {kind.summary}\n  {place}: see --cell and --line-width of make and fill\n"
         typer.echo(_parameter_table(kind, title, own=True).rstrip("\n"))
 
 
@@ -86,10 +87,11 @@ def _write_preview(kind: PatternClass, path: Path, *, overwrite: bool) -> None:
     if kind.prismatic and not issubclass(kind, Cells):
         write_all_files({path: partial(write_drawing, kind())})
     else:
-        from infill.lattices.specimen import write_specimen
+        from infill.making.block import make
 
         with progress_bar(shown=True) as progress:
-            write_all_files({path: partial(write_specimen, kind.name, progress=progress)})
+            block = make(kind.name, size=CUBE, progress=progress)
+            write_all_files({path: block.write_picture})
     say(f"wrote {path}")
 
 

@@ -24,11 +24,11 @@ from infill.cli.common import (
     Verbose,
 )
 from infill.cli.components import check_fields, component_summary, component_writer
-from infill.cli.console import format_bytes, format_digits, format_table, print_json, print_log, progress_bar, say
+from infill.cli.console import format_bytes, format_table, print_json, print_log, progress_bar, say
 from infill.cli.declared import takes_options
 from infill.cli.foreseeing import show_smooth_plan
 from infill.cli.labelled import SmoothOutput, refuse_options, smooth_every_label, wants_every_label
-from infill.plain_numbers import plain_number
+from infill.plain_numbers import count_noun, plain_argument, plain_number
 from infill.smoothing.settings import SmoothSettings, resolve
 
 if TYPE_CHECKING:
@@ -221,7 +221,7 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
             f"{near} mm (95 %), {far} mm at most, from the {distance['from']}; back {back} mm, {far_back} mm"
         )
     if simplified := report["mesh"].get("simplified"):
-        shells = "1 shell" if simplified["shells"] == 1 else f"{simplified['shells']:,} shells"
+        shells = count_noun(simplified["shells"], "shell")
         rows["simplified"] = (
             f"from {simplified['triangles_before']:,} triangles, {plain_number(simplified['distance']['max'])} mm at "
             f"most, volume {simplified['volume_change']:+z.4%} by that, {shells}"
@@ -250,9 +250,9 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
 
 def _facet_text(facets: FacetKeys, voxel: float) -> str:
     """Describe the flat facets that are left, and the options that round them."""
-    larger = f"--voxel {format_digits(facets['voxel'])} " if facets["voxel"] > voxel else ""
+    larger = f"--voxel {plain_argument(facets['voxel'], 2)} " if facets["voxel"] > voxel else ""
     return (
         f"{facets['share']:.0%} of the surface still has the flat facets of the mesh, about "
-        f"{format_digits(facets['width'])} mm wide; {larger}--smooth-radius {format_digits(facets['radius'])} rounds "
-        "them, and details of their size"
+        f"{plain_argument(facets['width'], 2)} mm wide; {larger}--smooth-radius "
+        f"{plain_argument(facets['radius'], 2)} rounds them, and details of their size"
     )

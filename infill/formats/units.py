@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     import trimesh
 
 LOG = logging.getLogger("infill")
-AnyMesh = Any  # a path, a trimesh.Trimesh, a Surface, or a result of phasefill
 
 
 def to_surface(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Surface:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, BinaryIO
 
 from infill.errors import InfillError
@@ -12,12 +13,12 @@ if TYPE_CHECKING:
     from PIL import Image
 
 
-class Picturable:
+class Picturable(ABC):
     """A result with a picture, which notebooks show."""
 
+    @abstractmethod
     def picture(self) -> Image.Image:
         """Return the picture."""
-        raise NotImplementedError
 
     def write_picture(self, file: BinaryIO) -> None:
         """Write `picture` as PNG."""

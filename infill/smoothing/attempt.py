@@ -32,7 +32,7 @@ from infill.meshes.simplification import restore_volume, simplify_surface
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.refining import refine_bricks
 from infill.phasefield.sparse import smooth_bricks
-from infill.plain_numbers import plain_argument, plain_number
+from infill.plain_numbers import count_noun, plain_argument, plain_number
 from infill.reports.common import Topology, declare, mesh_keys, report_head, surface_keys
 from infill.reports.sections import with_late_sections
 from infill.reports.smoothing import Distance, SmoothReport, SolidChanges, SolidMesh, SolidSeconds
@@ -421,10 +421,9 @@ def _cleaning_remarks(crumbs: Crumbs, specks: int, smoothed: SmoothedInput) -> l
             if smoothed.request.crumbs is None
             else f"{plain_number(crumbs.limit)} mm³"
         )
-        noun = "crumb" if crumbs.count == 1 else "crumbs"
         in_all = f", {plain_number(crumbs.volume)} mm³ in all" if crumbs.volume > LEAST_CRUMBS * crumbs.limit else ""
-        phrases.append(f"{crumbs.count:,} {noun} of up to {limit} taken out{in_all}")
+        phrases.append(f"{count_noun(crumbs.count, 'crumb')} of up to {limit} taken out{in_all}")
     if specks:
         limit = plain_number(smoothed.request.despeckle)
-        phrases.append(f"{specks:,} {'speck' if specks == 1 else 'specks'} of up to {limit} mm³ taken out beforehand")
+        phrases.append(f"{count_noun(specks, 'speck')} of up to {limit} mm³ taken out beforehand")
     return phrases
