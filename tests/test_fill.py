@@ -565,8 +565,9 @@ def test_fillets_are_small_in_small_parts_however_their_walls_lie_on_the_grid(vo
 @pytest.mark.longest
 def test_a_part_smaller_than_a_cell_has_thinner_walls_instead() -> None:
     result = fill(box(6, 5, 4), "gyroid", density=0.1, wall=0.8)
-    assert result.report["problems"] == []
-    assert result.report["infill"]["line_width"] < 0.45
+    assert result.report["infill"]["line_width"] < 0.2
+    (thin,) = result.report["problems"]
+    assert "mm wide, thinner than most printers make" in thin
     # Unless a width is asked for: then the density is what it can be, and that is told.
     told = fill(box(6, 5, 4), "gyroid", density=0.02, line_width=0.8, wall=0.8).report["problems"]
     assert any("the density is" in each for each in told)
