@@ -24,7 +24,7 @@ class BlockRequest(SmoothingKeys):
 
     pattern: Annotated[str, "Name of the pattern"]
     parameters: Annotated[dict[str, Any], "Parameters of the pattern by name; `infill list PATTERN` lists them"]
-    size: Annotated[Pair, "Size of the block in x and y, rounded to whole cells, mm"]
+    size: Annotated[Pair, "Size of the block in x and y, mm"]
     height: Annotated[float, "Height of the block, mm"]
     line_width: Annotated[float, "Width of the walls, mm"]
     stamp: Annotated[str, "Shape of the stamp: `block` or `exact`"]
