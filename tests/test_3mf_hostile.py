@@ -229,7 +229,7 @@ def test_transforms_that_grow_are_refused(tmp_path: Path) -> None:
 @pytest.mark.slow
 def test_circles_and_multitudes_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Thirty groups of two of one another are a billion boxes; the limits are lowered, so that the test is quick."""
-    monkeypatch.setattr("infill.formats.threemf_reading.MOST_PLACED", 500)
+    monkeypatch.setattr("infill.formats.threemf_placing.MOST_PLACED", 500)
     monkeypatch.setattr("infill.projects.reading.MOST_PLACED", 500)
     doubled = "".join(group(n, component(n - 1), component(n - 1)) for n in range(2, 32))
     circle = group(1, component(2)) + group(2, component(1), component(1))
@@ -254,7 +254,7 @@ def test_circles_and_multitudes_are_refused(tmp_path: Path, monkeypatch: pytest.
 
 def test_volumes_without_end_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Each names all triangles: of a large mesh, some kilobytes of them would be terabytes."""
-    monkeypatch.setattr("infill.formats.threemf_reading.MOST_PLACED_ROWS", 10_000)
+    monkeypatch.setattr("infill.formats.threemf_placing.MOST_PLACED_ROWS", 10_000)
     told = prusa_config(*[volume(0, 11)] * 1000)
     refused(
         lambda: read_mesh(packed(tmp_path / "a.3mf", model(thing(1, PART)), **{PRUSA: told})), "places more than 10,000"

@@ -170,7 +170,7 @@ def test_nothing_else_changes_in_any_dialect(
 
 @pytest.mark.longest
 def test_one_object_of_two(prints_of_all_kinds: Mapping[str, Path], tmp_path: Path) -> None:
-    """The sections of the other one are as they were; a name that no object bears changes nothing."""
+    """The sections of the other one are as they were; a name that no object bears is refused."""
     path, output = prints_of_all_kinds["prusa-labels"], tmp_path / "out.gcode"
     names = sorted(set(re.findall(rb"^; printing object (.*)$", path.read_bytes(), re.MULTILINE)))
     assert len(names) == 2
@@ -179,5 +179,9 @@ def test_one_object_of_two(prints_of_all_kinds: Mapping[str, Path], tmp_path: Pa
     assert all(half["replaced"] > 0 for half in halves)
     assert sum(half["replaced"] for half in halves) == whole["replaced"]
     assert halves[0]["kept"]["another object"] == halves[1]["replaced"]
-    assert refill(path, output=output, part="nobody").report["sections"]["replaced"] == 0
-    assert output.read_bytes() == path.read_bytes()
+    before = output.read_bytes()
+    with pytest.raises(
+        ParameterError, match="part is 'nobody', which is in no name of an object; it has .*id:1 copy 0"
+    ):
+        refill(path, output=output, part="nobody")
+    assert output.read_bytes() == before

@@ -15,7 +15,7 @@ from hypothesis.extra.numpy import arrays
 from test_command_line import one_line_error, run
 
 from infill import Volume
-from infill.smoothing.plan import _count_cells, plan_smoothing
+from infill.smoothing.plan import count_solid_cells, plan_smoothing
 
 pytestmark = pytest.mark.usefixtures("compiled", "silent_compiler")
 
@@ -132,4 +132,4 @@ def test_the_program_is_loaded_with_a_small_ball(monkeypatch: pytest.MonkeyPatch
 def test_crossings_are_the_sign_changes_of_the_padded_grid(solid: np.ndarray) -> None:
     padded = np.pad(solid, 1)
     changes = sum(int((np.diff(padded.astype(int), axis=axis) != 0).sum()) for axis in range(3))
-    assert _count_cells(solid) == (int(solid.sum()), changes)
+    assert count_solid_cells(solid) == (int(solid.sum()), changes)

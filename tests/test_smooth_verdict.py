@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from infill import GeometryError, Smoothing, Surface, smooth_mesh, smooth_volume
 from infill.inspection.deviation import ChangedPatch, Deviation, SurfaceGap
-from infill.pictures.before_and_after import MarkedSurface, _describe_areas
+from infill.pictures.before_and_after import MarkedSurface, describe_areas
 from infill.smoothing import meshes
 from infill.voxels import from_mesh
 
@@ -152,11 +152,11 @@ def test_the_picture_has_the_areas_of_the_verdict(rng: np.random.Generator) -> N
         for one, other in ((data, result.surface), (result.surface, data))
     )
     assert lost.area == pytest.approx(verdict["missing"] + verdict["thin"], rel=0.02)
-    caption, _ = _describe_areas(lost, added, verdict)
+    caption, _ = describe_areas(lost, added, verdict)
     numbers = re.findall(r"[\d.,]*\d", caption)
     assert len(numbers) == 2
     assert all(f"{number} mm²" in "; ".join(verdict["changes"]) for number in numbers)
-    assert _describe_areas(lost, added, {"word": "lost"})[0].endswith(" square mm")  # of components: as it is drawn
+    assert describe_areas(lost, added, {"word": "lost"})[0].endswith(" square mm")  # of components: as it is drawn
 
 
 # --- advice ----------------------------------------------------------------------------------------------

@@ -138,14 +138,14 @@ def draw_before_and_after(
     legend = [
         (marked.colour, f"{area} {word}{'' if shown else ', not seen here'}") if area else (None, f"nothing {word}")
         for marked, area, word, (_, shown) in zip(
-            (lost, added), _describe_areas(lost, added, report["verdict"]), ("lost", "added"), pictures, strict=True
+            (lost, added), describe_areas(lost, added, report["verdict"]), ("lost", "added"), pictures, strict=True
         )
     ]
     ends = f"{facts}; marked if more than {plain_number(far)} mm ({plain_argument(FAR_VOXELS)} voxels) apart"
     return arrange_panels(panels, ends, [(None, f"{report['verdict']['word']}:"), *legend])
 
 
-def _describe_areas(lost: MarkedSurface, added: MarkedSurface, verdict: Mapping[str, Any]) -> tuple[str, str]:
+def describe_areas(lost: MarkedSurface, added: MarkedSurface, verdict: Mapping[str, Any]) -> tuple[str, str]:
     """Describe the areas that were lost and added, as the verdict does if it has them; empty for none."""
     missing, new = verdict.get("missing", lost.area), verdict.get("new", added.area)
     thin = verdict.get("thin", 0.0)

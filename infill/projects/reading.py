@@ -19,7 +19,7 @@ from infill.formats.threemf_package import (
     part_key,
     read_model,
 )
-from infill.formats.threemf_reading import IDENTITY, MODEL, RELATIONS, start_part
+from infill.formats.threemf_placing import IDENTITY, MODEL, RELATIONS, start_part
 from infill.formats.threemf_roles import is_part_type, is_unprinted, metadata_of, object_key, settings_of
 from infill.surface import Surface
 

@@ -230,8 +230,9 @@ def _cover_smoothly(area: Polygon, cell: float, setting: AreaSetting) -> FittedP
         radius=np.full(len(points), 0.0),
     )
     merged = merge_short_segments(sharp_paths, float(plan.rounding.shortest_segments(np.array(setting.speed))))
-    plain = split_rows(merged.points, merged.first)
-    paths = [
-        smooth if fits else sharp for smooth, sharp, fits in zip(smooth_paths, plain, inside.tolist(), strict=True)
-    ]
+    paths = list(smooth_paths)
+    whole, plain = split_rows(sharp_paths.points, first), split_rows(merged.points, merged.first)
+    for number in np.flatnonzero(~inside).tolist():  # merging may take a path out of its area too
+        fits = shapely.covers(tolerance_area, shapely.linestrings(plain[number]))
+        paths[number] = plain[number] if fits else whole[number]
     return FittedPaths(paths=paths, radii=radii, cell=cell)

@@ -220,11 +220,12 @@ def replace_infill(layers: Layers, rules: RefillRules, plan: RefillPlan, memory:
     candidates, unfit = draw_sections(layers, plan, memory, rules.acceleration)
     reasons = unchangeable_strokes(layers, rules)
     fixed = np.any(list(reasons.values()), axis=0)
-    kept = {reason: layers.section[strokes] for reason, strokes in reasons.items()} | unfit
+    kept = {reason: layers.section[strokes] for reason, strokes in reasons.items()}
     allowed = [section for section in candidates if not fixed[section.body.strokes].any()]
     new = [section for section in allowed if not section.leaves_region()]
     drawn = np.array([section.body.section for section in new], dtype=np.intp)
     kept["a path would leave its region"] = np.setdiff1d([section.body.section for section in allowed], drawn)
+    kept |= unfit  # which ends with all sections, for those that no other reason names
     if not new:
         return NewInfill.unchanged(layers, kept)
     slow = may_be_slowed(layers, rules)

@@ -190,7 +190,7 @@ def _survey_volume(ways: Sequence[Way]) -> _InputSurvey:
     smooth_input = ways[0].data
     assert isinstance(smooth_input, SmoothInput)
     data = smooth_input.data
-    solid, vertices = _count_cells(np.asarray(data.values) > 0)
+    solid, vertices = count_solid_cells(np.asarray(data.values) > 0)
     return _InputSurvey(
         request=ways[0].request,
         grid=Grid(shape=data.values.shape, spacing=tuple(data.cell_size.tolist()), origin=data.origin),
@@ -230,7 +230,7 @@ def _survey_points(
     coarse_shell = shell if shell is None or narrow else max(shell, coarsening * cell)
     solid = voxelise_points(points, voxel=coarsening * cell, shell=coarse_shell, margin=MARGIN, threads=request.threads)
     seconds = time.perf_counter() - begin
-    cells, vertices = _count_cells(np.asarray(solid.values))
+    cells, vertices = count_solid_cells(np.asarray(solid.values))
     phase = shell is None and request.method != "plain"
     facts: InputKeys = {"source": "points", "points": len(points), "shell": shell}
     ways = scan_ways(solid, solid, {"method": "points"}, facts, request, phase=phase)
@@ -263,10 +263,10 @@ def _seconds_per_triangle(request: SmoothRequest, grid: Grid, *, radius: float =
     begin = time.perf_counter()
     with contextlib.suppress(GeometryError):  # many steps leave nothing of the ball, and take as long
         first_sound(volume_ways(ball, trial_request), trial_request)
-    return (time.perf_counter() - begin) / (TRIANGLES_PER_VERTEX * _count_cells(np.asarray(ball.values))[1])
+    return (time.perf_counter() - begin) / (TRIANGLES_PER_VERTEX * count_solid_cells(np.asarray(ball.values))[1])
 
 
-def _count_cells(solid: NDArray[np.bool_]) -> tuple[int, int]:
+def count_solid_cells(solid: NDArray[np.bool_]) -> tuple[int, int]:
     """Count the solid cells, and the grid edges that cross their surface, including the rim of the grid."""
     inside = sum(int(np.count_nonzero(np.diff(solid, axis=axis))) for axis in range(solid.ndim))
     faces = (solid.swapaxes(0, axis)[[0, -1]] for axis in range(solid.ndim))
