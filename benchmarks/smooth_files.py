@@ -41,7 +41,9 @@ def paper(folder: Path) -> None:
     for name, path in PAPER.items():
         mesh, change = read_mesh(folder / path), {}
         for level in ("volume", 0.0):
-            result = smooth_mesh(mesh, resolution=SIDE, smoothing=Smoothing(steps=20), level=level, allow_broken=True)
+            result = smooth_mesh(
+                mesh, resolution=SIDE, smoothing=Smoothing(steps=20), level=level, allow_broken=True, tolerance=None
+            )
             change[level] = result.report["volume_change"]
         one, two, three = readings(result)
         print(f"{name:<18} {change['volume']:+12.4%} {change[0.0]:+9.3%} {one:14.4f} {two:13.4f} {three:13.4f}")
@@ -51,11 +53,11 @@ def medical(folder: Path) -> None:
     print("\n30 steps                 voxels             components over 100 voxels, kept   volume   closed   problems")
     for name, path in MEDICAL.items():
         mesh = read_mesh(folder / path)
-        tell(name, lambda mesh=mesh, **options: smooth_mesh(mesh, resolution=SIDE, **options))
+        tell(name, lambda mesh=mesh, **options: smooth_mesh(mesh, resolution=SIDE, tolerance=None, **options))
     head = read_volume(folder / "volumes/ct_head_cranium_int16.npz", array="hu")
-    tell("head CT, 226 HU", lambda **options: smooth_volume(head, threshold=226, **options))
+    tell("head CT, 226 HU", lambda **options: smooth_volume(head, threshold=226, tolerance=None, **options))
     skull = read_volume(folder / "volumes/seg_skull_label_seg3d.npz", array="label")
-    tell("skull, labels", lambda **options: smooth_volume(skull, **options))
+    tell("skull, labels", lambda **options: smooth_volume(skull, tolerance=None, **options))
 
 
 def tell(name: str, work) -> None:

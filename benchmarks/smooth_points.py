@@ -47,7 +47,9 @@ def main() -> None:
             begin = time.perf_counter()
             given = normals if by == "normals" else None
             try:
-                result = smooth_points(points, voxel=VOXEL, normals=given, method="plain" if by == "cells" else "auto")
+                result = smooth_points(
+                    points, voxel=VOXEL, normals=given, method="plain" if by == "cells" else "auto", tolerance=None
+                )
             except GeometryError as error:
                 print(f"{name:9} {noise:5g}  {by:14} refused: {str(error)[:60]}")
                 continue

@@ -36,7 +36,7 @@ def main() -> None:
         block = make("honeycomb", size=14, height=3, angle=7, stamp=stamp)
         both.paste(Image.fromarray(render(block.surface, width=480, height=400)), (left, 0))
     both.save(FOLDER / "stamps.png", optimize=True)
-    smooth_volume(gyroid(), spacing=0.5).save(FOLDER / "smooth.png")
+    smooth_volume(gyroid(), spacing=0.5, tolerance=None).save(FOLDER / "smooth.png")
     fill(bracket(), density=0.2).save(FOLDER / "fill.png")
     if not slicers.missing_prusa():
         save_refill(prints.prusa_print, {"fill_pattern": "honeycomb"}, FOLDER / "refill.png")

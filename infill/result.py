@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from PIL import Image
 
 Progress = Callable[[str, float], None]
+UNNAMED = frozenset({"block", "solid"})  # of surfaces that no input has named
 
 
 class Pictured(Protocol):
@@ -134,7 +135,9 @@ class Result(Picturable, Generic[Stages, Told]):
         if is_picture(target):
             return self.write_picture
         write_one = mesh_writer(target, more=PICTURES)  # raises for an unknown suffix
-        if len(self.surfaces) == 1 or (self.joins and target.suffix.lower() not in PART_WRITERS):
+        holds_names = target.suffix.lower() in PART_WRITERS
+        named = not UNNAMED.issuperset(self.surfaces)
+        if not (holds_names and named) and (len(self.surfaces) == 1 or self.joins):
             return lambda file: write_one(self.whole, file)
         write_several = parts_writer(target)
         return lambda file: write_several(parts_of(self), file)

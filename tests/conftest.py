@@ -88,7 +88,7 @@ def compiled() -> None:
     """Compile what smoothing takes, so that nothing is said of it later, by other processes neither."""
     ball = np.sum((np.indices((20, 20, 20)) - 9.5) ** 2, axis=0) < 40
     for refine in (False, True):
-        smooth_volume(ball, refine=refine)
+        smooth_volume(ball, refine=refine, tolerance=None)
 
 
 @pytest.fixture

@@ -156,8 +156,8 @@ def test_joined_surfaces_are_one_after_the_other() -> None:
 def test_balls_that_overlap_stay_two_of_exactly_their_volumes() -> None:
     one, other = ball(10), ball(8, (9, 0, 0))
     mesh = surface(other, one)
-    assert smooth_mesh(mesh, resolution=60).report["components"] == 1
-    result = smooth_mesh(mesh, resolution=60, by_component=True)
+    assert smooth_mesh(mesh, resolution=60, tolerance=None).report["components"] == 1
+    result = smooth_mesh(mesh, resolution=60, by_component=True, tolerance=None)
     assert list(result.surfaces) == ["component_1", "component_2"]
     for found, given in zip(result.surfaces.values(), (one, other), strict=True):
         assert found.volume == pytest.approx(given.volume, rel=VOLUME)
@@ -170,7 +170,7 @@ def test_balls_that_overlap_stay_two_of_exactly_their_volumes() -> None:
 
 @pytest.mark.slow
 def test_a_shell_with_a_cavity_stays_one() -> None:
-    result = smooth_mesh(surface(ball(10), ball(6, inwards=True)), resolution=60, by_component=True)
+    result = smooth_mesh(surface(ball(10), ball(6, inwards=True)), resolution=60, by_component=True, tolerance=None)
     assert list(result.surfaces) == ["component_1"]
     assert result.surface.volume == pytest.approx(ball(10).volume - ball(6).volume, rel=VOLUME)
     assert result.report["components"][0]["report"]["topology"]["result"]["cavities"] == 1
@@ -178,7 +178,7 @@ def test_a_shell_with_a_cavity_stays_one() -> None:
 
 @pytest.mark.slow
 def test_seven_boxes_stay_seven() -> None:
-    result = smooth_mesh(merged(*map(box, CROSS)), resolution=60, by_component=True)
+    result = smooth_mesh(merged(*map(box, CROSS)), resolution=60, by_component=True, tolerance=None)
     assert len(result.surfaces) == 7
     for found in result.surfaces.values():
         assert found.volume == pytest.approx(1000, rel=VOLUME)
@@ -187,7 +187,10 @@ def test_seven_boxes_stay_seven() -> None:
 @pytest.mark.slow
 def test_one_component_is_smoothed_as_ever() -> None:
     mesh = surface(ball(10))
-    one, other = smooth_mesh(mesh, resolution=40), smooth_mesh(mesh, resolution=40, by_component=True)
+    one, other = (
+        smooth_mesh(mesh, resolution=40, tolerance=None),
+        smooth_mesh(mesh, resolution=40, by_component=True, tolerance=None),
+    )
     assert np.allclose(one.surface.vertices, other.surface.vertices, atol=1e-9)
     assert (one.surface.faces == other.surface.faces).all()
 
@@ -195,11 +198,11 @@ def test_one_component_is_smoothed_as_ever() -> None:
 @pytest.mark.longest
 def test_a_small_component_gets_finer_voxels_unless_their_size_was_asked_for() -> None:
     mesh = surface(ball(50), ball(0.2, (60, 0, 0)))
-    spacing = smooth_mesh(mesh, by_component=True).report["components"][1]["report"]["grid"]["spacing"]
+    spacing = smooth_mesh(mesh, by_component=True, tolerance=None).report["components"][1]["report"]["grid"]["spacing"]
     assert spacing == pytest.approx([0.05] * 3, rel=0.01)
     with pytest.raises(ParameterError, match=r"component_2: voxel is 1 mm .* give at most 0\.2 mm"):
-        smooth_mesh(mesh, voxel=1.0, by_component=True)
-    result = smooth_mesh(mesh, voxel=1.0, by_component=True, allow_broken=True)
+        smooth_mesh(mesh, voxel=1.0, by_component=True, tolerance=None)
+    result = smooth_mesh(mesh, voxel=1.0, by_component=True, allow_broken=True, tolerance=None)
     assert list(result.surfaces) == ["component_1"]
     assert result.report["failed"][0]["name"] == "component_2"
     assert result.report["verdict"]["word"] == "lost"
@@ -207,22 +210,24 @@ def test_a_small_component_gets_finer_voxels_unless_their_size_was_asked_for() -
 
 def test_mistakes_are_told_in_one_line() -> None:
     with pytest.raises(ParameterError, match="give one of them"):
-        smooth_mesh(surface(ball(10)), voxel=1.0, resolution=20, by_component=True)
+        smooth_mesh(surface(ball(10)), voxel=1.0, resolution=20, by_component=True, tolerance=None)
     flat = Surface(vertices=np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.0]]), faces=np.array([[0, 1, 2]]))
     with pytest.raises(GeometryError, match="none of the 1 components of the mesh encloses anything"):
-        smooth_mesh(flat, by_component=True)
+        smooth_mesh(flat, by_component=True, tolerance=None)
     point = Surface(vertices=np.zeros((3, 3)), faces=np.array([[0, 1, 2]]))
     with pytest.raises(GeometryError, match="one point"):
-        smooth_mesh(point, by_component=True)
+        smooth_mesh(point, by_component=True, tolerance=None)
     with pytest.raises(GeometryError, match="no component can be smoothed; component_1: "):
-        smooth_mesh(surface(ball(0.3), ball(0.2, (9, 0, 0))), voxel=4.0, by_component=True, allow_broken=True)
+        smooth_mesh(
+            surface(ball(0.3), ball(0.2, (9, 0, 0))), voxel=4.0, by_component=True, allow_broken=True, tolerance=None
+        )
 
 
 @pytest.mark.slow
 def test_progress_never_goes_back() -> None:
     told: list[float] = []
     mesh = surface(ball(10), ball(8, (9, 0, 0)))
-    smooth_mesh(mesh, resolution=30, by_component=True, progress=lambda _, share: told.append(share))
+    smooth_mesh(mesh, resolution=30, by_component=True, progress=lambda _, share: told.append(share), tolerance=None)
     assert told == sorted(told)
     assert 0.5 < told[-1] <= 1
 
@@ -233,7 +238,7 @@ def test_progress_never_goes_back() -> None:
 @pytest.mark.longest
 @pytest.mark.parametrize("suffix", [".stl", ".ply", ".obj", ".3mf", ".glb"])
 def test_every_format_holds_all_components(suffix: str, tmp_path: Path) -> None:
-    result = smooth_mesh(surface(ball(10), ball(8, (9, 0, 0))), resolution=40, by_component=True)
+    result = smooth_mesh(surface(ball(10), ball(8, (9, 0, 0))), resolution=40, by_component=True, tolerance=None)
     read = read_mesh(result.save(tmp_path / f"both{suffix}"))
     assert read.volume == pytest.approx(result.report["volume"], rel=VOLUME)
     assert len(trimesh.Trimesh(read.vertices, read.faces, process=False).split()) == 2
@@ -266,6 +271,6 @@ def test_reports_of_components_hold_on_to_nothing() -> None:
     """What is measured only when somebody asks needs the field, which for many components is much memory."""
     both = trimesh.util.concatenate([trimesh.creation.icosphere(radius=5), trimesh.creation.box((4, 4, 4))])
     both.vertices[-8:] += [20, 0, 0]
-    report: Any = smooth_mesh(both, voxel=0.5, by_component=True).report
+    report: Any = smooth_mesh(both, voxel=0.5, by_component=True, tolerance=None).report
     assert [type(each["report"]) for each in report["components"]] == [dict, dict]
     assert all(each["report"]["distance"]["result"]["max"] < 1 for each in report["components"])

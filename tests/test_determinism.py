@@ -33,18 +33,18 @@ def smooth_scan(**options: Any) -> Any:
     """A plate two cells thick between two blocks, which 60 steps break: it takes fewer of them."""
     solid = np.zeros((60, 30, 30), bool)
     solid[4:16, 6:24, 6:24] = solid[44:56, 6:24, 6:24] = solid[16:44, 6:24, 14:16] = True
-    return smooth_volume(solid, smoothing=Smoothing(steps=60), method="plain", **options)
+    return smooth_volume(solid, smoothing=Smoothing(steps=60), method="plain", tolerance=None, **options)
 
 
 def smooth_fin(**options: Any) -> Any:
     """A bar with a fin half a voxel thick, which is lost: it takes finer voxels."""
     bar, fin = trimesh.creation.box((40, 2, 2)), trimesh.creation.box((40, 0.1, 4))
-    return smooth_mesh(trimesh.boolean.union([bar, fin]), **options)
+    return smooth_mesh(trimesh.boolean.union([bar, fin]), tolerance=None, **options)
 
 
 def smooth_cloud(**options: Any) -> Any:
     points = trimesh.creation.icosphere(4, radius=10.0).vertices * [1, 0.8, 0.6]
-    return smooth_points(points, voxel=0.8, **options)
+    return smooth_points(points, voxel=0.8, tolerance=None, **options)
 
 
 SOURCES: dict[str, tuple[Callable[..., Any], int]] = {  # and the number of ways that are tried

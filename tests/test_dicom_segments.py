@@ -158,7 +158,7 @@ def test_names_and_colours(tmp_path: Path) -> None:
     assert found.segments[0].colour == pytest.approx((1, 0, 0), abs=0.02)
     assert found.segments[1].colour == pytest.approx((1, 1, 1), abs=0.001)
     assert found.segments[2].colour is None
-    assert smooth_labels(found).report["absent"] == ["Nowhere"]
+    assert smooth_labels(found, tolerance=None).report["absent"] == ["Nowhere"]
 
 
 @pytest.mark.longest
@@ -209,7 +209,7 @@ def test_segments_in_several_files(tmp_path: Path) -> None:
     assert [(each.name, each.layer) for each in found.segments] == [("part 1", 0), ("part 2", 1)]
     for layer, mask in zip(found.layers, TWO.values(), strict=True):
         assert centres(layer, 1) == true_centres(mask)
-    assert {*smooth_labels(found).surfaces} == {"part 1", "part 2"}
+    assert {*smooth_labels(found, tolerance=None).surfaces} == {"part 1", "part 2"}
     save_all(slices(np.zeros(SHAPE, np.uint16), at(range(SHAPE[0])), series="2.25.8"), folder)
     with pytest.raises(FormatError, match="2 DICOM series"):
         read_segmentation(folder)

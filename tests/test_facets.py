@@ -85,8 +85,8 @@ def test_the_options_that_the_summary_names_round_the_facets(name: str, tmp_path
 
 @pytest.mark.usefixtures("compiled")
 def test_the_report_has_none_where_there_are_none() -> None:
-    assert smooth_volume(np.pad(np.ones((8, 8, 8), bool), 4)).report["facets"] is None
-    assert smooth_mesh(creation.box((10, 20, 30)), resolution=40).report["facets"] is None
-    facets = smooth_mesh(creation.icosphere(1, 10), resolution=60).report["facets"]
+    assert smooth_volume(np.pad(np.ones((8, 8, 8), bool), 4), tolerance=None).report["facets"] is None
+    assert smooth_mesh(creation.box((10, 20, 30)), resolution=40, tolerance=None).report["facets"] is None
+    facets = smooth_mesh(creation.icosphere(1, 10), resolution=60, tolerance=None).report["facets"]
     assert facets is not None
     assert set(facets) == {"share", "width", "radius", "voxel"}

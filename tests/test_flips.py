@@ -88,7 +88,8 @@ def test_both_forms_agree_on_random_fields() -> None:
         try:
             decided.append(
                 compared(
-                    SmoothInput(data=volume, facts={}), SmoothRequest(smoothing=smoothing, level=level, method="plain")
+                    SmoothInput(data=volume, facts={}),
+                    SmoothRequest(smoothing=smoothing, level=level, method="plain", tolerance=None),
                 )
             )
         except InfillError:  # nothing is left, or nothing was there
@@ -141,7 +142,7 @@ def test_a_loss_that_is_planted_is_not_passed_over() -> None:
 
 def test_distances_are_measured_when_they_are_asked_for() -> None:
     ball = np.linalg.norm(np.indices((30, 30, 30)) - 14.5, axis=0) < 10
-    report: Any = smooth_volume(ball).report
+    report: Any = smooth_volume(ball, tolerance=None).report
     assert report.pending("distance")
     assert report["verdict"]["word"] == "kept"
     assert report["distance"]["result"]["max"] < 1.25
@@ -166,7 +167,7 @@ def test_both_forms_agree_on_real_files(data: Path) -> None:
         except InfillError:
             continue
         for steps in (2, 8):
-            request = SmoothRequest(smoothing=Smoothing(steps=steps), method="plain")
+            request = SmoothRequest(smoothing=Smoothing(steps=steps), method="plain", tolerance=None)
             decided.append(compared(SmoothInput(data=solid, facts={}), request))
     assert len(decided) > 40
     assert any(alike for alike, _ in decided)
@@ -177,7 +178,7 @@ def test_what_was_taken_out_as_a_crumb_is_measured() -> None:
     """A crumb is gone from the surface and not from the field, whose signs therefore say nothing of it."""
     solid = np.zeros((40, 30, 30), dtype=bool)
     solid[3:20, 5:25, 5:25] = solid[21:27, 12:18, 12:18] = solid[20, 15, 15] = True
-    options: Any = {"smoothing": Smoothing(steps=1), "method": "plain", "allow_broken": True}
+    options: Any = {"smoothing": Smoothing(steps=1), "method": "plain", "allow_broken": True, "tolerance": None}
     report: Any = smooth_volume(solid, crumbs=300.0, **options).report
     assert report["verdict"]["crumbs"]["removed"] == 1
     assert report["verdict"]["word"] == "lost"

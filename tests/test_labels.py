@@ -106,10 +106,10 @@ def test_the_surface_is_that_of_the_whole_volume(options: dict[str, Any]) -> Non
     values = bones()
     values[4, 4, 4] = 7  # a speck far away, which makes the part of this label larger
     volume = Volume(values=values, spacing=(0.5, 0.6, 0.7), origin=(10, -20, 30), space="LPS")
-    result = smooth_labels(volume, allow_broken=True, **options)
+    result = smooth_labels(volume, allow_broken=True, tolerance=None, **options)
     assert list(result.surfaces) == ["label_3", "label_7", "label_200"]
     for name, surface in result.surfaces.items():
-        whole = smooth_volume(volume, label=int(name[6:]), allow_broken=True, **options).surface
+        whole = smooth_volume(volume, label=int(name[6:]), allow_broken=True, tolerance=None, **options).surface
         assert np.array_equal(surface.faces, whole.faces)
         assert np.abs(surface.vertices - whole.vertices).max() < 1e-12  # corners are added in another order
         assert surface.space == "LPS"
@@ -122,16 +122,16 @@ def test_a_margin_too_small_would_be_seen(monkeypatch: pytest.MonkeyPatch) -> No
     monkeypatch.setattr("infill.smoothing.labels.REFINING_MARGIN", 0)
     monkeypatch.setattr("infill.smoothing.labels.BRICK", (1, 1, 1))
     values = bones()
-    surface = smooth_labels(values, label=3).surface
-    whole = smooth_volume(values, label=3).surface
+    surface = smooth_labels(values, label=3, tolerance=None).surface
+    whole = smooth_volume(values, label=3, tolerance=None).surface
     assert len(surface.vertices) != len(whole.vertices) or np.abs(surface.vertices - whole.vertices).max() > 1e-6
 
 
 @pytest.mark.slow
 def test_labels_that_are_asked_for_come_in_the_order_of_their_numbers() -> None:
-    assert list(smooth_labels(bones(), label=(200, 3)).surfaces) == ["label_3", "label_200"]
-    assert list(smooth_labels(bones(), label=7).surfaces) == ["label_7"]
-    assert list(smooth_labels(-bones(np.int16), label=-7).surfaces) == ["label_-7"]
+    assert list(smooth_labels(bones(), label=(200, 3), tolerance=None).surfaces) == ["label_3", "label_200"]
+    assert list(smooth_labels(bones(), label=7, tolerance=None).surfaces) == ["label_7"]
+    assert list(smooth_labels(-bones(np.int16), label=-7, tolerance=None).surfaces) == ["label_-7"]
 
 
 @pytest.mark.slow
@@ -141,6 +141,7 @@ def test_names_and_colours_come_from_the_table_or_else_from_the_segmentation() -
     result = smooth_labels(
         Segmentation(layers=(volume,), segments=own),
         table=[Segment(value=3, name="table"), Segment(value=200, name="same", colour=(0, 0, 1)), Segment(value=5)],
+        tolerance=None,
     )
     assert list(result.surfaces) == ["table", "same", "same_200"]
     assert result.colours == {"same_200": (0, 0, 1)}
@@ -152,7 +153,7 @@ def test_names_and_colours_come_from_the_table_or_else_from_the_segmentation() -
 def test_names_stay_different_whatever_they_are() -> None:
     layer = Volume(values=bones())
     names = [Segment(value=value, name="a", layer=k) for k in range(3) for value in (3, 7, 200)]
-    result = smooth_labels(Segmentation(layers=(layer, layer, layer), segments=tuple(names)))
+    result = smooth_labels(Segmentation(layers=(layer, layer, layer), segments=tuple(names)), tolerance=None)
     assert len(result.surfaces) == 9
     assert list(result.surfaces)[:4] == ["a", "a_7", "a_200", "a_3"]
 
@@ -164,18 +165,18 @@ SPECK[10:14, 40:44, 5:9] = 9  # 64 cells, all of them despeckled
 @pytest.mark.slow
 def test_one_that_fails_is_named_and_nothing_is_returned() -> None:
     with pytest.raises(ParameterError, match=r"^label 9 \(Scapula\): despeckle is 100 mm³") as caught:
-        smooth_labels(SPECK, table=[Segment(value=9, name="Scapula")], despeckle=100)
+        smooth_labels(SPECK, table=[Segment(value=9, name="Scapula")], despeckle=100, tolerance=None)
     assert "\n" not in str(caught.value)
 
 
 @pytest.mark.slow
 def test_the_others_go_on_if_that_is_asked_for() -> None:
-    result = smooth_labels(SPECK, keep_going=True, despeckle=100)
+    result = smooth_labels(SPECK, keep_going=True, despeckle=100, tolerance=None)
     assert list(result.surfaces) == ["label_3", "label_7", "label_200"]
     assert [(each["number"], "despeckle" in each["error"]) for each in result.report["failed"]] == [(9, True)]
     assert list(result.stages.failed) == ["label_9"]
     with pytest.raises(ParameterError, match="^no label can be smoothed; label 9: "):
-        smooth_labels(SPECK, label=9, keep_going=True, despeckle=100)
+        smooth_labels(SPECK, label=9, keep_going=True, despeckle=100, tolerance=None)
 
 
 @pytest.mark.parametrize(
@@ -196,7 +197,7 @@ def test_what_cannot_be_is_told(values: np.ndarray, options: dict[str, Any], say
 @pytest.mark.slow
 def test_progress_goes_from_nothing_to_all() -> None:
     seen: list[float] = []
-    smooth_labels(bones(), progress=lambda stage, share: seen.append(share))
+    smooth_labels(bones(), progress=lambda stage, share: seen.append(share), tolerance=None)
     assert seen == sorted(seen)
     assert seen[0] == 0
     assert 0.9 < seen[-1] <= 1
@@ -208,7 +209,7 @@ def test_progress_goes_from_nothing_to_all() -> None:
 def test_any_labels_give_closed_surfaces_or_one_line(values: np.ndarray) -> None:
     if not values.any() or (values == values[0, 0, 0]).all():
         return
-    result = smooth_labels(values, allow_broken=True, keep_going=True)
+    result = smooth_labels(values, allow_broken=True, keep_going=True, tolerance=None)
     for surface in result.surfaces.values():
         assert surface.closed
 
@@ -224,7 +225,7 @@ TABLE = (
 
 @pytest.fixture(scope="module")
 def result(compiled: None) -> Result[Any, Any]:
-    return smooth_labels(bones(), table=TABLE)
+    return smooth_labels(bones(), table=TABLE, tolerance=None)
 
 
 @pytest.mark.slow
@@ -281,7 +282,7 @@ def test_a_format_of_one_mesh_is_told(result: Result[Any, Any], tmp_path: Path) 
     with pytest.raises(FormatError, match="cannot tell a mesh format"):
         result.save(tmp_path / "all.abc")
     assert list(tmp_path.iterdir()) == []
-    assert smooth_labels(bones(), label=3).save(tmp_path / "one.stl").exists()
+    assert smooth_labels(bones(), label=3, tolerance=None).save(tmp_path / "one.stl").exists()
 
 
 def test_no_more_files_are_open_at_a_time_than_one(tmp_path: Path) -> None:
@@ -482,7 +483,7 @@ def test_a_mask_of_any_value_is_a_mask(folder: Path) -> None:
 @pytest.mark.longest
 def test_a_real_segmentation(data: Path, tmp_path: Path) -> None:
     skull = read_volume(data / "volumes" / "seg_skull_label_seg3d.npz")
-    result = smooth_labels(skull, allow_broken=True)
+    result = smooth_labels(skull, allow_broken=True, tolerance=None)
     assert [surface.closed for surface in result.surfaces.values()] == [True] * len(result.surfaces)
     for each in result.report["labels"]:
         cells = int((skull.values == each["number"]).sum())
@@ -504,17 +505,17 @@ def test_the_labels_of_a_map_are_listed_with_their_sizes() -> None:
     values = knee()
     cells = np.bincount(values.ravel())
     with pytest.raises(LabelChoiceError) as caught:
-        smooth_volume(values, spacing=0.5)
+        smooth_volume(values, spacing=0.5, tolerance=None)
     listed = f"2 labels: 1 ({cells[1] / 8:.3g} mm³), 7 ({cells[7] / 8:.3g} mm³)"
     assert str(caught.value).startswith(f"the volume holds {listed}; give -o")
     assert "otsu" not in str(caught.value)
-    assert smooth_volume(values, label=7).surface.closed
+    assert smooth_volume(values, label=7, tolerance=None).surface.closed
 
 
 def test_a_map_of_many_labels_is_listed_in_part() -> None:
     values = np.repeat(np.arange(1, 41), 50).reshape(40, 5, 10)
     with pytest.raises(LabelChoiceError, match=r"holds 40 labels: 1 \(50 mm³\), .*, 11 \(50 mm³\), 29 more; give"):
-        smooth_volume(values)
+        smooth_volume(values, tolerance=None)
 
 
 @pytest.mark.parametrize(
@@ -528,7 +529,7 @@ def test_a_map_of_many_labels_is_listed_in_part() -> None:
 )
 def test_grey_values_are_no_label_map(values: np.ndarray) -> None:
     with pytest.raises(ParameterError, match=r"--otsu \(finds"):
-        smooth_volume(values)
+        smooth_volume(values, tolerance=None)
 
 
 def test_what_is_said_of_a_label_map_works(tmp_path: Path) -> None:

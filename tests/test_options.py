@@ -346,11 +346,11 @@ def test_python_callers_read_the_names_of_their_arguments(folder: Path) -> None:
         "line_width is -1 mm": lambda: make("honeycomb", size=20, height=2, line_width=-1),
         "cells is 0": lambda: make("honeycomb", size=20, height=2, cells=0),
         "stamp is 'round'": lambda: make("honeycomb", size=20, height=2, stamp="round"),  # type: ignore[arg-type]
-        "threshold is 5000": lambda: smooth_volume(cells, threshold=5000),
-        "threshold goes from 5 to 1": lambda: smooth_volume(cells, threshold=(5, 1)),
-        "radius is -1 mm": lambda: smooth_volume(cells, threshold=5, radius=-1),
-        "method is 'best'": lambda: smooth_volume(cells, threshold=5, method="best"),  # type: ignore[arg-type]
-        "resolution is 0": lambda: smooth_mesh(box, resolution=0),
+        "threshold is 5000": lambda: smooth_volume(cells, threshold=5000, tolerance=None),
+        "threshold goes from 5 to 1": lambda: smooth_volume(cells, threshold=(5, 1), tolerance=None),
+        "radius is -1 mm": lambda: smooth_volume(cells, threshold=5, radius=-1, tolerance=None),
+        "method is 'best'": lambda: smooth_volume(cells, threshold=5, method="best", tolerance=None),  # type: ignore[arg-type]
+        "resolution is 0": lambda: smooth_mesh(box, resolution=0, tolerance=None),
         "junction_deviation is -1": lambda: motion("print.gcode", junction_deviation=-1),
     }.items():
         with pytest.raises(ParameterError, match=f"^{says}"):

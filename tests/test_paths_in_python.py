@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,7 @@ import numpy as np
 import pytest
 import trimesh
 from handmade_prints import Dialect, written
+from typer.testing import CliRunner
 
 from infill import (
     FormatError,
@@ -27,6 +29,7 @@ from infill import (
     smooth_points,
     smooth_volume,
 )
+from infill.cli.app import build_app
 from infill.formats.units import read_mesh_in_mm
 from infill.pictures.preview import SUFFIXES
 
@@ -52,11 +55,17 @@ def same(one: Any, other: Any) -> None:
 @pytest.mark.slow
 def test_a_path_is_the_file_that_its_reader_reads(folder: Path) -> None:
     same(fill("ball.stl", voxel=0.5), fill(read_mesh("ball.stl"), voxel=0.5))
-    same(smooth_mesh(Path("ball.stl"), resolution=24), smooth_mesh(read_mesh("ball.stl"), resolution=24))
+    same(
+        smooth_mesh(Path("ball.stl"), resolution=24, tolerance=None),
+        smooth_mesh(read_mesh("ball.stl"), resolution=24, tolerance=None),
+    )
     volume = read_volume("ball.npy", spacing=0.5)
-    same(smooth_volume("ball.npy", spacing=0.5), smooth_volume(volume))
-    same(smooth_labels("ball.npy", spacing=0.5), smooth_labels(volume))
-    same(smooth_points("cloud.xyz", voxel=1.0), smooth_points(read_points("cloud.xyz"), voxel=1.0))
+    same(smooth_volume("ball.npy", spacing=0.5, tolerance=None), smooth_volume(volume, tolerance=None))
+    same(smooth_labels("ball.npy", spacing=0.5, tolerance=None), smooth_labels(volume, tolerance=None))
+    same(
+        smooth_points("cloud.xyz", voxel=1.0, tolerance=None),
+        smooth_points(read_points("cloud.xyz"), voxel=1.0, tolerance=None),
+    )
 
 
 def test_results_are_meshes(folder: Path) -> None:
@@ -64,7 +73,7 @@ def test_results_are_meshes(folder: Path) -> None:
     report = check(block)
     assert report.printable
     assert report == check(block.surface)
-    solid = smooth_mesh(SPHERE, resolution=24)
+    solid = smooth_mesh(SPHERE, resolution=24, tolerance=None)
     same(fill(solid, voxel=0.5), fill(solid.surface, voxel=0.5))
 
 
@@ -113,3 +122,28 @@ def test_lines_have_no_picture_and_are_said_so(folder: Path) -> None:
     assert result._repr_png_() is None
     again = refill("print.gcode", dry_run=True)
     assert again.picture().width < refill("print.gcode", output="new.gcode").picture().width
+
+
+# Each command line, and the call that must write the same bytes: nothing but the input and what has no default.
+ALIKE: dict[str, tuple[list[str], Callable[[], Any]]] = {
+    "mesh": (["smooth", "ball.stl"], lambda: smooth_mesh("ball.stl")),
+    "mask": (["smooth", "ball.npy"], lambda: smooth_volume("ball.npy")),
+    "grey": (["smooth", "grey.npy", "--threshold", "3"], lambda: smooth_volume("grey.npy", threshold=3)),
+    "points": (["smooth", "cloud.xyz", "--voxel", "1"], lambda: smooth_points("cloud.xyz", voxel=1)),
+    "labels": (["smooth", "ball.npy", "--each-label"], lambda: smooth_labels("ball.npy")),
+    "fill": (["fill", "ball.stl"], lambda: fill("ball.stl")),
+    "make": (["make", "honeycomb"], lambda: make("honeycomb")),
+    "make a block": (["make", "octet", "--size", "12"], lambda: make("octet", size=12)),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ALIKE)
+def test_the_command_and_the_function_have_the_same_defaults(name: str, folder: Path) -> None:
+    grid = np.indices((24, 24, 24)) - 11.5
+    np.save("grey.npy", (12 - np.sqrt((grid**2).sum(axis=0))).astype(np.float32))
+    command, call = ALIKE[name]
+    done = CliRunner().invoke(build_app(), [*command, "-o", "command.3mf"])
+    assert done.exit_code == 0, done.stderr
+    call().save("function.3mf")
+    assert Path("command.3mf").read_bytes() == Path("function.3mf").read_bytes()

@@ -156,7 +156,7 @@ def test_what_is_lost_is_red_before_and_nothing_is_marked_after() -> None:
     """A fin of half a voxel on a plate: far too thin to last."""
     plate, fin = trimesh.creation.box((20, 20, 4)), trimesh.creation.box((16, 0.1, 8))
     fin.apply_translation((0, 0, 5.5))
-    result = smooth_mesh(trimesh.util.concatenate([plate, fin]), voxel=0.2, allow_broken=True)
+    result = smooth_mesh(trimesh.util.concatenate([plate, fin]), voxel=0.2, allow_broken=True, tolerance=None)
     before, after = panels(np.asarray(result.picture()))
     assert reddish(before) > 5000
     assert reddish(after) == bluish(before) == bluish(after) == 0
@@ -165,7 +165,7 @@ def test_what_is_lost_is_red_before_and_nothing_is_marked_after() -> None:
 @pytest.mark.slow
 @pytest.mark.usefixtures("compiled")
 def test_what_is_kept_is_not_marked_and_stays_in_its_place() -> None:
-    result = smooth_mesh(trimesh.creation.icosphere(subdivisions=4, radius=10), resolution=60)
+    result = smooth_mesh(trimesh.creation.icosphere(subdivisions=4, radius=10), resolution=60, tolerance=None)
     both = panels(np.asarray(result.picture()))
     assert [reddish(each) + bluish(each) for each in both] == [0, 0]
     one, other = ((each < WHITE).any(axis=2) for each in both)
@@ -177,7 +177,9 @@ def test_what_is_kept_is_not_marked_and_stays_in_its_place() -> None:
 def test_before_and_after_have_one_scale() -> None:
     """At the level 0 a ball shrinks, and so does its picture."""
     cells = np.sum((np.indices((30, 30, 30)) - 14.5) ** 2, axis=0) < 81
-    result = smooth_volume(cells, smoothing=Smoothing(steps=60), method="plain", level=0, allow_broken=True)
+    result = smooth_volume(
+        cells, smoothing=Smoothing(steps=60), method="plain", level=0, allow_broken=True, tolerance=None
+    )
     before, after = (np.flatnonzero((each < WHITE).any(axis=(0, 2))) for each in panels(np.asarray(result.picture())))
     shrunk = result.surface.bounds[1, 0] - result.surface.bounds[0, 0]
     assert np.ptp(after) / np.ptp(before) == pytest.approx(shrunk / 18, abs=0.03)  # 18 cells wide, pixels of 1/400
@@ -278,7 +280,7 @@ def test_a_notebook_shows_what_is_saved_and_what_the_command_writes(tmp_path: Pa
 def test_all_labels_are_one_picture() -> None:
     labels = np.zeros((40, 20, 20), dtype=np.uint8)
     labels[4:16, 4:16, 4:16], labels[24:36, 4:16, 4:16] = 1, 2
-    panel = (np.asarray(smooth_labels(labels).picture()) < WHITE).any(axis=2)[CAPTION : CAPTION + PANEL]
+    panel = (np.asarray(smooth_labels(labels, tolerance=None).picture()) < WHITE).any(axis=2)[CAPTION : CAPTION + PANEL]
     seen = panel.any(axis=0)
     assert np.count_nonzero(np.diff(seen.astype(int)) == 1) >= 1
     assert panel.mean() > 0.1

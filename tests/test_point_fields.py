@@ -114,8 +114,10 @@ def test_noise_does_not_move_the_surface_outwards(known: bool) -> None:
     mesh = trimesh.creation.torus(8, 3, major_sections=128, minor_sections=64)
     points, normals = cloud(mesh, 30_000)
     points = points + np.random.default_rng(1).normal(0, 0.1, points.shape)  # a quarter of a voxel
-    result = smooth_points(points, voxel=0.4, normals=normals if known else None)
-    plain = smooth_points(points, voxel=0.4, method="plain")  # cells alone go around the outermost points
+    result = smooth_points(points, voxel=0.4, normals=normals if known else None, tolerance=None)
+    plain = smooth_points(
+        points, voxel=0.4, method="plain", tolerance=None
+    )  # cells alone go around the outermost points
     assert abs(result.mesh.volume / mesh.volume - 1) < 0.003
     assert plain.mesh.volume / mesh.volume - 1 > 0.05
     assert result.report["input"]["normals"] is known
@@ -129,7 +131,7 @@ def test_edges_of_a_turned_box_stay_within_a_voxel() -> None:
     mesh = trimesh.creation.box((20, 14, 9))
     mesh.apply_transform(trimesh.transformations.rotation_matrix(0.7, [1, 2, 3]))
     points, normals = cloud(mesh, 30_000)
-    result = smooth_points(points, voxel=0.4, normals=normals)
+    result = smooth_points(points, voxel=0.4, normals=normals, tolerance=None)
     truth = Surface(vertices=np.asarray(mesh.vertices), faces=np.asarray(mesh.faces))
     away = distances(result.surface.vertices, truth) / 0.4
     assert (away.max(), away.mean()) < (1.0, 0.15)
@@ -140,12 +142,12 @@ def test_edges_of_a_turned_box_stay_within_a_voxel() -> None:
 def test_normals_that_do_not_fit_are_refused() -> None:
     points = on_ball(500)
     with pytest.raises(ParameterError, match=r"normals have the shape \(3,\) and the points \(500, 3\); give one each"):
-        smooth_points(points, voxel=2.0, normals=[0.0, 0, 1])
+        smooth_points(points, voxel=2.0, normals=[0.0, 0, 1], tolerance=None)
     with pytest.raises(ParameterError, match="a shell lies on both sides of the points"):
-        smooth_points(points, voxel=2.0, shell=4.0, normals=points)
+        smooth_points(points, voxel=2.0, shell=4.0, normals=points, tolerance=None)
     broken = points.copy()
     broken[::7] = np.nan
-    assert smooth_points(points, voxel=2.0, normals=broken).report["verdict"]["word"] == "kept"
+    assert smooth_points(points, voxel=2.0, normals=broken, tolerance=None).report["verdict"]["word"] == "kept"
 
 
 @pytest.mark.slow

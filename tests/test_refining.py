@@ -189,8 +189,8 @@ def comb() -> np.ndarray:
 @pytest.mark.slow
 def test_thin_walls_survive_that_plain_smoothing_breaks() -> None:
     solid, thirty = comb(), Smoothing(steps=30)
-    plain = smooth_volume(solid, smoothing=thirty, method="plain", allow_broken=True).report
-    result = smooth_volume(solid, smoothing=thirty, refine=True)
+    plain = smooth_volume(solid, smoothing=thirty, method="plain", allow_broken=True, tolerance=None).report
+    result = smooth_volume(solid, smoothing=thirty, refine=True, tolerance=None)
     assert plain["problems"]
     assert not plain["request"]["refine"]
     assert not result.report["problems"]
@@ -204,14 +204,14 @@ def test_thin_walls_survive_that_plain_smoothing_breaks() -> None:
 @pytest.mark.slow
 def test_levels_and_fields_of_a_result_are_those_of_phi() -> None:
     ball = sum(x**2 for x in grid(40, 40, 40)) < 12.2**2
-    at_half = smooth_volume(ball, refine=True, level=0.5)
+    at_half = smooth_volume(ball, refine=True, level=0.5, tolerance=None)
     assert at_half.report["solid"]["level"]["common"] == 0.5
     values = at_half.stages.field().values
     assert np.abs(values).max() <= 1
     assert (values > 0).sum() == pytest.approx(at_half.mesh.volume, rel=0.03)  # cells counted against a surface
-    by_volume = smooth_volume(ball, refine=True)
+    by_volume = smooth_volume(ball, refine=True, tolerance=None)
     level = by_volume.report["solid"]["level"]["common"]
-    again = smooth_volume(ball, refine=True, level=level)
+    again = smooth_volume(ball, refine=True, level=level, tolerance=None)
     assert again.mesh.volume == pytest.approx(by_volume.mesh.volume, rel=1e-4)
 
 
@@ -233,6 +233,6 @@ def test_the_phase_may_take_the_place_of_distances(rng: np.random.Generator) -> 
 def test_despeckle_goes_with_refining() -> None:
     ball = sum(x**2 for x in grid(40, 40, 40)) < 12**2
     ball[2:4, 2:4, 2:4] = True
-    report = smooth_volume(ball, refine=True, despeckle=10).report
+    report = smooth_volume(ball, refine=True, despeckle=10, tolerance=None).report
     assert report["input"]["despeckled"] == 1
     assert report["topology"]["result"]["components"] == 1

@@ -56,20 +56,20 @@ def every_result() -> Iterator[tuple[str, Result[Any, Any]]]:
     yield "block", make("honeycomb", size=20, height=3)
     yield "exact", make("concentric-heart", size=20, height=3, stamp="exact", hearts=2)
     yield "not measured", make("honeycomb", size=1.8, cell=1.35, height=1)
-    yield "mask", smooth_volume(BALL)
-    yield "phase", smooth_volume(np.where(BALL, 1.0, -1.0))
-    yield "labels", smooth_volume(LABELS, label=(3, 4), allow_broken=True)
-    yield "threshold", smooth_volume(GREY, threshold=300.0)
-    yield "grey", smooth_volume(GREY, threshold=300.0, grey=True, level=0)
-    yield "range", smooth_volume(GREY, threshold=(300.0, 900.0), allow_broken=True)
-    yield "otsu", smooth_volume(GREY, threshold="otsu")
-    yield "lost", smooth_volume(FIN, smoothing=Smoothing(steps=40), method="plain", allow_broken=True)
-    yield "mesh", smooth_mesh(SPHERE, resolution=24, refine=True, despeckle=1.0)
+    yield "mask", smooth_volume(BALL, tolerance=None)
+    yield "phase", smooth_volume(np.where(BALL, 1.0, -1.0), tolerance=None)
+    yield "labels", smooth_volume(LABELS, label=(3, 4), allow_broken=True, tolerance=None)
+    yield "threshold", smooth_volume(GREY, threshold=300.0, tolerance=None)
+    yield "grey", smooth_volume(GREY, threshold=300.0, grey=True, level=0, tolerance=None)
+    yield "range", smooth_volume(GREY, threshold=(300.0, 900.0), allow_broken=True, tolerance=None)
+    yield "otsu", smooth_volume(GREY, threshold="otsu", tolerance=None)
+    yield "lost", smooth_volume(FIN, smoothing=Smoothing(steps=40), method="plain", allow_broken=True, tolerance=None)
+    yield "mesh", smooth_mesh(SPHERE, resolution=24, refine=True, despeckle=1.0, tolerance=None)
     yield "simplified", smooth_mesh(SPHERE, resolution=24, tolerance=0.3)
-    yield "facets", smooth_mesh(trimesh.creation.icosphere(1, 15.0), resolution=40)
+    yield "facets", smooth_mesh(trimesh.creation.icosphere(1, 15.0), resolution=40, tolerance=None)
     yield "few", smooth_mesh(SPHERE, resolution=24, max_triangles=500)
-    yield "points", smooth_points(CLOUD, voxel=1.0)
-    yield "shell", smooth_points(CLOUD, voxel=1.0, shell=3.0)
+    yield "points", smooth_points(CLOUD, voxel=1.0, tolerance=None)
+    yield "shell", smooth_points(CLOUD, voxel=1.0, shell=3.0, tolerance=None)
 
 
 @pytest.fixture(scope="module")
@@ -142,8 +142,8 @@ def labels_reports(folder: Path, results: Results) -> dict[str, Any]:
     np.save(folder / "labels.npy", LABELS)
     words = ["--spacing", 1, "--each-label", "--allow-broken", "-o", folder / "a.3mf"]
     return {
-        "absent": smooth_labels(segmentation, allow_broken=True).report,
-        "failed": smooth_labels(speck, allow_broken=True, despeckle=2.0, keep_going=True).report,
+        "absent": smooth_labels(segmentation, allow_broken=True, tolerance=None).report,
+        "failed": smooth_labels(speck, allow_broken=True, despeckle=2.0, keep_going=True, tolerance=None).report,
         "command": printed("smooth", folder / "labels.npy", *words),
     }
 
@@ -154,7 +154,7 @@ def components_reports(folder: Path, results: Results) -> dict[str, Any]:
     mesh.export(folder / "a.stl")
     words = ["--voxel", 1, "--by-component", "--allow-broken", "-o", folder / "b.stl"]
     return {
-        "failed": smooth_mesh(mesh, voxel=1.0, by_component=True, allow_broken=True).report,
+        "failed": smooth_mesh(mesh, voxel=1.0, by_component=True, allow_broken=True, tolerance=None).report,
         "command": printed("smooth", folder / "a.stl", *words),
     }
 

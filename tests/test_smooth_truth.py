@@ -38,7 +38,7 @@ def surface_of(mesh: trimesh.Trimesh) -> Surface:
 
 @cache
 def smoothed(name: str) -> Any:
-    return smooth_mesh(surface_of(SHAPES[name].mesh), voxel=VOXELS[name], allow_broken=True)
+    return smooth_mesh(surface_of(SHAPES[name].mesh), voxel=VOXELS[name], allow_broken=True, tolerance=None)
 
 
 def points_on(mesh: trimesh.Trimesh, seed: int = 5) -> NDArray[np.float64]:
@@ -104,7 +104,7 @@ def test_faces_of_boxes_keep_their_place(cells: int, *, turn: bool, rng: np.rand
         frame = trimesh.transformations.random_rotation_matrix(rng.random(3))
     frame[:3, 3] = rng.uniform(-3, 3, 3)
     mesh.apply_transform(frame)
-    result = smooth_mesh(surface_of(mesh), voxel=1.0)
+    result = smooth_mesh(surface_of(mesh), voxel=1.0, tolerance=None)
     assert result.report["verdict"]["word"] == "kept"
     own = (result.surface.vertices - frame[:3, 3]) @ frame[:3, :3]
     for axis in range(3):
@@ -117,9 +117,9 @@ def test_faces_of_boxes_keep_their_place(cells: int, *, turn: bool, rng: np.rand
 
 @pytest.mark.slow
 def test_walls_of_one_voxel_and_holes_of_one_and_a_half_survive() -> None:
-    plate = smooth_mesh(surface_of(box(50, 40, 1.0)), voxel=1.0).report
+    plate = smooth_mesh(surface_of(box(50, 40, 1.0)), voxel=1.0, tolerance=None).report
     assert (plate["verdict"]["word"], plate["topology"]["result"]["tunnels"]) == ("kept", 0)
-    holes = smooth_mesh(surface_of(plate_with_holes(3.0, 2.0)), voxel=1.0).report
+    holes = smooth_mesh(surface_of(plate_with_holes(3.0, 2.0)), voxel=1.0, tolerance=None).report
     assert (holes["verdict"]["word"], holes["topology"]["result"]["tunnels"]) == ("kept", 6)
 
 
@@ -147,7 +147,7 @@ def assemblies(draw: st.DrawFn) -> trimesh.Trimesh:
 @given(assemblies())
 def test_no_loss_is_called_kept(mesh: trimesh.Trimesh) -> None:
     """Whatever is given: points found by trimesh that lie far away are told."""
-    result = smooth_mesh(surface_of(mesh), voxel=1.0, allow_broken=True)
+    result = smooth_mesh(surface_of(mesh), voxel=1.0, allow_broken=True, tolerance=None)
     if result.report["verdict"]["word"] == "kept":
         assert apart(mesh, result.mesh) < FAR + DENSE
 
@@ -184,7 +184,7 @@ def test_every_place_that_is_lost_counts() -> None:
 def test_a_loss_planted_in_the_field_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """As if smoothing had eaten a corner: the report compares with what was given, not with a stage in between."""
     eaten = surface_of(box(40, 30, 20))
-    assert smooth_mesh(eaten, voxel=1.0).report["verdict"]["word"] == "kept"
+    assert smooth_mesh(eaten, voxel=1.0, tolerance=None).report["verdict"]["word"] == "kept"
     whole = refining.refine_bricks
 
     def refine(values: NDArray[Any], *words: Any, **options: Any) -> Any:
@@ -195,8 +195,8 @@ def test_a_loss_planted_in_the_field_is_refused(monkeypatch: pytest.MonkeyPatch)
 
     monkeypatch.setattr(attempt, "refine_bricks", refine)
     with pytest.raises(GeometryError, match=r"mm² of the input \(.*%\) is missing, up to .* mm away, at \(-"):
-        smooth_mesh(eaten, voxel=1.0)
-    result = smooth_mesh(eaten, voxel=1.0, allow_broken=True)
+        smooth_mesh(eaten, voxel=1.0, tolerance=None)
+    result = smooth_mesh(eaten, voxel=1.0, allow_broken=True, tolerance=None)
     assert result.report["verdict"]["word"] == "lost"
     assert result.report["verdict"]["lost"][0]["distance"] > 2
 
@@ -204,13 +204,13 @@ def test_a_loss_planted_in_the_field_is_refused(monkeypatch: pytest.MonkeyPatch)
 @pytest.mark.slow
 def test_faces_hidden_inside_are_no_loss_and_sheets_are_told() -> None:
     both = together(box(20, 16, 12), box(10, 30, 6, (2, 3, 1)))
-    report = smooth_mesh(surface_of(both), voxel=1.0).report
+    report = smooth_mesh(surface_of(both), voxel=1.0, tolerance=None).report
     assert report["problems"] == []
     (united,) = report["verdict"]["changes"]
     assert united.startswith("the mesh has 2 components, some of which overlap or touch, and the result 1")
     assert report["distance"]["hidden"] > 100
     sheet = trimesh.Trimesh([[0, 0, 20], [9, 0, 20], [0, 9, 20]], [[0, 1, 2], [0, 2, 1]], process=False)
-    report = smooth_mesh(surface_of(together(box(20, 16, 12), sheet)), voxel=1.0).report
+    report = smooth_mesh(surface_of(together(box(20, 16, 12), sheet)), voxel=1.0, tolerance=None).report
     assert report["verdict"]["word"] == "changed a little"
     assert any("of faces that bound no solid are left out" in change for change in report["verdict"]["changes"])
 
@@ -219,23 +219,28 @@ def test_faces_hidden_inside_are_no_loss_and_sheets_are_told() -> None:
 def test_finer_voxels_are_tried_where_something_thin_would_be_lost() -> None:
     """A fin of half a voxel at 200 voxels: kept at 400, and told."""
     part = union(box(100, 20, 20), box(0.4, 20, 30, (0, 0, 20)))
-    report = smooth_mesh(surface_of(part)).report
+    report = smooth_mesh(surface_of(part), tolerance=None).report
     assert report["verdict"]["tried"][0] == "refine"
     assert report["verdict"]["taken"].endswith("voxels")
     assert report["verdict"]["word"] != "lost"
     with pytest.raises(GeometryError, match=r"of the input \(.*%\) is missing.*leave out --strict"):
-        smooth_mesh(surface_of(union(box(100, 20, 20), box(0.1, 20, 30, (0, 0, 20)))), resolution=50, strict=True)
+        smooth_mesh(
+            surface_of(union(box(100, 20, 20), box(0.1, 20, 30, (0, 0, 20)))),
+            resolution=50,
+            strict=True,
+            tolerance=None,
+        )
 
 
 @pytest.mark.slow
 def test_crumbs_are_taken_out_and_real_parts_stay() -> None:
     """Balls of one voxel beside a plate that breaks up into crumbs: each is a part of the mesh, and stays."""
     plate = turned(box(50, 40, 0.9), np.random.default_rng(1))
-    report = smooth_mesh(surface_of(plate), voxel=1.0, allow_broken=True, method="plain").report
+    report = smooth_mesh(surface_of(plate), voxel=1.0, allow_broken=True, method="plain", tolerance=None).report
     removed = report["verdict"]["crumbs"]
     assert removed["limit"] == pytest.approx(8)
     small = together(box(30, 20, 20), box(2, 2, 2, (30, 0, 0)), box(2, 2, 2, (0, 30, 0)))
-    assert smooth_mesh(surface_of(small), voxel=1.0).report["components"] == 3
+    assert smooth_mesh(surface_of(small), voxel=1.0, tolerance=None).report["components"] == 3
 
 
 @pytest.mark.slow
@@ -244,12 +249,12 @@ def test_thick_slices_are_interpolated() -> None:
     shape, size = (50, 50, 10), np.array([1.0, 1.0, 5.0])
     places = (np.indices(shape) + 0.5 - np.reshape(np.array(shape) / 2, (3, 1, 1, 1))) * np.reshape(size, (3, 1, 1, 1))
     solid = (places**2).sum(axis=0) < 20**2
-    result = smooth_volume(solid, spacing=tuple(size))
+    result = smooth_volume(solid, spacing=tuple(size), tolerance=None)
     assert result.report["input"]["slices"] == 5
     assert result.report["grid"]["spacing"] == [1.0, 1.0, 1.0]
     middle = np.array(shape) * size / 2
     off = np.linalg.norm(result.surface.vertices - middle, axis=1) - 20
-    plain = smooth_volume(solid[:, :, ::1], spacing=1.0).surface
+    plain = smooth_volume(solid[:, :, ::1], spacing=1.0, tolerance=None).surface
     stretched = (plain.vertices - np.array(shape) / 2) * size
     assert off.std() < 0.7 * (np.linalg.norm(stretched, axis=1) - 20).std()
 
@@ -258,7 +263,7 @@ def test_thick_slices_are_interpolated() -> None:
 @pytest.mark.parametrize(("share", "method"), [(0.0, "refine"), (0.1, "plain")])
 def test_noise_is_measured_and_smoothed_plainly(share: float, method: str, rng: np.random.Generator) -> None:
     solid = ((np.indices((60, 60, 60)) - 29.5) ** 2).sum(axis=0) < 22**2
-    report = smooth_volume(solid ^ (rng.random(solid.shape) < share), allow_broken=True).report
+    report = smooth_volume(solid ^ (rng.random(solid.shape) < share), allow_broken=True, tolerance=None).report
     assert report["request"]["method"] == method
     assert (report["input"]["noise"] > NOISY) == (method == "plain")
 
@@ -266,5 +271,5 @@ def test_noise_is_measured_and_smoothed_plainly(share: float, method: str, rng: 
 def test_a_radius_in_mm_is_a_number_of_steps() -> None:
     solid = ((np.indices((40, 40, 40)) - 19.5) ** 2).sum(axis=0) < 15**2
     for spacing in (0.5, 1.0):
-        report = smooth_volume(solid, spacing=spacing, radius=2.0 * spacing).report
+        report = smooth_volume(solid, spacing=spacing, radius=2.0 * spacing, tolerance=None).report
         assert report["request"]["steps"] == 14  # 3.5 times the square of two cells

@@ -74,22 +74,22 @@ def test_specks_that_make_up_the_volume_are_lost_and_the_advice_works(rng: np.ra
     with pytest.raises(
         GeometryError, match=r"the volume is \d+\.\d% too small.*walls or gaps one voxel thick"
     ) as caught:
-        smooth_volume(solid)
+        smooth_volume(solid, tolerance=None)
     advice = re.search(
         r"give --despeckle (\S+), which takes out (\d+) specks, or give --allow-broken", str(caught.value)
     )
     assert advice
     assert "finer" not in str(caught.value)
-    report = smooth_volume(solid, despeckle=float(advice[1])).report
+    report = smooth_volume(solid, despeckle=float(advice[1]), tolerance=None).report
     assert report["verdict"]["word"] != "lost"
     assert report["input"]["despeckled"] == int(advice[2])
     assert any(change.startswith(f"{advice[2]} specks of up to 27 mm³") for change in report["verdict"]["changes"])
-    assert smooth_volume(solid, allow_broken=True).report["verdict"]["word"] == "lost"
+    assert smooth_volume(solid, allow_broken=True, tolerance=None).report["verdict"]["word"] == "lost"
 
 
 def test_noise_is_no_loss_and_is_called_noise(rng: np.random.Generator) -> None:
     solid = ((np.indices((44, 44, 44)) - 21.5) ** 2).sum(axis=0) < 15**2
-    verdict = smooth_volume(speckled(solid, 0.08, rng)).report["verdict"]
+    verdict = smooth_volume(speckled(solid, 0.08, rng), tolerance=None).report["verdict"]
     assert verdict["word"] == "changed a little"
     (noise,) = [change for change in verdict["changes"] if change.startswith("noise")]
     assert re.fullmatch(r"noise, up to 3 voxels thick, is gone, [\d,]+ mm² \(\d+%\) of the surface of the input", noise)
@@ -101,11 +101,11 @@ def test_a_plate_that_becomes_a_sieve_is_lost_and_the_advice_works() -> None:
     """Eight holes that become many, and with finer voxels eight again."""
     plate = surface_of(turned(wing(0.9), np.random.default_rng(2)))
     with pytest.raises(GeometryError, match=r"\d+ pinholes broke through walls, beside 8 holes") as caught:
-        smooth_mesh(plate, voxel=1.0)
+        smooth_mesh(plate, voxel=1.0, tolerance=None)
     assert str(caught.value).count("holes") == 2  # one sentence says it
     advice = re.search(r"give --voxel (\S+), or give --allow-broken", str(caught.value))
     assert advice
-    report = smooth_mesh(plate, voxel=float(advice[1])).report
+    report = smooth_mesh(plate, voxel=float(advice[1]), tolerance=None).report
     assert report["topology"]["result"]["tunnels"] == 8
     assert report["verdict"]["word"] != "lost"
 
@@ -114,7 +114,7 @@ def test_a_plate_that_becomes_a_sieve_is_lost_and_the_advice_works() -> None:
 def test_a_plate_that_would_become_a_sieve_gets_finer_voxels(monkeypatch: pytest.MonkeyPatch) -> None:
     for module in (meshes, from_mesh):
         monkeypatch.setattr(module, "RESOLUTION", 50)
-    report = smooth_mesh(surface_of(turned(wing(0.9), np.random.default_rng(2)))).report
+    report = smooth_mesh(surface_of(turned(wing(0.9), np.random.default_rng(2))), tolerance=None).report
     assert report["verdict"]["tried"][0] == "refine"
     assert report["verdict"]["taken"] in ("75 voxels", "100 voxels", "150 voxels")
     assert report["topology"]["result"]["tunnels"] == 8
@@ -143,7 +143,7 @@ def test_large_and_small_numbers_have_no_exponent() -> None:
 
 def test_the_picture_has_the_areas_of_the_verdict(rng: np.random.Generator) -> None:
     solid = speckled(vessels(36, rng) < 0, 0.006, rng)
-    result = smooth_volume(solid, allow_broken=True)
+    result = smooth_volume(solid, allow_broken=True, tolerance=None)
     verdict = result.report["verdict"]
     data, far = result.stages.staircase(), verdict["far"]
     assert far == 2.0
@@ -171,8 +171,8 @@ def slab() -> NDArray[np.bool_]:
 
 def test_more_fidelity_is_advised_where_it_helps() -> None:
     with pytest.raises(GeometryError, match=r"give --fidelity 1, or give --allow-broken to have it anyway$"):
-        smooth_volume(slab(), method="plain", smoothing=Smoothing(steps=60))
-    held = smooth_volume(slab(), method="plain", smoothing=Smoothing(steps=60, fidelity=1.0)).report
+        smooth_volume(slab(), method="plain", smoothing=Smoothing(steps=60), tolerance=None)
+    held = smooth_volume(slab(), method="plain", smoothing=Smoothing(steps=60, fidelity=1.0), tolerance=None).report
     assert held["verdict"]["word"] != "lost"
 
 
@@ -180,13 +180,13 @@ def test_nothing_is_advised_that_does_not_help() -> None:
     """A fin of a fiftieth of a voxel: three times as many voxels lose it, too."""
     fin = union(box(30, 12, 8), box(0.02, 12, 12, (0, 0, 8)))
     with pytest.raises(GeometryError, match=r"is missing, up to [\d.]+ mm away, at \([^()]*\); give --allow-broken to"):
-        smooth_mesh(surface_of(turned(fin, np.random.default_rng(2))), voxel=1.0)
+        smooth_mesh(surface_of(turned(fin, np.random.default_rng(2))), voxel=1.0, tolerance=None)
 
 
 def test_strict_is_advised_against() -> None:
     with pytest.raises(GeometryError, match="leave out --strict, so that other ways are tried, or give --allow-broken"):
-        smooth_volume(slab(), method="plain", smoothing=Smoothing(steps=60), strict=True)
-    assert smooth_volume(slab(), smoothing=Smoothing(steps=60)).report["verdict"]["word"] != "lost"
+        smooth_volume(slab(), method="plain", smoothing=Smoothing(steps=60), strict=True, tolerance=None)
+    assert smooth_volume(slab(), smoothing=Smoothing(steps=60), tolerance=None).report["verdict"]["word"] != "lost"
 
 
 # --- crumbs ----------------------------------------------------------------------------------------------
@@ -195,10 +195,10 @@ def test_strict_is_advised_against() -> None:
 def test_spikes_leave_no_crumbs_beside_a_small_body() -> None:
     """A body of some voxels in the file does not keep what broke off the spikes of another."""
     mesh = together(turned(spiked(), np.random.default_rng(2)), box(2, 2, 2, (60, 3, 2)))
-    result = smooth_mesh(surface_of(mesh), voxel=1.0, allow_broken=True)
+    result = smooth_mesh(surface_of(mesh), voxel=1.0, allow_broken=True, tolerance=None)
     assert sorted(np.abs([piece.volume for piece in result.mesh.split()]) > 3) == [True, True]
     assert result.report["verdict"]["crumbs"]["removed"] > 10
-    kept = smooth_mesh(surface_of(mesh), voxel=1.0, allow_broken=True, crumbs=0.0)
+    kept = smooth_mesh(surface_of(mesh), voxel=1.0, allow_broken=True, crumbs=0.0, tolerance=None)
     assert len(kept.mesh.split(only_watertight=False)) > 10
 
 
@@ -206,7 +206,7 @@ def test_a_noisy_scan_of_vessels_leaves_no_dust() -> None:
     """No piece, and no cavity, of an eighth of a voxel."""
     rng = np.random.default_rng(0)
     grey = 200 * np.clip(0.5 - vessels(28, rng), 0, 1) + rng.normal(0, 34, (28,) * 3)
-    options: dict[str, Any] = {"threshold": "otsu", "allow_broken": True}
+    options: dict[str, Any] = {"threshold": "otsu", "allow_broken": True, "tolerance": None}
     result, whole = smooth_volume(grey, **options), smooth_volume(grey, crumbs=0.0, **options)
     volumes, all_volumes = (
         np.array([piece.volume for piece in each.mesh.split(only_watertight=False)]) for each in (result, whole)
@@ -222,18 +222,20 @@ def test_what_is_left_of_a_vanished_speck_is_a_crumb_and_a_small_part_that_stays
     line, cube = solid.copy(), solid.copy()
     line[30, 14, 10:17] = cube[30:32, 14:16, 14:16] = True
     steps = Smoothing(steps=4)
-    kept = smooth_volume(line, smoothing=steps, crumbs=0.0).report
+    kept = smooth_volume(line, smoothing=steps, crumbs=0.0, tolerance=None).report
     assert (kept["components"], kept["verdict"]["crumbs"]["removed"]) == (2, 0)
-    cleaned = smooth_volume(line, smoothing=steps).report
+    cleaned = smooth_volume(line, smoothing=steps, tolerance=None).report
     assert (cleaned["components"], cleaned["verdict"]["crumbs"]["removed"]) == (1, 1)
     assert "1 crumb of up to 8 voxels taken out" in cleaned["verdict"]["changes"]
-    small = smooth_volume(cube, smoothing=steps).report
+    small = smooth_volume(cube, smoothing=steps, tolerance=None).report
     assert (small["components"], small["verdict"]["word"]) == (2, "kept")
 
 
 def test_bodies_that_become_one_get_the_hint_that_keeps_them_apart() -> None:
     """Two boxes that neither touch nor overlap, nearer to one another than a voxel."""
     pair = surface_of(together(box(8, 8, 8), box(8, 8, 8, (8.3, 0, 0))))
-    (change,) = [c for c in smooth_mesh(pair, voxel=1.0).report["verdict"]["changes"] if "components" in c]
+    (change,) = [
+        c for c in smooth_mesh(pair, voxel=1.0, tolerance=None).report["verdict"]["changes"] if "components" in c
+    ]
     assert change == "the mesh has 2 components, the result 1; --by-component keeps them apart"
-    assert len(smooth_mesh(pair, voxel=1.0, by_component=True).surfaces) == 2
+    assert len(smooth_mesh(pair, voxel=1.0, by_component=True, tolerance=None).surfaces) == 2

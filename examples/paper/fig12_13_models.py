@@ -38,7 +38,13 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         phi = smooth(f, Smoothing(steps=STEPS), method="sparse")
         plain, kept, refined = (
             smooth_volume(
-                f > 0, spacing=h, smoothing=Smoothing(steps=STEPS), level=level, refine=refine, allow_broken=True
+                f > 0,
+                spacing=h,
+                smoothing=Smoothing(steps=STEPS),
+                level=level,
+                refine=refine,
+                allow_broken=True,
+                tolerance=None,
             )
             for level, refine in ((0, False), ("volume", False), ("volume", True))
         )

@@ -30,7 +30,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         bone = models.surface(name)
         points, _ = trimesh.sample.sample_surface(bone.to_trimesh(), count, seed=19)
         voxel = float(np.ptp(bone.vertices, axis=0).max()) / cells
-        shell = {"voxel": voxel, "shell": WIDTH * voxel, "allow_broken": True}
+        shell = {"voxel": voxel, "shell": WIDTH * voxel, "allow_broken": True, "tolerance": None}
         result = smooth_points(points, smoothing=Smoothing(steps=STEPS), method="plain", **shell)
         refined = smooth_points(points, refine=True, **shell)
         report, raw, counts = result.report, result.stages.staircase(), result.report["topology"]

@@ -95,7 +95,7 @@ def smooth_volume(
     strict : bool
         Try no remedies, and raise if anything breaks, fuses or vanishes.
     tolerance, max_triangles : float (mm) or "auto", and int, optional
-        Simplify the mesh; "auto" moves it by at most a tenth of a cell.
+        Simplify the mesh: "auto", the default, moves it by at most a tenth of a cell; 0 or None keeps all triangles.
     threads, max_memory : int, optional
         Threads and bytes to use; by default, all that are available.
     progress : callable, optional

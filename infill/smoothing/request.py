@@ -81,7 +81,7 @@ class SmoothRequest:
     crumbs: float | None = None
     allow_broken: bool = False
     strict: bool = False
-    tolerance: float | Literal["auto"] | None = None
+    tolerance: float | Literal["auto"] | None = AUTO
     max_triangles: int | None = None
     threads: int | None = None
     max_memory: int | None = None
@@ -101,7 +101,9 @@ class SmoothRequest:
             object.__setattr__(self, "radius", check_positive("radius", self.radius, "mm"))
         if isinstance(self.tolerance, str) and self.tolerance != AUTO:
             raise UsageError.about("tolerance", f"is {self.tolerance!r}; give a number of mm, or auto")
-        if self.tolerance is not None and not isinstance(self.tolerance, str):
+        if self.tolerance == 0:
+            object.__setattr__(self, "tolerance", None)
+        elif self.tolerance is not None and not isinstance(self.tolerance, str):
             check_positive("tolerance", self.tolerance, "mm")  # before the work
         if self.crumbs is not None:
             object.__setattr__(self, "crumbs", check_range("crumbs", self.crumbs, 0, math.inf, "mm³"))

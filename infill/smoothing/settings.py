@@ -310,7 +310,7 @@ class SmoothSettings:
             "method": self.chosen_method,
             "refine": None,  # `method` says it
             "radius": self.smooth_radius,
-            "tolerance": "auto" if self.tolerance is None else self.tolerance or None,
+            "tolerance": "auto" if self.tolerance is None else self.tolerance,
         }
         return cast("SmoothOptions", shared)
 
