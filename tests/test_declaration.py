@@ -147,7 +147,7 @@ def test_the_keywords_of_fill_are_its_options() -> None:
     declared["as_"] = declared.pop("form") or "solid"
     python = keywords(infill.fill)
     assert {name: python.pop(name) for name in declared} == declared
-    assert set(python) == {"part", "shell", "meshing", "threads", "max_memory", "progress"}
+    assert set(python) == {"part", "for_", "shell", "meshing", "threads", "max_memory", "progress"}
 
 
 @pytest.mark.longest

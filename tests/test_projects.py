@@ -592,3 +592,19 @@ def test_paths_out_of_a_package_lead_nowhere(tmp_path: Path) -> None:
 
         read_attached_settings(path)
     assert sorted(each.name for each in tmp_path.rglob("*")) == ["a.3mf", "in", "secret.model"]
+
+
+@pytest.mark.slow
+def test_a_part_is_filled_for_a_slicer(tmp_path: Path) -> None:
+    """Python's for_ is the command's --for: the slicer is kept until the project is written."""
+    result = fill(box(12, 12, 8), for_="prusa", voxel=0.6)
+    path = save_project(result, tmp_path / "a.3mf")
+    named = save_project(result, tmp_path / "b.3mf", slicer="prusaslicer", title="a")
+    assert path.read_bytes() == named.read_bytes()
+    assert save_project(result, tmp_path / "c.3mf", slicer="cura", title="a").read_bytes() != path.read_bytes()
+    with pytest.raises(UsageError, match="slicer is missing; choose from prusaslicer"):
+        save_project(fill(box(12, 12, 8), as_="project", voxel=0.6), tmp_path / "d.3mf")
+    with pytest.raises(UsageError, match="for is 'slic3r'"):
+        fill(box(12, 12, 8), for_="slic3r")
+    with pytest.raises(UsageError, match="for is 'cura', which makes a project, and as is 'infill'"):
+        fill(box(12, 12, 8), as_="infill", for_="cura")

@@ -14,6 +14,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from infill.errors import UsageError
 from infill.formats.units import to_surface
 from infill.interior.interior import BYTES_PER_CELL, Interior, added_length, grid_for_part
 from infill.interior.opening import clip_to_opening, cut_open
@@ -27,6 +28,7 @@ from infill.lattices.projected import ProjectInfill, make_project_infill
 from infill.lattices.quality_checks import SolidMeasures, find_problems, measure_solid
 from infill.lattices.regions import Region
 from infill.lattices.request import TOLERANCE, FillSpec, check_request
+from infill.lattices.settings import parse_slicers
 from infill.lattices.sizing import choose_sizes, choose_voxel
 from infill.lattices.stages import FillStages
 from infill.lattices.surfacing import SHARE, extract_inner_side
@@ -57,6 +59,7 @@ def fill(
     line_width: float | None = None,
     wall: float | None = None,
     as_: str = "solid",
+    for_: str | None = None,
     align: str = "part",
     angle: float = 0.0,
     phase: tuple[float, ...] = (0.0, 0.0, 0.0),
@@ -112,7 +115,9 @@ def fill(
         that of the slicer's perimeters: 0.9 by default.
     as_ : {"solid", "infill", "project"}
         Shell and infill as one; the infill alone, which reaches `overlap` into the shell; or the part and the infill as
-        two surfaces for a slicer, which makes the shell itself: the infill goes on to the skin. See `save_project`.
+        two surfaces for a slicer, which makes the shell itself: the infill goes on to the skin.
+    for_ : {"prusaslicer", "orcaslicer", "bambustudio", "cura", "plain"}, optional
+        The slicer that `save_project` writes the project for; implies ``as_="project"``.
     align : {"part", "bed", "body"}
         Where the pattern begins: in the middle of the part, at x = y = 0 on the bottom of the part, or in the middle
         of each of its components.
@@ -204,8 +209,15 @@ def fill(
         keywords = add_group(keywords, "shell", shell)
     if meshing is not None:
         keywords = add_group(keywords, "meshing", meshing)
+    slicer = None
+    if for_ is not None:
+        (slicer,) = parse_slicers("for", for_)
+        if as_ not in ("solid", "project"):
+            raise UsageError.about("for", f"is {slicer!r}, which makes a project, and as is {as_!r}; leave one out")
+        keywords["form"] = "project"
     request = check_request(pattern=pattern, own=parameters, **keywords)
-    return fill_request(to_surface(part), request, threads=threads, max_memory=max_memory, progress=progress)
+    result = fill_request(to_surface(part), request, threads=threads, max_memory=max_memory, progress=progress)
+    return result if slicer is None else replace(result, stages=replace(result.stages, slicer=slicer))
 
 
 def fill_request(

@@ -28,6 +28,8 @@ class FillStages:
         The resulting surface.
     opening : Opening or None
         Where the part has no shell.
+    slicer : str, optional
+        The slicer that a project is for: see `infill.save_project`.
     cuts : tuple of Cut
         Where a picture is cut open; by default where its inside is seen best.
     """
@@ -36,6 +38,7 @@ class FillStages:
     voids: Surface
     shown: Surface
     opening: Opening | None = None
+    slicer: str | None = None
     cuts: tuple[Cut, ...] = ()
 
     def picture(self, surface: Surface, report: Mapping[str, Any]) -> Image.Image:  # noqa: ARG002 - of all stages

@@ -47,18 +47,18 @@ def make_project(result: Result[Any, Any], *, slicer: str, title: str, units: st
 
 
 def save_project(
-    result: Result[Any, Any], path: str | os.PathLike[str], *, slicer: Slicer, title: str | None = None
+    result: Result[Any, Any], path: str | os.PathLike[str], *, slicer: Slicer | None = None, title: str | None = None
 ) -> Path:
     """Write a part and its infill as a project for a slicer.
 
     Parameters
     ----------
     result : Result
-        Of `infill.fill` with ``as_="project"``.
+        Of `infill.fill` with ``for_`` or ``as_="project"``.
     path : str or Path
         A .3mf; an existing file is replaced once the new one is complete.
-    slicer : {"prusaslicer", "orcaslicer", "bambustudio", "cura", "plain"}
-        In "plain", part and infill are two objects without settings.
+    slicer : {"prusaslicer", "orcaslicer", "bambustudio", "cura", "plain"}, optional
+        By default, the one that the part was filled for. In "plain", part and infill are two objects without settings.
     title : str, optional
         Of the object, as the slicer lists it; the name of the file by default.
 
@@ -71,10 +71,13 @@ def save_project(
     FormatError
         For a suffix other than .3mf.
     UsageError
-        For an unknown slicer, or a result that was not filled as a project.
+        For no slicer or an unknown one, or a result that was not filled as a project.
     OutputError
         If the file cannot be written.
     """
+    slicer = getattr(result.stages, "slicer", None) if slicer is None else slicer
+    if slicer is None:
+        raise UsageError.about("slicer", f"is missing; choose from {', '.join(SLICERS)}, or fill with for_")
     write, target = writer_for(slicer), Path(path)
     check_suffix(target)
     project = make_project(result, slicer=slicer, title=target.stem if title is None else title)
