@@ -21,7 +21,7 @@ from infill.meshes.distance import LEAF, TriangleTree
 from infill.meshes.edge_collapse import CornerTable, collapse_edges
 from infill.meshes.hausdorff_samples import CLEAR, SURE, level_faces, match_faces, sample_between_vertices
 from infill.meshes.intersections import count_self_intersections
-from infill.meshes.project_back import MANY_FACES, project_back
+from infill.meshes.project_back import project_back
 from infill.meshes.simplification import simplify_surface
 from infill.surface import Surface
 
@@ -304,7 +304,6 @@ def test_a_vertex_that_strayed_where_all_is_level_is_brought_back() -> None:
     surface, tolerance = made("ball", 40), 0.1
     first = collapse_edges(surface, tolerance=tolerance)
     assert first is not None
-    assert len(first.faces) > MANY_FACES
     strayed = np.array(first.vertices)
     strayed[70] += 3 * tolerance * (strayed[70] - first.bounds.mean(axis=0)) / 20
     found = replace(first, vertices=strayed)

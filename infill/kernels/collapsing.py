@@ -32,6 +32,8 @@ NARROW = 1e-6  # of squared lengths: a ring whose faces cancel out has no side o
 # Distance between the sample points of new edges: squared mean edges and squared tolerances.
 SAMPLE_SPACING, WIDE = 0.05, 4.0
 MAX_HELD_POINTS = 1 << 16  # points on the faces around an edge: where there are more, it stays
+MOST_SWEEPS, LEAST_SWEPT = 12, 0.04  # sweeps without an order of edges, and the share of vertices that one takes
+MOST_AROUND = 12  # corners at a vertex after such a collapse: no vertex grows at the cost of its neighbours
 RETRY_SHARE = 0.005  # of the triangles: while at least this share is removed, edges that stayed are tried again
 
 
@@ -158,6 +160,68 @@ def _reshape_faces(c, vertices, start, twin, ring, ring_size, end_ring, end_ring
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
+def _find_shortest_edge(v, vertices, start, fixed, swept, ring, ring_size, sweep):
+    """Return the corner whose edge leads from a vertex to its nearest free neighbour; -1 if there is none."""
+    best, nearest = math.inf, NO_CORNER
+    for n in range(ring_size):
+        w = start[next_corner(ring[n])]
+        if fixed[w] or swept[w] == sweep:
+            continue
+        squared = squared_length(vertices[v], vertices[w])
+        if squared < best:
+            best, nearest = squared, ring[n]
+    return nearest
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def sweep_short_edges(vertices, start, twin, leaving, name, fixed, quadric, bound, into):
+    """Collapse the shortest edge of vertex after vertex, nowhere twice in a sweep; return the number of vertices gone.
+
+    Takes a third of the time of `collapse` for each edge, as no order is kept: for the many triangles of flat places.
+    Arguments as for `collapse`, with a bound that all these edges are well within.
+    """
+    swept = np.full(len(vertices), NO_CORNER, dtype=np.int32)
+    marked = np.full(name.max() + 1, NO_CORNER, dtype=np.int32)
+    gone, s, place = np.zeros(len(vertices), dtype=np.bool_), np.empty(11), np.empty(3)
+    ring, end_ring = np.empty(MAX_CORNERS, dtype=np.int32), np.empty(MAX_CORNERS, dtype=np.int32)
+    moved, chosen = np.empty((2 * MAX_CORNERS, 3, 3)), np.empty(2 * MAX_CORNERS + 2, dtype=np.int32)
+    step, removed, total = 0, 0, 0
+    for sweep in range(MOST_SWEEPS):
+        total, removed = total + removed, 0
+        for u in range(len(vertices)):
+            if gone[u] or fixed[u] or swept[u] == sweep:
+                continue
+            ring_size = corners_of(u, twin, leaving, ring)
+            if ring_size < 0 or ring_size > MOST_AROUND:
+                continue
+            c = _find_shortest_edge(u, vertices, start, fixed, swept, ring, ring_size, sweep)
+            if c == NO_CORNER:
+                continue
+            v = start[next_corner(c)]
+            if best_place(vertices[u], vertices[v], quadric[u], quadric[v], s, place) > bound * s[10]:
+                continue
+            end_ring_size = corners_of(v, twin, leaving, end_ring)
+            if end_ring_size < 0 or not 3 <= ring_size + end_ring_size - 4 <= MOST_AROUND:
+                continue
+            step += 1
+            if not can_collapse(c, start, twin, leaving, name, ring, ring_size, end_ring, end_ring_size, marked, step):
+                continue
+            _keep_volume(c, vertices, start, twin, ring, ring_size, end_ring, end_ring_size, s, place)
+            sizes = ring_size, end_ring, end_ring_size
+            if _reshape_faces(c, vertices, start, twin, ring, *sizes, place, moved, chosen) == NO_CORNER:
+                continue
+            collapse_edge(c, start, twin, leaving, end_ring, end_ring_size)
+            quadric[u], vertices[u], into[v], gone[v] = s, place, u, True
+            removed += 1
+            swept[u] = sweep
+            for n in range(corners_of(u, twin, leaving, ring)):
+                swept[start[next_corner(ring[n])]] = sweep
+        if removed < LEAST_SWEPT * (len(vertices) - total):
+            break
+    return total + removed
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
 def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corner, tolerance, bound, fewest, into):
     """Collapse edges, cheapest first, while the mesh stays closed and near; return the number of faces that remain.
 
@@ -166,7 +230,7 @@ def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corne
     vertices : (V, 3) float64
         Changed in place.
     start, twin : (3 F,) int32
-        Changed in place: all corners of a removed face become -1.
+        Changed in place: all corners of a removed face become -1, and those of faces that are gone before are.
     leaving : (V,) int32
         One corner of each vertex.
     name : (V,) int32
@@ -196,10 +260,12 @@ def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corne
     original_corners, was_twin, was_leaving = np.empty((0, 3)), twin, leaving
     if bounded:
         original_corners, was_twin, was_leaving = vertices[start], twin.copy(), leaving.copy()
-    edge = 0.0
+    edge, remaining = 0.0, 0
     for c in range(len(start)):
-        edge += squared_length(vertices[start[c]], vertices[start[next_corner(c)]])
-    edge /= max(1, len(start))
+        if start[c] != NO_CORNER:
+            edge += squared_length(vertices[start[c]], vertices[start[next_corner(c)]])
+            remaining += 1
+    edge, remaining = edge / max(1, remaining), remaining // 3
     sample_step = min(SAMPLE_SPACING * edge, WIDE * tolerance)
     queue, ends = np.full((len(start), 3), NO_CORNER, dtype=np.int32), np.full((BUCKETS, 2), NO_CORNER, dtype=np.int32)
     marked = np.full(name.max() + 1, NO_CORNER, dtype=np.int32)
@@ -208,9 +274,9 @@ def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corne
     moved, chosen = np.empty((2 * MAX_CORNERS, 3, 3)), np.empty(2 * MAX_CORNERS + 2, dtype=np.int32)
     goes, goes_to = np.empty(MAX_HELD_POINTS, dtype=np.int32), np.empty(MAX_HELD_POINTS, dtype=np.int32)
     for c in range(len(start)):
-        if c < twin[c]:
+        if c < twin[c] and start[c] != NO_CORNER:
             _update_bucket(c, vertices, start, twin, fixed, quadric, bound, edge, queue, ends, s, place)
-    remaining, before, lowest, step = faces, faces, 0, 0
+    before, lowest, step = remaining, 0, 0
     while remaining > fewest:
         while lowest < BUCKETS and ends[lowest, 0] == NO_CORNER:
             lowest += 1

@@ -15,12 +15,15 @@ import numpy as np
 
 from infill.kernels.compiling import njit
 from infill.kernels.distances import STACK_SIZE, nearest_triangle, squared_distance
-from infill.kernels.quadrics import squared_length
+from infill.kernels.quadrics import normal_and_shape, squared_length
 
 MAX_CUTS = 18  # largest number of cuts of a triangle
 # Ratio of the length of a piece that is barely near to the distance by which its corners are nearer than necessary.
 # At the square root of three, every place on it is near enough, even if the meshes meet at a right angle.
 SLOPE = 10.0
+SLENDER = 0.02  # shape of a triangle whose normal says nothing of its neighbours
+FOLD = 0.5  # of a length: twice the share by which a piece may leave two planes that meet below it
+PIECE_COSINE = 0.995  # the same for a piece of a triangle, of which no edge is sampled: 6 degrees
 LEVEL_COSINE = 0.866  # cosine of the angle, 30 degrees, up to which neighbouring triangles count as level
 
 
@@ -41,99 +44,28 @@ def _is_covered(piece, owners, squared, corners, tolerance):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def sample_faces(
-    vertices,
-    faces,
-    nearest,
-    squared,
-    corners,
-    low,
-    high,
-    leaf,
-    tolerance,
-    enough,
-    coarse,
-    fine,
-    minimum,
-    begin,
-    points,
-    face,
-    owner,
-    squares,
-    thread,
-    threads,
-):
-    """Set points on every `threads`-th triangle, and their nearest triangles; return the number that fit.
+def _is_over_a_fold(owners, farthest, corners, tolerance, length):
+    """Return True if the nearest triangles of a piece's corners fold so little that all of the piece is near them.
 
-    Parameters
-    ----------
-    vertices, faces : (V, 3) float64, (F, 3) int
-    nearest, squared : (V,) int64, (V,) float64
-        The triangle of the other mesh nearest to each vertex, and its squared distance.
-    corners, low, high, leaf
-        The other mesh: see `infill.kernels.distances.nearest_triangles`.
-    tolerance, enough : float
-        Squared distances: the limit of near points, and the one below which the exact distance does not matter.
-    coarse, fine : float
-        Lengths to which pieces are cut: all of them, and those with a corner that is barely near.
-    minimum : float
-        Only points further away than this, a squared distance, are kept.
-    begin : (threads,) int64
-        The first face of each thread; becomes the first one whose points did not fit, or the number of faces.
-    points, face, owner, squares : (threads, P, 3) float64, (threads, P) int32, (threads, P) int64, (threads, P) float64
-        Results: the face that each point lies on, the triangle of the other mesh nearest to it, or any within
-        `enough`, and the squared distance from that triangle.
+    Between its corners, a piece of a length moves away from two planes by at most a quarter of it, times the sine of
+    the angle between them: where the planes meet in the middle.
     """
-    stack, waiting = np.empty(STACK_SIZE, dtype=np.int64), np.empty(STACK_SIZE)
-    room = MAX_CUTS + 2
-    pieces, owners, offs = np.empty((room, 3, 3)), np.empty((room, 3), dtype=np.int64), np.empty((room, 3))
-    depths = np.empty(room, dtype=np.int64)
-    piece, ends, off = np.empty((4, 3)), np.empty(4, dtype=np.int64), np.empty(4)
-    count = 0
-    for f in range(begin[thread], len(faces), threads):
-        before = count
-        for k in range(3):
-            v = faces[f, k]
-            pieces[0, k] = vertices[v]
-            owners[0, k], offs[0, k] = nearest[v], squared[v]
-        depths[0], stack_size = 0, 1
-        while stack_size > 0:
-            stack_size -= 1
-            depth = depths[stack_size]
-            piece[:3], ends[:3], off[:3] = pieces[stack_size], owners[stack_size], offs[stack_size]
-            if depth == MAX_CUTS or _is_covered(piece, ends, off, corners, tolerance):
-                continue
-            k, longest = 0, 0.0
-            for side in range(3):
-                side_length = squared_length(piece[side], piece[(side + 1) % 3])
-                if side_length > longest:
-                    k, longest = side, side_length
-            limit, farthest = coarse, max(off[0], off[1], off[2])
-            if farthest > enough:
-                limit = min(coarse, max(fine, SLOPE * (math.sqrt(tolerance) - math.sqrt(farthest))))
-            if longest <= limit * limit:
-                continue
-            j = (k + 1) % 3
-            for axis in range(3):
-                piece[3, axis] = (piece[k, axis] + piece[j, axis]) / 2
-            x, y, z = piece[3, 0], piece[3, 1], piece[3, 2]
-            off[3], ends[3] = nearest_triangle(x, y, z, ends[k], corners, low, high, leaf, enough, stack, waiting)
-            if off[3] > minimum:
-                if count == points.shape[1]:
-                    begin[thread] = f
-                    return before
-                points[thread, count], face[thread, count] = piece[3], f
-                owner[thread, count], squares[thread, count] = ends[3], off[3]
-                count += 1
-            for half in range(2):  # the middle of the longest side takes the place of one of its ends
-                for corner in range(3):
-                    at = 3 if corner == (j if half == 0 else k) else corner
-                    pieces[stack_size, corner] = piece[at]
-                    owners[stack_size, corner], offs[stack_size, corner] = ends[at], off[at]
-                depths[stack_size] = depth + 1
-                stack_size += 1
-    begin[thread] = len(faces)
-    return count
+    room = math.sqrt(tolerance) - math.sqrt(farthest)
+    if room <= 0:
+        return False
+    least, normals = 1.0, np.empty((3, 3))
+    for k in range(3):
+        triangle = corners[owners[k]]
+        nx, ny, nz, shape = normal_and_shape(triangle[0], triangle[1], triangle[2])
+        if shape < SLENDER:
+            return False
+        twice = math.sqrt(nx * nx + ny * ny + nz * nz)
+        normals[k, 0], normals[k, 1], normals[k, 2] = nx / twice, ny / twice, nz / twice
+    for k in range(3):
+        j = (k + 1) % 3
+        cosine = normals[k, 0] * normals[j, 0] + normals[k, 1] * normals[j, 1] + normals[k, 2] * normals[j, 2]
+        least = min(least, cosine)
+    return least >= LEVEL_COSINE and FOLD * length * math.sqrt(max(0.0, 1 - least * least)) <= room
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
@@ -169,6 +101,151 @@ def _are_separated(triangle, second_triangle, normal, reach):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
+def _is_level(triangle, normal, corners, normals, low, high, leaf, reach, cosine, stack):
+    """Return True if all triangles of a mesh within `reach` of a triangle face the same way, up to a cosine."""
+    first_leaf = (len(low) - 1) // 2
+    stack[0], count = 0, 1
+    while count > 0:
+        count -= 1
+        box, overlaps = stack[count], True
+        for axis in range(3):
+            lower = min(triangle[0, axis], triangle[1, axis], triangle[2, axis]) - reach
+            upper = max(triangle[0, axis], triangle[1, axis], triangle[2, axis]) + reach
+            overlaps = overlaps and low[box, axis] <= upper and high[box, axis] >= lower
+        if not overlaps:
+            continue
+        if box < first_leaf:
+            stack[count], stack[count + 1], count = 2 * box + 1, 2 * box + 2, count + 2
+            continue
+        begin = (box - first_leaf) * leaf
+        for at in range(begin, min(begin + leaf, len(corners))):
+            to = normals[at]
+            if normal[0] * to[0] + normal[1] * to[1] + normal[2] * to[2] >= cosine:
+                continue
+            if _are_separated(triangle, corners[at], normal, reach) or _are_separated(corners[at], triangle, to, reach):
+                continue
+            return False
+    return True
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def sample_faces(
+    vertices,
+    faces,
+    nearest,
+    squared,
+    corners,
+    low,
+    high,
+    leaf,
+    tolerance,
+    enough,
+    coarse,
+    fine,
+    folds,
+    own,
+    reach,
+    minimum,
+    begin,
+    points,
+    face,
+    owner,
+    squares,
+    thread,
+    threads,
+):
+    """Set points on every `threads`-th triangle, and their nearest triangles; return the number that fit.
+
+    Parameters
+    ----------
+    vertices, faces : (V, 3) float64, (F, 3) int
+    nearest, squared : (V,) int64, (V,) float64
+        The triangle of the other mesh nearest to each vertex, and its squared distance.
+    corners, low, high, leaf
+        The other mesh: see `infill.kernels.distances.nearest_triangles`.
+    tolerance, enough : float
+        Squared distances: the limit of near points, and the one below which the exact distance does not matter.
+    coarse, fine : float
+        Lengths to which pieces are cut: all of them, and those with a corner that is barely near.
+    folds : float
+        Length up to which a piece counts as near where its nearest triangles fold little; 0 where triangles of the
+        other mesh may lie between its corners.
+    own : tuple of arrays
+        Triangles of this mesh as for `mark_level_faces`, with their normals: pieces with level ones alone within
+        `reach` are near. None, if such pieces are to be sampled.
+    reach : float
+    minimum : float
+        Only points further away than this, a squared distance, are kept.
+    begin : (threads,) int64
+        The first face of each thread; becomes the first one whose points did not fit, or the number of faces.
+    points, face, owner, squares : (threads, P, 3) float64, (threads, P) int32, (threads, P) int64, (threads, P) float64
+        Results: the face that each point lies on, the triangle of the other mesh nearest to it, or any within
+        `enough`, and the squared distance from that triangle.
+    """
+    stack, waiting = np.empty(STACK_SIZE, dtype=np.int64), np.empty(STACK_SIZE)
+    room = MAX_CUTS + 2
+    pieces, owners, offs = np.empty((room, 3, 3)), np.empty((room, 3), dtype=np.int64), np.empty((room, 3))
+    depths, normal = np.empty(room, dtype=np.int64), np.empty(3)
+    piece, ends, off = np.empty((4, 3)), np.empty(4, dtype=np.int64), np.empty(4)
+    count = 0
+    for f in range(begin[thread], len(faces), threads):
+        before = count
+        for k in range(3):
+            v = faces[f, k]
+            pieces[0, k] = vertices[v]
+            owners[0, k], offs[0, k] = nearest[v], squared[v]
+        depths[0], stack_size = 0, 1
+        while stack_size > 0:
+            stack_size -= 1
+            depth = depths[stack_size]
+            piece[:3], ends[:3], off[:3] = pieces[stack_size], owners[stack_size], offs[stack_size]
+            if depth == MAX_CUTS or _is_covered(piece, ends, off, corners, tolerance):
+                continue
+            k, longest = 0, 0.0
+            for side in range(3):
+                side_length = squared_length(piece[side], piece[(side + 1) % 3])
+                if side_length > longest:
+                    k, longest = side, side_length
+            limit, farthest = coarse, max(off[0], off[1], off[2])
+            if farthest > enough:
+                limit = min(coarse, max(fine, SLOPE * (math.sqrt(tolerance) - math.sqrt(farthest))))
+            if longest <= limit * limit and (
+                longest <= fine * fine or _is_over_a_fold(ends, farthest, corners, tolerance, math.sqrt(longest))
+            ):
+                continue
+            if depth >= 2 and depth % 2 == 0 and len(own[0]):
+                nx, ny, nz, shape = normal_and_shape(piece[0], piece[1], piece[2])
+                twice = math.sqrt(nx * nx + ny * ny + nz * nz)
+                if shape > 0:
+                    normal[0], normal[1], normal[2] = nx / twice, ny / twice, nz / twice
+                    if _is_level(piece[:3], normal, own[0], own[1], own[2], own[3], leaf, reach, PIECE_COSINE, stack):
+                        continue
+            if longest <= folds * folds and _is_over_a_fold(ends, farthest, corners, tolerance, math.sqrt(longest)):
+                continue
+            j = (k + 1) % 3
+            for axis in range(3):
+                piece[3, axis] = (piece[k, axis] + piece[j, axis]) / 2
+            x, y, z = piece[3, 0], piece[3, 1], piece[3, 2]
+            off[3], ends[3] = nearest_triangle(x, y, z, ends[k], corners, low, high, leaf, enough, stack, waiting)
+            if off[3] > minimum:
+                if count == points.shape[1]:
+                    begin[thread] = f
+                    return before
+                points[thread, count], face[thread, count] = piece[3], f
+                owner[thread, count], squares[thread, count] = ends[3], off[3]
+                count += 1
+            for half in range(2):  # the middle of the longest side takes the place of one of its ends
+                for corner in range(3):
+                    at = 3 if corner == (j if half == 0 else k) else corner
+                    pieces[stack_size, corner] = piece[at]
+                    owners[stack_size, corner], offs[stack_size, corner] = ends[at], off[at]
+                depths[stack_size] = depth + 1
+                stack_size += 1
+    begin[thread] = len(faces)
+    return count
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
 def mark_level_faces(corners, normals, low, high, leaf, reach, level, thread, threads):
     """Set True if all triangles within `reach` of every `threads`-th triangle face nearly the same way.
 
@@ -183,32 +260,6 @@ def mark_level_faces(corners, normals, low, high, leaf, reach, level, thread, th
     level : (F,) bool
         The result.
     """
-    first_leaf = (len(low) - 1) // 2
     stack = np.empty(STACK_SIZE, dtype=np.int64)
     for f in range(thread, len(corners), threads):
-        triangle, normal = corners[f], normals[f]
-        level[f] = True
-        stack[0], count = 0, 1
-        while count > 0 and level[f]:
-            count -= 1
-            box, overlaps = stack[count], True
-            for axis in range(3):
-                lower = min(triangle[0, axis], triangle[1, axis], triangle[2, axis]) - reach
-                upper = max(triangle[0, axis], triangle[1, axis], triangle[2, axis]) + reach
-                overlaps = overlaps and low[box, axis] <= upper and high[box, axis] >= lower
-            if not overlaps:
-                continue
-            if box < first_leaf:
-                stack[count], stack[count + 1], count = 2 * box + 1, 2 * box + 2, count + 2
-                continue
-            begin = (box - first_leaf) * leaf
-            for at in range(begin, min(begin + leaf, len(corners))):
-                to = normals[at]
-                if normal[0] * to[0] + normal[1] * to[1] + normal[2] * to[2] >= LEVEL_COSINE:
-                    continue
-                if _are_separated(triangle, corners[at], normal, reach) or _are_separated(
-                    corners[at], triangle, to, reach
-                ):
-                    continue
-                level[f] = False
-                break
+        level[f] = _is_level(corners[f], normals[f], corners, normals, low, high, leaf, reach, LEVEL_COSINE, stack)

@@ -69,6 +69,12 @@ class TriangleTree:
                 level_start = parent_start
         return cls(corners=corners, low=low, high=high, order=order)
 
+    def normals(self) -> Floats:
+        """Return the normal of each triangle, (F, 3) of length 1, or 0 where a triangle has no area."""
+        doubled = np.cross(self.corners[:, 1] - self.corners[:, 0], self.corners[:, 2] - self.corners[:, 0])
+        length = np.linalg.norm(doubled, axis=1, keepdims=True)
+        return np.divide(doubled, length, out=np.zeros_like(doubled), where=length > 0)
+
     def nearest(
         self, points: NDArray[np.floating], *, enough: float = 0.0, threads: int | None = None
     ) -> tuple[Floats, NDArray[np.int64]]:

@@ -20,7 +20,8 @@ Corners = NDArray[np.int32]
 RIDGE_HEIGHT = 0.25  # of the tolerance: edges that rise higher above their neighbours get sample points of their own
 SAMPLE_SPACING = 8.0  # tolerances between these points
 MOST_EDGE_SAMPLES = 16  # of them on an edge
-BLIND_SHARE = 0.1  # of the tolerance, as a mean: edges collapse up to here without any distance being measured
+BLIND_SHARE = 0.15  # of the tolerance, as a mean: edges collapse up to here without any distance being measured
+SWEPT_SHARE = 0.5  # of that bound: edges are swept up to here, without an order
 FEW_TRIANGLES = 64  # triangles: a target of no more than these lets the bound alone say where to stop, in every patch
 PATCH = 30_000  # triangles, whose data fit into the second cache of a processor
 ATTEMPTS = 12
@@ -271,7 +272,7 @@ def _collapse_patch(
     collapsed_into: Corners,
 ) -> None:
     """Collapse edges within one patch of faces (N,); write the result into the arrays of the table."""
-    from infill.kernels.collapsing import collapse
+    from infill.kernels.collapsing import collapse, sweep_short_edges
 
     corners = (3 * faces[:, None] + np.arange(3)).ravel()
     patch_vertices, begin = np.unique(table.start[corners], return_inverse=True)
@@ -287,20 +288,9 @@ def _collapse_patch(
         np.arange(len(patch_vertices), dtype=np.int32),
     )
     no_points, fixed = (np.empty((0, 3)), np.empty(0, dtype=np.int32)), table.fixed[patch_vertices]
-    collapse(
-        points,
-        begin,
-        local_twin,
-        leaving,
-        table.name[patch_vertices],
-        fixed,
-        planes,
-        *no_points,
-        0.0,
-        float(bound),
-        4,
-        local_into,
-    )
+    mesh = points, begin, local_twin, leaving, table.name[patch_vertices], fixed, planes
+    sweep_short_edges(*mesh, SWEPT_SHARE**2 * float(bound), local_into)
+    collapse(*mesh, *no_points, 0.0, float(bound), 4, local_into)
     free = ~fixed  # all others may be those of other patches, too
     vertices[patch_vertices[free]], quadric[patch_vertices[free]], collapsed_into[patch_vertices[free]] = (
         points[free],

@@ -12,10 +12,12 @@ from infill.kernels.threads import in_threads, thread_count
 from infill.meshes.distance import LEAF, TriangleTree
 from infill.surface import Surface
 
+SURE_EDGES = 3.0  # times as far apart are samples on the edges between level faces
 FINER, WIDE = 0.2, 2.0  # sides of the original's triangles, and tolerances: spacing of samples on edges
 # In sides of the original's triangles: largest spacing of samples on the original, and on the result, whose triangles
 # are larger; closer if the tolerance is a large part of a side.
 GIVEN, FOUND, LARGE = 0.3, (0.7, 0.35), 0.3
+FOLDS = 2.0  # sides of the original's triangles: pieces up to this length lie on few triangles of the result
 # Of the tolerance: distances that do not matter, and the smallest spacing of samples.
 SURE, SMALL = 0.6, 0.5
 CLEAR = 2.5  # tolerances around a face, within which only faces level with it may lie
@@ -74,7 +76,14 @@ class HausdorffSamples:
         count = len(original.vertices)
         open_part = replace(original, faces=original.faces[lost[:count][original.faces].any(axis=1)])
         added = sample_between_vertices(
-            tree, open_part, owner[:count], distance[:count], GIVEN * side, tolerance, threads=threads
+            tree,
+            open_part,
+            owner[:count],
+            distance[:count],
+            GIVEN * side,
+            tolerance,
+            folds=FOLDS * side,
+            threads=threads,
         )
         return HausdorffSamples(
             found=result,
@@ -122,7 +131,9 @@ def sample_original(
     """
     vertices = np.asarray(original.vertices, dtype=np.float64)
     distance, owner = tree.nearest(vertices, enough=tolerance, threads=threads)
-    between_samples = sample_between_vertices(tree, original, owner, distance, GIVEN * side, tolerance, threads=threads)
+    between_samples = sample_between_vertices(
+        tree, original, owner, distance, GIVEN * side, tolerance, folds=FOLDS * side, threads=threads
+    )
     return HausdorffSamples(
         found=result,
         points=np.concatenate([vertices, between_samples.points]),
@@ -161,6 +172,8 @@ def sample_between_vertices(
     apart: float,
     tolerance: float,
     *,
+    folds: float = 0.0,
+    own: TriangleTree | None = None,
     all_places: bool = True,
     threads: int | None = None,
 ) -> FaceSamples:
@@ -176,6 +189,10 @@ def sample_between_vertices(
     apart : float, mm
         Largest spacing of samples; they are closer where the other surface is nearly too far away.
     tolerance : float, mm
+    folds : float, mm
+        Length up to which a piece of a face is not sampled where the other surface folds little below it.
+    own : TriangleTree, optional
+        Of all faces of this surface, if pieces of faces that are level as in `level_faces` need no samples.
     all_places : bool
         Whether to return samples within the tolerance as well.
     threads : int, optional
@@ -189,13 +206,26 @@ def sample_between_vertices(
     source = np.ascontiguousarray(surface.vertices, dtype=np.float64), surface.faces, place[owner], distance**2
     target = tree.corners, tree.low, tree.high, LEAF
     threshold = -1.0 if all_places else tolerance**2
-    sizes = tolerance**2, (SURE * tolerance) ** 2, apart, min(apart, SMALL * tolerance)
+    sizes = tolerance**2, (SURE * tolerance) ** 2, apart, min(apart, SMALL * tolerance), folds
+    no_triangles = np.empty((0, 3, 3)), np.empty((0, 3)), np.empty((0, 3)), np.empty((0, 3))
+    around = no_triangles if own is None else (own.corners, own.normals(), own.low, own.high)
     begin, capacity = np.arange(threads), ROOM
     parts = [tuple(array[0] for array in _sample_arrays(1, 0))]
     while (begin < len(surface.faces)).any():
         buffers = _sample_arrays(threads, capacity)
         previous = begin.copy()
-        counts = in_threads(sample_faces, *source, *target, *sizes, threshold, begin, *buffers, threads=threads)
+        counts = in_threads(
+            sample_faces,
+            *source,
+            *target,
+            *sizes,
+            around,
+            CLEAR * tolerance,
+            threshold,
+            begin,
+            *buffers,
+            threads=threads,
+        )
         parts += [tuple(column[n, : counts[n]].copy() for column in buffers) for n in range(threads)]
         if ((begin == previous) & (previous < len(surface.faces))).any():  # the samples of one face do not fit
             capacity *= 2
@@ -235,10 +265,7 @@ def level_faces(surface: Surface, tolerance: float, *, threads: int | None = Non
     from infill.kernels.covering import mark_level_faces
 
     tree, level = TriangleTree.of(surface), np.empty(len(surface.faces), dtype=bool)
-    doubled_normals = np.cross(tree.corners[:, 1] - tree.corners[:, 0], tree.corners[:, 2] - tree.corners[:, 0])
-    length = np.linalg.norm(doubled_normals, axis=1, keepdims=True)
-    normals = np.divide(doubled_normals, length, out=np.zeros_like(doubled_normals), where=length > 0)
-    arguments = tree.corners, normals, tree.low, tree.high, LEAF, CLEAR * tolerance
+    arguments = tree.corners, tree.normals(), tree.low, tree.high, LEAF, CLEAR * tolerance
     in_threads(mark_level_faces, *arguments, level, threads=thread_count(threads))
     by_face = np.empty_like(level)
     by_face[tree.order] = level
@@ -253,6 +280,7 @@ def find_strays(
     tolerance: float,
     *,
     sure: NDArray[np.bool_] | None = None,
+    own: TriangleTree | None = None,
     threads: int | None = None,
 ) -> FaceSamples:
     """Sample some faces of a result; return the samples that lie too far from the original.
@@ -268,9 +296,10 @@ def find_strays(
     unsure = np.arange(len(faces)) if sure is None else np.flatnonzero(~sure)
     apart, unsure_part = FOUND[tolerance > LARGE * side] * side, replace(part, faces=part.faces[unsure])
     interior = sample_between_vertices(
-        tree, unsure_part, owner, distance, apart, tolerance, all_places=False, threads=threads
+        tree, unsure_part, owner, distance, apart, tolerance, own=own, all_places=False, threads=threads
     )
-    points, face = _sample_edges(part, min(FINER * side, WIDE * tolerance), all_faces=len(faces) == len(result.faces))
+    apart_on_edges = min(FINER * side, WIDE * tolerance)
+    points, face = _sample_edges(part, unsure, apart_on_edges, all_faces=len(faces) == len(result.faces))
     edge_away, nearest = tree.nearest(points, enough=tolerance, threads=threads)
     far_edge_points, far_vertices = np.flatnonzero(edge_away > tolerance), np.flatnonzero(distance[used] > tolerance)
     return FaceSamples(
@@ -281,15 +310,21 @@ def find_strays(
     )
 
 
-def _sample_edges(part: Surface, apart: float, *, all_faces: bool) -> tuple[Floats, Integers]:
-    """Sample the edges of a surface, each edge once if `all_faces`; return points (N, 3), mm, and a face at each."""
+def _sample_edges(part: Surface, unsure: Integers, apart: float, *, all_faces: bool) -> tuple[Floats, Integers]:
+    """Sample the edges of a surface, each edge once if `all_faces`; return points (N, 3), mm, and a face at each.
+
+    Edges of unsure faces have samples `apart`, mm, and others fewer.
+    """
     vertices = np.asarray(part.vertices, dtype=np.float64)
     ends = part.faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
     owner = np.repeat(np.arange(len(part.faces)), 3)
     if all_faces:  # the two triangles of an edge run along it in opposite directions
         owner, ends = owner[ends[:, 0] < ends[:, 1]], ends[ends[:, 0] < ends[:, 1]]
     begin, step = vertices[ends[:, 0]], vertices[ends[:, 1]] - vertices[ends[:, 0]]
-    segments = np.maximum(np.ceil(np.linalg.norm(step, axis=1) / apart), 1).astype(np.int64)
+    at_unsure = np.zeros(len(vertices), dtype=bool)
+    at_unsure[part.faces[unsure]] = True
+    spacing = np.where(at_unsure[ends].all(axis=1), apart, SURE_EDGES * apart)
+    segments = np.maximum(np.ceil(np.linalg.norm(step, axis=1) / spacing), 1).astype(np.int64)
     edge = np.repeat(np.arange(len(ends)), segments - 1)
     edge_start = np.cumsum(segments - 1) - (segments - 1)
     share = (np.arange(len(edge)) - edge_start[edge] + 1) / segments[edge]

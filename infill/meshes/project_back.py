@@ -13,7 +13,6 @@ from infill.meshes.intersections import intersecting_pairs
 from infill.surface import Surface
 
 ROUNDS = 12
-MANY_FACES = 256  # faces: up to this many, finding the level ones takes longer than sampling all
 NEAR_EDGE = 0.15  # of a triangle: a place nearer to an edge than this is mended on the edge
 NEAR_CORNER = 0.05, 0.005  # of a triangle: a place nearer to a corner is mended there; in the first rounds, and later
 FIRST_ROUNDS = 3  # rounds: a corner that is moved back and forth by its triangles never comes to rest
@@ -60,6 +59,7 @@ def project_back(
         samples = sample_original(TriangleTree.of(candidate), candidate, original, side, tolerance, threads=threads)
     else:
         samples = known.handed_to(candidate, original, side, tolerance, threads)
+    bent_vertices = np.empty(0, dtype=np.int64)
     assumed_near = np.zeros(len(candidate.faces), dtype=bool)  # faces with everything around them level
     for n in range(ROUNDS):
         if n > 0:
@@ -67,14 +67,19 @@ def project_back(
         changed, owner, points = samples.unsure, samples.owner, samples.points
         missed = np.flatnonzero(samples.away > tolerance)
         assumed_near = np.concatenate([assumed_near, np.zeros(len(candidate.faces) - len(assumed_near), dtype=bool)])
-        assumed_near[changed] = (
-            len(changed) > MANY_FACES and level_faces(candidate, tolerance, threads=threads)[changed]
+        assumed_near[changed] = level_faces(candidate, tolerance, threads=threads)[changed]
+        own = TriangleTree.of(candidate)
+        strays = find_strays(
+            tree, candidate, changed, side, tolerance, sure=assumed_near[changed], own=own, threads=threads
         )
-        strays = find_strays(tree, candidate, changed, side, tolerance, sure=assumed_near[changed], threads=threads)
-        if n > 0 and not len(missed) and not len(strays.points) and assumed_near.any():
-            bent = np.flatnonzero(assumed_near & ~level_faces(candidate, tolerance, threads=threads))
+        if n > 0:
+            bent_vertices = np.union1d(bent_vertices, candidate.faces[changed])
+        if n > 0 and not len(missed) and not len(strays.points):
+            beside = np.isin(candidate.faces, bent_vertices).any(axis=1)  # pieces of them were level before
+            steep = ~level_faces(candidate, tolerance, threads=threads)
+            bent = np.flatnonzero((assumed_near | beside) & steep)
             assumed_near[bent] = False
-            strays = find_strays(tree, candidate, bent, side, tolerance, threads=threads)
+            strays = find_strays(tree, candidate, bent, side, tolerance, own=own, threads=threads)
         if not len(missed) and not len(strays.points):
             samples = replace(samples, unsure=np.empty(0, dtype=np.int64))
             crossing = intersecting_pairs(np.asarray(candidate.vertices), candidate.faces)
