@@ -16,7 +16,7 @@ from infill.kernels.distances import squared_distance
 from infill.kernels.quadrics import normal_and_shape, squared_length
 
 MAX_SAMPLES = 64  # largest number of samples on an edge
-KEEP_SHARE = 0.25  # of a squared tolerance: a point within this stays with its triangle
+KEEP_SHARE = 0.25  # of a squared tolerance: a point within this of a triangle needs no nearer one
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
@@ -62,7 +62,7 @@ def edge_points(vertices, start, twin, height, apart, max_points, points, owner)
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def reassign_points(first_point, next_point, points, tolerance, moved, chosen, changed, goes, goes_to):
-    """Find for each point of some faces, two of which will go, the nearest of the remaining faces.
+    """Find for each point of some faces, two of which will go, a near face among the others: the nearest, or one so near.
 
     Parameters
     ----------
@@ -95,6 +95,8 @@ def reassign_points(first_point, next_point, points, tolerance, moved, chosen, c
                 best, nearest = squared_distance(x, y, z, moved[face, 0], moved[face, 1], moved[face, 2]), face
             if best > KEEP_SHARE * tolerance:
                 for m in range(changed):
+                    if best <= KEEP_SHARE * tolerance:
+                        break
                     if m != face:
                         squared = squared_distance(x, y, z, moved[m, 0], moved[m, 1], moved[m, 2])
                         if squared < best:
