@@ -62,7 +62,7 @@ def edge_points(vertices, start, twin, height, apart, max_points, points, owner)
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def reassign_points(first_point, next_point, points, tolerance, moved, chosen, changed, goes, goes_to):
-    """Find for each point of some faces, two of which will go, a near face among the others: the nearest, or one so near.
+    """Find for each point of some faces, two of which will go, one of the others: the nearest, or one that is near.
 
     Parameters
     ----------
