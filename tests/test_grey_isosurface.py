@@ -10,6 +10,7 @@ import pytest
 from test_command_line import run
 
 from infill import Smoothing, smooth_volume
+from infill.errors import UsageError
 
 pytestmark = pytest.mark.usefixtures("compiled")
 
@@ -59,3 +60,25 @@ def test_the_summary_has_both(tmp_path: Path) -> None:
     (row,) = [line for line in result.stderr.splitlines() if line.startswith("  solid")]
     assert "% of the data, " in row
     assert row.endswith("% of the isosurface of the grey values")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", [np.uint8, np.float32])
+def test_cells_with_the_value_of_the_threshold_are_solid(kind: type) -> None:
+    """Where values are whole numbers: with the surface through such cells, a slab of them was lost."""
+    labels = np.zeros((30, 30, 30), dtype=kind)
+    labels[5:15, 5:25, 5:25], labels[15:20, 5:25, 5:25], labels[20:25, 5:25, 5:25] = 1, 2, 7
+    solid = int((labels >= 1).sum())
+    for grey in (None, False):
+        result = smooth_volume(labels, threshold=1, grey=grey, tolerance=None)
+        assert result.report["input"]["grey"] is (grey is None)
+        assert result.surface.volume == pytest.approx(solid, rel=0.03)
+
+
+def test_grey_levels_can_be_left_out() -> None:
+    values = blurred_ball()
+    kept, left_out = (smooth_volume(values, threshold=500.0, grey=grey, tolerance=None) for grey in (None, False))
+    assert kept.report["input"]["grey"] is True
+    assert left_out.report["input"]["grey"] is False
+    with pytest.raises(UsageError, match="grey is left out, and method is grey"):
+        smooth_volume(values, threshold=500.0, grey=False, method="grey")

@@ -71,9 +71,10 @@ class TriangleTree:
 
     def normals(self) -> Floats:
         """Return the normal of each triangle, (F, 3) of length 1, or 0 where a triangle has no area."""
-        doubled = np.cross(self.corners[:, 1] - self.corners[:, 0], self.corners[:, 2] - self.corners[:, 0])
+        doubled: Floats = np.cross(self.corners[:, 1] - self.corners[:, 0], self.corners[:, 2] - self.corners[:, 0])
         length = np.linalg.norm(doubled, axis=1, keepdims=True)
-        return np.divide(doubled, length, out=np.zeros_like(doubled), where=length > 0)
+        normals: Floats = np.divide(doubled, length, out=np.zeros_like(doubled), where=length > 0)
+        return normals
 
     def nearest(
         self, points: NDArray[np.floating], *, enough: float = 0.0, threads: int | None = None

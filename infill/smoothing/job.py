@@ -30,7 +30,7 @@ from infill.smoothing.meshes import mesh_ways
 from infill.smoothing.points import compare_with_points, points_ways
 from infill.smoothing.remedies import first_sound
 from infill.smoothing.request import SmoothOptions, SmoothRequest
-from infill.smoothing.scans import has_grey_values, threshold_range, volume_ways
+from infill.smoothing.scans import has_grey_values, surface_value, threshold_range, volume_ways
 from infill.smoothing.stages import SmoothStages
 from infill.surface import Surface
 from infill.volume import Volume
@@ -49,7 +49,7 @@ def smooth_volume(
     origin: tuple[float, ...] = (0.0, 0.0, 0.0),
     threshold: float | tuple[float | None, float | None] | Literal["otsu"] | None = None,
     label: int | Sequence[int] | None = None,
-    grey: bool = False,
+    grey: bool | None = None,
     voxel: float | None = None,
     **options: Unpack[SmoothOptions],
 ) -> Result[SmoothStages, SmoothReport]:
@@ -69,8 +69,9 @@ def smooth_volume(
         method.
     label : int or sequence of int, optional
         Cells are solid that have this label, or one of these labels.
-    grey : bool
-        Keep the grey levels around the threshold (2): they show where between two cells the surface lies.
+    grey : bool, optional
+        Keep the grey levels around the threshold (2): they show where between two cells the surface lies. By default,
+        if there are any, and the method is "auto" or "grey".
     voxel : float, optional
         Larger cells than those of the volume, mm: each has the mean of the cells it covers. Smaller features are gone
         before anything is compared.
@@ -138,7 +139,8 @@ def smooth_volume(
     rule = result.report["input"]["segmentation"]
     level = rule.get("low") if rule.get("high") is None else None
     if threshold is not None and level is not None and has_grey_values(volume.values, rule["values"]):
-        compare = partial(compare_with_isosurface, result.surface.volume, volume, float(level), request.threads)
+        surface_level = surface_value(volume, rule)
+        compare = partial(compare_with_isosurface, result.surface.volume, volume, surface_level, request.threads)
         add_late_section(result.report, "isosurface", compare)
     return result
 

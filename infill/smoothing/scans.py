@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal
@@ -9,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.errors import ParameterError
+from infill.errors import ParameterError, UsageError
 from infill.phasefield.schedule import MIN_STEPS
 from infill.plain_numbers import plain_argument, plain_number
 from infill.smoothing.request import AUTO, SmoothInput, SmoothRequest, Way
@@ -37,7 +38,7 @@ def volume_ways(
     *,
     threshold: Threshold = None,
     label: int | Sequence[int] | None = None,
-    grey: bool = False,
+    grey: bool | None = None,
     voxel: float | None = None,
 ) -> list[Way]:
     """List the ways to smooth the solid in a volume, the preferred one first.
@@ -94,7 +95,7 @@ def scan_ways(
     facts: InputKeys,
     request: SmoothRequest,
     *,
-    grey: bool = False,
+    grey: bool | None = None,
     phase: bool = False,
     volume: float | None = None,
 ) -> list[Way]:
@@ -109,8 +110,8 @@ def scan_ways(
     facts : InputKeys
         For the report.
     request : SmoothRequest
-    grey : bool
-        Whether grey levels are requested.
+    grey : bool, optional
+        Whether grey levels are requested, or refused.
     phase : bool
         Whether the values are a phase field, which is smoothed as it is.
     volume : float, optional
@@ -122,17 +123,24 @@ def scan_ways(
         If grey levels are requested without a threshold.
     """
     level = used.get("low") if used.get("high") is None else None
+    if grey is False and request.method == "grey":
+        raise UsageError.about("grey", "is left out, and method is grey; leave one of them out")
     if (grey or request.method == "grey") and level is None:
         raise ParameterError("grey levels are kept around one threshold; give one, or otsu")
     noise = noise_share(np.asarray(solid.values), threads=request.threads)
     method, despeckle, paper = request.method, request.despeckle, False
     if method == AUTO:
-        keeps_grey = level is not None and not phase and has_grey_values(np.asarray(scan.values), used["values"])
+        keeps_grey = (
+            grey is not False
+            and level is not None
+            and not phase
+            and has_grey_values(np.asarray(scan.values), used["values"])
+        )
         paper = request.level != "volume" or request.smoothing.steps < MIN_STEPS
         method = "plain" if noise > NOISY or paper else "grey" if grey or keeps_grey else "refine"
         despeckle = despeckle or (SPECK_CELLS * scan.cell_volume if noise > NOISY and not paper else 0.0)
-    grey = grey or method == "grey"
-    data = scan if phase else scale_grey_values(scan, float(used["low"])) if grey else solid
+    grey = grey is True or method == "grey"
+    data = scan if phase else scale_grey_values(scan, surface_value(scan, used)) if grey else solid
     smooth_input = _scan_input(data, solid, {**facts, "noise": noise, "grey": grey}, request.threads)
     smooth_input = smooth_input if volume is None else replace(smooth_input, volume=volume)
     first = replace(request, method=method, refine=None, despeckle=despeckle)
@@ -174,9 +182,29 @@ def _remedies(request: SmoothRequest, smooth_input: SmoothInput) -> list[Way]:
     return remedies
 
 
+def surface_value(scan: Volume, used: Mapping[str, Any]) -> float:
+    """Return the value at the surface: the threshold, or half a unit below it if all values are whole numbers.
+
+    Cells that have the value of the threshold are solid, not cells that the surface halves.
+
+    >>> whole = Volume(values=np.arange(8).reshape(2, 2, 2))
+    >>> surface_value(whole, {"method": "range", "low": 3.0}), surface_value(whole, {"method": "otsu", "low": 2.5})
+    (2.5, 2.5)
+    """
+    low = float(used["low"])
+    values = np.asarray(scan.values)
+    is_whole = values.dtype.kind in "iu" or not (np.mod(_sample_layers(values), 1) != 0).any()
+    return math.ceil(low) - 0.5 if is_whole and used["method"] == "range" else low
+
+
+def _sample_layers(values: NDArray[Any]) -> NDArray[Any]:
+    """Return some layers of a volume, evenly spaced."""
+    return values[:: max(1, len(values) // SAMPLED_LAYERS)]
+
+
 def has_grey_values(values: NDArray[Any], ends: list[float]) -> bool:
     """Tell whether sampled layers have values between the lowest and the highest: those of a mask have none."""
-    sampled_layers = values[:: max(1, len(values) // SAMPLED_LAYERS)]
+    sampled_layers = _sample_layers(values)
     return bool(((sampled_layers > ends[0]) & (sampled_layers < ends[1])).any())
 
 

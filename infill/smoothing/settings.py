@@ -180,7 +180,15 @@ class SmoothSettings:
             replaces=("threshold", "range", "label"),
         ),
     ] = False
-    grey: Annotated[bool, Option("Keep the grey levels around the threshold.", SOLID, negatable=True)] = False
+    grey: Annotated[
+        bool | None,
+        Option(
+            "Keep the grey levels around the threshold, which show where between two voxels the surface lies.",
+            SOLID,
+            default="if there are any, and little noise",
+            negatable=True,
+        ),
+    ] = None
     by_component: Annotated[
         bool,
         Option(

@@ -62,7 +62,7 @@ class SourceOptions(SmoothOptions, total=False):
     between: tuple[float, ...] | None
     label: tuple[int, ...] | None
     otsu: bool
-    grey: bool
+    grey: bool | None
     by_component: bool
 
 
@@ -229,10 +229,14 @@ def split_options(source: Source, options: SourceOptions) -> tuple[dict[str, Any
     ParameterError
         If an option does not fit the kind of data, or excludes another.
     """
-    given = {name: value for name, value in options.items() if value is not None and value is not False}
+    given = {
+        name: value for name, value in options.items() if value is not None and (value is not False or name == "grey")
+    }
     choice: dict[str, Any] = {name: given[name] for name in CHOICES if name in given}
     shared = {name: value for name, value in options.items() if name not in CHOICES}
     kind = "volume" if isinstance(source, Volume) else "mesh" if isinstance(source, Surface) else "points"
+    if kind != "volume" and choice.get("grey") is False:
+        del choice["grey"]
     if unfit := [name for name in choice if name not in OPTIONS_OF_KIND[kind]]:
         kinds = [candidate for candidate in KINDS if unfit[0] in OPTIONS_OF_KIND[candidate]]
         raise ParameterError.about(
