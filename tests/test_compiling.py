@@ -47,5 +47,5 @@ def test_compiling_is_told_once_in_a_process(tmp_path: Path) -> None:
         )
         for _ in range(2)
     )
-    assert first.stderr == "compiling one: up to a minute, and kept for later runs\n"
+    assert first.stderr == "first use of one: preparing it takes up to a minute, only once\n"
     assert second.stderr == ""  # found compiled

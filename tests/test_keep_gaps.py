@@ -31,7 +31,8 @@ CURA: Mapping[str, Mapping[str, object]] = {
 def sliced(engine: str, pattern: str, density: int, folder: Path) -> Path:
     part, path = box(folder, (30, 30, 1.4)), folder / "print.gcode"
     if engine == "prusa":
-        skins = {"top_solid_layers": 2, "bottom_solid_layers": 2}
+        # Not a board of 8 bits, whose paths have fewer segments and touch the walls a little less.
+        skins = {"top_solid_layers": 2, "bottom_solid_layers": 2, "gcode_flavor": "marlin2"}
         return prusa_print(part, path, {"fill_pattern": pattern, "fill_density": f"{density}%", **skins})
     skins = {"top_layers": 2, "bottom_layers": 2, "initial_bottom_layers": 2}
     apart = round(45 / density, 3)

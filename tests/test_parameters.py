@@ -424,7 +424,7 @@ def test_the_help_of_make_stays_short(sixty: dict[str, str], columns: str) -> No
     assert listed.count("made-") == 60
     assert "first" in said(["-m", "infill.cli", "list", "made-59"], environment)
     text = said(["-m", "infill.cli", "make", "--help"], environment)
-    assert len(text.splitlines()) < 80
+    assert len(text.splitlines()) < 90  # sixty patterns more, and not a line
     assert "made-" not in text
     assert text == said(["-m", "infill.cli", "make", "--help"], {**environment, "PYTHONPATH": str(ROOT)})
 

@@ -257,7 +257,7 @@ def test_the_command_takes_and_remembers_it(tmp_path: Path, monkeypatch: pytest.
     done = run(*words, "-o", "a.stl", "--save-config", "a.toml", "--json")
     assert done.exit_code == 0, done.stderr
     assert json.loads(done.stdout)["request"]["grade"] == "cell"
-    assert "; cells of " in done.stderr.replace("\n", " ")
+    assert ": cells of " in done.stderr.replace("\n", " ")
     again = run("fill", "part.stl", "--config", "a.toml", "-q", "-o", "b.stl")
     assert again.exit_code == 0
     assert Path("a.stl").read_bytes() == Path("b.stl").read_bytes()

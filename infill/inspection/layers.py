@@ -89,8 +89,9 @@ def compare_layers(before: LayerRegions, after: LayerRegions, *, line_cells: int
     """Compare two states of the same layer, component by component.
 
     A pinhole is a void that vanished, or a neck of a void that was cut, with no room for a square of `PINHOLE` cells a
-    side, or of a line's width if that is fewer cells. Pinholes remain where lines meet at an acute angle or run side by
-    side, and are too small to print in.
+    side, or of a line's width if that is fewer cells; or a void that is smaller than a square of a line's width.
+    Pinholes remain where lines meet at an acute angle, run side by side or end at a side of the block, and are too
+    small to print in.
 
     Parameters
     ----------
@@ -107,6 +108,7 @@ def compare_layers(before: LayerRegions, after: LayerRegions, *, line_cells: int
     has_room = np.zeros(void_overlaps.before, dtype=bool)
     has_room[np.unique(before.void[open_void]) - 1] = True
     cells = np.bincount(before.void.ravel(), minlength=void_overlaps.before + 1)[1:]
+    has_room &= cells >= line_cells**2
     outside = cells[before.void[0, 0] - 1]
     narrow = ~voids.kept & ~has_room
     cut = compare_components(count_overlaps(cores, after.void)).breaks
