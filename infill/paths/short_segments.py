@@ -23,10 +23,9 @@ from infill.paths.corners import UNIT, RoundedPaths
 from infill.paths.curves import segment_distances
 
 SHORTEST_SEGMENT = 0.05  # mm: a tenth of a bead's width, and less than two steps of a belt
-# mm that merging may move a path, as chords leave their arcs: where segments are merely short, and where a controller
-# wants longer ones.
-LEAST_MOVED, MOST_MOVED = 0.005, 0.02
+MOST_MOVED = 0.02  # mm that merging may move a path where no law demands more, as chords leave their arcs
 HARDLY_BENT = 0.002  # mm that a path moves where a point goes before points move apart instead
+MOST_SPREAD = 0.0125  # mm that a path may move where points move apart: more, and ends of legs leave their walls
 SPREAD_LENGTH = 0.052  # mm between points that moved apart, with room for their decimals
 LENGTH_CLASSES = 0.01  # mm: shorter segments go first, in classes of this width
 SCATTER = 0.6180339887498949  # of a place, to order equal segments so that many are merged at once
@@ -36,8 +35,7 @@ def merge_short_segments(paths: RoundedPaths, wanted: float | Floats = SHORTEST_
     """Merge the short segments of paths; return the paths with fewer points.
 
     A segment below `SHORTEST_SEGMENT` is always merged, except for the only one of a path, and beside an end, where the
-    path would move by more than `LEAST_MOVED`, or `MOST_MOVED` where longer segments are wanted. One below `wanted` is
-    merged where the path moves no farther than that.
+    path would move by more than `MOST_MOVED`. One below `wanted` is merged where the path moves no farther than that.
 
     Parameters
     ----------
@@ -58,7 +56,6 @@ def merge_short_segments(paths: RoundedPaths, wanted: float | Floats = SHORTEST_
     points, source = paths.points.copy(), paths.source
     owner = np.repeat(np.arange(len(paths.first) - 1), np.diff(paths.first))
     least = np.maximum(np.broadcast_to(wanted, len(paths.first) - 1), SHORTEST_SEGMENT)
-    allowed = np.where(least > SHORTEST_SEGMENT, MOST_MOVED, LEAST_MOVED)
     moved = np.zeros(len(points))  # mm, at most, between the segment after each point and the path as it was
     stays = np.zeros(len(points), dtype=bool)  # the segment after a point cannot be merged
     while len(points) > 1:
@@ -70,14 +67,14 @@ def merge_short_segments(paths: RoundedPaths, wanted: float | Floats = SHORTEST_
             [moved[np.maximum(chosen - 1, 0)], moved[chosen], moved[np.minimum(chosen + 1, len(moved) - 1)]]
         )
         must = (np.hypot(*(points[chosen + 1] - points[chosen]).T) < SHORTEST_SEGMENT) & ~_touches_end(owner, chosen)
-        done = must | (merged_errors <= allowed[owner[chosen]])
+        done = must | (merged_errors <= MOST_MOVED)
         stays[chosen[~done]] = True
         if not done.any():
             continue
         spread = done & must & (errors > HARDLY_BENT)
         if spread.any():
             spread_errors, wider = _spread_points(points, chosen)
-            spread &= spread_errors + merged_errors - errors <= MOST_MOVED
+            spread &= spread_errors + merged_errors - errors <= MOST_SPREAD
             merged_errors[spread] += spread_errors[spread] - errors[spread]
         chosen_places, chosen = chosen, chosen[done]
         before = np.maximum(chosen - 1, 0)
