@@ -21,6 +21,22 @@ if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
 
 GROUP = "infill.patterns"
+# Words that people type, and whose letters are nearer to another name.
+OTHER_NAMES = {
+    "hexagon": "honeycomb",
+    "hexagons": "honeycomb",
+    "hex": "honeycomb",
+    "squares": "grid",
+    "lines": "rectilinear",
+    "line": "rectilinear",
+    "stars": "octagram-spiral",
+    "spiral": "archimedean-chords",
+    "diamonds": "diamond",
+    "heart": "concentric-heart",
+    "schwarz": "schwarz-p",
+    "primitive": "schwarz-p",
+    "foam": "voronoi-foam",
+}
 PatternClass = type[Pattern] | type[Cells]
 
 
@@ -92,7 +108,8 @@ class Registry(Mapping[str, PatternClass]):
 
         if name in self:
             return self[name]
-        matches = difflib.get_close_matches(name.lower(), self, n=1, cutoff=0.4)
+        known = OTHER_NAMES.get(name.lower().replace("_", "-"))
+        matches = [known] if known else difflib.get_close_matches(name.lower(), self, n=1, cutoff=0.4)
         advice = f"did you mean {matches[0]!r}?" if matches else f"there are {', '.join(self)}"
         raise PatternError(f"there is no pattern {name!r}; {advice} ('infill list' shows all)")
 

@@ -259,6 +259,7 @@ def test_list_writes_a_picture(tmp_path: Path) -> None:
 
 def test_list_names_the_nearest_pattern() -> None:
     one_line_error(run("list", "honycomb"), "there is no pattern 'honycomb'; did you mean 'honeycomb'")
+    one_line_error(run("list", "Hexagon"), "there is no pattern 'Hexagon'; did you mean 'honeycomb'")
 
 
 def test_list_as_json() -> None:

@@ -29,6 +29,7 @@ from test_command_line import one_line_error, run
 from infill import GeometryError, InfillError, Region, UsageError, fill, read_mesh, save
 from infill.errors import FormatError
 from infill.lattices.modifiers import add_modifiers
+from infill.lattices.regions import parse_region
 from infill.lattices.request import check_request
 from infill.lattices.settings import resolve
 from infill.meshes.solids import to_manifold
@@ -315,3 +316,12 @@ def test_a_modifier_without_a_density_is_no_region(tmp_path: Path) -> None:
     part = read_mesh(by_ranges(tmp_path / "project.3mf", volume_type="ParameterModifier", layer_height="0.1"))
     assert part.modifiers == ()
     assert part.notes[0].endswith("is a modifier, not a part: it is left out")
+
+
+def test_places_as_people_type_them() -> None:
+    for text in ("0-10mm", "z=0-10", "0..10", "z = 0 to 10 mm", "z=0..10"):
+        assert parse_region("region", f"{text}:density=60%").z == (0.0, 10.0)
+    assert parse_region("region", "-5--1:density=60%").z == (-5.0, -1.0)
+    assert parse_region("region", "part-2.stl:density=60%").mesh == "part-2.stl"
+    with pytest.raises(UsageError, match="give a place and a density, such as z=10"):
+        parse_region("region", "middle:density=60%")

@@ -21,7 +21,10 @@ REPAIR_TEXTS = {
     "united": "components that overlap united",
 }
 # Measured: 4 h 56 m for the solid, 2 h 53 m with PrusaSlicer's own gyroid of the same density.
-FILAMENT_ADVICE = "prints slowly as one solid; write --for SLICER, or slice the part itself and run infill refill"
+FILAMENT_ADVICE = (
+    "prints slowly as one solid; --for prusa -o part.3mf makes a project to slice, "
+    "or slice the part and run infill refill"
+)
 # Where a built-in field of density is lowest and where it is highest.
 PLACES = {
     "skin": ("at the walls", "in the middle"),

@@ -199,14 +199,16 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
     level_range = (
         f", {level['lowest']:.3f} to {level['highest']:.3f} for its components" if level["components"] > 1 else ""
     )
+    voxels = "voxels of the mesh" if report["input"]["source"] == "mesh" else "data"
     refined_text = ", refined" if request["refine"] else ""
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, {size} mm",
         "solid": f"{plain_number(report['volume'], 6)} mm³, {report['volume_change']:+z.4%} of the data",
         "smoothing": f"{request['steps']} steps{refined_text}, {' x '.join(map(str, grid['shape']))} voxels of "
         f"{' x '.join(plain_number(h, 4) for h in grid['spacing'])} mm",
-        "components": f"{result['components']} ({data['components']} in the data), {result['cavities']} cavities "
-        f"({data['cavities']}), {result['tunnels']} tunnels ({data['tunnels']})",
+        "components": f"{result['components']:,} ({data['components']:,} in the {voxels}), "
+        f"{count_noun(result['cavities'], 'cavity', 'cavities')} ({data['cavities']:,}), "
+        f"{count_noun(result['tunnels'], 'tunnel')} ({data['tunnels']:,})",
     }
     if (isosurface := report.get("isosurface")) is not None and isosurface["change"] is not None:
         rows["solid"] += f", {isosurface['change']:+z.2%} of the isosurface of the grey values"

@@ -20,6 +20,10 @@ if TYPE_CHECKING:
 
 EXAMPLES = "z=10..20:density=40%, box=0,0,0,10,10,5:density=40% or modifier.stl:density=60%"
 RANGE = re.compile(r"z=(?P<low>[^:]*?)\.\.(?P<high>.*)")
+# As people type it: 0-10mm, z=0-10, 5..20 mm.
+TYPED_RANGE = re.compile(
+    r"(?:z\s*=\s*)?(?P<low>-?[\d.,]*\d)\s*(?:mm)?\s*(?:\.\.|-|–|to)\s*(?P<high>-?[\d.,]*\d)\s*(?:mm)?"
+)
 SHARE = "give a density such as density=40%"
 
 
@@ -70,13 +74,15 @@ def parse_region(name: str, text: str) -> Region:
 
     >>> parse_region("region", "z=10..20:density=40%").z, parse_region("region", "a.stl:density=60%").mesh
     ((10.0, 20.0), 'a.stl')
+    >>> parse_region("region", "0-10mm:density=60%").z, parse_region("region", "z=0,5 - 8:density=60%").z
+    ((0.0, 10.0), (0.5, 8.0))
     """
     place, found, share = text.rpartition(":density=")
     if not found or not place.strip():
         raise UsageError.about(name, f"is {quote_value(text)}; give a place and a density, such as {EXAMPLES}")
     density = parse_share(name, share, SHARE)
     place = place.strip()
-    if found_range := RANGE.fullmatch(place):
+    if found_range := TYPED_RANGE.fullmatch(place) or RANGE.fullmatch(place):
         low, high = (
             _parse_end(name, text, found_range[end], at) for end, at in (("low", -math.inf), ("high", math.inf))
         )
@@ -84,12 +90,14 @@ def parse_region(name: str, text: str) -> Region:
     if place.startswith("box="):
         corners = tuple(_parse_end(name, text, word, math.nan) for word in place[len("box=") :].split(","))
         return Region(density=density, box=corners)
+    if not Path(place).suffix:
+        raise UsageError.about(name, f"is {quote_value(text)}; give a place and a density, such as {EXAMPLES}")
     return Region(density=density, mesh=place)
 
 
 def _parse_end(name: str, text: str, word: str, left_out: float) -> float:
     """Read a coordinate, mm, or return the one that stands for none."""
     try:
-        return float(word) if word.strip() or math.isnan(left_out) else left_out
+        return float(word.replace(",", ".")) if word.strip() or math.isnan(left_out) else left_out
     except ValueError:
         raise UsageError.about(name, f"is {quote_value(text)}; give numbers in mm, such as {EXAMPLES}") from None

@@ -324,7 +324,9 @@ def refuse_stamp_options(given: Mapping[str, bool], density: float | None) -> No
     for option, is_given in given.items():
         if is_given:
             reason = "this pattern changes with height" if density is None else "a density is asked for"
-            raise UsageError.about(option, f"serves blocks that are stamped layer by layer, and {reason}; leave it out")
+            raise UsageError.about(
+                option, f"serves blocks that are stamped layer by layer, and {reason}; leave {option} out"
+            )
 
 
 def instantiate_pattern(

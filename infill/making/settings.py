@@ -44,6 +44,11 @@ def parse_size(name: str, size: object) -> tuple[float, ...]:
     ((60.0, 40.0), (60.0, 40.0, 20.5))
     """
     parts = re.split(r"\s*[x×X]\s*", size.strip()) if isinstance(size, str) else size
+    if isinstance(size, str) and re.fullmatch(r"\d+,\s*\d+", size.strip()):  # 60 x 40, or 60.4?
+        first, second = re.split(r",\s*", size.strip())
+        raise UsageError.about(
+            name, f"is {quote_value(size)}; give {first}x{second} for two sides, or {first}.{second} for one"
+        )
     numbers = list(parts) if isinstance(parts, (list, tuple)) else [parts]
     lengths = [parse_quantity(part, "mm") if isinstance(part, str) else _as_float(part) for part in numbers]
     if len(lengths) not in (1, 2, 3) or None in lengths:

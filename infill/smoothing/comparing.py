@@ -12,7 +12,7 @@ from infill.inspection.deviation import COUNTS, HIDDEN, SHEET, THIN, Deviation, 
 from infill.inspection.facets import find_flat_facets
 from infill.isosurfaces.components import data_bits, look_up_cells, open_by_blocks
 from infill.meshes.distance import distances
-from infill.plain_numbers import plain_number, plain_share
+from infill.plain_numbers import count_noun, plain_number, plain_share
 from infill.smoothing.stages import raw_surface
 from infill.surface import Surface
 from infill.voxels.noise import NOISY
@@ -199,11 +199,15 @@ def find_differences(
                 f"the mesh has {mesh_parts} components, some of which overlap or touch, and the result {result_parts}; "
                 "--by-component keeps them apart"
             )
+    if smooth_input.mesh_volumes is None:
+        remarks.extend(_describe_counts(topology))
     if smooth_input.facts.get("coarse"):
         remarks.append("what is smaller than the voxels that were asked for was not compared")
     repairs = smooth_input.facts.get("repairs", {})
     if (share := repairs.get("hole_share", 0.0)) > MIN_CAP_SHARE:
-        remarks.append(f"{repairs['holes']} holes of the mesh were closed by caps, {share:.1%} of the area")
+        verb = "was" if repairs["holes"] == 1 else "were"
+        holes_text = count_noun(repairs["holes"], "hole")
+        remarks.append(f"{holes_text} of the mesh {verb} closed by caps, {share:.1%} of the area")
     word: Word = "lost" if losses else "changed a little" if problems or remarks else "kept"
     return Differences(word=word, losses=tuple(losses), problems=tuple(problems), remarks=tuple(remarks))
 
@@ -228,6 +232,24 @@ def _describe_thin(deviation: Deviation, smooth_input: SmoothInput) -> tuple[str
     is_scan = smooth_input.mesh_volumes is None and not _is_noisy(smooth_input)
     is_lost = is_scan and deviation.is_large(area, deviation.given_area)
     return f"{feature} {change}, {plain_number(area)} mm² ({share}) of the surface of the input", is_lost
+
+
+def _describe_counts(topology: TopologyCheck) -> list[str]:
+    """Describe components, cavities and tunnels of a scan that are fewer in the result, or components that are more."""
+    before, after, changes = topology.data, topology.result, topology.changes
+    phrases = []
+    told = changes.vanished or changes.vanished_thin or changes.fused or changes.faint
+    if after.components > before.components and not changes.broken:
+        phrases.append(f"{count_noun(before.components, 'component')} fell apart into {after.components:,}")
+    elif after.components < before.components and not told:
+        phrases.append(f"{before.components:,} components of the data are {after.components:,}")
+    for name, plural, old, new in (
+        ("cavity", "cavities", before.cavities, after.cavities),
+        ("tunnel", "tunnels", before.tunnels, after.tunnels),
+    ):
+        if new < old:
+            phrases.append(f"{old - new:,} of {count_noun(old, name, plural)} {'is' if old - new == 1 else 'are'} gone")
+    return phrases
 
 
 def _holes_through(topology: TopologyCheck, smooth_input: SmoothInput) -> tuple[int, int]:
