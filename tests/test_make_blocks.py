@@ -187,3 +187,23 @@ def test_patterns_that_a_test_above_leaves_smaller_are_known() -> None:
     assert all(not issubclass(PATTERNS[name], Cells) for name in SMALLER)
     block = make("concentric", size=(16, 13, 3), density=0.3, frame=False)
     assert (np.ptp(block.surface.bounds, axis=0)[:2] < (16, 13)).all()
+
+
+def test_a_drawing_without_a_density_has_no_frame_and_its_pieces_are_told(tmp_path: Path) -> None:
+    drawing = tmp_path / "ring.svg"
+    circle = '<circle cx="5" cy="5" r="3" fill="none" stroke="black"/>'
+    drawing.write_text(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 10">{circle}</svg>', encoding="utf-8")
+    words = ["make", str(drawing), "--size", "24", "--cell", "12", "-o", str(tmp_path / "a.stl")]
+    refused = run(*words, "--frame")
+    assert refused.exit_code == 2
+    assert "add a density, such as 20%" in " ".join(refused.stderr.split())
+    loose = run(*words)
+    assert loose.exit_code == 0, loose.stderr
+    assert "components touch nowhere" in loose.stderr
+    assert run(*words, "--frame", "--density", "20%", "--force").exit_code == 0
+
+
+def test_a_comma_between_sides_is_asked_about() -> None:
+    refused = run("make", "honeycomb", "--size", "60,40", "--dry-run")
+    assert refused.exit_code == 2
+    assert "give 60x40 for two sides, or 60.40 for one" in " ".join(refused.stderr.replace("│", " ").split())

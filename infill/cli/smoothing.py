@@ -256,5 +256,6 @@ def _facet_text(facets: FacetKeys, voxel: float) -> str:
     return (
         f"{facets['share']:.0%} of the surface still has the flat facets of the mesh, about "
         f"{plain_argument(facets['width'], 2)} mm wide; {larger}--smooth-radius "
-        f"{plain_argument(facets['radius'], 2)} rounds them, and details of their size"
+        f"{plain_argument(facets['radius'], 2)} rounds them, and details of their size, if "
+        "walls are thicker"
     )

@@ -296,12 +296,16 @@ def resolve(
         raise ParameterError(
             "no pattern is given; name one ('infill list' shows all), or set pattern in the config file"
         )
+    from patterns import parameters as own_parameters
+
     kind, _ = resolve_pattern(parse_word("pattern", values["pattern"]), "make")
     declared: Any = kind
     if not is_stamped(kind, values.get("density")):
         from infill.making.lattice_block import declare_placed
 
         declared = declare_placed(kind)
+    elif values.get("frame") and "frame" not in own_parameters(kind):
+        raise UsageError.about("frame", f"is not for {kind.name} without a density; add a density, such as 20%")
     common = {"pattern", *declared_options(MakeSettings)}
     parameters_given = collect_parameters(
         declared, common, flags=flag_values, assigned=assigned, filed=file_values, table=table

@@ -143,6 +143,7 @@ def _list_tried(ways: list[str]) -> str:
 def _advice(best: Attempt) -> str | None:
     """Return advice that is certain to help against a loss by simplification or by `strict`; None for others."""
     request = best.smoothed.request
-    if not best.differences.losses and (request.tolerance is not None or request.max_triangles is not None):
+    unsimplified = best.differences.losses or (request.strict and best.differences.problems)
+    if not unsimplified and (request.tolerance is not None or request.max_triangles is not None):
         return advise_all_triangles(request)
     return STRICT_ADVICE if request.strict else None
