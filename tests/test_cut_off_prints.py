@@ -61,4 +61,4 @@ def test_layers_and_objects_that_are_not_there_are_refused(tmp_path: Path) -> No
     for choice in (["--layers", "2-400"], ["--layers", "6"], ["--object", "box"]):
         assert run(*words, *choice, "--force").exit_code == 0
     path.write_bytes(written(Dialect(layers=6)))
-    one_line_error(run(*words, "--object", "vase", "--force"), "no comment of its file names one")
+    one_line_error(run(*words, "--object", "vase", "--force"), "nothing in its file names one")

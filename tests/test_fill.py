@@ -1109,7 +1109,7 @@ def test_the_summary_says_that_filament_wants_something_else() -> None:
     def told(**options: Any) -> bool:
         report = fill(box(14, 14, 14), "cubic", cell=6, line_width=1, voxel=0.7, **options).report
         lines = summary(report, [], "part.stl", verbose=False).splitlines()
-        return any(re.match(r"  filament  .*--for SLICER.* infill refill$", line) for line in lines)
+        return any(re.match(r"  filament  .*--for prusa.* infill refill$", line) for line in lines)
 
     assert told()
     assert not told(drain=2)

@@ -387,7 +387,7 @@ def test_hostile_layers_and_objects_are_one_line(words: list[str], says: str, gc
     [
         (["--layers", "6-"], "--layers is 6 and more, and the print has 5; give some from 1 to 5"),
         (["--layers", "999999999"], "--layers is 999999999, and the print has 5; give some from 1 to 5"),
-        (["--object", "näht \x1b[31m"], "which is in no name of an object; no comment of its file names one"),
+        (["--object", "näht \x1b[31m"], "which is in no name of an object; nothing in its file names one"),
     ],
 )
 def test_what_is_not_in_the_print_leaves_it_and_is_said(words: list[str], says: str, gcode: Path) -> None:

@@ -185,3 +185,28 @@ def test_one_object_of_two(prints_of_all_kinds: Mapping[str, Path], tmp_path: Pa
     ):
         refill(path, output=output, part="nobody")
     assert output.read_bytes() == before
+
+
+@pytest.mark.longest
+@pytest.mark.parametrize("firmware", ["marlin", "klipper"])
+def test_one_object_of_two_that_commands_name(
+    firmware: str, prints_of_all_kinds: Mapping[str, Path], tmp_path: Path
+) -> None:
+    """The same sections as with the comments of the slicer, which M486 or EXCLUDE_OBJECT stand for."""
+    original, path = prints_of_all_kinds["prusa-labels"], tmp_path / "print.gcode"
+    names = sorted(set(re.findall(rb"^; printing object (.*)$", original.read_bytes(), re.MULTILINE)))
+    text = b"".join(b"M486 S%d\nM486 A%b\n" % pair for pair in enumerate(names)) + b"M486 S-1\n"
+    text = (text if firmware == "marlin" else b"") + original.read_bytes()
+    for number, name in enumerate(names):
+        command = b"M486 S%d" % number if firmware == "marlin" else b"EXCLUDE_OBJECT_START NAME='%b'" % name
+        text = text.replace(b"; printing object " + name, command)
+    ended = rb"M486 S-1" if firmware == "marlin" else rb"EXCLUDE_OBJECT_END"
+    path.write_bytes(re.sub(rb"^; stop printing object.*$", ended, text, flags=re.MULTILINE))
+    assert b"printing object" not in path.read_bytes()
+    for name in names:
+        expected, found = (
+            refill(each, output=tmp_path / "out.gcode", part=name.decode()).report["sections"]
+            for each in (original, path)
+        )
+        assert found == expected
+        assert found["replaced"] > 0

@@ -118,6 +118,37 @@ def tool_of(code: str, words: Mapping[str, float | None], text: bytes) -> str:
     return ""
 
 
+def object_of(code: str, text: bytes) -> tuple[str, str] | None:
+    """Return what a command says of objects: of Marlin's M486 or Klipper's EXCLUDE_OBJECT; None for other commands.
+
+    Returns
+    -------
+    tuple of str and str, or None
+        "number" and a number, "name" and the name of the object with the last number, "object" and a name, or "end"
+        and nothing.
+
+    >>> object_of("M486", b"M486 S2"), object_of("M486", b"M486 Acup.stl ; first"), object_of("M486", b"M486 S-1")
+    (('number', '2'), ('name', 'cup.stl'), ('end', ''))
+    >>> object_of("EXCLUDE_OBJECT_START", b"EXCLUDE_OBJECT_START NAME='cup_1'"), object_of("G1", b"G1 X1")
+    (('object', 'cup_1'), None)
+    """
+    kind = code.upper()
+    if kind not in ("M486", "EXCLUDE_OBJECT_START", "EXCLUDE_OBJECT_END"):
+        return None
+    if kind == "EXCLUDE_OBJECT_END":
+        return "end", ""
+    word = text.partition(b";")[0].strip()[len(code) :].strip().decode("utf-8", "replace")
+    if kind == "EXCLUDE_OBJECT_START":
+        _, found, name = word.partition("=")
+        return ("object", name.strip().strip("'\"")) if found else None
+    letter, value = word[:1].upper(), word[1:].strip()
+    if letter == "A":
+        return "name", value.strip('"')
+    if letter != "S":
+        return None
+    return ("end", "") if value.startswith("-") else ("number", value)
+
+
 @lru_cache(maxsize=4096)  # a print has few different ones, ten thousand times
 def parse_tag(comment: bytes) -> tuple[str, bytes] | None:
     r"""Parse a comment line; return its meaning and value, or None for a comment without structure.

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.arrays import Floats, Places
-from infill.gcode.dialect import MAX_TAG_BYTES, UNTAGGED, parse_tag, role_of, tool_of
+from infill.gcode.dialect import MAX_TAG_BYTES, UNTAGGED, object_of, parse_tag, role_of, tool_of
 from infill.gcode.limits import is_valid_limit
 from infill.gcode.lines import COMMENT
 from infill.gcode.machine_state import NAN
@@ -46,6 +46,12 @@ class TagState(NamedTuple):
         Number of tags so far that begin or end an object.
     name : str
         Of the object; "" if unnamed.
+    numbered : tuple of (str, str)
+        Names of objects by the numbers that commands give them.
+    number : str
+        The last such number.
+    commanded : bool
+        The object was named by a command, and not by a comment: it lasts until another command, over all layers.
     wiping : bool
         Up to the tag that ends it. A tag of a role, an object or a layer ends it too: then the next move that
         extrudes was not part of it.
@@ -70,6 +76,9 @@ class TagState(NamedTuple):
     height: float = NAN
     part: int = 0
     name: str = ""
+    numbered: tuple[tuple[str, str], ...] = ()
+    number: str = ""
+    commanded: bool = False
     wiping: bool = False
     acceleration: float = NAN
     tool: str = ""
@@ -160,6 +169,8 @@ def mark_lines(table: GcodeTable, before: TagState) -> LineMarks:
             if tool and (tool != state.tool or state.changing_tool or state.role == "wipe tower"):
                 changed_tool = changed_tool if state.purging else line
                 state = state._replace(tool=tool, purging=True)
+            elif (marker := object_of(command.code, table.text(line, line + 1))) is not None:
+                state = _apply_object_command(state, *marker)
             elif command.code == "M204":
                 value = command.words.get("P") or command.words.get("S") or 0.0
                 state = state._replace(acceleration=value) if is_valid_limit(value, "acceleration") else state
@@ -260,7 +271,7 @@ def _apply_tag(tags: TagState, meaning: str, value: bytes) -> TagState:
             return _begin_layer(tags, value)
         case "object" | "object end":
             name = value.decode("utf-8", "replace") if meaning == "object" and value != b"NONMESH" else ""
-            return tags._replace(part=tags.part + 1, name=name, wiping=False, changing_tool=False)
+            return tags._replace(part=tags.part + 1, name=name, commanded=False, wiping=False, changing_tool=False)
         case "width":
             width = _parse_length(value, tags.width)
             return tags if width == tags.width else tags._replace(width=width)
@@ -277,6 +288,24 @@ def _apply_tag(tags: TagState, meaning: str, value: bytes) -> TagState:
             return tags
 
 
+def _apply_object_command(tags: TagState, meaning: str, value: str) -> TagState:
+    """Return the state after a command that begins, names or ends an object; comments that name objects go first."""
+    if meaning == "name":
+        tags = tags._replace(numbered=(*tags.numbered, (tags.number, value)))
+        return tags._replace(name=value) if tags.commanded else tags
+    if tags.name and not tags.commanded:
+        return tags._replace(number=value) if meaning == "number" else tags
+    if meaning == "end":
+        return tags._replace(part=tags.part + 1, name="", commanded=False) if tags.commanded else tags
+    name = value
+    if meaning == "number":
+        name = dict(tags.numbered).get(value, f"object {value}")
+        tags = tags._replace(number=value)
+    if tags.commanded and name == tags.name:
+        return tags
+    return tags._replace(part=tags.part + 1, name=name, commanded=True, wiping=False, changing_tool=False)
+
+
 def _begin_layer(tags: TagState, value: bytes) -> TagState:
     """Return the state at a tag of a layer.
 
@@ -291,7 +320,7 @@ def _begin_layer(tags: TagState, value: bytes) -> TagState:
         layer_tag=value,
         printed=False,
         part=tags.part + bool(tags.name),
-        name="",
+        name=tags.name if tags.commanded else "",
         wiping=False,
         purging=purging,
         purged_on_object=False,

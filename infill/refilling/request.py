@@ -87,11 +87,11 @@ def describe_objects(names: Iterable[str]) -> str:
     """List the objects of a print in words, the first ten of many.
 
     >>> describe_objects(["a", "b"]), describe_objects([])
-    ("it has 'a', 'b'", 'no comment of its file names one')
+    ("it has 'a', 'b'", 'nothing in its file names one')
     """
     listed = [quote_value(name) for name in dict.fromkeys(names) if name]
     more = f" and {len(listed) - MOST_LISTED:,} more" if len(listed) > MOST_LISTED else ""
-    return f"it has {', '.join(listed[:MOST_LISTED])}{more}" if listed else "no comment of its file names one"
+    return f"it has {', '.join(listed[:MOST_LISTED])}{more}" if listed else "nothing in its file names one"
 
 
 @dataclass(frozen=True, kw_only=True)
