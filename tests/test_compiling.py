@@ -47,5 +47,5 @@ def test_compiling_is_told_once_in_a_process(tmp_path: Path) -> None:
         )
         for _ in range(2)
     )
-    assert first.stderr == "first use of one: preparing it takes up to a minute, only once\n"
+    assert first.stderr == "preparing one for input of this kind, up to a minute, the first time\n"
     assert second.stderr == ""  # found compiled

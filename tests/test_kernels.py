@@ -478,5 +478,5 @@ def test_the_log_tells_of_compiling(tmp_path: Path) -> None:
         subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, encoding="utf-8", check=True)
         for _ in range(2)
     ]
-    assert told[0].stderr == "first use of the smoother: preparing it takes up to a minute, only once\n"
+    assert told[0].stderr == "preparing the smoother for input of this kind, up to a minute, the first time\n"
     assert told[1].stderr == ""

@@ -949,7 +949,7 @@ def test_the_log_tells_once_of_compiling(caplog: pytest.LogCaptureFixture, monke
             return numba.njit(lambda x: x + 1)(1) + numba.njit(lambda x: x * 2.5)(1)
 
     assert work() == work() == 4.5
-    assert caplog.messages == ["first use of all: preparing it takes up to a minute, only once"]
+    assert caplog.messages == ["preparing all for input of this kind, up to a minute, the first time"]
 
 
 @pytest.mark.slow
@@ -968,7 +968,7 @@ def test_nobody_waits_for_a_compiler_untold(
     solid = ball((12, 12, 12), (5.5,) * 3, 2.9)
     function(solid, smoothing=Smoothing(steps=1), progress=progress)
     assert len(caplog.messages) == 1
-    assert caplog.messages[0].startswith("first use of ")
+    assert caplog.messages[0].startswith("preparing ")
 
 
 @pytest.mark.slow

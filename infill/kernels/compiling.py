@@ -13,7 +13,7 @@ from typing import Any
 LOG = logging.getLogger("infill")
 REPORTED = threading.Event()  # set once compilation was reported in this process
 UNCACHED = threading.Event()  # set if compiled code cannot be kept for later runs
-_CACHED_TEXT = "first use of %s: preparing it takes up to a minute, only once"
+_CACHED_TEXT = "preparing %s for input of this kind, up to a minute, the first time"
 _UNCACHED_TEXT = (
     "preparing %s takes up to a minute in every run, because no folder for it is writable; set NUMBA_CACHE_DIR to one"
 )
@@ -58,7 +58,7 @@ def _load_without_blas() -> None:
 def log_compilation(what: str) -> Iterator[None]:
     """Report to the log "infill" as soon as code inside is compiled rather than loaded from disk.
 
-    Report once per process, in the outermost of nested uses; also works as a decorator. `what` follows "first use of".
+    Report once per process, in the outermost of nested uses; also works as a decorator. `what` follows "preparing".
     """
     if _WATCHED.get() or REPORTED.is_set():
         yield

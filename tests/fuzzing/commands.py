@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 SLOWEST = 20.0  # s of computing for a file of a few thousand bytes; what waits without computing, the campaign sees
-COMPILES = "compiling"  # what a command says before the first use of a kernel, which is not the file's fault
+COMPILES = "preparing "  # what a command says before the first use of a kernel, which is not the file's fault
 MOST_MEMORY = 4 * 2**30  # bytes
 CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u200e\u200f\u202a-\u202e\u2066-\u2069]")
 
