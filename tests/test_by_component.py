@@ -274,3 +274,16 @@ def test_reports_of_components_hold_on_to_nothing() -> None:
     report: Any = smooth_mesh(both, voxel=0.5, by_component=True, tolerance=None).report
     assert [type(each["report"]) for each in report["components"]] == [dict, dict]
     assert all(each["report"]["distance"]["result"]["max"] < 1 for each in report["components"])
+
+
+@pytest.mark.slow
+def test_the_last_row_names_what_the_verdict_is_due_to(tmp_path: Path) -> None:
+    boxes = [trimesh.creation.box((10, 10, 10)), trimesh.creation.box((8, 8, 8))]
+    boxes[1].apply_translation((20, 0, 0))
+    path = tmp_path / "boxes.stl"
+    trimesh.util.concatenate(boxes).export(path)
+    words = ["smooth", path, "--by-component", "-o", tmp_path / "a.3mf", "--voxel", "0.25"]
+    kept = run(*words)
+    assert re.search(r"\n  verdict +kept\n", kept.stderr)
+    lost = run(*words, "--smooth", "plain", "--level", "0", "--allow-broken", "--force")
+    assert re.search(r"\n  verdict +lost: component_1 and 1 more of 2\n", lost.stderr)

@@ -58,7 +58,20 @@ def component_summary(result: Result[ComponentStages, ComponentsReport], files: 
         rows[f"FAILED {failure['name']}"] = failure["error"]
     if report["sheets"]:
         rows["left out"] = f"{report['sheets']} components that enclose nothing"
-    rows["verdict"] = report["verdict"]["word"]
+    rows["verdict"] = _verdict_text(report)
     for file in files:
         rows[f"wrote {file}"] = format_bytes(Path(file).stat().st_size) if Path(file).is_file() else ""
     return format_table(rows, title=name)
+
+
+def _verdict_text(report: ComponentsReport) -> str:
+    """Return the verdict and the components it is due to, with the reason if the row of the first is not shown."""
+    word, components = report["verdict"]["word"], report["components"]
+    such = [component for component in components if component["report"]["verdict"]["word"] == word]
+    if word == "kept" or not such:
+        return str(word)
+    first, last = such[0], components[min(MOST_ROWS, len(components)) - 1]
+    is_shown = components.index(first) <= components.index(last)
+    reason = "" if is_shown else f" ({'; '.join(first['report']['verdict']['changes'])})"
+    more = "" if len(such) == 1 else f" and {len(such) - 1:,} more of {len(components):,}"
+    return f"{word}: {first['name']}{reason}{more}"

@@ -129,6 +129,19 @@ def _is_level(triangle, normal, corners, normals, low, high, leaf, reach, cosine
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
+def _is_level_piece(piece, own, leaf, reach, normal, stack):
+    """Return True if a piece of a mesh has nothing but level triangles of it around; `own` may be without triangles."""
+    if not len(own[0]):
+        return False
+    nx, ny, nz, shape = normal_and_shape(piece[0], piece[1], piece[2])
+    if not shape > 0:
+        return False
+    twice = math.sqrt(nx * nx + ny * ny + nz * nz)
+    normal[0], normal[1], normal[2] = nx / twice, ny / twice, nz / twice
+    return _is_level(piece, normal, own[0], own[1], own[2], own[3], leaf, reach, PIECE_COSINE, stack)
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
 def sample_faces(
     vertices,
     faces,
@@ -213,13 +226,8 @@ def sample_faces(
                 longest <= fine * fine or _is_over_a_fold(ends, farthest, corners, tolerance, math.sqrt(longest))
             ):
                 continue
-            if depth >= 2 and depth % 2 == 0 and len(own[0]):
-                nx, ny, nz, shape = normal_and_shape(piece[0], piece[1], piece[2])
-                twice = math.sqrt(nx * nx + ny * ny + nz * nz)
-                if shape > 0:
-                    normal[0], normal[1], normal[2] = nx / twice, ny / twice, nz / twice
-                    if _is_level(piece[:3], normal, own[0], own[1], own[2], own[3], leaf, reach, PIECE_COSINE, stack):
-                        continue
+            if depth >= 2 and depth % 2 == 0 and _is_level_piece(piece[:3], own, leaf, reach, normal, stack):
+                continue
             if longest <= folds * folds and _is_over_a_fold(ends, farthest, corners, tolerance, math.sqrt(longest)):
                 continue
             j = (k + 1) % 3
