@@ -21,6 +21,7 @@ from infill.kernels.corners import (
 )
 from infill.kernels.nearness import are_edges_near, reassign_points
 from infill.kernels.quadrics import best_place, normal_and_shape, solve_quadric, squared_length
+from infill.kernels.rows import copy_row
 
 BUCKETS = 96  # of costs, two for each factor of two
 UNIT = 72  # the bucket of costs of one unit
@@ -153,7 +154,9 @@ def _reshape_faces(c, vertices, start, twin, ring, ring_size, end_ring, end_ring
             squares = (nx * nx + ny * ny + nz * nz) * (ox * ox + oy * oy + oz * oz)
             if not same > 0 or same * same < TURNED**2 * squares:
                 return -1
-            moved[changed, 0], moved[changed, 1], moved[changed, 2] = place, a, b
+            copy_row(moved[changed, 0], place)
+            copy_row(moved[changed, 1], a)
+            copy_row(moved[changed, 2], b)
             chosen[changed] = corner // 3
             changed += 1
     return changed
@@ -211,7 +214,9 @@ def sweep_short_edges(vertices, start, twin, leaving, name, fixed, quadric, boun
             if _reshape_faces(c, vertices, start, twin, ring, *sizes, place, moved, chosen) == NO_CORNER:
                 continue
             collapse_edge(c, start, twin, leaving, end_ring, end_ring_size)
-            quadric[u], vertices[u], into[v], gone[v] = s, place, u, True
+            copy_row(quadric[u], s)
+            copy_row(vertices[u], place)
+            into[v], gone[v] = u, True
             removed += 1
             swept[u] = sweep
             for n in range(corners_of(u, twin, leaving, ring)):
@@ -259,7 +264,9 @@ def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corne
         next_point[p], first_point[f] = first_point[f], p
     original_corners, was_twin, was_leaving = np.empty((0, 3)), twin, leaving
     if bounded:
-        original_corners, was_twin, was_leaving = vertices[start], twin.copy(), leaving.copy()
+        original_corners, was_twin, was_leaving = np.empty((len(start), 3)), twin.copy(), leaving.copy()
+        for c in range(len(start)):
+            copy_row(original_corners[c], vertices[start[c]])
     edge, remaining = 0.0, 0
     for c in range(len(start)):
         if start[c] != NO_CORNER:
@@ -304,7 +311,7 @@ def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corne
         changed, taken = NO_CORNER, 0
         for attempt in range(3 if bounded else 1):  # where the best place is too far, one of the ends may be near
             if attempt > 0:
-                place[:] = vertices[u] if attempt == 1 else vertices[v]
+                copy_row(place, vertices[u] if attempt == 1 else vertices[v])
             _keep_volume(c, vertices, start, twin, ring, ring_size, end_ring, end_ring_size, s, place)
             changed = _reshape_faces(
                 c, vertices, start, twin, ring, ring_size, end_ring, end_ring_size, place, moved, chosen
@@ -331,8 +338,8 @@ def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corne
         for n in range(end_ring_size):
             _dequeue(min(end_ring[n], twin[end_ring[n]]), queue, ends)
         collapse_edge(c, start, twin, leaving, end_ring, end_ring_size)
-        quadric[u] = s
-        vertices[u] = place
+        copy_row(quadric[u], s)
+        copy_row(vertices[u], place)
         into[v] = u
         remaining -= 2
         for n in range(corners_of(u, twin, leaving, ring)):

@@ -16,6 +16,7 @@ import numpy as np
 from infill.kernels.compiling import njit
 from infill.kernels.distances import STACK_SIZE, nearest_triangle, squared_distance
 from infill.kernels.quadrics import normal_and_shape, squared_length
+from infill.kernels.rows import copy_row
 
 MAX_CUTS = 18  # largest number of cuts of a triangle
 # Ratio of the length of a piece that is barely near to the distance by which its corners are nearer than necessary.
@@ -205,13 +206,15 @@ def sample_faces(
         before = count
         for k in range(3):
             v = faces[f, k]
-            pieces[0, k] = vertices[v]
+            copy_row(pieces[0, k], vertices[v])
             owners[0, k], offs[0, k] = nearest[v], squared[v]
         depths[0], stack_size = 0, 1
         while stack_size > 0:
             stack_size -= 1
             depth = depths[stack_size]
-            piece[:3], ends[:3], off[:3] = pieces[stack_size], owners[stack_size], offs[stack_size]
+            for k in range(3):
+                copy_row(piece[k], pieces[stack_size, k])
+                ends[k], off[k] = owners[stack_size, k], offs[stack_size, k]
             if depth == MAX_CUTS or _is_covered(piece, ends, off, corners, tolerance):
                 continue
             k, longest = 0, 0.0
@@ -239,13 +242,14 @@ def sample_faces(
                 if count == points.shape[1]:
                     begin[thread] = f
                     return before
-                points[thread, count], face[thread, count] = piece[3], f
+                copy_row(points[thread, count], piece[3])
+                face[thread, count] = f
                 owner[thread, count], squares[thread, count] = ends[3], off[3]
                 count += 1
             for half in range(2):  # the middle of the longest side takes the place of one of its ends
                 for corner in range(3):
                     at = 3 if corner == (j if half == 0 else k) else corner
-                    pieces[stack_size, corner] = piece[at]
+                    copy_row(pieces[stack_size, corner], piece[at])
                     owners[stack_size, corner], offs[stack_size, corner] = ends[at], off[at]
                 depths[stack_size] = depth + 1
                 stack_size += 1

@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 
 from infill.kernels.compiling import njit
+from infill.kernels.rows import copy_row
 
 PULL = 1e-5  # of the trace of a quadric: pull towards a point, where planes leave the place undetermined
 
@@ -117,5 +118,5 @@ def best_place(u, v, p, q, s, place):
         value = value_of(s, w[0], w[1], w[2])
         if value < best:
             best = value
-            place[:] = w
+            copy_row(place, w)
     return best

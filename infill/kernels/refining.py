@@ -27,6 +27,7 @@ import math
 import numpy as np
 
 from infill.kernels.compiling import njit
+from infill.kernels.rows import copy_row
 from infill.kernels.sparse import (
     ALL,
     B0,
@@ -78,9 +79,9 @@ def step(
         edge = at_edge(where[s], shape)
         # What was noted two steps ago, and is about to be replaced, is what is known of the field before the last step.
         changing = ALL if edge else movable_rows(s, rows, next_rows, beside[s])
-        next_rows[s] = rows[s]
+        copy_row(next_rows[s], rows[s])
         if changing == NONE:
-            next_flat[s] = flat[s]
+            copy_row(next_flat[s], flat[s])
             continue
         brick, old = phi[s], before[s]
         copy_surroundings(brick, faces, flat, beside[s], wide)

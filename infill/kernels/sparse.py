@@ -49,6 +49,7 @@ from numba.extending import intrinsic
 from infill.kernels.compiling import njit
 from infill.kernels.dense import advance_cell
 from infill.kernels.lanes import copy, lanes_of, load_lanes, mask_equal, same_lanes, spread, store_lanes
+from infill.kernels.rows import copy_row
 
 BRICK = (8, 8, 16)  # cells; the last axis is contiguous
 B0, B1, B2 = BRICK
@@ -147,7 +148,7 @@ def update_all_faces(bricks, data, copied, faces, flat, rows, next_rows, still, 
             for t in range(CELLS):
                 brick[t] = datum[t]
         update_faces(bricks[s], faces[s], flat[s], rows[s], ALL)
-        next_rows[s] = rows[s]
+        copy_row(next_rows[s], rows[s])
         note_rows(data[s], ALL, still[s])
 
 
@@ -285,9 +286,9 @@ def step(
         for s in range(chunk, min(chunk + CHUNK, count)):
             edge = at_edge(where[s], shape)
             changing = ALL if edge else movable_rows(s, rows, still, beside[s])
-            next_rows[s] = rows[s]
+            copy_row(next_rows[s], rows[s])
             if changing == NONE:
-                next_flat[s] = flat[s]
+                copy_row(next_flat[s], flat[s])
                 continue
             brick, data = phi[s], data_bricks[s]
             copy_surroundings(brick, faces, flat, beside[s], wide)
