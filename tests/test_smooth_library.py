@@ -942,6 +942,7 @@ def test_the_log_tells_once_of_compiling(caplog: pytest.LogCaptureFixture, monke
     import numba
 
     monkeypatch.setattr("infill.kernels.compiling.REPORTED", threading.Event())
+    monkeypatch.setattr("infill.kernels.compiling.UNCACHED", threading.Event())  # another test may have set it
 
     @log_compilation("all")
     def work() -> int:
