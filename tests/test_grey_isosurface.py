@@ -11,6 +11,8 @@ from test_command_line import run
 
 from infill import Smoothing, smooth_volume
 from infill.errors import UsageError
+from infill.smoothing.scans import surface_value
+from infill.volume import Volume
 
 pytestmark = pytest.mark.usefixtures("compiled")
 
@@ -82,3 +84,13 @@ def test_grey_levels_can_be_left_out() -> None:
     assert left_out.report["input"]["grey"] is False
     with pytest.raises(UsageError, match="grey is left out, and method is grey"):
         smooth_volume(values, threshold=500.0, grey=False, method="grey")
+
+
+def test_a_threshold_between_whole_numbers_stays_where_it_is() -> None:
+    """Only cells that have its very value call for a surface below it: a share of 0.3 is not 0.5."""
+    values = np.zeros((8, 8, 8), dtype=np.float32)
+    values[2:6, 2:6, 2:6] = 1
+    volume = Volume(values=values)
+    assert surface_value(volume, {"method": "range", "low": 0.3}) == 0.3
+    assert surface_value(volume, {"method": "range", "low": 1.0}) == 0.5
+    assert surface_value(Volume(values=values * 0.7), {"method": "range", "low": 1.0}) == 1.0

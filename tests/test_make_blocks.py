@@ -12,7 +12,7 @@ import pytest
 import trimesh
 from test_command_line import one_line_error, run, usage_error
 
-from infill import ParameterError, fill, make
+from infill import ParameterError, UsageError, fill, make
 from infill.formats.mesh_files import read_mesh
 from infill.making.request import Block, check_sides
 from infill.making.settings import resolve
@@ -197,6 +197,8 @@ def test_a_drawing_without_a_density_has_no_frame_and_its_pieces_are_told(tmp_pa
     refused = run(*words, "--frame")
     assert refused.exit_code == 2
     assert "add a density, such as 20%" in " ".join(refused.stderr.split())
+    with pytest.raises(UsageError, match="add a density"):
+        make(drawing, frame=True)
     loose = run(*words)
     assert loose.exit_code == 0, loose.stderr
     assert "components touch nowhere" in loose.stderr

@@ -67,11 +67,10 @@ def component_summary(result: Result[ComponentStages, ComponentsReport], files: 
 def _verdict_text(report: ComponentsReport) -> str:
     """Return the verdict and the components it is due to, with the reason if the row of the first is not shown."""
     word, components = report["verdict"]["word"], report["components"]
-    such = [component for component in components if component["report"]["verdict"]["word"] == word]
+    such = [n for n, component in enumerate(components) if component["report"]["verdict"]["word"] == word]
     if word == "kept" or not such:
         return str(word)
-    first, last = such[0], components[min(MOST_ROWS, len(components)) - 1]
-    is_shown = components.index(first) <= components.index(last)
-    reason = "" if is_shown else f" ({'; '.join(first['report']['verdict']['changes'])})"
+    first = components[such[0]]
+    reason = "" if such[0] < MOST_ROWS else f" ({'; '.join(first['report']['verdict']['changes'])})"
     more = "" if len(such) == 1 else f" and {len(such) - 1:,} more of {len(components):,}"
     return f"{word}: {first['name']}{reason}{more}"

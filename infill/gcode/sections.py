@@ -291,7 +291,8 @@ def _apply_tag(tags: TagState, meaning: str, value: bytes) -> TagState:
 def _apply_object_command(tags: TagState, meaning: str, value: str) -> TagState:
     """Return the state after a command that begins, names or ends an object; comments that name objects go first."""
     if meaning == "name":
-        tags = tags._replace(numbered=(*tags.numbered, (tags.number, value)))
+        if (tags.number, value) not in tags.numbered:
+            tags = tags._replace(numbered=(*tags.numbered, (tags.number, value)))
         return tags._replace(name=value) if tags.commanded else tags
     if tags.name and not tags.commanded:
         return tags._replace(number=value) if meaning == "number" else tags

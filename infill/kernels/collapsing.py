@@ -185,14 +185,14 @@ def sweep_short_edges(vertices, start, twin, leaving, name, fixed, quadric, boun
     """
     swept = np.full(len(vertices), NO_CORNER, dtype=np.int32)
     marked = np.full(name.max() + 1, NO_CORNER, dtype=np.int32)
-    gone, s, place = np.zeros(len(vertices), dtype=np.bool_), np.empty(11), np.empty(3)
+    s, place = np.empty(11), np.empty(3)
     ring, end_ring = np.empty(MAX_CORNERS, dtype=np.int32), np.empty(MAX_CORNERS, dtype=np.int32)
     moved, chosen = np.empty((2 * MAX_CORNERS, 3, 3)), np.empty(2 * MAX_CORNERS + 2, dtype=np.int32)
     step, removed, total = 0, 0, 0
     for sweep in range(MOST_SWEEPS):
         total, removed = total + removed, 0
         for u in range(len(vertices)):
-            if gone[u] or fixed[u] or swept[u] == sweep:
+            if into[u] != u or fixed[u] or swept[u] == sweep:
                 continue
             ring_size = corners_of(u, twin, leaving, ring)
             if ring_size < 0 or ring_size > MOST_AROUND:
@@ -216,7 +216,7 @@ def sweep_short_edges(vertices, start, twin, leaving, name, fixed, quadric, boun
             collapse_edge(c, start, twin, leaving, end_ring, end_ring_size)
             copy_row(quadric[u], s)
             copy_row(vertices[u], place)
-            into[v], gone[v] = u, True
+            into[v] = u
             removed += 1
             swept[u] = sweep
             for n in range(corners_of(u, twin, leaving, ring)):

@@ -186,7 +186,7 @@ def sample_faces(
         other mesh may lie between its corners.
     own : tuple of arrays
         Triangles of this mesh as for `mark_level_faces`, with their normals: pieces with level ones alone within
-        `reach` are near. None, if such pieces are to be sampled.
+        `reach` are near. Without rows, if such pieces are to be sampled.
     reach : float
     minimum : float
         Only points further away than this, a squared distance, are kept.

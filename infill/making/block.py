@@ -33,6 +33,7 @@ from infill.making.request import (
     check_sides,
     is_stamped,
     plan_block,
+    refuse_frame,
     refuse_stamp_options,
 )
 from infill.making.stages import MakeStages
@@ -167,6 +168,7 @@ def make(
             values=parameters,
         )
         return make_lattice(lattice, max_memory=max_memory, progress=progress)
+    refuse_frame(pattern, given=bool(parameters.get("frame")))
     clock = Clock(progress)
     with clock.stage("points", 0.0):
         block = plan_block(

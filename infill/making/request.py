@@ -329,6 +329,13 @@ def refuse_stamp_options(given: Mapping[str, bool], density: float | None) -> No
             )
 
 
+def refuse_frame(pattern: object, *, given: bool) -> None:
+    """Raise UsageError for a frame around a pattern that has none unless a density is asked for, such as a drawing."""
+    kind, _ = resolve_pattern(pattern, "make")
+    if given and "frame" not in declared(kind):
+        raise UsageError.about("frame", f"is not for {kind.name} without a density; add a density, such as 20%")
+
+
 def instantiate_pattern(
     pattern: Pattern | Cells | Path | str | Callable[..., Any], parameters: dict[str, Any]
 ) -> Pattern:

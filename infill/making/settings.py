@@ -282,7 +282,7 @@ def resolve(
     FormatError
         If the file is missing or not TOML, or asks for what it is not trusted with.
     """
-    from infill.making.request import is_stamped
+    from infill.making.request import is_stamped, refuse_frame
     from infill.options.resolve_pattern import resolve_pattern
 
     file_values = read_toml(config, example="size = [60, 40]") if config else {}
@@ -296,16 +296,14 @@ def resolve(
         raise ParameterError(
             "no pattern is given; name one ('infill list' shows all), or set pattern in the config file"
         )
-    from patterns import parameters as own_parameters
-
     kind, _ = resolve_pattern(parse_word("pattern", values["pattern"]), "make")
     declared: Any = kind
     if not is_stamped(kind, values.get("density")):
         from infill.making.lattice_block import declare_placed
 
         declared = declare_placed(kind)
-    elif values.get("frame") and "frame" not in own_parameters(kind):
-        raise UsageError.about("frame", f"is not for {kind.name} without a density; add a density, such as 20%")
+    else:
+        refuse_frame(kind, given=bool(values.get("frame")))
     common = {"pattern", *declared_options(MakeSettings)}
     parameters_given = collect_parameters(
         declared, common, flags=flag_values, assigned=assigned, filed=file_values, table=table

@@ -326,7 +326,7 @@ def collapse_edges(
     them, handed on from triangle to triangle as Klein et al. (1996) do, and if the new edges stay within the tolerance
     of the surface around these points. Where the surface still goes too far between the points, it gets another vertex:
     see `project_back`. Where that does not help, or triangles pass through each other, the vertices that were collapsed
-    around the place come back. Before all this, small triangles collapse as far as their planes allow, by a tenth of
+    around the place come back. Before all this, small triangles collapse as far as their planes allow, by a share of
     the tolerance, without any distance being measured.
     """
     from scipy.spatial import cKDTree

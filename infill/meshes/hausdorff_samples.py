@@ -239,7 +239,9 @@ def _sample_arrays(threads: int, capacity: int) -> tuple[Floats, NDArray[np.int3
     return np.empty((*shape, 3)), np.empty(shape, dtype=np.int32), np.empty(shape, dtype=np.int64), np.empty(shape)
 
 
-def level_faces(surface: Surface, tolerance: float, *, threads: int | None = None) -> NDArray[np.bool_]:
+def level_faces(
+    surface: Surface, tolerance: float, *, tree: TriangleTree | None = None, threads: int | None = None
+) -> NDArray[np.bool_]:
     """Mark the faces (F,) that no face within `CLEAR` tolerances leans away from by over 30 degrees.
 
     If all of another surface lies within the tolerance, mm, of this one, then such a face lies within the tolerance of
@@ -250,6 +252,8 @@ def level_faces(surface: Surface, tolerance: float, *, threads: int | None = Non
     surface : Surface, closed, mm
     tolerance : float, mm
         No face within `CLEAR` times this may point elsewhere by more than 30 degrees.
+    tree : TriangleTree, optional
+        Of the surface, if it is known.
     threads : int, optional
         See `infill.kernels.threads.thread_count`.
 
@@ -264,7 +268,7 @@ def level_faces(surface: Surface, tolerance: float, *, threads: int | None = Non
     """
     from infill.kernels.covering import mark_level_faces
 
-    tree, level = TriangleTree.of(surface), np.empty(len(surface.faces), dtype=bool)
+    tree, level = tree or TriangleTree.of(surface), np.empty(len(surface.faces), dtype=bool)
     arguments = tree.corners, tree.normals(), tree.low, tree.high, LEAF, CLEAR * tolerance
     in_threads(mark_level_faces, *arguments, level, threads=thread_count(threads))
     by_face = np.empty_like(level)

@@ -67,8 +67,9 @@ def project_back(
         changed, owner, points = samples.unsure, samples.owner, samples.points
         missed = np.flatnonzero(samples.away > tolerance)
         assumed_near = np.concatenate([assumed_near, np.zeros(len(candidate.faces) - len(assumed_near), dtype=bool)])
-        assumed_near[changed] = level_faces(candidate, tolerance, threads=threads)[changed]
         own = TriangleTree.of(candidate)
+        steep = ~level_faces(candidate, tolerance, tree=own, threads=threads)
+        assumed_near[changed] = ~steep[changed]
         strays = find_strays(
             tree, candidate, changed, side, tolerance, sure=assumed_near[changed], own=own, threads=threads
         )
@@ -76,7 +77,6 @@ def project_back(
             bent_vertices = np.union1d(bent_vertices, candidate.faces[changed])
         if n > 0 and not len(missed) and not len(strays.points):
             beside = np.isin(candidate.faces, bent_vertices).any(axis=1)  # pieces of them were level before
-            steep = ~level_faces(candidate, tolerance, threads=threads)
             bent = np.flatnonzero((assumed_near | beside) & steep)
             assumed_near[bent] = False
             strays = find_strays(tree, candidate, bent, side, tolerance, own=own, threads=threads)

@@ -256,7 +256,7 @@ def _seconds_per_triangle(request: SmoothRequest, grid: Grid, *, radius: float =
         despeckle=0.0,
         allow_broken=True,
         strict=True,
-        tolerance=AUTO if request.max_triangles is not None else request.tolerance,
+        tolerance=AUTO if request.tolerance is None and request.max_triangles is not None else request.tolerance,
         max_triangles=None,
         progress=None,
     )

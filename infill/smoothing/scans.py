@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal
@@ -183,7 +182,7 @@ def _remedies(request: SmoothRequest, smooth_input: SmoothInput) -> list[Way]:
 
 
 def surface_value(scan: Volume, used: Mapping[str, Any]) -> float:
-    """Return the value at the surface: the threshold, or half a unit below it if all values are whole numbers.
+    """Return the value at the surface: the threshold, or half a unit below it if it and all values are whole numbers.
 
     Cells that have the value of the threshold are solid, not cells that the surface halves.
 
@@ -191,10 +190,11 @@ def surface_value(scan: Volume, used: Mapping[str, Any]) -> float:
     >>> surface_value(whole, {"method": "range", "low": 3.0}), surface_value(whole, {"method": "otsu", "low": 2.5})
     (2.5, 2.5)
     """
-    low = float(used["low"])
-    values = np.asarray(scan.values)
+    low, values = float(used["low"]), np.asarray(scan.values)
+    if used["method"] != "range" or not low.is_integer():
+        return low
     is_whole = values.dtype.kind in "iu" or not (np.mod(_sample_layers(values), 1) != 0).any()
-    return math.ceil(low) - 0.5 if is_whole and used["method"] == "range" else low
+    return low - 0.5 if is_whole else low
 
 
 def _sample_layers(values: NDArray[Any]) -> NDArray[Any]:
