@@ -7,7 +7,11 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numba
+import numpy as np
 import pytest
+
+from infill.kernels.compiling import njit
 
 MODULE = """
 from infill.kernels.compiling import njit, log_compilation
@@ -49,3 +53,24 @@ def test_compiling_is_told_once_in_a_process(tmp_path: Path) -> None:
     )
     assert first.stderr == "preparing one for input of this kind, up to a minute, the first time\n"
     assert second.stderr == ""  # found compiled
+
+
+def _last_of_twice(values: np.ndarray) -> float:
+    return float((values + values)[-1])
+
+
+def test_code_that_makes_an_array_says_so() -> None:
+    values = np.arange(3.0)
+    with pytest.raises(numba.TypingError):
+        njit()(_last_of_twice)(values)
+    assert njit(makes_arrays=True)(_last_of_twice)(values) == 4.0
+
+
+def test_only_code_that_makes_arrays_counts_references() -> None:
+    from infill.kernels import collapsing, covering
+
+    for module in (collapsing, covering):
+        kernels = [value for value in vars(module).values() if isinstance(value, numba.core.dispatcher.Dispatcher)]
+        counted = {kernel.__name__ for kernel in kernels if kernel.targetoptions["_nrt"]}
+        assert 0 < len(counted) < len(kernels)
+        assert not {"_collapse_in_order", "_sample_in_order", "squared_distance"} & counted  # the loops inside

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -12,7 +13,13 @@ from hypothesis import strategies as st
 
 from infill import check
 from infill.meshes.hole_filling import open_edges
-from infill.meshes.shells import select_faces, shell_volumes, split_into_batches, vertex_components
+from infill.meshes.shells import (
+    select_faces,
+    shell_volumes,
+    split_into_batches,
+    vertex_components,
+    vertex_components_reference,
+)
 from infill.surface import Edges, Surface
 
 faces_of = st.lists(st.tuples(*[st.integers(0, 9)] * 3), min_size=1, max_size=20).map(
@@ -79,8 +86,8 @@ def test_closed_surfaces_and_how_they_open() -> None:
 @given(faces_of, st.integers(0, 3))
 def test_components_by_the_kernel_are_those_of_scipy(faces: np.ndarray, more: int) -> None:
     vertices = int(faces.max()) + 1 + more
-    names, count = vertex_components(faces, vertices)
-    fast, same = vertex_components(faces, vertices, compiled=True)
+    names, count = vertex_components_reference(faces, vertices)
+    fast, same = vertex_components(faces, vertices)
     assert (count, names.dtype) == (same, fast.dtype)
     assert np.array_equal(names, fast)
     used = np.unique(faces)
@@ -90,9 +97,9 @@ def test_components_by_the_kernel_are_those_of_scipy(faces: np.ndarray, more: in
     assert (names[faces] == names[faces[:, :1]]).all()
 
 
-@pytest.mark.parametrize("compiled", [False, True])
-def test_two_cubes_are_two_components(compiled: bool) -> None:
-    names, count = vertex_components(solid(0, 0), 16, compiled=compiled)
+@pytest.mark.parametrize("label", [vertex_components, vertex_components_reference])
+def test_two_cubes_are_two_components(label: Callable[..., tuple[np.ndarray, int]]) -> None:
+    names, count = label(solid(0, 0), 16)
     assert count == 2
     assert names.tolist() == [0] * 8 + [1] * 8
 

@@ -310,11 +310,11 @@ def _gap(points: Floats, distance: Floats, area: Floats) -> SurfaceGap:
 
 def _patches(points: Floats, distance: Floats, area: Floats, cell: float) -> tuple[ChangedPatch, ...]:
     """Group the points that lie far away into places; return them, the largest first."""
-    from scipy.ndimage import label
-
     distant = np.flatnonzero(distance > LOST * cell)
     if len(distant) == 0:
         return ()
+    from scipy.ndimage import label
+
     side = max(
         LOST * cell, 2 * float(area.max(initial=0.0)) ** 0.5, float(np.ptp(points[distant], axis=0).max()) / FINEST
     )

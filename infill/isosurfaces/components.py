@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from infill.isosurfaces.sparse_marching import rows_above
 from infill.kernels import components as kernels
+from infill.kernels.disjoint_sets import name_sets
 from infill.kernels.sparse import BRICK, CELLS, SOLID_BRICK, VOID_BRICK
 from infill.kernels.sparse_marching import ROWS, face_volumes
 from infill.kernels.threads import in_threads, thread_count
@@ -201,7 +202,7 @@ def find_components(
     kernels.join_alone(alone, parent)
     kernels.join_runs(field.slots, field.where, bits, bricks, starts, alone, parent, void)
     names = np.empty(len(parent), dtype=np.int32)
-    count = kernels.name_sets(parent, names)
+    count = name_sets(parent, names)
     cells = np.zeros(count, dtype=np.int64)
     kernels.count_cells(field.where, bits, bricks, starts, field.shape, names, cells)
     np.add.at(cells, names[alone[single]], brick_sides_on_grid(np.argwhere(single), field.shape).prod(axis=1))
@@ -273,7 +274,7 @@ def label_shells(
 
 def shell_names(surface: Surface) -> tuple[NDArray[np.int32], int]:
     """Label the connected parts of a surface; return the label of every vertex (V,), and the number of parts."""
-    return vertex_components(surface.faces, len(surface.vertices), compiled=True)
+    return vertex_components(surface.faces, len(surface.vertices))
 
 
 def face_sums(

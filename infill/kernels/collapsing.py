@@ -35,6 +35,8 @@ SAMPLE_SPACING, WIDE = 0.05, 4.0
 MAX_HELD_POINTS = 1 << 16  # points on the faces around an edge: where there are more, it stays
 MOST_SWEEPS, LEAST_SWEPT = 12, 0.04  # sweeps without an order of edges, and the share of vertices that one takes
 MOST_AROUND = 12  # corners at a vertex after such a collapse: no vertex grows at the cost of its neighbours
+# Squared cosines, of the planes of a quadric as a mean and of each face: a place that is so level needs no samples.
+LEVEL_PLANES, LEVEL_FACES = 0.97, 0.94
 RETRY_SHARE = 0.005  # of the triangles: while at least this share is removed, edges that stayed are tried again
 
 
@@ -163,6 +165,28 @@ def _reshape_faces(c, vertices, start, twin, ring, ring_size, end_ring, end_ring
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
+def _are_level(moved, changed, s):
+    """Return True if `changed` faces (N, 3, 3) and the planes of a quadric all face nearly the same way."""
+    mx, my, mz = 0.0, 0.0, 0.0
+    for m in range(changed):
+        nx, ny, nz, _ = normal_and_shape(moved[m, 0], moved[m, 1], moved[m, 2])
+        mx, my, mz = mx + nx, my + ny, mz + nz
+    length = math.sqrt(mx * mx + my * my + mz * mz)
+    if length == 0:
+        return False
+    mx, my, mz = mx / length, my / length, mz / length
+    along = s[0] * mx * mx + s[3] * my * my + s[5] * mz * mz + 2 * (s[1] * mx * my + s[2] * mx * mz + s[4] * my * mz)
+    if along < LEVEL_PLANES * s[10]:
+        return False
+    for m in range(changed):
+        nx, ny, nz, _ = normal_and_shape(moved[m, 0], moved[m, 1], moved[m, 2])
+        same = nx * mx + ny * my + nz * mz
+        if not same > 0 or same * same < LEVEL_FACES * (nx * nx + ny * ny + nz * nz):
+            return False
+    return True
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
 def _find_shortest_edge(v, vertices, start, fixed, swept, ring, ring_size, sweep):
     """Return the corner whose edge leads from a vertex to its nearest free neighbour; -1 if there is none."""
     best, nearest = math.inf, NO_CORNER
@@ -177,53 +201,148 @@ def _find_shortest_edge(v, vertices, start, fixed, swept, ring, ring_size, sweep
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
+def _sweep_once(mesh, fixed, quadric, bound, into, swept, marked, space, sweep, step):
+    """Collapse the shortest edge of vertex after vertex, nowhere twice; return the vertices gone, and the last step."""
+    vertices, start, twin, leaving, name = mesh
+    s, place, ring, end_ring, moved, chosen = space
+    removed = 0
+    for u in range(len(vertices)):
+        if into[u] != u or fixed[u] or swept[u] == sweep:
+            continue
+        ring_size = corners_of(u, twin, leaving, ring)
+        if ring_size < 0 or ring_size > MOST_AROUND:
+            continue
+        c = _find_shortest_edge(u, vertices, start, fixed, swept, ring, ring_size, sweep)
+        if c == NO_CORNER:
+            continue
+        v = start[next_corner(c)]
+        if best_place(vertices[u], vertices[v], quadric[u], quadric[v], s, place) > bound * s[10]:
+            continue
+        end_ring_size = corners_of(v, twin, leaving, end_ring)
+        if end_ring_size < 0 or not 3 <= ring_size + end_ring_size - 4 <= MOST_AROUND:
+            continue
+        step += 1
+        if not can_collapse(c, start, twin, leaving, name, ring, ring_size, end_ring, end_ring_size, marked, step):
+            continue
+        _keep_volume(c, vertices, start, twin, ring, ring_size, end_ring, end_ring_size, s, place)
+        sizes = ring_size, end_ring, end_ring_size
+        if _reshape_faces(c, vertices, start, twin, ring, *sizes, place, moved, chosen) == NO_CORNER:
+            continue
+        collapse_edge(c, start, twin, leaving, end_ring, end_ring_size)
+        copy_row(quadric[u], s)
+        copy_row(vertices[u], place)
+        into[v] = u
+        removed += 1
+        swept[u] = sweep
+        for n in range(corners_of(u, twin, leaving, ring)):
+            swept[start[next_corner(ring[n])]] = sweep
+    return removed, step
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
 def sweep_short_edges(vertices, start, twin, leaving, name, fixed, quadric, bound, into):
     """Collapse the shortest edge of vertex after vertex, nowhere twice in a sweep; return the number of vertices gone.
 
     Takes a third of the time of `collapse` for each edge, as no order is kept: for the many triangles of flat places.
     Arguments as for `collapse`, with a bound that all these edges are well within.
     """
+    mesh = vertices, start, twin, leaving, name
     swept = np.full(len(vertices), NO_CORNER, dtype=np.int32)
     marked = np.full(name.max() + 1, NO_CORNER, dtype=np.int32)
-    s, place = np.empty(11), np.empty(3)
-    ring, end_ring = np.empty(MAX_CORNERS, dtype=np.int32), np.empty(MAX_CORNERS, dtype=np.int32)
-    moved, chosen = np.empty((2 * MAX_CORNERS, 3, 3)), np.empty(2 * MAX_CORNERS + 2, dtype=np.int32)
-    step, removed, total = 0, 0, 0
+    space = (
+        np.empty(11),
+        np.empty(3),
+        np.empty(MAX_CORNERS, dtype=np.int32),
+        np.empty(MAX_CORNERS, dtype=np.int32),
+        np.empty((2 * MAX_CORNERS, 3, 3)),
+        np.empty(2 * MAX_CORNERS + 2, dtype=np.int32),
+    )
+    step, total = 0, 0
     for sweep in range(MOST_SWEEPS):
-        total, removed = total + removed, 0
-        for u in range(len(vertices)):
-            if into[u] != u or fixed[u] or swept[u] == sweep:
-                continue
-            ring_size = corners_of(u, twin, leaving, ring)
-            if ring_size < 0 or ring_size > MOST_AROUND:
-                continue
-            c = _find_shortest_edge(u, vertices, start, fixed, swept, ring, ring_size, sweep)
-            if c == NO_CORNER:
-                continue
-            v = start[next_corner(c)]
-            if best_place(vertices[u], vertices[v], quadric[u], quadric[v], s, place) > bound * s[10]:
-                continue
-            end_ring_size = corners_of(v, twin, leaving, end_ring)
-            if end_ring_size < 0 or not 3 <= ring_size + end_ring_size - 4 <= MOST_AROUND:
-                continue
-            step += 1
-            if not can_collapse(c, start, twin, leaving, name, ring, ring_size, end_ring, end_ring_size, marked, step):
-                continue
-            _keep_volume(c, vertices, start, twin, ring, ring_size, end_ring, end_ring_size, s, place)
-            sizes = ring_size, end_ring, end_ring_size
-            if _reshape_faces(c, vertices, start, twin, ring, *sizes, place, moved, chosen) == NO_CORNER:
-                continue
-            collapse_edge(c, start, twin, leaving, end_ring, end_ring_size)
-            copy_row(quadric[u], s)
-            copy_row(vertices[u], place)
-            into[v] = u
-            removed += 1
-            swept[u] = sweep
-            for n in range(corners_of(u, twin, leaving, ring)):
-                swept[start[next_corner(ring[n])]] = sweep
-        if removed < LEAST_SWEPT * (len(vertices) - total):
+        removed, step = _sweep_once(mesh, fixed, quadric, bound, into, swept, marked, space, sweep, step)
+        total += removed
+        if removed < LEAST_SWEPT * (len(vertices) - (total - removed)):
             break
-    return total + removed
+    return total
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def _collapse_in_order(mesh, fixed, quadric, held, was, tolerance, bound, sizes, queue, ends, marked, space, into):
+    """Collapse edges, cheapest first, as `collapse` does, with all arrays at hand; return the number of faces left."""
+    vertices, start, twin, leaving, name = mesh
+    points, corner, first_point, next_point = held
+    remaining, fewest, edge, sample_step = sizes
+    s, place, ring, end_ring, moved, chosen, goes, goes_to = space
+    bounded = len(points) > 0
+    for c in range(len(start)):
+        if c < twin[c] and start[c] != NO_CORNER:
+            _update_bucket(c, vertices, start, twin, fixed, quadric, bound, edge, queue, ends, s, place)
+    before, lowest, step = remaining, 0, 0
+    while remaining > fewest:
+        while lowest < BUCKETS and ends[lowest, 0] == NO_CORNER:
+            lowest += 1
+        if lowest == BUCKETS:
+            if before - remaining < RETRY_SHARE * remaining:
+                break
+            before = remaining
+            for e in range(len(start)):
+                if start[e] != NO_CORNER and e < twin[e]:
+                    bucket = _update_bucket(
+                        e, vertices, start, twin, fixed, quadric, bound, edge, queue, ends, s, place
+                    )
+                    lowest = min(lowest, bucket)
+            continue
+        c = ends[lowest, 0]
+        _dequeue(c, queue, ends)
+        step += 1
+        u, v, d = start[c], start[next_corner(c)], twin[c]
+        ring_size, end_ring_size = corners_of(u, twin, leaving, ring), corners_of(v, twin, leaving, end_ring)
+        if ring_size < 0 or end_ring_size < 0 or not 3 <= ring_size + end_ring_size - 4 <= MAX_CORNERS:
+            continue
+        if not can_collapse(c, start, twin, leaving, name, ring, ring_size, end_ring, end_ring_size, marked, step):
+            continue
+        best_place(vertices[u], vertices[v], quadric[u], quadric[v], s, place)
+        changed, taken, level = NO_CORNER, 0, False
+        for attempt in range(3 if bounded else 1):  # where the best place is too far, one of the ends may be near
+            if level:  # but hardly where all is level
+                break
+            if attempt > 0:
+                copy_row(place, vertices[u] if attempt == 1 else vertices[v])
+            _keep_volume(c, vertices, start, twin, ring, ring_size, end_ring, end_ring_size, s, place)
+            changed = _reshape_faces(
+                c, vertices, start, twin, ring, ring_size, end_ring, end_ring_size, place, moved, chosen
+            )
+            if changed == NO_CORNER or not bounded:
+                continue
+            level = _are_level(moved, changed, s)
+            chosen[changed], chosen[changed + 1] = c // 3, d // 3
+            taken = reassign_points(first_point, next_point, points, tolerance, moved, chosen, changed, goes, goes_to)
+            if taken > 0:
+                spacing = math.inf if level else sample_step
+                if are_edges_near(place, moved, changed, spacing, points, tolerance, goes, taken, corner, was):
+                    break
+            changed = NO_CORNER
+        if changed == NO_CORNER:
+            continue
+        if bounded:
+            for n in range(changed):
+                first_point[chosen[n]] = NO_CORNER
+            for n in range(taken):
+                p, f = goes[n], goes_to[n]
+                next_point[p], first_point[f] = first_point[f], p
+        for n in range(ring_size):
+            _dequeue(min(ring[n], twin[ring[n]]), queue, ends)
+        for n in range(end_ring_size):
+            _dequeue(min(end_ring[n], twin[end_ring[n]]), queue, ends)
+        collapse_edge(c, start, twin, leaving, end_ring, end_ring_size)
+        copy_row(quadric[u], s)
+        copy_row(vertices[u], place)
+        into[v] = u
+        remaining -= 2
+        for n in range(corners_of(u, twin, leaving, ring)):
+            bucket = _update_bucket(ring[n], vertices, start, twin, fixed, quadric, bound, edge, queue, ends, s, place)
+            lowest = min(lowest, bucket)
+    return remaining
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
@@ -276,73 +395,20 @@ def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corne
     sample_step = min(SAMPLE_SPACING * edge, WIDE * tolerance)
     queue, ends = np.full((len(start), 3), NO_CORNER, dtype=np.int32), np.full((BUCKETS, 2), NO_CORNER, dtype=np.int32)
     marked = np.full(name.max() + 1, NO_CORNER, dtype=np.int32)
-    s, place = np.empty(11), np.empty(3)
-    ring, end_ring = np.empty(MAX_CORNERS, dtype=np.int32), np.empty(MAX_CORNERS, dtype=np.int32)
-    moved, chosen = np.empty((2 * MAX_CORNERS, 3, 3)), np.empty(2 * MAX_CORNERS + 2, dtype=np.int32)
-    goes, goes_to = np.empty(MAX_HELD_POINTS, dtype=np.int32), np.empty(MAX_HELD_POINTS, dtype=np.int32)
-    for c in range(len(start)):
-        if c < twin[c] and start[c] != NO_CORNER:
-            _update_bucket(c, vertices, start, twin, fixed, quadric, bound, edge, queue, ends, s, place)
-    before, lowest, step = remaining, 0, 0
-    while remaining > fewest:
-        while lowest < BUCKETS and ends[lowest, 0] == NO_CORNER:
-            lowest += 1
-        if lowest == BUCKETS:
-            if before - remaining < RETRY_SHARE * remaining:
-                break
-            before = remaining
-            for e in range(len(start)):
-                if start[e] != NO_CORNER and e < twin[e]:
-                    bucket = _update_bucket(
-                        e, vertices, start, twin, fixed, quadric, bound, edge, queue, ends, s, place
-                    )
-                    lowest = min(lowest, bucket)
-            continue
-        c = ends[lowest, 0]
-        _dequeue(c, queue, ends)
-        step += 1
-        u, v, d = start[c], start[next_corner(c)], twin[c]
-        ring_size, end_ring_size = corners_of(u, twin, leaving, ring), corners_of(v, twin, leaving, end_ring)
-        if ring_size < 0 or end_ring_size < 0 or not 3 <= ring_size + end_ring_size - 4 <= MAX_CORNERS:
-            continue
-        if not can_collapse(c, start, twin, leaving, name, ring, ring_size, end_ring, end_ring_size, marked, step):
-            continue
-        best_place(vertices[u], vertices[v], quadric[u], quadric[v], s, place)
-        changed, taken = NO_CORNER, 0
-        for attempt in range(3 if bounded else 1):  # where the best place is too far, one of the ends may be near
-            if attempt > 0:
-                copy_row(place, vertices[u] if attempt == 1 else vertices[v])
-            _keep_volume(c, vertices, start, twin, ring, ring_size, end_ring, end_ring_size, s, place)
-            changed = _reshape_faces(
-                c, vertices, start, twin, ring, ring_size, end_ring, end_ring_size, place, moved, chosen
-            )
-            if changed == NO_CORNER or not bounded:
-                continue
-            chosen[changed], chosen[changed + 1] = c // 3, d // 3
-            taken = reassign_points(first_point, next_point, points, tolerance, moved, chosen, changed, goes, goes_to)
-            if taken > 0:
-                was = original_corners, was_twin, was_leaving
-                if are_edges_near(place, moved, changed, sample_step, points, tolerance, goes, taken, corner, was):
-                    break
-            changed = NO_CORNER
-        if changed == NO_CORNER:
-            continue
-        if bounded:
-            for n in range(changed):
-                first_point[chosen[n]] = NO_CORNER
-            for n in range(taken):
-                p, f = goes[n], goes_to[n]
-                next_point[p], first_point[f] = first_point[f], p
-        for n in range(ring_size):
-            _dequeue(min(ring[n], twin[ring[n]]), queue, ends)
-        for n in range(end_ring_size):
-            _dequeue(min(end_ring[n], twin[end_ring[n]]), queue, ends)
-        collapse_edge(c, start, twin, leaving, end_ring, end_ring_size)
-        copy_row(quadric[u], s)
-        copy_row(vertices[u], place)
-        into[v] = u
-        remaining -= 2
-        for n in range(corners_of(u, twin, leaving, ring)):
-            bucket = _update_bucket(ring[n], vertices, start, twin, fixed, quadric, bound, edge, queue, ends, s, place)
-            lowest = min(lowest, bucket)
-    return remaining
+    space = (
+        np.empty(11),
+        np.empty(3),
+        np.empty(MAX_CORNERS, dtype=np.int32),
+        np.empty(MAX_CORNERS, dtype=np.int32),
+        np.empty((2 * MAX_CORNERS, 3, 3)),
+        np.empty(2 * MAX_CORNERS + 2, dtype=np.int32),
+        np.empty(MAX_HELD_POINTS, dtype=np.int32),
+        np.empty(MAX_HELD_POINTS, dtype=np.int32),
+    )
+    mesh = vertices, start, twin, leaving, name
+    held = points, corner, first_point, next_point
+    was = original_corners, was_twin, was_leaving
+    sizes = remaining, fewest, edge, sample_step
+    return _collapse_in_order(
+        mesh, fixed, quadric, held, was, tolerance, bound, sizes, queue, ends, marked, space, into
+    )

@@ -18,23 +18,36 @@ _UNCACHED_TEXT = (
     "preparing %s takes up to a minute in every run, because no folder for it is writable; set NUMBA_CACHE_DIR to one"
 )
 SOLE_COMPILER = threading.Event()  # set if no other thread compiles in this process
+MAKERS = frozenset({"copy", "empty", "full", "ones", "reshape", "zeros"})  # names by which code makes arrays
 BLAS = "scipy.linalg.cython_blas"
 _WATCHED = ContextVar("watched", default=False)
 
 
-def njit(**options: Any) -> Callable[[Callable[..., Any]], Any]:  # noqa: ANN401 - hands on
-    """Return numba's decorator; without a writable folder, compiled code is not cached."""
+def njit(*, makes_arrays: bool = False, **options: Any) -> Callable[[Callable[..., Any]], Any]:  # noqa: ANN401 - hands on
+    """Return numba's decorator; without a writable folder, compiled code is not cached.
+
+    Code that makes no arrays does not count references to them: counting them, by one processor at a time, takes up to
+    half the time of loops that look at rows of arrays. Numba refuses to compile code that makes an array without.
+
+    Parameters
+    ----------
+    makes_arrays : bool
+        Whether the function makes arrays in other ways than by the names in `MAKERS`: by an expression of arrays, say.
+    **options
+        Of `numba.njit`.
+    """
     import numba
 
     if SOLE_COMPILER.is_set() and "numba.np.arraymath" not in sys.modules:
         _load_without_blas()
 
     def compiled(function: Callable[..., Any]) -> Any:  # noqa: ANN401 - a dispatcher of numba's
+        counted = options | {"_nrt": makes_arrays or not MAKERS.isdisjoint(function.__code__.co_names)}
         try:
-            return numba.njit(**options)(function)
+            return numba.njit(**counted)(function)
         except RuntimeError:
             UNCACHED.set()
-            return numba.njit(**(options | {"cache": False}))(function)
+            return numba.njit(**(counted | {"cache": False}))(function)
 
     return compiled
 

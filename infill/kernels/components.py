@@ -1,4 +1,4 @@
-"""Loops of `infill.isosurfaces.components` over rows of bits and over triangles, compiled.
+"""Loops of `infill.isosurfaces.components` over rows of bits, compiled.
 
 A row of a brick is sixteen bits, set where a cell is of the kind to label. Labels belong not to cells but to
 runs of set bits, found by a few operations on the entire row:
@@ -10,12 +10,11 @@ runs of set bits, found by a few operations on the entire row:
 The number of the run at cell k of a row is therefore `bricks` (runs in earlier bricks) + `starts` (in earlier rows) +
 that count minus one: nothing is stored per cell. A brick with a single value is one node (`alone`).
 
-Runs are joined by union-find. `parent` leads from every node to an earlier one of its set, and from the first node of
-the set to itself; `root` follows it, halving the path as it goes, and `join` puts the later root under the earlier one,
-so that the first member names the set. Two adjacent rows are joined where both have bits set (`own & theirs`), once for
-each stretch where they do; along k, a run continues in the next brick if the last bit here and the first there are set.
-With `diagonal`, for void, rows one step away along two axes count too, as do bits one place aside: cells that touch at
-an edge. Solid is joined by faces only, so where two solid cells touch at an edge, void runs between them.
+Runs are joined as sets: see `infill.kernels.disjoint_sets`. Two adjacent rows are joined where both have bits set
+(`own & theirs`), once for each stretch where they do; along k, a run continues in the next brick if the last bit here
+and the first there are set. With `diagonal`, for void, rows one step away along two axes count too, as do bits one
+place aside: cells that touch at an edge. Solid is joined by faces only, so where two solid cells touch at an edge, void
+runs between them.
 """
 # mypy: disable-error-code="no-untyped-def, call-arg"
 # ruff: noqa: ANN001, ANN201
@@ -26,30 +25,12 @@ from __future__ import annotations
 import numpy as np
 
 from infill.kernels.compiling import njit
+from infill.kernels.disjoint_sets import join
 from infill.kernels.lanes import count_ones, lowest_bit
 from infill.kernels.sparse import B0, B1, B2, CELLS, OUTSIDE, VOID_BRICK, place_beside
 from infill.kernels.sparse_marching import FULL, ROWS, grid_cells_of_row
 
 OUTSIDE_LATTICE = -9  # outside the lattice: neither solid nor void
-
-
-@njit(cache=True)
-def root(parent, n):
-    """Return the first member of the set that contains `n`."""
-    while parent[n] != n:
-        parent[n] = parent[parent[n]]
-        n = parent[n]
-    return n
-
-
-@njit(cache=True)
-def join(parent, a, b):
-    """Merge two sets; the first member stays the first."""
-    a, b = root(parent, a), root(parent, b)
-    if a < b:
-        parent[b] = a
-    elif b < a:
-        parent[a] = b
 
 
 @njit(cache=True)
@@ -257,20 +238,6 @@ def join_beyond(where, bits, bricks, starts, shape, parent):
 
 
 @njit(nogil=True, cache=True)
-def name_sets(parent, names):
-    """Name the sets 0, 1, 2 … in the order of their first members; return their number."""
-    count = 0
-    for n in range(len(parent)):
-        first_member = root(parent, n)
-        if first_member == n:
-            names[n] = count
-            count += 1
-        else:
-            names[n] = names[first_member]
-    return count
-
-
-@njit(nogil=True, cache=True)
 def count_cells(where, bits, bricks, starts, shape, names, cells):
     """Add the cells of every run within the grid to the count of its component."""
     for s in range(len(where)):
@@ -345,15 +312,6 @@ def label_cells(places, slots, bits, bricks, starts, alone, names, reach, labels
     for n in range(len(places)):
         x, y, z = places[n]
         labels[n] = nearest_component(slots, x, y, z, bits, bricks, starts, alone, names, reach)
-
-
-@njit(nogil=True, cache=True)
-def join_faces(faces, parent, used):
-    """Join the corners of every triangle, and mark them."""
-    for f in range(len(faces)):
-        used[faces[f, 0]] = used[faces[f, 1]] = used[faces[f, 2]] = True
-        join(parent, np.int64(faces[f, 0]), np.int64(faces[f, 1]))
-        join(parent, np.int64(faces[f, 0]), np.int64(faces[f, 2]))
 
 
 @njit(nogil=True, cache=True)

@@ -143,64 +143,29 @@ def _is_level_piece(piece, own, leaf, reach, normal, stack):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def sample_faces(
-    vertices,
-    faces,
+def _sample_in_order(
+    surface,
     nearest,
     squared,
-    corners,
-    low,
-    high,
-    leaf,
+    tree,
     tolerance,
     enough,
-    coarse,
-    fine,
-    folds,
+    lengths,
     own,
     reach,
     minimum,
     begin,
-    points,
-    face,
-    owner,
-    squares,
+    results,
+    space,
     thread,
     threads,
 ):
-    """Set points on every `threads`-th triangle, and their nearest triangles; return the number that fit.
-
-    Parameters
-    ----------
-    vertices, faces : (V, 3) float64, (F, 3) int
-    nearest, squared : (V,) int64, (V,) float64
-        The triangle of the other mesh nearest to each vertex, and its squared distance.
-    corners, low, high, leaf
-        The other mesh: see `infill.kernels.distances.nearest_triangles`.
-    tolerance, enough : float
-        Squared distances: the limit of near points, and the one below which the exact distance does not matter.
-    coarse, fine : float
-        Lengths to which pieces are cut: all of them, and those with a corner that is barely near.
-    folds : float
-        Length up to which a piece counts as near where its nearest triangles fold little; 0 where triangles of the
-        other mesh may lie between its corners.
-    own : tuple of arrays
-        Triangles of this mesh as for `mark_level_faces`, with their normals: pieces with level ones alone within
-        `reach` are near. Without rows, if such pieces are to be sampled.
-    reach : float
-    minimum : float
-        Only points further away than this, a squared distance, are kept.
-    begin : (threads,) int64
-        The first face of each thread; becomes the first one whose points did not fit, or the number of faces.
-    points, face, owner, squares : (threads, P, 3) float64, (threads, P) int32, (threads, P) int64, (threads, P) float64
-        Results: the face that each point lies on, the triangle of the other mesh nearest to it, or any within
-        `enough`, and the squared distance from that triangle.
-    """
-    stack, waiting = np.empty(STACK_SIZE, dtype=np.int64), np.empty(STACK_SIZE)
-    room = MAX_CUTS + 2
-    pieces, owners, offs = np.empty((room, 3, 3)), np.empty((room, 3), dtype=np.int64), np.empty((room, 3))
-    depths, normal = np.empty(room, dtype=np.int64), np.empty(3)
-    piece, ends, off = np.empty((4, 3)), np.empty(4, dtype=np.int64), np.empty(4)
+    """Set points as `sample_faces` does, with all arrays at hand; return the number that fit."""
+    vertices, faces = surface
+    corners, low, high, leaf = tree
+    coarse, fine, folds = lengths
+    points, face, owner, squares = results
+    stack, waiting, pieces, owners, offs, depths, normal, piece, ends, off = space
     count = 0
     for f in range(begin[thread], len(faces), threads):
         before = count
@@ -255,6 +220,92 @@ def sample_faces(
                 stack_size += 1
     begin[thread] = len(faces)
     return count
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def sample_faces(
+    vertices,
+    faces,
+    nearest,
+    squared,
+    corners,
+    low,
+    high,
+    leaf,
+    tolerance,
+    enough,
+    coarse,
+    fine,
+    folds,
+    own,
+    reach,
+    minimum,
+    begin,
+    points,
+    face,
+    owner,
+    squares,
+    thread,
+    threads,
+):
+    """Set points on every `threads`-th triangle, and their nearest triangles; return the number that fit.
+
+    Parameters
+    ----------
+    vertices, faces : (V, 3) float64, (F, 3) int
+    nearest, squared : (V,) int64, (V,) float64
+        The triangle of the other mesh nearest to each vertex, and its squared distance.
+    corners, low, high, leaf
+        The other mesh: see `infill.kernels.distances.nearest_triangles`.
+    tolerance, enough : float
+        Squared distances: the limit of near points, and the one below which the exact distance does not matter.
+    coarse, fine : float
+        Lengths to which pieces are cut: all of them, and those with a corner that is barely near.
+    folds : float
+        Length up to which a piece counts as near where its nearest triangles fold little; 0 where triangles of the
+        other mesh may lie between its corners.
+    own : tuple of arrays
+        Triangles of this mesh as for `mark_level_faces`, with their normals: pieces with level ones alone within
+        `reach` are near. Without rows, if such pieces are to be sampled.
+    reach : float
+    minimum : float
+        Only points further away than this, a squared distance, are kept.
+    begin : (threads,) int64
+        The first face of each thread; becomes the first one whose points did not fit, or the number of faces.
+    points, face, owner, squares : (threads, P, 3) float64, (threads, P) int32, (threads, P) int64, (threads, P) float64
+        Results: the face that each point lies on, the triangle of the other mesh nearest to it, or any within
+        `enough`, and the squared distance from that triangle.
+    """
+    room = MAX_CUTS + 2
+    space = (
+        np.empty(STACK_SIZE, dtype=np.int64),
+        np.empty(STACK_SIZE),
+        np.empty((room, 3, 3)),
+        np.empty((room, 3), dtype=np.int64),
+        np.empty((room, 3)),
+        np.empty(room, dtype=np.int64),
+        np.empty(3),
+        np.empty((4, 3)),
+        np.empty(4, dtype=np.int64),
+        np.empty(4),
+    )
+    return _sample_in_order(
+        (vertices, faces),
+        nearest,
+        squared,
+        (corners, low, high, leaf),
+        tolerance,
+        enough,
+        (coarse, fine, folds),
+        own,
+        reach,
+        minimum,
+        begin,
+        (points, face, owner, squares),
+        space,
+        thread,
+        threads,
+    )
 
 
 @njit(nogil=True, cache=True, error_model="numpy")

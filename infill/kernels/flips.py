@@ -61,7 +61,7 @@ def parts_beside(cells, max_steps):
     return count
 
 
-@njit(cache=True)
+@njit(makes_arrays=True, cache=True)
 def simple(cells):
     """Return True if the middle of 27 cells may change sign without a change of connections.
 

@@ -92,7 +92,7 @@ def drop_pieces(surface: Surface, pieces: Iterable[Surface], threads: int | None
     [1.0, 1.0, 1.0]
     """
     for piece in pieces:
-        names, _ = vertex_components(surface.faces, len(surface.vertices), compiled=True)
+        names, _ = vertex_components(surface.faces, len(surface.vertices))
         starts = first_vertex_of_shells(surface)
         vertices = np.asarray(surface.vertices, dtype=np.float64)
         is_dropped = winding_numbers(vertices[starts], piece, threads=threads) > 0
