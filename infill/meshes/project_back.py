@@ -96,14 +96,26 @@ def project_back(
         sources = np.concatenate([_project_to_faces(candidate, owner[missed], points[missed]), strays.points])
         distance = np.concatenate([samples.away[missed], strays.away])
         targets = sources + (1 - TARGET_SHARE ** (n + 1) * tolerance / distance)[:, None] * (targets - sources)
-        worst = np.argsort(-distance, kind="stable")
-        worst = worst[np.unique(faces[worst], return_index=True)[1]]
+        worst = _worst_of_each(faces, distance)
         failed = sources[worst]
         candidate, changed = _bend_to_targets(
             candidate, faces[worst], failed, targets[worst], NEAR_CORNER[n >= FIRST_ROUNDS]
         )
         samples = replace(samples, unsure=changed)
     return candidate, failed, replace(samples, found=candidate)
+
+
+def _worst_of_each(faces: Integers, distance: Floats) -> Integers:
+    """Find the place of each face (N,) that is furthest away; return their indices, the furthest first.
+
+    Each bend keeps its neighbours as they are: in another order, a near place next to the furthest one might win.
+
+    >>> _worst_of_each(np.array([7, 7, 3, 5]), np.array([1.0, 4.0, 2.0, 3.0])).tolist()
+    [1, 3, 2]
+    """
+    worst = np.argsort(-distance, kind="stable")
+    one_of_each: Integers = worst[np.sort(np.unique(faces[worst], return_index=True)[1])]
+    return one_of_each
 
 
 def _project_to_faces(surface: Surface, faces: Integers, places: Floats) -> Floats:
