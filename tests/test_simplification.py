@@ -17,7 +17,7 @@ from skimage.measure import marching_cubes
 from infill.errors import GeometryError, ParameterError
 from infill.kernels import quadrics
 from infill.meshes import edge_collapse as collapsing
-from infill.meshes.distance import LEAF, TriangleTree
+from infill.meshes.distance import LEAF, TriangleTree, nearest_on_triangles
 from infill.meshes.edge_collapse import CornerTable, collapse_edges
 from infill.meshes.hausdorff_samples import CLEAR, SURE, level_faces, match_faces, sample_between_vertices
 from infill.meshes.intersections import count_self_intersections
@@ -397,3 +397,16 @@ def test_a_quadric_is_the_sum_of_squared_distances_and_is_least_where_the_planes
     least = quadrics.best_place(vertices[one], vertices[other], quadric[one], quadric[other], total, place)
     around_both = [quadrics.value_of(total, *(place + shift)) for shift in 0.1 * np.eye(3)]
     assert all(least <= value + 1e-12 for value in around_both)
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_nearest_places_on_triangles_are_those_of_trimesh(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    corners, points = rng.normal(size=(20, 3, 3)), 2 * rng.normal(size=(20, 3))
+    corners[0, 2], corners[1] = corners[0, 1], corners[1, :1]  # a line, and a point
+    places = nearest_on_triangles(corners, points)
+    expected = trimesh.triangles.closest_point(corners, points)
+    np.testing.assert_allclose(places[2:], expected[2:], atol=1e-9)
+    along = corners[0, 0] + np.linspace(0, 1, 2001)[:, None] * (corners[0, 1] - corners[0, 0])
+    assert np.linalg.norm(places[0] - points[0]) <= np.linalg.norm(along - points[0], axis=1).min() + 1e-9
+    np.testing.assert_allclose(places[1], corners[1, 0], atol=1e-12)

@@ -14,7 +14,7 @@ from infill.arrays import Floats, Integers
 from infill.drains.drain_columns import find_crossings
 from infill.drains.drain_places import TurnedPart
 from infill.drains.holes import DrainNeeds, Hole
-from infill.meshes.distance import TriangleTree
+from infill.meshes.distance import TriangleTree, nearest_on_triangles
 from infill.surface import Surface
 
 MOST_POINTS, LINES, LATTICE = 400, 1600, 40_000  # of a void; lines through a void, and through all
@@ -153,7 +153,6 @@ def _find_goals(
 ) -> tuple[Floats, Integers]:
     """Find the points of drained voids nearest to the starts: of the candidates, and of their surfaces."""
     from scipy.spatial import cKDTree
-    from trimesh.triangles import closest_point
 
     is_drained = np.isin(void, list(drained))
     points, void = points[is_drained], void[is_drained]
@@ -166,8 +165,10 @@ def _find_goals(
         surface = Surface(vertices=below.voids.vertices, faces=below.voids.faces[faces])
         _, face = TriangleTree.of(surface).nearest(starts.at, threads=needs.threads)
         corners = np.asarray(surface.vertices, dtype=np.float64)[surface.faces[face]]
-        nearest = np.asarray(closest_point(corners, starts.at), dtype=np.float64)  # type: ignore[no-untyped-call]
-        points, void = np.concatenate([points, nearest]), np.concatenate([void, below.owners[faces[face]]])
+        points, void = (
+            np.concatenate([points, nearest_on_triangles(corners, starts.at)]),
+            np.concatenate([void, below.owners[faces[face]]]),
+        )
     return points, void
 
 

@@ -12,6 +12,7 @@ from infill.drains.drain_columns import LineLattice, find_ways
 from infill.drains.drain_places import UP, DrainPlaces, DrainTask, TurnedPart
 from infill.drains.holes import Hole, Shaft
 from infill.errors import GeometryError
+from infill.meshes.distance import nearest_on_triangles
 from infill.plain_numbers import plain_argument, plain_place
 
 Place = tuple[float, float, float]  # x, y, z, mm
@@ -117,12 +118,10 @@ def _round_place(place: Floats) -> Place:
 
 def _nearest_on_skin(place: Floats, task: DrainTask) -> tuple[Floats, Floats, float]:
     """Find the nearest point of the skin to a place; return it, the normal of its face, and its distance, mm."""
-    from trimesh.triangles import closest_point
-
     skin = task.along(np.eye(3)).skin
     distance, face = skin.whole.nearest(place[None], threads=task.needs.threads)
-    nearest = closest_point(skin.corners[face], place[None])  # type: ignore[no-untyped-call]
-    return np.asarray(nearest, dtype=np.float64)[0], skin.normals[face[0]], float(distance[0])
+    nearest = nearest_on_triangles(skin.corners[face], place[None])
+    return nearest[0], skin.normals[face[0]], float(distance[0])
 
 
 def _rotation_down(direction: Floats) -> Floats:

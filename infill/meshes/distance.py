@@ -120,6 +120,44 @@ def distances(points: NDArray[np.floating], surface: Surface, *, threads: int | 
     return TriangleTree.of(surface).nearest(points, threads=threads)[0]
 
 
+def barycentric(corners: Floats, points: Floats) -> Floats:
+    """Return the barycentric coordinates, (N, 3), of each point's foot on the plane of a triangle (N, 3, 3).
+
+    Not numbers where a triangle has no area.
+
+    >>> barycentric(np.eye(3)[None], np.array([[1.0, 1.0, 0.0]])).round(6).tolist()
+    [[0.666667, 0.666667, -0.333333]]
+    """
+    u, v, w = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0], points - corners[:, 0]
+    normal = np.cross(u, v)
+    squared = np.einsum("ij,ij->i", normal, normal)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        second = np.einsum("ij,ij->i", np.cross(w, v), normal) / squared
+        third = np.einsum("ij,ij->i", np.cross(u, w), normal) / squared
+    return np.column_stack([1 - second - third, second, third])
+
+
+def nearest_on_triangles(corners: Floats, points: Floats) -> Floats:
+    """Return the place on each triangle (N, 3, 3) nearest to each point (N, 3), (N, 3), mm.
+
+    >>> nearest_on_triangles(np.eye(3)[None], np.array([[1.0, 1.0, 0.0]])).tolist()
+    [[0.5, 0.5, 0.0]]
+    """
+    shares = barycentric(corners, points)
+    places: Floats = np.einsum("ij,ijk->ik", shares, corners)
+    outside = np.flatnonzero(~(shares >= 0).all(axis=1))
+    nearest = np.full(len(outside), np.inf)
+    for k in range(3):
+        begin, along = corners[outside, k], corners[outside, k - 2] - corners[outside, k]
+        squared = np.einsum("ij,ij->i", along, along)
+        ahead = np.einsum("ij,ij->i", points[outside] - begin, along)
+        place = begin + np.clip(ahead / np.where(squared > 0, squared, 1.0), 0, 1)[:, None] * along
+        away = np.square(points[outside] - place).sum(axis=1)
+        closer = away < nearest
+        places[outside[closer]], nearest[closer] = place[closer], away[closer]
+    return places
+
+
 def morton_order(points: Floats) -> NDArray[np.int64]:
     """Return the order of points (N, 3) along the curve of Morton (1966), where neighbours are mostly close in space.
 

@@ -21,6 +21,7 @@ RIDGE_HEIGHT = 0.25  # of the tolerance: edges that rise higher above their neig
 SAMPLE_SPACING = 8.0  # tolerances between these points
 MOST_EDGE_SAMPLES = 16  # of them on an edge
 BLIND_SHARE = 0.15  # of the tolerance, as a mean: edges collapse up to here without any distance being measured
+SAMPLED_SHARE = 0.99  # of the tolerance: where samples may lie, so that places between them lie within the tolerance
 SWEPT_SHARE = 0.5  # of that bound: edges are swept up to here, without an order
 FEW_TRIANGLES = 64  # triangles: a target of no more than these lets the bound alone say where to stop, in every patch
 PATCH = 30_000  # triangles, whose data fit into the second cache of a processor
@@ -329,13 +330,12 @@ def collapse_edges(
     around the place come back. Before all this, small triangles collapse as far as their planes allow, by a share of
     the tolerance, without any distance being measured.
     """
-    from scipy.spatial import cKDTree
-
     table = CornerTable.of(surface)
     if table is None:
         return None
     if tolerance is None:
         return table.without_edges(math.inf, triangles).placed_in(surface)
+    tolerance *= SAMPLED_SHARE
     tree, aim, samples, fewer = TriangleTree.of(surface), triangles, None, table
     for attempt in range(ATTEMPTS):
         if fewer is table:
@@ -355,6 +355,8 @@ def collapse_edges(
             fewer = table
             continue
         reach = BLOCKED_RADIUS * 2 ** (attempt // DOUBLED) * float(np.sqrt(surface.area / len(surface.faces)))
+        from scipy.spatial import cKDTree
+
         distance, _ = cKDTree(places - table.centre).query(table.vertices, distance_upper_bound=reach)
         blocked = np.isfinite(distance)
         table = replace(table, fixed=table.fixed | blocked)

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from infill.arrays import Floats, Integers
-from infill.meshes.distance import TriangleTree
+from infill.meshes.distance import TriangleTree, barycentric, nearest_on_triangles
 from infill.meshes.hausdorff_samples import HausdorffSamples, find_strays, level_faces, sample_original
 from infill.meshes.intersections import intersecting_pairs
 from infill.surface import Surface
@@ -120,12 +120,7 @@ def _worst_of_each(faces: Integers, distance: Floats) -> Integers:
 
 def _project_to_faces(surface: Surface, faces: Integers, places: Floats) -> Floats:
     """Project each place onto its face; return the nearest points."""
-    import trimesh.triangles
-
-    if not len(faces):
-        return np.empty((0, 3))
-    corners = np.asarray(surface.vertices, dtype=np.float64)[surface.faces[faces]]
-    return np.asarray(trimesh.triangles.closest_point(corners, places))  # type: ignore[no-untyped-call]
+    return nearest_on_triangles(np.asarray(surface.vertices, dtype=np.float64)[surface.faces[faces]], places)
 
 
 def _bend_to_targets(
@@ -140,7 +135,7 @@ def _bend_to_targets(
     vertices, faces = [np.asarray(surface.vertices, dtype=np.float64)], surface.faces.copy()
     moved, count, new_faces = vertices[0].copy(), len(surface.vertices), []
     touched = np.zeros(len(faces), dtype=bool)
-    shares = _barycentric(moved[surface.faces[face]], sources)
+    shares = np.nan_to_num(barycentric(moved[surface.faces[face]], sources), nan=1 / 3)
     order = np.argsort(start, kind="stable")
     fan_start = np.searchsorted(start[order], np.arange(count + 1))
     for index, share, target in zip(face.tolist(), shares, targets, strict=True):
@@ -209,11 +204,3 @@ def _corners_of_faces(surface: Surface, faces: Integers) -> Floats:
     """Return the corners of some faces, three rows for each distinct face, mm."""
     corners: Floats = np.asarray(surface.vertices, dtype=np.float64)[surface.faces[np.unique(faces)]].reshape(-1, 3)
     return corners
-
-
-def _barycentric(corners: Floats, places: Floats) -> Floats:
-    """Return the barycentric coordinates of a place in each triangle, (N, 3)."""
-    import trimesh.triangles
-
-    shares = trimesh.triangles.points_to_barycentric(corners, places)  # type: ignore[no-untyped-call]
-    return np.nan_to_num(np.asarray(shares, dtype=np.float64), nan=1 / 3)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.graph import label_connected
 from infill.isosurfaces.components import Components, data_bits, find_components
 from infill.isosurfaces.levels import (
     LevelSurface,
@@ -138,9 +139,6 @@ def _mesh_targets(
     Mesh components that lie in the same component of the data are summed up. Where a mesh component lies in several,
     because a wall between them is too thin for the cells, these share its volume as they share that of the field.
     """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     of_face = nearest_components((enclosed.beside - np.array(grid.origin)) / grid.cell_size, field, data)
     has_component = of_face >= 0
     count = len(enclosed.volumes)
@@ -152,12 +150,7 @@ def _mesh_targets(
     largest_area = np.zeros(count)
     np.maximum.at(largest_area, of_mesh, area)
     is_linked = area > MIN_AREA_SHARE * largest_area[of_mesh]
-    graph = coo_array(
-        (np.ones(int(is_linked.sum()), dtype=np.int8), (of_mesh[is_linked], count + of_data[is_linked])),
-        shape=(count + data.count,) * 2,
-    )
-    _, group = connected_components(graph, directed=False)
-    groups = int(group.max()) + 1
+    group, groups = label_connected(of_mesh[is_linked], count + of_data[is_linked], count + data.count)
     mesh_volume = np.bincount(group[:count], weights=enclosed.volumes, minlength=groups)
     if len(enclosed.excess):
         excess_component = nearest_components((enclosed.over - np.array(grid.origin)) / grid.cell_size, field, data)
