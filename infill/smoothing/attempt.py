@@ -135,6 +135,7 @@ def run_attempt(smooth_input: SmoothInput, request: SmoothRequest) -> Attempt:
     """
     request = request.at(float(smooth_input.data.cell_size.min()))
     clock = Clock(request.progress)
+    clock.seconds["voxels"] = smooth_input.seconds
     with clock.stage("smooth", 0.05):
         _require_memory(smooth_input.data, request)
         data, specks = remove_specks(smooth_input.data, request)
@@ -301,8 +302,9 @@ def finish_attempt(
     smoothed, clock, surfaced = best.smoothed, best.clock, best.surfaced
     smooth_input, request = smoothed.smooth_input, smoothed.request
     data, topology, deviation, differences = smooth_input.data, best.topology, best.deviation, best.differences
-    with clock.stage("measure", 0.75):
+    with clock.stage("simplify", 0.7):
         surface, simplified = _simplify_result(best.surface, request)
+    with clock.stage("measure", 0.9):
         if surface is not best.surface:
             deviation = compare_with_input(surface, smoothed)
             differences = find_differences(topology, deviation, surfaced, smoothed)

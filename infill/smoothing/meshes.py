@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import time
 from dataclasses import asdict, replace
 
 import numpy as np
@@ -80,6 +81,7 @@ def voxelise_input(mesh: MeshOnGrid, request: SmoothRequest) -> SmoothInput:
     ParameterError, GeometryError, MemoryLimitError
         See `infill.voxels.from_mesh.voxelise`.
     """
+    begin = time.perf_counter()
     surface, voxel, resolution = mesh.surface, mesh.voxel, mesh.resolution
     if len(surface.faces):
         grid = grid_around(surface, voxel=voxel, resolution=resolution, margin=MARGIN)
@@ -91,8 +93,9 @@ def voxelise_input(mesh: MeshOnGrid, request: SmoothRequest) -> SmoothInput:
     if mesh.hint:
         _hint_at_filters(surface, voxelised)
     cells, interface, several = voxelised.volume, request.smoothing.interface, voxelised.several
+    data = phase_field_of_mesh(voxelised.closed, cells, interface, several=several, threads=request.threads)
     return SmoothInput(
-        data=phase_field_of_mesh(voxelised.closed, cells, interface, several=several, threads=request.threads),
+        data=data,
         facts={
             "source": "mesh",
             "repairs": declare(RepairKeys, asdict(voxelised.repairs)),
@@ -103,6 +106,7 @@ def voxelise_input(mesh: MeshOnGrid, request: SmoothRequest) -> SmoothInput:
         mesh=surface,
         mesh_volumes=voxelised.enclosed,
         topology=_mesh_topology(voxelised),
+        seconds=time.perf_counter() - begin,
     )
 
 

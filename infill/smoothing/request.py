@@ -195,6 +195,8 @@ class SmoothInput:
         Volume of the input, mm³, if the data do not give it.
     cell : float, optional
         Unit by which distances are judged, mm; by default, the longest side of a cell of the data.
+    seconds : float
+        Time that the voxels of a mesh took.
     """
 
     data: Volume
@@ -206,6 +208,7 @@ class SmoothInput:
     voxel_surface: Surface | None = None
     volume: float | None = None
     cell: float | None = None
+    seconds: float = 0.0
 
     @property
     def distance_unit(self) -> float:
