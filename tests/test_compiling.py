@@ -5,13 +5,17 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+import threading
 from pathlib import Path
 
 import numba
 import numpy as np
 import pytest
 
-from infill.kernels.compiling import njit
+from infill import smooth_volume
+from infill.kernels import compiling, second_compiler
+from infill.kernels.compiling import log_compilation, njit
+from infill.meshes.compile_simplification import make_ball
 
 MODULE = """
 from infill.kernels.compiling import njit, log_compilation
@@ -74,3 +78,63 @@ def test_only_code_that_makes_arrays_counts_references() -> None:
         counted = {kernel.__name__ for kernel in kernels if kernel.targetoptions["_nrt"]}
         assert 0 < len(counted) < len(kernels)
         assert not {"_collapse_in_order", "_sample_in_order", "squared_distance"} & counted  # the loops inside
+
+
+def test_the_second_process_compiles_for_the_number_types_of_smoothing() -> None:
+    ball = make_ball()
+    assert ball.closed
+    assert ball.volume == pytest.approx(4 / 3 * np.pi, rel=0.01)
+    cells = np.zeros((8, 8, 8), dtype=bool)
+    cells[2:6, 2:6, 2:6] = True
+    smoothed = smooth_volume(cells, tolerance=None).surface
+    assert smoothed.vertices.dtype == ball.vertices.dtype
+    assert smoothed.faces.dtype == ball.faces.dtype
+
+
+LISTENING = """
+from numba.core import event
+from infill.meshes.compile_simplification import make_ball
+from infill.meshes.edge_collapse import collapse_edges
+
+with event.install_recorder("numba:compile") as recorder:
+    collapse_edges(make_ball(), tolerance=0.02)
+print(len(recorder.buffer))
+"""
+
+
+@pytest.mark.longest
+def test_what_the_second_process_compiled_is_not_compiled_again(tmp_path: Path) -> None:
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
+    module = [sys.executable, "-m", "infill.meshes.compile_simplification"]
+    subprocess.run(module, env=environment, check=True)
+    ran = subprocess.run([sys.executable, "-c", LISTENING], env=environment, check=True, capture_output=True)
+    assert int(ran.stdout) == 0
+
+
+@pytest.mark.parametrize(("cores", "uncached", "started"), [(2, False, True), (1, False, False), (2, True, False)])
+def test_a_second_process_starts_if_there_is_a_core_and_a_folder(
+    monkeypatch: pytest.MonkeyPatch, cores: int, uncached: bool, started: bool
+) -> None:
+    commands: list[list[str]] = []
+
+    class Process:
+        def __init__(self, command: list[str], **_options: object) -> None:
+            commands.append(command)
+
+        def wait(self) -> None:
+            commands.append(["waited"])
+
+    monkeypatch.setattr(second_compiler.subprocess, "Popen", Process)
+    monkeypatch.setattr(second_compiler, "usable_cores", lambda: cores)
+    monkeypatch.setattr(second_compiler, "UNCACHED", threading.Event())
+    monkeypatch.setattr(compiling, "AT_FIRST_COMPILATION", starts := [])
+    monkeypatch.setattr(second_compiler, "AT_FIRST_COMPILATION", starts)
+    monkeypatch.setattr(compiling, "REPORTED", threading.Event())
+    if uncached:
+        second_compiler.UNCACHED.set()
+    second_compiler.compile_beside("some.module")
+    assert not commands
+    with log_compilation("a test"):
+        njit()(lambda x: x + 1)(1)
+    second_compiler.await_second_compiler()
+    assert commands == ([[sys.executable, "-m", "some.module"], ["waited"]] if started else [])

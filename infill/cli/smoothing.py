@@ -157,7 +157,9 @@ def _smooth_source(source: Path, settings: SmoothSettings, options: SmoothOption
     from infill.cli.piping import deliver_all
     from infill.formats.mesh_files import WRITERS, mesh_writer
     from infill.imaging.volume_files import field_writer
+    from infill.kernels.second_compiler import compile_beside
 
+    compile_beside("infill.meshes.compile_simplification")
     with progress_bar(shown=not output.quiet) as progress:
         from infill.smoothing.sources import name_labels, read_source, smooth_source
 

@@ -18,6 +18,7 @@ _UNCACHED_TEXT = (
     "preparing %s takes up to a minute in every run, because no folder for it is writable; set NUMBA_CACHE_DIR to one"
 )
 SOLE_COMPILER = threading.Event()  # set if no other thread compiles in this process
+AT_FIRST_COMPILATION: list[Callable[[], None]] = []  # called as soon as compilation is reported
 MAKERS = frozenset({"copy", "empty", "full", "ones", "reshape", "zeros"})  # names by which code makes arrays
 BLAS = "scipy.linalg.cython_blas"
 _WATCHED = ContextVar("watched", default=False)
@@ -42,12 +43,13 @@ def njit(*, makes_arrays: bool = False, **options: Any) -> Callable[[Callable[..
         _load_without_blas()
 
     def compiled(function: Callable[..., Any]) -> Any:  # noqa: ANN401 - a dispatcher of numba's
-        counted = options | {"_nrt": makes_arrays or not MAKERS.isdisjoint(function.__code__.co_names)}
+        counts = makes_arrays or not MAKERS.isdisjoint(function.__code__.co_names)
+        chosen = options | {"no_cfunc_wrapper": True, "_nrt": counts}  # no other language calls these functions
         try:
-            return numba.njit(**counted)(function)
+            return numba.njit(**chosen)(function)
         except RuntimeError:
             UNCACHED.set()
-            return numba.njit(**(counted | {"cache": False}))(function)
+            return numba.njit(**(chosen | {"cache": False}))(function)
 
     return compiled
 
@@ -83,6 +85,8 @@ def log_compilation(what: str) -> Iterator[None]:
             if not REPORTED.is_set():
                 REPORTED.set()
                 LOG.warning(_UNCACHED_TEXT if UNCACHED.is_set() else _CACHED_TEXT, what)
+                for start in AT_FIRST_COMPILATION:
+                    start()
 
         def on_end(self, event: object) -> None:
             pass

@@ -23,6 +23,7 @@ from infill.inspection.sign_changes import SignChanges, are_surfaces_near
 from infill.inspection.thickness import thinnest_walls
 from infill.isosurfaces.components import data_bits, erase_components, find_components, shell_names
 from infill.kernels.compiling import log_compilation
+from infill.kernels.second_compiler import await_second_compiler
 from infill.kernels.threads import run_together, thread_count
 from infill.machine import available_memory, require_memory
 from infill.meshes.distance import distances
@@ -302,6 +303,7 @@ def finish_attempt(
     smoothed, clock, surfaced = best.smoothed, best.clock, best.surfaced
     smooth_input, request = smoothed.smooth_input, smoothed.request
     data, topology, deviation, differences = smooth_input.data, best.topology, best.deviation, best.differences
+    await_second_compiler()
     with clock.stage("simplify", 0.7):
         surface, simplified = _simplify_result(best.surface, request)
     with clock.stage("measure", 0.9):
