@@ -83,7 +83,7 @@ class Spiral(Pattern):
 
 
 def half_circle(inside: int) -> NDArray[np.float64]:
-    """Return half a circle by its chords, more of them the more circles are inside it; see `Spiral`."""
+    """Return points (N, 2) of half a unit circle, more of them the more circles are inside it; see `Spiral`."""
     import numpy as np
 
     chords = math.ceil(math.pi / math.acos(1 - SAGITTA / (inside + 0.5)) / 2)

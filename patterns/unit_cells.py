@@ -336,7 +336,7 @@ class Planes(Cells):
         return nearest
 
     def depth(self, points: Floats, which: int) -> Floats:
-        """Return the depth of points (N, 3), in cells, in the cells of a class: (N,) in cells, below 0 outside.
+        """Return the signed distance of points (N, 3) into the cells of a class, above 0 inside, all in cell lengths.
 
         Bit f of the number of a class is the side of the planes of family f on which its cells lie, alternately.
         Outside, a point may be further away than this.

@@ -287,7 +287,7 @@ CHANGED = {
         boxes((60, 30, 30), ((4, 28), (4, 26), (4, 26)), ((30, 54), (4, 26), (4, 26))),
         20,
         {"fused": 1},
-        ["1 component ran together out of several"],
+        ["1 component fused from several"],
     ),
     "a skin gets a hole": (membrane(), 40, {"walls_pierced": 1}, ["1 hole broke through walls"]),
     "the same skin before": (membrane(), 20, {}, []),

@@ -78,7 +78,7 @@ def test_the_last_line_of_a_library_counts() -> None:
 @pytest.mark.parametrize("number", [signal.SIGSEGV, signal.SIGABRT, signal.SIGKILL])
 def test_a_reader_that_crashes_is_one_line(number: signal.Signals) -> None:
     with pytest.raises(
-        FormatError, match=f"scan.dcm ends the library that reads it .{number.name}., as broken files do; "
+        FormatError, match=f"scan.dcm crashes the library that reads it .{number.name}., so it is probably damaged; "
     ):
         read_in_child(f"{READERS}dies", int(number), path=SCAN)
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from test_command_line import run, usage_error
 
 from infill import UsageError, fill
-from infill.interior.conformal_map import fit_conformal_map, map_points, spline_slopes, wall_factor
+from infill.interior.conformal_map import fit_conformal_map, map_points, spline_slopes, wall_density_factor
 from infill.lattices import void_meshes
 from infill.lattices.void_meshes import median_width
 from infill.lattices.voids import NODES
@@ -61,7 +61,7 @@ def test_walls_in_a_volume_are_those_of_the_ellipsoid() -> None:
         root = math.sqrt(abs(slope))
         partial = math.asinh(root) if slope > 0 else math.asin(root)
         expected = (long + partial / root) / 2
-        assert wall_factor(np.diag([1.0, 1.0, long])) == pytest.approx(expected, rel=2e-3)
+        assert wall_density_factor(np.diag([1.0, 1.0, long])) == pytest.approx(expected, rel=2e-3)
 
 
 @pytest.mark.slow

@@ -46,7 +46,7 @@ def cut_strips(contours: Contours, corners: int = CORNERS) -> Strips:
     """
     cuts = _choose_cuts(contours.points[:, 0], corners)
     cut, number = _add_crossings(contours, cuts)
-    steps, right = _steps(cut, number)
+    steps, right = _successors(cut, number)
     order, first = permutation_cycles(steps)
     return Strips(contours=cut, order=np.concatenate([np.arange(len(number)), right])[order], first=first)
 
@@ -89,8 +89,8 @@ def _add_crossings(contours: Contours, cuts: Floats) -> tuple[Contours, Indices]
     return Contours(points=corners, first=first.astype(np.intp)), number
 
 
-def _steps(contours: Contours, number: Indices) -> tuple[Indices, Indices]:
-    """Return the next corner around each piece, (N + C,), with the C corners on cuts twice; and these C, sorted.
+def _successors(contours: Contours, number: Indices) -> tuple[Indices, Indices]:
+    """Return the next corner around each piece, (N + C,), and the C corners on cuts, by cut and then by y.
 
     A corner on a cut appears once for the strip on its left, and again, after all corners, for the strip on its right.
     """

@@ -229,7 +229,9 @@ def _crash_error(path: Path, code: int, printed: str) -> InfillError:
     if code < 0:
         with contextlib.suppress(ValueError):
             how = signal.Signals(-code).name
-    return FormatError(f"{path} ends the library that reads it ({how}), as broken files do; save or export it again")
+    return FormatError(
+        f"{path} crashes the library that reads it ({how}), so it is probably damaged; save or export it again"
+    )
 
 
 # --- in the child ----------------------------------------------------------------------------------------

@@ -114,7 +114,7 @@ def _tiff_spacing(path: Path, tiff: Any) -> tuple[float, ...]:  # noqa: ANN401 -
     if metadata is None:
         if not stated:
             return (1.0,) * AXES
-        return _printed_spacing(path, per_cell, stated)
+        return _spacing_from_print(path, per_cell, stated)
     unit = str(metadata.get("unit", "")).strip()
     if unit.lower() in CELL_UNITS and stated and not _is_default_resolution(per_cell, stated):
         unit = stated  # as ImageJ itself does
@@ -151,12 +151,12 @@ def _ome_spacing(path: Path, text: str) -> tuple[float, ...]:
     return _fill_missing_sizes(path, sizes, (pixels.get("SizeZ") or "1") != "1")
 
 
-def _printed_spacing(path: Path, per_cell: list[float | None], unit: str) -> tuple[float, ...]:
-    """Return the cell size of a file with a printing resolution, which lacks the distance of pages."""
+def _spacing_from_print(path: Path, per_cell: list[float | None], unit: str) -> tuple[float, ...]:
+    """Return the cell size, mm, from a resolution for printing: z is taken as x, and a default resolution as 1 mm."""
     if _is_default_resolution(per_cell, unit):
         LOG.info(
-            "%s states dots per inch as programs do that know no size; cells of 1 mm are taken, unless --spacing gives "
-            "them",
+            "%s has a default resolution in dots per inch, not a real size; cells of 1 mm are assumed, unless "
+            "--spacing gives others",
             path,
         )
         return (1.0,) * AXES

@@ -93,7 +93,7 @@ class TopologyCheck:
 PROBLEMS = (
     ("vanished", "{} vanished", ("component", "components")),
     ("broken", "{} fell apart", ("component", "components")),
-    ("fused", "{} ran together out of several", ("component", "components")),
+    ("fused", "{} fused from several", ("component", "components")),
     ("walls_lost", "{} vanished", ("wall", "walls")),
     ("walls_pierced", "{} broke through walls", ("hole", "holes")),
     ("voids_joined", "{} between voids broke", ("wall", "walls")),

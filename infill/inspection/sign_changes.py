@@ -99,7 +99,7 @@ class SignChanges:
             level=level,
             data=data,
             result=signs.bits,
-            places=set_cells(field, data ^ signs.bits),
+            places=cells_of_bits(field, data ^ signs.bits),
             doubt=_join_places(before, signs.doubt),
             euler_number=euler_number_of_bits(field, data, threads=threads) if euler is None else euler,
         )
@@ -111,8 +111,8 @@ def _join_places(places_a: NDArray[np.int32], places_b: NDArray[np.int32]) -> In
     return np.unique(joined, axis=0) if len(joined) else joined
 
 
-def set_cells(field: SparseField, bits: Bits) -> Integers:
-    """List the cells that are set in kept bricks, (N, 3), on the lattice."""
+def cells_of_bits(field: SparseField, bits: Bits) -> Integers:
+    """List the cells whose bits are set, (N, 3), on the lattice: their numbers are 1 more than on the grid."""
     words = np.flatnonzero(np.ascontiguousarray(bits).view(np.uint64))  # of four rows each: most are empty
     brick, row = np.divmod(words[:, None] * WORD + np.arange(WORD), ROWS)
     brick, row = (index[bits[brick, row] != 0] for index in (brick, row))
@@ -144,7 +144,7 @@ def has_same_connections(flips: SignChanges, before: Components, *, threads: int
     field, result = flips.field, flips.result
     thick = dilate_cores(field, erode_to_cores(field, flips.data, threads=threads), threads=threads)
     for start in (flips.data, thick) if (thick != flips.data).any() else (thick,):
-        places = set_cells(field, start ^ result)
+        places = cells_of_bits(field, start ^ result)
         if len(places) > MANY_CHANGES or kernels.flip_simple(field.slots, start.copy(), places):
             return False
     if kernels.count_lonely(field.slots, result, flips.places):

@@ -61,7 +61,7 @@ def _fit_coordinates(targets: Floats) -> tuple[Floats, Floats, Floats]:
             scales = np.clip(scales * targets / more, targets / MOST, targets * MOST)
         coordinates = _extrapolate(_integrate(scales))
         slopes = spline_slopes(coordinates)
-        more = wall_factor(slopes)
+        more = wall_density_factor(slopes)
     return coordinates, slopes, more
 
 
@@ -117,8 +117,8 @@ def spline_slopes(coordinates: Floats) -> Floats:
     return derivatives
 
 
-def wall_factor(slopes: Floats) -> Floats:
-    """Compute the factor of the wall in a volume where a pattern is stretched by slopes (..., 3, 3).
+def wall_density_factor(slopes: Floats) -> Floats:
+    """Return the factor of wall area per volume where a pattern's coordinates have slopes (..., 3, 3).
 
     Walls are assumed to lie in all directions alike: the mean over normals n of |slopesᵀ n|.
     """

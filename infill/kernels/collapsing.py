@@ -130,8 +130,8 @@ def _keep_volume(c, vertices, start, twin, ring, ring_size, end_ring, end_ring_s
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def _reshape_faces(c, vertices, start, twin, ring, ring_size, end_ring, end_ring_size, place, moved, chosen):
-    """Set the faces around an edge after its collapse; return their number, or -1 if one turns or is a sliver."""
+def _propose_faces(c, vertices, start, twin, ring, ring_size, end_ring, end_ring_size, place, moved, chosen):
+    """Write the faces that a collapse would leave to `moved`; return their number, -1 if one turns or is a sliver."""
     worst, sx, sy, sz = 1.0, 0.0, 0.0, 0.0
     for side in range(2):
         for n in range(ring_size if side == 0 else end_ring_size):
@@ -226,7 +226,7 @@ def _sweep_once(mesh, fixed, quadric, bound, into, swept, marked, space, sweep, 
             continue
         _keep_volume(c, vertices, start, twin, ring, ring_size, end_ring, end_ring_size, s, place)
         sizes = ring_size, end_ring, end_ring_size
-        if _reshape_faces(c, vertices, start, twin, ring, *sizes, place, moved, chosen) == NO_CORNER:
+        if _propose_faces(c, vertices, start, twin, ring, *sizes, place, moved, chosen) == NO_CORNER:
             continue
         collapse_edge(c, start, twin, leaving, end_ring, end_ring_size)
         copy_row(quadric[u], s)
@@ -309,7 +309,7 @@ def _collapse_in_order(mesh, fixed, quadric, held, was, tolerance, bound, sizes,
             if attempt > 0:
                 copy_row(place, vertices[u] if attempt == 1 else vertices[v])
             _keep_volume(c, vertices, start, twin, ring, ring_size, end_ring, end_ring_size, s, place)
-            changed = _reshape_faces(
+            changed = _propose_faces(
                 c, vertices, start, twin, ring, ring_size, end_ring, end_ring_size, place, moved, chosen
             )
             if changed == NO_CORNER or not bounded:

@@ -110,7 +110,7 @@ def crossed_cubes(a, b, c, d):
 
 @njit(inline="always", cache=True)
 def signs_of(a, b, c, d, k):
-    """Return the solid corners of cube `k` of a row of cubes, corner i + 2 j + 4 k."""
+    """Return the signs of the corners of a cube in a row as 8 bits: bit di + 2 dj + 4 dk is 1 where it is solid."""
     shift = np.uint32(k)
     one_bit = np.uint32(1)
     two = np.uint32(3)

@@ -242,7 +242,7 @@ def _sample_arrays(threads: int, capacity: int) -> tuple[Floats, NDArray[np.int3
 def level_faces(
     surface: Surface, tolerance: float, *, tree: TriangleTree | None = None, threads: int | None = None
 ) -> NDArray[np.bool_]:
-    """Mark the faces (F,) that no face within `CLEAR` tolerances leans away from by over 30 degrees.
+    """Mark the faces (F,) around which, within `CLEAR` tolerances, all faces point the same way to 30 degrees.
 
     If all of another surface lies within the tolerance, mm, of this one, then such a face lies within the tolerance of
     the other: this surface is a single sheet there, and the other surface has to cross its normals close to it.

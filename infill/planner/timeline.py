@@ -385,7 +385,7 @@ def _sum_since_move(values: NDArray[Any], line: NDArray[np.intp]) -> NDArray[Any
 
 
 def _read_ends(file: BinaryIO) -> tuple[bytes, bytes]:
-    """Return the beginning and the end of a file; raise FormatError if it is not plain G-code."""
+    """Return the beginning and the end of a file; raise FormatError if it is empty or binary."""
     size = file.seek(0, 2)
     file.seek(0)
     head = file.read(ENDS)

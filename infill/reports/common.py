@@ -25,7 +25,7 @@ Corners = Annotated[list[Triple], 2]
 
 
 def declare(declaration: Callable[..., Declared], values: Mapping[str, Any]) -> Declared:
-    """Return values that are known by name only at run time as the section that a `TypedDict` declares.
+    """Build a `TypedDict`, by its declaration, from values whose keys are known only at run time.
 
     >>> declare(Spread, {"mean": 0.1, "rms": 0.2, "max": 0.3})
     {'mean': 0.1, 'rms': 0.2, 'max': 0.3}

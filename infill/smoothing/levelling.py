@@ -191,7 +191,7 @@ def remove_crumbs(surfaced: SurfaceAtLevel, smoothed: SmoothedInput) -> tuple[Su
         crumb = small
     else:
         remnant_share = REMNANT_SHARE if enclosed is None else 0.0
-        crumb = small & (volume > 0) & _is_broken_off(surfaced, smoothed, remnant_share)
+        crumb = small & (volume > 0) & _is_debris(surfaced, smoothed, remnant_share)
         if enclosed is None:
             crumb |= small & (np.abs(volume) <= DUST_CELLS * smooth_input.data.cell_volume)
         else:
@@ -203,8 +203,8 @@ def remove_crumbs(surfaced: SurfaceAtLevel, smoothed: SmoothedInput) -> tuple[Su
     )
 
 
-def _is_broken_off(surfaced: SurfaceAtLevel, smoothed: SmoothedInput, remnant_share: float) -> NDArray[np.bool_]:
-    """Tell for every shell whether it is not the largest piece of a component of the data, or only a share of it."""
+def _is_debris(surfaced: SurfaceAtLevel, smoothed: SmoothedInput, remnant_share: float) -> NDArray[np.bool_]:
+    """Mark the shells to drop: all but the largest of a component of the data, and those with a small share of it."""
     volume = surfaced.levelled.shells.volume
     component = component_of_shells(surfaced.levelled, surfaced.components, spacing=smoothed.spacing)
     largest = np.full(surfaced.components.count, -math.inf)

@@ -280,7 +280,7 @@ def contrast(volume: Volume, level: float) -> float:
 
 
 def _interpret_values(volume: Volume, lowest: float, highest: float) -> tuple[NDArray[Any], SegmentationRule]:
-    """Find the solid in values that need no criterion, with the method for the report, or raise ParameterError."""
+    """Return the solid of a mask or a phase field, as booleans or as int8 -1 and 1, and its rule for the report."""
     values: NDArray[Any] = volume.values
     if values.dtype.itemsize == 1 and values.dtype.kind in "iu":  # two values of one byte are not copied
         if (lowest, highest) == (0, 1):
