@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.arrays import Floats
+from infill.arrays import Floats, Integers
 from infill.kernels.threads import run_together, thread_count
 from infill.meshes.distance import TriangleTree, morton_order
 from infill.meshes.project_back import crossing_corners, project_back
@@ -88,7 +88,13 @@ class CornerTable:
         )
 
     def without_edges(
-        self, bound: float, triangles: int, *, near: float | None = None, threads: int | None = None
+        self,
+        bound: float,
+        triangles: int,
+        *,
+        near: float | None = None,
+        order: Integers | None = None,
+        threads: int | None = None,
     ) -> CornerTable:
         """Collapse edges, cheapest first; return the smaller table.
 
@@ -101,6 +107,8 @@ class CornerTable:
         near : float, optional
             How far the surface may move, mm: see `watched`. If left out, distances are not checked, and edges are
             collapsed patch by patch first.
+        order : (F,) int64, optional
+            The faces in an order in which neighbours are mostly close in space, if it is known: see `morton_order`.
         threads : int, optional
             See `infill.kernels.threads.thread_count`.
         """
@@ -110,7 +118,7 @@ class CornerTable:
         table, quadric = self, np.zeros((len(self.vertices), 11))
         add_planes(self.vertices, self.start, quadric)
         if near is None and triangles <= FEW_TRIANGLES and math.isfinite(bound):
-            table, quadric = _collapse_within_patches(table, quadric, bound, threads)
+            table, quadric = _collapse_within_patches(table, quadric, bound, order, threads)
         points, corner = (np.empty((0, 3)), np.empty(0, dtype=np.int32)) if near is None else table.watched(near)
         vertices, start, twin = table.vertices.copy(), table.start.copy(), table.twin.copy()
         collapsed_into = np.arange(len(vertices), dtype=np.int32)
@@ -224,7 +232,7 @@ class CornerTable:
 
 
 def _collapse_within_patches(
-    table: CornerTable, quadric: Floats, bound: float, threads: int | None
+    table: CornerTable, quadric: Floats, bound: float, order: Integers | None, threads: int | None
 ) -> tuple[CornerTable, Floats]:
     """Collapse edges within patches of the table; return it and the quadrics (V, 11) of its remaining vertices.
 
@@ -236,7 +244,8 @@ def _collapse_within_patches(
     patches = count // PATCH
     if patches < 2:
         return table, quadric
-    order = morton_order(table.vertices[table.start.reshape(-1, 3)].mean(axis=1))
+    if order is None:
+        order = morton_order(table.vertices[table.start.reshape(-1, 3)].mean(axis=1))
     patch = np.empty(count, dtype=np.int32)
     patch[order] = np.arange(count) * patches // count
     corner_patch = np.repeat(patch, 3)
@@ -276,8 +285,11 @@ def _collapse_patch(
     from infill.kernels.collapsing import collapse, sweep_short_edges
 
     corners = (3 * faces[:, None] + np.arange(3)).ravel()
-    patch_vertices, begin = np.unique(table.start[corners], return_inverse=True)
-    begin = begin.astype(np.int32)
+    in_patch, rank = np.zeros(len(table.vertices), dtype=bool), np.empty(len(table.vertices), dtype=np.int32)
+    in_patch[table.start[corners]] = True
+    patch_vertices = np.flatnonzero(in_patch)
+    rank[patch_vertices] = np.arange(len(patch_vertices), dtype=np.int32)
+    begin = rank[table.start[corners]]
     neighbour = table.twin[corners] // 3
     within = patch[neighbour] == patch[faces[0]]
     local_twin = np.where(within, 3 * local[neighbour] + table.twin[corners] % 3, -1).astype(np.int32)
@@ -339,7 +351,8 @@ def collapse_edges(
     tree, aim, samples, fewer = TriangleTree.of(surface), triangles, None, table
     for attempt in range(ATTEMPTS):
         if fewer is table:
-            fewer = table.without_edges((BLIND_SHARE * tolerance) ** 2, triangles, threads=threads)
+            blind = (BLIND_SHARE * tolerance) ** 2
+            fewer = table.without_edges(blind, triangles, order=tree.order, threads=threads)
             fewer = fewer.without_edges(tolerance**2, aim, near=tolerance)
         candidate = fewer.placed_in(surface)
         places, excess = crossing_corners(candidate), 0
