@@ -1,0 +1,88 @@
+"""What is measured by a shorter way equals what the long way measures."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+import shapely
+import trimesh
+from hypothesis import given
+from hypothesis import strategies as st
+
+from infill.meshes.clipped_volume import find_box, volume_in_box
+from infill.meshes.distance import TriangleTree
+from infill.meshes.solids import shared_volume, to_manifold
+from infill.paths.outlines import MOST_BOXES, outline_of
+from infill.surface import Surface
+
+SIZES = st.floats(0.3, 4.0)
+PLACES = st.floats(-2.0, 2.0)
+
+
+def surface_of(mesh: trimesh.Trimesh) -> Surface:
+    return Surface(vertices=np.asarray(mesh.vertices), faces=np.asarray(mesh.faces))
+
+
+def box_at(sides, middle) -> Surface:
+    return surface_of(trimesh.creation.box(sides).apply_translation(middle))
+
+
+@given(st.tuples(SIZES, SIZES, SIZES), st.tuples(PLACES, PLACES, PLACES))
+def test_the_volume_in_a_box_is_that_of_the_solid_cut_out(sides, middle):
+    ring, box = surface_of(trimesh.creation.torus(1.5, 0.6)), box_at(sides, middle)
+    cut = (to_manifold(ring) ^ to_manifold(box)).volume()
+    assert shared_volume(ring, box) == pytest.approx(cut, abs=1e-9)  # rounding of sums of 2048 terms
+
+
+def test_a_box_without_sides_holds_everything():
+    ball = trimesh.creation.icosphere(3)
+    everything = np.full(3, np.inf)
+    assert volume_in_box(surface_of(ball), -everything, everything) == pytest.approx(ball.volume, rel=1e-12)
+
+
+@pytest.mark.parametrize("kind", ["turned", "open", "cut off", "ball", "inside out"])
+def test_only_a_box_along_the_axes_is_one(kind):
+    box = trimesh.creation.box((2, 3, 4))
+    mesh = {
+        "turned": box.copy().apply_transform(trimesh.transformations.rotation_matrix(0.1, (0, 0, 1))),
+        "open": trimesh.Trimesh(box.vertices, box.faces[1:], process=False),
+        "cut off": trimesh.convex.convex_hull(box.vertices[1:]),
+        "ball": trimesh.creation.icosphere(1),
+        "inside out": trimesh.Trimesh(box.vertices, box.faces[:, ::-1], process=False),
+    }[kind]
+    assert find_box(surface_of(box)) is not None
+    assert find_box(surface_of(mesh)) is None
+
+
+def test_an_open_surface_shares_no_volume_with_a_box():
+    ball = surface_of(trimesh.creation.icosphere(2))
+    opened = Surface(vertices=ball.vertices, faces=ball.faces[2:])
+    assert math.isnan(shared_volume(opened, box_at((1, 1, 1), (0.5, 0, 0))))
+
+
+@pytest.mark.parametrize("threads", [1, 2, 3])
+@pytest.mark.parametrize("rounded", [False, True])  # to a grid, where many points are equally near
+def test_the_least_distance_is_the_least_of_all_distances(threads, rounded, rng):
+    points = rng.uniform(-9, 9, (4000, 3))
+    points = np.round(points) if rounded else points
+    tree = TriangleTree.of(surface_of(trimesh.creation.box((20, 20, 20))))
+    distances = tree.nearest(points)[0]
+    assert tree.least(points, threads=threads) == (distances.min(), distances.argmin())
+    assert tree.least(points, float(distances.min()), threads=threads) == (distances.min(), -1)
+
+
+@pytest.mark.parametrize("corners", [4, 2 * MOST_BOXES + 3])
+def test_no_segment_near_an_outline_is_left_out(corners, rng):
+    angle = np.linspace(0.1, 2 * np.pi, corners, endpoint=False)
+    around = 10 * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    region = shapely.Polygon(around, [shapely.Point(1, 0).buffer(2.0).exterior.coords])
+    begin = rng.uniform(-12, 12, (3000, 2))
+    end = begin + rng.normal(0, 1, (3000, 2))
+    outline = outline_of(region)
+    for distance in (0.0, 0.4):
+        is_near = shapely.dwithin(shapely.linestrings(np.stack([begin, end], axis=1)), region.boundary, distance)
+        chosen = outline.may_reach(begin, end, distance)
+        assert chosen[is_near].all()
+        assert chosen.mean() < 0.95
