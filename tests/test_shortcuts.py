@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -10,11 +12,13 @@ import shapely
 import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy import ndimage
 
 from infill.meshes.clipped_volume import find_box, volume_in_box
 from infill.meshes.distance import TriangleTree
 from infill.meshes.solids import shared_volume, to_manifold
 from infill.paths.outlines import MOST_BOXES, outline_of
+from infill.pixels import interpolate_pixels, label_pixels, open_pixels
 from infill.surface import Surface
 
 SIZES = st.floats(0.3, 4.0)
@@ -86,3 +90,29 @@ def test_no_segment_near_an_outline_is_left_out(corners, rng):
         chosen = outline.may_reach(begin, end, distance)
         assert chosen[is_near].all()
         assert chosen.mean() < 0.95
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_pixels_are_labelled_opened_and_interpolated_as_scipy_does(seed):
+    rng = np.random.default_rng(seed)
+    shape = rng.integers(1, 30, 2)
+    inside = rng.random(shape) < rng.choice([0.3, 0.6, 0.9])
+    labels, count = label_pixels(inside)
+    expected, expected_count = ndimage.label(inside)
+    assert count == expected_count
+    np.testing.assert_array_equal(labels, expected)
+    side = int(rng.integers(1, 5))
+    np.testing.assert_array_equal(open_pixels(inside, side), ndimage.binary_opening(inside, np.ones((side, side))))
+    values, places = rng.normal(size=shape), rng.uniform(-3, 33, (50, 2))
+    expected_values = ndimage.map_coordinates(values, places.T, order=1, mode="nearest")
+    np.testing.assert_array_equal(interpolate_pixels(values, places), expected_values)
+
+
+def test_a_block_of_lines_needs_no_scipy(tmp_path):
+    check = (
+        "import atexit, sys; atexit.register(lambda: print(*(n for n in sys.modules if n.startswith('scipy')))); "
+        "from infill.cli import main; main()"
+    )
+    words = ["make", "honeycomb", "--size", "20x20", "--no-frame", "-q", "-o", str(tmp_path / "block.stl")]
+    answer = subprocess.run([sys.executable, "-c", check, *words], capture_output=True, text=True, check=True)
+    assert answer.stdout.strip() == ""

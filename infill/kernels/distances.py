@@ -279,7 +279,8 @@ def nearest_triangles(points, corners, low, high, leaf, enough, squared, face, t
         The results.
     """
     stack, box_distance = np.empty(STACK_SIZE, dtype=np.int64), np.empty(STACK_SIZE)
-    nearest = 0  # the result of the previous point is a good guess: successive points are often close together
+    # The result of the previous point is a good guess: successive points are often close together.
+    nearest = np.int64(0)  # no literal, for which the search would be compiled a second time
     for n in range(thread, len(points), threads):
         x, y, z = points[n]
         squared[n], nearest = nearest_triangle(x, y, z, nearest, corners, low, high, leaf, enough, stack, box_distance)
