@@ -108,9 +108,10 @@ def test_pixels_are_labelled_opened_and_interpolated_as_scipy_does(seed):
     np.testing.assert_array_equal(interpolate_pixels(values, places), expected_values)
 
 
-def test_a_block_of_lines_needs_no_scipy(tmp_path):
+def test_a_block_of_lines_loads_neither_scipy_nor_readers_of_other_formats(tmp_path):
+    unneeded = ("scipy", "numba", "infill.formats.threemf_reading", "infill.formats.gltf_reader")
     check = (
-        "import atexit, sys; atexit.register(lambda: print(*(n for n in sys.modules if n.startswith('scipy')))); "
+        f"import atexit, sys; atexit.register(lambda: print(*(n for n in sys.modules if n.startswith({unneeded})))); "
         "from infill.cli import main; main()"
     )
     words = ["make", "honeycomb", "--size", "20x20", "--no-frame", "-q", "-o", str(tmp_path / "block.stl")]
