@@ -45,6 +45,7 @@ HALL = {
     "machine",
     "ragged",
     "graph",
+    "pixels",
     "grid",
     "volume",
     "surface",

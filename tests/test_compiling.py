@@ -1,4 +1,4 @@
-"""Compiling is told once in a process, and only where something is compiled."""
+"""Compiling is told once in a process, only where something is compiled, and only once for what is one kind of input."""
 
 from __future__ import annotations
 
@@ -11,11 +11,17 @@ from pathlib import Path
 import numba
 import numpy as np
 import pytest
+import trimesh
 
 from infill import smooth_volume
 from infill.kernels import compiling, second_compiler
 from infill.kernels.compiling import log_compilation, njit
 from infill.meshes.compile_simplification import make_ball
+from infill.meshes.measuring import volume_and_area
+from infill.meshes.shells import shell_volumes, vertex_components
+from infill.phasefield.allen_cahn import Smoothing
+from infill.phasefield.sparse import smooth_bricks
+from infill.surface import Surface
 
 MODULE = """
 from infill.kernels.compiling import njit, log_compilation
@@ -138,3 +144,27 @@ def test_a_second_process_starts_if_there_is_a_core_and_a_folder(
         njit()(lambda x: x + 1)(1)
     second_compiler.await_second_compiler()
     assert commands == ([[sys.executable, "-m", "some.module"], ["waited"]] if started else [])
+
+
+def test_measures_are_compiled_once_whatever_faces_are_stored_as() -> None:
+    from infill.kernels.measures import sum_shells, sum_up
+
+    ball = trimesh.creation.icosphere(1)
+    for kind in (np.int32, np.int64, np.uint32):
+        for faces in (ball.faces.astype(kind), ball.faces.astype(kind)[:, ::-1]):
+            surface = Surface(vertices=np.asarray(ball.vertices), faces=faces)
+            assert abs(volume_and_area(surface)[0]) == pytest.approx(abs(surface.volume))
+            names, count = vertex_components(faces, len(surface.vertices))
+            assert shell_volumes(surface, names, count) == pytest.approx([surface.volume])
+    for kernel in (sum_up, sum_shells):
+        assert {str(signature[1]) for signature in kernel.signatures} == {"array(int32, 2d, C)"}
+
+
+def test_bricks_are_gathered_by_one_kernel_whether_or_not_arrays_are_writable() -> None:
+    from infill.kernels.transfer import gather
+
+    values = np.linspace(-1, 1, 20**3, dtype=np.float32).reshape(20, 20, 20)
+    field = smooth_bricks(values, Smoothing(steps=1), threads=1)
+    np.testing.assert_array_equal(field.gathered(values, threads=1), field.gathered(values[:], threads=1))
+    whole = [signature[0] for signature in gather.signatures]
+    assert all(not kind.mutable for kind in whole)

@@ -16,14 +16,12 @@ from infill.errors import FormatError
 from infill.files.broken import require_readable, wrap_reader_errors
 from infill.files.whole_files import atomic_file
 from infill.formats.gltf import write_glb, write_glb_parts
-from infill.formats.gltf_reader import read_glb, read_gltf
 from infill.formats.obj import read_obj, write_obj
 from infill.formats.off import read_off
 from infill.formats.parts import Part
 from infill.formats.ply import read_ply, write_ply
 from infill.formats.stl import read_stl, write_stl, write_stl_ascii
 from infill.formats.threemf import write_3mf, write_3mf_parts
-from infill.formats.threemf_reading import read_3mf
 from infill.meshes.merging import merge_unless_closed, surface_of
 from infill.plain_numbers import plain_number
 from infill.surface import Modifier, Surface
@@ -150,6 +148,28 @@ def read_mesh(path: str | os.PathLike[str]) -> Surface:
     return replace(mesh, notes=tuple(notes), modifiers=tuple(modifiers)) if notes else mesh
 
 
+# Vertices and faces; some readers add notes, and that of 3MF modifiers.
+MeshArrays = (
+    tuple[NDArray[np.floating], NDArray[np.integer]]
+    | tuple[NDArray[np.floating], NDArray[np.integer], tuple[str, ...]]
+    | tuple[NDArray[np.floating], NDArray[np.integer], tuple[str, ...], tuple[Modifier, ...]]
+)
+
+
+def _read_3mf(path: Path) -> MeshArrays:
+    """Read a 3MF; its reader is loaded for that, because a block of lines needs none."""
+    from infill.formats.threemf_reading import read_3mf
+
+    return read_3mf(path)
+
+
+def _read_gltf(path: Path) -> MeshArrays:
+    """Read a .glb or .gltf, whose reader is loaded for that too."""
+    from infill.formats.gltf_reader import read_glb, read_gltf
+
+    return (read_gltf if path.suffix.lower() == ".gltf" else read_glb)(path)
+
+
 WRITERS: dict[str, Callable[[Surface, BinaryIO], None]] = {
     ".stl": write_stl,
     ".3mf": write_3mf,
@@ -161,18 +181,12 @@ PART_WRITERS: dict[str, Callable[[Sequence[Part], BinaryIO], None]] = {
     ".3mf": write_3mf_parts,
     ".glb": write_glb_parts,
 }
-# Vertices and faces; some readers add notes, and that of 3MF modifiers.
-MeshArrays = (
-    tuple[NDArray[np.floating], NDArray[np.integer]]
-    | tuple[NDArray[np.floating], NDArray[np.integer], tuple[str, ...]]
-    | tuple[NDArray[np.floating], NDArray[np.integer], tuple[str, ...], tuple[Modifier, ...]]
-)
 READERS: dict[str, Callable[[Path], MeshArrays]] = {
     ".stl": read_stl,
-    ".3mf": read_3mf,
+    ".3mf": _read_3mf,
     ".obj": read_obj,
     ".ply": read_ply,
     ".off": read_off,
-    ".glb": read_glb,
-    ".gltf": read_gltf,
+    ".glb": _read_gltf,
+    ".gltf": _read_gltf,
 }

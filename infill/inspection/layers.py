@@ -17,6 +17,7 @@ from infill.graph import label_connected
 from infill.grid import VOID
 from infill.inspection.changes import ConnectionCounts, TopologyChanges
 from infill.inspection.component_matching import compare_components, count_overlaps
+from infill.pixels import label_pixels, open_pixels
 
 PINHOLE = 3  # cells: in a void with no room for a square of this side, every cell touches a wall
 
@@ -99,11 +100,9 @@ def compare_layers(before: LayerRegions, after: LayerRegions, *, line_cells: int
     line_cells : int
         Cells across a line: anything as wide as a line is not a pinhole.
     """
-    from scipy import ndimage
-
     void_overlaps = count_overlaps(before.void, after.void)
     solid, voids = compare_components(count_overlaps(before.solid, after.solid)), compare_components(void_overlaps)
-    open_void = ndimage.binary_opening(before.void > 0, np.ones((min(PINHOLE, line_cells),) * 2, dtype=bool))
+    open_void = open_pixels(before.void > 0, min(PINHOLE, line_cells))
     cores = _label_cells(open_void, np.empty((0, 2), dtype=np.intp))
     has_room = np.zeros(void_overlaps.before, dtype=bool)
     has_room[np.unique(before.void[open_void]) - 1] = True
@@ -173,10 +172,7 @@ def _saddles(field: NDArray[np.floating], solid: NDArray[np.bool_]) -> tuple[NDA
 
 def _label_cells(inside: NDArray[np.bool_], pairs: NDArray[np.intp]) -> NDArray[np.integer]:
     """Label cells that touch at a side, or at a corner listed in `pairs`."""
-    from scipy import ndimage
-
-    numbers: NDArray[np.integer]
-    numbers, count = ndimage.label(inside)
+    numbers, count = label_pixels(inside)
     if len(pairs) == 0:
         return numbers
     ends = numbers.ravel()[pairs]

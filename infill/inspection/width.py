@@ -15,6 +15,7 @@ from infill.arrays import Floats
 from infill.errors import ParameterError
 from infill.grid import VOID, Grid
 from infill.inspection.rays import length_inside
+from infill.pixels import interpolate_pixels
 
 MOST_SAMPLES = 4000
 # Clearance in line widths of a ray across a wall, and of its foot, from nodes, ends and other lines: nearer to them,
@@ -131,13 +132,10 @@ def _split_segments(lines: MultiLineString) -> NDArray[np.object_]:
 
 def _sampler(layer: NDArray[np.floating], grid: Grid) -> Callable[[Floats], Floats]:
     """Return a function giving the bilinear value of a layer at points (N, 2), mm; beyond the layer lies void."""
-    from scipy.ndimage import map_coordinates
-
     field = np.pad(layer, 1, constant_values=VOID)
 
     def value(points: Floats) -> Floats:
         cell = (points - grid.origin) / grid.cell_size + 0.5  # the first cell of the padded field is centred on 0
-        values: Floats = map_coordinates(field, cell.T, output=np.float64, order=1, mode="nearest")
-        return values
+        return interpolate_pixels(field, cell)
 
     return value

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from infill.arrays import Floats
 from infill.errors import GeometryError
 from infill.isosurfaces.components import shell_names
+from infill.meshes.clipped_volume import volume_in_box
 from infill.meshes.shells import select_faces, shell_volumes
 from infill.meshes.solids import FINE, coincident_vertices, from_manifold, manifold_status, solid_status, to_manifold
 from infill.meshes.split_components import drop_pieces
@@ -74,10 +75,6 @@ class Opening:
     def volume(self, voids: Surface) -> float:
         """Compute the volume that a closed surface encloses between the two heights, mm³.
 
-        Notes
-        -----
-        By the divergence of (0, 0, z), where z is clipped to the two heights.
-
         >>> import trimesh
         >>> ball = trimesh.creation.icosphere()
         >>> whole = Surface(vertices=ball.vertices, faces=ball.faces)
@@ -85,32 +82,8 @@ class Opening:
         >>> bool(np.isclose(half.volume(whole), ball.volume / 2))
         True
         """
-        corners = np.asarray(voids.vertices, dtype=np.float64)[voids.faces]
-        a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
-        shadow = ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2
-        heights = corners[:, :, 2]
-        height = heights.mean(axis=1) - heights.mean()
-        if math.isfinite(self.low):
-            height = height + mean_positive_part(self.low - heights)
-        if math.isfinite(self.high):
-            height = height - mean_positive_part(heights - self.high)
-        return float(shadow @ height)
-
-
-def mean_positive_part(values: Floats) -> Floats:
-    """Return the mean over triangles of the positive part of a linear function, from its values at corners (N, 3).
-
-    >>> mean_positive_part(np.array([[1.0, 2, 3], [-1, -2, -3], [-1, -1, 1]])).round(4).tolist()
-    [2.0, 0.0, 0.0833]
-    """
-    a, b, c = np.sort(values, axis=1).T
-    mean = np.where(a >= 0, (a + b + c) / 3, 0.0)
-    one_above, two_above = (a < 0) & (b <= 0) & (c > 0), (a < 0) & (b > 0)
-    mean[one_above] = c[one_above] ** 3 / (3 * (c[one_above] - a[one_above]) * (c[one_above] - b[one_above]))
-    mean[two_above] = (a[two_above] + b[two_above] + c[two_above]) / 3 - a[two_above] ** 3 / (
-        3 * (b[two_above] - a[two_above]) * (c[two_above] - a[two_above])
-    )
-    return mean
+        sides = np.array([np.inf, np.inf])
+        return volume_in_box(voids, np.append(-sides, self.low), np.append(sides, self.high))
 
 
 def _heights(surface: Surface) -> tuple[Floats, Floats]:

@@ -3,7 +3,7 @@
 `lower_to_triangles` visits the cells around each triangle, row by row of its dilated box, and keeps the minimum.
 
 `nearest_triangles` descends a tree of boxes, the nearer box first, and skips boxes further away than the nearest
-triangle so far.
+triangle so far. `least_distance` asks the same tree for the least distance of all points together.
 """
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201, ANN202
@@ -279,11 +279,56 @@ def nearest_triangles(points, corners, low, high, leaf, enough, squared, face, t
         The results.
     """
     stack, box_distance = np.empty(STACK_SIZE, dtype=np.int64), np.empty(STACK_SIZE)
-    nearest = 0  # the result of the previous point is a good guess: successive points are often close together
+    # The result of the previous point is a good guess: successive points are often close together.
+    nearest = np.int64(0)  # no literal, for which the search would be compiled a second time
     for n in range(thread, len(points), threads):
         x, y, z = points[n]
         squared[n], nearest = nearest_triangle(x, y, z, nearest, corners, low, high, leaf, enough, stack, box_distance)
         face[n] = nearest
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def least_distance(points, corners, low, high, leaf, limit, thread, threads):
+    """Find which of every `threads`-th point is nearest to triangles; return its squared distance and its index.
+
+    Of points at the same distance, the first counts. The index is -1 if all are farther away than the limit. Most
+    points cost a few boxes, because only those nearer than the nearest point so far matter.
+
+    Parameters
+    ----------
+    points, corners, low, high, leaf
+        See `nearest_triangles`.
+    limit : float
+        A squared distance.
+    """
+    stack, box_distance = np.empty(STACK_SIZE, dtype=np.int64), np.empty(STACK_SIZE)
+    first_leaf, least, nearest = (len(low) - 1) // 2, limit, -1
+    for n in range(thread, len(points), threads):
+        x, y, z = points[n]
+        best = least
+        stack[0], box_distance[0], count = 0, 0.0, 1
+        while count > 0:
+            count -= 1
+            if box_distance[count] >= best:
+                continue
+            box = stack[count]
+            if box >= first_leaf:
+                begin = (box - first_leaf) * leaf
+                for at in range(begin, min(begin + leaf, len(corners))):
+                    best = min(best, squared_distance(x, y, z, corners[at, 0], corners[at, 1], corners[at, 2]))
+                continue
+            near_child, far_child = 2 * box + 1, 2 * box + 2
+            near = _squared_distance_to_box(x, y, z, low[near_child], high[near_child])
+            far = _squared_distance_to_box(x, y, z, low[far_child], high[far_child])
+            if near < far:  # the nearer one is visited first: it lies on top
+                near_child, far_child, near, far = far_child, near_child, far, near
+            if near < best:
+                stack[count], box_distance[count], count = near_child, near, count + 1
+            if far < best:
+                stack[count], box_distance[count], count = far_child, far, count + 1
+        if best < least and (nearest < 0 or math.sqrt(best) < math.sqrt(least)):
+            least, nearest = best, n
+    return least, nearest
 
 
 @njit(nogil=True, cache=True, error_model="numpy")

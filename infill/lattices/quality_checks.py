@@ -61,10 +61,10 @@ def measure_least_wall(
     for points in chain.from_iterable(map(_point_batches, voids)):
         if opening is not None:
             points = points[opening.inside(points[:, 2])]
-        distance, _ = tree.nearest(points, threads=threads)
-        if distance.min(initial=np.inf) < least:
-            least, place = distance.min(), points[np.argmin(distance)]
-    return float(least), place.tolist()
+        least, number = tree.least(points, least, threads=threads)
+        if number >= 0:
+            place = points[number]
+    return least, place.tolist()
 
 
 def _point_batches(surface: Surface) -> Iterator[NDArray[np.float64]]:

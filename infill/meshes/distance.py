@@ -11,6 +11,7 @@ from infill.arrays import Floats
 from infill.kernels.threads import in_threads, thread_count
 from infill.surface import Surface
 
+ROUNDING = 1e-12  # of a squared distance: what its root may be off
 LEAF = 4  # triangles in a leaf of the tree
 BITS, INDEX_BITS = 10, 34  # of each coordinate, for the order of the leaves, and of the place of a triangle
 
@@ -100,6 +101,35 @@ class TriangleTree:
             threads=thread_count(threads),
         )
         return np.sqrt(squared), self.order[triangle]
+
+    def least(
+        self, points: NDArray[np.floating], limit: float = np.inf, *, threads: int | None = None
+    ) -> tuple[float, int]:
+        """Return the least distance of points (N, 3) from the triangles, mm, and the index of the nearest point.
+
+        It takes a fraction of the time of `nearest`, whose least distance it is. If no point is nearer than the limit,
+        mm, return that and -1.
+        """
+        from infill.kernels.distances import least_distance
+
+        queries = np.ascontiguousarray(points, dtype=np.float64)
+        squared_limit = limit * limit * (1 + ROUNDING)
+        candidates = [
+            (float(np.sqrt(squared)), number)
+            for squared, number in in_threads(
+                least_distance,
+                queries,
+                self.corners,
+                self.low,
+                self.high,
+                LEAF,
+                squared_limit,
+                threads=thread_count(threads),
+            )
+            if number >= 0
+        ]
+        distance, number = min(candidates, default=(limit, -1))
+        return (distance, number) if distance < limit else (limit, -1)
 
 
 def distances(points: NDArray[np.floating], surface: Surface, *, threads: int | None = None) -> Floats:

@@ -33,12 +33,22 @@ def volume_and_area(surface: Surface, *, threads: int | None = None) -> tuple[fl
     """Return the volume inside a surface, mm³, and its area, mm²."""
     from infill.kernels.measures import BLOCK, sum_up
 
-    vertices, faces = np.ascontiguousarray(surface.vertices, dtype=np.float64), surface.faces
+    vertices, faces = np.ascontiguousarray(surface.vertices, dtype=np.float64), faces_for_kernels(surface)
     middle = vertices[len(vertices) // 2] if len(vertices) else np.zeros(3)
     sums = np.empty((-(-len(faces) // BLOCK), 2))
     in_threads(sum_up, vertices, faces, middle, sums, threads=thread_count(threads))
     sixfold, doubled = sums.sum(axis=0).tolist()
     return sixfold / 6, doubled / 2
+
+
+def faces_for_kernels(surface: Surface) -> NDArray[np.integer]:
+    """Return the faces as int32 in one block, whatever they are stored as, so that kernels are compiled once.
+
+    >>> faces_for_kernels(Surface(vertices=np.eye(3), faces=np.array([[0, 1, 2]]))).dtype.name
+    'int32'
+    """
+    fits = len(surface.vertices) <= np.iinfo(np.int32).max
+    return np.ascontiguousarray(surface.faces, dtype=np.int32 if fits else np.int64)
 
 
 def face_areas(surface: Surface) -> NDArray[np.float64]:
@@ -59,7 +69,7 @@ def _is_closed(surface: Surface, threads: int) -> bool:
     """Tell whether every edge has two faces that run along it in opposite directions."""
     from infill.kernels.measures import begin_edges, match_sides
 
-    faces, count = surface.faces, len(surface.vertices)
+    faces, count = faces_for_kernels(surface), len(surface.vertices)
     if not len(faces):
         return False
     index_type = np.int32 if count < MOST_INT32_VERTICES else np.int64

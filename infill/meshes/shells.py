@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from infill.arrays import AnyIntegers
 from infill.graph import label_connected
+from infill.meshes.measuring import faces_for_kernels
 from infill.surface import Surface
 
 Names = NDArray[np.int32]
@@ -87,7 +88,7 @@ def shell_volumes(surface: Surface, names: Names, count: int) -> NDArray[np.floa
     sums = np.zeros(count)
     if count:
         middle = np.asarray(surface.vertices[len(surface.vertices) // 2], dtype=np.float64)
-        sum_shells(surface.vertices, surface.faces, names, middle, sums)
+        sum_shells(surface.vertices, faces_for_kernels(surface), names, middle, sums)
     return sums / 6
 
 

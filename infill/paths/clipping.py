@@ -78,6 +78,7 @@ def _cut(paths: Sequence[Path], outline: Outline) -> tuple[Path, Numbers, Number
     points = np.concatenate(paths)
     owner = np.repeat(np.arange(len(paths)), [len(path) for path in paths])
     start = np.flatnonzero(owner[1:] == owner[:-1])
+    start = start[outline.may_reach(points[start], points[start + 1])]
     edges = shapely.linestrings(np.stack([outline.begin, outline.end], axis=1))
     segments = shapely.linestrings(np.stack([points[start], points[start + 1]], axis=1))
     edge, segment = shapely.STRtree(segments).query(edges, predicate="intersects")

@@ -115,6 +115,8 @@ def _measure_clearance(
     along -= along[np.searchsorted(owner, owner)]
     total = np.zeros(len(pieces.paths))
     np.maximum.at(total, owner, along)
+    is_near = outline.may_reach(flat[start], flat[start + 1], reach)
+    start, long = start[is_near], long[is_near]
     segments = shapely.linestrings(np.stack([flat[start], flat[start + 1]], axis=1))
     sample, segment = shapely.STRtree(segments).query(shapely.points(points), predicate="dwithin", distance=reach)
     from_begin, from_end = within[sample], (length[gap] - within)[sample]

@@ -73,11 +73,11 @@ def join(
 
 def _supported_gaps(gaps: Gaps, outline: Outline, ground: LayerBelow) -> NDArray[np.bool_]:
     """Tell which gaps have a supported middle."""
-    middles = [
-        outline.points_at(ring, np.array([place + length / 2]))[0]
-        for ring, place, length in zip(gaps.ring.tolist(), gaps.place.tolist(), gaps.length.tolist(), strict=True)
-    ]
-    return ground.holds(np.array(middles).reshape(-1, 2))
+    middles = np.empty((len(gaps.ring), 2))
+    for ring in np.unique(gaps.ring):
+        on_ring = gaps.ring == ring
+        middles[on_ring] = outline.points_at(int(ring), gaps.place[on_ring] + gaps.length[on_ring] / 2)
+    return ground.holds(middles)
 
 
 def _link_chains(count: int, link: dict[int, tuple[int, Path]]) -> list[list[int]]:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,6 +18,9 @@ if TYPE_CHECKING:
     from shapely import MultiPolygon, Polygon
 
 Numbers = NDArray[np.intp]
+
+MOST_BOXES = 32  # around the edges of an outline: with more, leaving out what is far away takes as long as it saves
+ROUNDING = 1e-12  # of coordinates: what an exact test may find nearer than sums of them do
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,6 +50,35 @@ class Outline:
     place: Floats
     around: Floats
     first: Numbers
+
+    @cached_property
+    def boxes(self) -> tuple[Path, Path]:
+        """Lower and upper corners of boxes around successive edges, (B, 2) each, mm: `MOST_BOXES` or a few more."""
+        size = max(1, -(-len(self.begin) // MOST_BOXES))
+        starts = np.concatenate([np.arange(low, high, size) for low, high in pairwise(self.first.tolist())])
+        low, high = np.minimum(self.begin, self.end), np.maximum(self.begin, self.end)
+        return np.minimum.reduceat(low, starts), np.maximum.reduceat(high, starts)
+
+    def may_reach(self, begin: Path, end: Path, distance: float = 0.0) -> NDArray[np.bool_]:
+        """Tell which segments, (N, 2) mm, may lie within a distance, mm, of the outline: no other one does.
+
+        >>> from shapely import box
+        >>> begin, end = np.array([[1.0, 1.0], [1.0, 1.0]]), np.array([[2.0, 1.0], [4.0, 1.0]])
+        >>> outline_of(box(0, 0, 3, 2)).may_reach(begin, end).tolist()
+        [False, True]
+        """
+        # Axis by axis: NumPy is slow along the short axis of an array.
+        (low_x, low_y), (high_x, high_y) = np.minimum(begin, end).T, np.maximum(begin, end).T
+        reaches = np.zeros(len(begin), dtype=bool)
+        margin = distance + ROUNDING * max(float(np.abs(corners).max()) for corners in self.boxes)
+        for (left, bottom), (right, top) in zip(*(corners.tolist() for corners in self.boxes), strict=True):
+            reaches |= (
+                (low_x <= right + margin)
+                & (high_x >= left - margin)
+                & (low_y <= top + margin)
+                & (high_y >= bottom - margin)
+            )
+        return reaches
 
     def points_at(self, ring: int, places: Floats) -> Path:
         """Return points at places along a ring, (N, 2), mm; a place beyond its length goes round."""

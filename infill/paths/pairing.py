@@ -63,11 +63,13 @@ def choose_gaps(gaps: Gaps, paths: int, *, most: float, overlapping: float, held
 def _augment(gaps: Gaps, ring: NDArray[np.intp], possible: Chosen, free: Chosen, walked: Chosen, paths: int) -> None:
     """Walk one more gap, in `walked`, between each two free ends of a ring, wherever that closes no loop."""
     for start in range(len(ring)):
+        if walked[ring[start]] or walked[ring[start - 1]]:
+            continue
         gap = np.roll(ring, -start)
         inside = walked[gap]
         # The end before a gap is free if neither gap beside it is walked; so is the end between two that are not.
         is_free_end = ~inside[1:] & ~inside[:-1]
-        if inside[0] or inside[-1] or not is_free_end.any():
+        if not is_free_end.any():
             continue
         run = gap[: int(is_free_end.argmax()) + 1]
         if possible[run[::2]].all():

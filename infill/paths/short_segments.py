@@ -62,11 +62,12 @@ def merge_short_segments(paths: RoundedPaths, wanted: float | Floats = SHORTEST_
         chosen = _choose_segments(points, owner, least, stays)
         if not len(chosen):
             break
-        kept, dropped, new, errors = _merge_options(points, owner, chosen)
+        at_begin, at_end = _touch_ends(owner, chosen)
+        kept, dropped, new, errors = _merge_options(points, chosen, at_begin, at_end)
         merged_errors = errors + np.maximum.reduce(
             [moved[np.maximum(chosen - 1, 0)], moved[chosen], moved[np.minimum(chosen + 1, len(moved) - 1)]]
         )
-        must = (np.hypot(*(points[chosen + 1] - points[chosen]).T) < SHORTEST_SEGMENT) & ~_touches_end(owner, chosen)
+        must = (np.hypot(*(points[chosen + 1] - points[chosen]).T) < SHORTEST_SEGMENT) & ~(at_begin | at_end)
         done = must | (merged_errors <= MOST_MOVED)
         stays[chosen[~done]] = True
         if not done.any():
@@ -99,30 +100,26 @@ def _choose_segments(points: Floats, owner: Places, least: Floats, stays: NDArra
     """Choose short segments, three or more apart, the shortest of each neighbourhood."""
     length = np.hypot(points[1:, 0] - points[:-1, 0], points[1:, 1] - points[:-1, 1])
     inner = owner[1:] == owner[:-1]
-    only = np.bincount(owner, minlength=len(least)) == 2
-    short = inner & ~stays[:-1] & ~only[owner[:-1]] & (length < least[owner[:-1]] - UNIT / 10)
-    place = np.arange(len(length))
-    rank = np.where(short, np.floor(length / LENGTH_CLASSES) + (place * SCATTER) % 1, np.inf)
-    padded = np.concatenate([[np.inf, np.inf], rank, [np.inf, np.inf]])
-    around = np.minimum.reduce([padded[:-4], padded[1:-3], padded[3:-1], padded[4:]])
-    return np.flatnonzero(short & (rank < around))
+    short = np.flatnonzero(inner & ~stays[:-1] & (length < least[owner[:-1]] - UNIT / 10))
+    short = short[(np.bincount(owner, minlength=len(least)) != 2)[owner[short]]]
+    rank = np.full(len(length) + 4, np.inf)  # of each segment, two places further on; only of short ones, which are few
+    rank[short + 2] = own = np.floor(length[short] / LENGTH_CLASSES) + (short * SCATTER) % 1
+    around = np.minimum.reduce([rank[short + shift] for shift in (0, 1, 3, 4)])
+    chosen: Places = short[own < around]
+    return chosen
 
 
-def _touches_end(owner: Places, chosen: Places) -> NDArray[np.bool_]:
-    """Tell which segments begin or end a path."""
-    begins, ends = _path_ends(owner)
-    touches: NDArray[np.bool_] = begins[chosen] | ends[chosen + 1]
-    return touches
+def _touch_ends(owner: Places, chosen: Places) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Tell which segments begin a path, and which end one."""
+    last = len(owner) - 1
+    begins = (chosen == 0) | (owner[chosen] != owner[chosen - 1])
+    return begins, (chosen + 1 == last) | (owner[chosen] != owner[np.minimum(chosen + 2, last)])
 
 
-def _path_ends(owner: Places) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Mark the first and the last points of paths."""
-    change = np.diff(owner) != 0
-    return np.concatenate([[True], change]), np.concatenate([change, [True]])
-
-
-def _merge_options(points: Floats, owner: Places, chosen: Places) -> tuple[Places, Places, Floats, Floats]:
-    """Find the best way to merge each segment AB of some paths.
+def _merge_options(
+    points: Floats, chosen: Places, at_begin: NDArray[np.bool_], at_end: NDArray[np.bool_]
+) -> tuple[Places, Places, Floats, Floats]:
+    """Find the best way to merge each segment AB of some paths; some of them begin or end a path.
 
     Returns
     -------
@@ -133,11 +130,9 @@ def _merge_options(points: Floats, owner: Places, chosen: Places) -> tuple[Place
     errors : (C,) float64, mm
         Distance of the old points from the new path.
     """
-    begins, ends = _path_ends(owner)
     a, b = points[chosen], points[chosen + 1]
     before, after = points[np.maximum(chosen - 1, 0)], points[np.minimum(chosen + 2, len(points) - 1)]
     middle = np.rint((a + b) / 2 / UNIT) * UNIT
-    at_begin, at_end = begins[chosen], ends[chosen + 1]
     without_a = np.where(at_begin, np.inf, segment_distances(a, before, b))
     without_b = np.where(at_end, np.inf, segment_distances(b, a, after))
     halfway = np.maximum(segment_distances(a, before, middle), segment_distances(b, middle, after))

@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,7 +62,7 @@ class SparseField:
         """Gather the cells in bricks from a dense field (n0, n1, n2): (n, 8, 8, 16), like `values`."""
         cells = np.empty((len(self.where), CELLS), dtype=whole.dtype)
         count = thread_count(threads)
-        in_threads(transfer_kernels.gather, whole, self.where, cells, len(cells), None, threads=count)
+        in_threads(transfer_kernels.gather, _view_to_read(whole), self.where, cells, len(cells), None, threads=count)
         return cells.reshape(self.values.shape)
 
     def to_dense(self, *, threads: int | None = None) -> Field:
@@ -136,6 +137,13 @@ def smooth_bricks(
     )
 
 
+def _view_to_read(field: NDArray[Any]) -> NDArray[Any]:
+    """Return a view that cannot be written to: kernels are compiled once, whether or not the array is writable."""
+    view = field.view()
+    view.flags.writeable = False
+    return view
+
+
 def brick_states(field: NDArray[np.generic], threads: int) -> tuple[Data, NDArray[np.int8]]:
     """Return the field in the type of the kernels, and the state of every brick: +1, -1, `MIXED` or `OUTER`."""
     if field.dtype == bool:
@@ -144,8 +152,7 @@ def brick_states(field: NDArray[np.generic], threads: int) -> tuple[Data, NDArra
         data = field.astype(np.int8, copy=False)
     else:
         data = field.astype(np.float32, copy=False)
-    data = data.view()
-    data.flags.writeable = False  # compiled once, whether or not the array is writable
+    data = _view_to_read(data)
     lattice = tuple(math.ceil((count + 2) / size) for count, size in zip(data.shape, BRICK, strict=True))
     state = np.empty(lattice, dtype=np.int8)
     zeros = np.zeros(lattice[:2], dtype=bool)

@@ -202,7 +202,7 @@ def _cover_smoothly(area: Polygon, cell: float, setting: AreaSetting) -> FittedP
         return FittedPaths(paths=[], radii=np.empty(0), cell=cell)
     tolerance_area = shapely.buffer(area, REGION_TOLERANCE)
     shapely.prepare(tolerance_area)
-    corners = shapely.points(np.concatenate(strands))
+    corners = np.concatenate(strands)
     hard = np.zeros(len(corners), dtype=bool)
     for _ in range(ROUNDING_TRIES):
         smooth_paths, radii = round_paths(
@@ -219,9 +219,11 @@ def _cover_smoothly(area: Polygon, cell: float, setting: AreaSetting) -> FittedP
         inside = shapely.covers(tolerance_area, lines)
         if inside.all():
             break
-        hard |= shapely.dwithin(
-            corners, shapely.union_all(shapely.difference(lines[~inside], tolerance_area)), SHARP_RADIUS
-        )
+        outside = shapely.union_all(shapely.difference(lines[~inside], tolerance_area))
+        hard |= shapely.dwithin(shapely.points(corners), outside, SHARP_RADIUS)
+    paths = list(smooth_paths)
+    if inside.all():
+        return FittedPaths(paths=paths, radii=radii, cell=cell)
     points, first = concatenate_rows(strands)
     sharp_paths = RoundedPaths(
         points=np.rint(points / UNIT) * UNIT,
@@ -230,7 +232,6 @@ def _cover_smoothly(area: Polygon, cell: float, setting: AreaSetting) -> FittedP
         radius=np.full(len(points), 0.0),
     )
     merged = merge_short_segments(sharp_paths, float(plan.rounding.shortest_segments(np.array(setting.speed))))
-    paths = list(smooth_paths)
     whole, plain = split_rows(sharp_paths.points, first), split_rows(merged.points, merged.first)
     for number in np.flatnonzero(~inside).tolist():  # merging may take a path out of its area too
         fits = shapely.covers(tolerance_area, shapely.linestrings(plain[number]))
