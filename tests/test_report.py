@@ -181,6 +181,7 @@ def fill_reports(folder: Path, results: Results) -> dict[str, Any]:
         "cells": fill(part, density=(0.2, 0.4), grade="cell", voxel=0.5, wall=1.5),
         "project": fill(part, as_="project", voxel=0.5),
         "open": fill(part, open_="top", **few),
+        "tied": fill(part, "concentric", open_="both", **few),
         "regions": fill(part, regions=["z=0..:density=40%"], **few),
     }
     command = printed("fill", folder / "part.stl", "--voxel", 0.5, "-o", folder / "a.stl")

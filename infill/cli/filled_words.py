@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import typer
 
 from infill.cli.console import format_bytes, format_table, print_json
-from infill.plain_numbers import count_noun, plain_number
+from infill.plain_numbers import count_noun, plain_number, plain_place
 
 if TYPE_CHECKING:
-    from infill.reports.filling import FillForecast, FillReport
+    from infill.reports.filling import FillForecast, FillReport, FillTie
     from infill.reports.making import LatticePlan
 
 REPAIR_TEXTS = {
@@ -32,6 +32,7 @@ PLACES = {
     "x": ("at the lowest x", "at the highest x"),
     "y": ("at the lowest y", "at the highest y"),
 }
+PLACES_SHOWN = 4  # ties whose places the summary names
 END_TEXTS = {"top": "top", "bottom": "bottom", "both": "top and bottom"}
 
 
@@ -92,6 +93,8 @@ def summary(
         rows["too narrow"] = (
             f"{plain_number(infill['left_out'])} mm³ of infill, left out: slicers would print none of it"
         )
+    if infill["ties"]:
+        rows["tied"] = _tie_text(infill["ties"])
     if voids["islands"]:
         rows["left out"] = f"{count_noun(voids['islands'], 'piece')} of infill that would have hung free"
     if objects is not None and objects[1] > 1:
@@ -111,6 +114,18 @@ def summary(
     for path in files:
         rows[f"wrote {path}"] = format_bytes(Path(path).stat().st_size) if Path(path).is_file() else ""
     return format_table(rows, title=f"{name}, {request['pattern']}")
+
+
+def _tie_text(ties: list[FillTie]) -> str:
+    """Describe the bars that tie islands to the rest: how many, how long, and where the longest are."""
+    lengths = sorted(tie["length"] for tie in ties)
+    span = " to ".join(dict.fromkeys(plain_number(length) for length in (lengths[0], lengths[-1])))
+    longest = sorted(ties, key=lambda tie: -tie["length"])[:PLACES_SHOWN]
+    places = ", ".join(plain_place(tie["at"]) for tie in longest)
+    return (
+        f"{count_noun(len(ties), 'island')} that nothing held, by {'a bar' if len(ties) == 1 else 'bars'} of {span} mm "
+        f"at {places}{' and elsewhere' if len(ties) > PLACES_SHOWN else ''}; --no-ties leaves them out"
+    )
 
 
 def _density_rows(report: FillReport) -> dict[str, str]:

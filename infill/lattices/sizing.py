@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import GeometryError
-from infill.lattices.drawn_voids import Prismatic
+from infill.lattices.drawn_voids import ACROSS_TIE, Prismatic
 from infill.lattices.layered import NonPrismatic
 from infill.lattices.request import GAP, FillSpec, has_bars
 from infill.lattices.task import FillTask
@@ -85,6 +85,8 @@ def choose_voxel(task: FillTask, cell: float, width: float) -> float:
     size = _largest_voxel(task, cell, width, FINE)
     if isinstance(task.pattern, Prismatic):
         size = min(size, COARSEST_LINES)
+        if task.pattern.leaves_islands(task.part.bounds, cell=cell, width=width, wall=request.wall):
+            size = min(size, width / ACROSS_TIE)
     fewest = FEWEST if request.wall else FEWEST_BARE
     size = min(max(size, _finest_voxel(task)), math.cbrt(_box_volume(extents) / fewest))
     if 0 < request.wall < LEAST_FINE.across * size:
