@@ -13,6 +13,7 @@ from typing import Any, get_args, get_origin, is_typeddict
 import numpy as np
 import pytest
 import trimesh
+from handmade_dicom import save_all, slices
 from typer.testing import CliRunner
 
 from infill import (
@@ -131,6 +132,11 @@ def smooth_plans(folder: Path, results: Results) -> dict[str, Any]:
         "cloud.xyz": ["--voxel", 1],
         "ball.stl": ["--resolution", 24],
     }
+    save_all(
+        slices(np.repeat(GREY.T, 5, axis=0).astype(np.int16), [(0, 0, k) for k in range(5 * GREY.shape[2])]),
+        folder / "dicom",
+    )
+    words["dicom"] = ["--range", "300,900"]
     return {name: printed("smooth", folder / name, *more, "--dry-run") for name, more in words.items()}
 
 

@@ -328,6 +328,8 @@ class PlannedInput(KnownInput):
     """Input, as far as it is known before the run."""
 
     triangles: NotRequired[Annotated[int, "Meshes: number of triangles"]]
+    sampled: NotRequired[Annotated[int, "Large DICOM folders: number of slices that were read for the estimate"]]
+    of: NotRequired[Annotated[int, "Large DICOM folders: number of slices of the folder"]]
 
 
 class PlannedSolid(TypedDict):
