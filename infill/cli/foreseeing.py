@@ -16,7 +16,7 @@ from infill.machine import available_memory
 from infill.plain_numbers import plain_number
 
 if TYPE_CHECKING:
-    from infill.reports.smoothing import PlannedInput
+    from infill.reports.smoothing import PlannedInput, SolidRequest
     from infill.smoothing.plan import SmoothPlan
     from infill.smoothing.request import SmoothOptions
     from infill.smoothing.settings import SmoothSettings
@@ -63,7 +63,7 @@ def _plan_table(plan: SmoothPlan, files: list[str], name: str) -> str:
         ),
         "grid": f"{cells} voxels of {' x '.join(plain_number(side, 4) for side in grid.cell_size)} mm",
         "solid": f"{about_word}{plan.solid:,.0f} voxels, {share}, {plain_number(plan.volume, 6)} mm³",
-        "method": f"{plan.ways[0]}: {request.smoothing.steps} steps{fidelity}",
+        "method": f"{plan.ways[0]}: {format_steps(request.facts())}{fidelity}",
         "triangles": f"about {plan.triangles:,}, before it is simplified",
         "memory": f"about {format_bytes(plan.memory)}"
         + (
@@ -78,6 +78,11 @@ def _plan_table(plan: SmoothPlan, files: list[str], name: str) -> str:
     if files:
         rows["would write"] = ", ".join(files)
     return format_table(rows, title=f"{name}: nothing is written (--dry-run)")
+
+
+def format_steps(request: SolidRequest) -> str:
+    """Write how many steps a run takes, in the words of the plan and of the summary."""
+    return f"{request['steps']} steps{', refined' if request['refine'] else ''}"
 
 
 def _source_text(facts: PlannedInput) -> str:

@@ -26,7 +26,7 @@ from infill.cli.common import (
 from infill.cli.components import check_fields, component_summary, component_writer
 from infill.cli.console import format_bytes, format_table, print_json, print_log, progress_bar, say
 from infill.cli.declared import takes_options
-from infill.cli.foreseeing import show_smooth_plan
+from infill.cli.foreseeing import format_steps, show_smooth_plan
 from infill.cli.labelled import SmoothOutput, refuse_options, smooth_every_label, wants_every_label
 from infill.plain_numbers import count_noun, plain_argument, plain_number
 from infill.smoothing.settings import SmoothSettings, resolve
@@ -200,11 +200,11 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
         f", {level['lowest']:.3f} to {level['highest']:.3f} for its components" if level["components"] > 1 else ""
     )
     voxels = "voxels of the mesh" if report["input"]["source"] == "mesh" else "data"
-    refined_text = ", refined" if request["refine"] else ""
+    steps = f"{format_steps(request)}{_replaced_text(report)}"
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, {size} mm",
         "solid": f"{plain_number(report['volume'], 6)} mm³, {report['volume_change']:+z.4%} of the data",
-        "smoothing": f"{request['steps']} steps{refined_text}, {' x '.join(map(str, grid['shape']))} voxels of "
+        "smoothing": f"{steps}, {' x '.join(map(str, grid['shape']))} voxels of "
         f"{' x '.join(plain_number(h, 4) for h in grid['spacing'])} mm",
         "components": f"{result['components']:,} ({data['components']:,} in the {voxels}), "
         f"{count_noun(result['cavities'], 'cavity', 'cavities')} ({data['cavities']:,}), "
@@ -233,7 +233,8 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
         [verdict["word"].upper() if verdict["word"] == "lost" else verdict["word"], *verdict["changes"]]
     )
     if facets := report["facets"]:
-        rows["facets"] = _facet_text(facets, max(grid["spacing"]))
+        wall = report["walls"]["thinnest"]["data"]
+        rows["facets"] = _facet_text(facets, max(grid["spacing"]), wall)
     if len(verdict["tried"]) > 1:
         rows["tried"] = f"{'; '.join(verdict['tried'])}: taken is {verdict['taken']}"
     if verbose:
@@ -250,12 +251,24 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
     return format_table(rows, title=name)
 
 
-def _facet_text(facets: FacetKeys, voxel: float) -> str:
-    """Describe the flat facets that are left, and the options that round them."""
+def _replaced_text(report: SmoothReport) -> str:
+    """Describe the smoothing that was asked for, if another was taken instead."""
+    asked = report["verdict"]["instead_of"]
+    if asked is None:
+        return ""
+    radius = "" if asked["radius"] is None else f" of --smooth-radius {plain_argument(asked['radius'])}"
+    return f", instead of the {asked['steps']}{radius}, with which more changed"
+
+
+def _facet_text(facets: FacetKeys, voxel: float, wall: float | None) -> str:
+    """Describe the flat facets that are left, and the options that round them, if the thinnest wall bears these."""
     larger = f"--voxel {plain_argument(facets['voxel'], 2)} " if facets["voxel"] > voxel else ""
+    radius = plain_argument(facets["radius"], 2)
+    advice = f"{larger}--smooth-radius {radius} rounds them, and details of their size"
+    if not facets["fits"]:
+        thickness = "as thin as the walls here are" if wall is None else f"of {plain_argument(wall, 2)} mm, as here"
+        advice = f"they stay, because a smooth radius of {radius} mm, which would round them, loses walls {thickness}"
     return (
         f"{facets['share']:.0%} of the surface still has the flat facets of the mesh, about "
-        f"{plain_argument(facets['width'], 2)} mm wide; {larger}--smooth-radius "
-        f"{plain_argument(facets['radius'], 2)} rounds them, and details of their size, if "
-        "walls are thicker"
+        f"{plain_argument(facets['width'], 2)} mm wide; {advice}"
     )

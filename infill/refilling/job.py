@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 from infill.errors import FormatError, ParameterError, UsageError
+from infill.files.broken import missing_file
 from infill.files.excerpts import quote_value
 from infill.files.whole_files import atomic_file, check_target, scratch_file
 from infill.gcode.estimates import EstimateChange, Restatement, StatedAmounts, restate
@@ -173,6 +174,8 @@ def refill(
         return _refill_lines(gcode, request, progress)
     source = Path(gcode)
     target = Path(os.path.realpath(source)) if output is None else Path(output)
+    if not source.exists():
+        raise FormatError(missing_file(source))
     if not dry_run:
         check_target(target, overwrite=overwrite or output is None)
     folder = None if dry_run else target.parent

@@ -56,7 +56,7 @@ if TYPE_CHECKING:
 
     from infill.phasefield.sparse import SparseField
     from infill.reports.common import Level
-    from infill.reports.smoothing import Simplified, SolidWalls
+    from infill.reports.smoothing import Judgement, ReplacedSmoothing, Simplified, SolidWalls
     from infill.smoothing.request import SmoothInput, SmoothRequest
     from infill.surface import Surface
     from infill.volume import Volume
@@ -281,7 +281,7 @@ def _wall_thickness(surfaced: SurfaceAtLevel, smoothed: SmoothedInput) -> tuple[
 
 
 def finish_attempt(
-    best: Attempt, tried: list[str], taken: str
+    best: Attempt, tried: list[str], taken: str, instead_of: ReplacedSmoothing | None = None
 ) -> tuple[Result[SmoothStages, SmoothReport], Differences]:
     """Simplify the surface of an attempt; return the result and its differences from the input: the fifth stage.
 
@@ -292,6 +292,8 @@ def finish_attempt(
         Names of all ways that were tried, for the report.
     taken : str
         Name of the way of this attempt.
+    instead_of : ReplacedSmoothing, optional
+        The smoothing that was asked for, if this attempt has another.
 
     Raises
     ------
@@ -327,17 +329,10 @@ def finish_attempt(
         "facets": None,  # so are they
         "isosurface": None,  # and these
         "verdict": {
-            "word": differences.word,
-            "changes": [*problems, *differences.remarks, *_cleaning_remarks(best.crumbs, best.specks, smoothed)],
-            "lost": [patch.facts() for patch in deviation.lost[:MAX_LISTED_PLACES]] if deviation else [],
-            "added": [patch.facts() for patch in deviation.added[:MAX_LISTED_PLACES]] if deviation else [],
-            "far": LOST * smooth_input.distance_unit,
-            "missing": deviation.missing_area if deviation else 0.0,
-            "thin": deviation.thin_area if deviation else 0.0,
-            "new": deviation.new_area if deviation else 0.0,
-            "crumbs": {"removed": best.crumbs.count, "volume": best.crumbs.volume, "limit": best.crumbs.limit},
+            **_verdict_facts(differences, deviation, best),
             "tried": tried,
             "taken": taken,
+            "instead_of": instead_of,
         },
         "mesh": declare(SolidMesh, {**mesh_keys(surface), **simplification}),
         "solid": {
@@ -352,10 +347,29 @@ def finish_attempt(
         "seconds": clock.timings(SolidSeconds),
     }
     report = with_late_sections(
-        report, distance=partial(distance_facts, surface, smoothed), facets=partial(facet_facts, surface, smoothed)
+        report,
+        distance=partial(distance_facts, surface, smoothed),
+        facets=partial(facet_facts, surface, smoothed, best.thinnest[0]),
     )
     stages = SmoothStages(data=data, levelled=surfaced.levelled, given=smooth_input.mesh)
     return Result(surfaces={"solid": surface}, report=report, stages=stages), differences
+
+
+def _verdict_facts(differences: Differences, deviation: Deviation | None, best: Attempt) -> Judgement:
+    """Return the verdict with its places and areas, for the report."""
+    smoothed = best.smoothed
+    problems = [*differences.losses, *differences.problems]
+    return {
+        "word": differences.word,
+        "changes": [*problems, *differences.remarks, *_cleaning_remarks(best.crumbs, best.specks, smoothed)],
+        "lost": [patch.facts() for patch in deviation.lost[:MAX_LISTED_PLACES]] if deviation else [],
+        "added": [patch.facts() for patch in deviation.added[:MAX_LISTED_PLACES]] if deviation else [],
+        "far": LOST * smoothed.smooth_input.distance_unit,
+        "missing": deviation.missing_area if deviation else 0.0,
+        "thin": deviation.thin_area if deviation else 0.0,
+        "new": deviation.new_area if deviation else 0.0,
+        "crumbs": {"removed": best.crumbs.count, "volume": best.crumbs.volume, "limit": best.crumbs.limit},
+    }
 
 
 def advise_all_triangles(request: SmoothRequest) -> str:

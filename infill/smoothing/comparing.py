@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.inspection.deviation import COUNTS, HIDDEN, SHEET, THIN, Deviation, Kinds, Word, measure_deviation
-from infill.inspection.facets import find_flat_facets
+from infill.inspection.facets import WALL_PER_RADIUS, find_flat_facets
+from infill.inspection.thickness import FARTHEST
 from infill.isosurfaces.components import data_bits, look_up_cells, open_by_blocks
 from infill.meshes.distance import distances
 from infill.plain_numbers import count_noun, plain_number, plain_share
@@ -87,13 +88,24 @@ def distance_facts(surface: Surface, smoothed: SmoothedInput) -> Distance:
     return facts
 
 
-def facet_facts(surface: Surface, smoothed: SmoothedInput) -> FacetKeys | None:
-    """Return the flat facets of a coarse mesh that the result still has, for the report; None if they are few."""
+def facet_facts(surface: Surface, smoothed: SmoothedInput, thinnest: float | None) -> FacetKeys | None:
+    """Return the flat facets of a coarse mesh that the result still has, for the report; None if they are few.
+
+    Parameters
+    ----------
+    surface : Surface, mm
+    smoothed : SmoothedInput
+    thinnest : float or None, mm
+        The thinnest walls of the input; None if all are thicker than can be measured.
+    """
     mesh = smoothed.smooth_input.mesh
     if mesh is None:
         return None
     found = find_flat_facets(mesh, surface, cell=max(smoothed.spacing), threads=smoothed.threads)
-    return None if found is None else found.facts()
+    if found is None:
+        return None
+    limit = FARTHEST * min(smoothed.spacing) if thinnest is None else thinnest
+    return {**found.facts(), "fits": found.radius * WALL_PER_RADIUS <= limit}
 
 
 def subsample(vertices: NDArray[np.floating]) -> NDArray[np.floating]:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError, GeometryError, LabelChoiceError, ParameterError, UsageError
-from infill.files.broken import READER_ERRORS
+from infill.files.broken import READER_ERRORS, missing_file
 from infill.formats.mesh_files import READERS
 from infill.formats.point_files import read_points_and_normals
 from infill.formats.units import check_units, read_mesh_in_mm, unit_in_mm
@@ -297,7 +297,7 @@ def _npy_axis_count(path: Path) -> int | None:
 def _ply_has_faces(path: Path) -> bool:
     """Tell by the header of a PLY file whether it holds faces."""
     if not path.is_file():
-        raise FormatError(f"there is no file {path}; check the name")
+        raise FormatError(missing_file(path))
     try:
         with path.open("rb") as file:
             head = file.read(65536).split(b"end_header")[0]
