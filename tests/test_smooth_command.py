@@ -155,7 +155,7 @@ def test_one_part_in_four_units_gives_one_mesh(folder: Path) -> None:
 def test_a_part_in_metres_is_questioned(name: str, data: Path, folder: Path) -> None:
     result = run("smooth", data / name, "-o", "a.stl", "--resolution", "40")
     assert result.exit_code == 0
-    assert "mm long if its numbers are millimetres; give --units m if they are metres" in result.stderr
+    assert "long if its numbers are millimetres; give --units m if they are metres" in result.stderr
     small, large = (
         report(data / name, "--resolution", "60", "--units", unit, "--allow-broken") for unit in ("mm", "m")
     )

@@ -73,7 +73,7 @@ class Command(TyperCommand):
 
 
 def _find_missing_input(context: typer.Context) -> Path | None:
-    """Find an input file that does not exist: it is told before anything about the outputs."""
+    """Find an input file that does not exist: a message about it comes before any about the outputs."""
     arguments = [option.name for option in context.command.params if option.param_type_name == "argument"]
     values = [context.params.get(str(name)) for name in arguments]
     paths = [path for value in values for path in (value if isinstance(value, (list, tuple)) else [value])]

@@ -13,7 +13,7 @@ import typer
 from infill.cli.console import format_bytes, format_table, print_json, print_log
 from infill.errors import InfillError
 from infill.machine import available_memory
-from infill.plain_numbers import plain_number
+from infill.plain_numbers import plain_number, plain_size
 
 if TYPE_CHECKING:
     from infill.reports.smoothing import PlannedInput, SolidRequest
@@ -61,8 +61,8 @@ def _plan_table(plan: SmoothPlan, files: list[str], name: str) -> str:
             if "sampled" in facts
             else {}
         ),
-        "grid": f"{cells} voxels of {' x '.join(plain_number(side, 4) for side in grid.cell_size)} mm",
-        "solid": f"{about_word}{plan.solid:,.0f} voxels, {share}, {plain_number(plan.volume, 6)} mm³",
+        "grid": f"{cells} voxels of {plain_size(*grid.cell_size, digits=4)}",
+        "solid": f"{about_word}{plan.solid:,.0f} voxels, {share}, {plain_size(plan.volume, digits=6, power=3)}",
         "method": f"{plan.ways[0]}: {format_steps(request.facts())}{fidelity}",
         "triangles": f"about {plan.triangles:,}, before it is simplified",
         "memory": f"about {format_bytes(plan.memory)}"
@@ -91,7 +91,7 @@ def _source_text(facts: PlannedInput) -> str:
         return f"{facts['points']:,} points, " + (
             "the solid inside them"
             if facts["shell"] is None
-            else f"a wall of {plain_number(facts['shell'], 6)} mm along them"
+            else f"a wall of {plain_size(facts['shell'], digits=6)} along them"
         )
     if facts["source"] == "mesh":
         return f"mesh of {facts['triangles']:,} triangles"

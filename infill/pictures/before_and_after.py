@@ -27,7 +27,7 @@ from infill.pictures.close_up import (
 )
 from infill.pictures.render import AZIMUTH, ELEVATION, Colour, Paint, Window, directions, render
 from infill.pictures.sheet import BACKGROUND, PANEL, arrange_panels
-from infill.plain_numbers import plain_argument, plain_number
+from infill.plain_numbers import plain_argument, plain_number, plain_size
 from infill.surface import Surface
 
 FAR_VOXELS = LOST  # voxels: points further away are marked
@@ -141,7 +141,7 @@ def draw_before_and_after(
             (lost, added), describe_areas(lost, added, report["verdict"]), ("lost", "added"), pictures, strict=True
         )
     ]
-    ends = f"{facts}; marked if more than {plain_number(far)} mm ({plain_argument(FAR_VOXELS)} voxels) apart"
+    ends = f"{facts}; marked if more than {plain_size(far)} ({plain_argument(FAR_VOXELS)} voxels) apart"
     return arrange_panels(panels, ends, [(None, f"{report['verdict']['word']}:"), *legend])
 
 

@@ -16,7 +16,7 @@ from infill.meshes.solids import FINE, from_manifold, solid_status, to_manifold
 from infill.pictures.render import AZIMUTH, ELEVATION, Colour, render
 from infill.pictures.sections import Cut, choose_cuts
 from infill.pictures.sheet import BACKGROUND, PANEL, arrange_panels
-from infill.plain_numbers import count_noun, plain_argument, plain_number
+from infill.plain_numbers import count_noun, plain_argument, plain_number, plain_size
 from infill.surface import Surface
 
 CUT: Colour = (240, 160, 60)
@@ -49,7 +49,7 @@ def draw_cuts(
     request, voids = report["request"], report["voids"]
     facts = (
         f"{size} mm, {request['pattern']}, {report['density']:.1%} solid inside walls of "
-        f"{plain_number(request['wall'], 6)} mm"
+        f"{plain_size(request['wall'], digits=6)}"
     )
     return arrange_panels(panels, facts, [(CUT, "cut"), (BEHIND, f"behind it; {count_noun(voids['count'], 'void')}")])
 

@@ -32,7 +32,7 @@ from infill.meshes.simplification import restore_volume, simplify_surface
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.refining import refine_bricks
 from infill.phasefield.sparse import smooth_bricks
-from infill.plain_numbers import count_noun, plain_argument, plain_number
+from infill.plain_numbers import count_noun, plain_argument, plain_number, plain_size
 from infill.reports.common import Topology, declare, mesh_keys, report_head, surface_keys
 from infill.reports.sections import with_late_sections
 from infill.reports.smoothing import Distance, SmoothReport, SolidChanges, SolidMesh, SolidSeconds
@@ -193,8 +193,8 @@ def remove_specks(data: Volume, request: SmoothRequest) -> tuple[Volume, int]:
     if small.all():
         raise ParameterError.about(
             "despeckle",
-            f"is {plain_number(largest)} mm³ and the largest component has "
-            f"{plain_number(components.cells.max() * data.cell_volume)} mm³; give less",
+            f"is {plain_size(largest, power=3)} and the largest component has "
+            f"{plain_size(components.cells.max() * data.cell_volume, power=3)}; give less",
         )
     if not small.any():
         return data, 0
@@ -433,9 +433,9 @@ def _cleaning_remarks(crumbs: Crumbs, specks: int, smoothed: SmoothedInput) -> l
         limit = (
             f"{plain_argument(CRUMB_CELLS)} voxels"
             if smoothed.request.crumbs is None
-            else f"{plain_number(crumbs.limit)} mm³"
+            else f"{plain_size(crumbs.limit, power=3)}"
         )
-        in_all = f", {plain_number(crumbs.volume)} mm³ in all" if crumbs.volume > LEAST_CRUMBS * crumbs.limit else ""
+        in_all = f", {plain_size(crumbs.volume, power=3)} in all" if crumbs.volume > LEAST_CRUMBS * crumbs.limit else ""
         phrases.append(f"{count_noun(crumbs.count, 'crumb')} of up to {limit} taken out{in_all}")
     if specks:
         limit = plain_number(smoothed.request.despeckle)
