@@ -133,8 +133,8 @@ def draw_before_and_after(
     window = _square_window((given, result), view)
     pictures = [_draw_marked(marked, view, window) for marked in (lost, added)]
     panels = {caption: picture for caption, (picture, _) in zip(captions, pictures, strict=True)}
-    size = " x ".join(plain_number(length, 4, separator="") for length in report["extents"])
-    facts = f"{size} mm, volume {plain_number(report['volume'], 6)} cubic mm ({report['volume_change']:+.4%})"
+    size = plain_size(*report["extents"], digits=4, separator="")
+    facts = f"{size}, volume {plain_number(report['volume'], 6)} cubic mm ({report['volume_change']:+.4%})"
     legend = [
         (marked.colour, f"{area} {word}{'' if shown else ', not seen here'}") if area else (None, f"nothing {word}")
         for marked, area, word, (_, shown) in zip(
