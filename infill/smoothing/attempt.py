@@ -156,11 +156,13 @@ def run_attempt(smooth_input: SmoothInput, request: SmoothRequest) -> Attempt:
             surface = _measured_surface(surfaced, data)
         if not surface.closed:
             raise GeometryError("the surface is not closed")
+        clock.tell("check", 0.6)
         topology, thinnest = run_together(
             partial(_check_topology, surfaced, flips, smoothed),
             partial(_wall_thickness, surfaced, smoothed),
             threads=threads,
         )
+        clock.tell("check", 0.65)
         deviation = None if surely_near and not crumbs.count else compare_with_input(surface, smoothed)
     return Attempt(
         smoothed=smoothed,
@@ -304,8 +306,9 @@ def finish_attempt(
     smooth_input, request = smoothed.smooth_input, smoothed.request
     data, topology, deviation, differences = smooth_input.data, best.topology, best.deviation, best.differences
     with clock.stage("measure", 0.75):
-        surface, simplified = _simplify_result(best.surface, request)
+        surface, simplified = _simplify_result(best.surface, request, clock)
         if surface is not best.surface:
+            clock.tell("measure", 0.92)
             deviation = compare_with_input(surface, smoothed)
             differences = find_differences(topology, deviation, surfaced, smoothed)
     problems = [*differences.losses, *differences.problems]
@@ -377,18 +380,29 @@ def advise_all_triangles(request: SmoothRequest) -> str:
     return "give --tolerance 0" + ("" if request.max_triangles is None else ", and no --max-triangles")
 
 
-def _simplify_result(full: Surface, request: SmoothRequest) -> tuple[Surface, Simplified | None]:
+def _simplify_result(full: Surface, request: SmoothRequest, clock: Clock) -> tuple[Surface, Simplified | None]:
     """Simplify the surface as requested; return it and the changes, None if it stays as it is."""
     if request.tolerance is None and request.max_triangles is None:
         return full, None
+
+    def progress(share: float) -> None:
+        clock.tell("simplify", 0.75 + 0.15 * share)
+
+    progress(0.0)
     assert not isinstance(request.tolerance, str)  # `Request.at` has made it a number
     if request.default_tolerance and request.tolerance is not None:
-        simplified_surface = collapse_edges(full, tolerance=request.tolerance, threads=request.threads)
+        simplified_surface = collapse_edges(
+            full, tolerance=request.tolerance, threads=request.threads, progress=progress
+        )
         if simplified_surface is None or simplified_surface is full:
             return full, None
     else:
         simplified_surface = simplify_surface(
-            full, tolerance=request.tolerance, triangles=request.max_triangles, threads=request.threads
+            full,
+            tolerance=request.tolerance,
+            triangles=request.max_triangles,
+            threads=request.threads,
+            progress=progress,
         )
     result = replace(restore_volume(simplified_surface, full.volume), space=full.space)
     change = result.volume / full.volume - 1

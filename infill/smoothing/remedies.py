@@ -106,7 +106,11 @@ def _replaced_smoothing(first: Way, taken: Way, best: Attempt) -> ReplacedSmooth
 
 def _input_of(way: Way) -> SmoothInput:
     """Return the input of a way, on a grid."""
-    return voxelise_input(way.data, way.request) if isinstance(way.data, MeshOnGrid) else way.data
+    if not isinstance(way.data, MeshOnGrid):
+        return way.data
+    if way.request.progress is not None:
+        way.request.progress("voxels", 0.01)
+    return voxelise_input(way.data, way.request)
 
 
 def _find_remedy(remedies: Iterable[Way], work_left: float) -> str | None:
