@@ -485,13 +485,14 @@ def test_an_unknown_suffix_is_told_before_the_work(name: str, folder: Path) -> N
 
 @pytest.mark.slow
 def test_outputs_are_checked_before_the_work(folder: Path) -> None:
-    one_line_error(run("smooth", "gone.stl", "-o", "old.stl"), "old.stl exists; .* --force")
-    one_line_error(run("smooth", "gone.stl", "-o", "no/a.stl"), "there is no folder no")
-    one_line_error(run("smooth", "gone.stl", "-o", "a.stl", "-o", "./a.stl"), "is named twice")
+    one_line_error(run("smooth", "s.stl", "-o", "old.stl"), "old.stl exists; .* --force")
+    one_line_error(run("smooth", "s.stl", "-o", "no/a.stl"), "there is no folder no")
+    one_line_error(run("smooth", "s.stl", "-o", "a.stl", "-o", "./a.stl"), "is named twice")
     one_line_error(run("smooth", "gone.stl", "-o", "a.stl", "--preview", "a.jpg"), r"ends in \.png")
     one_line_error(run("smooth", "gone.stl", "-o", "a.obj", "--ascii"), "only .stl can be written as text")
     (folder / "d.stl").mkdir()
-    one_line_error(run("smooth", "gone.stl", "-o", "d.stl", "--force"), "is a folder")
+    one_line_error(run("smooth", "s.stl", "-o", "d.stl", "--force"), "is a folder")
+    one_line_error(run("smooth", "gone.stl", "-o", "old.stl"), "there is no file gone.stl")
     assert (folder / "old.stl").read_text() == "precious"
 
 

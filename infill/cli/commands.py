@@ -16,7 +16,7 @@ from typer.core import TyperCommand, TyperGroup
 
 from infill.cli.console import say
 from infill.cli.typed_values import TypedValueError, rewrite_values
-from infill.errors import InfillError, UsageError
+from infill.errors import InfillError, OutputError, UsageError
 from infill.files.broken import missing_file
 from patterns.errors import PatternError, PatternUsageError
 
@@ -65,7 +65,7 @@ class Command(TyperCommand):
             names_option = message != str(error) or message.startswith("--")
             if names_option and isinstance(error, (UsageError, PatternUsageError)):
                 raise _usage_exit(ctx, message) from error
-            missing = _find_missing_input(ctx)
+            missing = _find_missing_input(ctx) if isinstance(error, OutputError) else None
             say(f"error: {message if missing is None else missing_file(missing)}")
         except MemoryError:
             say("error: out of memory; use larger cells or voxels, or a smaller part")

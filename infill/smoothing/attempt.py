@@ -195,7 +195,7 @@ def remove_specks(data: Volume, request: SmoothRequest) -> tuple[Volume, int]:
     if small.all():
         raise ParameterError.about(
             "despeckle",
-            f"is {plain_size(largest, power=3)} and the largest component has "
+            f"is {plain_number(largest)} mm³ and the largest component has "
             f"{plain_size(components.cells.max() * data.cell_volume, power=3)}; give less",
         )
     if not small.any():
