@@ -7,6 +7,10 @@ from collections.abc import Iterable
 from typing import SupportsFloat
 
 SMALLEST, LARGEST = 1e-9, 1e15  # beyond these, a message names the bound instead of a row of zeros
+UNITS = {"nm": 1e-6, "µm": 1e-3, "mm": 1.0, "m": 1e3, "km": 1e6}  # mm
+FEWEST_UNITS = 0.001  # of a length, an area or a volume: for less, the next smaller unit is used
+MOST_UNITS = {1: 1e5, 2: 1e8, 3: 1e9}  # for as many, the next larger one
+POWERS = {1: "", 2: "²", 3: "³"}
 LEAST_SHARE = 0.001  # a smaller share is not worth its digits
 
 
@@ -28,6 +32,35 @@ def plain_number(value: SupportsFloat, digits: int = 3, *, separator: str = ",")
     decimals = max(digits - 1 - int(rounded.partition("e")[2]), 0)
     text = f"{float(rounded):{separator}.{decimals}f}"
     return text.rstrip("0").rstrip(".") if decimals else text
+
+
+def plain_size(*values: SupportsFloat, digits: int = 3, power: int = 1, separator: str = ",") -> str:
+    """Write lengths, areas or volumes with their unit: mm where a person would, else nm, µm, m or km.
+
+    Parameters
+    ----------
+    *values : float
+        mm, mm² or mm³. Several, such as the sides of a part, share the unit of the largest.
+    digits : int
+    power : int
+        1 for lengths, 2 for areas, 3 for volumes.
+    separator : str
+        Between thousands.
+
+    >>> plain_size(12.345), plain_size(1.234e-4), plain_size(123456789), plain_size(2e-9, power=3)
+    ('12.3 mm', '0.123 µm', '123 km', '2 µm³')
+    >>> plain_size(0.002, 0.0004), plain_size(8834810, power=3, digits=6), plain_size(0)
+    ('0.002 x 0.0004 mm', '8,834,810 mm³', '0 mm')
+    """
+    numbers = [float(value) for value in values]
+    largest = max((abs(number) for number in numbers if math.isfinite(number)), default=0.0)
+    names, unit = list(UNITS), "mm"
+    while 0 < largest * UNITS[unit] ** -power < FEWEST_UNITS and unit != names[0]:
+        unit = names[names.index(unit) - 1]
+    while largest * UNITS[unit] ** -power >= MOST_UNITS[power] and unit != names[-1]:
+        unit = names[names.index(unit) + 1]
+    scaled = (number * UNITS[unit] ** -power for number in numbers)
+    return f"{' x '.join(plain_number(number, digits, separator=separator) for number in scaled)} {unit}{POWERS[power]}"
 
 
 def plain_argument(value: SupportsFloat, digits: int = 6) -> str:

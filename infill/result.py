@@ -23,7 +23,7 @@ from infill.meshes.split_components import concatenate_surfaces
 from infill.pictures.picturable import Picturable
 from infill.pictures.preview import SUFFIXES as PICTURES
 from infill.pictures.preview import is_picture
-from infill.plain_numbers import plain_number
+from infill.plain_numbers import plain_size
 from infill.reports.common import Declared, declare
 from infill.surface import Surface
 
@@ -76,8 +76,7 @@ class Result(Picturable, Generic[Stages, Told]):
     def __repr__(self) -> str:
         """Return the names of the surfaces, with their triangles and sizes."""
         summaries = (
-            f"{name}: {len(surface.faces):,} triangles, "
-            f"{' x '.join(plain_number(side, 4) for side in np.ptp(surface.bounds, axis=0))} mm"
+            f"{name}: {len(surface.faces):,} triangles, {plain_size(*np.ptp(surface.bounds, axis=0), digits=4)}"
             for name, surface in self.surfaces.items()
         )
         return f"Result({'; '.join(summaries)})"

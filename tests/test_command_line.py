@@ -729,3 +729,16 @@ def test_a_broken_plugin_is_one_line_on_stderr(tmp_path: Path) -> None:
     assert done.stderr.count("\n") == 1
     assert done.stderr.startswith("warning: plug-in pattern 'broken' (no_such_module:Pattern)")
     assert "honeycomb" in done.stdout
+
+
+@pytest.mark.parametrize("dry", [False, True])
+@pytest.mark.parametrize("command", ["smooth", "fill", "refill", "motion", "check"])
+def test_a_missing_input_is_told_before_an_output_that_exists(command: str, dry: bool, tmp_path: Path) -> None:
+    old = tmp_path / "old.stl"
+    old.write_bytes(b"old")
+    output = [] if command in ("check", "motion") else ["-o", old, *(["--dry-run"] if dry else [])]
+    done = run(command, tmp_path / "gone.stl", *output)
+    assert done.exit_code == 1
+    assert f"there is no file {tmp_path / 'gone.stl'}; check the name" in done.stderr
+    assert "exists" not in done.stderr
+    assert old.read_bytes() == b"old"

@@ -23,7 +23,7 @@ from infill.drawings.tiled import Tiled, read_tiled
 from infill.errors import GeometryError
 from infill.lattices.line_sample import LineSample
 from infill.paths.tiles.borders import find_borders
-from infill.plain_numbers import plain_number
+from infill.plain_numbers import plain_size
 from patterns.errors import PatternError
 
 HEAD = '<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="20mm" viewBox="0 0 20 20">'
@@ -250,6 +250,6 @@ def test_a_point_that_is_too_far_is_named(far: float, words: list[str], tmp_path
     np.save(path, points)
     one_line_error(
         run("smooth", path, "--as", "points", "--units", "mm", "--voxel", "0.5", *words, "-o", tmp_path / "a.stl"),
-        re.escape(f"a point lies at {plain_number(far)} mm; the limit is 1,000,000,000 mm"),
+        re.escape(f"a point lies at {plain_size(far)}; the limit is 1,000 km"),
     )
     assert sorted(tmp_path.iterdir()) == [path]

@@ -14,6 +14,7 @@ from made_shapes import box
 from infill import GeometryError, UsageError, fill
 from infill.drawings.tiled import read_tiled
 from infill.meshes.solids import to_manifold
+from infill.paths.ties import tie_islands
 
 pytestmark = pytest.mark.usefixtures("compiled")
 
@@ -66,14 +67,70 @@ def test_a_drawing_once_is_one_of_its_tiles(logo: str) -> None:
     assert tiled.lines(wide).length > 20 * single.lines(wide).length
 
 
-def test_pieces_that_touch_no_wall_are_left_out_and_told(logo: str) -> None:
-    report = once(box(44, 30, 8), logo, open_="both").report
+def count_bodies(result: Any) -> int:
+    """Pieces that hang together; with open ends or without a shell, no void is enclosed."""
+    return len(to_manifold(result.surface).decompose())
+
+
+def test_islands_are_tied_by_the_shortest_bars(logo: str) -> None:
+    """A stroke 2 mm beside a square, and the square 11 mm below one wall and above another."""
+    part = box(44, 30, 8)
+    tied, loose = once(part, logo, open_="both"), once(part, logo, open_="both", ties=False)
+    report = tied.report
+    assert report["problems"] == []
+    assert report["voids"]["islands"] == 0
+    assert count_bodies(tied) == 1
+    assert report["infill"]["untied"] == 0
+    lengths = sorted(tie["length"] for tie in report["infill"]["ties"])
+    assert lengths == pytest.approx([2, 11], abs=0.05)
+    bars = report["infill"]["ties"][0]["width"] * sum(lengths)
+    added = loose.report["voids"]["volume"] - report["voids"]["volume"]  # without floor and roof
+    assert added == pytest.approx(8 * (LINE * 30 + bars), rel=0.15)  # fillets
+
+
+def test_without_ties_pieces_are_left_out_and_told(logo: str) -> None:
+    report = once(box(44, 30, 8), logo, open_="both", ties=False).report
     assert report["voids"]["islands"] == 2
+    assert report["infill"]["ties"] == []
     assert report["problems"] == [
-        "pieces of the drawing that touch no wall were left out: 2; draw lines from them to the rest, or close the top "
-        "or the bottom of the part"
+        "pieces of the drawing that touch no wall were left out: 2; leave out --no-ties, or close the top or the bottom "
+        "of the part"
     ]
-    assert once(box(44, 30, 8), logo, open_="top").report["problems"] == []  # what it recommends
+    assert once(box(44, 30, 8), logo, open_="top", ties=False).report["problems"] == []  # what it recommends
+
+
+@pytest.mark.parametrize("shell", [{"wall": 0}, {"wall": 1, "open_": "both"}])
+def test_a_repeated_drawing_of_islands_is_one_piece(shell: dict[str, Any], tmp_path: Path) -> None:
+    """The density is that of lines and ties together."""
+    path = tmp_path / "rings.svg"
+    path.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="8mm" height="8mm" viewBox="0 0 8 8"><g fill="none" '
+        'stroke="black"><circle cx="4" cy="4" r="3"/><circle cx="4" cy="4" r="1.2"/></g></svg>'
+    )
+    result = fill(box(20, 20, 4), str(path), density=0.25, **shell)
+    assert result.report["infill"]["ties"]
+    assert count_bodies(result) == 1
+    assert result.report["density"] == pytest.approx(0.25, abs=0.005)
+    assert result.report["problems"] == []
+
+
+def test_rings_along_the_outline_are_tied_too() -> None:
+    """Islands are a matter of the lines, not of drawings."""
+    assert count_bodies(fill(box(20, 20, 4), "concentric", open_="both")) == 1
+    assert count_bodies(fill(box(20, 20, 4), "concentric", open_="both", ties=False)) == 1  # its rings are left out
+    assert fill(box(20, 20, 4), "grid", open_="both").report["infill"]["ties"] == []
+
+
+def test_an_island_that_no_straight_bar_reaches_is_told() -> None:
+    """Two strokes in the arms of a horseshoe without walls: the way between them bends."""
+    horseshoe = shapely.box(0, 0, 30, 30) - shapely.box(10, 8, 20, 31)
+    strokes = shapely.MultiLineString([[(5, 20), (5, 28)], [(25, 20), (25, 28)]])
+    ties = tie_islands(strokes, horseshoe, width=0.5, walled=False)
+    assert (len(ties.segments), ties.loose) == (0, 1)
+    below = shapely.MultiLineString([[(5, 4), (5, 28)], [(25, 4), (25, 28)]])
+    ties = tie_islands(below, horseshoe, width=0.5, walled=False)
+    assert (len(ties.segments), ties.loose) == (1, 0)
+    assert shapely.covers(horseshoe, shapely.linestrings(ties.segments)).all()
 
 
 def test_a_drawing_beside_the_part_is_refused(logo: str) -> None:

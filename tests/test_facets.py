@@ -89,4 +89,18 @@ def test_the_report_has_none_where_there_are_none() -> None:
     assert smooth_mesh(creation.box((10, 20, 30)), resolution=40, tolerance=None).report["facets"] is None
     facets = smooth_mesh(creation.icosphere(1, 10), resolution=60, tolerance=None).report["facets"]
     assert facets is not None
-    assert set(facets) == {"share", "width", "radius", "voxel"}
+    assert set(facets) == {"share", "width", "radius", "voxel", "fits"}
+
+
+@pytest.mark.usefixtures("compiled")
+@pytest.mark.parametrize(("inner", "fits"), [(9.4, False), (4.0, True)])
+def test_no_radius_is_named_that_the_thinnest_wall_does_not_bear(inner: float, fits: bool, tmp_path: Path) -> None:
+    """Tubes of 16 sides, with walls of 0.6 and 6 mm; their facets take a radius of 1.4 mm."""
+    path, out = tmp_path / "tube.stl", tmp_path / "out.stl"
+    creation.annulus(inner, 10, 30, sections=16).export(path)
+    told = run("smooth", path, "--resolution", 100, "-o", out)
+    assert told.exit_code == 0
+    row = re.search(r"^  facets +(.*)$", told.stderr, re.M)
+    assert row, told.stderr
+    assert ("--smooth-radius" in row[1]) == fits
+    assert ("loses walls of" in row[1]) != fits

@@ -20,10 +20,10 @@ from infill import FormatError, Motion, ParameterError, motion
 from infill.cli.app import build_app
 from infill.gcode.found_limits import CURA, KLIPPER, MARLIN, read_limits
 from infill.gcode.limits import LIMITING_CODES, Limits, apply_command
-from infill.pictures.speeds import speed_colours
+from infill.pictures.speeds import BAR, CAPTION, LEAST_HEIGHT, MARGIN, draw_speeds, speed_colours
 from infill.planner import timeline
 from infill.planner.chords import cut_chords
-from infill.planner.layer_speeds import PIECE_LENGTH, layer_speeds
+from infill.planner.layer_speeds import PIECE_LENGTH, LayerSpeeds, layer_speeds
 from infill.planner.struct_of_arrays import concatenate_rows, slice_rows
 from infill.planner.timeline import Timeline
 from infill.timing.printing_time import FeatureMotion
@@ -540,6 +540,18 @@ def test_the_pieces_of_a_layer(tmp_path: Path) -> None:
     assert layer.speed[side] == pytest.approx(np.minimum(np.sqrt(64 + 2000 * near), 50))
     assert layer.draws.sum() > 200
     assert (~layer.draws).any()
+
+
+@pytest.mark.parametrize("size", [(60, 20), (20, 60), (30, 0)])
+def test_the_picture_of_a_layer_has_no_blank_bands(size: tuple[int, int]) -> None:
+    """It is as high as the layer needs beside its width."""
+    corners = np.array([(0, 0, 0), (size[0], 0, 0), (*size, 0), (0, size[1], 0), (0, 0, 0)], dtype=float)
+    speed, draws = np.full(4, 50.0), np.ones(4, dtype=bool)
+    layer = LayerSpeeds(start=corners[:-1], end=corners[1:], speed=speed, draws=draws, role=("infill",) * 4)
+    panel = np.asarray(draw_speeds({"layer": layer}))[MARGIN + CAPTION : -BAR - MARGIN]
+    inked = np.flatnonzero((panel != 255).any(axis=(1, 2)))
+    blank = max(inked[0], len(panel) - 1 - inked[-1], int(np.diff(inked).max()) if size[1] == 0 else 0)
+    assert blank <= max(0.03 * len(panel), LEAST_HEIGHT / 2)
 
 
 def test_colours_tell_speeds_apart() -> None:

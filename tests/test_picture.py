@@ -14,7 +14,7 @@ from test_command_line import run
 from infill import FormatError, OutputError, Smoothing, Surface, make, smooth_labels, smooth_mesh, smooth_volume
 from infill.meshes.winding import is_solid_boundary, winding_numbers
 from infill.pictures.before_and_after import FAR_VOXELS, LEAST_HITS, MarkedSurface, draw_before_and_after
-from infill.pictures.close_up import FRAME, SIDE, SURROUNDINGS
+from infill.pictures.close_up import FRAME, SIDE, SURROUNDINGS, insert_close_up
 from infill.pictures.preview import check_preview
 from infill.pictures.render import render
 from infill.pictures.sheet import CAPTION, MARGIN, PANEL
@@ -137,9 +137,10 @@ def test_paint_of_one_colour_is_that_colour() -> None:
 
 
 def panels(sheet: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The two pictures of a sheet."""
-    top, before, after = 34, MARGIN, 2 * MARGIN + PANEL
-    return tuple(sheet[top : top + PANEL, left : left + PANEL].astype(int) for left in (before, after))
+    """The two pictures of a sheet, the first with its close-up beside it where it has no room for one."""
+    top, beside = 34, sheet.shape[1] - 2 * PANEL - 3 * MARGIN
+    before, after = (MARGIN, PANEL + beside), (2 * MARGIN + PANEL + beside, PANEL)
+    return tuple(sheet[top : top + PANEL, left : left + width].astype(int) for left, width in (before, after))
 
 
 def reddish(picture: np.ndarray) -> int:
@@ -236,6 +237,22 @@ def test_a_small_loss_has_a_close_up() -> None:
     framed = 4 * (SIDE - FRAME) * FRAME
     assert reddish(before) > framed + 0.05 * SIDE**2
     assert reddish(after) + bluish(after) == 0
+
+
+@pytest.mark.parametrize("shape", [(420, 420), (300, 380)])
+@pytest.mark.parametrize("room", [0, SIDE - 1, SIDE, 200])
+def test_a_close_up_covers_nothing_of_the_model(shape: tuple[int, int], room: int) -> None:
+    """It lies in an empty square of the picture if there is one, wherever it is, and else beside the picture."""
+    pixels = np.full((*shape, 3), 255, dtype=np.uint8)
+    pixels[1:, 1:] = 90
+    pixels[60 : 60 + room, 40 : 40 + room] = 255
+    inset = Image.new("RGB", (SIDE, SIDE), (200, 30, 30))
+    picture = insert_close_up(Image.fromarray(pixels), inset, 3.0, (200, 30, 30))
+    drawn = np.asarray(picture)
+    assert (drawn[: shape[0], : shape[1]][(pixels == 90).all(axis=2)] == 90).all()
+    assert picture.width == shape[1] + (0 if room >= SIDE else SIDE)
+    assert picture.height == shape[0]
+    assert (drawn == (200, 30, 30)).all(axis=2).sum() > 0.9 * SIDE**2
 
 
 @pytest.mark.slow

@@ -13,7 +13,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from test_command_line import COMMANDS, run
 
-from infill.plain_numbers import LARGEST, SMALLEST, count_noun, plain_argument, plain_number
+from infill.plain_numbers import LARGEST, SMALLEST, count_noun, plain_argument, plain_number, plain_size
 from patterns.declared import format_decimal
 
 EXPONENT = re.compile(r"\d[eE][+-]?\d\d")
@@ -97,10 +97,10 @@ def sizes(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     ("name", "says"),
     [
         ("huge", "watertight           yes"),
-        ("huge", "volume, area         3,750,000,000 mm³, 14,750,000 mm²"),
+        ("huge", "volume, area         3.75 m³, 14,750,000 mm²"),
         ("open", "watertight           no, 3 open edges"),
         ("hollow", "1 part with 1 sealed cavity"),
-        ("tiny", "0.00000132 mm³"),
+        ("tiny", "1,320 µm³"),
     ],
 )
 def test_check_is_plain(name: str, says: str, sizes: dict[str, Path]) -> None:
@@ -127,3 +127,45 @@ def test_plans_and_errors_are_plain(words: tuple[str, ...], sizes: dict[str, Pat
     result = run(*(sizes.get(word, word) for word in words))
     assert result.stdout or result.stderr
     assert_plain(result.output)
+
+
+# --- sizes with a unit -----------------------------------------------------------------------------------
+
+MM = {"nm": 1e-6, "µm": 1e-3, "mm": 1.0, "m": 1e3, "km": 1e6}
+
+
+@given(st.floats(1e-8, 1e9), st.integers(1, 3), st.integers(2, 6))
+@example(value=1.23e-4, power=1, digits=3)
+@example(value=123456789.0, power=1, digits=3)
+@settings(deadline=None)
+def test_a_size_is_short_and_its_unit_is_right(value: float, power: int, digits: int) -> None:
+    """The value up to the digits; no three zeros behind the point, and at most a thousand millions of a unit."""
+    number, unit = plain_size(value, digits=digits, power=power).split()
+    name = unit.rstrip("²³")
+    assert unit.removeprefix(name) == {1: "", 2: "²", 3: "³"}[power]
+    shown = float(number.replace(",", ""))
+    assert shown * MM[name] ** power == pytest.approx(value, rel=0.5 * 10 ** (1 - digits) + 1e-9)
+    assert not number.startswith("0.000")
+    assert len(number.split(".")[0].replace(",", "")) <= 9
+
+
+def test_sizes_that_belong_together_share_a_unit() -> None:
+    assert plain_size(2e6, 2e6, 1) == "2,000 x 2,000 x 0.001 m"
+    assert plain_size(2e-5, 1e-5, digits=4) == "0.02 x 0.01 µm"
+    assert [plain_size(0), plain_size(1.2), plain_size(99_999, digits=6)] == ["0 mm", "1.2 mm", "99,999 mm"]
+
+
+@pytest.mark.usefixtures("compiled")
+@pytest.mark.parametrize(
+    ("radius", "size"), [(1e-4, r"0\.\d+ x 0\.\d+ x 0\.\d+ µm"), (1e6, r"\d,\d+ x \d,\d+ x \d,\d+ m")]
+)
+def test_parts_of_any_size_are_told_in_short_numbers(radius: float, size: str, tmp_path: Path) -> None:
+    trimesh.creation.icosphere(2, radius).export(tmp_path / "ball.stl")
+    done = run("smooth", tmp_path / "ball.stl", "--resolution", "24", "-o", tmp_path / "out.stl")
+    assert done.exit_code == 0
+    assert re.search(size, done.stderr)
+    summary = done.stderr[done.stderr.index("mesh  ") :].split("wrote")[0]
+    typed = re.sub(r"--[a-z-]+ [\d.]+", "", summary)  # options take mm
+    assert not re.search(r"0\.0000\d*(?![\d%])|\d,\d{3},\d{3},\d{3}|under|over", typed), summary
+    checked = run("check", tmp_path / "out.stl").stdout
+    assert re.search(size, checked)

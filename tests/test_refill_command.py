@@ -335,7 +335,7 @@ def test_no_log_where_nothing_is_replaced_in_place(gcode: Path, tmp_path: Path) 
 
 
 def test_a_print_that_is_not_there_leaves_nothing(tmp_path: Path) -> None:
-    one_line_error(run("refill", tmp_path / "none.gcode"), "cannot read .*none.gcode: no such file")
+    one_line_error(run("refill", tmp_path / "none.gcode"), "there is no file .*none.gcode; check the name")
     assert names(tmp_path) == []
 
 

@@ -13,6 +13,7 @@ from typing import Any, get_args, get_origin, is_typeddict
 import numpy as np
 import pytest
 import trimesh
+from handmade_dicom import save_all, slices
 from typer.testing import CliRunner
 
 from infill import (
@@ -117,7 +118,11 @@ def smooth_reports(folder: Path, results: Results) -> dict[str, Any]:
     np.save(folder / "ball.npy", BALL)
     reports = {name: result.report for name, result in results.items() if result.report["product"] == "smooth"}
     command = printed("smooth", folder / "ball.npy", "--spacing", 1, "-o", folder / "a.stl")
-    return {**reports, "command": command}
+    plate = np.zeros((48, 48, 48), bool)
+    plate[8:40, 8:40, 8:18] = True
+    plate[23:25, 8:40, 8:40] = True  # too thin for the radius
+    gentler = smooth_volume(Volume(values=plate), radius=4.0, tolerance=None).report
+    return {**reports, "command": command, "gentler": gentler}
 
 
 def smooth_plans(folder: Path, results: Results) -> dict[str, Any]:
@@ -131,6 +136,11 @@ def smooth_plans(folder: Path, results: Results) -> dict[str, Any]:
         "cloud.xyz": ["--voxel", 1],
         "ball.stl": ["--resolution", 24],
     }
+    save_all(
+        slices(np.repeat(GREY.T, 5, axis=0).astype(np.int16), [(0, 0, k) for k in range(5 * GREY.shape[2])]),
+        folder / "dicom",
+    )
+    words["dicom"] = ["--range", "300,900"]
     return {name: printed("smooth", folder / name, *more, "--dry-run") for name, more in words.items()}
 
 
@@ -181,6 +191,7 @@ def fill_reports(folder: Path, results: Results) -> dict[str, Any]:
         "cells": fill(part, density=(0.2, 0.4), grade="cell", voxel=0.5, wall=1.5),
         "project": fill(part, as_="project", voxel=0.5),
         "open": fill(part, open_="top", **few),
+        "tied": fill(part, "concentric", open_="both", **few),
         "regions": fill(part, regions=["z=0..:density=40%"], **few),
     }
     command = printed("fill", folder / "part.stl", "--voxel", 0.5, "-o", folder / "a.stl")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -133,3 +134,32 @@ def test_crossings_are_the_sign_changes_of_the_padded_grid(solid: np.ndarray) ->
     padded = np.pad(solid, 1)
     changes = sum(int((np.diff(padded.astype(int), axis=axis) != 0).sum()) for axis in range(3))
     assert count_solid_cells(solid) == (int(solid.sum()), changes)
+
+
+@pytest.mark.parametrize("words", ["--threshold 0", "--threshold 0 --smooth refine", "--threshold 0 --smooth plain"])
+def test_the_steps_are_told_in_the_same_words(words: str, folder: Path) -> None:
+    plan = run("smooth", "ct.npy", *words.split(), "--dry-run")
+    summary = run("smooth", "ct.npy", *words.split(), "-o", "a.stl")
+    planned = re.search(r"^  method +\w+: (\d+ steps(?:, refined)?)", plan.stdout, re.M)
+    taken = re.search(r"^  smoothing +(\d+ steps(?:, refined)?), ", summary.stderr, re.M)
+    assert planned, plan.stdout
+    assert taken, summary.stderr
+    assert planned[1] == taken[1]
+    assert ("refined" in planned[1]) == ("plain" not in words)
+
+
+def test_steps_taken_instead_of_a_radius_are_told_beside_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A wall of two voxels does not bear a radius of four."""
+    monkeypatch.chdir(tmp_path)
+    solid = np.zeros((60, 60, 60), bool)
+    solid[10:50, 10:50, 10:20] = True
+    solid[29:31, 10:50, 10:50] = True
+    np.save("plate.npy", solid)
+    done = run("smooth", "plate.npy", "--spacing", "1", "--smooth-radius", "4", "-o", "a.stl", "--json")
+    report = json.loads(done.stdout)
+    assert report["verdict"]["instead_of"] == {"steps": 56, "radius": 4}
+    steps = report["request"]["steps"]
+    assert steps < 56
+    assert f"{steps} steps, refined, instead of the 56 of --smooth-radius 4, with which more changed" in done.stderr
+    gentle = json.loads(run("smooth", "plate.npy", "--spacing", "1", "--steps", str(steps), "--json").stdout)
+    assert gentle["verdict"]["instead_of"] is None

@@ -541,7 +541,7 @@ def test_a_volume_near_enough_is_not_told(tmp_path: Path) -> None:
 
 
 def test_a_volume_beyond_all_places_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(FormatError, match="lies over 1,000,000,000,000,000 mm away; the limit is 1,000,000,000,000 mm"):
+    with pytest.raises(FormatError, match="lies over 1,000,000,000,000,000 km away; the limit is 1,000,000 km"):
         read_volume(far_away(tmp_path, 1e308, 1.0))
 
 

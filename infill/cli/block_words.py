@@ -9,7 +9,7 @@ import typer
 
 from infill.cli.console import format_bytes, format_table, print_json
 from infill.cli.filled_words import format_plan
-from infill.plain_numbers import count_noun, plain_argument
+from infill.plain_numbers import count_noun, plain_argument, plain_size
 
 if TYPE_CHECKING:
     from infill.reports.making import LatticePlan, LatticeReport, LatticeRequest
@@ -50,5 +50,5 @@ def lattice_summary(report: LatticeReport, files: list[str], *, verbose: bool) -
 
 
 def _format_request(request: LatticeRequest) -> str:
-    size = " x ".join(f"{plain_argument(length)}" for length in (*request["size"], request["height"]))
-    return f"{request['pattern']}, {size} mm"
+    size = plain_size(*request["size"], request["height"], digits=6, separator="")
+    return f"{request['pattern']}, {size}"

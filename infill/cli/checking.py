@@ -9,7 +9,7 @@ import typer
 
 from infill.cli.console import format_table, print_json, say
 from infill.errors import InfillError
-from infill.plain_numbers import count_noun, plain_number
+from infill.plain_numbers import count_noun, plain_size
 
 if TYPE_CHECKING:
     from infill.inspection.printability import Inspection
@@ -121,8 +121,8 @@ def _verdict_line(inspection: Inspection) -> str:
     """Format the verdict on one of several meshes as a line, with its reasons."""
     if not inspection.printable:
         return f"NO   {'; '.join(inspection.problems)}"
-    size = " x ".join(plain_number(length, 4) for length in inspection.extents)
-    text = f"yes  {inspection.triangles:,} triangles, {_count_parts(inspection)}, {size} mm"
+    size = plain_size(*inspection.extents, digits=4)
+    text = f"yes  {inspection.triangles:,} triangles, {_count_parts(inspection)}, {size}"
     return "; ".join([text, *(f"warning: {warning}" for warning in inspection.warnings)])
 
 
@@ -137,8 +137,9 @@ def _inspection_table(inspection: Inspection, name: str) -> str:
         "faces outwards": "yes" if inspection.outward else "no",
         "triangles": f"{inspection.triangles:,}, {inspection.degenerate:,} without an area, {inspection.duplicate:,} "
         f"duplicate, {count_noun(inspection.self_intersections, 'pair')} that cross",
-        "volume, area": f"{plain_number(inspection.volume, 6)} mm³, {plain_number(inspection.area, 6)} mm²",
-        "size": f"{' x '.join(plain_number(length, 4) for length in inspection.extents)} mm",
+        "volume, area": f"{plain_size(inspection.volume, digits=6, power=3)}, "
+        f"{plain_size(inspection.area, digits=6, power=2)}",
+        "size": f"{plain_size(*inspection.extents, digits=4)}",
     }
     return format_table(rows, title=name)
 

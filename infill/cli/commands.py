@@ -8,6 +8,7 @@ Exit status 2 is for a command line that cannot be understood, and 1 for one tha
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import typer
@@ -15,7 +16,8 @@ from typer.core import TyperCommand, TyperGroup
 
 from infill.cli.console import say
 from infill.cli.typed_values import TypedValueError, rewrite_values
-from infill.errors import InfillError, UsageError
+from infill.errors import InfillError, OutputError, UsageError
+from infill.files.broken import missing_file
 from patterns.errors import PatternError, PatternUsageError
 
 FAILED, USAGE = 1, 2
@@ -63,10 +65,19 @@ class Command(TyperCommand):
             names_option = message != str(error) or message.startswith("--")
             if names_option and isinstance(error, (UsageError, PatternUsageError)):
                 raise _usage_exit(ctx, message) from error
-            say(f"error: {message}")
+            missing = _find_missing_input(ctx) if isinstance(error, OutputError) else None
+            say(f"error: {message if missing is None else missing_file(missing)}")
         except MemoryError:
             say("error: out of memory; use larger cells or voxels, or a smaller part")
         raise typer.Exit(FAILED)
+
+
+def _find_missing_input(context: typer.Context) -> Path | None:
+    """Find an input file that does not exist: a message about it comes before any about the outputs."""
+    arguments = [option.name for option in context.command.params if option.param_type_name == "argument"]
+    values = [context.params.get(str(name)) for name in arguments]
+    paths = [path for value in values for path in (value if isinstance(value, (list, tuple)) else [value])]
+    return next((path for path in paths if isinstance(path, Path) and not path.exists()), None)
 
 
 class Group(TyperGroup):

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, BinaryIO
 import typer
 
 from infill.cli.console import format_bytes, format_table
-from infill.plain_numbers import plain_number
+from infill.plain_numbers import plain_size
 
 if TYPE_CHECKING:
     from infill.reports.smoothing import ComponentsReport
@@ -49,8 +49,8 @@ def component_summary(result: Result[ComponentStages, ComponentsReport], files: 
         part = component["report"]
         changes = "; ".join([part["verdict"]["word"], *part["verdict"]["changes"]])
         rows[component["name"]] = (
-            f"{part['triangles']:,} triangles, {plain_number(part['volume'], 6)} mm³, {part['volume_change']:+.4%}; "
-            f"{changes}"
+            f"{part['triangles']:,} triangles, {plain_size(part['volume'], digits=6, power=3)}, "
+            f"{part['volume_change']:+.4%}; {changes}"
         )
     if len(report["components"]) > MOST_ROWS:
         rows["…"] = f"and {len(report['components']) - MOST_ROWS} more"

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import typer
 
 from infill.cli.console import format_bytes, format_table, print_json
-from infill.plain_numbers import count_noun, plain_number
+from infill.plain_numbers import count_noun, plain_number, plain_place, plain_size
 
 if TYPE_CHECKING:
-    from infill.reports.filling import FillForecast, FillReport
+    from infill.reports.filling import FillForecast, FillReport, FillTie
     from infill.reports.making import LatticePlan
 
 REPAIR_TEXTS = {
@@ -32,6 +32,7 @@ PLACES = {
     "x": ("at the lowest x", "at the highest x"),
     "y": ("at the lowest y", "at the highest y"),
 }
+PLACES_SHOWN = 4  # ties whose places the summary names
 END_TEXTS = {"top": "top", "bottom": "bottom", "both": "top and bottom"}
 
 
@@ -47,9 +48,9 @@ def format_plan(plan: FillForecast | LatticePlan, title: str) -> str:
     """Format the plan of a part or a block as a short table."""
     grid, infill = plan["grid"], plan["infill"]
     rows = {
-        "infill": f"cell about {plain_number(infill['cell'], 4)} mm, line width about "
-        f"{plain_number(infill['line_width'], 4)} mm",
-        "grid": f"{' x '.join(map(str, grid['shape']))} cells of {plain_number(grid['spacing'][0], 4)} mm",
+        "infill": f"cell about {plain_size(infill['cell'], digits=4)}, line width about "
+        f"{plain_size(infill['line_width'], digits=4)}",
+        "grid": f"{' x '.join(map(str, grid['shape']))} cells of {plain_size(grid['spacing'][0], digits=4)}",
         "memory": f"about {format_bytes(plan['memory'])}",
     }
     return format_table(rows, title=f"{title}: nothing is written (--dry-run)")
@@ -73,16 +74,16 @@ def summary(
         skin += f", except for the open {END_TEXTS[request['open']]}"
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}; skin {skin}",
-        "solid": f"{plain_number(report['volume'], 6)} mm³, {report['volume'] / report['part']['volume']:.1%} of the "
-        "part",
-        "density": f"{report['density']:.1%} inside the walls: cells of {plain_number(infill['cell'], 4)} mm, lines "
-        f"of {plain_number(infill['line_width'])} mm",
-        "walls": f"{plain_number(walls['least'] or 0.0)} mm at least, {plain_number(walls['requested'], 6)} asked for",
+        "solid": f"{plain_size(report['volume'], digits=6, power=3)}, "
+        f"{report['volume'] / report['part']['volume']:.1%} of the part",
+        "density": f"{report['density']:.1%} inside the walls: cells of {plain_size(infill['cell'], digits=4)}, lines "
+        f"of {plain_size(infill['line_width'])}",
+        "walls": f"{plain_size(walls['least'] or 0.0)} at least, {plain_size(walls['requested'], digits=6)} asked for",
         "voids": f"{voids['count']:,}, {_drain_text(report)}",
     }
     if request["form"] != "solid":
         rows["mesh"] = f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}"
-        rows["solid"] = f"{plain_number(report['volume'], 6)} mm³ of infill"
+        rows["solid"] = f"{plain_size(report['volume'], digits=6, power=3)} of infill"
         del rows["walls"], rows["voids"]
     rows |= _density_rows(report)
     if infill["phase"] != request["phase"]:
@@ -90,8 +91,10 @@ def summary(
         rows["shifted"] = f"by {shift} mm in x, y and z: slicers print more of it there"
     if request["form"] == "project" and infill["left_out"]:
         rows["too narrow"] = (
-            f"{plain_number(infill['left_out'])} mm³ of infill, left out: slicers would print none of it"
+            f"{plain_size(infill['left_out'], power=3)} of infill, left out: slicers would print none of it"
         )
+    if infill["ties"]:
+        rows["tied"] = _tie_text(infill["ties"])
     if voids["islands"]:
         rows["left out"] = f"{count_noun(voids['islands'], 'piece')} of infill that would have hung free"
     if objects is not None and objects[1] > 1:
@@ -105,12 +108,24 @@ def summary(
         rows["PROBLEMS"] = "; ".join(report["problems"])
     if verbose:
         grid = report["grid"]
-        rows["grid"] = f"{' x '.join(map(str, grid['shape']))} cells of {plain_number(grid['spacing'][0], 4)} mm"
-        rows["fillets"] = f"{plain_number(infill['radius'])} mm"
+        rows["grid"] = f"{' x '.join(map(str, grid['shape']))} cells of {plain_size(grid['spacing'][0], digits=4)}"
+        rows["fillets"] = f"{plain_size(infill['radius'])}"
         rows["seconds"] = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in report["seconds"].items())
     for path in files:
         rows[f"wrote {path}"] = format_bytes(Path(path).stat().st_size) if Path(path).is_file() else ""
     return format_table(rows, title=f"{name}, {request['pattern']}")
+
+
+def _tie_text(ties: list[FillTie]) -> str:
+    """Describe the bars that tie islands to the rest: how many, how long, and where the longest are."""
+    lengths = sorted(tie["length"] for tie in ties)
+    span = " to ".join(dict.fromkeys(plain_size(length) for length in (lengths[0], lengths[-1])))
+    longest = sorted(ties, key=lambda tie: -tie["length"])[:PLACES_SHOWN]
+    places = ", ".join(plain_place(tie["at"]) for tie in longest)
+    return (
+        f"{count_noun(len(ties), 'island')} that nothing held, by {'a bar' if len(ties) == 1 else 'bars'} of {span} "
+        f"at {places}{' and elsewhere' if len(ties) > PLACES_SHOWN else ''}; --no-ties leaves them out"
+    )
 
 
 def _density_rows(report: FillReport) -> dict[str, str]:
@@ -120,12 +135,12 @@ def _density_rows(report: FillReport) -> dict[str, str]:
         first, last = request["densities"]
         lowest, highest = PLACES.get(str(request["by"]), ("where the field is lowest", "where it is highest"))
         ends = f"{plain_number(100 * first, 6)}% {lowest} to {plain_number(100 * last, 6)}% {highest}"
-        sizes = f"cells of {plain_number(infill['cell'], 4)} mm, lines of {plain_number(infill['line_width'])} mm"
+        sizes = f"cells of {plain_size(infill['cell'], digits=4)}, lines of {plain_size(infill['line_width'])}"
         if request["grade"] == "cell":
             (small, large), (narrow, wide) = infill["cells"] or (0, 0), infill["widths"] or (0, 0)
             sizes = (
-                f"cells of {plain_number(small)} to {plain_number(large)} mm, lines of {plain_number(narrow, 2)} to "
-                f"{plain_number(wide, 2)} mm"
+                f"cells of {plain_size(small)} to {plain_size(large)}, lines of {plain_size(narrow, digits=2)} to "
+                f"{plain_size(wide, digits=2)}"
             )
         rows["density"] = f"{ends}; {report['density']:.1%} on average: {sizes}"
     regions = [

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import time
 from collections.abc import Iterable
 from pathlib import Path
@@ -10,11 +11,12 @@ from typing import TYPE_CHECKING
 import typer
 
 from infill.cli.console import format_bytes, format_table, print_json, print_log
+from infill.errors import InfillError
 from infill.machine import available_memory
-from infill.plain_numbers import plain_number
+from infill.plain_numbers import plain_number, plain_size
 
 if TYPE_CHECKING:
-    from infill.reports.smoothing import PlannedInput
+    from infill.reports.smoothing import PlannedInput, SolidRequest
     from infill.smoothing.plan import SmoothPlan
     from infill.smoothing.request import SmoothOptions
     from infill.smoothing.settings import SmoothSettings
@@ -27,11 +29,16 @@ def show_smooth_plan(
 ) -> None:
     """Print the plan of smoothing a file or folder."""
     from infill.smoothing.plan import plan_smoothing
-    from infill.smoothing.sources import name_labels, read_source
+    from infill.smoothing.sources import name_labels, read_source, sample_source
 
     begin = time.perf_counter()
     with print_log(shown=not quiet), name_labels(source, **settings.reading):
-        plan = plan_smoothing(read_source(source, **settings.reading), begin=begin, **settings.choice, **options)
+        plan = None
+        if settings.choice.get("voxel") is None and (sample := sample_source(source, **settings.reading)):
+            with contextlib.suppress(InfillError):  # nothing solid in the sample, say: all slices decide
+                plan = plan_smoothing(sample, begin=begin, **settings.choice, **options)
+        if plan is None:
+            plan = plan_smoothing(read_source(source, **settings.reading), begin=begin, **settings.choice, **options)
     names = [str(path) for path in files]
     if as_json:
         print_json({**plan.report(), "files": names})
@@ -46,12 +53,17 @@ def _plan_table(plan: SmoothPlan, files: list[str], name: str) -> str:
     fidelity = "" if request.refined else f", fidelity {plain_number(request.smoothing.fidelity, 6)}"
     free_memory = available_memory()
     share = f"{plan.solid / grid.cells:.1%} of {grid.cells:,}"
-    about_word = "" if facts["source"] == "volume" else "about "
+    about_word = "" if facts["source"] == "volume" and "sampled" not in facts else "about "
     rows = {
         "input": _source_text(facts),
-        "grid": f"{cells} voxels of {' x '.join(plain_number(side, 4) for side in grid.cell_size)} mm",
-        "solid": f"{about_word}{plan.solid:,.0f} voxels, {share}, {plain_number(plan.volume, 6)} mm³",
-        "method": f"{plan.ways[0]}: {request.smoothing.steps} steps{fidelity}",
+        **(
+            {"estimate": f"from {facts['sampled']} of {facts['of']} slices, as if the others were like them"}
+            if "sampled" in facts
+            else {}
+        ),
+        "grid": f"{cells} voxels of {plain_size(*grid.cell_size, digits=4)}",
+        "solid": f"{about_word}{plan.solid:,.0f} voxels, {share}, {plain_size(plan.volume, digits=6, power=3)}",
+        "method": f"{plan.ways[0]}: {format_steps(request.facts())}{fidelity}",
         "triangles": f"about {plan.triangles:,}, before it is simplified",
         "memory": f"about {format_bytes(plan.memory)}"
         + (
@@ -68,13 +80,18 @@ def _plan_table(plan: SmoothPlan, files: list[str], name: str) -> str:
     return format_table(rows, title=f"{name}: nothing is written (--dry-run)")
 
 
+def format_steps(request: SolidRequest) -> str:
+    """Write how many steps a run takes, in the words of the plan and of the summary."""
+    return f"{request['steps']} steps{', refined' if request['refine'] else ''}"
+
+
 def _source_text(facts: PlannedInput) -> str:
     """Describe the input, and the choice of its solid."""
     if facts["source"] == "points":
         return f"{facts['points']:,} points, " + (
             "the solid inside them"
             if facts["shell"] is None
-            else f"a wall of {plain_number(facts['shell'], 6)} mm along them"
+            else f"a wall of {plain_size(facts['shell'], digits=6)} along them"
         )
     if facts["source"] == "mesh":
         return f"mesh of {facts['triangles']:,} triangles"

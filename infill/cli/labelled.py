@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, BinaryIO
 import typer
 
 from infill.cli.console import format_bytes, format_table, print_json, print_log, progress_bar, say
-from infill.plain_numbers import plain_number
+from infill.plain_numbers import plain_size
 
 if TYPE_CHECKING:
     from infill.reports.smoothing import LabelsReport
@@ -164,8 +164,8 @@ def _summary(result: Result[LabelStages, LabelsReport], files: Sequence[str], na
         part = label["report"]
         verdict = "; ".join([part["verdict"]["word"], *part["verdict"]["changes"]])
         rows[f"{label['number']} {label['name']}"] = (
-            f"{part['triangles']:,} triangles, {plain_number(part['volume'], 6)} mm³, {part['volume_change']:+.4%} of "
-            f"the data; {verdict}"
+            f"{part['triangles']:,} triangles, {plain_size(part['volume'], digits=6, power=3)}, "
+            f"{part['volume_change']:+.4%} of the data; {verdict}"
         )
     if len(report["labels"]) > MOST_ROWS:
         rows["…"] = f"and {len(report['labels']) - MOST_ROWS} more"

@@ -14,7 +14,7 @@ from infill.cli.completing import pattern_assignments, pattern_names
 from infill.cli.console import format_bytes, format_table, print_json, progress_bar, say
 from infill.cli.declared import takes_options
 from infill.making.settings import MakeSettings, resolve
-from infill.plain_numbers import count_noun, plain_number
+from infill.plain_numbers import count_noun, plain_number, plain_size
 
 if TYPE_CHECKING:
     from infill.making.request import Block
@@ -180,7 +180,8 @@ def _show_plan(block: Block, limit: int | None, *, as_json: bool) -> None:
         print_json(facts)
         return
     rows = {
-        "grid": f"{' x '.join(map(str, block.grid.shape))} cells of {plain_number(facts['grid']['spacing'][0], 4)} mm",
+        "grid": f"{' x '.join(map(str, block.grid.shape))} cells of "
+        f"{plain_size(facts['grid']['spacing'][0], digits=4)}",
         "memory": f"about {format_bytes(block.memory)}",
         "triangles": f"about {block.triangles:,}",
         "binary STL": f"about {format_bytes(block.stl_bytes)}",
@@ -192,7 +193,7 @@ def _summary(report: MakeReport, files: list[str], *, verbose: bool) -> str:
     """Return the short table for stderr."""
     request, grid, topology = report["request"], report["grid"], report["topology"]
     width, change = report["wall_width"], report["changes"]
-    size = " x ".join(plain_number(length, 6) for length in (*request["size"], request["height"]))
+    size = plain_size(*request["size"], request["height"], digits=6)
     measured = (
         "not measured: every wall is too close to another"
         if width["mean"] is None
@@ -202,8 +203,8 @@ def _summary(report: MakeReport, files: list[str], *, verbose: bool) -> str:
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, "
         f"{count_noun(report['components'], 'component')}",
-        "surface": f"{request['surface']}, within {plain_number(request['tolerance'], 6)} mm of the isosurface at mid "
-        "height"
+        "surface": f"{request['surface']}, within {plain_size(request['tolerance'], digits=6)} of the isosurface at "
+        "mid height"
         if request["tolerance"]
         else f"{request['surface']}, the isosurface as it is"
         if request["surface"] == "grid"
@@ -225,10 +226,10 @@ def _summary(report: MakeReport, files: list[str], *, verbose: bool) -> str:
     if verbose:
         rows["fidelity"] = f"{plain_number(request['fidelity'], 6)}"
         rows["Euler number"] = f"{report['mesh']['euler_number']}"
-        rows["grid"] = f"{' x '.join(map(str, grid['shape'][:2]))} cells of {plain_number(grid['spacing'][0], 4)} mm"
+        rows["grid"] = f"{' x '.join(map(str, grid['shape'][:2]))} cells of {plain_size(grid['spacing'][0], digits=4)}"
         for name, counts in (("stamp", topology["data"]), ("result", topology["result"])):
             rows[name] = f"{count_noun(counts['components'], 'component')}, {count_noun(counts['tunnels'], 'hole')}"
         rows["seconds"] = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in report["seconds"].items())
     for path in files:
         rows[f"wrote {path}"] = format_bytes(Path(path).stat().st_size) if Path(path).is_file() else ""
-    return format_table(rows, title=f"{request['pattern']}, {size} mm")
+    return format_table(rows, title=f"{request['pattern']}, {size}")

@@ -189,7 +189,8 @@ def _log_paths(gcode: Path) -> list[Path]:
 def _summary(report: RefillReport, name: str, files: list[str]) -> str:
     """Return the short table for stderr."""
     if report["print"]["already_refilled"]:
-        return format_table({"nothing to do": "it was refilled before"}, title=name)
+        reason = "it was refilled before, and its corners are round; --pattern draws another infill"
+        return format_table({"nothing to do": reason}, title=name)
     sections, filament, seconds = report["sections"], report["filament"], report["time"]
     rows = {"infill": f"{sections['replaced']} of {sections['all']} sections in {report['print']['layers']} layers"}
     if plates := report["print"]["plates"]:

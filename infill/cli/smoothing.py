@@ -26,9 +26,9 @@ from infill.cli.common import (
 from infill.cli.components import check_fields, component_summary, component_writer
 from infill.cli.console import format_bytes, format_table, print_json, print_log, progress_bar, say
 from infill.cli.declared import takes_options
-from infill.cli.foreseeing import show_smooth_plan
+from infill.cli.foreseeing import format_steps, show_smooth_plan
 from infill.cli.labelled import SmoothOutput, refuse_options, smooth_every_label, wants_every_label
-from infill.plain_numbers import count_noun, plain_argument, plain_number
+from infill.plain_numbers import count_noun, plain_argument, plain_number, plain_size
 from infill.smoothing.settings import SmoothSettings, resolve
 
 if TYPE_CHECKING:
@@ -197,17 +197,17 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
 
     request, grid, level = report["request"], report["grid"], report["solid"]["level"]
     result, data = report["topology"]["result"], report["topology"]["data"]
-    size = " x ".join(plain_number(length, 4) for length in report["extents"])
+    size = plain_size(*report["extents"], digits=4)
     level_range = (
         f", {level['lowest']:.3f} to {level['highest']:.3f} for its components" if level["components"] > 1 else ""
     )
     voxels = "voxels of the mesh" if report["input"]["source"] == "mesh" else "data"
-    refined_text = ", refined" if request["refine"] else ""
+    steps = f"{format_steps(request)}{_replaced_text(report)}"
     rows = {
-        "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, {size} mm",
-        "solid": f"{plain_number(report['volume'], 6)} mm³, {report['volume_change']:+z.4%} of the data",
-        "smoothing": f"{request['steps']} steps{refined_text}, {' x '.join(map(str, grid['shape']))} voxels of "
-        f"{' x '.join(plain_number(h, 4) for h in grid['spacing'])} mm",
+        "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, {size}",
+        "solid": f"{plain_size(report['volume'], digits=6, power=3)}, {report['volume_change']:+z.4%} of the data",
+        "smoothing": f"{steps}, {' x '.join(map(str, grid['shape']))} voxels of "
+        f"{plain_size(*grid['spacing'], digits=4)}",
         "components": f"{result['components']:,} ({data['components']:,} in the {voxels}), "
         f"{count_noun(result['cavities'], 'cavity', 'cavities')} ({data['cavities']:,}), "
         f"{count_noun(result['tunnels'], 'tunnel')} ({data['tunnels']:,})",
@@ -219,15 +219,13 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
     if verbose or not (isinstance(report, Sections) and report.pending("distance")):
         distance = report["distance"]
         near, far, back, far_back = (
-            plain_number(distance[side][key]) for side in ("result", "input") for key in ("p95", "max")
+            plain_size(distance[side][key]) for side in ("result", "input") for key in ("p95", "max")
         )
-        rows["distance"] = (
-            f"{near} mm (95 %), {far} mm at most, from the {distance['from']}; back {back} mm, {far_back} mm"
-        )
+        rows["distance"] = f"{near} (95 %), {far} at most, from the {distance['from']}; back {back}, {far_back}"
     if simplified := report["mesh"].get("simplified"):
         shells = count_noun(simplified["shells"], "shell")
         rows["simplified"] = (
-            f"from {simplified['triangles_before']:,} triangles, {plain_number(simplified['distance']['max'])} mm at "
+            f"from {simplified['triangles_before']:,} triangles, {plain_size(simplified['distance']['max'])} at "
             f"most, volume {simplified['volume_change']:+z.4%} by that, {shells}"
         )
     verdict = report["verdict"]
@@ -235,7 +233,8 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
         [verdict["word"].upper() if verdict["word"] == "lost" else verdict["word"], *verdict["changes"]]
     )
     if facets := report["facets"]:
-        rows["facets"] = _facet_text(facets, max(grid["spacing"]))
+        wall = report["walls"]["thinnest"]["data"]
+        rows["facets"] = _facet_text(facets, max(grid["spacing"]), wall)
     if len(verdict["tried"]) > 1:
         rows["tried"] = f"{'; '.join(verdict['tried'])}: taken is {verdict['taken']}"
     if verbose:
@@ -244,7 +243,7 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
         rows["level"] = f"{level['common']:.3f}{level_range}"
         thin = report["walls"]["thinnest"]
         thinnest = (thin["data"], thin["result"])
-        rows["thinnest wall"] = " -> ".join("none" if x is None else f"{plain_number(x)} mm" for x in thinnest)
+        rows["thinnest wall"] = " -> ".join("none" if x is None else f"{plain_size(x)}" for x in thinnest)
         rows["Euler number"] = f"{data['euler_number']} -> {result['euler_number']}"
         rows["seconds"] = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in report["seconds"].items())
     for path in files:
@@ -252,12 +251,27 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
     return format_table(rows, title=name)
 
 
-def _facet_text(facets: FacetKeys, voxel: float) -> str:
-    """Describe the flat facets that are left, and the options that round them."""
+def _replaced_text(report: SmoothReport) -> str:
+    """Describe the smoothing that was asked for, if another was taken instead."""
+    asked = report["verdict"]["instead_of"]
+    if asked is None:
+        return ""
+    radius = "" if asked["radius"] is None else f" of --smooth-radius {plain_argument(asked['radius'])}"
+    return f", instead of the {asked['steps']}{radius}, with which more changed"
+
+
+def _facet_text(facets: FacetKeys, voxel: float, wall: float | None) -> str:
+    """Describe the flat facets that are left, and the options that round them, if the thinnest wall bears these."""
     larger = f"--voxel {plain_argument(facets['voxel'], 2)} " if facets["voxel"] > voxel else ""
+    radius = plain_argument(facets["radius"], 2)  # as it is typed
+    advice = f"{larger}--smooth-radius {radius} rounds them, and details of their size"
+    if not facets["fits"]:
+        thickness = "as thin as the walls here are" if wall is None else f"of {plain_size(wall, digits=2)}, as here"
+        round_radius = plain_size(facets["radius"], digits=2)
+        advice = (
+            f"they stay, because a smooth radius of {round_radius}, which would round them, loses walls {thickness}"
+        )
     return (
         f"{facets['share']:.0%} of the surface still has the flat facets of the mesh, about "
-        f"{plain_argument(facets['width'], 2)} mm wide; {larger}--smooth-radius "
-        f"{plain_argument(facets['radius'], 2)} rounds them, and details of their size, if "
-        "walls are thicker"
+        f"{plain_size(facets['width'], digits=2)} wide; {advice}"
     )

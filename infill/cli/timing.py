@@ -11,7 +11,7 @@ import typer
 
 from infill.cli.console import format_table, print_json, say
 from infill.gcode.ending import describe_missing_end
-from infill.plain_numbers import count_noun, plain_argument, plain_number
+from infill.plain_numbers import count_noun, plain_argument, plain_number, plain_size
 
 if TYPE_CHECKING:
     from infill.reports.timing import MotionReports
@@ -200,7 +200,7 @@ def format_length(mm: float, decimals: int) -> str:
 
 def _volumetric_note(plan: Motion) -> str:
     """Note that a file counts filament in mm³, else return an empty string."""
-    return f"; E in mm³, of filament {plain_number(plan.filament_diameter, 6)} mm thick" if plan.volumetric else ""
+    return f"; E in mm³, of filament {plain_size(plan.filament_diameter, digits=6)} thick" if plan.volumetric else ""
 
 
 def _plate_text(plan: Motion) -> str:

@@ -40,6 +40,11 @@ READER_ERRORS = (
 DATA_ERRORS = (ValueError, OverflowError, EOFError, struct.error, zlib.error)
 
 
+def missing_file(path: object) -> str:
+    """Return the message about a file that does not exist."""
+    return f"there is no file {path}; check the name"
+
+
 def require_readable(path: str | os.PathLike[str], suffixes: Iterable[str], what: str) -> Path:
     """Return the path of a file that exists and has one of the suffixes, or raise FormatError."""
     source = Path(path)
@@ -49,7 +54,7 @@ def require_readable(path: str | os.PathLike[str], suffixes: Iterable[str], what
     if source.is_dir():
         raise FormatError(f"{source} is a folder; give a file")
     if not source.is_file():
-        raise FormatError(f"there is no file {source}; check the name")
+        raise FormatError(missing_file(source))
     return require_not_empty(source)
 
 

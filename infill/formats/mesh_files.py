@@ -23,7 +23,7 @@ from infill.formats.ply import read_ply, write_ply
 from infill.formats.stl import read_stl, write_stl, write_stl_ascii
 from infill.formats.threemf import write_3mf, write_3mf_parts
 from infill.meshes.merging import merge_unless_closed, surface_of
-from infill.plain_numbers import plain_number
+from infill.plain_numbers import plain_size
 from infill.surface import Modifier, Surface
 
 if TYPE_CHECKING:
@@ -137,8 +137,8 @@ def read_mesh(path: str | os.PathLike[str]) -> Surface:
     farthest = float(np.abs(vertices).max())
     if farthest > FARTHEST:
         raise FormatError(
-            f"{source} holds a corner at {plain_number(farthest, 6)} mm; the limit is {plain_number(FARTHEST, 6)} mm; "
-            "check its units, or export the mesh again"
+            f"{source} holds a corner at {plain_size(farthest, digits=6)}; the limit is "
+            f"{plain_size(FARTHEST, digits=6)}; check its units, or export the mesh again"
         )
     if faces.min() < 0 or faces.max() >= len(vertices):
         raise FormatError(f"{source} has triangles with corners that do not exist; export the mesh again")

@@ -15,7 +15,7 @@ from infill.errors import UsageError
 from infill.formats.mesh_files import read_mesh
 from infill.imaging.units import STATED_UNITS, UNITS, guess_unit
 from infill.meshes.merging import surface_of
-from infill.plain_numbers import plain_number
+from infill.plain_numbers import plain_size
 from infill.surface import Surface
 
 if TYPE_CHECKING:
@@ -73,15 +73,15 @@ def unit_in_mm(path: Path, points: NDArray[np.floating], units: str | None) -> f
     unit = guess_unit(longest)
     if unit == "µm":  # as likely to be large on purpose as not, and easy to notice
         LOG.warning(
-            "%s is %s mm long if its numbers are millimetres; give --units um if they are micrometres",
+            "%s is %s long if its numbers are millimetres; give --units um if they are micrometres",
             path,
-            plain_number(longest, 4),
+            plain_size(longest, digits=4),
         )
     elif unit != "mm" and longest > 0:
         LOG.warning(
-            "%s is %s mm long if its numbers are millimetres; give --units m if they are metres (%s mm long)",
+            "%s is %s long if its numbers are millimetres; give --units m if they are metres (%s long)",
             path,
-            plain_number(longest),
-            plain_number(longest * 1000, 4),
+            plain_size(longest),
+            plain_size(longest * 1000, digits=4),
         )
     return 1.0

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import BinaryIO, Literal
 
 from infill.errors import FormatError, ParameterError
+from infill.files.broken import missing_file
 from infill.files.whole_files import scratch_file
 
 HEAD = 4  # bytes that identify the form
@@ -165,6 +166,8 @@ def open_sliced(source: Path) -> Iterator[SlicedFile]:
     """
     try:
         file = source.open("rb")
+    except FileNotFoundError as error:
+        raise FormatError(missing_file(source)) from error
     except OSError as error:
         reason = error.strerror or str(error)
         raise FormatError(f"cannot read {source}: {reason[:1].lower()}{reason[1:]}") from error

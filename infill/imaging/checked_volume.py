@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from infill.errors import FormatError, ParameterError
 from infill.imaging.assumed import warn
-from infill.plain_numbers import plain_argument, plain_number
+from infill.plain_numbers import plain_argument, plain_number, plain_size
 from infill.volume import AXES, Volume
 
 MOST_CELLS_AWAY = 1e6  # 32-bit numbers tell an eighth of a cell apart there
@@ -47,7 +47,7 @@ def checked_volume(path: Path, values: NDArray[Any], *, varied: bool = True, **p
     farthest, cell = float(np.abs([origin, opposite]).max()), float(volume.cell_size.min())
     if not farthest <= FARTHEST_PLACE:
         raise FormatError(
-            f"{path} lies {plain_number(farthest)} mm away; the limit is {plain_number(FARTHEST_PLACE, 6)} mm; check "
+            f"{path} lies {plain_size(farthest)} away; the limit is {plain_size(FARTHEST_PLACE, digits=6)}; check "
             "its place and units, or save it again"
         )
     if farthest > MOST_CELLS_AWAY * cell:

@@ -16,6 +16,7 @@ from itertools import groupby
 from pathlib import Path
 
 from infill.errors import FormatError
+from infill.files.broken import missing_file
 
 LARGEST_TABLE = 10 * 2**20  # bytes of a table, or of the header of an image
 SNAP_LINE = re.compile(r'(-?\d+)\s+(\d+)\s+(\d+)\s+(\d+)\s+[\d.]+\s+\d+\s+\d+\s+"([^"]*)"')
@@ -148,7 +149,7 @@ def _read_nrrd_header(path: Path) -> list[str]:
 def _read_text(path: Path) -> str:
     """Read a text file of limited size."""
     if not path.is_file():
-        raise FormatError(f"there is no file {path}; check the name")
+        raise FormatError(missing_file(path))
     try:
         with path.open("rb") as file:
             content = file.read(LARGEST_TABLE + 1)

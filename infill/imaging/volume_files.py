@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from infill.errors import FormatError, ParameterError
-from infill.files.broken import require_not_empty, wrap_read_errors
+from infill.files.broken import missing_file, require_not_empty, wrap_read_errors
 from infill.files.whole_files import atomic_file
 from infill.grid import spacing_of
 from infill.imaging.arrays import read_npy, read_npz, write_npz
@@ -121,7 +121,7 @@ def _read(
         if source.is_dir():
             return _read_folder(source, series, frame, size)
         if not source.is_file():
-            raise FormatError(f"there is no file {source}; check the name")
+            raise FormatError(missing_file(source))
         require_not_empty(source)
         if not suffix:
             endings = ", ".join(READERS)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from infill.arrays import Floats
 from infill.meshes.distance import TriangleTree, morton_order
 from infill.meshes.measuring import face_areas
-from infill.plain_numbers import plain_number, plain_place, plain_share
+from infill.plain_numbers import plain_place, plain_share, plain_size
 from infill.surface import Surface
 
 if TYPE_CHECKING:
@@ -166,15 +166,15 @@ class Deviation:
             worst = max(patches, key=lambda patch: patch.distance)
             area = float(sum(patch.area for patch in patches))
             share = (
-                f"{plain_number(area)} mm² of {owner} ({plain_share(area / whole)})" if area else f"a tip of {owner}"
+                f"{plain_size(area, power=2)} of {owner} ({plain_share(area / whole)})" if area else f"a tip of {owner}"
             )
             number = f" in {len(patches)} places" if len(patches) > 1 else ""
             phrases.append(
-                f"{share} {change}{number}, up to {plain_number(worst.distance)} mm away, at {plain_place(worst.at)}"
+                f"{share} {change}{number}, up to {plain_size(worst.distance)} away, at {plain_place(worst.at)}"
             )
         if not phrases and moved.max > KEPT * self.cell:
             what = "the rest of the surface" if self.thin_area else "the surface"
-            phrases.append(f"{what} moved by up to {plain_number(moved.max)} mm, at {plain_place(moved.at)}")
+            phrases.append(f"{what} moved by up to {plain_size(moved.max)}, at {plain_place(moved.at)}")
         return tuple(phrases)
 
 

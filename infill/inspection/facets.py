@@ -14,7 +14,7 @@ from infill.meshes.distance import TriangleTree
 from infill.surface import Surface
 
 if TYPE_CHECKING:
-    from infill.reports.smoothing import FacetKeys
+    from infill.reports.smoothing import FlatFacetKeys
 
 SAMPLES = 1000  # facets, evenly by area
 NARROWEST = 2.0  # cells: narrower triangles are not seen as facets
@@ -23,6 +23,7 @@ NEAR_CORNER = 0.6  # of the way from the middle of a facet to a corner, where a 
 FLAT = 0.3  # of a bend: half of that
 LEAST_SHARE = 0.5  # of the surface
 RADIUS = 0.35  # of the width of a facet, measured: a quarter leaves facets, a half takes details
+WALL_PER_RADIUS = 2.1  # walls as thick stay: 5 cells, where 20 steps, a radius of 2.4 cells, remove those of 3
 MOST_CELLS = 2.5  # in a radius: finer cells make refinement keep the edges between facets, as it does with any edge
 
 
@@ -47,7 +48,7 @@ class FlatFacets:
     radius: float
     voxel: float
 
-    def facts(self) -> FacetKeys:
+    def facts(self) -> FlatFacetKeys:
         """Return the numbers by name, for the report."""
         return {"share": self.share, "width": self.width, "radius": self.radius, "voxel": self.voxel}
 

@@ -16,7 +16,7 @@ from infill.interior.opening import ENDS, Open, Opening, extend_ends, find_flat_
 from infill.machine import require_memory
 from infill.meshes.solids import FINE, manifold_status, unite
 from infill.meshes.split_components import concatenate_surfaces, split_components
-from infill.plain_numbers import plain_argument, plain_number
+from infill.plain_numbers import plain_argument, plain_size
 from infill.surface import Surface
 from infill.volume import Volume
 from infill.voxels.from_mesh import MeshRepairs, VoxelisedMesh, grid_around, voxelise_with_report
@@ -192,9 +192,9 @@ def compute_interior(
     """
     extents = np.ptp(part.bounds, axis=0)
     further = added_length(open_, wall, beyond, voxel)
-    sides = " x ".join(plain_number(side) for side in extents)
+    sides = plain_size(*extents)
     nowhere = (
-        f"is {plain_argument(wall)} mm, and the part, {sides} mm, is nowhere thicker than two of those; give a thinner "
+        f"is {plain_argument(wall)} mm, and the part, {sides}, is nowhere thicker than two of those; give a thinner "
         f"wall{', or the right unit' if extents.max() < TINY else ''}"
     )
     # Checked first, as measuring may take long; a flat sheet has a separate message.

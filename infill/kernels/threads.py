@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import os
+import threading
 from collections import deque
 from collections.abc import Callable, Generator, Iterable
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from functools import cache, partial
 from typing import Any, TypeVar
 
@@ -17,6 +18,7 @@ Result = TypeVar("Result")
 
 VARIABLE = "NUMBA_NUM_THREADS"
 MAX_THREADS = 256  # threads: more cost more than they gain
+WAKE = 0.5  # s
 
 
 def thread_count(requested: int | None = None) -> int:
@@ -50,17 +52,43 @@ def run_together(*works: Callable[[], Any], threads: int) -> list[Any]:
     [1, 2]
     """
     if threads == 1 or len(works) < 2:
-        return [work() for work in works]
+        return [run_interruptibly(work) for work in works]
     pool = _pool(threads, os.getpid())
     handed = [pool.submit(work) for work in works[1:]]
     try:
-        results = [works[0]()]
+        results = [run_interruptibly(works[0])]
         for work, future in zip(works[1:], handed, strict=True):
-            results.append(work() if future.cancel() else future.result())
+            results.append(run_interruptibly(work) if future.cancel() else future.result())
     finally:
         for future in handed:  # after a failure or an interrupt, the remaining tasks do not begin
             future.cancel()
     return results
+
+
+def run_interruptibly(work: Callable[[], Result]) -> Result:
+    """Return the result of a task, run on another thread if this is the main one, so that Ctrl-C takes effect at once.
+
+    Python handles a signal on the main thread alone, and not before a compiled loop there has ended. After an
+    interrupt, the other thread works on, unless the process ends, and its result is lost.
+
+    >>> run_interruptibly(lambda: 3)
+    3
+    """
+    if threading.current_thread() is not threading.main_thread():
+        return work()
+    future: Future[Result] = Future()
+    threading.Thread(target=_fulfil, args=(future, work), name="infill-main", daemon=True).start()
+    while not wait([future], timeout=WAKE).done:  # without a timeout, nothing interrupts waiting on Windows
+        pass
+    return future.result()
+
+
+def _fulfil(future: Future[Result], work: Callable[[], Result]) -> None:
+    """Give a future the result of a task, or its error."""
+    try:
+        future.set_result(work())
+    except BaseException as error:  # noqa: BLE001 - raised where the result is awaited
+        future.set_exception(error)
 
 
 @cache

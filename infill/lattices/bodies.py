@@ -17,6 +17,7 @@ from infill.lattices.request import FillSpec
 from infill.lattices.voids import Layout, VoidFields
 from infill.meshes.shells import select_faces, shell_volumes
 from infill.meshes.winding import winding_numbers
+from infill.paths.ties import Ties
 
 DEEP = np.float32(-1e6)  # cells: where no void is
 
@@ -71,6 +72,11 @@ class BodyFields:
     def count(self) -> int:
         """Number of fields of the body that needs the most."""
         return max((fields.count for _, fields in self.bodies), default=0)
+
+    @property
+    def ties(self) -> Ties:
+        """Bars that tie islands of lines to the rest, in all bodies, mm."""
+        return Ties.none().join([fields.ties for _, fields in self.bodies])
 
     def find_sharpest(self) -> float:
         """Find the angle of the sharpest corners in any body, degrees; few are sharper, and it is 90 at most."""

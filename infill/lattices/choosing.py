@@ -55,7 +55,7 @@ def place_pattern(request: FillSpec, bounds: NDArray[np.floating]) -> VoidPatter
     lines = configure_lines(request.kind, request)
     if not lines.prismatic:
         return NonPrismatic(layers=LayerLines(pattern=lines, anchor=anchor))
-    return Prismatic(pattern=lines, anchor=anchor, share=request.share)
+    return Prismatic(pattern=lines, anchor=anchor, share=request.share, ties=request.ties_islands)
 
 
 def read_own_parameters(

@@ -21,7 +21,7 @@ from infill.lattices.task import FillTask
 from infill.lattices.void_meshes import VoidMeshes
 from infill.meshes.shells import select_faces, shell_volumes
 from infill.meshes.solids import FINE, coincident_vertices, from_manifold, solid_status, to_manifold
-from infill.plain_numbers import count_noun, plain_argument, plain_number, plain_place
+from infill.plain_numbers import count_noun, plain_argument, plain_number, plain_place, plain_size
 from infill.surface import Surface
 
 if TYPE_CHECKING:
@@ -212,7 +212,7 @@ def drain_problems(request: FillSpec, drained: DrainedSolid, closed: list[tuple[
         if undrained:
             largest = undrained[0]
             volume, at = largest.volume, largest.at.tolist()
-        message += f", the largest, of {plain_number(volume)} mm³, with its lowest place at {plain_place(at)}"
+        message += f", the largest, of {plain_size(volume, power=3)}, with its lowest place at {plain_place(at)}"
         if undrained and undrained[0].blocked:
             message += (
                 ": below it lie other voids or faces too steep for a hole, and no wall beside it has room for a "
@@ -229,8 +229,8 @@ def drain_problems(request: FillSpec, drained: DrainedSolid, closed: list[tuple[
         thinner = "" if unvented.fits is None else f"{_advise_thinner(drained.plan.unvented, 'have one')}; or "
         yield (
             f"{count_noun(len(drained.plan.unvented), 'void')} without a vent, the largest, of "
-            f"{plain_number(unvented.volume)} mm³, with its highest place at {plain_place(unvented.at)}: there is no "
-            f"way for a hole of {plain_argument(request.drain)} mm up from it; {thinner}leave vent out"
+            f"{plain_size(unvented.volume, power=3)}, with its highest place at {plain_place(unvented.at)}: there is "
+            f"no way for a hole of {plain_argument(request.drain)} mm up from it; {thinner}leave vent out"
         )
     if narrow := drained.plan.narrow:
         worst, place = narrow[0], drained.plan.beside

@@ -15,11 +15,13 @@ from infill.interior.interior import BAND, Interior
 from infill.lattices.fillets import find_polygon_corners, sharpest_angle
 from infill.lattices.line_sample import WIDER, LineSample, centred_square, faces_between, follows_outline, line_segments
 from infill.lattices.voids import Layout, VoidFields
+from infill.paths.ties import Ties, has_islands, tie_islands
 from infill.plain_numbers import plain_argument
 from patterns.protocol import Pattern, draw_lines, with_cell
 
 LOW = 0.1  # cells: where no cell of a column lies deeper, rounding decides whether one lies inside
 SIMPLER = 0.05  # cells
+ACROSS_TIE = 3.0  # cells of the grid: a narrower bar in the middle of one void is smoothed away
 MITRE = 5.0  # largest move of a sharp corner, over that of its sides
 
 APART = 3.0  # cells of the grid: voids that are nearer to each other get separate fields
@@ -39,17 +41,29 @@ class Prismatic:
         The point of the part that is (0, 0) of the pattern, mm; its height does not matter.
     share : float
         Width of the lines over the cell, roughly: it places lines that follow the part.
+    ties : bool
+        True to tie islands of lines, which neither floor nor roof holds, to the nearest wall or line.
     """
 
     pattern: Pattern
     anchor: NDArray[np.float64]
     share: float
+    ties: bool = False
 
     @cached_property
     def sample(self) -> LineSample:
         """A sample of such lines far from any skin; of a single drawing, as if it were repeated."""
         pattern = self.pattern
         return LineSample(pattern=replace(pattern, repeat=True) if isinstance(pattern, Tiled) else pattern)
+
+    def leaves_islands(self, bounds: NDArray[np.floating], *, cell: float, width: float, wall: float) -> bool:
+        """Tell whether islands that need ties are likely in a part with these bounds, (2, 3) mm."""
+        if not self.ties:
+            return False
+        (x0, y0), (x1, y1) = np.asarray(bounds, dtype=np.float64)[:, :2] - self.anchor[:2]
+        room = shapely.box(x0 + wall, y0 + wall, x1 - wall, y1 - wall)
+        lines = shapely.intersection(draw_lines(with_cell(self.pattern, cell), room), room.buffer(width))
+        return has_islands(lines, room, width=width, walled=wall > 0)
 
     def widths(self, density: float) -> float:
         """Return the width of lines, in cells, that gives a density far from any skin, as measured on a sample."""
@@ -70,6 +84,7 @@ class Prismatic:
             kernels=tuple((from_plane, (plane, layout.half, *layout.ratio)) for plane in faces.colours),
             find_sharpest=lambda: faces.sharpest,
             basis=faces,
+            ties=faces.ties,
         )
 
     def _room(self, space: Interior, cell: float) -> shapely.Geometry:
@@ -105,6 +120,11 @@ class Prismatic:
         lines = shapely.intersection(draw_lines(with_cell(self.pattern, cell), room), region)
         if is_drawn_once(self.pattern) and not shapely.intersects(lines, box):
             raise self._miss(space, cell)
+        ties = Ties.none()
+        if self.ties:
+            ties = tie_islands(lines, self._room_of_islands(space), width=width, walled=space.opening is not None)
+            ties = ties.widen(width, ACROSS_TIE * space.size)
+            lines = shapely.union_all([lines, *shapely.linestrings(ties.drawn)])
         polygons = faces_between(lines, region, cell=cell)
         polygons = polygons[shapely.intersects(polygons, box)]
         nx, ny, _ = space.shape
@@ -123,7 +143,18 @@ class Prismatic:
         corners, angles = find_polygon_corners(polygons)
         at = np.round((corners - start) / space.size).astype(np.int64)
         with_room = space.deepest[tuple(np.clip(at, 0, (nx - 1, ny - 1)).T)] > 0  # there is none at the rim of the grid
-        return _Faces(colours=tuple(planes), sharpest=sharpest_angle(angles[with_room]), reach=reach, width=width)
+        return _Faces(
+            colours=tuple(planes),
+            sharpest=sharpest_angle(angles[with_room]),
+            reach=reach,
+            width=width,
+            ties=ties.shift(self.anchor[:2]),
+        )
+
+    def _room_of_islands(self, space: Interior) -> shapely.Geometry:
+        """Return the region where lines hold nothing but each other: without walls above or below it."""
+        room = silhouette(space) if space.opening is None else open_columns(space)
+        return shapely.transform(room, lambda points: points - self.anchor[:2])
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -139,12 +170,15 @@ class _Faces:
         Cells; depths are cut off here.
     width : float
         Of the lines for which the faces were made, mm: between thinner lines, fields might touch.
+    ties : Ties
+        Of islands, in the part.
     """
 
     colours: tuple[NDArray[np.float32], ...]
     sharpest: float
     reach: float
     width: float
+    ties: Ties
 
 
 def _distance_to_lines(
@@ -178,9 +212,26 @@ def silhouette(space: Interior) -> shapely.Geometry:
 
     Where voids reach through the walls, the walls still count.
     """
+    return _outline_columns(space, space.deepest - np.float32(space.through))
+
+
+def open_columns(space: Interior) -> shapely.Geometry:
+    """Draw the polygons, mm, of the columns that are inside the walls at every height between the open sides."""
+    shallowest = np.minimum.reduce(
+        [
+            slab[:, :, inside].min(axis=2)
+            for first, slab in space.layers.each()
+            if (inside := space.shares[first : first + slab.shape[2]] > 0).any()
+        ]
+    )
+    return _outline_columns(space, shallowest - np.float32(space.through))
+
+
+def _outline_columns(space: Interior, depths: NDArray[np.float32]) -> shapely.Geometry:
+    """Draw the polygons, mm, of the columns with a positive depth, smooth between the cells."""
     from skimage.measure import find_contours
 
-    deepest = np.pad(space.deepest - np.float32(space.through), 1, constant_values=-BAND)
+    deepest = np.pad(depths, 1, constant_values=-BAND)
     rings = find_contours(deepest, LOW)  # type: ignore[no-untyped-call]
     area = shapely.build_area(shapely.MultiLineString([ring - 1 for ring in rings]))
     # Away from an upright wall, depths rise by one per cell.

@@ -25,6 +25,7 @@ class Shell:
     vent: bool = False
     drain_at: Sequence[Sequence[float]] = ()
     open: str | None = None
+    ties: bool = True
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -67,6 +67,7 @@ def fill(
     vent: bool = False,
     drain_at: Sequence[Sequence[float]] = (),
     open_: str | None = None,
+    ties: bool = True,
     smooth_radius: float | None = None,
     overlap: float | None = None,
     tolerance: float = TOLERANCE,
@@ -135,6 +136,9 @@ def fill(
         Places on the skin for holes straight in; the voids that these reach need no other drain.
     open_ : {"top", "bottom", "both"}, optional
         Where the shell is left out: the voids go through the flat side at the very top or bottom of the part, or both.
+    ties : bool
+        Where neither floor nor roof holds upright walls (`open_` both, or a wall of 0), tie islands of them to the
+        nearest wall or line by bars as wide as the lines.
     smooth_radius : float, optional
         Least radius of the fillets where walls meet at right angles, mm: 0.25 by default, 0 for no fillets.
     overlap : float, optional
@@ -197,6 +201,7 @@ def fill(
         "vent": vent,
         "drain_at": drain_at,
         "open_": open_,
+        "ties": ties,
         "smooth_radius": smooth_radius,
         "tolerance": tolerance,
         "resolution": resolution,
@@ -316,6 +321,8 @@ def _fill_report(
             "phase": list(request.phase if project is None else project.phase),
             "narrow": None if narrow is None else narrow.all,
             "left_out": hollow.loose,
+            "ties": hollow.ties.facts(),
+            "untied": hollow.ties.loose,
         },
         "graded": facts.graded,
         "regions": facts.regions,

@@ -288,10 +288,10 @@ def find_problems(
             )
     share = hollow.density_before if request.reaches_skin else hollow.density
     if isinstance(request.kind, Tiled) and hollow.islands:
-        yield (
-            f"pieces of the drawing that touch no wall were left out: {hollow.islands}; draw lines from them to the "
-            "rest, or close the top or the bottom of the part"
-        )
+        remedy = "draw lines from them to the rest" if request.ties else "leave out --no-ties"
+        if request.open_ is not None:
+            remedy += ", or close the top or the bottom of the part"
+        yield f"pieces of the drawing that touch no wall were left out: {hollow.islands}; {remedy}"
     elif share < LEAST_LEFT * facts.drawn:
         yield (
             f"the infill was drawn with a density of {facts.drawn:.1%}, and {share:.1%} is left: walls or bars are too "

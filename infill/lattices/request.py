@@ -88,6 +88,8 @@ class FillSpec:
     max_triangles : int or None
     cell_alone : bool
         True if only the cell was given, so that the density follows from it and the default line width.
+    ties : bool
+        True if islands of upright walls that nothing holds may be tied to the rest.
     is_block : bool
         True for a block of infill, in which pieces may stand by themselves, such as the rings of concentric.
     """
@@ -115,6 +117,7 @@ class FillSpec:
     vent: bool = False
     drain_at: tuple[tuple[float, float, float], ...] = ()
     cell_alone: bool = False
+    ties: bool = True
     is_block: bool = False
 
     @property
@@ -126,6 +129,11 @@ class FillSpec:
     def reaches_skin(self) -> bool:
         """True if voids go through the skin: a slicer makes the shell, or there is none."""
         return self.form == "project" or self.wall == 0
+
+    @property
+    def ties_islands(self) -> bool:
+        """True if upright walls that nothing holds are tied to the rest: no floor and no roof of a shell holds them."""
+        return self.ties and not self.is_block and (self.wall == 0 or self.open_ == "both")
 
     @property
     def held(self) -> int:
@@ -252,6 +260,7 @@ class FillSpec:
             "vent": self.vent,
             "drain_at": [list(place) for place in self.drain_at],
             "open": self.open_,
+            "ties": self.ties,
             "smooth_radius": self.smooth_radius,
             "tolerance": self.tolerance,
             "resolution": self.resolution,
@@ -290,6 +299,7 @@ def check_request(
     grade: str | None = None,
     vent: bool = False,
     drain_at: Sequence[Sequence[float]] = (),
+    ties: bool = True,
 ) -> FillSpec:
     """Check that numbers are in range; return a request in which sizes that follow from others are open."""
     kind, name = resolve_pattern(pattern, "fill")
@@ -395,6 +405,7 @@ def check_request(
         vent=vent,
         drain_at=places,
         cell_alone=cell_alone,
+        ties=ties,
     )
 
 

@@ -223,6 +223,15 @@ class FillOptions:
             default="closed",
         ),
     ] = None
+    ties: Annotated[
+        bool,
+        Option(
+            "Where neither floor nor roof holds upright walls, with --open both or --wall 0: tie islands of them to "
+            "the nearest wall or line by bars of the line width.",
+            SOLID,
+            negatable=True,
+        ),
+    ] = True
     smooth_radius: Annotated[
         float | None,
         Option(

@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import GeometryError
-from infill.lattices.drawn_voids import Prismatic
+from infill.lattices.drawn_voids import ACROSS_TIE, Prismatic
 from infill.lattices.layered import NonPrismatic
 from infill.lattices.request import GAP, FillSpec, has_bars
 from infill.lattices.task import FillTask
-from infill.plain_numbers import plain_argument
+from infill.plain_numbers import plain_argument, plain_size
 
 
 class Fineness(NamedTuple):
@@ -85,19 +85,21 @@ def choose_voxel(task: FillTask, cell: float, width: float) -> float:
     size = _largest_voxel(task, cell, width, FINE)
     if isinstance(task.pattern, Prismatic):
         size = min(size, COARSEST_LINES)
+        if task.pattern.leaves_islands(task.part.bounds, cell=cell, width=width, wall=request.wall):
+            size = min(size, width / ACROSS_TIE)
     fewest = FEWEST if request.wall else FEWEST_BARE
     size = min(max(size, _finest_voxel(task)), math.cbrt(_box_volume(extents) / fewest))
     if 0 < request.wall < LEAST_FINE.across * size:
         raise GeometryError.about(
             "wall",
-            f"is {plain_argument(request.wall)} mm, and the part {plain_argument(extents.max(), 4)} mm long: a grid "
+            f"is {plain_argument(request.wall)} mm, and the part {plain_size(extents.max(), digits=4)} long: a grid "
             f"as fine as such a wall needs has more than {MOST:,.0f} cells; give a wall of "
             f"{plain_argument(LEAST_FINE.across * size, 2)} mm, or the right unit",
         )
     if size > (most := coarsest_voxel(task, cell, width)):
         raise GeometryError.about(
             "cell",
-            f"is {plain_argument(cell, 3)} mm, and the part {plain_argument(extents.max(), 4)} mm long: a grid as "
+            f"is {plain_argument(cell, 3)} mm, and the part {plain_size(extents.max(), digits=4)} long: a grid as "
             f"fine as such cells need has more than {MOST:,.0f} cells; give a cell of {math.ceil(cell * size / most)} "
             "mm, or a lower density",
         )

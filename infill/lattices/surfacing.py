@@ -65,7 +65,8 @@ def make_surfaces(task: FillTask, fields: Fields) -> VoidMeshes:
             if surface is not None:
                 yield surface
 
-    return replace(drop_useless(trace(), replace(fields.layout, space=space)), walls=walls)
+    hollow = drop_useless(trace(), replace(fields.layout, space=space))
+    return replace(hollow, walls=walls, ties=fields.ties)
 
 
 def drop_useless(surfaces: Iterable[Surface], layout: Layout) -> VoidMeshes:

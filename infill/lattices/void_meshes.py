@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -18,6 +18,7 @@ from infill.meshes.distance import TriangleTree
 from infill.meshes.measuring import face_areas, volume_and_area
 from infill.meshes.solids import shared_volume
 from infill.meshes.split_components import concatenate_surfaces
+from infill.paths.ties import Ties
 from infill.surface import Surface
 
 SAMPLES, FEWEST = 2000, 50  # points, and the least number of them for a median
@@ -62,6 +63,8 @@ class VoidMeshes:
         mm³ of infill that was left out: pieces that float where the part was cut open, or that slicers do not print.
     deferred : DeferredVoids or None
         Set in place of surfaces until they are made.
+    ties : Ties
+        Bars that tie islands of lines to the rest, mm.
     """
 
     layout: Layout
@@ -72,6 +75,7 @@ class VoidMeshes:
     walls: Surface | None = None
     loose: float = 0.0
     deferred: DeferredVoids | None = None
+    ties: Ties = field(default_factory=Ties.none)
 
     @property
     def space(self) -> Interior:

@@ -6,7 +6,7 @@ Voids that lie next to each other are in separate fields, so a wall between them
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cache, partial
 from typing import Any, Protocol
 
@@ -19,6 +19,7 @@ from infill.kernels.threads import in_threads, thread_count
 from infill.lattices.fillets import corner_angle_between_walls
 from infill.lattices.grading import UNIFORM_WIDTH, LocalWidths
 from infill.lattices.request import Size
+from infill.paths.ties import Ties
 from patterns.polyhedra import Polyhedra
 from patterns.unit_cells import Bars, BinnedEdges, Cellular, Network, Planes, Surfaces
 
@@ -80,12 +81,15 @@ class VoidFields:
         Finds the angle of the sharpest corners of voids, degrees, where walls of the pattern meet; few are sharper.
     basis : object
         What a drawing of other sizes uses again.
+    ties : Ties
+        Bars that tie islands of lines to the rest, mm.
     """
 
     layout: Layout
     kernels: tuple[tuple[Callable[..., Any], tuple[Any, ...]], ...]
     find_sharpest: Callable[[], float]
     basis: object = None
+    ties: Ties = field(default_factory=Ties.none)
 
     @property
     def count(self) -> int:

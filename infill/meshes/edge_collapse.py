@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
+from threading import Lock
 
 import numpy as np
 from numpy.typing import NDArray
 
 from infill.arrays import Floats, Integers
-from infill.kernels.threads import run_together, thread_count
+from infill.kernels.threads import run_interruptibly, run_together, thread_count
 from infill.meshes.distance import TriangleTree, morton_order
 from infill.meshes.project_back import crossing_corners, project_back
 from infill.surface import Surface
@@ -95,6 +97,7 @@ class CornerTable:
         near: float | None = None,
         order: Integers | None = None,
         threads: int | None = None,
+        progress: Callable[[float], None] | None = None,
     ) -> CornerTable:
         """Collapse edges, cheapest first; return the smaller table.
 
@@ -111,6 +114,8 @@ class CornerTable:
             The faces in an order in which neighbours are mostly close in space, if it is known: see `morton_order`.
         threads : int, optional
             See `infill.kernels.threads.thread_count`.
+        progress : callable, optional
+            Called with the share of the patches that are done.
         """
         from infill.kernels.collapsing import collapse
         from infill.kernels.quadrics import add_planes
@@ -118,25 +123,13 @@ class CornerTable:
         table, quadric = self, np.zeros((len(self.vertices), 11))
         add_planes(self.vertices, self.start, quadric)
         if near is None and triangles <= FEW_TRIANGLES and math.isfinite(bound):
-            table, quadric = _collapse_within_patches(table, quadric, bound, order, threads)
+            table, quadric = _collapse_within_patches(table, quadric, bound, order, threads, progress)
         points, corner = (np.empty((0, 3)), np.empty(0, dtype=np.int32)) if near is None else table.watched(near)
         vertices, start, twin = table.vertices.copy(), table.start.copy(), table.twin.copy()
         collapsed_into = np.arange(len(vertices), dtype=np.int32)
-        collapse(
-            vertices,
-            start,
-            twin,
-            table.leaving.copy(),
-            table.name,
-            table.fixed,
-            quadric,
-            points,
-            corner,
-            0.0 if near is None else near**2,
-            float(bound),
-            triangles,
-            collapsed_into,
-        )
+        mesh = vertices, start, twin, table.leaving.copy(), table.name, table.fixed, quadric, points, corner
+        reach = 0.0 if near is None else near**2
+        run_interruptibly(partial(collapse, *mesh, reach, float(bound), triangles, collapsed_into))
         return table.left(vertices, start, twin, collapsed_into)[0]
 
     def left(
@@ -232,7 +225,12 @@ class CornerTable:
 
 
 def _collapse_within_patches(
-    table: CornerTable, quadric: Floats, bound: float, order: Integers | None, threads: int | None
+    table: CornerTable,
+    quadric: Floats,
+    bound: float,
+    order: Integers | None,
+    threads: int | None,
+    progress: Callable[[float], None] | None,
 ) -> tuple[CornerTable, Floats]:
     """Collapse edges within patches of the table; return it and the quadrics (V, 11) of its remaining vertices.
 
@@ -264,9 +262,24 @@ def _collapse_within_patches(
         tasks.append(
             partial(_collapse_patch, pinned, faces, patch, local, bound, vertices, start, twin, quadric, collapsed_into)
         )
-    run_together(*tasks, threads=thread_count(threads))
+    done, lock = 0, Lock()
+
+    def work(task: Callable[[], None]) -> None:
+        nonlocal done
+        task()
+        with lock:
+            done += 1
+            if progress is not None:
+                progress(done / len(tasks))
+
+    run_together(*(partial(work, task) for task in tasks), threads=thread_count(threads))
     fewer, used = table.left(vertices, start, twin, collapsed_into)
     return fewer, quadric[used]
+
+
+def _progress_between(tell: Callable[[float], None], low: float, high: float) -> Callable[[float], None]:
+    """Return a listener that maps the progress of a part, from 0 to 1, onto that of the whole."""
+    return lambda share: tell(low + share * (high - low))
 
 
 def _collapse_patch(
@@ -315,7 +328,12 @@ def _collapse_patch(
 
 
 def collapse_edges(
-    surface: Surface, *, tolerance: float | None = None, triangles: int = 4, threads: int | None = None
+    surface: Surface,
+    *,
+    tolerance: float | None = None,
+    triangles: int = 4,
+    threads: int | None = None,
+    progress: Callable[[float], None] | None = None,
 ) -> Surface | None:
     """Collapse edges, cheapest first; return None if not every edge is shared by two triangles.
 
@@ -329,6 +347,8 @@ def collapse_edges(
         Where to stop.
     threads : int, optional
         Used to measure distances; see `infill.kernels.threads.thread_count`.
+    progress : callable, optional
+        Called with the share done, 0 to 1, as far as it is known: half after the first collapse.
 
     Notes
     -----
@@ -348,12 +368,20 @@ def collapse_edges(
     if tolerance is None:
         return table.without_edges(math.inf, triangles).placed_in(surface)
     tolerance *= SAMPLED_SHARE
+    tell = progress or (lambda _: None)
     tree, aim, samples, fewer = TriangleTree.of(surface), triangles, None, table
     for attempt in range(ATTEMPTS):
         if fewer is table:
-            blind = (BLIND_SHARE * tolerance) ** 2
-            fewer = table.without_edges(blind, triangles, order=tree.order, threads=threads)
+            low, high = 1 - 0.5**attempt, 1 - 0.5 ** (attempt + 1)
+            fewer = table.without_edges(
+                (BLIND_SHARE * tolerance) ** 2,
+                triangles,
+                order=tree.order,
+                threads=threads,
+                progress=_progress_between(tell, low, (low + high) / 2),
+            )
             fewer = fewer.without_edges(tolerance**2, aim, near=tolerance)
+        tell(1 - 0.5 ** (attempt + 1))
         candidate = fewer.placed_in(surface)
         places, excess = crossing_corners(candidate), 0
         if not len(places) or attempt == ATTEMPTS - 1:  # the slowest check comes last

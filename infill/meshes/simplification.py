@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -18,7 +19,12 @@ SHIFT = 0.1  # of the mean edge: farthest that vertices may move to keep the vol
 
 
 def simplify_surface(
-    surface: Surface, *, tolerance: float | None = None, triangles: int | None = None, threads: int | None = None
+    surface: Surface,
+    *,
+    tolerance: float | None = None,
+    triangles: int | None = None,
+    threads: int | None = None,
+    progress: Callable[[float], None] | None = None,
 ) -> Surface:
     """Simplify a surface to fewer triangles.
 
@@ -31,6 +37,8 @@ def simplify_surface(
         Maximum number of triangles.
     threads : int, optional
         Used to measure distances; see `infill.kernels.threads.thread_count`.
+    progress : callable, optional
+        See `infill.meshes.edge_collapse.collapse_edges`.
 
     Raises
     ------
@@ -44,7 +52,11 @@ def simplify_surface(
     leeway_mm = None if tolerance is None else check_positive("tolerance", tolerance, "mm")
     limit = FEWEST if triangles is None else check_whole_number("max_triangles", triangles, FEWEST)
     result = collapse_edges(
-        surface, tolerance=None if leeway_mm is None else SAFE * leeway_mm, triangles=limit, threads=threads
+        surface,
+        tolerance=None if leeway_mm is None else SAFE * leeway_mm,
+        triangles=limit,
+        threads=threads,
+        progress=progress,
     )
     if result is None:
         raise GeometryError(

@@ -19,7 +19,7 @@ from infill.paths.joining import join
 from infill.paths.layer_below import LayerBelow
 from infill.paths.ordering import order_paths
 from infill.paths.outlines import Outline, outline_of
-from infill.plain_numbers import plain_argument, plain_number
+from infill.plain_numbers import plain_argument, plain_size
 
 if TYPE_CHECKING:
     from shapely import MultiPolygon, Polygon
@@ -134,7 +134,7 @@ def solve_cell(
     if not places or target * smallest > area:
         raise ParameterError(
             f"{plain_argument(target)} mm of beads {plain_argument(smallest)} mm apart do not fit into "
-            f"{plain_number(area, 6)} mm²; ask for a lower density"
+            f"{plain_size(area, digits=6, power=2)}; ask for a lower density"
         )
 
     def ratio(cell: float) -> float:

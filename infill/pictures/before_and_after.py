@@ -27,7 +27,7 @@ from infill.pictures.close_up import (
 )
 from infill.pictures.render import AZIMUTH, ELEVATION, Colour, Paint, Window, directions, render
 from infill.pictures.sheet import BACKGROUND, PANEL, arrange_panels
-from infill.plain_numbers import plain_argument, plain_number
+from infill.plain_numbers import plain_argument, plain_number, plain_size
 from infill.surface import Surface
 
 FAR_VOXELS = LOST  # voxels: points further away are marked
@@ -133,15 +133,15 @@ def draw_before_and_after(
     window = _square_window((given, result), view)
     pictures = [_draw_marked(marked, view, window) for marked in (lost, added)]
     panels = {caption: picture for caption, (picture, _) in zip(captions, pictures, strict=True)}
-    size = " x ".join(plain_number(length, 4, separator="") for length in report["extents"])
-    facts = f"{size} mm, volume {plain_number(report['volume'], 6)} cubic mm ({report['volume_change']:+.4%})"
+    size = plain_size(*report["extents"], digits=4, separator="")
+    facts = f"{size}, volume {plain_number(report['volume'], 6)} cubic mm ({report['volume_change']:+.4%})"
     legend = [
         (marked.colour, f"{area} {word}{'' if shown else ', not seen here'}") if area else (None, f"nothing {word}")
         for marked, area, word, (_, shown) in zip(
             (lost, added), describe_areas(lost, added, report["verdict"]), ("lost", "added"), pictures, strict=True
         )
     ]
-    ends = f"{facts}; marked if more than {plain_number(far)} mm ({plain_argument(FAR_VOXELS)} voxels) apart"
+    ends = f"{facts}; marked if more than {plain_size(far)} ({plain_argument(FAR_VOXELS)} voxels) apart"
     return arrange_panels(panels, ends, [(None, f"{report['verdict']['word']}:"), *legend])
 
 

@@ -136,11 +136,15 @@ def draw_close_up(
 
 
 def insert_close_up(picture: Image.Image, close_up: Image.Image, factor: float, colour: Colour) -> Image.Image:
-    """Return a picture with a framed close-up in its emptiest corner, and by how much it enlarges."""
-    empty = (np.asarray(picture) == np.asarray(picture)[0, 0]).all(axis=2)
-    corners = [(x, y) for y in (picture.height - SIDE, 0) for x in (picture.width - SIDE, 0)]
-    x, y = max(corners, key=lambda corner: _count_empty(empty, corner))
-    inserted = picture.copy()
+    """Return a picture with a framed close-up where it is empty, or else beside it, and by how much it enlarges."""
+    place = _find_empty_square(np.asarray(picture))
+    inserted = picture
+    if place is None:
+        inserted = Image.new("RGB", (picture.width + SIDE, picture.height), picture.getpixel((0, 0)))
+        inserted.paste(picture, (0, 0))
+        place = (picture.width, picture.height - SIDE)
+    x, y = place
+    inserted = inserted.copy()
     inserted.paste(close_up, (x, y))
     draw = ImageDraw.Draw(inserted)
     draw.rectangle((x, y, x + SIDE - 1, y + SIDE - 1), outline=colour, width=FRAME)
@@ -148,7 +152,16 @@ def insert_close_up(picture: Image.Image, close_up: Image.Image, factor: float, 
     return inserted
 
 
-def _count_empty(empty: NDArray[np.bool_], corner: tuple[int, int]) -> int:
-    """Count the empty pixels of a square with this upper left corner."""
-    x, y = corner
-    return int(empty[y : y + SIDE, x : x + SIDE].sum())
+def _find_empty_square(pixels: NDArray[np.uint8]) -> tuple[int, int] | None:
+    """Find the upper left corner of an empty square for a close-up, the nearest to a corner; None if there is none."""
+    taken = (pixels != pixels[0, 0]).any(axis=2)
+    sums = np.pad(taken.astype(np.int64).cumsum(axis=0).cumsum(axis=1), ((1, 0), (1, 0)))
+    inside = sums[SIDE:, SIDE:] - sums[:-SIDE, SIDE:] - sums[SIDE:, :-SIDE] + sums[:-SIDE, :-SIDE]
+    rows, columns = np.nonzero(inside == 0)
+    if not len(rows):
+        return None
+    from_side, from_end = (
+        np.minimum(at, last - 1 - at) for at, last in zip((columns, rows), inside.T.shape, strict=True)
+    )
+    best = np.lexsort((columns, -rows, from_side + from_end))[0]
+    return int(columns[best]), int(rows[best])

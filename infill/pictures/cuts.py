@@ -16,7 +16,7 @@ from infill.meshes.solids import FINE, from_manifold, solid_status, to_manifold
 from infill.pictures.render import AZIMUTH, ELEVATION, Colour, render
 from infill.pictures.sections import Cut, choose_cuts
 from infill.pictures.sheet import BACKGROUND, PANEL, arrange_panels
-from infill.plain_numbers import count_noun, plain_argument, plain_number
+from infill.plain_numbers import count_noun, plain_size
 from infill.surface import Surface
 
 CUT: Colour = (240, 160, 60)
@@ -45,11 +45,11 @@ def draw_cuts(
         Cuts; by default, or for a missing upright or level cut, the one that shows the inside best.
     """
     panels = {f"cut at {cut}": _draw_half(surface, cut) for cut in choose_cuts(surface, part, given)}
-    size = " x ".join(plain_number(length, 4) for length in report["extents"])
+    size = plain_size(*report["extents"], digits=4)
     request, voids = report["request"], report["voids"]
     facts = (
-        f"{size} mm, {request['pattern']}, {report['density']:.1%} solid inside walls of "
-        f"{plain_number(request['wall'], 6)} mm"
+        f"{size}, {request['pattern']}, {report['density']:.1%} solid inside walls of "
+        f"{plain_size(request['wall'], digits=6)}"
     )
     return arrange_panels(panels, facts, [(CUT, "cut"), (BEHIND, f"behind it; {count_noun(voids['count'], 'void')}")])
 
@@ -66,8 +66,8 @@ def draw_block(surface: Surface, box: Surface, report: Mapping[str, Any]) -> Ima
     """
     whole = Image.fromarray(render(surface, width=PANEL, height=PANEL, colour=BEHIND))
     panels = {"block": whole} | {f"cut at {cut}": _draw_half(surface, cut) for cut in choose_cuts(surface, box)}
-    size = " x ".join(f"{plain_argument(length, 4)}" for length in report["extents"])
-    facts = f"{size} mm, {report['request']['pattern']}, {report['density']:.1%} solid"
+    size = plain_size(*report["extents"], digits=4, separator="")
+    facts = f"{size}, {report['request']['pattern']}, {report['density']:.1%} solid"
     return arrange_panels(panels, facts, [(CUT, "cut")])
 
 

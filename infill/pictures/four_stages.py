@@ -11,7 +11,7 @@ from PIL import Image, ImageDraw
 
 from infill.grid import VOID, Grid
 from infill.pictures.sheet import INK, PANEL, arrange_panels, draw_mesh_panel
-from infill.plain_numbers import plain_number
+from infill.plain_numbers import plain_size
 from infill.surface import Surface
 
 SOLID_COLOUR, VOID_COLOUR, CONTOUR = (240, 160, 60), (246, 246, 246), (190, 30, 30)
@@ -48,11 +48,11 @@ def draw_four_stages(
         f"smoothed: {request['steps']} steps": _draw_contours(smoothed),
         f"mesh: {report['triangles']:,} triangles": draw_mesh_panel(surface),
     }
-    size = " x ".join(plain_number(length, 6) for length in (*request["size"], request["height"]))
+    size = plain_size(*request["size"], request["height"], digits=6)
     mean = "not measured" if width["mean"] is None else f"{width['mean']:.3f} ({width['p5']:.3f} to {width['p95']:.3f})"
     facts = (
-        f"{request['pattern']}, {size} mm, density {report['density']:.1%}, walls {mean} of "
-        f"{plain_number(request['line_width'], 6)} mm"
+        f"{request['pattern']}, {size}, density {report['density']:.1%}, walls {mean} of "
+        f"{plain_size(request['line_width'], digits=6)}"
     )
     return arrange_panels(panels, facts)
 

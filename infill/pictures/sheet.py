@@ -24,18 +24,19 @@ def arrange_panels(panels: Mapping[str, Image.Image], facts: str, legend: Legend
     Parameters
     ----------
     panels : mapping of str to Image
-        Of at most `PANEL` pixels each way.
+        At most `PANEL` pixels high; wider ones get more room.
     facts : str
     legend : sequence of (colour, str)
         Words, each next to a patch of its colour unless that is None.
     """
-    width = len(panels) * (PANEL + MARGIN) + MARGIN
+    widths = [max(panel.width, PANEL) for panel in panels.values()]
+    width = sum(widths) + (len(panels) + 1) * MARGIN
     picture = Image.new("RGB", (width, PANEL + 2 * CAPTION + MARGIN + (LINE if legend else 0)), BACKGROUND)
     draw, font = ImageDraw.Draw(picture), ImageFont.load_default(16)
     for i, (caption, panel) in enumerate(panels.items()):
-        x_offset = MARGIN + i * (PANEL + MARGIN)
+        x_offset = (i + 1) * MARGIN + sum(widths[:i])
         draw.text((x_offset, 10), caption, fill=INK, font=font)
-        picture.paste(panel, (x_offset + (PANEL - panel.width) // 2, CAPTION + (PANEL - panel.height) // 2))
+        picture.paste(panel, (x_offset + (widths[i] - panel.width) // 2, CAPTION + (PANEL - panel.height) // 2))
     draw.text((MARGIN, CAPTION + PANEL + 10), facts, fill=INK, font=font)
     x, top = float(MARGIN), CAPTION + PANEL + 10 + LINE
     for colour, words in legend:

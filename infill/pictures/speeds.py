@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import BinaryIO, Final
 
@@ -13,6 +14,7 @@ from infill.planner.layer_speeds import LayerSpeeds
 
 PANEL: Final = 640  # pixels
 MARGIN, CAPTION, BAR = 16, 28, 44
+LEAST_HEIGHT: Final = 60  # pixels: of a print that is a single line
 SUPERSAMPLING: Final = 2
 PAPER, INK, TRAVEL = (255, 255, 255), (40, 40, 40), (205, 205, 205)
 STOPS: Final = np.array([(38, 56, 150), (20, 140, 180), (90, 180, 70), (240, 160, 40), (190, 30, 40)], dtype=float)
@@ -45,30 +47,32 @@ def draw_speeds(layers: Mapping[str, LayerSpeeds]) -> Image.Image:
     top = max([float(np.percentile(speed, 99)) for speed in drawn if len(speed)], default=1.0)
     corners = np.concatenate([np.vstack([layer.start[:, :2], layer.end[:, :2]]) for layer in layers.values()])
     low, high = corners.min(axis=0), corners.max(axis=0)
+    scale = (PANEL - 2) / (float((high - low).max()) or 1.0)
+    height = max(math.ceil(scale * float(high[1] - low[1])) + 2, LEAST_HEIGHT)
     width = MARGIN + len(layers) * (PANEL + MARGIN)
-    sheet = Image.new("RGB", (width, MARGIN + CAPTION + PANEL + MARGIN + BAR), PAPER)
+    sheet = Image.new("RGB", (width, MARGIN + CAPTION + height + MARGIN + BAR), PAPER)
     draw = ImageDraw.Draw(sheet)
     font = ImageFont.load_default(size=14)
     for number, (caption, layer) in enumerate(layers.items()):
         x = MARGIN + number * (PANEL + MARGIN)
         draw.text((x, MARGIN), caption, fill=INK, font=font)
-        sheet.paste(_draw_panel(layer, low, float((high - low).max()) or 1.0, top), (x, MARGIN + CAPTION))
+        sheet.paste(_draw_panel(layer, (low + high) / 2, scale, height, top), (x, MARGIN + CAPTION))
     _draw_scale(sheet, draw, font, top)
     return sheet
 
 
-def _draw_panel(layer: LayerSpeeds, low: NDArray[np.floating], extent: float, top: float) -> Image.Image:
-    """Draw the lines of a layer in the colours of their speeds, and travel moves thin."""
-    size = PANEL * SUPERSAMPLING
-    scale = (size - 2 * SUPERSAMPLING) / extent
-    picture = Image.new("RGB", (size, size), PAPER)
+def _draw_panel(layer: LayerSpeeds, middle: NDArray[np.floating], scale: float, height: int, top: float) -> Image.Image:
+    """Draw the lines of a layer in the colours of their speeds, and travel moves thin, around the middle of all."""
+    size = (PANEL * SUPERSAMPLING, height * SUPERSAMPLING)
+    picture = Image.new("RGB", size, PAPER)
     draw = ImageDraw.Draw(picture)
-    ends = np.column_stack([layer.start[:, :2] - low, layer.end[:, :2] - low]) * scale + SUPERSAMPLING
-    ends[:, 1::2] = size - ends[:, 1::2]
+    ends = np.column_stack([layer.start[:, :2] - middle, layer.end[:, :2] - middle]) * (scale * SUPERSAMPLING)
+    ends[:, 1::2] *= -1  # y upwards
+    ends += np.tile(size, 2) / 2
     shades = np.where(layer.draws[:, None], speed_colours(layer.speed, top), np.array(TRAVEL, dtype=np.uint8))
     for line, shade, draws in zip(ends.tolist(), shades.tolist(), layer.draws.tolist(), strict=True):
         draw.line(line, fill=tuple(shade), width=2 * SUPERSAMPLING if draws else 1)
-    return picture.resize((PANEL, PANEL), Image.Resampling.BOX)
+    return picture.resize((PANEL, height), Image.Resampling.BOX)
 
 
 def _draw_scale(

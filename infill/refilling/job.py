@@ -19,7 +19,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from infill.errors import FormatError, ParameterError
+from infill.errors import FormatError, ParameterError, UsageError
+from infill.files.broken import missing_file
 from infill.files.excerpts import quote_value
 from infill.files.whole_files import atomic_file, check_target, scratch_file
 from infill.gcode.estimates import EstimateChange, Restatement, StatedAmounts, restate
@@ -38,7 +39,7 @@ if TYPE_CHECKING:
     from infill.refilling.stats import PrintAmounts, RefillStats
     from infill.reports.refilling import RefillReport
 
-HEAD = 1 << 16  # bytes in which the header ends
+HEAD = 1 << 18  # bytes in which the header ends, and the stamp of an earlier refill lies
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -173,6 +174,8 @@ def refill(
         return _refill_lines(gcode, request, progress)
     source = Path(gcode)
     target = Path(os.path.realpath(source)) if output is None else Path(output)
+    if not source.exists():
+        raise FormatError(missing_file(source))
     if not dry_run:
         check_target(target, overwrite=overwrite or output is None)
     folder = None if dry_run else target.parent
@@ -184,6 +187,7 @@ def refill(
             with sliced.text(plate, folder) as text:
                 drafted[plate] = _refill_text(text, scratch, request, plate_progress)
         _check_choice(request, [draft.tally for draft in drafted.values() if draft.tally is not None])
+        _check_paths_remain(request, list(drafted.values()))
         report = _joint_report(request, list(drafted.values()), sliced.plates)
         changed = {plate: draft for plate, draft in drafted.items() if draft.tally is not None and draft.tally.replaced}
         if dry_run or (not changed and output is None):
@@ -219,6 +223,21 @@ def _check_choice(request: Request, prints: Sequence[RefillStats]) -> None:
         )
 
 
+def _check_paths_remain(request: Request, parts: Sequence[_Draft]) -> None:
+    """Raise UsageError for options of the slicer's own paths, if an earlier refill replaced these in all prints."""
+    if any(part.tally is not None for part in parts):
+        return
+    plain = Request(pattern=KEEP)
+    options = ("density", "smooth_radius", "max_deviation", "max_segments", "layers", "part")
+    changed = tuple(name for name in options if getattr(request, name) != getattr(plain, name))
+    if changed:
+        raise UsageError.about(
+            changed,
+            "would change the slicer's own paths, and this print was refilled before; refill the print that the slicer "
+            "wrote, or give pattern",
+        )
+
+
 def _scale_progress(progress: Progress | None, number: int, count: int) -> Progress | None:
     """Scale the progress of one of several prints to that of all."""
     if progress is None or count == 1:
@@ -232,6 +251,7 @@ def _refill_lines(lines: Iterable[str], request: Request, progress: Progress | N
     sliced = SlicedText(text=io.BytesIO(text.encode("utf-8", "surrogateescape")))
     drafted = _refill_text(sliced, io.BytesIO(), request, progress)
     _check_choice(request, [] if drafted.tally is None else [drafted.tally])
+    _check_paths_remain(request, [drafted])
     if drafted.tally is not None and drafted.tally.replaced:
         text = b"".join(edited_text(drafted.draft, drafted.edits)).decode("utf-8", "surrogateescape")
     # Not splitlines: comments may hold characters that it treats as line ends.
@@ -248,7 +268,7 @@ class _Draft:
     found : Survey
     draft : binary file
     tally, rules : RefillStats and RefillRules, optional
-        None if the print was refilled before.
+        None if the print was refilled before, and is to keep its paths.
     remedy : RefillStats, optional
         Of the remedy for infill that lost too much filament: a trial drawing that is discarded.
     edits : tuple of (place, length, text)
@@ -284,7 +304,7 @@ def _joint_report(request: Request, parts: Sequence[_Draft], plates: Sequence[in
         request,
         joint_survey,
         total if drawn else None,
-        already=joint_survey.stamped,
+        already=not drawn,
         rules=rules,
         plates=plates,
         remedy=remedied if any(part.remedy is not None for part in parts) else None,
@@ -306,7 +326,7 @@ def _refill_text(sliced: SlicedText, draft: BinaryIO, request: Request, progress
     family = None if request.pattern == KEEP else family_of(request.pattern, request.parameters, request.lines)
     print_survey = survey_print(sliced.text, more=family is not None and not family.prismatic, settings=sliced.settings)
     print_survey = replace(print_survey, slicer=print_survey.slicer or sliced.slicer)
-    if print_survey.stamped:
+    if print_survey.stamped and request.pattern == KEEP:
         return _Draft(found=print_survey, draft=draft)
     if progress is not None:
         progress("looking at layers", 0.0)
@@ -393,11 +413,15 @@ def _copy_mode(source: Path, file: BinaryIO) -> None:
 
 
 def _stamp_edit(draft: BinaryIO, tally: RefillStats) -> tuple[int, int, bytes]:
-    """Return the edit that inserts the stamp: after the header block, or after a first line that is a comment."""
+    """Return the edit that inserts the stamp: in place of that of an earlier refill, or below the header.
+
+    The header is a block of comments, or a first line that is a comment.
+    """
     from infill.gcode.survey import STAMP
 
     draft.seek(0)
     head = draft.read(HEAD)
+    earlier = head.find(STAMP)
     place = 0
     for marker in (b"; HEADER_BLOCK_END", b";END_OF_HEADER"):
         marker_place = head.find(marker)
@@ -408,4 +432,6 @@ def _stamp_edit(draft: BinaryIO, tally: RefillStats) -> tuple[int, int, bytes]:
     line = head[:place] or head[: head.find(b"\n") + 1]
     line_end = b"\r\n" if line.endswith(b"\r\n") else b"\n"
     text = b"%s %s: %d of %d sections%s" % (STAMP, __version__.encode(), tally.replaced, tally.sections, line_end)
+    if earlier >= 0:
+        return earlier, head.find(b"\n", earlier) + 1 - earlier, text
     return place, 0, text

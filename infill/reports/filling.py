@@ -31,6 +31,7 @@ class FillRequest(TypedDict):
     vent: Annotated[bool, "Whether every void also has a hole up"]
     drain_at: Annotated[list[Triple], "Requested places of drains, mm; empty without places"]
     open: Annotated[str | None, "Sides without a shell: `top`, `bottom` or `both`; null for a closed part"]
+    ties: Annotated[bool, "Whether islands of upright walls that nothing holds are tied to the rest"]
     smooth_radius: Annotated[float | None, "Radius of the fillets, mm; null for the default"]
     tolerance: Annotated[float, "Largest distance by which simplification may move the voids, mm"]
     resolution: Annotated[int | None, "Number of grid cells along the longest side, if requested"]
@@ -69,6 +70,14 @@ class PlannedSizes(TypedDict):
     ]
 
 
+class FillTie(TypedDict):
+    """Bars that tie islands of upright walls to the nearest wall or line; empty if nothing hung free."""
+
+    at: Annotated[Pair, "Its middle in x and y, mm"]
+    length: Annotated[float, "Length between what it joins, mm"]
+    width: Annotated[float, "Width, mm: that of the lines, or three cells of a grid too coarse for that"]
+
+
 class FillSizes(PlannedSizes):
     """Sizes of the infill."""
 
@@ -84,6 +93,8 @@ class FillSizes(PlannedSizes):
         "Infill that was left out, mm³: in a project, what is too narrow, if it exceeds 4.5 % (2 % of a shifted "
         "pattern); in an open part, what was loose",
     ]
+    ties: list[FillTie]
+    untied: Annotated[int, "Number of islands that no straight bar reaches"]
 
 
 class GradedStep(TypedDict):

@@ -150,7 +150,14 @@ class CrumbKeys(TypedDict):
     limit: Annotated[float, "Largest volume of a crumb, mm³"]
 
 
-class VerdictKeys(TypedDict):
+class ReplacedSmoothing(TypedDict):
+    """Smoothing that was asked for and lost something, so that another was taken; null if it was taken."""
+
+    steps: Annotated[int, "Number of steps, at the size of the voxels"]
+    radius: Annotated[float | None, "Radius, mm; null if steps were asked for"]
+
+
+class Judgement(TypedDict):
     """Verdict on the result, compared with the input."""
 
     word: Annotated[str, "`kept`, `changed a little` or `lost`"]
@@ -162,8 +169,14 @@ class VerdictKeys(TypedDict):
     thin: Annotated[float, "Area of the input that is gone but was too thin to count, mm²: walls or slits of one voxel"]
     new: Annotated[float, "Area of the result that is new, mm²"]
     crumbs: CrumbKeys
+
+
+class VerdictKeys(Judgement):
+    """Verdict on the result, compared with the input."""
+
     tried: Annotated[list[str], "Ways of smoothing that were tried, in order"]
     taken: Annotated[str, "Way of smoothing that was chosen"]
+    instead_of: ReplacedSmoothing | None
 
 
 class Distances(Spread):
@@ -196,13 +209,19 @@ Distance = TypedDict(
 )
 
 
-class FacetKeys(TypedDict):
+class FlatFacetKeys(TypedDict):
     """Meshes: flat facets that are as flat as before, if they are half of the surface or more; else null."""
 
     share: Annotated[float, "Share of the surface of the mesh"]
     width: Annotated[float, "Median width of a facet, mm"]
     radius: Annotated[float, "Radius of smoothing that rounds facets of this width, mm"]
     voxel: Annotated[float, "Size of the voxels for that radius, mm"]
+
+
+class FacetKeys(FlatFacetKeys):
+    """Meshes: flat facets that are as flat as before, if they are half of the surface or more; else null."""
+
+    fits: Annotated[bool, "Whether the thinnest walls are thick enough for that radius"]
 
 
 class Isosurface(TypedDict):
@@ -330,6 +349,8 @@ class PlannedInput(KnownInput):
     """Input, as far as it is known before the run."""
 
     triangles: NotRequired[Annotated[int, "Meshes: number of triangles"]]
+    sampled: NotRequired[Annotated[int, "Large DICOM folders: number of slices that were read for the estimate"]]
+    of: NotRequired[Annotated[int, "Large DICOM folders: number of slices of the folder"]]
 
 
 class PlannedSolid(TypedDict):

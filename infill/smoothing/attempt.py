@@ -33,7 +33,7 @@ from infill.meshes.simplification import restore_volume, simplify_surface
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.refining import refine_bricks
 from infill.phasefield.sparse import smooth_bricks
-from infill.plain_numbers import count_noun, plain_argument, plain_number
+from infill.plain_numbers import count_noun, plain_argument, plain_number, plain_size
 from infill.reports.common import Topology, declare, mesh_keys, report_head, surface_keys
 from infill.reports.sections import with_late_sections
 from infill.reports.smoothing import Distance, SmoothReport, SolidChanges, SolidMesh, SolidSeconds
@@ -57,7 +57,7 @@ if TYPE_CHECKING:
 
     from infill.phasefield.sparse import SparseField
     from infill.reports.common import Level
-    from infill.reports.smoothing import Simplified, SolidWalls
+    from infill.reports.smoothing import Judgement, ReplacedSmoothing, Simplified, SolidWalls
     from infill.smoothing.request import SmoothInput, SmoothRequest
     from infill.surface import Surface
     from infill.volume import Volume
@@ -158,11 +158,13 @@ def run_attempt(smooth_input: SmoothInput, request: SmoothRequest) -> Attempt:
             surface = _measured_surface(surfaced, data)
         if not surface.closed:
             raise GeometryError("the surface is not closed")
+        clock.tell("check", 0.6)
         topology, thinnest = run_together(
             partial(_check_topology, surfaced, flips, smoothed),
             partial(_wall_thickness, surfaced, smoothed),
             threads=threads,
         )
+        clock.tell("check", 0.65)
         deviation = None if surely_near and not crumbs.count else compare_with_input(surface, smoothed)
     return Attempt(
         smoothed=smoothed,
@@ -196,7 +198,7 @@ def remove_specks(data: Volume, request: SmoothRequest) -> tuple[Volume, int]:
         raise ParameterError.about(
             "despeckle",
             f"is {plain_number(largest)} mm³ and the largest component has "
-            f"{plain_number(components.cells.max() * data.cell_volume)} mm³; give less",
+            f"{plain_size(components.cells.max() * data.cell_volume, power=3)}; give less",
         )
     if not small.any():
         return data, 0
@@ -283,7 +285,7 @@ def _wall_thickness(surfaced: SurfaceAtLevel, smoothed: SmoothedInput) -> tuple[
 
 
 def finish_attempt(
-    best: Attempt, tried: list[str], taken: str
+    best: Attempt, tried: list[str], taken: str, instead_of: ReplacedSmoothing | None = None
 ) -> tuple[Result[SmoothStages, SmoothReport], Differences]:
     """Simplify the surface of an attempt; return the result and its differences from the input: the fifth stage.
 
@@ -294,6 +296,8 @@ def finish_attempt(
         Names of all ways that were tried, for the report.
     taken : str
         Name of the way of this attempt.
+    instead_of : ReplacedSmoothing, optional
+        The smoothing that was asked for, if this attempt has another.
 
     Raises
     ------
@@ -305,8 +309,8 @@ def finish_attempt(
     data, topology, deviation, differences = smooth_input.data, best.topology, best.deviation, best.differences
     await_second_compiler()
     with clock.stage("simplify", 0.7):
-        surface, simplified = _simplify_result(best.surface, request)
-    with clock.stage("measure", 0.9):
+        surface, simplified = _simplify_result(best.surface, request, clock)
+    with clock.stage("measure", 0.92):
         if surface is not best.surface:
             deviation = compare_with_input(surface, smoothed)
             differences = find_differences(topology, deviation, surfaced, smoothed)
@@ -331,17 +335,10 @@ def finish_attempt(
         "facets": None,  # so are they
         "isosurface": None,  # and these
         "verdict": {
-            "word": differences.word,
-            "changes": [*problems, *differences.remarks, *_cleaning_remarks(best.crumbs, best.specks, smoothed)],
-            "lost": [patch.facts() for patch in deviation.lost[:MAX_LISTED_PLACES]] if deviation else [],
-            "added": [patch.facts() for patch in deviation.added[:MAX_LISTED_PLACES]] if deviation else [],
-            "far": LOST * smooth_input.distance_unit,
-            "missing": deviation.missing_area if deviation else 0.0,
-            "thin": deviation.thin_area if deviation else 0.0,
-            "new": deviation.new_area if deviation else 0.0,
-            "crumbs": {"removed": best.crumbs.count, "volume": best.crumbs.volume, "limit": best.crumbs.limit},
+            **_verdict_facts(differences, deviation, best),
             "tried": tried,
             "taken": taken,
+            "instead_of": instead_of,
         },
         "mesh": declare(SolidMesh, {**mesh_keys(surface), **simplification}),
         "solid": {
@@ -356,10 +353,29 @@ def finish_attempt(
         "seconds": clock.timings(SolidSeconds),
     }
     report = with_late_sections(
-        report, distance=partial(distance_facts, surface, smoothed), facets=partial(facet_facts, surface, smoothed)
+        report,
+        distance=partial(distance_facts, surface, smoothed),
+        facets=partial(facet_facts, surface, smoothed, best.thinnest[0]),
     )
     stages = SmoothStages(data=data, levelled=surfaced.levelled, given=smooth_input.mesh)
     return Result(surfaces={"solid": surface}, report=report, stages=stages), differences
+
+
+def _verdict_facts(differences: Differences, deviation: Deviation | None, best: Attempt) -> Judgement:
+    """Return the verdict with its places and areas, for the report."""
+    smoothed = best.smoothed
+    problems = [*differences.losses, *differences.problems]
+    return {
+        "word": differences.word,
+        "changes": [*problems, *differences.remarks, *_cleaning_remarks(best.crumbs, best.specks, smoothed)],
+        "lost": [patch.facts() for patch in deviation.lost[:MAX_LISTED_PLACES]] if deviation else [],
+        "added": [patch.facts() for patch in deviation.added[:MAX_LISTED_PLACES]] if deviation else [],
+        "far": LOST * smoothed.smooth_input.distance_unit,
+        "missing": deviation.missing_area if deviation else 0.0,
+        "thin": deviation.thin_area if deviation else 0.0,
+        "new": deviation.new_area if deviation else 0.0,
+        "crumbs": {"removed": best.crumbs.count, "volume": best.crumbs.volume, "limit": best.crumbs.limit},
+    }
 
 
 def advise_all_triangles(request: SmoothRequest) -> str:
@@ -367,18 +383,29 @@ def advise_all_triangles(request: SmoothRequest) -> str:
     return "give --tolerance 0" + ("" if request.max_triangles is None else ", and no --max-triangles")
 
 
-def _simplify_result(full: Surface, request: SmoothRequest) -> tuple[Surface, Simplified | None]:
+def _simplify_result(full: Surface, request: SmoothRequest, clock: Clock) -> tuple[Surface, Simplified | None]:
     """Simplify the surface as requested; return it and the changes, None if it stays as it is."""
     if request.tolerance is None and request.max_triangles is None:
         return full, None
+
+    def progress(share: float) -> None:
+        clock.tell("simplify", 0.75 + 0.15 * share)
+
+    progress(0.0)
     assert not isinstance(request.tolerance, str)  # `Request.at` has made it a number
     if request.default_tolerance and request.tolerance is not None:
-        simplified_surface = collapse_edges(full, tolerance=request.tolerance, threads=request.threads)
+        simplified_surface = collapse_edges(
+            full, tolerance=request.tolerance, threads=request.threads, progress=progress
+        )
         if simplified_surface is None or simplified_surface is full:
             return full, None
     else:
         simplified_surface = simplify_surface(
-            full, tolerance=request.tolerance, triangles=request.max_triangles, threads=request.threads
+            full,
+            tolerance=request.tolerance,
+            triangles=request.max_triangles,
+            threads=request.threads,
+            progress=progress,
         )
     result = replace(restore_volume(simplified_surface, full.volume), space=full.space)
     change = result.volume / full.volume - 1
@@ -423,9 +450,9 @@ def _cleaning_remarks(crumbs: Crumbs, specks: int, smoothed: SmoothedInput) -> l
         limit = (
             f"{plain_argument(CRUMB_CELLS)} voxels"
             if smoothed.request.crumbs is None
-            else f"{plain_number(crumbs.limit)} mm³"
+            else f"{plain_size(crumbs.limit, power=3)}"
         )
-        in_all = f", {plain_number(crumbs.volume)} mm³ in all" if crumbs.volume > LEAST_CRUMBS * crumbs.limit else ""
+        in_all = f", {plain_size(crumbs.volume, power=3)} in all" if crumbs.volume > LEAST_CRUMBS * crumbs.limit else ""
         phrases.append(f"{count_noun(crumbs.count, 'crumb')} of up to {limit} taken out{in_all}")
     if specks:
         limit = plain_number(smoothed.request.despeckle)

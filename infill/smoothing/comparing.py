@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.inspection.deviation import COUNTS, HIDDEN, SHEET, THIN, Deviation, Kinds, Word, measure_deviation
-from infill.inspection.facets import find_flat_facets
+from infill.inspection.facets import WALL_PER_RADIUS, find_flat_facets
+from infill.inspection.thickness import FARTHEST
 from infill.isosurfaces.components import data_bits, look_up_cells, open_by_blocks
 from infill.meshes.distance import distances
-from infill.plain_numbers import count_noun, plain_number, plain_share
+from infill.plain_numbers import count_noun, plain_share, plain_size
 from infill.smoothing.stages import raw_surface
 from infill.surface import Surface
 from infill.voxels.noise import NOISY
@@ -87,13 +88,24 @@ def distance_facts(surface: Surface, smoothed: SmoothedInput) -> Distance:
     return facts
 
 
-def facet_facts(surface: Surface, smoothed: SmoothedInput) -> FacetKeys | None:
-    """Return the flat facets of a coarse mesh that the result still has, for the report; None if they are few."""
+def facet_facts(surface: Surface, smoothed: SmoothedInput, thinnest: float | None) -> FacetKeys | None:
+    """Return the flat facets of a coarse mesh that the result still has, for the report; None if they are few.
+
+    Parameters
+    ----------
+    surface : Surface, mm
+    smoothed : SmoothedInput
+    thinnest : float or None, mm
+        The thinnest walls of the input; None if all are thicker than can be measured.
+    """
     mesh = smoothed.smooth_input.mesh
     if mesh is None:
         return None
     found = find_flat_facets(mesh, surface, cell=max(smoothed.spacing), threads=smoothed.threads)
-    return None if found is None else found.facts()
+    if found is None:
+        return None
+    limit = FARTHEST * min(smoothed.spacing) if thinnest is None else thinnest
+    return {**found.facts(), "fits": found.radius * WALL_PER_RADIUS <= limit}
 
 
 def subsample(vertices: NDArray[np.floating]) -> NDArray[np.floating]:
@@ -191,7 +203,7 @@ def find_differences(
         phrase, is_lost = _describe_thin(deviation, smooth_input)
         (losses if is_lost else remarks).append(phrase)
     if deviation and deviation.sheet:
-        remarks.append(f"{plain_number(deviation.sheet)} mm² of faces that bound no solid are left out")
+        remarks.append(f"{plain_size(deviation.sheet, power=2)} of faces that bound no solid are left out")
     if smooth_input.mesh_volumes is not None and smooth_input.topology is None:
         mesh_parts, result_parts = int((smooth_input.mesh_volumes.volumes > 0).sum()), topology.result.components
         if result_parts < mesh_parts:
@@ -227,11 +239,11 @@ def _describe_thin(deviation: Deviation, smooth_input: SmoothInput) -> tuple[str
     else:
         feature, change = "walls or gaps one voxel thick", "are gone"
     if not area:
-        return f"{feature} moved by up to {plain_number(deviation.thin_distance)} mm", False
+        return f"{feature} moved by up to {plain_size(deviation.thin_distance)}", False
     share = plain_share(area / deviation.given_area)
     is_scan = smooth_input.mesh_volumes is None and not _is_noisy(smooth_input)
     is_lost = is_scan and deviation.is_large(area, deviation.given_area)
-    return f"{feature} {change}, {plain_number(area)} mm² ({share}) of the surface of the input", is_lost
+    return f"{feature} {change}, {plain_size(area, power=2)} ({share}) of the surface of the input", is_lost
 
 
 def _describe_counts(topology: TopologyCheck) -> list[str]:

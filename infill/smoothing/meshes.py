@@ -90,6 +90,8 @@ def voxelise_input(mesh: MeshOnGrid, request: SmoothRequest) -> SmoothInput:
     voxelised = voxelise_with_report(
         surface, voxel=voxel, resolution=resolution, margin=MARGIN, max_memory=request.max_memory
     )
+    if request.progress is not None:
+        request.progress("voxels", 0.03)
     if mesh.hint:
         _hint_at_filters(surface, voxelised)
     cells, interface, several = voxelised.volume, request.smoothing.interface, voxelised.several

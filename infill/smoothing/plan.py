@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from infill.errors import GeometryError
 from infill.grid import Grid
+from infill.imaging.dicom.sampling import SampledStack
 from infill.kernels.compiling import log_compilation
 from infill.machine import require_memory
 from infill.meshes.merging import merge_unless_closed
@@ -106,12 +107,13 @@ class SmoothPlan:
         }
 
 
-def plan_smoothing(source: Source, *, begin: float, **options: Unpack[SourceOptions]) -> SmoothPlan:
+def plan_smoothing(source: Source | SampledStack, *, begin: float, **options: Unpack[SourceOptions]) -> SmoothPlan:
     """Return the plan for `infill.smoothing.sources.smooth_source` with the same arguments.
 
     Parameters
     ----------
-    source : Source
+    source : Source or SampledStack
+        Of a sample of slices, numbers of cells and triangles are estimates.
     begin : float
         Start of reading the input, by `time.perf_counter`: the plan includes that time.
     **options
@@ -124,10 +126,12 @@ def plan_smoothing(source: Source, *, begin: float, **options: Unpack[SourceOpti
     MemoryLimitError
         If a limit is given and the work needs more.
     """
+    sample = source if isinstance(source, SampledStack) else None
+    source = source.volume if isinstance(source, SampledStack) else source
     choice, smooth_options = split_options(source, options)
     request = SmoothRequest(**smooth_options)
     if isinstance(source, Volume):
-        survey = _survey_volume(volume_ways(source, request, **choice))
+        survey = _survey_volume(volume_ways(source, request, **choice), sample)
     elif isinstance(source, Surface):
         survey = _survey_mesh(source, request, choice.get("resolution"), choice.get("voxel"))
     else:
@@ -185,21 +189,44 @@ class _InputSurvey:
     seconds: float = 0.0
 
 
-def _survey_volume(ways: Sequence[Way]) -> _InputSurvey:
-    """Count cells and vertices of a volume for the plan."""
+def _survey_volume(ways: Sequence[Way], sample: SampledStack | None) -> _InputSurvey:
+    """Count cells and vertices of a volume for the plan, or estimate them from a sample of its slices."""
     smooth_input = ways[0].data
     assert isinstance(smooth_input, SmoothInput)
     data = smooth_input.data
+    solid: float
+    vertices: float
     solid, vertices = count_solid_cells(np.asarray(data.values) > 0)
+    shape, facts = tuple(data.values.shape), declare(PlannedInput, smooth_input.facts)
+    if sample is not None:
+        solid, vertices = _scale_sample(np.asarray(data.values) > 0, sample)
+        shape = (*shape[:2], shape[2] * sample.count // sample.sampled)
+        facts = {**facts, "sampled": sample.sampled, "of": sample.count}
     return _InputSurvey(
         request=ways[0].request,
-        grid=Grid(shape=data.values.shape, spacing=tuple(data.cell_size.tolist()), origin=data.origin),
+        grid=Grid(shape=shape, spacing=tuple(data.cell_size.tolist()), origin=data.origin),
         space=data.space,
-        facts=declare(PlannedInput, smooth_input.facts),
+        facts=facts,
         solid=solid,
         vertices=vertices,
         ways=tuple(way.name for way in ways if way.option is None),
     )
+
+
+def _scale_sample(solid: NDArray[np.bool_], sample: SampledStack) -> tuple[float, float]:
+    """Estimate the solid cells of a volume, and the grid edges that cross their surface, from runs of its slices."""
+    cells = along = across = gaps = 0
+    runs = np.split(solid, sample.runs, axis=2)
+    joint = solid.shape[2] // sample.sampled // 2  # layers at the ends of a run that were interpolated towards others
+    for run in runs:
+        cells += int(np.count_nonzero(run))
+        across += sum(int(np.count_nonzero(np.diff(run, axis=axis))) for axis in (0, 1))
+        across += sum(int(np.count_nonzero(run.swapaxes(0, axis)[[0, -1]])) for axis in (0, 1))
+        inner = run[:, :, joint : run.shape[2] - joint]
+        along, gaps = along + int(np.count_nonzero(np.diff(inner, axis=2))), gaps + inner.shape[2] - 1
+    rim = int(np.count_nonzero(solid[:, :, 0])) + int(np.count_nonzero(solid[:, :, -1]))
+    times = sample.count / sample.sampled
+    return times * cells, times * across + (times * solid.shape[2] - 1) / gaps * along + rim
 
 
 def _survey_mesh(surface: Surface, request: SmoothRequest, resolution: int | None, voxel: float | None) -> _InputSurvey:

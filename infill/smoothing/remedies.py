@@ -22,7 +22,7 @@ from infill.smoothing.meshes import voxelise_input
 from infill.smoothing.request import MeshOnGrid, SmoothInput, SmoothRequest, Way
 
 if TYPE_CHECKING:
-    from infill.reports.smoothing import SmoothReport
+    from infill.reports.smoothing import ReplacedSmoothing, SmoothReport
     from infill.result import Result
     from infill.smoothing.stages import SmoothStages
 
@@ -54,10 +54,10 @@ def first_sound(ways: Iterable[Way], request: SmoothRequest) -> Result[SmoothSta
     """
     first_work = total_cost = 0.0
     best: Attempt | None = None
-    best_name = ""
     tried: list[str] = []
     failed: GeometryError | None = None
     all_ways = list(ways)
+    taken = all_ways[0]
     for way in all_ways:
         if way.option is not None or (tried and (request.strict or (request.allow_broken and best is not None))):
             break
@@ -76,7 +76,7 @@ def first_sound(ways: Iterable[Way], request: SmoothRequest) -> Result[SmoothSta
             break
         else:
             if best is None or attempt.rank < best.rank:
-                best, best_name = attempt, way.name
+                best, taken = attempt, way
         tried.append(way.name)
         if best is not None and (best.is_sound or (best.differences.word != "lost" and len(tried) > 1)):
             break  # a difference in topology is worth one more run, a loss all of them
@@ -86,7 +86,7 @@ def first_sound(ways: Iterable[Way], request: SmoothRequest) -> Result[SmoothSta
         assert failed is not None
         remedy = STRICT_ADVICE if request.strict and len(all_ways) > 1 else _find_remedy(remedies, work_left)
         raise GeometryError(f"{failed}{_list_tried(tried[1:])}{'; ' + remedy if remedy else ''}") from failed
-    result, differences = finish_attempt(best, tried, best_name)
+    result, differences = finish_attempt(best, tried, taken.name, _replaced_smoothing(all_ways[0], taken, best))
     reasons = differences.losses if not request.strict else (*differences.losses, *differences.problems)
     if reasons and not request.allow_broken:
         advice = _advice(best) or _find_remedy(remedies, work_left)
@@ -95,9 +95,22 @@ def first_sound(ways: Iterable[Way], request: SmoothRequest) -> Result[SmoothSta
     return result
 
 
+def _replaced_smoothing(first: Way, taken: Way, best: Attempt) -> ReplacedSmoothing | None:
+    """Return the smoothing that was asked for, if another was taken instead, for the report."""
+    asked, used = first.request, taken.request
+    if (asked.smoothing.steps, asked.radius) == (used.smoothing.steps, used.radius):
+        return None
+    cell = float(best.smoothed.smooth_input.data.cell_size.min())
+    return {"steps": asked.at(cell).smoothing.steps, "radius": asked.radius}
+
+
 def _input_of(way: Way) -> SmoothInput:
     """Return the input of a way, on a grid."""
-    return voxelise_input(way.data, way.request) if isinstance(way.data, MeshOnGrid) else way.data
+    if not isinstance(way.data, MeshOnGrid):
+        return way.data
+    if way.request.progress is not None:
+        way.request.progress("voxels", 0.01)
+    return voxelise_input(way.data, way.request)
 
 
 def _find_remedy(remedies: Iterable[Way], work_left: float) -> str | None:

@@ -14,13 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError, GeometryError, LabelChoiceError, ParameterError, UsageError
-from infill.files.broken import READER_ERRORS
+from infill.files.broken import READER_ERRORS, missing_file
 from infill.formats.mesh_files import READERS
 from infill.formats.point_files import read_points_and_normals
 from infill.formats.units import check_units, read_mesh_in_mm, unit_in_mm
 from infill.grid import spacing_of
+from infill.imaging.dicom.sampling import SampledStack, sample_folder
 from infill.imaging.segmentations import Segmentation, read_segmentation
-from infill.imaging.volume_files import read_volume
+from infill.imaging.volume_files import holds_dicom, read_volume
 from infill.smoothing.request import SmoothOptions
 from infill.surface import Surface
 from infill.volume import Volume
@@ -127,6 +128,20 @@ def read_source(
         points = points * unit_in_mm(source, points, units)
         return points if normals is None else np.concatenate([points, normals], axis=1)
     return read_mesh_in_mm(source, units)
+
+
+def sample_source(path: str | os.PathLike[str], **reading: Any) -> SampledStack | None:  # noqa: ANN401 - of `read_source`
+    """Return a sample of a folder of DICOM slices; None where a plan needs all of the input.
+
+    Parameters
+    ----------
+    path : str or Path
+    **reading
+        As for `read_source`; with any of them, all slices are read.
+    """
+    source = Path(path)
+    chosen = any(value is not None for name, value in reading.items() if name != "kind" or value != "volume")
+    return sample_folder(source) if not chosen and source.is_dir() and holds_dicom(source) else None
 
 
 def read_label_source(
@@ -282,7 +297,7 @@ def _npy_axis_count(path: Path) -> int | None:
 def _ply_has_faces(path: Path) -> bool:
     """Tell by the header of a PLY file whether it holds faces."""
     if not path.is_file():
-        raise FormatError(f"there is no file {path}; check the name")
+        raise FormatError(missing_file(path))
     try:
         with path.open("rb") as file:
             head = file.read(65536).split(b"end_header")[0]

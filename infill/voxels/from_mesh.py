@@ -14,7 +14,7 @@ from infill.grid import Grid
 from infill.machine import require_memory
 from infill.meshes.hole_filling import component_volumes, fill_holes
 from infill.meshes.merging import merge_unless_closed
-from infill.plain_numbers import plain_argument, plain_number
+from infill.plain_numbers import plain_argument, plain_size
 from infill.surface import Surface
 from infill.volume import Volume
 from infill.voxels.partial import EnclosedVolumes, measure_enclosed
@@ -90,7 +90,7 @@ def grid_around(
     if voxel is not None and size > longest / FEWEST:
         raise ParameterError.about(
             "voxel",
-            f"is {plain_argument(size)} mm and the part {' x '.join(plain_number(side, 6) for side in extents)} mm; "
+            f"is {plain_argument(size)} mm and the part {plain_size(*extents, digits=6)}; "
             f"give at most {plain_argument(longest / FEWEST)} mm",
         )
     shape = tuple(max(1, math.ceil(side / size - ROUNDING)) + 2 * margin for side in extents.tolist())
@@ -237,7 +237,7 @@ def voxelise_with_report(
     if not inside.any():
         raise ParameterError.about(
             "voxel",
-            f"is {plain_argument(size)} mm and the part {' x '.join(plain_number(side, 6) for side in extents)} mm: "
+            f"is {plain_argument(size)} mm and the part {plain_size(*extents, digits=6)}: "
             "no centre of a cell lies inside; give a voxel of at most half the thinnest wall",
         )
     closed = Surface(vertices=(vertices + 0.5) * size + origin, faces=faces) if holes else mesh

@@ -14,7 +14,7 @@ from infill.errors import GeometryError, ParameterError
 from infill.grid import Grid
 from infill.kernels.threads import thread_count
 from infill.machine import require_memory
-from infill.plain_numbers import count_noun, plain_argument, plain_number
+from infill.plain_numbers import count_noun, plain_argument, plain_size
 from infill.ragged import expand_rows
 from infill.volume import Volume
 from infill.voxels.flooding import enclosed_void
@@ -176,8 +176,8 @@ def _check_points(points: ArrayLike) -> Floats:
     farthest = float(np.abs(positions).max(initial=0.0))
     if farthest > FARTHEST:
         raise ParameterError(
-            f"a point lies at {plain_number(farthest, 6)} mm; the limit is {plain_number(FARTHEST, 6)} mm; leave it "
-            "out, or check units"
+            f"a point lies at {plain_size(farthest, digits=6)}; the limit is "
+            f"{plain_size(FARTHEST, digits=6)}; leave it out, or check units"
         )
     if len(positions) < FEWEST:
         raise ParameterError(f"{count_noun(len(positions), 'point')} given; give at least {FEWEST}")

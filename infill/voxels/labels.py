@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import ParameterError
-from infill.plain_numbers import count_noun, plain_number
+from infill.plain_numbers import count_noun, plain_size
 from infill.volume import Volume
 
 DIRECT = 65536  # labels up to here are looked up by their number
@@ -114,7 +114,7 @@ def describe_labels(layers: Iterable[Volume], names: Mapping[tuple[int, int], st
     """
     labels = [
         f"{value} {(names or {}).get((layer, value), '')}".rstrip()
-        + f" ({plain_number(volume.cell_volume * count)} mm³)"
+        + f" ({plain_size(volume.cell_volume * count, power=3)})"
         for layer, volume in enumerate(layers)
         for value, count in _count_labels(volume)
     ]
