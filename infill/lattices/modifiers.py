@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from infill.lattices.placed_regions import HIGHEST, LOWEST, RegionDensities
+from infill.lattices.placed_regions import HIGHEST, LOWEST
 from infill.lattices.region_nodes import PlacedRegion
-from infill.lattices.request import FillSpec
+from infill.lattices.request import FillSpec, place_regions
 from infill.surface import Modifier, Surface
 
 
@@ -28,12 +28,7 @@ def add_modifiers(part: Surface, request: FillSpec) -> tuple[Surface, FillSpec]:
         else:
             notes.append(f"{modifier.name} is left out, as {problem}")
     part = replace(part, notes=tuple(notes), modifiers=())
-    if not used:
-        return part, request
-    assert request.density is not None
-    grading = request.grading if isinstance(request.grading, RegionDensities) else None
-    grading = grading or RegionDensities(base=request.density, regions=())
-    return part, replace(request, grading=grading.with_modifiers(used))
+    return part, place_regions(request, (*used, *request.regions)) if used else request
 
 
 def _find_problem(modifier: Modifier, part: Surface) -> str | None:

@@ -62,6 +62,8 @@ class VoidMeshes:
         mm³ of infill that was left out: pieces that float where the part was cut open, or that slicers do not print.
     deferred : DeferredVoids or None
         Set in place of surfaces until they are made.
+    divided : tuple of str
+        The regions that a wall divides from other patterns: see `infill.lattices.joining`.
     """
 
     layout: Layout
@@ -72,6 +74,7 @@ class VoidMeshes:
     walls: Surface | None = None
     loose: float = 0.0
     deferred: DeferredVoids | None = None
+    divided: tuple[str, ...] = ()
 
     @property
     def space(self) -> Interior:
@@ -132,15 +135,15 @@ class VoidMeshes:
     @property
     def density(self) -> float:
         """Solid share of the space inside the walls."""
-        return 1 - self.volume / self._room_volume
+        return 1 - self.volume / self.room_volume
 
     @property
     def density_before(self) -> float:
         """Density before anything was left out."""
-        return 1 - (self.volume - self.loose) / self._room_volume
+        return 1 - (self.volume - self.loose) / self.room_volume
 
     @cached_property
-    def _room_volume(self) -> float:
+    def room_volume(self) -> float:
         """Volume inside the walls, mm³."""
         return self.space.volume if self.walls is None else self.walls.volume
 
