@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 import manifold3d
@@ -12,11 +13,16 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from made_shapes import box
+from test_3mf_parts import BAMBU, COLUMN, PART, PRUSA, component, group, model, packed, prusa_config, thing, volume
+from test_command_line import run
 
-from infill import GeometryError, ParameterError, Region, UsageError, fill
+from infill import GeometryError, ParameterError, Region, UsageError, fill, read_mesh, save
+from infill.errors import FormatError
+from infill.formats.volume_settings import SLICER_PATTERNS
 from infill.interior.local_walls import LocalWall, subtract_walls
 from infill.isosurfaces.components import shell_names
 from infill.lattices.areas import find_areas
+from infill.lattices.modifiers import add_modifiers
 from infill.lattices.regions import parse_region
 from infill.lattices.request import check_request
 from infill.lattices.settings import resolve
@@ -260,8 +266,118 @@ def test_a_pattern_in_a_region_has_the_defaults_of_its_kind() -> None:
         )
 
 
+def prusa_project(path: Path, **settings: str) -> Path:
+    """A part and a modifier, in a project whose perimeters are 0.5 and 0.4 mm wide."""
+    told = prusa_config(
+        volume(0, 11, volume_type="ModelPart"),
+        volume(12, 23, volume_type="ParameterModifier", name="boss", **settings),
+    )
+    widths = "; external_perimeter_extrusion_width = 0.5\n; perimeter_extrusion_width = 0.4\n; extrusion_width = 0.45"
+    return packed(path, model(thing(1, PART, COLUMN)), **{PRUSA: told, "Metadata/Slic3r_PE.config": widths})
+
+
+def bambu_project(path: Path, **settings: str) -> Path:
+    """The same as Bambu Studio and OrcaSlicer write it."""
+    rows = "".join(f'<metadata key="{key}" value="{value}"/>' for key, value in {"name": "boss", **settings}.items())
+    parts = f'<part id="1" subtype="normal_part"/><part id="2" subtype="modifier_part">{rows}</part>'
+    things = thing(1, PART) + thing(2, COLUMN, kind="other") + group(3, component(1), component(2))
+    widths = '{"outer_wall_line_width": ["0.5"], "inner_wall_line_width": "0.4", "line_width": "0.45", "x": 3}'
+    config = {BAMBU: f'<config><object id="3">{parts}</object></config>', "Metadata/project_settings.config": widths}
+    return packed(path, model(things, '<item objectid="3"/>'), **config)
+
+
+KEYS_OF = {
+    prusa_project: ("fill_density", "fill_pattern", "perimeters"),
+    bambu_project: ("sparse_infill_density", "sparse_infill_pattern", "wall_loops"),
+}
+
+
+@pytest.mark.parametrize("write", KEYS_OF)
+@pytest.mark.parametrize(
+    ("values", "expected", "notes"),
+    [
+        (("60%", "3dhoneycomb", "3"), (0.6, "honeycomb-3d", 1.3), "60 % infill, infill pattern 3dhoneycomb and walls"),
+        (("", "grid", ""), (None, "grid", None), "is a modifier with infill pattern grid, not a part"),
+        (("", "", "4"), (None, None, 1.7), "is a modifier with walls of 1.7 mm, not a part"),
+        (("30%", "crosszag", ""), (0.3, None, None), "its infill pattern crosszag has no equivalent, so that of the"),
+        (("100%", "concentric", "2"), (None, None, 0.9), "regions have a density of 1% to 90%, so that of the part"),
+        (("40%", "", "0"), (0.4, None, None), "it has no walls, and a region keeps its shell, so that of the part"),
+    ],
+)
+def test_a_modifier_of_a_slicer_has_its_pattern_and_its_walls(
+    write: Any, values: tuple[str, ...], expected: tuple[Any, ...], notes: str, tmp_path: Path
+) -> None:
+    """Perimeters times their widths; names as they are here; what has no equivalent is said."""
+    settings = {key: value for key, value in zip(KEYS_OF[write], values, strict=True) if value}
+    part = read_mesh(write(tmp_path / "project.3mf", **settings))
+    noted, request = add_modifiers(part, check_request(pattern="gyroid", own={}))
+    (region,) = request.regions
+    assert (region.density, region.pattern, region.wall) == expected
+    assert notes in "; ".join(noted.notes)
+
+
+@pytest.mark.parametrize("values", [("100%", "concentric", ""), ("", "crosszag", "")])
+def test_a_modifier_without_a_setting_that_a_fill_has_is_left_out(values: tuple[str, ...], tmp_path: Path) -> None:
+    """As the infill of a project that infill itself wrote."""
+    settings = {key: value for key, value in zip(KEYS_OF[prusa_project], values, strict=True) if value}
+    part = read_mesh(prusa_project(tmp_path / "project.3mf", **settings))
+    noted, request = add_modifiers(part, check_request(pattern="gyroid", own={}))
+    assert request.regions == ()
+    assert "is left out, as" in noted.notes[-1]
+
+
+def test_every_name_of_a_slicer_is_that_of_a_pattern_here() -> None:
+    assert set(SLICER_PATTERNS.values()) <= set(PATTERNS)
+
+
+@pytest.mark.longest
+def test_a_project_is_filled_with_the_pattern_and_the_walls_of_its_modifier(tmp_path: Path) -> None:
+    path = prusa_project(tmp_path / "project.3mf", fill_density="40%", fill_pattern="grid", perimeters="4")
+    result = fill(read_mesh(path), density=0.2, **COARSE)
+    assert_one_solid(result)
+    rest, region = result.report["regions"]
+    assert (region["pattern"], region["wall"]) == ("grid", 1.7)
+    assert region["least"] == pytest.approx(1.7, abs=0.06)
+    assert [rest["density"], region["density"]] == pytest.approx([0.2, 0.4], abs=2 * HALF_A_POINT)
+
+
 def test_settings_of_regions_are_saved_and_read_again() -> None:
     words = ["z=10..20:density=40%,pattern=grid,wall=1.6", "box=0,0,0,1,2,3:pattern=octet", "z=..5:wall=2"]
     request = resolve({"region": words}).request
     assert request.facts()["region"] == words
     assert [region.wall for region in request.regions] == [1.6, None, 2.0]
+
+
+@pytest.mark.parametrize(
+    ("region", "says"),
+    [
+        ("z=0..:density=40%,pattern=/etc/far.svg", "asks to read a file from elsewhere: region"),
+        ("z=0..:pattern=/etc/far.svg,wall=2", "asks to read a file from elsewhere: region"),
+        ("z=0..:pattern=mine.py:walls", "asks to run code: region"),
+        ("z=0..:pattern=mine.py:walls,density=40%", "asks to run code: region"),
+        ("/etc/far.stl:wall=2,pattern=grid", "asks to read a file from elsewhere: region"),
+    ],
+)
+def test_a_config_file_reads_no_pattern_from_elsewhere(region: str, says: str, tmp_path: Path) -> None:
+    (tmp_path / "theirs.toml").write_text(f'region = ["{region}"]\n')
+    with pytest.raises(FormatError, match=says):
+        resolve({}, config=tmp_path / "theirs.toml")
+
+
+def test_a_config_file_may_name_patterns_and_walls(tmp_path: Path) -> None:
+    (tmp_path / "mine.toml").write_text('region = ["z=0..:pattern=grid,density=40%", "0-5mm:wall=2mm"]\n')
+    request = resolve({}, config=tmp_path / "mine.toml").request
+    assert request.facts()["region"] == ["z=0..:density=40%,pattern=grid", "z=0..5:wall=2"]
+
+
+@pytest.mark.longest
+def test_the_command_tells_patterns_and_walls_of_regions(tmp_path: Path) -> None:
+    save(box(20, 16, 16), tmp_path / "part.stl")
+    words = ["fill", str(tmp_path / "part.stl"), "--wall", "1", "--cell", "4", "--voxel", "0.4", "--density", "20%"]
+    result = run(*words, "--region", "z=0..:pattern=grid,density=40%,wall=1.6", "-o", str(tmp_path / "out.stl"))
+    assert result.exit_code == 0
+    assert "% grid in z=0.. with a wall of 1.6 mm" in " ".join(result.output.split())
+    for extra in (["--dry-run"], ["-o", str(tmp_path / "no.stl")]):
+        broken = run(*words, "--line-width", "0.5", "--region", "z=0..:pattern=grid,density=40%", *extra)
+        assert broken.exit_code != 0
+    assert not (tmp_path / "no.stl").exists()

@@ -18,6 +18,7 @@ from infill.errors import UsageError
 from infill.formats.units import to_surface
 from infill.interior.interior import BYTES_PER_CELL, Interior, added_length, grid_for_part
 from infill.interior.opening import clip_to_opening, cut_open
+from infill.lattices.areas import find_areas
 from infill.lattices.at_skin import drop_crumbs, subtract_voids
 from infill.lattices.bodies import Fields
 from infill.lattices.drain_holes import DrainedSolid, check_drain_width, drill_drains
@@ -355,6 +356,7 @@ def plan_fill(part: Surface, request: FillSpec, *, threads: int | None = None) -
     """Return the report of a dry run."""
     part, request = add_modifiers(part, request)
     task = FillTask.of(part, request, threads=threads)
+    find_areas(request)  # raises an error if the pattern of a region cannot be had
     request, (cell, width) = task.request, choose_sizes(task)
     voxel = choose_voxel(task, cell, width)
     further = added_length(request.open_, max(request.walls), request.beyond, voxel)
