@@ -103,13 +103,29 @@ def test_voids_that_stay_sealed_are_told() -> None:
     assert bool(result.report["voids"]["closed"]) == any("sealed" in text for text in result.report["problems"])
 
 
+def planes(x: Any, y: Any, z: Any) -> Any:
+    return np.sin(y)
+
+
 @pytest.mark.longest
 def test_a_wall_divides_patterns_that_would_hang_free() -> None:
-    """Below a flat roof, lightning leaves the middle empty, where a box of gyroid touches nothing."""
-    region = Region(pattern="gyroid", density=0.3, box=(-6, -5, -5, 6, 5, 0))
-    result = fill(box(*SIDES), "lightning", regions=[region], wall=1, voxel=0.4)
+    """Walls parallel to those around them touch nothing at the sides of a box."""
+    region = Region(pattern=planes, density=0.4, box=(-5, -4, -4, 5, 4, 4))
+    result = fill(box(*SIDES), "rectilinear", density=0.2, regions=[region], wall=1, voxel=0.4)
     assert_one_solid(result)
-    assert result.report["regions"][1]["density"] == pytest.approx(0.3, abs=2 * HALF_A_POINT)
+    assert result.report["voids"]["islands"] == 0
+    assert any(text.startswith("a wall divides the region box=-5,-4,-4,5,4,4") for text in result.report["problems"])
+    assert not any("a wall divides" in text for text in filled("gyroid", f"{HALF}:pattern=grid").report["problems"])
+
+
+@pytest.mark.longest
+def test_a_region_of_lightning_and_one_within_it() -> None:
+    """Its branches reach only what lies below roofs, and have as many lines there as the whole part."""
+    region = Region(pattern="gyroid", density=0.3, box=(-6, -5, -5, 6, 5, 0))
+    assert_one_solid(fill(box(*SIDES), "lightning", regions=[region], wall=1, voxel=0.4))
+    result = filled("gyroid", f"{HALF}:pattern=lightning", density=0.2)
+    assert_one_solid(result)
+    assert result.report["regions"][1]["wanted"] is None
 
 
 @pytest.mark.longest
