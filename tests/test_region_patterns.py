@@ -23,6 +23,7 @@ from infill.interior.local_walls import LocalWall, subtract_walls
 from infill.isosurfaces.components import shell_names
 from infill.lattices.areas import find_areas
 from infill.lattices.modifiers import add_modifiers
+from infill.lattices.placed_regions import place_region
 from infill.lattices.regions import parse_region
 from infill.lattices.request import check_request
 from infill.lattices.settings import resolve
@@ -68,7 +69,7 @@ def assert_one_solid(result: Any) -> None:
     assert to_manifold(result.surface).volume() == pytest.approx(result.report["volume"], rel=1e-6)
 
 
-@pytest.mark.longest
+@pytest.mark.long
 @pytest.mark.parametrize("pattern", ["grid", "octet", "cubic", "gyroid-network"])
 def test_a_pattern_in_a_region_is_that_of_a_whole_fill_there_and_nowhere_else(pattern: str) -> None:
     """A level set, lines, planes, bars and a network, in cells of one size, so that the geometry is the same too."""
@@ -179,6 +180,22 @@ def test_a_wall_in_a_region_is_that_of_a_whole_fill_there_and_nowhere_else(wall:
     assert unlike(result, filled(pattern, density=0.2), outside) < ALIKE
     skin = voids_in(result, (0.5, -9, 9 - wall + 0.06), (12, 9, 9)).volume()
     assert skin == pytest.approx(0, abs=1e-6)
+
+
+def test_depths_in_a_region_are_those_of_its_border() -> None:
+    """Of a box that goes as far as the part, the sides there count as none; a mesh has the depths of a box."""
+    bounds = np.array([[-5.0, -5, -5], [5, 5, 5]])
+    points = np.array([[0.0, 0, 0], [3, 0, 4.5], [-4, 0, 0], [4.9, 4.9, 4.9], [0, 0, -9]])
+    half = place_region(Region(wall=2, box=(-1, -5, -5, 5, 5, 5)))
+    assert half.depths_at(points, bounds, near=1.0, threads=1).tolist() == pytest.approx([1, 4, -3, 5.9, 1])
+    cube = place_region(Region(wall=2, mesh=box(4, 4, 4)))
+    assert cube.depths_at(points, bounds, near=1.0, threads=1).tolist()[:1] == pytest.approx([2])
+    assert cube.depths_at(points, bounds, near=1.0, threads=1).tolist()[3:] == [-np.inf, -np.inf]
+    cells = Volume(values=np.zeros((11, 11, 11), dtype=bool), spacing=(1, 1, 1), origin=(-5.5, -5.5, -5.5))
+    same = place_region(Region(wall=2, box=(-2, -2, -2, 2, 2, 2)))
+    inside, outside = (region.measure_depths(cells, bounds, 3.0, None) for region in (cube, same))
+    assert np.array_equal(inside > 0, outside > 0)
+    assert inside[5, 5, 5] == outside[5, 5, 5] == 2
 
 
 @pytest.mark.longest

@@ -47,6 +47,7 @@ THIN = 0.8  # mm: two lines of a nozzle of 0.4
 HAIRLINE = 0.2  # mm: the thinnest walls that printers with resin and powder are sure to make
 USUAL = 2.0  # times the default density, or as many times less: a density outside was hardly wanted
 AT_ONCE = 50_000  # triangles or points in a batch
+MOST_POINTS = 100_000  # at which the walls of regions are measured
 LEAST_WALL = 0.9  # of the requested wall
 
 
@@ -248,22 +249,27 @@ def _wall_at(request: FillSpec, number: int) -> float | None:
 def measure_region_walls(task: FillTask, hollow: VoidMeshes) -> list[float | None]:
     """Measure the least distance of voids from the skin in the rest and in each region, mm; None without voids there.
 
-    Points within a cell of the grid of any border do not count, nor do those beyond an open side.
+    Points within a cell of the grid of any border do not count, nor do those beyond an open side. Of very many points,
+    only every n-th is measured; the least wall of the whole part is that of all.
     """
     space, regions = hollow.space, task.request.regions
     bounds = np.asarray(space.part.bounds, dtype=np.float64)
     tree = TriangleTree.of(space.part if space.opening is None else space.opening.shell)
+    if not hollow.surfaces:
+        return [None] * (1 + len(regions))
+    count = sum(len(surface.vertices) + len(surface.faces) for surface in hollow.surfaces)
+    stride = max(1, count // MOST_POINTS)
+    points = np.concatenate([batch[::stride] for batch in chain.from_iterable(map(_point_batches, hollow.surfaces))])
+    if space.opening is not None:
+        points = points[space.opening.inside(points[:, 2])]
+    number, is_near = np.zeros(len(points), dtype=int), np.zeros(len(points), dtype=bool)
+    for order, region in enumerate(regions, 1):
+        depths = region.depths_at(points, bounds, near=space.size, threads=task.threads)
+        number[depths > 0] = order
+        is_near |= np.abs(depths) < space.size
+    distances, _ = tree.nearest(points[~is_near], threads=task.threads)
     least = np.full(1 + len(regions), np.inf)
-    for points in chain.from_iterable(map(_point_batches, hollow.surfaces)):
-        if space.opening is not None:
-            points = points[space.opening.inside(points[:, 2])]
-        number, is_near = np.zeros(len(points), dtype=int), np.zeros(len(points), dtype=bool)
-        for order, region in enumerate(regions, 1):
-            depths = region.depths_at(points, bounds, task.threads)
-            number[depths > 0] = order
-            is_near |= np.abs(depths) < space.size
-        distances, _ = tree.nearest(points[~is_near], threads=task.threads)
-        np.minimum.at(least, number[~is_near], distances)
+    np.minimum.at(least, number[~is_near], distances)
     return [wall if np.isfinite(wall) else None for wall in least.tolist()]
 
 

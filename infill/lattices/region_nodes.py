@@ -124,14 +124,30 @@ class PlacedRegion:
         inside = fill_rows(intersect_rows(corners, self.surface.faces, shape), shape)
         return distances_in_cells(self.surface, replace(cells, values=inside), reach, several=False, threads=threads)
 
-    def depths_at(self, points: Floats, bounds: Floats, threads: int | None) -> Floats:
-        """Measure how far points (N, 3), mm, lie inside the region, (N,) mm; outside, it is negative."""
+    def depths_at(self, points: Floats, bounds: Floats, *, near: float, threads: int | None) -> Floats:
+        """Measure how far points (N, 3), mm, lie inside the region, (N,) mm; outside, it is negative.
+
+        Parameters
+        ----------
+        points : (N, 3) float64, mm
+        bounds : (2, 3) float64
+            Of the part, mm.
+        near : float
+            mm: points further outside of the box around a mesh are infinitely far.
+        threads : int, optional
+        """
         if self.surface is None:
             low, high = self.ends(bounds)
             depths: Floats = np.minimum(points - low, high - points).min(axis=1)
             return depths
-        distances, _ = TriangleTree.of(self.surface).nearest(points, threads=threads)
-        return np.where(winding_numbers(points, self.surface, threads=threads) != 0, distances, -distances)
+        depths = np.full(len(points), -np.inf)
+        is_near = ((points > self.low - near) & (points < self.high + near)).all(axis=1)
+        if is_near.any():
+            chosen = points[is_near]
+            distances, _ = TriangleTree.of(self.surface).nearest(chosen, threads=threads)
+            is_inside = winding_numbers(chosen, self.surface, threads=threads) != 0
+            depths[is_near] = np.where(is_inside, distances, -distances)
+        return depths
 
     def cover(self, space: Interior, counts: tuple[int, ...], *, step: float) -> NDArray[np.uint8]:
         """Return how much of the box around each point of a grid the region covers, `counts`, from 0 to `FULL`."""
