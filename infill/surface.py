@@ -59,19 +59,28 @@ class Edges:
 
 @dataclass(frozen=True, kw_only=True)
 class Modifier:
-    """A volume of a slicer's project in which another infill density is set.
+    """A volume of a slicer's project in which infill or walls are set.
 
     Parameters
     ----------
     name : str
     surface : Surface, mm
-    density : float
-        The share that the slicer fills, 0 to 1.
+    density : float or None
+        The share that the slicer fills, 0 to 1; None if it is that of the part.
+    pattern : str or None
+        The pattern; None if it is that of the part, or has no equivalent.
+    slicer_pattern : str or None
+        The slicer's name of it.
+    wall : float or None
+        Thickness of the slicer's perimeters, mm; None if they are those of the part.
     """
 
     name: str
     surface: Surface
-    density: float
+    density: float | None = None
+    pattern: str | None = None
+    slicer_pattern: str | None = None
+    wall: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

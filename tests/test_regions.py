@@ -154,7 +154,7 @@ def test_other_forms_have_regions_too(form: str) -> None:
             "z=100..120 lies outside the part; the part spans x -10 to 10, y -9 to 9",
         ),
         ("z=7.5..20:density=40%", GeometryError, "holds nothing of the space inside the walls; the part spans"),
-        ("z=1..2", UsageError, "region is 'z=1..2'; give a place and a density"),
+        ("z=1..2", UsageError, "region is 'z=1..2'; give a place and a setting"),
         ("z=a..2:density=40%", UsageError, "give numbers in mm"),
         ("box=1,2,3:density=40%", UsageError, "give six numbers"),
         ("box=1,2,3,x,5,6:density=40%", UsageError, "give numbers in mm"),
@@ -323,5 +323,5 @@ def test_places_as_people_type_them() -> None:
         assert parse_region("region", f"{text}:density=60%").z == (0.0, 10.0)
     assert parse_region("region", "-5--1:density=60%").z == (-5.0, -1.0)
     assert parse_region("region", "part-2.stl:density=60%").mesh == "part-2.stl"
-    with pytest.raises(UsageError, match="give a place and a density, such as z=10"):
+    with pytest.raises(UsageError, match="give a place and a setting, such as z=10"):
         parse_region("region", "middle:density=60%")

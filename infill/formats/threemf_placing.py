@@ -31,12 +31,12 @@ from infill.formats.threemf_roles import (
     BAMBU_CONFIG,
     MODIFIER,
     NEGATIVE,
+    NONE,
     PART,
     TriangleRange,
     bambu_parts,
     cura_role,
     cura_settings,
-    infill_density,
     is_part_type,
     object_key,
     prusa_volumes,
@@ -44,10 +44,11 @@ from infill.formats.threemf_roles import (
     slic3r_volumes,
     whole_number,
 )
+from infill.formats.volume_settings import VolumeSettings, find_pattern, parse_project_settings, read_settings
 from infill.imaging.label_tables import Colour
 from infill.meshes.merging import merge_unless_closed
 from infill.meshes.solids import subtract
-from infill.plain_numbers import count_noun, plain_argument, plain_number
+from infill.plain_numbers import count_noun, plain_number
 from infill.surface import Modifier, Surface
 
 IDENTITY = "1 0 0 0 1 0 0 0 1 0 0 0"
@@ -57,6 +58,7 @@ MOST_PLACED = 100_000  # objects: nested components can request any number in a 
 MOST_PLACED_ROWS = 100_000_000  # triangles and vertices
 MOST_NESTED = 20  # components in one another
 COLOUR = re.compile("#([0-9a-fA-F]{2})([0-9a-fA-F]{2})([0-9a-fA-F]{2})(?:[0-9a-fA-F]{2})?")
+PROJECT_CONFIGS = re.compile(r"metadata/(slic3r_pe|superslicer|project_settings)\.config")  # of whole projects
 PRUSA_CONFIGS = re.compile(r"metadata/[^/]*_model\.config")  # of PrusaSlicer and its forks
 
 Key = tuple[str, str]  # a file of the package, and the number of an object in it
@@ -140,30 +142,40 @@ class PackageReading:
         return self.objects[part].get(number)
 
     @cached_property
+    def project(self) -> dict[str, str]:
+        """The settings of the whole project by key."""
+        texts = (self.package.read(self.parts[name]) for name in sorted(self.parts) if PROJECT_CONFIGS.fullmatch(name))
+        settings: dict[str, str] = {}
+        for text in texts:
+            settings = {**parse_project_settings(text.decode("utf-8", "replace")), **settings}
+        return settings
+
+    @cached_property
     def prusa(self) -> dict[str, list[TriangleRange]]:
         """Volumes by object in the settings of PrusaSlicer and its relatives."""
         volumes: dict[str, list[TriangleRange]] = {}
         for name in sorted(self.parts):
             if PRUSA_CONFIGS.fullmatch(name):
                 with wrap_reader_errors(self.path, f"has a broken {excerpt(name)}", EXPORT_ADVICE):
-                    volumes = {**prusa_volumes(parse_xml(self.package.read(self.parts[name]), self.path)), **volumes}
+                    config = parse_xml(self.package.read(self.parts[name]), self.path)
+                    volumes = {**prusa_volumes(config, self.project), **volumes}
         return volumes
 
     @cached_property
-    def bambu(self) -> dict[str, dict[str, tuple[str, str, float | None]]]:
+    def bambu(self) -> dict[str, dict[str, tuple[str, str, VolumeSettings]]]:
         """Roles of parts by object in the settings of Bambu Studio and OrcaSlicer."""
         if part_key(BAMBU_CONFIG) not in self.parts:
             return {}
         with wrap_reader_errors(self.path, f"has a broken {BAMBU_CONFIG}", EXPORT_ADVICE):
-            return bambu_parts(parse_xml(read_entry(self.package, BAMBU_CONFIG), self.path))
+            return bambu_parts(parse_xml(read_entry(self.package, BAMBU_CONFIG), self.path), self.project)
 
-    def told_role(self, chain: tuple[Key, ...]) -> tuple[str, str, float | None]:
-        """Return role, name and infill density of an object in the build by Bambu Studio and OrcaSlicer.
+    def told_role(self, chain: tuple[Key, ...]) -> tuple[str, str, VolumeSettings]:
+        """Return role, name and settings of an object in the build by Bambu Studio and OrcaSlicer.
 
         They write every object except parts with the type "other", so for a negative volume the role counts.
         """
         (top_part, top), (_, number) = chain[0], chain[-1]
-        is_part = PART, "", None
+        is_part = PART, "", NONE
         return self.bambu.get(top, {}).get(number, is_part) if top_part == self.main else is_part
 
     def note(self, text: str) -> None:
@@ -194,8 +206,8 @@ class PackageReading:
             self.note(f"{excerpt(part)} is in {excerpt(model_unit)}, and read in {build_unit}, as what is built says")
         if (element_name := element.get("name")) and excerpt(element_name):
             name = f"{name} '{excerpt(element_name)}'"
-        told, _, told_density = self.told_role(chain)
-        is_modifier = told == MODIFIER and told_density is not None
+        told, _, told_settings = self.told_role(chain)
+        is_modifier = told == MODIFIER and told_settings.is_any
         if not is_part_type(element.get("type")) and told != NEGATIVE and not is_modifier:
             self.note(f"{name} is of type '{excerpt(element.get('type', ''))}', not a part: it is left out")
             return
@@ -203,7 +215,7 @@ class PackageReading:
         if (role := cura_role(settings)) != PART:
             mesh = (model.mesh_of(element) or (None, None))[1]
             surface = None if mesh is None or mesh.fault else self._place(mesh.vertices, mesh.faces, outer)
-            self._leave_out(name, role, infill_density(cura_settings(settings)), surface)
+            self._leave_out(name, role, read_settings(cura_settings(settings)), surface)
             return
         self._note_extensions(model, element, name)
         if model.mesh_of(element) is not None:
@@ -222,12 +234,12 @@ class PackageReading:
         if mesh.fault:
             raise FormatError(f"{self.path} has {mesh.fault}; {EXPORT_ADVICE}")
         self._count_rows(len(mesh.faces) + len(mesh.vertices))
-        role, role_name, density = self.told_role(chain)
+        role, role_name, settings = self.told_role(chain)
         if role_name and excerpt(role_name):
             name = f"object {excerpt(number)} '{excerpt(role_name)}'"
         placed = self._place(mesh.vertices, mesh.faces, outer)
         if role not in (PART, NEGATIVE):
-            self._leave_out(name, role, density, placed)
+            self._leave_out(name, role, settings, placed)
             return
         vertices, faces = placed.vertices, placed.faces
         ranges = [] if part != self.main and self.find(self.main, number) is not None else self.prusa.get(number, [])
@@ -269,7 +281,7 @@ class PackageReading:
                     colour=colour,
                 )
             else:
-                self._leave_out(label, volume.role, volume.density, surface)
+                self._leave_out(label, volume.role, volume.settings, surface)
         if not covered.all():
             self.note(f"left out {count_noun(int((~covered).sum()), 'triangle')} of {name} that no volume of it covers")
 
@@ -279,14 +291,23 @@ class PackageReading:
         outwards = faces[:, :: -1 if np.linalg.det(outer[:3]) < 0 else 1]
         return Surface(vertices=vertices @ outer[:3] + outer[3], faces=outwards)
 
-    def _leave_out(self, name: str, role: str, density: float | None, surface: Surface | None) -> None:
-        """Note a volume that is not a part; keep a modifier that has an infill density."""
-        if role != MODIFIER or density is None or surface is None or not len(surface.faces):
+    def _leave_out(self, name: str, role: str, settings: VolumeSettings, surface: Surface | None) -> None:
+        """Note a volume that is not a part; keep a modifier with settings of infill or walls."""
+        if role != MODIFIER or not settings.is_any or surface is None or not len(surface.faces):
             self.note(f"{name} is a {role}, not a part: it is left out")
             return
-        percent = plain_argument(100 * density)
-        self.note(f"{name} is a modifier with {percent} % infill, not a part: only 'infill fill' uses it")
-        self.modifiers.append(Modifier(name=name, surface=surface, density=density))
+        self.note(f"{name} is a modifier with {settings.text}, not a part: only 'infill fill' uses it")
+        pattern = None if settings.pattern is None else find_pattern(settings.pattern)
+        self.modifiers.append(
+            Modifier(
+                name=name,
+                surface=surface,
+                density=settings.density,
+                pattern=pattern,
+                slicer_pattern=settings.pattern,
+                wall=settings.wall,
+            )
+        )
 
     def _count_rows(self, rows: int) -> None:
         """Count triangles and vertices that are placed, or raise FormatError."""

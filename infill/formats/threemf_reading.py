@@ -51,7 +51,7 @@ def read_3mf(
     """Read the parts that a 3MF builds, where their components and transforms place them.
 
     Modifiers, blockers and enforcers of supports, objects of types other than "model", and items that are not to be
-    printed are left out; negative volumes are taken off. Modifiers with an infill density are returned apart.
+    printed are left out; negative volumes are taken off. Modifiers with settings of infill or walls are returned apart.
 
     Parameters
     ----------

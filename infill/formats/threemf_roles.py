@@ -8,10 +8,11 @@ Cura                         settings of objects
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from xml.etree import ElementTree
+
+from infill.formats.volume_settings import VolumeSettings, read_settings
 
 PART, NEGATIVE, MODIFIER = "part", "negative", "modifier"
 PRUSA_CONFIG, BAMBU_CONFIG = "Metadata/Slic3r_PE_model.config", "Metadata/model_settings.config"
@@ -36,9 +37,8 @@ CURA_ROLES = {
     "anti_overhang_mesh": "support blocker",
 }
 CURA_NAMESPACE = "http://software.ultimaker.com/xml/cura/3mf/2015/10"
+NONE = VolumeSettings()
 LONGEST_ID = 18  # digits of a number of an object
-DENSITIES = ("fill_density", "sparse_infill_density", "infill_sparse_density")  # of PrusaSlicer, Bambu Studio and Cura
-PERCENT = re.compile(r"\s*(\d{1,3}(?:\.\d+)?)\s*%?\s*")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,15 +51,15 @@ class TriangleRange:
         As in the file: counted from 0, both inclusive.
     role : str
     name : str
-    density : float or None
-        Infill density, 0 to 1, if the volume has one of its own.
+    settings : VolumeSettings
+        Of its own.
     """
 
     first: str
     last: str
     role: str
     name: str
-    density: float | None = None
+    settings: VolumeSettings = NONE
 
     def span(self, count: int) -> tuple[int, int] | None:
         """Return the first triangle and the one behind the last; None if a mesh with `count` triangles lacks them.
@@ -97,16 +97,6 @@ def metadata_of(element: ElementTree.Element) -> dict[str, str]:
     return {entry.get("key", ""): entry.get("value", "") for entry in element.findall("metadata")}
 
 
-def infill_density(settings: Mapping[str, str]) -> float | None:
-    """Return the infill density among settings by key, 0 to 1; None without one that can be read.
-
-    >>> infill_density({"fill_density": "60%"}), infill_density({"infill_sparse_density": "25"}), infill_density({})
-    (0.6, 0.25, None)
-    """
-    found = next((match for key in DENSITIES if (match := PERCENT.fullmatch(settings.get(key, "")))), None)
-    return None if found is None or float(found[1]) > 100 else float(found[1]) / 100
-
-
 def prusa_role(volume: ElementTree.Element) -> str:
     """Return this package's role of a PrusaSlicer volume: the last row with a role counts; otherwise a part.
 
@@ -123,8 +113,15 @@ def prusa_role(volume: ElementTree.Element) -> str:
     return role
 
 
-def prusa_volumes(config: ElementTree.Element) -> dict[str, list[TriangleRange]]:
-    """Return the volumes of objects by object number; raise ValueError if an object occurs twice."""
+def prusa_volumes(config: ElementTree.Element, project: Mapping[str, str]) -> dict[str, list[TriangleRange]]:
+    """Return the volumes of objects by object number; raise ValueError if an object occurs twice.
+
+    Parameters
+    ----------
+    config : Element
+    project : mapping
+        The settings of the whole project, by key.
+    """
     volumes_of: dict[str, list[TriangleRange]] = {}
     for item in config.findall("object"):
         key = object_key(item.get("id"))
@@ -136,7 +133,7 @@ def prusa_volumes(config: ElementTree.Element) -> dict[str, list[TriangleRange]]
                 last=volume.get("lastid", ""),
                 role=prusa_role(volume),
                 name=metadata_of(volume).get("name", ""),
-                density=infill_density(metadata_of(volume)),
+                settings=read_settings(metadata_of(volume), project),
             )
             for volume in item.findall("volume")
         ]
@@ -159,14 +156,16 @@ def slic3r_volumes(mesh: ElementTree.Element) -> list[TriangleRange]:
     ]
 
 
-def bambu_parts(config: ElementTree.Element) -> dict[str, dict[str, tuple[str, str, float | None]]]:
-    """Return role, name and infill density of the parts of the build, by object and part number."""
+def bambu_parts(
+    config: ElementTree.Element, project: Mapping[str, str]
+) -> dict[str, dict[str, tuple[str, str, VolumeSettings]]]:
+    """Return role, name and settings of the parts of the build, by object and part number."""
     return {
         object_key(item.get("id")): {
             object_key(part.get("id")): (
                 BAMBU_ROLES.get(part.get("subtype", "normal_part"), PART),
                 metadata_of(part).get("name", ""),
-                infill_density(metadata_of(part)),
+                read_settings(metadata_of(part), project),
             )
             for part in item.findall("part")
         }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 from infill.errors import GeometryError
 from infill.grid import Grid
 from infill.interior.layer_stack import WHOLE, LayerStack, split_into_slabs
+from infill.interior.local_walls import LocalWall, subtract_walls
 from infill.interior.opening import ENDS, Open, Opening, extend_ends, find_flat_ends
 from infill.machine import require_memory
 from infill.meshes.solids import FINE, manifold_status, unite
@@ -55,7 +57,7 @@ class Interior:
     overlap : float
         Share of the volume that components of `part` enclose twice, after repairs.
     wall : float
-        mm
+        mm; the thickest one, if places have others.
     walled : Interior or None
         The space inside the walls, if voids reach through them here.
     through : float
@@ -171,6 +173,7 @@ def compute_interior(
     *,
     wall: float,
     voxel: float,
+    places: Sequence[LocalWall] = (),
     open_: Open | None = None,
     beyond: float = 0.0,
     held: int = 0,
@@ -180,7 +183,8 @@ def compute_interior(
 ) -> Interior:
     """Compute the inside of a part, without a wall, mm, along all of its skin except its open sides.
 
-    Beyond these, the inside goes on for `beyond`, mm; where the wall is 0, voids may reach as far out of all the skin.
+    In `places`, the wall has another thickness; where they overlap, that of the last one. Beyond open sides, the inside
+    goes on for `beyond`, mm; where the wall is 0, voids may reach as far out of all the skin.
     `held` is the number of additional bytes for each cell. With `slabs`, a large space is kept in slabs.
 
     Raises
@@ -191,16 +195,17 @@ def compute_interior(
         If the grid does not fit into memory.
     """
     extents = np.ptp(part.bounds, axis=0)
-    further = added_length(open_, wall, beyond, voxel)
+    thinnest, thickest = (choose((wall, *(place.wall for place in places))) for choose in (min, max))
+    further = added_length(open_, thickest, beyond, voxel)
     sides = plain_size(*extents)
     nowhere = (
-        f"is {plain_argument(wall)} mm, and the part, {sides}, is nowhere thicker than two of those; give a thinner "
-        f"wall{', or the right unit' if extents.max() < TINY else ''}"
+        f"is {plain_argument(thinnest)} mm, and the part, {sides}, is nowhere thicker than two of those; give a "
+        f"thinner wall{', or the right unit' if extents.max() < TINY else ''}"
     )
     # Checked first, as measuring may take long; a flat sheet has a separate message.
-    if extents.min() > 0 and (extents + further * UP).min() <= 2 * wall:
+    if extents.min() > 0 and (extents + further * UP).min() <= 2 * thinnest:
         raise GeometryError.about("wall", nowhere)
-    outside = BEYOND if wall else BEYOND + beyond / voxel
+    outside = BEYOND if thinnest else BEYOND + beyond / voxel
     margin = MARGIN + math.ceil(outside - BEYOND)
     grid = grid_for_part(part, voxel=voxel, further=further, margin=margin)
     advice = f"the grid has {' x '.join(map(str, grid.shape))} cells; give larger voxels or larger cells"
@@ -214,12 +219,11 @@ def compute_interior(
         longer = extend_ends(closed_part, lids, further / len(lids))
         cells = voxelise_with_report(longer, voxel=voxel, margin=MARGIN, max_memory=max_memory).volume
     # Thin gaps between components count too, but not faces inside the solid.
-    reach, is_overlapping = wall / voxel + BAND + outside - BEYOND, overlap > LEAST_OVERLAP
+    reach, is_overlapping = thickest / voxel + BAND + outside - BEYOND, overlap > LEAST_OVERLAP
 
     def depths_of(volume: Volume) -> NDArray[np.float32]:
         depths = distances_in_cells(longer, volume, reach, several=is_overlapping, threads=threads)
-        depths -= np.float32(wall / voxel)
-        return depths
+        return subtract_walls(depths, volume, wall, places, BAND + outside)
 
     origin = np.array(cells.origin) + voxel / 2
     if slabs and not is_overlapping and cells.values.size > WHOLE:
@@ -238,7 +242,7 @@ def compute_interior(
         repairs=repairs,
         skin=skin,
         overlap=overlap,
-        wall=wall,
+        wall=thickest,
         opening=opening,
         outside=outside,
     )
@@ -248,7 +252,7 @@ def compute_interior(
             raise GeometryError.about(
                 "open",
                 f"is {open_!r}, and the flat {end} of the part is nowhere wider than two walls of "
-                f"{plain_argument(wall)} mm; give a thinner wall, or turn the part",
+                f"{plain_argument(thickest)} mm; give a thinner wall, or turn the part",
             )
     return space
 

@@ -158,8 +158,8 @@ def _match_region_densities(task: FillTask, hollow: VoidMeshes, fields: Fields) 
     local = hollow.layout.local
     assert local is not None
     assert local.regions is not None
-    wanted, drawn = local.regions.densities, local.regions.ratios
-    sample = sample_regions(hollow.space, local)
+    wanted, drawn = local.regions.wanted, local.regions.ratios
+    sample = sample_regions(hollow.space, local.regions.regions)
     secant = RegionSecant(wanted=wanted, power=2 if has_bars(task.request.kind) else 1)
     best, least = hollow, math.inf
     for attempt in range(REGION_ROUNDS):

@@ -64,6 +64,7 @@ def make_void_meshes(task: FillTask) -> tuple[VoidMeshes, Fields]:
                 task.part,
                 wall=request.wall,
                 voxel=voxel,
+                places=task.local_walls,
                 open_=request.open_,
                 beyond=request.beyond,
                 held=request.held,

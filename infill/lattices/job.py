@@ -18,11 +18,12 @@ from infill.errors import UsageError
 from infill.formats.units import to_surface
 from infill.interior.interior import BYTES_PER_CELL, Interior, added_length, grid_for_part
 from infill.interior.opening import clip_to_opening, cut_open
+from infill.lattices.areas import find_areas
 from infill.lattices.at_skin import drop_crumbs, subtract_voids
 from infill.lattices.bodies import Fields
 from infill.lattices.drain_holes import DrainedSolid, check_drain_width, drill_drains
 from infill.lattices.groups import Graded, Meshing, Shell, add_grading, add_group
-from infill.lattices.hollowing import make_void_meshes
+from infill.lattices.joining import make_joined_voids
 from infill.lattices.modifiers import add_modifiers
 from infill.lattices.projected import ProjectInfill, make_project_infill
 from infill.lattices.quality_checks import SolidMeasures, find_problems, measure_solid
@@ -104,9 +105,10 @@ def fill(
         width, for walls along a surface. Cells are whole everywhere, flatter or longer where they must be; where they
         cannot follow in a flat part, widths do, and the report says so.
     regions : sequence of Region or str, optional
-        Other densities in ranges of heights, boxes and meshes: `Region(density=0.4, z=(10, 20))`, or
-        "z=10..20:density=40%". Where regions overlap, the last one counts. Walls are wider or narrower there, and
-        change within a few cells of the grid.
+        Other densities, patterns and walls in ranges of heights, boxes and meshes: `Region(density=0.4, z=(10, 20))`,
+        or "z=10..20:density=40%,pattern=grid,wall=2". Where regions overlap, the last one with a setting counts for
+        it. With another density alone, walls are wider or narrower there, and change within a few cells of the grid;
+        with another pattern, both end at the border, where they cross; another wall is a step in the shell.
     cell : float, optional
         Period of the pattern, mm.
     line_width : float, optional
@@ -238,7 +240,7 @@ def fill_request(
     check_drain_width(request, part.bounds)
     task = FillTask.of(part, request, clock=Clock(progress), threads=threads, max_memory=max_memory)
     project = make_project_infill(task) if request.form == "project" else None
-    hollow, fields = make_void_meshes(task) if project is None else (project.hollow, None)
+    hollow, fields = make_joined_voids(task) if project is None else (project.hollow, None)
     with task.clock.stage("check", 0.9):
         result, untimed, hollow = _assemble(task, hollow, fields, project)
     report: FillReport = {**untimed, "seconds": task.clock.timings(FillSeconds, shift=0.0)}
@@ -361,9 +363,10 @@ def plan_fill(part: Surface, request: FillSpec, *, threads: int | None = None) -
     """Return the report of a dry run."""
     part, request = add_modifiers(part, request)
     task = FillTask.of(part, request, threads=threads)
+    find_areas(request)  # raises an error if the pattern of a region cannot be had
     request, (cell, width) = task.request, choose_sizes(task)
     voxel = choose_voxel(task, cell, width)
-    further = added_length(request.open_, request.wall, request.beyond, voxel)
+    further = added_length(request.open_, max(request.walls), request.beyond, voxel)
     grid = grid_for_part(part, voxel=voxel, further=further)
     return {
         "request": request.facts(),

@@ -9,11 +9,12 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from infill.arrays import Floats
-from infill.checks import check_range
+from infill.checks import LONGEST, SHORTEST, check_range
 from infill.errors import GeometryError, ParameterError, UsageError
 from infill.files.excerpts import quote_value
 from infill.formats.mesh_files import read_mesh
@@ -21,9 +22,10 @@ from infill.imaging.units import STATED_UNITS, UNITS
 from infill.interior.interior import Interior
 from infill.lattices.grading import LocalWidths, Varies, cells_inside
 from infill.lattices.region_nodes import PlacedRegion, RegionNodes
-from infill.lattices.regions import SHARE, Region, parse_region
+from infill.lattices.regions import SHARE, Region, parse_region, parse_wall
 from infill.meshes.merging import surface_of
 from infill.options.keyword_options import parse_share
+from infill.options.resolve_pattern import resolve_pattern
 from infill.plain_numbers import plain_argument
 from infill.surface import Surface
 
@@ -50,10 +52,12 @@ def place_region(region: object) -> PlacedRegion:
     places = [place for place in (region.z, region.box, region.mesh) if place is not None]
     if len(places) != 1:
         raise UsageError.about("region", f"has {len(places)} places; give one of z, box and mesh")
-    share = parse_share("region", region.density, SHARE)
-    density = check_range("region density", share, LOWEST, HIGHEST)
     placed = PlacedRegion(
-        text=region.text, place=region.place, density=density, low=np.full(3, -np.inf), high=np.full(3, np.inf)
+        text=region.text,
+        place=region.place,
+        low=np.full(3, -np.inf),
+        high=np.full(3, np.inf),
+        **_check_settings(region),
     )
     if region.mesh is not None:
         surface = _read_region_mesh(region)
@@ -72,6 +76,26 @@ def place_region(region: object) -> PlacedRegion:
     return replace(placed, low=low, high=high)
 
 
+def _check_settings(region: Region) -> dict[str, Any]:
+    """Check density, pattern and wall of a region; return those that it has."""
+    settings: dict[str, Any] = {}
+    if region.density is not None:
+        share = parse_share("region", region.density, SHARE)
+        settings["density"] = check_range("region density", share, LOWEST, HIGHEST)
+    if region.pattern is not None:
+        settings["kind"], settings["pattern"] = resolve_pattern(region.pattern, "fill")
+    if region.wall is not None:
+        wall = parse_wall("region", region.wall)
+        if wall == 0:
+            raise UsageError.about(
+                "region", f"is {region.text}, and a region keeps its shell; give a wall above 0 mm, or leave wall out"
+            )
+        settings["wall"] = check_range("region wall", wall, SHORTEST, LONGEST, "mm")
+    if not settings:
+        raise UsageError.about("region", f"is {region.place!r} alone; give a density, pattern or wall there")
+    return settings
+
+
 def _read_region_mesh(region: Region) -> Surface:
     """Return the closed mesh of a region, mm."""
     assert region.mesh is not None
@@ -86,7 +110,7 @@ def _read_region_mesh(region: Region) -> Surface:
         raise GeometryError.about(
             "region", f"is {region.place}, whose mesh is not closed; close it, or give a box or a range of heights"
         )
-    return surface
+    return replace(surface, faces=surface.faces[:, ::-1]) if surface.volume < 0 else surface
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -98,11 +122,14 @@ class RegionDensities:
     base : float
         The density outside all regions.
     regions : tuple of PlacedRegion
-        Where they overlap, the last one counts.
+        Where they overlap, the last one counts. Those without a density have another pattern.
+    is_rest : bool
+        False if another pattern lies outside the regions.
     """
 
     base: float
     regions: tuple[PlacedRegion, ...]
+    is_rest: bool = True
     name: str = "regions"
     varies: Varies = "width"
 
@@ -114,7 +141,7 @@ class RegionDensities:
     @property
     def densities(self) -> tuple[float, ...]:
         """The density outside the regions, and those of the regions."""
-        return (self.base, *(region.density for region in self.regions))
+        return (self.base, *(self.base if region.density is None else region.density for region in self.regions))
 
     @property
     def lowest(self) -> float:
@@ -130,16 +157,6 @@ class RegionDensities:
     def smallest(self) -> float:
         """Size of the smallest cells over the nominal cell."""
         return 1.0
-
-    def check_place(self, bounds: Floats) -> None:
-        """Raise GeometryError if a region lies outside the box around a part, (2, 3) mm."""
-        for region in self.regions:
-            if not ((region.low < bounds[1]) & (region.high > bounds[0])).all():
-                raise _miss(region, "lies outside the part", bounds)
-
-    def with_modifiers(self, regions: Sequence[PlacedRegion]) -> RegionDensities:
-        """Return the same with other regions below these."""
-        return replace(self, regions=(*regions, *self.regions))
 
     def over(self, space: Interior, widths: Callable[[float], float]) -> LocalWidths:
         """Return the widths of walls in a space; `widths` gives the width for a density, in cells of the pattern.
@@ -162,7 +179,11 @@ class RegionDensities:
             covers.append(cover)
         wide = np.array([widths(density) for density in self.densities]) / widths(self.base)
         regions = RegionNodes(
-            regions=self.regions, densities=np.array(self.densities), covers=tuple(covers), ratios=wide
+            regions=self.regions,
+            densities=np.array(self.densities),
+            covers=tuple(covers),
+            ratios=wide,
+            is_matched=np.array([self.is_rest, *(region.density is not None for region in self.regions)]),
         )
         shares = regions.paint(regions.densities)
         return LocalWidths(
@@ -173,6 +194,13 @@ class RegionDensities:
             within=within,
             regions=regions,
         )
+
+
+def check_places(regions: Sequence[PlacedRegion], bounds: Floats) -> None:
+    """Raise GeometryError if a region lies outside the box around a part, (2, 3) mm."""
+    for region in regions:
+        if not ((region.low < bounds[1]) & (region.high > bounds[0])).all():
+            raise _miss(region, "lies outside the part", bounds)
 
 
 def _miss(region: PlacedRegion, problem: str, bounds: Floats) -> GeometryError:

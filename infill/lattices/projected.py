@@ -15,7 +15,7 @@ from itertools import chain
 from infill.errors import GeometryError, ParameterError
 from infill.interior.narrow import NARROW, NarrowShares, drop_narrow, estimate_narrow
 from infill.lattices.at_skin import SHORT, subtract_voids
-from infill.lattices.hollowing import make_void_meshes
+from infill.lattices.joining import make_joined_voids
 from infill.lattices.request import LINE_WIDTH, FillSpec
 from infill.lattices.task import FillTask
 from infill.lattices.void_meshes import VoidMeshes
@@ -88,7 +88,7 @@ def make_project_infill(task: FillTask) -> ProjectInfill:
 
 def _make_infill(task: FillTask) -> ProjectInfill:
     """Make the infill with the pattern where the task has it."""
-    hollow, _ = make_void_meshes(task)
+    hollow, _ = make_joined_voids(task)
     infill, narrowest = subtract_voids(task, hollow), _narrowest_printed(hollow, task.request)
     narrow = estimate_narrow(hollow.space.part, infill, task.request.wall, LINE_WIDTH, narrowest)
     return ProjectInfill(infill=infill, hollow=hollow, phase=task.request.phase, narrow=narrow)
@@ -98,6 +98,7 @@ def _can_shift(task: FillTask, project: ProjectInfill) -> bool:
     """Tell whether shifting a pattern may help: its place was not requested, and more is lost than the lack of room."""
     request, narrow, size = task.request, project.narrow, math.prod(project.hollow.space.shape)
     is_placed = any(request.phase) or request.align == "bed" or request.grading is not None or request.is_drawn_once
+    is_placed = is_placed or request.has_areas
     return narrow is not None and not is_placed and size <= MOST_CELLS and narrow.all - narrow.room > MUCH
 
 

@@ -19,8 +19,9 @@ from infill.lattices.bodies import Fields
 from infill.lattices.density_search import has_uniform_width, requested_density, solid_share
 from infill.lattices.drain_holes import DrainedSolid, drain_problems, find_closed_voids
 from infill.lattices.grading import LocalWidths, densities_by_share
-from infill.lattices.region_densities import measure_regions, sample_regions
-from infill.lattices.region_nodes import REST, RegionNodes
+from infill.lattices.placed_regions import RegionDensities
+from infill.lattices.region_densities import measure_joined_regions, measure_regions, sample_regions
+from infill.lattices.region_nodes import REST, boxes_overlap
 from infill.lattices.request import DENSITY, GAP, LINE_WIDTH, FillSpec
 from infill.lattices.task import FillTask
 from infill.lattices.void_meshes import VoidMeshes
@@ -30,6 +31,7 @@ from infill.meshes.solids import FINE, coincident_vertices, manifold_status
 from infill.meshes.winding import winding_numbers
 from infill.plain_numbers import count_noun, plain_argument, plain_place
 from infill.surface import Surface
+from patterns.lightning import Lightning
 
 if TYPE_CHECKING:
     from infill.reports.filling import FillRegion, GradedStep
@@ -45,6 +47,7 @@ THIN = 0.8  # mm: two lines of a nozzle of 0.4
 HAIRLINE = 0.2  # mm: the thinnest walls that printers with resin and powder are sure to make
 USUAL = 2.0  # times the default density, or as many times less: a density outside was hardly wanted
 AT_ONCE = 50_000  # triangles or points in a batch
+MOST_POINTS = 100_000  # at which the walls of regions are measured
 LEAST_WALL = 0.9  # of the requested wall
 
 
@@ -174,11 +177,11 @@ def measure_solid(
         closed=find_closed_voids(solid) if request.form == "solid" else [],
         crowded=max(0, crowded),
         verdict=next((word for word in map(manifold_status, split_into_batches(solid, AT_ONCE)) if word != FINE), FINE),
-        width=(hollow.median[0] if has_uniform_width(task) else None) or hollow.width,
-        drawn=solid_share(task.draw(hollow.layout, fields)),
+        width=(hollow.median[0] if has_uniform_width(task) and not request.has_areas else None) or hollow.width,
+        drawn=0.0 if request.has_areas else solid_share(task.draw(hollow.layout, fields)),
         wanted=requested_density(task, local),
         graded=[] if local is None or local.regions is not None else density_steps(hollow, local),
-        regions=[] if local is None or local.regions is None else region_facts(hollow, local, local.regions),
+        regions=region_facts(task, hollow) if request.regions else [],
         cells=None if local is None else [hollow.cell * factor for factor in local.cells],
         widths=None if local is None else [hollow.width * factor for factor in local.widths],
     )
@@ -191,15 +194,95 @@ def density_steps(hollow: VoidMeshes, local: LocalWidths) -> list[GradedStep]:
     return [{"wanted": target, "density": density} for target, density in pairs]
 
 
-def region_facts(hollow: VoidMeshes, local: LocalWidths, regions: RegionNodes) -> list[FillRegion]:
-    """Return the requested and the measured density of each region, and its volume away from borders, mm³."""
-    sample = sample_regions(hollow.space, local)
-    measured = measure_regions(sample, hollow.space, hollow.surface, mean=hollow.density).tolist()
-    rows = zip(regions.names, regions.densities.tolist(), measured, sample.volumes.tolist(), strict=False)
-    return [
-        {"place": name, "wanted": wanted, "density": density if volume > 0 else None, "volume": volume}
-        for name, wanted, density, volume in rows
-    ]
+def region_facts(task: FillTask, hollow: VoidMeshes) -> list[FillRegion]:
+    """Return the requested and the actual settings of the rest and of each region, and their volumes, mm³."""
+    request, regions = task.request, task.request.regions
+    sample = sample_regions(hollow.space, regions)
+    measured = (
+        measure_joined_regions(hollow, regions, sample.volumes)
+        if request.has_areas
+        else measure_regions(sample, hollow.space, hollow.surface, mean=hollow.density)
+    ).tolist()
+    facts: list[FillRegion] = []
+    walls = measure_region_walls(task, hollow) if len(request.walls) > 1 else [None] * len(measured)
+    for number, (density, volume) in enumerate(zip(measured, sample.volumes.tolist(), strict=True)):
+        region = regions[number - 1] if number else None
+        facts.append(
+            {
+                "place": REST if region is None else region.place,
+                "pattern": _pattern_at(request, number),
+                "wanted": _density_at(request, number),
+                "density": density if volume > 0 else None,
+                "volume": volume,
+                "wall": _wall_at(request, number),
+                "least": walls[number],
+            }
+        )
+    return facts
+
+
+def _density_at(request: FillSpec, number: int) -> float | None:
+    """Return the requested density in a region, 0 for the rest; None if none is requested there, or several are."""
+    base = request.grading.base if isinstance(request.grading, RegionDensities) else None
+    if number == 0:
+        return base
+    region = request.regions[number - 1]
+    if isinstance(region.kind, Lightning):
+        return None  # its branches follow roofs
+    if region.density is not None or region.kind is None:
+        return region.density
+    below = request.regions[: number - 1]
+    return None if any(other.density is not None and boxes_overlap(region, other) for other in below) else base
+
+
+def _wall_at(request: FillSpec, number: int) -> float | None:
+    """Return the requested wall in a region, 0 for the rest, mm; None if it has several."""
+    if number == 0:
+        return request.wall
+    region = request.regions[number - 1]
+    if region.wall is not None:
+        return region.wall
+    below = request.regions[: number - 1]
+    return None if any(other.wall is not None and boxes_overlap(region, other) for other in below) else request.wall
+
+
+def measure_region_walls(task: FillTask, hollow: VoidMeshes) -> list[float | None]:
+    """Measure the least distance of voids from the skin in the rest and in each region, mm; None without voids there.
+
+    Points within a cell of the grid of any border do not count, nor do those beyond an open side. Of very many points,
+    only every n-th is measured; the least wall of the whole part is that of all.
+    """
+    space, regions = hollow.space, task.request.regions
+    bounds = np.asarray(space.part.bounds, dtype=np.float64)
+    tree = TriangleTree.of(space.part if space.opening is None else space.opening.shell)
+    if not hollow.surfaces:
+        return [None] * (1 + len(regions))
+    count = sum(len(surface.vertices) + len(surface.faces) for surface in hollow.surfaces)
+    stride = max(1, count // MOST_POINTS)
+    points = np.concatenate([batch[::stride] for batch in chain.from_iterable(map(_point_batches, hollow.surfaces))])
+    if space.opening is not None:
+        points = points[space.opening.inside(points[:, 2])]
+    number, is_near = np.zeros(len(points), dtype=int), np.zeros(len(points), dtype=bool)
+    for order, region in enumerate(regions, 1):
+        depths = region.depths_at(points, bounds, near=space.size, threads=task.threads)
+        number[depths > 0] = order
+        is_near |= np.abs(depths) < space.size
+    distances, _ = tree.nearest(points[~is_near], threads=task.threads)
+    least = np.full(1 + len(regions), np.inf)
+    np.minimum.at(least, number[~is_near], distances)
+    return [wall if np.isfinite(wall) else None for wall in least.tolist()]
+
+
+def _pattern_at(request: FillSpec, number: int) -> str | None:
+    """Return the name of the pattern in a region, 0 for the rest; None if it has several."""
+    if number == 0:
+        return request.pattern
+    region = request.regions[number - 1]
+    if region.kind is not None:
+        return region.pattern
+    below = request.regions[: number - 1]
+    is_mixed = any(other.kind is not None and boxes_overlap(region, other) for other in below)
+    return None if is_mixed else request.pattern
 
 
 def is_width_ok(width: float, requested: float) -> bool:
@@ -260,7 +343,11 @@ def find_problems(
 ) -> Iterator[str]:
     """Yield a message for everything that differs from the request, and for every change to the part."""
     overlap, moved, opening = hollow.space.overlap, hollow.tolerance, hollow.space.opening
-    if facts.wanted is not None and not facts.regions and not abs(hollow.density - facts.wanted) <= OFF:  # nan too
+    if (
+        facts.wanted is not None
+        and not isinstance(request.grading, RegionDensities)
+        and not abs(hollow.density - facts.wanted) <= OFF
+    ):  # nan too
         yield f"the density is {hollow.density:.1%}, and {facts.wanted:.1%} was asked for"
     for step in facts.graded:
         if not abs(step["density"] - step["wanted"]) <= OFF_LOCAL:
@@ -273,11 +360,22 @@ def find_problems(
         if density is None:
             if place != REST:
                 yield f"nothing is left of the region {place}: later regions or walls cover it"
-        elif not abs(density - region["wanted"]) <= OFF:
+        elif region["wanted"] is not None and not abs(density - region["wanted"]) <= OFF:
             yield (
                 f"in the region {place}, the density is {density:.1%}, and {region['wanted']:.1%} was asked for; "
                 "smaller cells follow regions better"
             )
+    for region in facts.regions:
+        if region["wall"] and region["least"] is not None and region["least"] < LEAST_WALL * region["wall"]:
+            yield (
+                f"in the region {region['place']}, the wall is {plain_argument(region['least'], 3)} mm thin, and "
+                f"{plain_argument(region['wall'])} mm was asked for"
+            )
+    for place in hollow.divided:
+        yield (
+            f"a wall divides the region {place} from the rest, as pieces of the patterns would hang free there; "
+            "choose patterns that cross"
+        )
     if request.grading is not None and request.grading.varies == "cell" and facts.widths is not None:
         narrow, wide = facts.widths
         if narrow < LEAST_WIDTH * hollow.width:
@@ -312,10 +410,10 @@ def find_problems(
     if moved > request.tolerance:
         distance = f"up to {plain_argument(moved, 2)} mm" if np.isfinite(moved) else "an unknown distance"
         yield f"for so few triangles, the voids were moved by {distance}; give larger cells, or more triangles"
-    if facts.least is not None and facts.least < LEAST_WALL * request.wall:
+    if facts.least is not None and facts.least < LEAST_WALL * (thinnest := min(request.walls)):
         yield (
             f"the wall is {plain_argument(facts.least, 3)} mm thin at {plain_place(facts.at or ())}, and "
-            f"{plain_argument(request.wall)} mm was asked for"
+            f"{plain_argument(thinnest)} mm was asked for"
         )
     if opening is not None:
         for end in opening.closed_ends(hollow.surfaces):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,7 +13,10 @@ from infill.arrays import Floats
 from infill.interior.interior import Interior
 from infill.lattices.density_fields import LEAST_SHARE
 from infill.lattices.grading import LocalWidths, interpolate_nodes
-from infill.lattices.region_nodes import SHIFTS
+from infill.lattices.region_nodes import SHIFTS, PlacedRegion, label_regions
+from infill.lattices.region_solids import make_region_solid
+from infill.lattices.void_meshes import VoidMeshes
+from infill.meshes.solids import to_manifold
 from infill.surface import Surface
 from infill.voxels.scanlines import fill_rows, intersect_rows
 
@@ -43,16 +48,15 @@ class RegionSample:
     shape: tuple[int, ...]
 
 
-def sample_regions(space: Interior, local: LocalWidths) -> RegionSample:
-    """Draw points of each region: in all of its cells, or in as many as suffice."""
-    assert local.regions is not None
-    depth, count, rng = space.depth, len(local.regions.names), np.random.default_rng(0)
+def sample_regions(space: Interior, regions: Sequence[PlacedRegion]) -> RegionSample:
+    """Draw points of the rest and of each region: in all of its cells, or in as many as suffice."""
+    depth, count, rng = space.depth, 1 + len(regions), np.random.default_rng(0)
     is_near = (depth > -1) & (space.shares >= LEAST_SHARE)  # at most a cell outside the walls
     x, y, z = (np.arange(cells, dtype=np.uint8) for cells in depth.shape)
     turn = (x[:, None, None] + y[:, None] + z) % len(SHIFTS)  # each cell has a point in one of the grids
     drawn, groups, volumes = [], [], np.zeros(count)
     for number, shift in enumerate(SHIFTS):
-        labels = np.where(is_near & (turn == number), local.regions.label(space, shift), np.int16(-1))
+        labels = np.where(is_near & (turn == number), label_regions(regions, space, shift), np.int16(-1))
         chosen = [np.argwhere(labels == region) for region in range(count)]
         most = [
             cells if len(cells) <= POINTS else cells[rng.choice(len(cells), POINTS, replace=False)] for cells in chosen
@@ -83,6 +87,35 @@ def measure_regions(sample: RegionSample, space: Interior, voids: Surface, *, me
     return densities
 
 
+def measure_joined_regions(hollow: VoidMeshes, regions: Sequence[PlacedRegion], volumes: Floats) -> Floats:
+    """Measure the solid share of the rest and of each region, (R + 1,), from the exact volumes of the voids in them.
+
+    Parameters
+    ----------
+    hollow : VoidMeshes
+    regions : sequence of PlacedRegion
+        Later ones lie over earlier ones.
+    volumes : (R + 1,) float64
+        Of the rest and the regions inside the walls, mm³; where there is none, the share is nan.
+    """
+    voids, bounds = to_manifold(hollow.surface), np.asarray(hollow.space.part.bounds, dtype=np.float64)
+    opening = hollow.space.opening
+    if hollow.walls is not None:
+        voids ^= to_manifold(hollow.walls)
+    if opening is not None and math.isfinite(opening.low):
+        voids = voids.trim_by_plane((0.0, 0.0, 1.0), opening.low)
+    if opening is not None and math.isfinite(opening.high):
+        voids = voids.trim_by_plane((0.0, 0.0, -1.0), -opening.high)
+    in_regions = []
+    for region in reversed(regions):
+        inside, voids = voids.split(make_region_solid(region, bounds))
+        in_regions.append(inside.volume())
+    void_volumes = np.array([voids.volume(), *reversed(in_regions)])
+    rooms = volumes * (hollow.room_volume / volumes.sum())
+    densities: Floats = 1 - np.divide(void_volumes, rooms, out=np.full(len(rooms), np.nan), where=volumes > 0)
+    return densities
+
+
 @dataclass(kw_only=True, eq=False)
 class RegionSecant:
     """Steps of a secant for the width of walls in each region, all at once.
@@ -90,7 +123,7 @@ class RegionSecant:
     Parameters
     ----------
     wanted : (R,) float64
-        Requested densities.
+        Requested densities; nan where they do not matter.
     power : int
         Of the width, to which the density is roughly proportional.
     """
@@ -102,8 +135,8 @@ class RegionSecant:
     def step(self, ratios: Floats, measured: Floats) -> Floats:
         """Return the next widths (R,) from the present ones and the measured densities."""
         logarithm = np.log(ratios)
-        error = np.log(np.maximum(np.nan_to_num(measured, nan=1.0), LEAST) / self.wanted)
-        error[np.isnan(measured)] = 0
+        error = np.log(np.maximum(measured, LEAST) / self.wanted)
+        error[np.isnan(error)] = 0
         slope = np.full(len(ratios), float(self.power))
         if self.tried is not None:
             run = logarithm - self.tried[0]

@@ -1,4 +1,4 @@
-"""Regions of a part with another density, as they are given: boxes, ranges of heights, and meshes."""
+"""Regions with another density, pattern or wall, as they are given: boxes, ranges of heights, and meshes."""
 
 from __future__ import annotations
 
@@ -6,35 +6,43 @@ import math
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from infill.errors import UsageError
 from infill.files.excerpts import quote_value
 from infill.options.keyword_options import parse_share
 from infill.plain_numbers import plain_argument
+from patterns.quantities import parse_quantity
 
 if TYPE_CHECKING:
     import trimesh
 
     from infill.surface import Surface
 
-EXAMPLES = "z=10..20:density=40%, box=0,0,0,10,10,5:density=40% or modifier.stl:density=60%"
+EXAMPLES = "z=10..20:density=40%, box=0,0,0,10,10,5:pattern=grid or modifier.stl:density=60%,wall=2"
 RANGE = re.compile(r"z=(?P<low>[^:]*?)\.\.(?P<high>.*)")
 # As people type it: 0-10mm, z=0-10, 5..20 mm.
 TYPED_RANGE = re.compile(
     r"(?:z\s*=\s*)?(?P<low>-?[\d.,]*\d)\s*(?:mm)?\s*(?:\.\.|-|–|to)\s*(?P<high>-?[\d.,]*\d)\s*(?:mm)?"
 )
+KEYS = ("density", "pattern", "wall")
+KEY = re.compile(rf"\s*(?P<key>{'|'.join(KEYS)})\s*=\s*")
+UNKNOWN_KEY = re.compile(r":\s*(?P<key>[A-Za-z_][\w-]*)\s*=")
 SHARE = "give a density such as density=40%"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Region:
-    """A part of the space inside the walls with a density of its own: a range of heights, a box, or a mesh.
+    """A part of a filled part with settings of its own: a range of heights, a box, or a mesh.
 
     Parameters
     ----------
-    density : float or str
-        Solid share there: 0.4, or "40%".
+    density : float or str, optional
+        Solid share inside the walls there: 0.4, or "40%".
+    pattern : str, Path, Pattern, Cells or callable, optional
+        The pattern there, as `infill.fill` takes it.
+    wall : float or str, optional
+        Thickness of the shell there, mm: 2, or "2mm".
     z : (float, float), optional
         Lowest and highest place, mm; infinite ones are allowed.
     box : six floats, optional
@@ -44,11 +52,13 @@ class Region:
     units : {"um", "mm", "cm", "m", "in"}, optional
         Of the file; by default what the file states, or mm.
 
-    >>> Region(density=0.4, z=(10, 20)).text
-    'z=10..20:density=40%'
+    >>> Region(density=0.4, wall=2, z=(10, 20)).text
+    'z=10..20:density=40%,wall=2'
     """
 
-    density: float | str
+    density: float | str | None = None
+    pattern: object = None
+    wall: float | str | None = None
     z: tuple[float, float] | None = None
     box: tuple[float, ...] | None = None
     mesh: Surface | trimesh.Trimesh | str | Path | None = None
@@ -66,7 +76,33 @@ class Region:
     @property
     def text(self) -> str:
         """The region as the command line has it."""
-        return f"{self.place}:density={plain_argument(100 * parse_share('density', self.density), 10)}%"
+        settings = []
+        if self.density is not None:
+            settings.append(f"density={plain_argument(100 * parse_share('density', self.density), 10)}%")
+        if self.pattern is not None:
+            settings.append(f"pattern={name_pattern(self.pattern)}")
+        if self.wall is not None:
+            settings.append(f"wall={plain_argument(parse_wall('wall', self.wall), 10)}")
+        return f"{self.place}:{','.join(settings)}"
+
+
+def name_pattern(pattern: object) -> str:
+    """Return the name of a pattern that is given by name, by file or as an object."""
+    if isinstance(pattern, (str, Path)):
+        return str(pattern)
+    return str(getattr(pattern, "name", getattr(pattern, "__name__", type(pattern).__name__)))
+
+
+def parse_wall(name: str, wall: object) -> float:
+    """Read the thickness of a shell, mm: 2, "2mm" or "0.2cm"; raise UsageError.
+
+    >>> parse_wall("region", "2mm"), parse_wall("region", 1.6)
+    (2.0, 1.6)
+    """
+    length = parse_quantity(wall, "mm") if isinstance(wall, str) else wall
+    if length is None or isinstance(length, bool) or not isinstance(length, (int, float)):
+        raise UsageError.about(name, f"has a wall of {quote_value(wall)}; give a thickness in mm, such as wall=2")
+    return float(length)
 
 
 def parse_region(name: str, text: str) -> Region:
@@ -76,23 +112,51 @@ def parse_region(name: str, text: str) -> Region:
     ((10.0, 20.0), 'a.stl')
     >>> parse_region("region", "0-10mm:density=60%").z, parse_region("region", "z=0,5 - 8:density=60%").z
     ((0.0, 10.0), (0.5, 8.0))
+    >>> region = parse_region("region", "z=0..:pattern=grid, density=60%, wall=2mm")
+    >>> region.pattern, region.density, region.wall
+    ('grid', 0.6, 2.0)
     """
-    place, found, share = text.rpartition(":density=")
-    if not found or not place.strip():
-        raise UsageError.about(name, f"is {quote_value(text)}; give a place and a density, such as {EXAMPLES}")
-    density = parse_share(name, share, SHARE)
-    place = place.strip()
+    found = re.search(rf":{KEY.pattern}", text)
+    unknown = UNKNOWN_KEY.search(text)
+    if unknown and unknown["key"] not in KEYS and (found is None or unknown.start() < found.start()):
+        raise UsageError.about(
+            name, f"is {quote_value(text)}, and regions have no {unknown['key']}; give {', '.join(KEYS)}"
+        )
+    place = text[: found.start()].strip() if found else ""
+    if not found or not place:
+        raise UsageError.about(name, f"is {quote_value(text)}; give a place and a setting, such as {EXAMPLES}")
+    settings = _parse_settings(name, text, text[found.start() + 1 :])
     if found_range := TYPED_RANGE.fullmatch(place) or RANGE.fullmatch(place):
         low, high = (
             _parse_end(name, text, found_range[end], at) for end, at in (("low", -math.inf), ("high", math.inf))
         )
-        return Region(density=density, z=(low, high))
+        return Region(**settings, z=(low, high))
     if place.startswith("box="):
         corners = tuple(_parse_end(name, text, word, math.nan) for word in place[len("box=") :].split(","))
-        return Region(density=density, box=corners)
+        return Region(**settings, box=corners)
     if not Path(place).suffix:
-        raise UsageError.about(name, f"is {quote_value(text)}; give a place and a density, such as {EXAMPLES}")
-    return Region(density=density, mesh=place)
+        raise UsageError.about(name, f"is {quote_value(text)}; give a place and a setting, such as {EXAMPLES}")
+    return Region(**settings, mesh=place)
+
+
+def _parse_settings(name: str, text: str, words: str) -> dict[str, Any]:
+    """Read the settings behind a place: density=40%, pattern=grid, wall=2mm."""
+    settings: dict[str, Any] = {}
+    for word in re.split(rf",(?=\s*(?:{'|'.join(KEYS)}|[A-Za-z_][\w-]*)\s*=)", words):
+        setting = KEY.match(word)
+        if setting is None or not word[setting.end() :].strip():
+            raise UsageError.about(
+                name,
+                f"is {quote_value(text)}, and {quote_value(word.strip())} is not a setting; give {', '.join(KEYS)}",
+            )
+        key, value = setting["key"], word[setting.end() :].strip()
+        if key in settings:
+            raise UsageError.about(name, f"is {quote_value(text)}, with {key} twice; give it once")
+        if key == "density":
+            settings[key] = parse_share(name, value, SHARE)
+        else:
+            settings[key] = value if key == "pattern" else parse_wall(name, value)
+    return settings
 
 
 def _parse_end(name: str, text: str, word: str, left_out: float) -> float:

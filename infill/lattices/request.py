@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
@@ -92,6 +92,10 @@ class FillSpec:
         True if islands of upright walls that nothing holds may be tied to the rest.
     is_block : bool
         True for a block of infill, in which pieces may stand by themselves, such as the rings of concentric.
+    regions : tuple of PlacedRegion
+        Regions with settings of their own; later ones lie over earlier ones, key by key.
+    given : mapping
+        The keywords of `check_request`, from which requests for other patterns follow.
     """
 
     pattern: str
@@ -119,6 +123,8 @@ class FillSpec:
     cell_alone: bool = False
     ties: bool = True
     is_block: bool = False
+    regions: tuple[PlacedRegion, ...] = ()
+    given: Mapping[str, Any] = field(default_factory=dict, repr=False, compare=False)
 
     @property
     def beyond(self) -> float:
@@ -199,9 +205,14 @@ class FillSpec:
         )
 
     @property
-    def regions(self) -> tuple[PlacedRegion, ...]:
-        """Regions with a density of their own."""
-        return self.grading.regions if isinstance(self.grading, RegionDensities) else ()
+    def walls(self) -> tuple[float, ...]:
+        """The thickness of the shell of the part, and in regions with another, mm."""
+        return (self.wall, *(region.wall for region in self.regions if region.wall is not None))
+
+    @property
+    def has_areas(self) -> bool:
+        """True if regions have patterns of their own."""
+        return any(region.kind is not None for region in self.regions)
 
     @property
     def varied(self) -> tuple[Size, ...]:
@@ -302,6 +313,8 @@ def check_request(
     ties: bool = True,
 ) -> FillSpec:
     """Check that numbers are in range; return a request in which sizes that follow from others are open."""
+    given = {key: value for key, value in locals().items() if key not in ("pattern", "own", "regions")}
+    placed = tuple(map(place_region, regions))
     kind, name = resolve_pattern(pattern, "fill")
     kind, cell = _take_cell(kind, name, cell)
     once = _draws_once(kind, own)
@@ -342,7 +355,7 @@ def check_request(
     if len(phase) not in (2, 3):
         raise UsageError.about("phase", f"has {len(phase)} numbers; give two or three, mm")
     shift = [check_range("phase", step, -FURTHEST, FURTHEST, "mm") for step in phase]
-    asked_width = line_width
+    asked_width, has_densities = line_width, any(region.density is not None for region in placed)
     grading: Grading | RegionDensities | None = None
     if isinstance(density, (tuple, list)):
         if isinstance(kind, Lightning):
@@ -359,7 +372,7 @@ def check_request(
     elif density is not None:
         density = check_range("density", parse_share("density", density), LOWEST, HIGHEST)
     elif (cell is None or line_width is None) and not isinstance(kind, Lightning):
-        density = DENSITY if cell is None or has_bars(kind) or (regions and not once) else None
+        density = DENSITY if cell is None or has_bars(kind) or (has_densities and not once) else None
         if density is None:
             line_width = SLICED_WIDTH if form == "project" else LINE_WIDTH
     cell_alone = density is None and cell is not None and asked_width is None
@@ -370,18 +383,13 @@ def check_request(
             f"are both given, and {name} has as many branches as the roofs need; leave one of "
             "them out, or give cell and line_width",
         )
-    if regions:
-        if grading is not None or density is None or isinstance(kind, Lightning):
-            problem = _region_problem(kind, name, graded=grading is not None, once=once)
-            raise UsageError.about("region", f"is given, and {problem}")
-        grading = RegionDensities(base=density, regions=tuple(map(place_region, regions)))
     if wall is None:
         wall = SLICED_WALL if form == "project" else WALL
     elif wall != 0:
         wall = check_length("wall", wall)
     else:
         _check_without_shell(form=form, open_=open_, drain=drain)
-    return FillSpec(
+    spec = FillSpec(
         pattern=name,
         kind=kind,
         parameters=own,
@@ -406,7 +414,37 @@ def check_request(
         drain_at=places,
         cell_alone=cell_alone,
         ties=ties,
+        given=given,
     )
+    return place_regions(spec, placed) if placed else spec
+
+
+def place_regions(spec: FillSpec, regions: tuple[PlacedRegion, ...]) -> FillSpec:
+    """Return a request with regions in place of those that it has; raise UsageError if it cannot have one of them.
+
+    The pattern of the whole part in a region counts as that of the part, unless it lies over another pattern.
+    """
+    placed = list[PlacedRegion]()
+    for number, region in enumerate(regions, 1):
+        is_same = region.pattern == spec.pattern and all(below.kind is None for below in placed)
+        placed.append(replace(region, number=number, kind=None if is_same else region.kind))
+        if region.wall is not None and spec.reaches_skin:
+            reason = "wall is 0" if spec.wall == 0 else "as is 'project', whose shell the slicer makes"
+            raise UsageError.about("region", f"is {region.place} with a wall, and {reason}; leave one of them out")
+    if not spec.can_have_regions and any(region.density is not None and region.kind is None for region in placed):
+        graded = isinstance(spec.grading, Grading)
+        problem = _region_problem(spec.kind, spec.pattern, graded=graded, once=spec.is_drawn_once)
+        raise UsageError.about("region", f"is given, and {problem}")
+    if not spec.can_have_regions:
+        return replace(spec, regions=tuple(placed))
+    graded_regions = tuple(
+        replace(region, density=None) if region.kind is not None else region
+        for region in placed
+        if region.kind is not None or region.density is not None
+    )
+    assert spec.density is not None
+    grading = RegionDensities(base=spec.density, regions=graded_regions) if graded_regions else None
+    return replace(spec, regions=tuple(placed), grading=grading)
 
 
 def _check_without_shell(*, form: str, open_: str | None, drain: float | None) -> None:

@@ -135,10 +135,11 @@ class FillOptions:
     regions: Annotated[
         tuple[Region, ...],
         Option(
-            "Another density in a range of heights (z=10..20:density=40%), a box (box=x0,y0,z0,x1,y1,z1:density=40%) "
-            "or a mesh (modifier.stl:density=60%), mm; may be given again, and later ones win.",
+            "Another density, pattern or wall in a range of heights (z=10..20:density=40%), a box "
+            "(box=x0,y0,z0,x1,y1,z1:pattern=grid) or a mesh (modifier.stl:density=60%,wall=2), mm; may be given again, "
+            "and later ones win.",
             PATTERN,
-            unit="WHERE:density=SHARE",
+            unit="WHERE:KEY=VALUE",
             name="region",
             read=parse_regions,
             typed=list[str],

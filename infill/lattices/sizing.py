@@ -46,7 +46,7 @@ def choose_sizes(task: FillTask) -> tuple[float, float]:
     """
     request, (cell, width) = task.request, _nominal_sizes(task)
     if request.cell is None and request.line_width is None:
-        without_wall = replace(task, request=replace(request, wall=math.inf))
+        without_wall = replace(task, request=replace(request, wall=math.inf, regions=()))
         times = SLACK * _finest_voxel(task) / coarsest_voxel(without_wall, cell, width)
         return enlarge(request, (cell, width), times)
     return cell, width
@@ -89,10 +89,11 @@ def choose_voxel(task: FillTask, cell: float, width: float) -> float:
             size = min(size, width / ACROSS_TIE)
     fewest = FEWEST if request.wall else FEWEST_BARE
     size = min(max(size, _finest_voxel(task)), math.cbrt(_box_volume(extents) / fewest))
-    if 0 < request.wall < LEAST_FINE.across * size:
+    thinnest = min(request.walls)
+    if 0 < thinnest < LEAST_FINE.across * size:
         raise GeometryError.about(
             "wall",
-            f"is {plain_argument(request.wall)} mm, and the part {plain_size(extents.max(), digits=4)} long: a grid "
+            f"is {plain_argument(thinnest)} mm, and the part {plain_size(extents.max(), digits=4)} long: a grid "
             f"as fine as such a wall needs has more than {MOST:,.0f} cells; give a wall of "
             f"{plain_argument(LEAST_FINE.across * size, 2)} mm, or the right unit",
         )
@@ -115,7 +116,7 @@ def _largest_voxel(task: FillTask, cell: float, width: float, fineness: Fineness
     """Return the largest side of the cells of a grid that is so fine, mm."""
     request, pattern = task.request, task.pattern
     width *= request.thinnest
-    size = (request.wall or math.inf) / fineness.across
+    size = (min(request.walls) or math.inf) / fineness.across
     if isinstance(pattern, Prismatic):
         return min(size, pattern.sample.apart * cell / fineness.lines)
     if has_bars(request.kind):
@@ -144,4 +145,4 @@ def goes_by_slabs(task: FillTask) -> bool:
     """Tell whether voids may be made slab by slab: upright, of one width, closed, in a part taken as one."""
     request = task.request
     is_plain = request.grading is None and request.align != "body" and request.form == "solid" and request.open_ is None
-    return is_plain and request.wall > 0 and isinstance(task.pattern, Prismatic)
+    return is_plain and request.wall > 0 and len(request.walls) == 1 and isinstance(task.pattern, Prismatic)

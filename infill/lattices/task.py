@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.arrays import Floats
 from infill.interior.interior import Interior
+from infill.interior.local_walls import LocalWall
 from infill.lattices.bodies import BodyFields, Fields, draw_in_bodies
 from infill.lattices.choosing import place_pattern
-from infill.lattices.placed_regions import RegionDensities
+from infill.lattices.placed_regions import check_places
+from infill.lattices.region_nodes import PlacedRegion
 from infill.lattices.request import FillSpec
 from infill.lattices.voids import Layout, VoidFields, VoidPattern
 from infill.result import Clock
 from infill.surface import Surface
+from infill.volume import Volume
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -50,8 +55,7 @@ class FillTask:
         max_memory: int | None = None,
     ) -> FillTask:
         """Make the task of a request; raise an error if pattern or regions cannot be had as requested."""
-        if isinstance(request.grading, RegionDensities):
-            request.grading.check_place(part.bounds)
+        check_places(request.regions, part.bounds)
         if request.resolution is not None:
             request = replace(request, voxel=float(np.ptp(part.bounds, axis=0).max()) / request.resolution)
         return cls(
@@ -74,6 +78,19 @@ class FillTask:
         extents: NDArray[np.floating] = np.ptp(self.part.bounds, axis=0)
         return extents
 
+    @property
+    def local_walls(self) -> tuple[LocalWall, ...]:
+        """The regions with a wall of their own."""
+        bounds = np.asarray(self.part.bounds, dtype=np.float64)
+        return tuple(
+            LocalWall(
+                wall=region.wall,
+                measure=partial(_measure_depths, region=region, bounds=bounds, threads=self.threads),
+            )
+            for region in self.request.regions
+            if region.wall is not None
+        )
+
     def reach(self, space: Interior) -> Interior:
         """Return the space that voids may take: through the skin where a slicer makes the shell, or there is none."""
         return space.unwalled if self.request.reaches_skin else space
@@ -83,3 +100,10 @@ class FillTask:
         if self.request.align == "body":
             return draw_in_bodies(self.request, layout, known if isinstance(known, BodyFields) else None)
         return self.pattern.draw(layout, known if isinstance(known, VoidFields) else None)
+
+
+def _measure_depths(
+    cells: Volume, reach: float, *, region: PlacedRegion, bounds: Floats, threads: int | None
+) -> NDArray[np.float32]:
+    """Measure how far the centres of cells lie inside a region: see `PlacedRegion.measure_depths`."""
+    return region.measure_depths(cells, bounds, reach, threads)

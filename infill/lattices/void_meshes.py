@@ -65,6 +65,8 @@ class VoidMeshes:
         Set in place of surfaces until they are made.
     ties : Ties
         Bars that tie islands of lines to the rest, mm.
+    divided : tuple of str
+        The regions that a wall divides from other patterns: see `infill.lattices.joining`.
     """
 
     layout: Layout
@@ -76,6 +78,7 @@ class VoidMeshes:
     loose: float = 0.0
     deferred: DeferredVoids | None = None
     ties: Ties = field(default_factory=Ties.none)
+    divided: tuple[str, ...] = ()
 
     @property
     def space(self) -> Interior:
@@ -136,15 +139,15 @@ class VoidMeshes:
     @property
     def density(self) -> float:
         """Solid share of the space inside the walls."""
-        return 1 - self.volume / self._room_volume
+        return 1 - self.volume / self.room_volume
 
     @property
     def density_before(self) -> float:
         """Density before anything was left out."""
-        return 1 - (self.volume - self.loose) / self._room_volume
+        return 1 - (self.volume - self.loose) / self.room_volume
 
     @cached_property
-    def _room_volume(self) -> float:
+    def room_volume(self) -> float:
         """Volume inside the walls, mm³."""
         return self.space.volume if self.walls is None else self.walls.volume
 

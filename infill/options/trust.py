@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +17,8 @@ from infill.files.excerpts import excerpt
 from infill.options.modules import names_code
 
 FILES = ("pattern", "by", "labels", "region")  # options whose value may be the name of a file
+PATTERN_KEY = re.compile(r"[:,]\s*pattern\s*=\s*")  # before the pattern of a region
+SETTING = re.compile(r"[:,]\s*\w+\s*=")  # before another setting of it
 ELSEWHERE = re.compile(r"[\\/]{2}|[A-Za-z]:|~")  # another machine, another drive, another home
 
 
@@ -40,7 +42,7 @@ def check_trusted(options: Mapping[str, Any], source: Path, *, trust: bool = Fal
     """
     if trust:
         return
-    for name, text in _texts(options):
+    for name, text in _split_regions(_texts(options)):
         word = name.replace("_", "-")
         if code and names_code(text):
             raise FormatError(
@@ -64,6 +66,14 @@ def _texts(value: object, name: str = "") -> Iterator[tuple[str, str]]:
     elif isinstance(value, (list, tuple)):
         for item in value:
             yield from _texts(item, name)
+
+
+def _split_regions(texts: Iterable[tuple[str, str]]) -> Iterator[tuple[str, str]]:
+    """Yield texts as they are, and of regions, which may hold the names of two files, each of these too."""
+    for name, text in texts:
+        yield name, text
+        if name == "region":
+            yield from ((name, SETTING.split(word)[0]) for word in PATTERN_KEY.split(text))
 
 
 def _leads_elsewhere(text: str, source: Path) -> bool:

@@ -18,7 +18,7 @@ class FillRequest(TypedDict):
     densities: Annotated[Pair | None, "Density where the field is lowest and where it is highest"]
     by: Annotated[str | None, "Field that the density follows"]
     grade: Annotated[str | None, "Size that varies with the density: `width` or `cell`; null for one density"]
-    region: Annotated[list[str], "Regions with another density, as on the command line; later ones win"]
+    region: Annotated[list[str], "Regions with other settings, as on the command line; later ones win"]
     cell: Annotated[float | None, "Period of the pattern, mm; null if it follows from the density"]
     line_width: Annotated[float | None, "Width of walls or bars, mm; null if it follows from the density"]
     wall: Annotated[float, "Thickness of the shell, mm"]
@@ -105,12 +105,19 @@ class GradedStep(TypedDict):
 
 
 class FillRegion(TypedDict):
-    """Regions with another density, and the rest of the part first; empty if none were requested."""
+    """Regions with settings of their own, and the rest of the part first; empty if none were requested."""
 
     place: Annotated[str, "Place of the region; `rest` outside of all regions"]
-    wanted: Annotated[float, "Requested density"]
+    pattern: Annotated[str | None, "Name of the pattern; null if the region lies over several"]
+    wanted: Annotated[float | None, "Requested density; null if none is requested there, or several are"]
     density: Annotated[float | None, "Actual density inside the walls; null where nothing of the region is left"]
     volume: Annotated[float, "Volume of the region inside the walls, mm³"]
+    wall: Annotated[float | None, "Requested thickness of the shell, mm; null if the region lies over several"]
+    least: Annotated[
+        float | None,
+        "Where walls differ: least distance of voids from the skin, mm, further from the border of regions than a cell "
+        "of the grid; null without voids there, or if all walls are alike",
+    ]
 
 
 class FillPart(TypedDict):
