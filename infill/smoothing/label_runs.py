@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections import deque
 from collections.abc import Callable, Sequence
 from contextvars import copy_context
 from dataclasses import dataclass, field
@@ -96,14 +97,17 @@ def run_labels(
     """
     count = thread_count(threads)
     shares = _Shares(progress=progress, sizes=[work.cells for work in works])
-    queue = _LabelQueue(
-        smooth=smooth, order=sorted(range(len(works)), key=lambda n: -works[n].cells), shares=shares, stop=stop_early
-    )
+    order = deque(sorted(range(len(works)), key=lambda n: -works[n].cells))
+    queue = _LabelQueue(smooth=smooth, waiting=order, shares=shares, stop=stop_early)
     allowed = available_memory() if max_memory is None else max_memory
     alone = count_alone(sorted(works, key=lambda work: -work.cells), count, allowed)
     for _ in range(alone):
-        queue.take(count)
-    run_together(*(partial(copy_context().run, queue.take_all) for _ in range(count)), threads=count)
+        queue.take(count, largest=True)
+    # Half of the threads begin with the smallest labels: the largest ones together would take the most memory.
+    run_together(
+        *(partial(copy_context().run, queue.take_all, largest=thread % 2 == 0) for thread in range(count)),
+        threads=count,
+    )
     if progress is not None and works:
         progress("smooth", 1.0)
     return queue.outcomes
@@ -132,31 +136,29 @@ class _LabelQueue(Generic[Outcome]):
     """The labels that wait, of which each thread takes the next one, and the outcomes."""
 
     smooth: Callable[[int, int, Progress | None], Outcome | InfillError]
-    order: Sequence[int]
+    waiting: deque[int]
     shares: _Shares
     stop: bool
     outcomes: list[Outcome | InfillError | None] = field(init=False)
     lock: threading.Lock = field(default_factory=threading.Lock)
-    begun: int = 0
     last: int = field(init=False)
 
     def __post_init__(self) -> None:
-        self.outcomes, self.last = [None] * len(self.order), len(self.order)
+        self.outcomes, self.last = [None] * len(self.waiting), len(self.waiting)
 
-    def take(self, threads: int) -> bool:
-        """Smooth the next label; return False if none waits."""
+    def take(self, threads: int, *, largest: bool) -> bool:
+        """Smooth the largest label that waits, or the smallest; return False if none waits."""
         with self.lock:
-            while self.begun < len(self.order) and self.order[self.begun] > self.last:
-                self.begun += 1
-            if self.begun == len(self.order):
+            number = len(self.outcomes)
+            while self.waiting and number >= self.last:  # those after an error need not be smoothed
+                number = self.waiting.popleft() if largest else self.waiting.pop()
+            if number >= self.last:
                 return False
-            number = self.order[self.begun]
-            self.begun += 1
         try:
             outcome = self.smooth(number, threads, self.shares.listener(number))
         except BaseException:
             with self.lock:
-                self.begun = len(self.order)  # the other threads end after the label that they are at
+                self.waiting.clear()  # the other threads end after the label that they are at
             raise
         self.outcomes[number] = outcome
         self.shares.finish(number)
@@ -165,7 +167,7 @@ class _LabelQueue(Generic[Outcome]):
                 self.last = min(self.last, number)
         return True
 
-    def take_all(self) -> None:
+    def take_all(self, *, largest: bool) -> None:
         """Smooth labels on one thread until none waits."""
-        while self.take(1):
+        while self.take(1, largest=largest):
             pass
