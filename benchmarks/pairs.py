@@ -15,6 +15,7 @@ from dataclasses import dataclass
 class Run:
     seconds: float
     memory: int  # bytes, the peak of the process
+    cpu: float = 0.0  # seconds of all its threads, which other processes disturb less
 
 
 def process(command: Sequence[str]) -> Run:
@@ -31,7 +32,7 @@ def process(command: Sequence[str]) -> Run:
             output.seek(0)
             raise RuntimeError(f"{command} ended with {child.returncode}: {output.read().decode()}")
     unit = 1 if sys.platform == "darwin" else 1024
-    return Run(seconds=seconds, memory=usage.ru_maxrss * unit)
+    return Run(seconds=seconds, memory=usage.ru_maxrss * unit, cpu=usage.ru_utime + usage.ru_stime)
 
 
 def paired(one: Callable[[], Run], other: Callable[[], Run], runs: int) -> tuple[list[Run], list[Run]]:

@@ -1,8 +1,9 @@
-"""The speed of smoothing: ``python -m benchmarks.smooth_speed [--sizes 400,800] [--commands 200,400,800] [--large]``.
+"""The speed of smoothing: ``python -m benchmarks.smooth_speed [--sizes 400,800] [--commands 200,400] [--labels 256]``.
 
 A binary sphere of 0.8 of the half side, 10 steps, in turn with its peers: `smooth_volume`, array in, Result out, with
 the level of the volume and the verdict; the command, file in, file out, a process of its own; and, called so, kernels
-alone. VTK is left out where it is not installed. With --mesh FILE, the stages of `smooth_mesh` at 300 voxels.
+alone. VTK is left out where it is not installed. Then every label of a segmentation, beside VTK and serra-mesh, which
+know all labels at once. With --mesh FILE, the stages of `smooth_mesh` at 300 voxels.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks import pairs
+from benchmarks.label_scene import LABELS
 from benchmarks.pairs import row
 from infill import Smoothing, read_mesh, smooth_mesh, smooth_volume
 from infill.isosurfaces.levels import prepare_levels, surface_at_volume
@@ -252,6 +254,90 @@ def commands(n: int, runs: int) -> None:
             row(f"infill smooth, {n}³, {name}", figure, "1 x" if options else "", holds=holds)
 
 
+FUNCTION_SCRIPT = """
+import sys
+import numpy as np
+from infill import smooth_labels
+smooth_labels(np.load(sys.argv[1])).save(sys.argv[2])
+"""
+# All labels in one mesh, in which neighbours share their walls: half of the triangles of closed surfaces.
+NETS_SCRIPT = """
+import sys
+import numpy as np
+import vtk
+from vtk.util.numpy_support import numpy_to_vtk
+labels = np.load(sys.argv[1])
+image = vtk.vtkImageData()
+image.SetDimensions(*labels.shape[::-1])
+image.GetPointData().SetScalars(numpy_to_vtk(labels.ravel()))
+net = vtk.vtkSurfaceNets3D()
+net.SetInputData(image)
+net.GenerateValues(int(labels.max()), 1, int(labels.max()))
+net.SmoothingOn()
+net.SetNumberOfIterations(16)
+net.SetConstraintScale(2.0)
+net.SetRelaxationFactor(0.5)
+net.SetOutputMeshTypeToTriangles()
+writer = vtk.vtkSTLWriter()
+writer.SetInputConnection(net.GetOutputPort())
+writer.SetFileTypeToBinary()
+writer.SetFileName(sys.argv[2])
+writer.Write()
+"""
+SERRA_SCRIPT = """
+import sys
+import numpy as np
+import serra_mesh
+labels = np.load(sys.argv[1])
+mesher = serra_mesh.Mesher(taubin=8)
+mesher.mesh(labels)
+for label in range(1, int(labels.max()) + 1):
+    mesher.get(label).save(f"{sys.argv[2]}{label}.ply")
+"""
+
+
+def labels(size: int, runs: int) -> None:
+    """Compare smoothing every label of a segmentation with its peers: a process each, files in and out."""
+    command = shutil.which("infill", path=Path(sys.executable).parent)
+    assert command is not None
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        source = folder / "labels.npy"
+        # Made in a process of its own: a child's peak of memory begins at that of the process that starts it.
+        scene = f"import numpy; from benchmarks.label_scene import segmentation; numpy.save({str(source)!r}, "
+        subprocess.run([sys.executable, "-c", scene + f"segmentation({size}))"], check=True)
+        print(f"\n{LABELS} labels of {size}³, {runs} rounds")
+        smooth = [command, "smooth", str(source), "--force", "--quiet", "-o"]
+        scripts = {"function": FUNCTION_SCRIPT, "nets": NETS_SCRIPT, "serra": SERRA_SCRIPT}
+        for key, text in scripts.items():
+            (folder / f"{key}.py").write_text(text, encoding="utf-8")
+        base: list[str] = [*smooth, str(folder / "{label}.stl")]
+        others = {
+            "infill smooth, all labels in a 3MF": [*smooth, str(folder / "all.3mf"), "--each-label"],
+            "infill smooth, every triangle": [*base, "--tolerance", "0"],
+            "smooth_labels and save, a 3MF": _script(folder, "function", source, "function.3mf"),
+            "VTK surface nets: one mesh, no verdict, not simplified": _script(folder, "nets", source, "nets.stl"),
+            "serra-mesh, 8 x Taubin: no verdict, not simplified": _script(folder, "serra", source, "serra"),
+        }
+        for what, other in others.items():
+            try:
+                mine, theirs = pairs.paired(partial(pairs.process, base), partial(pairs.process, other), runs)
+            except RuntimeError as error:
+                print(f"    {what}: {str(error).splitlines()[-1]}")
+                continue
+            row("infill smooth, an STL for each label", _figures(mine))
+            row(f"    {what}", f"{_figures(theirs)}, {pairs.ratio(theirs, mine):.2f} x")
+
+
+def _script(folder: Path, name: str, source: Path, target: str) -> list[str]:
+    return [sys.executable, str(folder / f"{name}.py"), str(source), str(folder / target)]
+
+
+def _figures(runs: list[pairs.Run]) -> str:
+    cpu, memory = statistics.median(run.cpu for run in runs), max(run.memory for run in runs)
+    return f"{pairs.median(runs):.2f} s, CPU {cpu:.2f} s, {memory / 2**20:.0f} MiB"
+
+
 def stages(path: Path) -> None:
     """Print how long each stage of smoothing a mesh at 300 voxels takes, after a first run that does not count."""
     mesh = read_mesh(path)
@@ -272,6 +358,7 @@ def main() -> None:
     parser.add_argument("--sizes", default="400,800")
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--commands", default="200,400,800")
+    parser.add_argument("--labels", type=int, default=256, help="size of the segmentation; 0 for none")
     parser.add_argument("--mesh", type=Path, help="also the stages of smoothing this mesh")
     parser.add_argument("--large", action="store_true", help="also 1600³, which takes 9 GiB")
     options = parser.parse_args()
@@ -281,6 +368,8 @@ def main() -> None:
         row("\n    time from 400³ to 800³", f"{growth:.2f} x", "4.6 x", holds=growth <= 4.6)
     for n in map(int, filter(None, options.commands.split(","))):
         commands(n, options.runs)
+    if options.labels:
+        labels(options.labels, options.runs)
     if options.mesh:
         stages(options.mesh)
     if options.large:

@@ -14,10 +14,13 @@ from scipy.ndimage import gaussian_filter, label
 
 from infill import InfillError, Smoothing, Surface, Volume, smooth_volume
 from infill.inspection.bricks import check_topology, check_topology_by_signs
-from infill.inspection.deviation import measure_deviation
+from infill.inspection.deviation import KEPT, measure_deviation, sample_surface
 from infill.inspection.sign_changes import SignChanges, are_surfaces_near
+from infill.inspection.uncertain_places import CERTAIN, UncertainPlaces
 from infill.isosurfaces.components import data_bits
+from infill.isosurfaces.sparse_marching import extract_bricks
 from infill.kernels.flips import simple
+from infill.meshes.distance import TriangleTree
 from infill.phasefield.sparse import smooth_bricks
 from infill.smoothing.levelling import extract_surface
 from infill.smoothing.request import SmoothedInput, SmoothInput, SmoothRequest
@@ -77,7 +80,31 @@ def compared(given: SmoothInput, request: SmoothRequest) -> tuple[bool, bool]:
         assert measured.word == "kept"
         assert measured.phrases == ()
         assert max(measured.there.max, measured.back.max) <= 1.25 * max(spacing)
+    check_uncertain_places(raw_surface(field, data, None), place_surface(found.surface, data), data, flips)
     return part is not None, near
+
+
+def check_uncertain_places(given: Surface, result: Surface, data: Volume, flips: SignChanges) -> None:
+    """Check that surfaces are an edge apart outside the uncertain places, and that these suffice for the verdict."""
+    cell = float(data.cell_size.max())
+    uncertain = UncertainPlaces.of(flips, data)
+    if uncertain is None:
+        return
+    rng = np.random.default_rng(0)
+    shifted = replace(result, vertices=result.vertices + 0.2 * cell * rng.uniform(-1, 1, 3) / np.sqrt(3))
+    for surface, places in ((result, uncertain), (shifted, uncertain.after_moving(0.2 * cell, near=KEPT))):
+        assert places is not None
+        for one, other in ((given, surface), (surface, given)):
+            points, _, _ = sample_surface(one, 0.4 * cell)
+            distance = TriangleTree.of(other).nearest(points)[0]
+            limit = CERTAIN * cell if places is uncertain else KEPT * cell
+            assert distance[~places.hold(points)].max(initial=0.0) <= limit + 1e-9
+        known, whole = (
+            measure_deviation(given, surface, cell=cell, exact=False, uncertain=chosen) for chosen in (places, None)
+        )
+        for name in ("word", "phrases", "lost", "added", "thin", "sheet", "hidden", "given_area", "result_area"):
+            assert getattr(known, name) == getattr(whole, name)
+    assert uncertain.after_moving(0.3 * cell, near=KEPT) is None
 
 
 @pytest.mark.longest
@@ -137,6 +164,10 @@ def test_a_loss_that_is_planted_is_not_passed_over() -> None:
     for cut, near in ((field, True), (replace(field, values=values), False)):
         flips = SignChanges.of(cut, data_bits(cut), 0.0)
         assert are_surfaces_near(flips, spacing=(1.0, 1.0, 1.0)) == near
+        uncertain = UncertainPlaces.of(flips, Volume(values=solid))
+        surfaces = raw_surface(cut, Volume(values=solid), None), extract_bricks(cut, spacing=(1.0, 1.0, 1.0))
+        assert uncertain is not None
+        assert (measure_deviation(*surfaces, cell=1.0, exact=False, uncertain=uncertain).word == "lost") != near
         assert (len(flips.places) > 100) != near
 
 

@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 from scipy import ndimage
 from scipy.ndimage import convolve1d, map_coordinates
 
-from infill import Smoothing
+from infill import Smoothing, Surface
+from infill.inspection.deviation import GOLDEN, sample_surface
 from infill.isosurfaces.components import (
     Components,
     component_cells,
@@ -26,7 +27,7 @@ from infill.isosurfaces.components import (
 from infill.kernels import components as parts
 from infill.kernels import refining
 from infill.kernels.compiling import njit
-from infill.kernels.distances import lower_to_triangles, squared_distance
+from infill.kernels.distances import interleave_bits, lower_to_triangles, squared_distance
 from infill.kernels.sparse import (
     ALL,
     B2,
@@ -45,6 +46,8 @@ from infill.kernels.sparse import (
 from infill.kernels.sparse_marching import BLOCK, face_volumes, scale_to_mm, sum_volumes
 from infill.kernels.threads import MAX_THREADS, VARIABLE, in_threads, thread_count
 from infill.kernels.transfer import gather
+from infill.meshes.distance import TriangleTree
+from infill.meshes.measuring import face_areas
 from infill.phasefield.sparse import SparseField, brick_states, smooth_bricks
 
 SINGLE = 2e-6  # of numbers about 1: some ten roundings of float32
@@ -501,3 +504,62 @@ def test_cells_are_lowered_to_the_exact_distance_from_the_nearest_triangle(kind:
         wanted = np.minimum(wanted, away)
     np.testing.assert_allclose(found.ravel(), wanted, rtol=1e-6, atol=1e-9)
     assert (found < np.float32(reach**2)).sum() > 100
+
+
+# --- surfaces --------------------------------------------------------------------------------------------
+
+
+def triangles(rng: np.random.Generator, vertices: int, faces: int) -> Surface:
+    """Triangles between random points, some of which none uses."""
+    points = rng.normal(size=(vertices, 3)) * [1, 5, 2] + [100, -3, 0]
+    return Surface(vertices=points, faces=rng.integers(0, max(1, vertices - 2), (faces, 3)).astype(np.int32))
+
+
+@pytest.mark.parametrize("count", [1, 2, 7, 5000])
+def test_the_curve_of_morton_interleaves_bits(count: int, rng: np.random.Generator) -> None:
+    points = rng.normal(size=(count, 3)) * [1, 5, 2]
+    codes = np.empty(count, dtype=np.uint64)
+    interleave_bits(points, 10, codes)
+    side = max(float(np.ptp(points, axis=0).max()), 1e-300)
+    cells = ((points - points.min(axis=0)) * (1023 / side)).astype(int)
+    for code, cell in zip(codes.tolist(), cells.tolist(), strict=True):
+        assert code == sum((cell[axis] >> bit & 1) << 3 * bit + axis for bit in range(10) for axis in range(3))
+
+
+@pytest.mark.parametrize("count", [1, 4, 5, 9, 1000])
+def test_boxes_of_a_tree_hold_what_is_below_them_and_no_more(count: int, rng: np.random.Generator) -> None:
+    tree = TriangleTree.of(triangles(rng, 50, count))
+    first_leaf = len(tree.low) // 2
+
+    def below(box: int) -> np.ndarray:
+        if box < first_leaf:
+            return np.concatenate([below(2 * box + 1), below(2 * box + 2)])
+        return tree.corners[4 * (box - first_leaf) : 4 * (box - first_leaf) + 4].reshape(-1, 3)
+
+    assert sorted(tree.order) == list(range(count))
+    for box in range(len(tree.low)):
+        points = below(box)
+        assert np.array_equal(tree.low[box], points.min(axis=0, initial=np.inf))
+        assert np.array_equal(tree.high[box], points.max(axis=0, initial=-np.inf))
+
+
+@pytest.mark.parametrize("pitch", [0.3, 10.0, 1e6])
+def test_points_are_spread_evenly_over_a_surface(pitch: float, rng: np.random.Generator) -> None:
+    """Number by number what NumPy says: a face by the sum of areas before it, and places that fill a face."""
+    surface = triangles(rng, 40, 60)
+    corners = surface.vertices[surface.faces]
+    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
+    assert np.array_equal(face_areas(surface), areas)
+    points, face, area = sample_surface(surface, pitch)
+    count = int(min(80_000, np.ceil(areas.sum() / pitch**2)))
+    spread = np.searchsorted(np.cumsum(areas), (np.arange(count) + 0.5) * (areas.sum() / count)).clip(0, 59)
+    u, v = ((np.arange(count) * share) % 1 for share in GOLDEN)
+    u, v = np.where(u + v > 1, 1 - u, u), np.where(u + v > 1, 1 - v, v)
+    a, b, c = (corners[spread, k] for k in range(3))
+    used, first = np.unique(surface.faces, return_index=True)
+    assert np.array_equal(
+        points, np.concatenate([a + u[:, None] * (b - a) + v[:, None] * (c - a), surface.vertices[used]])
+    )
+    assert np.array_equal(face, np.concatenate([spread, first // 3]))
+    assert area.sum() == pytest.approx(areas.sum())
+    assert not area[count:].any()

@@ -29,7 +29,8 @@ from infill import (
     smooth_labels,
     smooth_volume,
 )
-from infill.errors import FormatError, LabelChoiceError
+from infill.errors import FormatError, InfillError, LabelChoiceError
+from infill.smoothing.label_runs import LabelWork, count_alone, run_labels
 from infill.voxels.labels import MOST_LABELS, label_extents
 
 NAMED = "Segment0_Name:=Femur\nSegment0_LabelValue:=1\nSegment1_Name:=Tibia\nSegment1_LabelValue:=7\n"
@@ -61,6 +62,10 @@ def test_an_extent_holds_all_of_its_label_and_no_less(values: np.ndarray) -> Non
             where = np.argwhere(shape == each.value)
             assert each.low == tuple(where.min(axis=0))
             assert each.high == tuple(where.max(axis=0) + 1)
+            along = int(np.argmin(np.abs(shape.strides)))
+            is_here = np.moveaxis(shape == each.value, along, -1)
+            if len(set(shape.strides)) == 3:  # else axes of one cell are in no certain order
+                assert each.runs == int(np.count_nonzero(np.diff(is_here, axis=-1, prepend=False) & is_here))
 
 
 @pytest.mark.parametrize(
@@ -167,6 +172,105 @@ def test_one_that_fails_is_named_and_nothing_is_returned() -> None:
     with pytest.raises(ParameterError, match=r"^label 9 \(Scapula\): despeckle is 100 mm³") as caught:
         smooth_labels(SPECK, table=[Segment(value=9, name="Scapula")], despeckle=100, tolerance=None)
     assert "\n" not in str(caught.value)
+
+
+def same(one: Any, other: Any) -> bool:
+    """Compare reports but for the seconds."""
+    if isinstance(one, dict):
+        return one.keys() == other.keys() and all(same(one[key], other[key]) for key in one if key != "seconds")
+    return bool(one == other)
+
+
+def test_surfaces_and_reports_do_not_depend_on_threads() -> None:
+    few, many = (smooth_labels(bones(), allow_broken=True, threads=threads) for threads in (1, 3))
+    assert list(few.surfaces) == list(many.surfaces) == ["label_3", "label_7", "label_200"]
+    for name, surface in few.surfaces.items():
+        assert surface.vertices.tobytes() == many.surfaces[name].vertices.tobytes()
+        assert surface.faces.tobytes() == many.surfaces[name].faces.tobytes()
+    for one, other in zip(few.report["labels"], many.report["labels"], strict=True):
+        assert same({**one["report"]}, {**other["report"]})
+
+
+def test_distances_of_labels_are_measured_when_they_are_read() -> None:
+    """They are those of the label alone in the whole volume; until then, a report holds bits, not the field."""
+    volume = Volume(values=bones(), spacing=(0.5, 0.6, 0.7), origin=(10, -20, 30), space="LPS")
+    result = smooth_labels(volume, allow_broken=True, tolerance=None)
+    for name, label in zip(result.surfaces, result.report["labels"], strict=True):
+        report: Any = label["report"]
+        assert report.pending("distance")
+        solid = report.late["distance"].func.__self__
+        arrays_held = (solid.field.values, solid.field.data, solid.field.where)
+        assert [array.base for array in arrays_held] == [None] * 3
+        assert solid.field.values.size == solid.field.data.size == 0
+        assert solid.bits.nbytes == 128 * len(solid.field.where)
+        assert solid.place.values.strides == (0, 0, 0)
+        distance = smooth_volume(volume, label=int(name[6:]), allow_broken=True, tolerance=None).report["distance"]
+        assert report["distance"]["from"] == distance["from"]
+        for side in ("result", "input"):
+            for key in ("mean", "rms", "p95", "max"):
+                assert report["distance"][side][key] == pytest.approx(distance[side][key], rel=1e-6)
+
+
+def test_thick_slices_are_labels_too() -> None:
+    result = smooth_labels(Volume(values=bones()[:, :, ::3], spacing=(1, 1, 3)), label=3)
+    assert result.report["labels"][0]["report"]["distance"]["result"]["max"] < 3
+
+
+@pytest.mark.parametrize("threads", [1, 2, 4])
+@pytest.mark.parametrize("stop", [True, False])
+def test_labels_run_beside_each_other_and_the_first_error_is_kept(threads: int, stop: bool) -> None:
+    """Whatever is large or small: outcomes come in order, and before the first error none is missing."""
+    sizes = [3, 500, 20, 20, 1, 90, 4]
+    seen: list[float] = []
+
+    def smooth(number: int, inner: int, progress: Any) -> int | InfillError:
+        assert 1 <= inner <= threads
+        progress("smooth", 0.5)
+        return ParameterError(str(number)) if number in (2, 4) else number
+
+    outcomes = run_labels(
+        smooth,
+        [LabelWork(cells=size, memory=size) for size in sizes],
+        stop_early=stop,
+        threads=threads,
+        max_memory=None,
+        progress=lambda stage, share: seen.append(share),
+    )
+    assert outcomes[:2] == [0, 1]
+    assert str(outcomes[2]) == "2"
+    assert seen == sorted(seen)
+    if not stop:
+        assert [outcomes[n] for n in (3, 5, 6)] == [3, 5, 6]
+        assert str(outcomes[4]) == "4"
+
+
+def test_an_interrupt_ends_all_threads() -> None:
+    begun: list[int] = []
+
+    def smooth(number: int, inner: int, progress: Any) -> int:
+        begun.append(number)
+        raise KeyboardInterrupt
+
+    works = [LabelWork(cells=1, memory=1)] * 50
+    with pytest.raises(KeyboardInterrupt):
+        run_labels(smooth, works, stop_early=False, threads=3, max_memory=None, progress=None)
+    assert len(begun) <= 3
+
+
+@pytest.mark.parametrize(
+    ("sizes", "threads", "allowed", "alone"),
+    [
+        ([10, 10], 2, None, 0),
+        ([10, 4, 4], 2, None, 1),  # the other thread would wait for it
+        ([10, 6, 4], 2, None, 0),
+        ([10, 6, 4], 4, None, 3),
+        ([10, 6, 4], 1, None, 0),
+        ([10, 6, 6, 4], 2, 15, 1),  # the first two do not fit together
+        ([10, 6, 6, 4], 2, 9, 4),
+    ],
+)
+def test_large_labels_come_alone(sizes: list[int], threads: int, allowed: int | None, alone: int) -> None:
+    assert count_alone([LabelWork(cells=size, memory=size) for size in sizes], threads, allowed) == alone
 
 
 @pytest.mark.slow

@@ -21,6 +21,7 @@ from infill.plain_numbers import plain_place, plain_share, plain_size
 from infill.surface import Surface
 
 if TYPE_CHECKING:
+    from infill.inspection.uncertain_places import UncertainPlaces
     from infill.reports.smoothing import Distances, Place
 
 Word = Literal["kept", "changed a little", "lost"]
@@ -47,7 +48,7 @@ class SurfaceGap:
     Parameters
     ----------
     mean, rms, p95, max : float
-        Over the area; the maximum is over vertices too.
+        Over the area; the maximum is over vertices too. Where near distances are not measured, all are the maximum.
     at : (x, y, z)
         Place of the maximum.
     """
@@ -191,6 +192,7 @@ def measure_deviation(
     closed: Surface | None = None,
     kinds: Kinds = all_points_count,
     exact: bool = True,
+    uncertain: UncertainPlaces | None = None,
     threads: int | None = None,
 ) -> Deviation:
     """Compare a result with the given surface.
@@ -208,16 +210,20 @@ def measure_deviation(
     exact : bool
         Whether to measure near distances: leaving them out is several times faster, and the word, the phrases and the
         places are the same.
+    uncertain : UncertainPlaces, optional
+        The places that alone may be further than `KEPT` from the other surface; all others count as near. Only if not
+        `exact`, and without holes.
     threads : int, optional
         See `infill.kernels.threads.thread_count`.
     """
+    places = None if exact or closed is not None else uncertain
     enough = 0.0 if exact else KEPT * cell
     points, _, area = sample_surface(result, PITCH * cell)
-    distance = _distances(points, given if closed is None else closed, enough, threads)
-    there, added = _gap(points, distance, area), _patches(points, distance, area, cell)
+    distance = _distances(points, given if closed is None else closed, enough, places, threads)
+    there, added = _gap(points, distance, area, exact=exact), _patches(points, distance, area, cell)
     result_area = float(area.sum())
     points, faces, area = sample_surface(given, PITCH * cell)
-    distance = _distances(points, result, enough, threads)
+    distance = _distances(points, result, enough, places, threads)
     distant = np.flatnonzero(distance > KEPT * cell)
     kind = kinds(points[distant], faces[distant]) if len(distant) else np.empty(0, dtype=np.int64)
     thin_points = distant[kind == THIN]
@@ -232,7 +238,7 @@ def measure_deviation(
     points, distance, area = points[counting], distance[counting], area[counting]
     return Deviation(
         there=there,
-        back=_gap(points, distance, area),
+        back=_gap(points, distance, area, exact=exact),
         added=added,
         lost=_patches(points, distance, area, cell),
         thin=thin,
@@ -246,11 +252,18 @@ def measure_deviation(
     )
 
 
-def _distances(points: Floats, surface: Surface, enough: float, threads: int | None) -> Floats:
-    """Return the distance of each point from a surface, (N,), mm; one below `enough` may be too great."""
-    order = morton_order(points)
-    distance = np.empty(len(points))
-    distance[order], _ = TriangleTree.of(surface).nearest(points[order], enough=enough, threads=threads)
+def _distances(
+    points: Floats, surface: Surface, enough: float, uncertain: UncertainPlaces | None, threads: int | None
+) -> Floats:
+    """Return the distance of each point from a surface, (N,), mm; one below `enough` may be too great.
+
+    Points that are certain to be near get 0.
+    """
+    distance = np.zeros(len(points))
+    chosen = np.arange(len(points)) if uncertain is None else np.flatnonzero(uncertain.hold(points, threads=threads))
+    if len(chosen):
+        order = chosen[morton_order(points[chosen])]
+        distance[order], _ = TriangleTree.of(surface).nearest(points[order], enough=enough, threads=threads)
     return distance
 
 
@@ -271,39 +284,40 @@ def sample_surface(surface: Surface, pitch: float) -> tuple[Floats, NDArray[np.i
     area : (N,) float64, mm²
         Area that each point stands for.
     """
-    vertices = np.asarray(surface.vertices, dtype=np.float64)
+    from infill.kernels.measures import find_first_corners, spread_points
+
+    vertices, faces = np.ascontiguousarray(surface.vertices, dtype=np.float64), surface.faces
     areas = face_areas(surface)
     total = float(areas.sum())
     count = int(min(MOST_SAMPLES, max(1.0, np.ceil(total / pitch**2)))) if total > 0 else 0
-    cumulative = (np.arange(count) + 0.5) * (total / max(count, 1))
-    face = np.searchsorted(np.cumsum(areas), cumulative).clip(0, len(areas) - 1)
-    u, v = ((np.arange(count) * share) % 1 for share in GOLDEN)
-    outside = u + v > 1
-    u, v = np.where(outside, 1 - u, u), np.where(outside, 1 - v, v)
-    a, b, c = (vertices[surface.faces[face, i]] for i in range(3))
-    points = a + u[:, None] * (b - a) + v[:, None] * (c - a)
-    vertex_index, corner = np.unique(surface.faces.ravel(), return_index=True)
-    thinned = slice(None, None, max(1, -(-len(vertex_index) // MOST_SAMPLES)))
-    return (
-        np.concatenate([points, vertices[vertex_index[thinned]]]),
-        np.concatenate([face, corner[thinned] // 3]).astype(np.int64),
-        np.concatenate([np.full(count, total / max(count, 1)), np.zeros(len(vertex_index[thinned]))]),
-    )
+    step = total / max(count, 1)
+    corner = np.full(len(vertices), -1, dtype=np.int64)
+    used = find_first_corners(faces, corner)
+    thinned = np.flatnonzero(corner >= 0)[:: max(1, -(-used // MOST_SAMPLES))]
+    points, face = np.empty((count + len(thinned), 3)), np.empty(count + len(thinned), dtype=np.int64)
+    spread_points(vertices, faces, areas, step, np.array(GOLDEN), points[:count], face[:count])
+    points[count:], face[count:] = vertices[thinned], corner[thinned] // 3
+    area = np.zeros(len(points))
+    area[:count] = step
+    return points, face, area
 
 
-def _gap(points: Floats, distance: Floats, area: Floats) -> SurfaceGap:
-    """Summarise the distances."""
+def _gap(points: Floats, distance: Floats, area: Floats, *, exact: bool) -> SurfaceGap:
+    """Summarise the distances; of those that are bounds, all numbers are the maximum."""
+    worst = int(distance.argmax())
+    x, y, z = points[worst].tolist()
+    furthest = float(distance[worst])
+    if not exact:
+        return SurfaceGap(mean=furthest, rms=furthest, p95=furthest, max=furthest, at=(x, y, z))
     weights = area if area.any() else np.ones_like(area)
     order = np.argsort(distance)
     cumulative = np.cumsum(weights[order])
     p95 = distance[order[np.searchsorted(cumulative, 0.95 * cumulative[-1]).clip(0, len(order) - 1)]]
-    worst = int(distance.argmax())
-    x, y, z = points[worst].tolist()
     return SurfaceGap(
         mean=float(np.average(distance, weights=weights)),
         rms=float(np.sqrt(np.average(distance**2, weights=weights))),
         p95=float(p95),
-        max=float(distance[worst]),
+        max=furthest,
         at=(x, y, z),
     )
 

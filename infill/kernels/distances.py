@@ -332,6 +332,57 @@ def least_distance(points, corners, low, high, leaf, limit, thread, threads):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
+def box_leaves(corners, leaf, low, high):
+    """Set the boxes of a tree of triangles: see `infill.meshes.distance.TriangleTree`.
+
+    Parameters
+    ----------
+    corners : (F, 3, 3) float64
+        In the order of the leaves.
+    leaf : int
+        Triangles in a leaf.
+    low, high : (2 L - 1, 3) float64
+        Every box is overwritten; one without a triangle is from inf to -inf.
+    """
+    first_leaf = (len(low) - 1) // 2
+    for box in range(first_leaf, len(low)):
+        begin = (box - first_leaf) * leaf
+        for axis in range(3):
+            lowest, highest = np.inf, -np.inf
+            for at in range(begin, min(begin + leaf, len(corners))):
+                for corner in range(3):
+                    lowest = min(lowest, corners[at, corner, axis])
+                    highest = max(highest, corners[at, corner, axis])
+            low[box, axis], high[box, axis] = lowest, highest
+    for box in range(first_leaf - 1, -1, -1):
+        for axis in range(3):
+            low[box, axis] = min(low[2 * box + 1, axis], low[2 * box + 2, axis])
+            high[box, axis] = max(high[2 * box + 1, axis], high[2 * box + 2, axis])
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def interleave_bits(points, bits, codes):
+    """Set the place of each point (N, 3) on the curve of Morton, with a number of bits for each coordinate."""
+    low, side = np.full(3, np.inf), 1e-300
+    for axis in range(3):
+        highest = -np.inf
+        for n in range(len(points)):
+            low[axis], highest = min(low[axis], points[n, axis]), max(highest, points[n, axis])
+        side = max(side, highest - low[axis])
+    scale = ((1 << bits) - 1) / side
+    for n in range(len(points)):
+        code = np.uint64(0)
+        for axis in range(3):
+            spread = np.uint64(int((points[n, axis] - low[axis]) * scale))
+            spread = (spread | spread << np.uint64(16)) & np.uint64(0x030000FF)
+            spread = (spread | spread << np.uint64(8)) & np.uint64(0x0300F00F)
+            spread = (spread | spread << np.uint64(4)) & np.uint64(0x030C30C3)
+            spread = (spread | spread << np.uint64(2)) & np.uint64(0x09249249)
+            code |= spread << np.uint64(axis)
+        codes[n] = code
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
 def count_windings(points, corners, sign, windings, thread, threads):
     """Count the windings of triangles (F, 3, 3), with their sign (F,), around every `threads`-th point.
 

@@ -116,3 +116,37 @@ def mark_faces_in(vertices, faces, spacing, slots, bits, is_inside, thread, thre
         z = int(np.floor((vertices[a, 2] + vertices[b, 2] + vertices[c, 2]) / (3 * spacing[2]) + 0.5))
         slot = slots[x // B0, y // B1, z // B2]
         is_inside[f] = slot >= 0 and (bits[slot, (x % B0) * B1 + y % B1] >> np.uint16(z % B2)) & np.uint16(1) != 0
+
+
+@njit(nogil=True, cache=True)
+def mark_points_near(points, origin, turn, slots, bits, reach, is_near, thread, threads):
+    """Mark the points for which a cube within reach is set, by its lowest corner on the lattice.
+
+    Parameters
+    ----------
+    points : (N, 3) float64, mm
+    origin, turn : (3,), (3, 3) float64
+        The lower corner of the grid, and the rows that turn a distance from it into cells.
+    slots : (m0, m1, m2) int32
+    bits : (n, 64) uint16
+    reach : float
+        Cells along each axis.
+    is_near : (N,) bool
+    """
+    size = (len(points) + threads - 1) // threads
+    begin, end = np.empty(3, dtype=np.int64), np.empty(3, dtype=np.int64)
+    cells = (slots.shape[0] * B0, slots.shape[1] * B1, slots.shape[2] * B2)
+    for n in range(thread * size, min(len(points), (thread + 1) * size)):
+        dx, dy, dz = points[n, 0] - origin[0], points[n, 1] - origin[1], points[n, 2] - origin[2]
+        for axis in range(3):
+            at = turn[axis, 0] * dx + turn[axis, 1] * dy + turn[axis, 2] * dz + 0.5
+            begin[axis] = max(0, int(np.floor(at - reach)))
+            end[axis] = min(cells[axis] - 1, int(np.floor(at + reach)))
+        near = False
+        for x in range(begin[0], end[0] + 1):
+            for y in range(begin[1], end[1] + 1):
+                for z in range(begin[2], end[2] + 1):
+                    slot = slots[x // B0, y // B1, z // B2]
+                    if slot >= 0:
+                        near |= (bits[slot, (x % B0) * B1 + y % B1] >> np.uint16(z % B2)) & np.uint16(1) != 0
+        is_near[n] = near

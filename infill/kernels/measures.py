@@ -127,3 +127,57 @@ def mark_within_heights(vertices, faces, low, high, is_within):
         a, b, c = vertices[faces[f, 0], 2], vertices[faces[f, 1], 2], vertices[faces[f, 2], 2]
         middle = (min(a, b, c) + max(a, b, c)) / 2
         is_within[f] = low <= middle < high
+
+
+@njit(nogil=True, cache=True)
+def measure_areas(vertices, faces, areas):
+    """Set the area of each face (F, 3)."""
+    for f in range(len(faces)):
+        a, b, c = faces[f, 0], faces[f, 1], faces[f, 2]
+        ux, uy, uz = vertices[b, 0] - vertices[a, 0], vertices[b, 1] - vertices[a, 1], vertices[b, 2] - vertices[a, 2]
+        vx, vy, vz = vertices[c, 0] - vertices[a, 0], vertices[c, 1] - vertices[a, 1], vertices[c, 2] - vertices[a, 2]
+        nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+        areas[f] = np.sqrt(nx * nx + ny * ny + nz * nz) / 2
+
+
+@njit(nogil=True, cache=True)
+def spread_points(vertices, faces, areas, step, shares, points, face):
+    """Spread points evenly over the area of a surface.
+
+    Parameters
+    ----------
+    vertices, faces : (V, 3) float64, (F, 3) int
+    areas : (F,) float64
+    step : float
+        Area that each point stands for.
+    shares : (2,) float64
+        The place of a point in its face moves on by these shares of two sides from point to point.
+    points, face : (N, 3) float64, (N,) int64
+        The results.
+    """
+    at, upto = 0, areas[0] if len(areas) else 0.0
+    for n in range(len(points)):
+        aim = (n + 0.5) * step
+        while upto < aim and at < len(areas) - 1:
+            at += 1
+            upto += areas[at]
+        u, v = n * shares[0] % 1, n * shares[1] % 1
+        if u + v > 1:
+            u, v = 1 - u, 1 - v
+        i, j, k = faces[at, 0], faces[at, 1], faces[at, 2]
+        for axis in range(3):
+            start = vertices[i, axis]
+            points[n, axis] = start + u * (vertices[j, axis] - start) + v * (vertices[k, axis] - start)
+        face[n] = at
+
+
+@njit(nogil=True, cache=True)
+def find_first_corners(faces, corner):
+    """Set the first corner at each vertex, numbered 3 f + k, in (V,) of -1; return the number of vertices with one."""
+    count = 0
+    for f in range(len(faces)):
+        for k in range(3):
+            if corner[faces[f, k]] < 0:
+                corner[faces[f, k]] = 3 * f + k
+                count += 1
+    return count

@@ -192,3 +192,32 @@ def artanh_of_values(bricks, clip, scale, out, thread, threads):
             value[t] = np.float32(1) if value[t] >= clip else (np.float32(-1) if value[t] <= -clip else v)
         for n in range(count):
             copy(line, rows[n], value, n * B2)
+
+
+@njit(nogil=True, cache=True)
+def extend_boxes(numbers, first, low, high, runs):
+    """Extend the box of every number to the cells that have it, and count its runs along the last axis.
+
+    Parameters
+    ----------
+    numbers : (n0, n1, n2) int32
+        At least 0.
+    first : int
+        Place of the first layer along the first axis.
+    low, high : (L, 3) int64
+        The boxes so far, `high` without its end; `low` above `high` for a number without a cell.
+    runs : (L,) int64
+    """
+    n0, n1, n2 = numbers.shape
+    for i in range(n0):
+        for j in range(n1):
+            row, begin = numbers[i, j], 0
+            while begin < n2:
+                number, end = row[begin], begin + 1
+                while end < n2 and row[end] == number:
+                    end += 1
+                low[number, 0], high[number, 0] = min(low[number, 0], first + i), max(high[number, 0], first + i + 1)
+                low[number, 1], high[number, 1] = min(low[number, 1], j), max(high[number, 1], j + 1)
+                low[number, 2], high[number, 2] = min(low[number, 2], begin), max(high[number, 2], end)
+                runs[number] += 1
+                begin = end

@@ -43,6 +43,8 @@ class TriangleTree:
         -----
         Neighbours on the curve of Morton (1966), which interleaves the bits of the coordinates, are near in space.
         """
+        from infill.kernels.distances import box_leaves
+
         vertices, faces = np.asarray(surface.vertices, dtype=np.float64), surface.faces
         centroids = vertices[faces[:, 0]]
         centroids += vertices[faces[:, 1]]
@@ -52,22 +54,8 @@ class TriangleTree:
         del centroids  # freed at once: an array as long as the faces adds to the peak of memory
         corners = vertices[faces[order]]
         leaves = 1 << max(0, int(np.ceil(np.log2(-(-len(corners) // LEAF)))))
-        low, high = np.full((2 * leaves - 1, 3), np.inf), np.full((2 * leaves - 1, 3), -np.inf)
-        for box, reduce_boxes in ((low, np.minimum), (high, np.maximum)):
-            full_leaves, level_start = len(corners) // LEAF, leaves - 1
-            box[level_start : level_start + full_leaves] = reduce_boxes.reduce(
-                corners[: full_leaves * LEAF].reshape(full_leaves, 3 * LEAF, 3), axis=1
-            )
-            if full_leaves * LEAF < len(corners):
-                box[level_start + full_leaves] = reduce_boxes.reduce(
-                    corners[full_leaves * LEAF :].reshape(-1, 3), axis=0
-                )
-            while level_start:
-                parent_start = level_start // 2
-                box[parent_start:level_start] = reduce_boxes(
-                    box[level_start : 2 * level_start + 1 : 2], box[level_start + 1 : 2 * level_start + 1 : 2]
-                )
-                level_start = parent_start
+        low, high = np.empty((2 * leaves - 1, 3)), np.empty((2 * leaves - 1, 3))
+        box_leaves(corners, LEAF, low, high)
         return cls(corners=corners, low=low, high=high, order=order)
 
     def normals(self) -> Floats:
@@ -202,13 +190,8 @@ def morton_order(points: Floats) -> NDArray[np.int64]:
 
 def _morton_codes(points: Floats) -> NDArray[np.uint64]:
     """Interleave the bits of x, y and z; return the position of each point on the curve of Morton."""
-    low = points.min(axis=0)
-    side = max(float(np.ptp(points, axis=0).max()), 1e-300)
-    spaced_bits = np.zeros(2**BITS, dtype=np.uint64)
-    for bit in range(BITS):
-        spaced_bits |= ((np.arange(2**BITS, dtype=np.uint64) >> np.uint64(bit)) & np.uint64(1)) << np.uint64(3 * bit)
-    code = np.zeros(len(points), dtype=np.uint64)
-    for axis in range(3):
-        cells = ((points[:, axis] - low[axis]) * ((2**BITS - 1) / side)).astype(np.int16)
-        code |= spaced_bits[cells] << np.uint64(axis)
-    return code
+    from infill.kernels.distances import interleave_bits
+
+    codes = np.empty(len(points), dtype=np.uint64)
+    interleave_bits(np.ascontiguousarray(points, dtype=np.float64), BITS, codes)
+    return codes

@@ -10,6 +10,7 @@ deliver     simplify the surface, and write the report
 
 from __future__ import annotations
 
+import math
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -18,9 +19,10 @@ import numpy as np
 
 from infill.errors import GeometryError, ParameterError
 from infill.inspection.bricks import TopologyCheck, check_topology, check_topology_by_signs
-from infill.inspection.deviation import LOST, Deviation
+from infill.inspection.deviation import KEPT, LOST, Deviation
 from infill.inspection.sign_changes import SignChanges, are_surfaces_near
 from infill.inspection.thickness import thinnest_walls
+from infill.inspection.uncertain_places import UncertainPlaces
 from infill.isosurfaces.components import data_bits, erase_components, find_components, shell_names
 from infill.kernels.compiling import log_compilation
 from infill.kernels.second_compiler import await_second_compiler
@@ -29,7 +31,7 @@ from infill.machine import available_memory, require_memory
 from infill.meshes.distance import distances
 from infill.meshes.edge_collapse import collapse_edges
 from infill.meshes.measuring import measure_surface
-from infill.meshes.simplification import restore_volume, simplify_surface
+from infill.meshes.simplification import SAFE, restore_volume, simplify_surface
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.refining import refine_bricks
 from infill.phasefield.sparse import smooth_bricks
@@ -88,6 +90,8 @@ class Attempt:
         The thinnest walls, in the data and smoothed: see `infill.inspection.thickness.thinnest_walls`.
     deviation : Deviation or None
         Its distance from the input; None if it is sure to be near everywhere, so that it was not measured.
+    uncertain : UncertainPlaces or None
+        The places that alone may be far from the input; None if that is not known.
     differences : Differences
         The verdict in words.
     clock : Clock
@@ -101,6 +105,7 @@ class Attempt:
     topology: TopologyCheck
     thinnest: tuple[float | None, float | None]
     deviation: Deviation | None
+    uncertain: UncertainPlaces | None
     differences: Differences
     clock: Clock
 
@@ -165,7 +170,9 @@ def run_attempt(smooth_input: SmoothInput, request: SmoothRequest) -> Attempt:
             threads=threads,
         )
         clock.tell("check", 0.65)
-        deviation = None if surely_near and not crumbs.count else compare_with_input(surface, smoothed)
+        uncertain = None if crumbs.count else _uncertain_places(flips, smoothed)
+        is_near = surely_near and not crumbs.count
+        deviation = None if is_near else compare_with_input(surface, smoothed, uncertain=uncertain)
     return Attempt(
         smoothed=smoothed,
         surfaced=surfaced,
@@ -175,6 +182,7 @@ def run_attempt(smooth_input: SmoothInput, request: SmoothRequest) -> Attempt:
         topology=topology,
         thinnest=thinnest,
         deviation=deviation,
+        uncertain=uncertain,
         differences=find_differences(topology, deviation, surfaced, smoothed),
         clock=clock,
     )
@@ -274,8 +282,13 @@ def _sign_changes(raised: SurfaceAtLevel, smoothed: SmoothedInput) -> tuple[Sign
     flips = SignChanges.of(
         levelled.field, raised.components.bits, levelled.height, signs=levelled.signs, threads=threads
     )
-    of_data = smooth_input.mesh is None and smooth_input.voxel_surface is None
-    return flips, of_data and are_surfaces_near(flips, spacing=smoothed.spacing, threads=threads)
+    return flips, smooth_input.is_voxels and are_surfaces_near(flips, spacing=smoothed.spacing, threads=threads)
+
+
+def _uncertain_places(flips: SignChanges, smoothed: SmoothedInput) -> UncertainPlaces | None:
+    """Return the places that alone may be far from the input, if the input is the surface of the voxels."""
+    smooth_input = smoothed.smooth_input
+    return UncertainPlaces.of(flips, smooth_input.data) if smooth_input.is_voxels else None
 
 
 def _wall_thickness(surfaced: SurfaceAtLevel, smoothed: SmoothedInput) -> tuple[float | None, float | None]:
@@ -309,10 +322,11 @@ def finish_attempt(
     data, topology, deviation, differences = smooth_input.data, best.topology, best.deviation, best.differences
     await_second_compiler()
     with clock.stage("simplify", 0.7):
-        surface, simplified = _simplify_result(best.surface, request, clock)
+        surface, simplified, moved = _simplify_result(best.surface, request, clock)
     with clock.stage("measure", 0.92):
         if surface is not best.surface:
-            deviation = compare_with_input(surface, smoothed)
+            uncertain = None if best.uncertain is None else best.uncertain.after_moving(moved, near=KEPT)
+            deviation = compare_with_input(surface, smoothed, uncertain=uncertain)
             differences = find_differences(topology, deviation, surfaced, smoothed)
     problems = [*differences.losses, *differences.problems]
     target, simplification = float(surfaced.targets.sum()), {} if simplified is None else {"simplified": simplified}
@@ -383,10 +397,13 @@ def advise_all_triangles(request: SmoothRequest) -> str:
     return "give --tolerance 0" + ("" if request.max_triangles is None else ", and no --max-triangles")
 
 
-def _simplify_result(full: Surface, request: SmoothRequest, clock: Clock) -> tuple[Surface, Simplified | None]:
-    """Simplify the surface as requested; return it and the changes, None if it stays as it is."""
+def _simplify_result(full: Surface, request: SmoothRequest, clock: Clock) -> tuple[Surface, Simplified | None, float]:
+    """Simplify the surface as requested; return it, the changes, None if it stays as it is, and how far it may move.
+
+    The last is in mm: neither surface is further than this from the other, at any place.
+    """
     if request.tolerance is None and request.max_triangles is None:
-        return full, None
+        return full, None, 0.0
 
     def progress(share: float) -> None:
         clock.tell("simplify", 0.75 + 0.15 * share)
@@ -398,7 +415,7 @@ def _simplify_result(full: Surface, request: SmoothRequest, clock: Clock) -> tup
             full, tolerance=request.tolerance, threads=request.threads, progress=progress
         )
         if simplified_surface is None or simplified_surface is full:
-            return full, None
+            return full, None, 0.0
     else:
         simplified_surface = simplify_surface(
             full,
@@ -408,18 +425,23 @@ def _simplify_result(full: Surface, request: SmoothRequest, clock: Clock) -> tup
             progress=progress,
         )
     result = replace(restore_volume(simplified_surface, full.volume), space=full.space)
+    moved = math.inf
+    if request.tolerance is not None:
+        shift = np.asarray(result.vertices) - np.asarray(simplified_surface.vertices)
+        moved = request.tolerance / SAFE + float(np.abs(shift).max()) * math.sqrt(3)
     change = result.volume / full.volume - 1
     if abs(change) > MAX_VOLUME_CHANGE and not request.allow_broken:
         raise GeometryError(
             f"simplifying to {len(result.faces):,} triangles would change the volume by {change:+.0%}; "
             f"{advise_all_triangles(request)}"
         )
-    return result, {
+    facts: Simplified = {
         "triangles_before": len(full.faces),
         "volume_change": change,
         "shells": shell_names(result)[1],
         "distance": summarise_distances(distances(subsample(full.vertices), result, threads=request.threads)),
     }
+    return result, facts, moved
 
 
 def _level_facts(surfaced: SurfaceAtLevel, request: SmoothRequest) -> Level:

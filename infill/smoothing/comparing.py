@@ -20,6 +20,7 @@ from infill.voxels.noise import NOISY
 
 if TYPE_CHECKING:
     from infill.inspection.bricks import TopologyCheck
+    from infill.inspection.uncertain_places import UncertainPlaces
     from infill.reports.common import Spread
     from infill.reports.smoothing import Distance, FacetKeys
     from infill.smoothing.levelling import SurfaceAtLevel
@@ -57,8 +58,13 @@ class Differences:
     remarks: tuple[str, ...]
 
 
-def compare_with_input(surface: Surface, smoothed: SmoothedInput, *, exact: bool = False) -> Deviation:
-    """Measure the distance between a surface and the input, both ways; by default, only where it is large."""
+def compare_with_input(
+    surface: Surface, smoothed: SmoothedInput, *, exact: bool = False, uncertain: UncertainPlaces | None = None
+) -> Deviation:
+    """Measure the distance between a surface and the input, both ways; by default, only where it is large.
+
+    If the places are known that alone may be far apart, only these are examined.
+    """
     smooth_input = smoothed.smooth_input
     return measure_deviation(
         _input_surface(smoothed) if smooth_input.mesh is None else smooth_input.mesh,
@@ -67,6 +73,7 @@ def compare_with_input(surface: Surface, smoothed: SmoothedInput, *, exact: bool
         closed=smooth_input.closed_mesh,
         kinds=_loss_classifier(smoothed),
         exact=exact,
+        uncertain=uncertain,
         threads=smoothed.threads,
     )
 

@@ -16,11 +16,15 @@ from infill.formats.parts import hex_colour
 from infill.grid import spacing_of
 from infill.imaging.label_tables import Segment
 from infill.imaging.segmentations import Segmentation, read_segmentation
+from infill.kernels.compiling import log_compilation
 from infill.kernels.sparse import BRICK
 from infill.reports.common import report_head
 from infill.reports.smoothing import LabelSeconds
-from infill.result import Clock, Result, share_progress
+from infill.result import Clock, Result
+from infill.smoothing.attempt import bytes_per_surface_cell
 from infill.smoothing.job import smooth_volume
+from infill.smoothing.kept_reports import keep_report
+from infill.smoothing.label_runs import LabelWork, run_labels
 from infill.smoothing.request import SmoothOptions, SmoothRequest
 from infill.volume import AXES, Volume
 from infill.voxels.cropping import cut_cells
@@ -30,14 +34,17 @@ if TYPE_CHECKING:
     from PIL import Image
 
     from infill.reports.smoothing import LabelName, LabelsReport, SmoothReport
-    from infill.smoothing.stages import SmoothStages
+    from infill.result import Progress
     from infill.surface import Surface
+
+    _Outcome = tuple[Surface, SmoothReport]
 
 # Cells around a label in which phi is not yet void to the last bit: 12 with the usual interface of 2 cells, that is 6
 # interfaces; and 8 more, for the averages of refining.
 REACH_IN_INTERFACES, REFINING_MARGIN = 6, 8
 MAX_LISTED_LABELS = 12  # labels in a message
 SMALL = 2**20  # cells of a box: one thread does it before others have begun
+FACES_PER_RUN = 6  # of cells: two along each of three axes
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -71,12 +78,13 @@ class _Piece:
     segment: Segment
     extent: LabelExtent
 
-    @property
-    def cells(self) -> int:
-        """Number of cells of its bounding box."""
-        return math.prod(high - low for low, high in zip(self.extent.low, self.extent.high, strict=True))
+    def work(self, request: SmoothRequest) -> LabelWork:
+        """Estimate the work of smoothing it."""
+        cells = FACES_PER_RUN * self.extent.runs
+        return LabelWork(cells=cells, memory=cells * bytes_per_surface_cell(request))
 
 
+@log_compilation("the smoother")
 def smooth_labels(
     volume: ArrayLike | Volume | Segmentation | str | os.PathLike[str],
     *,
@@ -121,7 +129,8 @@ def smooth_labels(
     Notes
     -----
     Each label is smoothed in the smallest part of the volume beyond which nothing has an effect: the surface equals
-    that of the whole volume, and many small labels take little more than their own share of time and memory.
+    that of the whole volume, and many small labels take little more than their own share of time and memory. Labels
+    are smoothed at the same time, one on each thread; those too large for that come first, one by one.
 
     >>> balls = np.zeros((60, 24, 24), int)
     >>> for n in range(2):
@@ -143,22 +152,18 @@ def smooth_labels(
     reports: dict[str, SmoothReport] = {}
     failed: dict[str, str] = {}
     with clock.stage("smooth", 0.0):
-        listeners = share_progress(request.progress, [piece.cells for piece in pieces])
-        for piece, progress in zip(pieces, listeners, strict=True):
-            label_options: SmoothOptions = {**options, "progress": progress}
-            try:
-                result = _smooth_piece(segmentation.layers[piece.segment.layer], piece, request, label_options)
-            except InfillError as error:
-                placed_error = error.within(_title(piece))
+        for piece, outcome in zip(
+            pieces, _smooth_pieces(segmentation, pieces, request, options, keep_going), strict=True
+        ):
+            if isinstance(outcome, InfillError):
+                error = outcome.within(_title(piece))
                 if not keep_going:
-                    raise placed_error from error
-                failed[piece.name] = str(error)
+                    raise error from outcome
+                failed[piece.name] = str(outcome)
                 if len(failed) == len(pieces):
-                    raise type(error)(f"no label can be smoothed; {placed_error}") from error
-                continue
-            surfaces[piece.name] = result.surface
-            # A complete copy: measuring later would keep the field of every label in memory.
-            reports[piece.name] = result.report.copy()
+                    raise type(outcome)(f"no label can be smoothed; {error}") from outcome
+            elif outcome is not None:
+                surfaces[piece.name], reports[piece.name] = outcome
     smoothed_pieces, failed_pieces = (
         [piece for piece in pieces if piece.name in names] for names in (surfaces, failed)
     )
@@ -235,9 +240,34 @@ def _absent_names(segmentation: Segmentation, pieces: Sequence[_Piece]) -> list[
     return [segment.name for segment in segmentation.segments if (segment.layer, segment.value) not in present]
 
 
-def _smooth_piece(
-    volume: Volume, piece: _Piece, request: SmoothRequest, options: SmoothOptions
-) -> Result[SmoothStages, SmoothReport]:
+def _smooth_pieces(
+    segmentation: Segmentation,
+    pieces: Sequence[_Piece],
+    request: SmoothRequest,
+    options: SmoothOptions,
+    keep_going: bool,
+) -> list[_Outcome | InfillError | None]:
+    """Smooth all labels; return the surface and the report of each, or its error; None after an error that ends all."""
+
+    def smooth(number: int, threads: int, progress: Progress | None) -> _Outcome | InfillError:
+        piece = pieces[number]
+        label_options: SmoothOptions = {**options, "threads": threads, "progress": progress}
+        try:
+            return _smooth_piece(segmentation.layers[piece.segment.layer], piece, request, label_options)
+        except InfillError as error:
+            return error
+
+    return run_labels(
+        smooth,
+        [piece.work(request) for piece in pieces],
+        stop_early=not keep_going,
+        threads=request.threads,
+        max_memory=request.max_memory,
+        progress=request.progress,
+    )
+
+
+def _smooth_piece(volume: Volume, piece: _Piece, request: SmoothRequest, options: SmoothOptions) -> _Outcome:
     """Smooth one label in its part of the volume, whose sides lie between bricks of the whole volume."""
     margin = math.ceil(REACH_IN_INTERFACES * request.smoothing.interface) + REFINING_MARGIN
     low = tuple(max(0, (at - margin) // size * size) for at, size in zip(piece.extent.low, BRICK, strict=True))
@@ -247,7 +277,8 @@ def _smooth_piece(
     )
     box = cut_cells(volume, low, high)
     chosen: SmoothOptions = {**options, "threads": 1} if box.values.size < SMALL else options
-    return smooth_volume(box, label=piece.segment.value, **chosen)
+    result = smooth_volume(box, label=piece.segment.value, **chosen)
+    return result.surface, keep_report(result, request)
 
 
 def _title(piece: _Piece) -> str:

@@ -211,6 +211,11 @@ class SmoothInput:
     seconds: float = 0.0
 
     @property
+    def is_voxels(self) -> bool:
+        """Whether the surface of the data themselves is the input."""
+        return self.mesh is None and self.voxel_surface is None
+
+    @property
     def distance_unit(self) -> float:
         """Unit by which distances are judged, mm."""
         return self.cell or float(self.data.cell_size.max())
