@@ -71,7 +71,7 @@ def _last_of_twice(values: np.ndarray) -> float:
 
 def test_code_that_makes_an_array_says_so() -> None:
     values = np.arange(3.0)
-    with pytest.raises(numba.TypingError):
+    with pytest.raises(numba.core.errors.NumbaError):
         njit()(_last_of_twice)(values)
     assert njit(makes_arrays=True)(_last_of_twice)(values) == 4.0
 
