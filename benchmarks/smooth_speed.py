@@ -21,6 +21,7 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
+import trimesh
 from numpy.typing import NDArray
 
 from benchmarks import pairs
@@ -233,6 +234,45 @@ writer.SetFileTypeToBinary()
 writer.SetFileName(sys.argv[2])
 writer.Write()
 """
+# The same nets, made as lean as ours by quadrics: no distance is checked.
+LEAN_SCRIPT = (
+    VTK_SCRIPT.partition("writer =")[0]
+    + """
+import fast_simplification
+from vtk.util.numpy_support import vtk_to_numpy
+net.Update()
+mesh = net.GetOutput()
+points = vtk_to_numpy(mesh.GetPoints().GetData())
+faces = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3).astype(np.int32)
+points, faces = fast_simplification.simplify(points, faces, target_count=int(sys.argv[3]))
+corners = points[faces].astype(np.float32)
+records = np.zeros(len(faces), dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+records["normal"] = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+records["corners"] = corners
+with open(sys.argv[2], "wb") as file:
+    file.write(bytes(80) + np.uint32(len(faces)).tobytes() + records.tobytes())
+"""
+)
+PART_LIMITS = {"20 mm cube": 2.5, "bracket_medium.stl": 4.0, "spur_gear.stl": 4.0, "bunny_7k.off": 4.0}  # s
+
+
+def parts(data: Path, runs: int) -> None:
+    """Print how long the command takes for small parts, files in and out, with all defaults."""
+    command = shutil.which("infill", path=Path(sys.executable).parent)
+    assert command is not None
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        trimesh.creation.box((20, 20, 20)).export(folder / "20 mm cube.stl")
+        for part, limit in PART_LIMITS.items():
+            source = next((path for path in data.rglob(part)), folder / f"{part}.stl")
+            if not source.exists():
+                print(f"    {part} is not there")
+                continue
+            smooth = [command, "smooth", str(source), "-o", str(folder / "out.stl"), "--force", "--quiet"]
+            pairs.process(smooth)
+            times = [pairs.process(smooth) for _ in range(runs)]
+            median = pairs.median(times)
+            row(f"infill smooth {part}", _figures(times), f"{limit:g} s", holds=median <= limit)
 
 
 def commands(n: int, runs: int) -> None:
@@ -252,6 +292,21 @@ def commands(n: int, runs: int) -> None:
             figure = f"{pairs.median(mine):.2f} s, VTK {pairs.median(nets):.2f} s, {times:.2f} x"
             holds = times <= 1 if options else None
             row(f"infill smooth, {n}³, {name}", figure, "1 x" if options else "", holds=holds)
+        ours = [command, "smooth", str(source), "-o", str(target), "--force", "--steps", "10"]
+        pairs.process(ours)
+        triangles = (target.stat().st_size - 84) // 50
+        lean = Path(folder) / "lean.py"
+        lean.write_text(LEAN_SCRIPT, encoding="utf-8")
+        for name, script_for, most in (("nets alone", script, 5.0), ("nets, as lean", lean, 1.5)):
+            other = [sys.executable, str(script_for), str(source), str(Path(folder) / "theirs.stl"), str(triangles)]
+            try:
+                mine, peer = pairs.paired(partial(pairs.process, ours), partial(pairs.process, other), runs)
+            except RuntimeError as error:
+                print(f"    {name}: {str(error).splitlines()[-1]}")
+                continue
+            times = pairs.ratio(mine, peer)
+            figure = f"{pairs.median(mine):.2f} s, VTK {pairs.median(peer):.2f} s, {times:.2f} x"
+            row(f"infill smooth, {n}³, all defaults, {name}", figure, f"{most:g} x", holds=times <= most)
 
 
 FUNCTION_SCRIPT = """
@@ -359,6 +414,7 @@ def main() -> None:
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--commands", default="200,400,800")
     parser.add_argument("--labels", type=int, default=256, help="size of the segmentation; 0 for none")
+    parser.add_argument("--parts", type=Path, help="folder of data whose small parts are smoothed")
     parser.add_argument("--mesh", type=Path, help="also the stages of smoothing this mesh")
     parser.add_argument("--large", action="store_true", help="also 1600³, which takes 9 GiB")
     options = parser.parse_args()
@@ -370,6 +426,8 @@ def main() -> None:
         commands(n, options.runs)
     if options.labels:
         labels(options.labels, options.runs)
+    if options.parts:
+        parts(options.parts, options.runs)
     if options.mesh:
         stages(options.mesh)
     if options.large:
