@@ -178,6 +178,19 @@ def test_batches_hold_every_face_once_and_whole_shells() -> None:
     assert list(split_into_batches(surface, len(surface.faces))) == [surface]
 
 
+@given(st.lists(st.integers(1, 12), min_size=1, max_size=8), st.integers(1, 20))
+def test_batches_are_as_large_as_asked_or_one_component(sizes: list[int], limit: int) -> None:
+    fans = [
+        [(begin, begin + n + 1, begin + n + 2) for n in range(size)] for begin, size in zip(range(0, 999, 20), sizes)
+    ]
+    faces = np.array([face for fan in fans for face in fan])
+    vertices = np.random.default_rng(0).normal(size=(20 * len(sizes), 3))
+    batches = [len(batch.faces) for batch in split_into_batches(Surface(vertices=vertices, faces=faces), limit)]
+    assert sum(batches) == sum(sizes)
+    assert all(count <= limit or count in sizes for count in batches)
+    assert all(one + other > limit for one, other in zip(batches, batches[1:], strict=False))
+
+
 def test_some_faces_keep_their_corners_and_only_these() -> None:
     surface = several()
     kept = np.arange(len(surface.faces)) % 3 == 0

@@ -240,6 +240,19 @@ def _sweep_once(mesh, fixed, quadric, bound, into, swept, marked, space, sweep, 
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
+def _work_space():
+    """Make the arrays for one collapse: a quadric, a place, the corners at both ends, and faces with their numbers."""
+    return (
+        np.empty(11),
+        np.empty(3),
+        np.empty(MAX_CORNERS, dtype=np.int32),
+        np.empty(MAX_CORNERS, dtype=np.int32),
+        np.empty((2 * MAX_CORNERS, 3, 3)),
+        np.empty(2 * MAX_CORNERS + 2, dtype=np.int32),
+    )
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
 def sweep_short_edges(vertices, start, twin, leaving, name, fixed, quadric, bound, into):
     """Collapse the shortest edge of vertex after vertex, nowhere twice in a sweep; return the number of vertices gone.
 
@@ -249,14 +262,7 @@ def sweep_short_edges(vertices, start, twin, leaving, name, fixed, quadric, boun
     mesh = vertices, start, twin, leaving, name
     swept = np.full(len(vertices), NO_CORNER, dtype=np.int32)
     marked = np.full(name.max() + 1, NO_CORNER, dtype=np.int32)
-    space = (
-        np.empty(11),
-        np.empty(3),
-        np.empty(MAX_CORNERS, dtype=np.int32),
-        np.empty(MAX_CORNERS, dtype=np.int32),
-        np.empty((2 * MAX_CORNERS, 3, 3)),
-        np.empty(2 * MAX_CORNERS + 2, dtype=np.int32),
-    )
+    space = _work_space()
     step, total = 0, 0
     for sweep in range(MOST_SWEEPS):
         removed, step = _sweep_once(mesh, fixed, quadric, bound, into, swept, marked, space, sweep, step)
@@ -395,16 +401,7 @@ def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corne
     sample_step = min(SAMPLE_SPACING * edge, WIDE * tolerance)
     queue, ends = np.full((len(start), 3), NO_CORNER, dtype=np.int32), np.full((BUCKETS, 2), NO_CORNER, dtype=np.int32)
     marked = np.full(name.max() + 1, NO_CORNER, dtype=np.int32)
-    space = (
-        np.empty(11),
-        np.empty(3),
-        np.empty(MAX_CORNERS, dtype=np.int32),
-        np.empty(MAX_CORNERS, dtype=np.int32),
-        np.empty((2 * MAX_CORNERS, 3, 3)),
-        np.empty(2 * MAX_CORNERS + 2, dtype=np.int32),
-        np.empty(MAX_HELD_POINTS, dtype=np.int32),
-        np.empty(MAX_HELD_POINTS, dtype=np.int32),
-    )
+    space = *_work_space(), np.empty(MAX_HELD_POINTS, dtype=np.int32), np.empty(MAX_HELD_POINTS, dtype=np.int32)
     mesh = vertices, start, twin, leaving, name
     held = points, corner, first_point, next_point
     was = original_corners, was_twin, was_leaving

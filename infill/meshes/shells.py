@@ -102,12 +102,18 @@ def select_faces(surface: Surface, chosen: NDArray[np.bool_]) -> Surface:
 
 
 def split_into_batches(surface: Surface, limit: int) -> Iterator[Surface]:
-    """Yield a surface as several of at most `limit` faces, or of a single larger component; all in order."""
+    """Yield a surface in batches of whole components, in order: at most `limit` faces each, or one larger component."""
     if len(surface.faces) <= limit:
         yield surface
         return
     names, count = vertex_components(surface.faces, len(surface.vertices))
     shell = names[surface.faces[:, 0]]
-    batch = np.cumsum(np.bincount(shell, minlength=count)) // limit
-    for number in np.unique(batch):
-        yield select_faces(surface, batch[shell] == number)
+    begins, held = [], limit
+    for index, faces in enumerate(np.bincount(shell, minlength=count).tolist()):
+        if held + faces > limit:
+            begins.append(index)
+            held = 0
+        held += faces
+    batch = np.searchsorted(begins, shell, side="right")
+    for number in range(1, len(begins) + 1):
+        yield select_faces(surface, batch == number)
