@@ -181,7 +181,8 @@ def test_batches_hold_every_face_once_and_whole_shells() -> None:
 @given(st.lists(st.integers(1, 12), min_size=1, max_size=8), st.integers(1, 20))
 def test_batches_are_as_large_as_asked_or_one_component(sizes: list[int], limit: int) -> None:
     fans = [
-        [(begin, begin + n + 1, begin + n + 2) for n in range(size)] for begin, size in zip(range(0, 999, 20), sizes)
+        [(begin, begin + n + 1, begin + n + 2) for n in range(size)]
+        for begin, size in zip(range(0, 999, 20), sizes, strict=False)
     ]
     faces = np.array([face for fan in fans for face in fan])
     vertices = np.random.default_rng(0).normal(size=(20 * len(sizes), 3))
