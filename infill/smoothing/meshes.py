@@ -82,7 +82,7 @@ def voxelise_input(mesh: MeshOnGrid, request: SmoothRequest) -> SmoothInput:
         See `infill.voxels.from_mesh.voxelise`.
     """
     clock = Clock(request.progress)
-    with clock.stage("voxels", 0.0):
+    with clock.stage("voxels", 0.01):
         made = _voxelise(mesh, request)
     return replace(made, seconds=clock.seconds["voxels"])
 

@@ -108,8 +108,6 @@ def _input_of(way: Way) -> SmoothInput:
     """Return the input of a way, on a grid."""
     if not isinstance(way.data, MeshOnGrid):
         return way.data
-    if way.request.progress is not None:
-        way.request.progress("voxels", 0.01)
     return voxelise_input(way.data, way.request)
 
 
