@@ -7,7 +7,7 @@ nor do parts that the caller excludes.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
@@ -130,24 +130,15 @@ class Deviation:
         """
         if any(place.area >= PATCH * self.cell**2 for place in (*self.added, *self.lost)):
             return "lost"
-        if self.is_large(self.missing_area, self.given_area) or self.is_large(self.new_area, self.result_area):
+        missing, new = total_area(self.lost), total_area(self.added)
+        if self.is_large(missing, self.given_area) or self.is_large(new, self.result_area):
             return "lost"
         return "kept" if max(self.there.max, self.back.max) <= KEPT * self.cell else "changed a little"
 
     @property
-    def missing_area(self) -> float:
-        """Area of the given surface that lies further than `LOST` from the result and counts, mm²."""
-        return float(sum(patch.area for patch in self.lost))
-
-    @property
-    def new_area(self) -> float:
-        """Area of the result that lies further than `LOST` from the given surface, mm²."""
-        return float(sum(patch.area for patch in self.added))
-
-    @property
     def thin_area(self) -> float:
         """Area of the given surface that lies further than `LOST` from the result and is too thin to count, mm²."""
-        return float(sum(patch.area for patch in self.thin))
+        return total_area(self.thin)
 
     def is_large(self, area: float, whole: float) -> bool:
         """Tell whether an area, mm², is large by its size and by its share of a whole surface."""
@@ -165,7 +156,7 @@ class Deviation:
             if not patches:
                 continue
             worst = max(patches, key=lambda patch: patch.distance)
-            area = float(sum(patch.area for patch in patches))
+            area = total_area(patches)
             share = (
                 f"{plain_size(area, power=2)} of {owner} ({plain_share(area / whole)})" if area else f"a tip of {owner}"
             )
@@ -177,6 +168,15 @@ class Deviation:
             what = "the rest of the surface" if self.thin_area else "the surface"
             phrases.append(f"{what} moved by up to {plain_size(moved.max)}, at {plain_place(moved.at)}")
         return tuple(phrases)
+
+
+def total_area(patches: Iterable[ChangedPatch]) -> float:
+    """Return the area of all patches together, mm².
+
+    >>> total_area(ChangedPatch(at=(0, 0, 0), area=area, distance=1) for area in (1.5, 2))
+    3.5
+    """
+    return float(sum(patch.area for patch in patches))
 
 
 def all_points_count(points: Floats, faces: NDArray[np.integer]) -> NDArray[np.integer]:  # noqa: ARG001 - a `Kinds`

@@ -19,7 +19,7 @@ import numpy as np
 
 from infill.errors import GeometryError, ParameterError
 from infill.inspection.bricks import TopologyCheck, check_topology, check_topology_by_signs
-from infill.inspection.deviation import KEPT, LOST, Deviation
+from infill.inspection.deviation import KEPT, LOST, Deviation, total_area
 from infill.inspection.sign_changes import SignChanges, are_surfaces_near
 from infill.inspection.thickness import thinnest_walls
 from infill.inspection.uncertain_places import UncertainPlaces
@@ -123,8 +123,7 @@ class Attempt:
     @property
     def rank(self) -> tuple[bool, int, float]:
         """Sort key of attempts: the lowest is the best."""
-        patches = (*self.deviation.lost, *self.deviation.added) if self.deviation else ()
-        area = float(sum(patch.area for patch in patches))
+        area = total_area((*self.deviation.lost, *self.deviation.added) if self.deviation else ())
         differences = self.differences
         return differences.word == "lost", len(differences.losses) + len(differences.problems), area
 
@@ -385,9 +384,9 @@ def _verdict_facts(differences: Differences, deviation: Deviation | None, best: 
         "lost": [patch.facts() for patch in deviation.lost[:MAX_LISTED_PLACES]] if deviation else [],
         "added": [patch.facts() for patch in deviation.added[:MAX_LISTED_PLACES]] if deviation else [],
         "far": LOST * smoothed.smooth_input.distance_unit,
-        "missing": deviation.missing_area if deviation else 0.0,
-        "thin": deviation.thin_area if deviation else 0.0,
-        "new": deviation.new_area if deviation else 0.0,
+        "missing": total_area(deviation.lost if deviation else ()),
+        "thin": total_area(deviation.thin if deviation else ()),
+        "new": total_area(deviation.added if deviation else ()),
         "crumbs": {"removed": best.crumbs.count, "volume": best.crumbs.volume, "limit": best.crumbs.limit},
     }
 
