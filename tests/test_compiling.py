@@ -138,7 +138,8 @@ def test_a_second_process_starts_if_there_is_a_core_and_a_folder(
     monkeypatch.setattr(compiling, "REPORTED", threading.Event())
     if uncached:
         second_compiler.UNCACHED.set()
-    second_compiler.compile_beside("some.module")
+    for _ in range(3):  # a process may run several commands
+        second_compiler.compile_beside("some.module")
     assert not commands
     with log_compilation("a test"):
         njit()(lambda x: x + 1)(1)

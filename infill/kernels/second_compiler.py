@@ -18,8 +18,11 @@ _RUNNING: list[subprocess.Popen[bytes]] = []
 
 
 def compile_beside(module: str) -> None:
-    """Run `python -m module` in a second process as soon as this one compiles anything, if there is a core for it."""
-    if usable_cores() > 1:
+    """Run `python -m module` in a second process as soon as this one compiles anything, if there is a core for it.
+
+    Only the first call in a process counts.
+    """
+    if usable_cores() > 1 and not AT_FIRST_COMPILATION:
         AT_FIRST_COMPILATION.append(partial(_start, module))
 
 
