@@ -36,6 +36,9 @@ OTHER_NAMES = {
     "schwarz": "schwarz-p",
     "primitive": "schwarz-p",
     "foam": "voronoi-foam",
+    "3d-honeycomb": "honeycomb-3d",
+    "3dhoneycomb": "honeycomb-3d",
+    "cubic-subdivision": "adaptive-cubic",
 }
 PatternClass = type[Pattern] | type[Cells]
 
@@ -108,7 +111,7 @@ class Registry(Mapping[str, PatternClass]):
 
         if name in self:
             return self[name]
-        known = OTHER_NAMES.get(name.lower().replace("_", "-"))
+        known = OTHER_NAMES.get(name.strip().lower().replace("_", "-").replace(" ", "-"))
         matches = [known] if known else difflib.get_close_matches(name.lower(), self, n=1, cutoff=0.4)
         advice = f"did you mean {matches[0]!r}?" if matches else f"there are {', '.join(self)}"
         raise PatternError(f"there is no pattern {name!r}; {advice} ('infill list' shows all)")

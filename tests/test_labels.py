@@ -665,3 +665,12 @@ def test_every_label_has_its_verdict(tmp_path: Path) -> None:
     words = [row.partition("of the data; ")[2].partition(";")[0] for row in rows]
     assert words[0] == "kept"
     assert words[1] in ("changed a little", "lost")
+
+
+def test_grey_values_are_not_taken_for_labels() -> None:
+    noise = np.random.default_rng(0).integers(0, 200, (12, 12, 12)).astype(np.int16)
+    with pytest.raises(ParameterError, match=r"199 values that change from voxel to voxel.*--label N,M"):
+        smooth_labels(noise)
+    grey = noise.astype(np.int16)
+    grey[4:8, 4:8, 4:8] = 7
+    assert set(smooth_labels(grey, label=7).surfaces) == {"label_7"}  # asked for, it is one

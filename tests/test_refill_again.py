@@ -50,12 +50,13 @@ def test_what_needs_the_paths_of_the_slicer_is_refused(options: dict[str, Any], 
     assert not target.exists()
 
 
-def test_round_corners_are_nothing_to_do(sliced: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize("options", [{}, {"smooth_radius": 1.0}, {"pattern": "grid", "density": 0.3}])
+def test_what_was_done_is_nothing_to_do(options: dict[str, Any], sliced: Path, tmp_path: Path) -> None:
     """A slicer may run the command after every export."""
     once = tmp_path / "once.gcode"
-    refill(sliced, output=once)
+    refill(sliced, output=once, **options)
     before = once.read_bytes()
-    done = refill(once)
+    done = refill(once, **options)
     assert done.report["print"]["already_refilled"]
     assert done.path is None
     assert once.read_bytes() == before

@@ -427,7 +427,9 @@ def test_prusaslicer_runs_it(program: str, tmp_path: Path) -> None:
     new = (tmp_path / "out.gcode").read_bytes()
     assert new.count(STAMP) == 1
     assert not log_of(tmp_path / "out.gcode").exists()
-    replaced, sections = map(int, re.search(STAMP + rb" \S+: (\d+) of (\d+) sections\n", new).groups())
+    replaced, sections = map(
+        int, re.search(STAMP + rb" \S+: (\d+) of (\d+) sections, keep [0-9a-f]{8}\n", new).groups()
+    )
     assert replaced == sections == 16  # of 20 layers, four are solid
 
 

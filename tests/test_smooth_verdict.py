@@ -239,3 +239,12 @@ def test_bodies_that_become_one_get_the_hint_that_keeps_them_apart() -> None:
     ]
     assert change == "the mesh has 2 components, the result 1; --by-component keeps them apart"
     assert len(smooth_mesh(pair, voxel=1.0, by_component=True, tolerance=None).surfaces) == 2
+
+
+def test_strict_refuses_a_scan_whose_tunnels_close() -> None:
+    plate = np.zeros((40, 40, 16), dtype=bool)
+    plate[6:34, 6:34, 5:11] = True
+    plate[19:21, 19:21] = plate[10:12, 10:12] = False
+    with pytest.raises(GeometryError, match="2 of 2 tunnels are gone; leave out --strict"):
+        smooth_volume(plate, strict=True)
+    assert "2 of 2 tunnels are gone" in smooth_volume(plate).report["verdict"]["changes"]

@@ -164,6 +164,8 @@ def _drain_text(report: FillReport) -> str:
     """Describe drains, vents, branches and voids that stay closed, in one line."""
     closed, side = len(report["voids"]["closed"]), report["request"]["open"]
     holes = report["drains"]["holes"]
+    if not report["request"]["wall"]:
+        return "open at the skin"
     if not (holes or side):
         return "sealed: nothing drains from them"
     phrases = [f"{report['voids']['open']:,} open at the {END_TEXTS[side]}"] if side else []

@@ -189,7 +189,9 @@ def _log_paths(gcode: Path) -> list[Path]:
 def _summary(report: RefillReport, name: str, files: list[str]) -> str:
     """Return the short table for stderr."""
     if report["print"]["already_refilled"]:
-        reason = "it was refilled before, and its corners are round; --pattern draws another infill"
+        is_kept = report["request"]["pattern"] == "keep"
+        how = "and its corners are round; --pattern draws another infill" if is_kept else "with this pattern"
+        reason = f"it was refilled before, {how}"
         return format_table({"nothing to do": reason}, title=name)
     sections, filament, seconds = report["sections"], report["filament"], report["time"]
     rows = {"infill": f"{sections['replaced']} of {sections['all']} sections in {report['print']['layers']} layers"}

@@ -35,6 +35,7 @@ FINE = Fineness(across=2.5, lines=6.0, bars=14.0, across_bar=4.0, walls=0.9)
 LEAST_FINE = Fineness(across=1.5, lines=2.5, bars=9.0, across_bar=3.0, walls=0.58)
 SLACK = 1.01
 FIFTH = 0.2
+ROUNDED_UP = 1.06  # so that a least length of two digits is not less than it
 FEWEST, FEWEST_BARE, MOST, MOST_IN_SLABS = 1e6, 3e5, 25e6, 1e8  # cells of the grid in all; bare: without a shell
 COARSEST_LINES = 0.3  # mm: corners between lines are rounded on cells no larger than this
 
@@ -95,7 +96,7 @@ def choose_voxel(task: FillTask, cell: float, width: float) -> float:
             "wall",
             f"is {plain_argument(thinnest)} mm, and the part {plain_size(extents.max(), digits=4)} long: a grid "
             f"as fine as such a wall needs has more than {MOST:,.0f} cells; give a wall of "
-            f"{plain_argument(LEAST_FINE.across * size, 2)} mm, or the right unit",
+            f"{plain_argument(ROUNDED_UP * LEAST_FINE.across * size, 2)} mm, or the right unit",
         )
     if size > (most := coarsest_voxel(task, cell, width)):
         raise GeometryError.about(

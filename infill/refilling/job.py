@@ -14,8 +14,9 @@ import math
 import os
 import shutil
 import tempfile
+import zlib
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
@@ -225,7 +226,7 @@ def _check_choice(request: Request, prints: Sequence[RefillStats]) -> None:
 
 def _check_paths_remain(request: Request, parts: Sequence[_Draft]) -> None:
     """Raise UsageError for options of the slicer's own paths, if an earlier refill replaced these in all prints."""
-    if any(part.tally is not None for part in parts):
+    if any(part.tally is not None or part.is_same for part in parts):
         return
     plain = Request(pattern=KEEP)
     options = ("density", "smooth_radius", "max_deviation", "max_segments", "layers", "part")
@@ -269,6 +270,8 @@ class _Draft:
     draft : binary file
     tally, rules : RefillStats and RefillRules, optional
         None if the print was refilled before, and is to keep its paths.
+    is_same : bool
+        True if it was refilled before with the same options.
     remedy : RefillStats, optional
         Of the remedy for infill that lost too much filament: a trial drawing that is discarded.
     edits : tuple of (place, length, text)
@@ -281,6 +284,7 @@ class _Draft:
     draft: BinaryIO
     tally: RefillStats | None = None
     rules: RefillRules | None = None
+    is_same: bool = False
     remedy: RefillStats | None = None
     edits: tuple[tuple[int, int, bytes], ...] = ()
     metadata: dict[str, str] = field(default_factory=dict)
@@ -326,8 +330,10 @@ def _refill_text(sliced: SlicedText, draft: BinaryIO, request: Request, progress
     family = None if request.pattern == KEEP else family_of(request.pattern, request.parameters, request.lines)
     print_survey = survey_print(sliced.text, more=family is not None and not family.prismatic, settings=sliced.settings)
     print_survey = replace(print_survey, slicer=print_survey.slicer or sliced.slicer)
-    if print_survey.stamped and request.pattern == KEEP:
-        return _Draft(found=print_survey, draft=draft)
+    if print_survey.stamped:
+        is_same = _options_mark(request) in _read_stamp(sliced.text)
+        if is_same or request.pattern == KEEP:
+            return _Draft(found=print_survey, draft=draft, is_same=is_same)
     if progress is not None:
         progress("looking at layers", 0.0)
     samples = sample_layers(print_survey)
@@ -359,7 +365,7 @@ def _refill_text(sliced: SlicedText, draft: BinaryIO, request: Request, progress
     new = _restate(sliced, print_survey, tally, before, after)
     edits = [(place, len(old), line) for (place, old), line in zip(tally.lines, new.lines, strict=True)]
     if tally.replaced:
-        edits.append(_stamp_edit(draft, tally))
+        edits.append(_stamp_edit(draft, tally, request))
     return _Draft(
         found=print_survey,
         draft=draft,
@@ -412,7 +418,24 @@ def _copy_mode(source: Path, file: BinaryIO) -> None:
             os.fchmod(file.fileno(), source.stat().st_mode & 0o7777)
 
 
-def _stamp_edit(draft: BinaryIO, tally: RefillStats) -> tuple[int, int, bytes]:
+def _options_mark(request: Request) -> bytes:
+    """Return the pattern of a request, and a checksum of all its options, which the stamp holds."""
+    chosen = {item.name: getattr(request, item.name) for item in fields(request) if item.name != "lines"}
+    chosen["parameters"] = sorted(request.parameters.items())
+    return f"{request.pattern} {zlib.crc32(repr(sorted(chosen.items())).encode()):08x}".encode()
+
+
+def _read_stamp(text: BinaryIO) -> bytes:
+    """Return the stamp of an earlier refill, a line; leave the file at its beginning."""
+    from infill.gcode.survey import STAMP
+
+    text.seek(0)
+    head = text.read(HEAD)
+    text.seek(0)
+    return head[head.find(STAMP) :].partition(b"\n")[0] if STAMP in head else b""
+
+
+def _stamp_edit(draft: BinaryIO, tally: RefillStats, request: Request) -> tuple[int, int, bytes]:
     """Return the edit that inserts the stamp: in place of that of an earlier refill, or below the header.
 
     The header is a block of comments, or a first line that is a comment.
@@ -431,7 +454,8 @@ def _stamp_edit(draft: BinaryIO, tally: RefillStats) -> tuple[int, int, bytes]:
         place = head.index(b"\n") + 1
     line = head[:place] or head[: head.find(b"\n") + 1]
     line_end = b"\r\n" if line.endswith(b"\r\n") else b"\n"
-    text = b"%s %s: %d of %d sections%s" % (STAMP, __version__.encode(), tally.replaced, tally.sections, line_end)
+    counts = b"%d of %d sections" % (tally.replaced, tally.sections)
+    text = b"%s %s: %s, %s%s" % (STAMP, __version__.encode(), counts, _options_mark(request), line_end)
     if earlier >= 0:
         return earlier, head.find(b"\n", earlier) + 1 - earlier, text
     return place, 0, text

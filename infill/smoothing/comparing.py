@@ -50,12 +50,19 @@ class Differences:
         Parts that broke, fused, opened or vanished, however small.
     remarks : tuple of str
         All other differences from the input.
+    fewer : tuple of str
+        Of the remarks, those of components, cavities and tunnels of a scan that are fewer than before.
     """
 
     word: Word
     losses: tuple[str, ...]
     problems: tuple[str, ...]
     remarks: tuple[str, ...]
+    fewer: tuple[str, ...] = ()
+
+    def refused(self, *, strict: bool) -> tuple[str, ...]:
+        """Return what a result is refused for: losses, and if `strict`, whatever breaks, fuses or vanishes."""
+        return (*self.losses, *self.problems, *self.fewer) if strict else self.losses
 
 
 def compare_with_input(
@@ -218,8 +225,8 @@ def find_differences(
                 f"the mesh has {mesh_parts} components, some of which overlap or touch, and the result {result_parts}; "
                 "--by-component keeps them apart"
             )
-    if smooth_input.mesh_volumes is None:
-        remarks.extend(_describe_counts(topology))
+    fewer = _describe_counts(topology) if smooth_input.mesh_volumes is None else []
+    remarks.extend(fewer)
     if smooth_input.facts.get("coarse"):
         remarks.append("what is smaller than the voxels that were asked for was not compared")
     repairs = smooth_input.facts.get("repairs", {})
@@ -228,7 +235,9 @@ def find_differences(
         holes_text = count_noun(repairs["holes"], "hole")
         remarks.append(f"{holes_text} of the mesh {verb} closed by caps, {share:.1%} of the area")
     word: Word = "lost" if losses else "changed a little" if problems or remarks else "kept"
-    return Differences(word=word, losses=tuple(losses), problems=tuple(problems), remarks=tuple(remarks))
+    return Differences(
+        word=word, losses=tuple(losses), problems=tuple(problems), remarks=tuple(remarks), fewer=tuple(fewer)
+    )
 
 
 def _is_noisy(smooth_input: SmoothInput) -> bool:

@@ -28,7 +28,7 @@ from infill.smoothing.label_runs import LabelWork, run_labels
 from infill.smoothing.request import SmoothOptions, SmoothRequest
 from infill.volume import AXES, Volume
 from infill.voxels.cropping import cut_cells
-from infill.voxels.labels import LabelExtent, label_extents
+from infill.voxels.labels import LabelExtent, is_label_map, label_extents
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -42,6 +42,7 @@ if TYPE_CHECKING:
 # Cells around a label in which phi is not yet void to the last bit: 12 with the usual interface of 2 cells, that is 6
 # interfaces; and 8 more, for the averages of refining.
 REACH_IN_INTERFACES, REFINING_MARGIN = 6, 8
+MOST_UNNAMED = 64  # values without names that are taken for labels even if they do not fill regions
 MAX_LISTED_LABELS = 12  # labels in a message
 SMALL = 2**20  # cells of a box: one thread does it before others have begun
 FACES_PER_RUN = 6  # of cells: two along each of three axes
@@ -203,6 +204,12 @@ def _find_pieces(
             )
             present.append((replace(template, layer=layer), extent))
     values = sorted({segment.value for segment, _ in present})
+    are_unnamed = requested is None and not table and not segmentation.segments and len(values) > MOST_UNNAMED
+    if are_unnamed and not any(is_label_map(volume) for volume in segmentation.layers):
+        raise ParameterError(
+            f"the volume holds {len(values)} values that change from voxel to voxel, as grey levels do, and not "
+            "labels; give --threshold X or --otsu, without {label}, or --label N,M for those that are labels"
+        )
     if not present:
         raise ParameterError("the volume holds no label, only 0; check that it is the right file")
     for value in requested or ():

@@ -87,7 +87,7 @@ def first_sound(ways: Iterable[Way], request: SmoothRequest) -> Result[SmoothSta
         remedy = STRICT_ADVICE if request.strict and len(all_ways) > 1 else _find_remedy(remedies, work_left)
         raise GeometryError(f"{failed}{_list_tried(tried[1:])}{'; ' + remedy if remedy else ''}") from failed
     result, differences = finish_attempt(best, tried, taken.name, _replaced_smoothing(all_ways[0], taken, best))
-    reasons = differences.losses if not request.strict else (*differences.losses, *differences.problems)
+    reasons = differences.refused(strict=request.strict)
     if reasons and not request.allow_broken:
         advice = _advice(best) or _find_remedy(remedies, work_left)
         anyway = f"{advice}, or give --allow-broken" if advice else "give --allow-broken"
@@ -154,7 +154,7 @@ def _list_tried(ways: list[str]) -> str:
 def _advice(best: Attempt) -> str | None:
     """Return advice that is certain to help against a loss by simplification or by `strict`; None for others."""
     request = best.smoothed.request
-    unsimplified = best.differences.losses or (request.strict and best.differences.problems)
+    unsimplified = best.differences.refused(strict=request.strict)
     if not unsimplified and (request.tolerance is not None or request.max_triangles is not None):
         return advise_all_triangles(request)
     return STRICT_ADVICE if request.strict else None
