@@ -421,7 +421,8 @@ def _copy_mode(source: Path, file: BinaryIO) -> None:
 def _options_mark(request: Request) -> bytes:
     """Return the pattern of a request, and a checksum of all its options, which the stamp holds."""
     chosen = {item.name: getattr(request, item.name) for item in fields(request) if item.name != "lines"}
-    chosen["parameters"] = sorted(request.parameters.items())
+    numbers = {name: value + 0.0 if isinstance(value, int) else value for name, value in request.parameters.items()}
+    chosen["parameters"] = sorted(numbers.items())
     return f"{request.pattern} {zlib.crc32(repr(sorted(chosen.items())).encode()):08x}".encode()
 
 
