@@ -912,7 +912,7 @@ REFUSED = {
     "empty_0bytes.stl": "is empty",
     "empty_binary.stl": "holds no triangles",
     "frog_legs_open.obj": "a thinner wall$",
-    "huge_150m_inverted.stl": "give a wall of 770 mm, or the right unit",
+    "huge_150m_inverted.stl": "give a wall of 820 mm, or the right unit",
     "invalid_vertex.stl": "a vertex that is not three numbers",
     "metres_part_47um.stl": "a thinner wall, or the right unit",
     "multibody_ascii.stl": "a thinner wall, or the right unit",
