@@ -24,7 +24,7 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
-from benchmarks import pairs
+from benchmarks import pairs, peer_scripts
 from benchmarks.label_scene import LABELS
 from benchmarks.pairs import row
 from infill import Smoothing, read_mesh, smooth_mesh, smooth_volume
@@ -211,48 +211,6 @@ def large(n: int) -> None:
     row("", f"{peak / 2**30:.2f} GiB in all", "9 GiB", holds=peak <= 9 * 2**30)
 
 
-VTK_SCRIPT = """
-import sys
-import numpy as np
-import vtk
-from vtk.util.numpy_support import numpy_to_vtk
-f = np.load(sys.argv[1])
-image = vtk.vtkImageData()
-image.SetDimensions(*f.shape[::-1])
-image.GetPointData().SetScalars(numpy_to_vtk(f.view(np.uint8).ravel()))
-net = vtk.vtkSurfaceNets3D()
-net.SetInputData(image)
-net.SetValue(0, 1)
-net.SmoothingOn()
-net.SetNumberOfIterations(16)
-net.SetConstraintScale(2.0)
-net.SetRelaxationFactor(0.5)
-net.SetOutputMeshTypeToTriangles()
-writer = vtk.vtkSTLWriter()
-writer.SetInputConnection(net.GetOutputPort())
-writer.SetFileTypeToBinary()
-writer.SetFileName(sys.argv[2])
-writer.Write()
-"""
-# The same nets, made as lean as ours by quadrics: no distance is checked.
-LEAN_SCRIPT = (
-    VTK_SCRIPT.partition("writer =")[0]
-    + """
-import fast_simplification
-from vtk.util.numpy_support import vtk_to_numpy
-net.Update()
-mesh = net.GetOutput()
-points = vtk_to_numpy(mesh.GetPoints().GetData())
-faces = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3).astype(np.int32)
-points, faces = fast_simplification.simplify(points, faces, target_count=int(sys.argv[3]))
-corners = points[faces].astype(np.float32)
-records = np.zeros(len(faces), dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
-records["normal"] = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-records["corners"] = corners
-with open(sys.argv[2], "wb") as file:
-    file.write(bytes(80) + np.uint32(len(faces)).tobytes() + records.tobytes())
-"""
-)
 PART_LIMITS = {"20 mm cube": 2.5, "bracket_medium.stl": 4.0, "spur_gear.stl": 4.0, "bunny_7k.off": 4.0}  # s
 
 
@@ -282,7 +240,7 @@ def commands(n: int, runs: int) -> None:
     with tempfile.TemporaryDirectory() as folder:
         source, target, script = (Path(folder) / name for name in ("s.npy", "s.stl", "nets.py"))
         np.save(source, ball(n))
-        script.write_text(VTK_SCRIPT, encoding="utf-8")
+        script.write_text(peer_scripts.SURFACE_NETS, encoding="utf-8")
         plain = [command, "smooth", source, "-o", target, "--force", "--steps", "10", "--smooth", "plain"]
         theirs = partial(pairs.process, [sys.executable, str(script), str(source), str(target)])
         for name, options in (("plain, every triangle", ["--tolerance", "0"]), ("plain, simplified", [])):
@@ -296,7 +254,7 @@ def commands(n: int, runs: int) -> None:
         pairs.process(ours)
         triangles = (target.stat().st_size - 84) // 50
         lean = Path(folder) / "lean.py"
-        lean.write_text(LEAN_SCRIPT, encoding="utf-8")
+        lean.write_text(peer_scripts.LEAN_NETS, encoding="utf-8")
         for name, script_for, most in (("nets alone", script, 5.0), ("nets, as lean", lean, 1.5)):
             other = [sys.executable, str(script_for), str(source), str(Path(folder) / "theirs.stl"), str(triangles)]
             try:
@@ -307,48 +265,6 @@ def commands(n: int, runs: int) -> None:
             times = pairs.ratio(mine, peer)
             figure = f"{pairs.median(mine):.2f} s, VTK {pairs.median(peer):.2f} s, {times:.2f} x"
             row(f"infill smooth, {n}³, all defaults, {name}", figure, f"{most:g} x", holds=times <= most)
-
-
-FUNCTION_SCRIPT = """
-import sys
-import numpy as np
-from infill import smooth_labels
-smooth_labels(np.load(sys.argv[1])).save(sys.argv[2])
-"""
-# All labels in one mesh, in which neighbours share their walls: half of the triangles of closed surfaces.
-NETS_SCRIPT = """
-import sys
-import numpy as np
-import vtk
-from vtk.util.numpy_support import numpy_to_vtk
-labels = np.load(sys.argv[1])
-image = vtk.vtkImageData()
-image.SetDimensions(*labels.shape[::-1])
-image.GetPointData().SetScalars(numpy_to_vtk(labels.ravel()))
-net = vtk.vtkSurfaceNets3D()
-net.SetInputData(image)
-net.GenerateValues(int(labels.max()), 1, int(labels.max()))
-net.SmoothingOn()
-net.SetNumberOfIterations(16)
-net.SetConstraintScale(2.0)
-net.SetRelaxationFactor(0.5)
-net.SetOutputMeshTypeToTriangles()
-writer = vtk.vtkSTLWriter()
-writer.SetInputConnection(net.GetOutputPort())
-writer.SetFileTypeToBinary()
-writer.SetFileName(sys.argv[2])
-writer.Write()
-"""
-SERRA_SCRIPT = """
-import sys
-import numpy as np
-import serra_mesh
-labels = np.load(sys.argv[1])
-mesher = serra_mesh.Mesher(taubin=8)
-mesher.mesh(labels)
-for label in range(1, int(labels.max()) + 1):
-    mesher.get(label).save(f"{sys.argv[2]}{label}.ply")
-"""
 
 
 def labels(size: int, runs: int) -> None:
@@ -363,7 +279,11 @@ def labels(size: int, runs: int) -> None:
         subprocess.run([sys.executable, "-c", scene + f"segmentation({size}))"], check=True)
         print(f"\n{LABELS} labels of {size}³, {runs} rounds")
         smooth = [command, "smooth", str(source), "--force", "--quiet", "-o"]
-        scripts = {"function": FUNCTION_SCRIPT, "nets": NETS_SCRIPT, "serra": SERRA_SCRIPT}
+        scripts = {
+            "function": peer_scripts.OWN_LABELS,
+            "nets": peer_scripts.NETS_OF_LABELS,
+            "serra": peer_scripts.SERRA,
+        }
         for key, text in scripts.items():
             (folder / f"{key}.py").write_text(text, encoding="utf-8")
         base: list[str] = [*smooth, str(folder / "{label}.stl")]

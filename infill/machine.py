@@ -14,6 +14,11 @@ GIB = 2**30
 LARGEST_SHOWN = 2**100  # largest number of bytes in a message: a grid may exceed the range of a float
 
 
+def has_interpreter() -> bool:
+    """Tell whether `sys.executable` is a Python to start: a frozen application has none."""
+    return bool(sys.executable) and not getattr(sys, "frozen", False)
+
+
 def usable_cores() -> int:
     """Return the number of cores that this process may use."""
     if hasattr(os, "sched_getaffinity"):

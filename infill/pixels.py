@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.graph import label_connected
+
 
 def label_pixels(inside: NDArray[np.bool_]) -> tuple[NDArray[np.int32], int]:
     """Label the components of pixels that touch at a side; return the number of each pixel, and how many there are.
@@ -22,8 +24,7 @@ def label_pixels(inside: NDArray[np.bool_]) -> tuple[NDArray[np.int32], int]:
 
     Notes
     -----
-    Runs of pixels along rows are united with the runs that they touch in the next row: a component gets the number of
-    its first run. Each round gives the lesser number of two runs that touch to all that have the greater one.
+    Runs of pixels along rows are united with the runs that they touch in the next row.
 
     >>> label_pixels(np.array([[True, False, True], [False, False, True]]))[0].tolist()
     [[1, 0, 2], [0, 0, 2]]
@@ -36,17 +37,10 @@ def label_pixels(inside: NDArray[np.bool_]) -> tuple[NDArray[np.int32], int]:
     touching = np.maximum(highest - lowest, 0)
     run = np.repeat(np.arange(len(begin)), touching)
     below = np.arange(len(run)) - np.repeat(np.cumsum(touching) - touching - lowest, touching)
-    number = np.arange(len(begin))
-    while (differs := number[run] != number[below]).any():
-        run, below = run[differs], below[differs]
-        lower, higher = np.sort(np.stack([number[run], number[below]]), axis=0)
-        np.minimum.at(number, higher, lower)
-        while (nearer := number[number] < number).any():
-            number[nearer] = number[number[nearer]]
-    names, number = np.unique(number, return_inverse=True)
+    number, count = label_connected(run, below, len(begin))
     labels = np.zeros(len(flat), dtype=np.int32)
-    labels[flat] = np.repeat(number.astype(np.int32) + 1, end - begin)
-    return np.ascontiguousarray(labels.reshape(-1, width)[:, :-1]), len(names)
+    labels[flat] = np.repeat(number + np.int32(1), end - begin)
+    return np.ascontiguousarray(labels.reshape(-1, width)[:, :-1]), count
 
 
 def open_pixels(inside: NDArray[np.bool_], side: int) -> NDArray[np.bool_]:

@@ -137,7 +137,7 @@ def test_options_that_do_not_go_together_are_wrong_usage(words: list[str], says:
     [
         (["honeycomb", "--size", "10x10x5", "--density", "5", "--frame"], "the frame alone takes 17.2% of the block"),
         (["honeycomb", "--size", "1x10x5", "--density", "40"], "no room in a frame of 0.45 mm"),
-        (["gyroid", "--density", "95"], "density is 0.95; it must be a number from 0.01 to 0.9"),
+        (["gyroid", "--density", "95"], "density is 95%; give 1% to 90%"),
         (["gyroid", "--set", "waves=3"], "gyroid has no parameter 'waves'; it has cell, angle, phase, frame"),
     ],
 )

@@ -160,7 +160,7 @@ def test_other_forms_have_regions_too(form: str) -> None:
         ("box=1,2,3,x,5,6:density=40%", UsageError, "give numbers in mm"),
         ("z=5..2:density=40%", UsageError, "ends are in the wrong order"),
         ("z=1..2:density=140%", InfillError, "give a density such as"),
-        ("z=1..2:density=95%", InfillError, "region density is 0.95; it must be a number from 0.01 to 0.9"),
+        ("z=1..2:density=95%", InfillError, "region density is 95%; give 1% to 90%"),
         ("none.stl:density=40%", FormatError, "no file none.stl"),
         (5, UsageError, "region is 5; give infill.Region"),
         (Region(density=0.4), UsageError, "has 0 places"),

@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 from infill import errors
 from infill.errors import FormatError, InfillError, MemoryLimitError
 from infill.files.broken import READER_ERRORS
-from infill.machine import GIB, available_memory
+from infill.machine import GIB, available_memory, has_interpreter
 from infill.plain_numbers import plain_argument
 
 TIME_LIMIT = 600.0  # for one file: the slowest network drive fills memory in that time
@@ -111,7 +111,7 @@ def read_in_child(
     -----
     Without an interpreter to start, as in a frozen application, the reader runs in this process.
     """
-    if getattr(sys, "frozen", False) or not sys.executable:
+    if not has_interpreter():
         data, arrays = _import_function(reader)(*arguments)
         return Reply(data=data, arrays=arrays)
     allowed = memory if memory is not None else available_memory()

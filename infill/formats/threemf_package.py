@@ -35,6 +35,8 @@ MEMORY_PER_BYTE = 4  # bytes for each byte of XML: <vertex/> is the shortest of 
 MOST_ELEMENTS, DEEPEST = 2_000_000, 100  # besides vertices and triangles
 FARTHEST = 1e15  # in the unit of the file: products of such numbers are finite
 KEYSTORE = "secure/keystore.xml"
+RELATIONS = "_rels/.rels"
+IDENTITY = "1 0 0 0 1 0 0 0 1 0 0 0"
 # Encodings of text: Python has others, which decompress or translate.
 ENCODINGS = re.compile(
     r"utf-?(8|16|16le|16be|16-le|16-be)|(us-)?ascii|iso-?8859-\d+|latin-?1|windows-125\d|cp125\d|koi8-r"
@@ -42,6 +44,8 @@ ENCODINGS = re.compile(
 DECLARED_ENCODING = re.compile(rb"<\?xml[^>]*?encoding\s*=\s*[\"']([^\"'>]*)")
 # Namespaces whose elements are stored with their content; of others, only the element.
 KEPT_NAMESPACES = ("http://schemas.slic3r.org/", "http://software.ultimaker.com/")
+
+Transform = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -335,3 +339,29 @@ class _ModelBuilder:
     def close(self) -> ElementTree.Element:
         """Return the root."""
         return self._tree.close()
+
+
+def start_part(package: zipfile.ZipFile) -> str:
+    """Return the `part_key` of the model that the package declares as its start, or an empty string."""
+    if part_key(RELATIONS) not in entries_by_key(package):
+        return ""
+    relations = parse_xml(read_entry(package, RELATIONS))
+    targets = [relation.get("Target", "") for relation in relations if relation.get("Type", "").endswith("/3dmodel")]
+    return part_key(targets[0]) if targets else ""
+
+
+def parse_transform(text: str) -> Transform:
+    """Parse the 4 x 3 matrix of a transform for points as rows: point @ matrix."""
+    return _require_finite(np.array([float(number) for number in text.split()]).reshape(4, 3))
+
+
+def compose_transforms(inner: Transform, outer: Transform) -> Transform:
+    """Return the transform that applies an inner one and then an outer one."""
+    return _require_finite(np.concatenate([inner[:3] @ outer[:3], inner[3:] @ outer[:3] + outer[3]]))
+
+
+def _require_finite(transform: Transform) -> Transform:
+    """Return a transform, or raise ValueError if its numbers are not finite or so large that products overflow."""
+    if not (np.abs(transform) <= FARTHEST).all():  # NaN is neither
+        raise ValueError(f"a transform has numbers beyond {plain_number(FARTHEST, 6)}")
+    return transform

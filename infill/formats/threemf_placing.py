@@ -19,13 +19,17 @@ from infill.files.excerpts import excerpt
 from infill.formats.threemf_extensions import check_required, is_harmless, name_of
 from infill.formats.threemf_package import (
     EXPORT_ADVICE,
-    FARTHEST,
+    IDENTITY,
     Model,
+    Transform,
+    compose_transforms,
     entries_by_key,
+    parse_transform,
     parse_xml,
     part_key,
     read_entry,
     read_model,
+    start_part,
 )
 from infill.formats.threemf_roles import (
     BAMBU_CONFIG,
@@ -48,12 +52,10 @@ from infill.formats.volume_settings import VolumeSettings, find_pattern, parse_p
 from infill.imaging.label_tables import Colour
 from infill.meshes.merging import merge_unless_closed
 from infill.meshes.solids import subtract
-from infill.plain_numbers import count_noun, plain_number
+from infill.plain_numbers import count_noun
 from infill.surface import Modifier, Surface
 
-IDENTITY = "1 0 0 0 1 0 0 0 1 0 0 0"
 MODEL = "3D/3dmodel.model"
-RELATIONS = "_rels/.rels"
 MOST_PLACED = 100_000  # objects: nested components can request any number in a few lines
 MOST_PLACED_ROWS = 100_000_000  # triangles and vertices
 MOST_NESTED = 20  # components in one another
@@ -62,7 +64,6 @@ PROJECT_CONFIGS = re.compile(r"metadata/(slic3r_pe|superslicer|project_settings)
 PRUSA_CONFIGS = re.compile(r"metadata/[^/]*_model\.config")  # of PrusaSlicer and its forks
 
 Key = tuple[str, str]  # a file of the package, and the number of an object in it
-Transform = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -222,7 +223,7 @@ class PackageReading:
             yield from self._volumes(model, element, name, chain, outer)
         for component in model.below(element, "components/component"):
             inner = parse_transform(component.get("transform", IDENTITY))
-            yield from self.placed(self.reference(component, part), _compose(inner, outer), chain)
+            yield from self.placed(self.reference(component, part), compose_transforms(inner, outer), chain)
 
     def _volumes(
         self, model: Model, item: ElementTree.Element, name: str, chain: tuple[Key, ...], outer: Transform
@@ -382,29 +383,3 @@ def _outward(surface: Surface) -> Surface:
     """Return a volume that faces outwards; slicers reverse inverted volumes in the same way."""
     closed = merge_unless_closed(surface.vertices, surface.faces)
     return closed if closed.volume >= 0 else replace(closed, faces=closed.faces[:, ::-1])
-
-
-def start_part(package: zipfile.ZipFile) -> str:
-    """Return the `part_key` of the model that the package declares as its start, or an empty string."""
-    if part_key(RELATIONS) not in entries_by_key(package):
-        return ""
-    relations = parse_xml(read_entry(package, RELATIONS))
-    targets = [relation.get("Target", "") for relation in relations if relation.get("Type", "").endswith("/3dmodel")]
-    return part_key(targets[0]) if targets else ""
-
-
-def parse_transform(text: str) -> Transform:
-    """Parse the 4 x 3 matrix of a transform for points as rows: point @ matrix."""
-    return _require_finite(np.array([float(number) for number in text.split()]).reshape(4, 3))
-
-
-def _compose(inner: Transform, outer: Transform) -> Transform:
-    """Return the transform that applies an inner one and then an outer one."""
-    return _require_finite(np.concatenate([inner[:3] @ outer[:3], inner[3:] @ outer[:3] + outer[3]]))
-
-
-def _require_finite(transform: Transform) -> Transform:
-    """Return a transform, or raise ValueError if its numbers are not finite or so large that products overflow."""
-    if not (np.abs(transform) <= FARTHEST).all():  # NaN is neither
-        raise ValueError(f"a transform has numbers beyond {plain_number(FARTHEST, 6)}")
-    return transform

@@ -13,9 +13,11 @@ from infill.files.broken import wrap_reader_errors
 from infill.files.excerpts import excerpt
 from infill.formats.threemf_package import (
     EXPORT_ADVICE,
+    IDENTITY,
     open_package,
+    parse_transform,
 )
-from infill.formats.threemf_placing import IDENTITY, PackageReading, PlacedVolume, parse_transform
+from infill.formats.threemf_placing import PackageReading, PlacedVolume
 from infill.formats.threemf_roles import (
     is_unprinted,
 )

@@ -54,8 +54,8 @@ class Survey:
         Its settings by its own names, as far as the file states them.
     begin : MachineState
         Modes at the first layer, with the position unknown.
-    stamped : bool
-        It was refilled before.
+    stamp : bytes
+        The line that an earlier refill wrote; empty if there was none.
     resets_filament : bool
         The file itself sets its counter of filament by G92.
     windows : tuple of bytes
@@ -72,7 +72,7 @@ class Survey:
     slicer: str
     settings: dict[str, str]
     begin: MachineState
-    stamped: bool
+    stamp: bytes
     resets_filament: bool
     windows: tuple[bytes, ...]
     layers: float
@@ -150,7 +150,7 @@ def survey_print(file: BinaryIO, *, more: bool = False, settings: Mapping[str, s
         slicer=slicer_name,
         settings=all_settings,
         begin=begin,
-        stamped=STAMP in head,
+        stamp=head[head.find(STAMP) :].partition(b"\n")[0] if STAMP in head else b"",
         resets_filament=b"G92 E" in head or any(b"G92 E" in text for text in samples),
         windows=tuple(samples),
         layers=size * tags / max(1, sum(map(len, samples))),
@@ -164,8 +164,7 @@ def merge_surveys(surveys: Sequence[Survey]) -> Survey:
     base = surveys[0]
     shared = set.intersection(*(set(member.settings.items()) for member in surveys))
     settings = {name: value for name, value in base.settings.items() if (name, value) in shared}
-    stamped = all(member.stamped for member in surveys)
-    return replace(base, size=sum(member.size for member in surveys), settings=settings, stamped=stamped)
+    return replace(base, size=sum(member.size for member in surveys), settings=settings)
 
 
 def _check_is_gcode(head: bytes, size: int) -> None:

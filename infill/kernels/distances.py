@@ -218,6 +218,21 @@ def _squared_distance_to_box(x, y, z, low, high):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
+def _push_children(x, y, z, box, low, high, best, stack, box_distance, count):
+    """Push the children of a box that are nearer than `best`, a squared distance; return the height of the stack."""
+    last, next_box = 2 * box + 1, 2 * box + 2
+    last_distance = _squared_distance_to_box(x, y, z, low[last], high[last])
+    next_distance = _squared_distance_to_box(x, y, z, low[next_box], high[next_box])
+    if last_distance < next_distance:  # the nearer one is visited first: it lies on top
+        last, next_box, last_distance, next_distance = next_box, last, next_distance, last_distance
+    if last_distance < best:
+        stack[count], box_distance[count], count = last, last_distance, count + 1
+    if next_distance < best:
+        stack[count], box_distance[count], count = next_box, next_distance, count + 1
+    return count
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
 def nearest_triangle(x, y, z, guess, corners, low, high, leaf, enough, stack, box_distance):
     """Find the triangle nearest to a point; return its squared distance and its index.
 
@@ -246,17 +261,7 @@ def nearest_triangle(x, y, z, guess, corners, low, high, leaf, enough, stack, bo
                 if candidate < best:
                     best, nearest = candidate, at
             continue
-        near_child, far_child = 2 * box + 1, 2 * box + 2
-        d1, d2 = (
-            _squared_distance_to_box(x, y, z, low[near_child], high[near_child]),
-            _squared_distance_to_box(x, y, z, low[far_child], high[far_child]),
-        )
-        if d1 < d2:  # the nearer one is visited first: it lies on top
-            near_child, far_child, d1, d2 = far_child, near_child, d2, d1
-        if d1 < best:
-            stack[count], box_distance[count], count = near_child, d1, count + 1
-        if d2 < best:
-            stack[count], box_distance[count], count = far_child, d2, count + 1
+        count = _push_children(x, y, z, box, low, high, best, stack, box_distance, count)
     return best, nearest
 
 
@@ -317,15 +322,7 @@ def least_distance(points, corners, low, high, leaf, limit, thread, threads):
                 for at in range(begin, min(begin + leaf, len(corners))):
                     best = min(best, squared_distance(x, y, z, corners[at, 0], corners[at, 1], corners[at, 2]))
                 continue
-            near_child, far_child = 2 * box + 1, 2 * box + 2
-            near = _squared_distance_to_box(x, y, z, low[near_child], high[near_child])
-            far = _squared_distance_to_box(x, y, z, low[far_child], high[far_child])
-            if near < far:  # the nearer one is visited first: it lies on top
-                near_child, far_child, near, far = far_child, near_child, far, near
-            if near < best:
-                stack[count], box_distance[count], count = near_child, near, count + 1
-            if far < best:
-                stack[count], box_distance[count], count = far_child, far, count + 1
+            count = _push_children(x, y, z, box, low, high, best, stack, box_distance, count)
         if best < least and (nearest < 0 or math.sqrt(best) < math.sqrt(least)):
             least, nearest = best, n
     return least, nearest

@@ -12,7 +12,7 @@ import sys
 from functools import partial
 
 from infill.kernels.compiling import AT_FIRST_COMPILATION, UNCACHED
-from infill.machine import usable_cores
+from infill.machine import has_interpreter, usable_cores
 
 _RUNNING: list[subprocess.Popen[bytes]] = []
 
@@ -20,9 +20,9 @@ _RUNNING: list[subprocess.Popen[bytes]] = []
 def compile_beside(module: str) -> None:
     """Run `python -m module` in a second process as soon as this one compiles anything, if there is a core for it.
 
-    Only the first call in a process counts.
+    Only the first call in a process counts. Without an interpreter to start, there is no second process.
     """
-    if usable_cores() > 1 and not AT_FIRST_COMPILATION:
+    if usable_cores() > 1 and has_interpreter() and not AT_FIRST_COMPILATION:
         AT_FIRST_COMPILATION.append(partial(_start, module))
 
 
@@ -37,7 +37,7 @@ def _start(module: str) -> None:
     if not UNCACHED.is_set():
         _RUNNING.append(
             subprocess.Popen(  # noqa: S603 - of this package
-                [sys.executable, "-m", module],
+                [sys.executable, "-P", "-m", module],  # -P: no module of the folder that the user is in
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL,

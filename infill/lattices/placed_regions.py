@@ -76,12 +76,22 @@ def place_region(region: object) -> PlacedRegion:
     return replace(placed, low=low, high=high)
 
 
+def check_density(name: str, share: float) -> float:
+    """Return a density, or raise ParameterError if it is not a share that infill can have.
+
+    >>> check_density("density", 0.2)
+    0.2
+    """
+    if not LOWEST <= share <= HIGHEST:
+        raise ParameterError.about(name, f"is {plain_argument(100 * share)}%; give {LOWEST:.0%} to {HIGHEST:.0%}")
+    return share
+
+
 def _check_settings(region: Region) -> dict[str, Any]:
     """Check density, pattern and wall of a region; return those that it has."""
     settings: dict[str, Any] = {}
     if region.density is not None:
-        share = parse_share("region", region.density, SHARE)
-        settings["density"] = check_range("region density", share, LOWEST, HIGHEST)
+        settings["density"] = check_density("region density", parse_share("region", region.density, SHARE))
     if region.pattern is not None:
         settings["kind"], settings["pattern"] = resolve_pattern(region.pattern, "fill")
     if region.wall is not None:

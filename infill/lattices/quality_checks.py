@@ -231,19 +231,28 @@ def _density_at(request: FillSpec, number: int) -> float | None:
         return None  # its branches follow roofs
     if region.density is not None or region.kind is None:
         return region.density
-    below = request.regions[: number - 1]
-    return None if any(other.density is not None and boxes_overlap(region, other) for other in below) else base
+    return None if _lies_over(request, number, "density") else base
 
 
 def _wall_at(request: FillSpec, number: int) -> float | None:
     """Return the requested wall in a region, 0 for the rest, mm; None if it has several."""
+    own = request.regions[number - 1].wall if number else request.wall
+    return own if own is not None or _lies_over(request, number, "wall") else request.wall
+
+
+def _pattern_at(request: FillSpec, number: int) -> str | None:
+    """Return the name of the pattern in a region, 0 for the rest; None if it has several."""
+    if number and request.regions[number - 1].kind is not None:
+        return request.regions[number - 1].pattern
+    return None if _lies_over(request, number, "kind") else request.pattern
+
+
+def _lies_over(request: FillSpec, number: int, setting: str) -> bool:
+    """Tell whether a region lies over another one that has a setting; the rest, 0, does not."""
     if number == 0:
-        return request.wall
-    region = request.regions[number - 1]
-    if region.wall is not None:
-        return region.wall
-    below = request.regions[: number - 1]
-    return None if any(other.wall is not None and boxes_overlap(region, other) for other in below) else request.wall
+        return False
+    *below, region = request.regions[:number]
+    return any(getattr(other, setting) is not None and boxes_overlap(region, other) for other in below)
 
 
 def measure_region_walls(task: FillTask, hollow: VoidMeshes) -> list[float | None]:
@@ -271,18 +280,6 @@ def measure_region_walls(task: FillTask, hollow: VoidMeshes) -> list[float | Non
     least = np.full(1 + len(regions), np.inf)
     np.minimum.at(least, number[~is_near], distances)
     return [wall if np.isfinite(wall) else None for wall in least.tolist()]
-
-
-def _pattern_at(request: FillSpec, number: int) -> str | None:
-    """Return the name of the pattern in a region, 0 for the rest; None if it has several."""
-    if number == 0:
-        return request.pattern
-    region = request.regions[number - 1]
-    if region.kind is not None:
-        return region.pattern
-    below = request.regions[: number - 1]
-    is_mixed = any(other.kind is not None and boxes_overlap(region, other) for other in below)
-    return None if is_mixed else request.pattern
 
 
 def is_width_ok(width: float, requested: float) -> bool:

@@ -11,11 +11,11 @@ import numpy as np
 
 from infill.checks import check_length, check_positive, check_range, check_whole_number
 from infill.drawings.tiled import Tiled
-from infill.errors import GeometryError, ParameterError, UsageError
+from infill.errors import GeometryError, UsageError
 from infill.interior.opening import Open
 from infill.lattices.density_fields import resolve_field
 from infill.lattices.grading import Grading, Varies
-from infill.lattices.placed_regions import HIGHEST, LOWEST, RegionDensities, place_region
+from infill.lattices.placed_regions import RegionDensities, check_density, place_region
 from infill.lattices.region_nodes import PlacedRegion
 from infill.options.keyword_options import parse_share
 from infill.options.resolve_pattern import Kind, resolve_pattern
@@ -370,7 +370,7 @@ def check_request(
         option = "by" if by is not None else "grade"
         raise UsageError.about(option, "is given with one density; give two, such as 15%:40%, or leave it out")
     elif density is not None:
-        density = _parse_density(density)
+        density = check_density("density", parse_share("density", density))
     elif (cell is None or line_width is None) and not isinstance(kind, Lightning):
         density = DENSITY if cell is None or has_bars(kind) or (has_densities and not once) else None
         if density is None:
@@ -447,14 +447,6 @@ def place_regions(spec: FillSpec, regions: tuple[PlacedRegion, ...]) -> FillSpec
     return replace(spec, regions=tuple(placed), grading=grading)
 
 
-def _parse_density(value: object) -> float:
-    """Parse the density of infill, a share of 1 to 90 %; raise ParameterError for others."""
-    share = parse_share("density", value)
-    if not LOWEST <= share <= HIGHEST:
-        raise ParameterError.about("density", f"is {plain_argument(100 * share)}%; give {LOWEST:.0%} to {HIGHEST:.0%}")
-    return share
-
-
 def _check_without_shell(*, form: str, open_: str | None, drain: float | None) -> None:
     """Raise an error for what a part without a shell cannot have."""
     if form != "solid":
@@ -520,6 +512,6 @@ def check_grading(densities: Sequence[float], by: object, grade: str = "width") 
         raise UsageError.about("grade", f"is {grade!r}; choose from {', '.join(get_args(Varies))}")
     if len(densities) != 2:
         raise UsageError.about("density", f"has {len(densities)} numbers; give one, or two such as 15%:40%")
-    low, high = (_parse_density(density) for density in densities)
+    low, high = (check_density("density", parse_share("density", density)) for density in densities)
     field, name = resolve_field("z" if by is None else by)
     return Grading(first=low, last=high, by=field, name=name, varies=grade)  # type: ignore[arg-type]

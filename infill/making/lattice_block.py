@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from infill.checks import check_length, check_range
+from infill.checks import check_length
 from infill.errors import ParameterError
 from infill.isosurfaces.components import shell_names
 from infill.lattices.choosing import HELD
 from infill.lattices.job import fill_request, plan_fill
-from infill.lattices.placed_regions import HIGHEST, LOWEST
+from infill.lattices.placed_regions import LOWEST, check_density
 from infill.lattices.request import LINE_WIDTH, TOLERANCE, FillSpec, check_request
 from infill.making.stages import LatticeStages
 from infill.meshes.shells import shell_volumes
@@ -171,7 +171,7 @@ def plan_lattice(
     cell, roof = values.get("cell"), isinstance(kind, Lightning) and frame > 0
     inside = None
     if density is not None:
-        density = check_range("density", parse_share("density", density), LOWEST, HIGHEST)
+        density = check_density("density", parse_share("density", density))
         open_share = (1 - 2 * frame / x) * (1 - 2 * frame / y) * (1 - (frame / height if roof else 0.0))
         inside = 1 - (1 - density) / open_share
         if inside < LOWEST:

@@ -1,6 +1,6 @@
 """Compile the kernels of simplification: `python -m infill.meshes.compile_simplification`.
 
-A small ball is simplified, with the number types that smoothing gives to all surfaces, so that a second process can do
+A ring is simplified, with the number types that smoothing gives to all surfaces, so that a second process can do
 this while the first one still smooths: see `infill.kernels.second_compiler`.
 """
 
@@ -11,26 +11,21 @@ import numpy as np
 from infill.meshes.edge_collapse import collapse_edges
 from infill.surface import Surface
 
-RINGS, SIDES = 200, 200  # enough triangles for two patches
+SIDES = 200  # squares around each way: enough triangles for two patches
 
 
-def make_ball() -> Surface:
-    """Make a ball of triangles, radius 1 mm."""
-    polar, around = np.linspace(0, np.pi, RINGS + 1)[1:-1], np.arange(SIDES) * (2 * np.pi / SIDES)
-    across, along = np.meshgrid(polar, around, indexing="ij")
-    rings = np.stack([np.sin(across) * np.cos(along), np.sin(across) * np.sin(along), np.cos(across)], axis=2)
-    index = 1 + np.arange((RINGS - 1) * SIDES).reshape(RINGS - 1, SIDES)
-    ahead, last = np.roll(index, -1, axis=1), 1 + index.size
-    upper, lower = (index[:-1], ahead[:-1]), (index[1:], ahead[1:])
-    faces = [
-        np.stack([np.zeros_like(index[0]), index[0], ahead[0]], axis=1),
-        np.stack([upper[0], lower[0], upper[1]], axis=2).reshape(-1, 3),
-        np.stack([upper[1], lower[0], lower[1]], axis=2).reshape(-1, 3),
-        np.stack([np.full_like(index[0], last), ahead[-1], index[-1]], axis=1),
-    ]
-    vertices = np.concatenate([[[0, 0, 1.0]], rings.reshape(-1, 3), [[0, 0, -1.0]]])
-    return Surface(vertices=vertices, faces=np.concatenate(faces).astype(np.int32))
+def make_ring() -> Surface:
+    """Make a ring of triangles, a torus with radii of 2 and 1 mm."""
+    angle = np.arange(SIDES) * (2 * np.pi / SIDES)
+    across, along = np.meshgrid(angle, angle, indexing="ij")
+    reach = 2 + np.cos(across)
+    vertices = np.stack([reach * np.cos(along), reach * np.sin(along), np.sin(across)], axis=2)
+    index = np.arange(SIDES * SIDES, dtype=np.int32).reshape(SIDES, SIDES)
+    right, above = np.roll(index, -1, axis=1), np.roll(index, -1, axis=0)
+    beyond = np.roll(right, -1, axis=0)
+    faces = np.stack([np.stack([index, right, beyond], axis=2), np.stack([index, beyond, above], axis=2)])
+    return Surface(vertices=vertices.reshape(-1, 3), faces=faces.reshape(-1, 3))
 
 
 if __name__ == "__main__":
-    collapse_edges(make_ball(), tolerance=0.01)
+    collapse_edges(make_ring(), tolerance=0.01)

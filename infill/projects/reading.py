@@ -12,14 +12,17 @@ from infill.files.broken import require_readable, wrap_reader_errors
 from infill.files.excerpts import excerpt
 from infill.formats.threemf_extensions import Extension, is_harmless, name_of, required_extensions
 from infill.formats.threemf_package import (
+    IDENTITY,
+    RELATIONS,
     Model,
     entries_by_key,
     open_package,
     parse_xml,
     part_key,
     read_model,
+    start_part,
 )
-from infill.formats.threemf_placing import IDENTITY, MODEL, RELATIONS, start_part
+from infill.formats.threemf_placing import MODEL
 from infill.formats.threemf_roles import is_part_type, is_unprinted, metadata_of, object_key, settings_of
 from infill.surface import Surface
 

@@ -40,8 +40,6 @@ if TYPE_CHECKING:
     from infill.refilling.stats import PrintAmounts, RefillStats
     from infill.reports.refilling import RefillReport
 
-HEAD = 1 << 18  # bytes in which the header ends, and the stamp of an earlier refill lies
-
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class RefillResult(Picturable):
@@ -330,10 +328,9 @@ def _refill_text(sliced: SlicedText, draft: BinaryIO, request: Request, progress
     family = None if request.pattern == KEEP else family_of(request.pattern, request.parameters, request.lines)
     print_survey = survey_print(sliced.text, more=family is not None and not family.prismatic, settings=sliced.settings)
     print_survey = replace(print_survey, slicer=print_survey.slicer or sliced.slicer)
-    if print_survey.stamped:
-        is_same = _options_mark(request) in _read_stamp(sliced.text)
-        if is_same or request.pattern == KEEP:
-            return _Draft(found=print_survey, draft=draft, is_same=is_same)
+    is_same = _options_mark(request) in print_survey.stamp
+    if is_same or (print_survey.stamp and request.pattern == KEEP):
+        return _Draft(found=print_survey, draft=draft, is_same=is_same)
     if progress is not None:
         progress("looking at layers", 0.0)
     samples = sample_layers(print_survey)
@@ -426,22 +423,12 @@ def _options_mark(request: Request) -> bytes:
     return f"{request.pattern} {zlib.crc32(repr(sorted(chosen.items())).encode()):08x}".encode()
 
 
-def _read_stamp(text: BinaryIO) -> bytes:
-    """Return the stamp of an earlier refill, a line; leave the file at its beginning."""
-    from infill.gcode.survey import STAMP
-
-    text.seek(0)
-    head = text.read(HEAD)
-    text.seek(0)
-    return head[head.find(STAMP) :].partition(b"\n")[0] if STAMP in head else b""
-
-
 def _stamp_edit(draft: BinaryIO, tally: RefillStats, request: Request) -> tuple[int, int, bytes]:
     """Return the edit that inserts the stamp: in place of that of an earlier refill, or below the header.
 
     The header is a block of comments, or a first line that is a comment.
     """
-    from infill.gcode.survey import STAMP
+    from infill.gcode.survey import HEAD, STAMP
 
     draft.seek(0)
     head = draft.read(HEAD)

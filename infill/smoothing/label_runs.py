@@ -154,12 +154,7 @@ class _LabelQueue(Generic[Outcome]):
                 number = self.waiting.popleft() if largest else self.waiting.pop()
             if number >= self.last:
                 return False
-        try:
-            outcome = self.smooth(number, threads, self.shares.listener(number))
-        except BaseException:
-            with self.lock:
-                self.waiting.clear()  # the other threads end after the label that they are at
-            raise
+        outcome = self.smooth(number, threads, self.shares.listener(number))
         self.outcomes[number] = outcome
         self.shares.finish(number)
         if self.stop and isinstance(outcome, InfillError):
@@ -169,5 +164,9 @@ class _LabelQueue(Generic[Outcome]):
 
     def take_all(self, *, largest: bool) -> None:
         """Smooth labels on one thread until none waits."""
-        while self.take(1, largest=largest):
-            pass
+        try:
+            while self.take(1, largest=largest):
+                pass
+        finally:  # after a failure, the other threads end with the label that they are at; else none waits
+            with self.lock:
+                self.waiting.clear()
