@@ -727,10 +727,10 @@ def test_the_modes_and_the_windows_of_a_print() -> None:
         assert window == layer * 3
     assert found.layers == pytest.approx(400, rel=0.01)  # layers are alike; what stands before the first is not
     assert not found.resets_filament
-    assert not found.stamped
+    assert not found.stamp
 
 
-@pytest.mark.parametrize(("field", "line"), [("stamped", STAMP + b" 0.5.0"), ("resets_filament", b"G92 E0")])
+@pytest.mark.parametrize(("field", "line"), [("stamp", STAMP + b" 0.5.0"), ("resets_filament", b"G92 E0")])
 def test_what_a_print_tells_of_itself(field: str, line: bytes) -> None:
     assert getattr(looked_at(line + b"\nG1 X1\n"), field)
     assert not getattr(looked_at(b"G1 X1\n"), field)
