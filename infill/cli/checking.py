@@ -139,7 +139,7 @@ def _inspection_table(inspection: Inspection, name: str) -> str:
         f"duplicate, {count_noun(inspection.self_intersections, 'pair')} that cross",
         "volume, area": f"{plain_size(inspection.volume, digits=6, power=3)}, "
         f"{plain_size(inspection.area, digits=6, power=2)}",
-        "size": f"{plain_size(*inspection.extents, digits=4)}",
+        "size": plain_size(*inspection.extents, digits=4),
     }
     return format_table(rows, title=name)
 

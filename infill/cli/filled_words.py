@@ -109,7 +109,7 @@ def summary(
     if verbose:
         grid = report["grid"]
         rows["grid"] = f"{' x '.join(map(str, grid['shape']))} cells of {plain_size(grid['spacing'][0], digits=4)}"
-        rows["fillets"] = f"{plain_size(infill['radius'])}"
+        rows["fillets"] = plain_size(infill["radius"])
         rows["seconds"] = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in report["seconds"].items())
     for path in files:
         rows[f"wrote {path}"] = format_bytes(Path(path).stat().st_size) if Path(path).is_file() else ""

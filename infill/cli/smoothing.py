@@ -243,7 +243,7 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
         rows["level"] = f"{level['common']:.3f}{level_range}"
         thin = report["walls"]["thinnest"]
         thinnest = (thin["data"], thin["result"])
-        rows["thinnest wall"] = " -> ".join("none" if x is None else f"{plain_size(x)}" for x in thinnest)
+        rows["thinnest wall"] = " -> ".join("none" if x is None else plain_size(x) for x in thinnest)
         rows["Euler number"] = f"{data['euler_number']} -> {result['euler_number']}"
         rows["seconds"] = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in report["seconds"].items())
     for path in files:

@@ -471,7 +471,7 @@ def _cleaning_remarks(crumbs: Crumbs, specks: int, smoothed: SmoothedInput) -> l
         limit = (
             f"{plain_argument(CRUMB_CELLS)} voxels"
             if smoothed.request.crumbs is None
-            else f"{plain_size(crumbs.limit, power=3)}"
+            else plain_size(crumbs.limit, power=3)
         )
         in_all = f", {plain_size(crumbs.volume, power=3)} in all" if crumbs.volume > LEAST_CRUMBS * crumbs.limit else ""
         phrases.append(f"{count_noun(crumbs.count, 'crumb')} of up to {limit} taken out{in_all}")
