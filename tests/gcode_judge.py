@@ -459,6 +459,7 @@ class Habits:
     shortest: float  # s, of a layer
     fastest: float  # mm/min, of sparse infill
     cura: bool
+    arcs: bool
 
 
 def habits(data: bytes, replays: list[Replay]) -> Habits:
@@ -488,6 +489,7 @@ def habits(data: bytes, replays: list[Replay]) -> Habits:
         shortest=least,
         fastest=max((m.speed for part in replays for m in part.beads() if m.role in SPARSE), default=0.0),
         cura=b";FLAVOR:" in data,
+        arcs=any(m.line.name in (b"G2", b"G3") for m in moves if m.extrudes),
     )
 
 
@@ -739,7 +741,7 @@ def _inside(a: Section, b: Section, was: Replay, now: Replay, habit: Habits, *, 
                 yield f"not ASCII: {_name(line)}"
             if any(w == "F" and (v is None or v <= 0) for w, v in words(line.command)):
                 yield f"F0: {_name(line)}"
-            if line.name in (b"G2", b"G3") and not any(x.name in (b"G2", b"G3") for x in a.lines):
+            if line.name in (b"G2", b"G3") and not habit.arcs:
                 yield f"arc: {_name(line)} where there was none"
     yield from _moves(was, now, habit)
     if strict:

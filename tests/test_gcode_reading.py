@@ -582,7 +582,7 @@ BETWEEN: dict[str, bool] = {
     "; printing object a\n": False,
     "G1 Z.4\nG1 Z.2\n": False,
     "G1 U3 X10 Y0\n": False,
-    "G2 X10 Y0 I1 J0 E.1\n": False,
+    "G2 X10 Y0 I0 J0 E.1\n": False,
 }
 
 
@@ -606,6 +606,8 @@ def test_what_ends_a_stroke(between: str) -> None:
         "G1 X20 Y9 Z.4 E1",
         "N5 G1 X20 Y9 E1",
         "G2 X20 Y9 I1 J1 E1",
+        "G3 X20 Y10 I5 J0 Z.4 E1",
+        "G3 X20 Y10 R2 E1",
         "G1 E1",
         "G1 X10 Y10 E1",
     ],

@@ -18,11 +18,11 @@ from typer.testing import CliRunner
 import infill
 from infill import FormatError, Motion, ParameterError, motion
 from infill.cli.app import build_app
+from infill.gcode.chords import cut_chords
 from infill.gcode.found_limits import CURA, KLIPPER, MARLIN, read_limits
 from infill.gcode.limits import LIMITING_CODES, Limits, apply_command
 from infill.pictures.speeds import BAR, CAPTION, LEAST_HEIGHT, MARGIN, draw_speeds, speed_colours
 from infill.planner import timeline
-from infill.planner.chords import cut_chords
 from infill.planner.layer_speeds import PIECE_LENGTH, LayerSpeeds, layer_speeds
 from infill.planner.struct_of_arrays import concatenate_rows, slice_rows
 from infill.planner.timeline import Timeline

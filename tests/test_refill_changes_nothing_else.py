@@ -24,7 +24,6 @@ UNEVEN = {
     ("cura-relative", "honeycomb"): (0.94, 1.03),
 }
 STRAIGHT = "straight lines have no corner"
-ARCS = "a section with arcs is left as it was"
 SLOWED = "every layer is slowed for cooling"
 COMBINED = "layers printed as one have no region to tell"
 # What is kept as it was, and why: the test fails if it is not.
@@ -32,10 +31,6 @@ KEPT: dict[tuple[str, str], str] = {
     ("prusa-loose-lines", "keep"): STRAIGHT,
     ("cura-firmware", "keep"): STRAIGHT,
     ("cura-combined", "keep"): STRAIGHT,
-    ("orca-arcs", "keep"): ARCS,
-    ("orca-arcs", "honeycomb"): ARCS,
-    ("bambu-arcs", "keep"): ARCS,
-    ("bambu-arcs", "honeycomb"): ARCS,
     ("prusa-slowed", "keep"): SLOWED,
     ("prusa-slowed", "honeycomb"): SLOWED,
     ("prusa-equalised", "keep"): "speed changes from move to move",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,7 @@ from handmade_prints import Dialect, written
 from test_command_line import run
 
 from infill import refill
+from infill.gcode.infill_sections import ODD_ARCS
 from infill.gcode.survey import survey_print
 from infill.paths.rounding import Rounding
 from infill.refilling.report import refill_report
@@ -42,7 +44,7 @@ def test_infill_that_is_slower_is_told(seconds: float, words: str) -> None:
     ("reason", "number", "words"),
     [
         (PURGED, 4, "4 of 10 sections stay as sliced: a tool change purges filament into them"),
-        ("arcs", 9, "slice with arc fitting off"),
+        (ODD_ARCS, 9, "slice with arc fitting off"),
         ("no faster", 5, "round corners would save no time in them"),
         (PURGED, 0, ""),
     ],
@@ -54,14 +56,20 @@ def test_many_sections_that_stay_are_told(reason: str, number: int, words: str) 
     assert all(words in problem for problem in told)
 
 
-def test_a_print_with_arcs_says_what_to_do(tmp_path: Path) -> None:
-    """In the report and in the summary."""
+def test_a_print_with_arcs_that_climb_says_what_to_do(tmp_path: Path) -> None:
+    """In the report and in the summary; plain arcs are refilled."""
     path = tmp_path / "arcs.gcode"
-    path.write_bytes(written(Dialect(slicer="orca", arcs=True)))
+    text = written(Dialect(slicer="orca", arcs=True))
+    climbing = re.sub(rb"^(G[23] [^\n]*?)( E)", rb"\1 Z0.9\2", text, flags=re.MULTILINE)
+    path.write_bytes(climbing)
     told = refill(path, dry_run=True, pattern="honeycomb").report["problems"]
-    assert any("arcs (G2, G3)" in problem and "arc fitting off" in problem for problem in told)
+    assert any("arcs that climb" in problem and "arc fitting off" in problem for problem in told)
     assert "slice with arc fitting off" in " ".join(
         run("refill", path, "--dry-run", "--pattern", "honeycomb").stderr.split()
+    )
+    path.write_bytes(text)
+    assert not any(
+        "stay as sliced" in problem for problem in refill(path, dry_run=True, pattern="honeycomb").report["problems"]
     )
     path.write_bytes(written(Dialect(slicer="orca")))
     assert not any(

@@ -14,6 +14,7 @@ from infill.gcode.strokes import InfillStrokes
 from infill.gcode.table import GcodeTable
 
 SECTION_RATE_VARIATION = 0.03  # strokes of one section have equal filament per mm up to this share
+ODD_ARCS = "arcs that climb or close on no circle"
 LONG_STROKE = 2.0  # mm: where a section has strokes this long, shorter ones do not count
 # Commands that may be sent at the end of a section as well as in the middle.
 HARMLESS_COMMANDS = {"M73", "M117", "M118", "M106", "M107", "M204", "M205", "M900", "M572", "M70", "G10", "G11"}
@@ -109,11 +110,12 @@ def _refusal_reason(
 ) -> str:
     """Name the reason why a section cannot get new paths; "" if it can."""
     inside = slice(first_line, last_line + 1)
-    kinds = table.kind[inside]
-    if (kinds == ODD).any():
+    drawn = np.zeros(last_line + 1 - first_line, dtype=bool)
+    drawn[infill.moves_between(first_line, last_line) - first_line] = True
+    if ((table.kind[inside] == ODD) & ~drawn).any():
         return "a line that cannot be read"
-    if (kinds == ARC).any():
-        return "arcs"
+    if ((table.kind[inside] == ARC) & ~drawn).any():
+        return ODD_ARCS
     if table.numbered[inside].any():
         return "line numbers"
     rate = infill.filament[stroke_rows] / infill.length[stroke_rows]
@@ -129,10 +131,9 @@ def _refusal_reason(
             return f"a {command.code or 'strange'} command in between"
     # Everything that extrudes between the first and the last move of the section must be a stroke.
     moving = np.flatnonzero(is_printing(table)[inside]) + first_line
-    in_stroke = np.isin(moving, infill.moves)  # where a stroke begins, another may end
     return (
         ""
-        if in_stroke.all() and (marks.section[inside] == marks.section[first_line]).all()
+        if drawn[moving - first_line].all() and (marks.section[inside] == marks.section[first_line]).all()
         else "extrusion of another kind"
     )
 

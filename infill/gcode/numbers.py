@@ -159,7 +159,9 @@ _ENDS[[SPACE, TAB, NEWLINE, RETURN, SEMICOLON, OPENING, STAR]] = True
 _ENDS[list(b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz")] = True  # E too: numbers have no exponents here
 
 
-def write_words(columns: list[tuple[bytes, NDArray[np.float64], int]], head: bytes, tail: bytes) -> TextRows:
+def write_words(
+    columns: list[tuple[bytes, NDArray[np.float64], int]], head: bytes, tail: bytes, *, codes: Bytes | None = None
+) -> TextRows:
     r"""Write rows of text, each `head`, a word for every column, and `tail`.
 
     Parameters
@@ -169,6 +171,8 @@ def write_words(columns: list[tuple[bytes, NDArray[np.float64], int]], head: byt
         are left out, as slicers do: ``.5``, ``12``, ``-.031``.
     head, tail : bytes
         Such as ``b"G1"``, and a line end.
+    codes : (N,) uint8, optional
+        One character of each row, after the head.
 
     Returns
     -------
@@ -179,6 +183,8 @@ def write_words(columns: list[tuple[bytes, NDArray[np.float64], int]], head: byt
     """
     rows = len(columns[0][1])
     parts = [_repeat_text(head, rows)]
+    if codes is not None:
+        parts.append(codes[:, None])
     for prefix, values, decimals in columns:
         absent = np.isnan(values)
         word = np.concatenate(

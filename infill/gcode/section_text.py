@@ -8,10 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from infill.arrays import Floats
+from infill.gcode.arcs import find_arcs, is_on
 from infill.gcode.infill_sections import InfillSection
-from infill.gcode.lines import MOVE, ODD
+from infill.gcode.lines import ARC, MOVE, ODD
 from infill.gcode.machine_state import firmware_retraction, sets_counter
-from infill.gcode.numbers import format_word, write_words
+from infill.gcode.numbers import format_word
+from infill.gcode.path_moves import plan_moves
+from infill.gcode.sections import is_printing
 from infill.gcode.splicing import SplicedText, find_difference
 from infill.gcode.strokes import FILAMENT_UNIT
 from infill.gcode.table import GcodeTable, read_table
@@ -60,8 +63,10 @@ def measure_travel(table: GcodeTable, before: TravelSettings | None = None) -> T
         values = values[np.isfinite(values) & (values > 0)]
         return float(np.median(values)) if len(values) else otherwise
 
-    # Layers begin with a rise too: a lift comes down afterwards.
+    # Layers begin with a rise too: a lift comes down afterwards, and not below what was printed last, as an object does
+    # that is printed after another.
     down = (table.kind == MOVE) & table.given[:, 2] & ~moved & (depth > 1e-6) & (rises < 0)
+    down &= table.z >= _last_printed_height(table) - MIN_STEP
     return TravelSettings(
         travel=usual(table.f[travel], default.travel),
         retraction=usual(np.round(depth[travel & (depth > 0.05)], 5), default.retraction),
@@ -74,6 +79,13 @@ def measure_travel(table: GcodeTable, before: TravelSettings | None = None) -> T
     )
 
 
+def _last_printed_height(table: GcodeTable) -> Floats:
+    """Return the height, mm, of the last bead up to each line, (N,); inf before the first."""
+    at = np.where(is_printing(table), np.arange(len(table)), -1)
+    last = np.maximum.accumulate(at)
+    return np.where(last >= 0, table.z[np.maximum(last, 0)], np.inf)
+
+
 def compose_section(
     table: GcodeTable,
     body: InfillSection,
@@ -81,6 +93,7 @@ def compose_section(
     rate: float,
     ways: TravelSettings,
     retracts: Sequence[bool],
+    arc_deviation: float = 0.0,
 ) -> tuple[bytes, float]:
     """Write the text of a body with new paths; return it, and the filament that the paths take, mm.
 
@@ -92,6 +105,8 @@ def compose_section(
         mm of filament per mm.
     retracts : sequence of bool, one more than paths
         Whether to retract on the way to each path, and from the last path to the end of the body.
+    arc_deviation : float, mm
+        As for `plan_moves`.
     """
     ends = b"\r\n" if table.text(body.first, body.first + 1).endswith(b"\r\n") else b"\n"
     relative = bool(table.relative_e[body.first])
@@ -113,12 +128,13 @@ def compose_section(
         pieces.append(down)
         feed = ways.travel if not retract else np.nan
 
-    kept_lines = _kept_lines(table, body)
-    total_length = sum(float(np.hypot(*np.diff(path, axis=0).T).sum()) for path in paths)
-    drawn = 0.0
-    for path, retract in zip(paths, retracts[:-1], strict=True):
+    interruptions, rest = _place_lines(_kept_lines(table, body), paths)
+    for path, lines, retract in zip(paths, interruptions, retracts[:-1], strict=True):
+        stops = np.zeros(len(path), dtype=bool)
+        stops[[point for point, _ in lines]] = True
+        moves = plan_moves(path, np.array([0, len(path)]), arc_deviation=arc_deviation, stops=stops)
         go(path[0], retract)
-        along = np.cumsum(np.hypot(*np.diff(path, axis=0).T))
+        along = np.cumsum(moves.length)
         steps = np.rint((pushed + along * rate) / FILAMENT_UNIT)
         if relative:
             words = np.diff(steps, prepend=np.rint(pushed / FILAMENT_UNIT)) * FILAMENT_UNIT
@@ -129,19 +145,16 @@ def compose_section(
         feeds = np.full(len(along), np.nan)
         if feed != body.feed:
             feeds[0] = feed = body.feed
-        columns = [(b" X", path[1:, 0], 3), (b" Y", path[1:, 1], 3), (b" E", words, 5), (b" F", feeds, 3)]
-        rows = write_words(columns, b"G1", ends)
+        rows = moves.write(words, feeds, ends)
         copied_rows = 0
-        while kept_lines and kept_lines[0][0] * total_length < drawn + along[-1]:  # a line that stood between moves
-            share, text = kept_lines.pop(0)
-            row = int(np.searchsorted(along, share * total_length - drawn + MIN_STEP))
+        for point, text in lines:
+            row = int(np.searchsorted(moves.end, point, side="right"))
             pieces += [rows.text[rows.start[copied_rows] : rows.start[row]], text]
             copied_rows = row
         pieces.append(rows.text[rows.start[copied_rows] :])
-        drawn += float(along[-1])
         position = path[-1]
     go(body.end, retracts[-1])
-    pieces.extend(text for _, text in kept_lines)
+    pieces.extend(rest)
     expected = float(table.e[body.last])
     if not relative and abs(counter - expected) >= FILAMENT_UNIT / 2:
         pieces.append(b"G92 E%s%s" % (format_word(expected, 5), ends))
@@ -150,10 +163,38 @@ def compose_section(
     return b"".join(pieces), pushed
 
 
+def _place_lines(
+    kept_lines: list[tuple[float, bytes]], paths: Sequence[Floats]
+) -> tuple[list[list[tuple[int, bytes]]], list[bytes]]:
+    """Place lines in new paths by the shares of filament before them.
+
+    Returns
+    -------
+    lines : list of list of (point, text)
+        For each path, the lines that stand behind its points, in order.
+    rest : list of bytes
+        The lines that stand behind all paths.
+    """
+    steps = [np.cumsum(np.hypot(*np.diff(path, axis=0).T)) for path in paths]
+    total = sum(float(along[-1]) for along in steps)
+    begun, number = 0.0, 0
+    lines: list[list[tuple[int, bytes]]] = []
+    for along in steps:
+        inside = []
+        while number < len(kept_lines) and kept_lines[number][0] * total < begun + along[-1]:
+            share, text = kept_lines[number]
+            inside.append((int(np.searchsorted(along, share * total - begun + MIN_STEP)), text))
+            number += 1
+        begun += float(along[-1])
+        lines.append(inside)
+    return lines, [text for _, text in kept_lines[number:]]
+
+
 def redraw_sections(
     table: GcodeTable,
     drawn: Sequence[tuple[InfillSection, Sequence[Floats], float, Sequence[bool]]],
     ways: TravelSettings,
+    arc_deviation: float = 0.0,
 ) -> tuple[bytes, list[float], str]:
     """Write new paths into the text of a table; return it, the filament of each section, mm, and the first fault.
 
@@ -165,9 +206,14 @@ def redraw_sections(
     drawn : sequence of (body, paths, rate, retracts)
         As for `compose_section`.
     ways : TravelSettings
+    arc_deviation : float, mm
+        As for `plan_moves`.
     """
     bodies = [body for body, *_ in drawn]
-    composed = [compose_section(table, body, paths, rate, ways, retracts) for body, paths, rate, retracts in drawn]
+    composed = [
+        compose_section(table, body, paths, rate, ways, retracts, arc_deviation)
+        for body, paths, rate, retracts in drawn
+    ]
     texts = [text for text, _ in composed]
     spliced = replace_sections(table, bodies, texts)
     new_table = read_table(spliced.text, table.before)
@@ -203,11 +249,11 @@ def validate_sections(
         As for `replace_sections`.
     """
     fresh = spliced_text.new_lines(len(new_table))
-    drawn = (
-        fresh & (new_table.kind == MOVE) & (new_table.given[:, 0] | new_table.given[:, 1]) & (new_table.extruded != 0)
-    )
+    drawn = fresh & (new_table.code >= 0) & (new_table.given[:, 0] | new_table.given[:, 1]) & (new_table.extruded != 0)
     if (new_table.kind[fresh] == ODD).any():
         return "a new line that cannot be read"
+    if not is_on(find_arcs(new_table), len(new_table))[fresh & (new_table.kind == ARC)].all():
+        return "a new arc that closes on no circle"
     if (new_table.extruded[drawn] < 0).any():
         return "a new move that draws filament back"
     if not np.isin(np.round(new_table.z[drawn], 6), np.round([body.z for body in selected], 6)).all():
@@ -255,7 +301,7 @@ def _kept_lines(table: GcodeTable, body: InfillSection) -> list[tuple[float, byt
     moved = table.given[inside, 0] | table.given[inside, 1]
     pushed = np.cumsum(np.where(moved, np.maximum(table.extruded[inside], 0.0), 0.0))
     share = pushed / max(float(pushed[-1]), 1e-12)
-    rows = np.flatnonzero(table.kind[inside] != MOVE)
+    rows = np.flatnonzero((table.kind[inside] != MOVE) & (table.code[inside] < 0))
     counted = not table.relative_e[body.first]
     left_out = {
         command.line

@@ -8,14 +8,16 @@ the next lines expect, as slicers themselves do with G92.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from infill.arrays import Floats, Places
-from infill.gcode.lines import MOVE
-from infill.gcode.numbers import format_word, write_words
+from infill.gcode.arcs import find_arcs, is_on, path_steps
+from infill.gcode.lines import ARC
+from infill.gcode.numbers import format_word
+from infill.gcode.path_moves import PathMoves, plan_moves
 from infill.gcode.strokes import FILAMENT_UNIT, InfillStrokes
 from infill.gcode.table import GcodeTable, read_table
 from infill.paths.corners import UNIT
@@ -39,6 +41,8 @@ class NewPaths:
         The old point, in the numbering of `InfillStrokes.points`, for which each point stands; ascending.
     filament : (S,) float64, mm
         Filament of each path.
+    arc_deviation : float, mm
+        As for `plan_moves`.
     """
 
     which: Places
@@ -46,6 +50,16 @@ class NewPaths:
     first: Places
     source: Places
     filament: Floats
+    arc_deviation: float = 0.0
+
+    def plan(self, strokes: InfillStrokes) -> PathMoves:
+        """Plan the moves of the paths; no arc passes a line that stands between the old moves."""
+        if not self.arc_deviation:
+            return plan_moves(self.points, self.first)
+        interrupted = np.flatnonzero(np.diff(strokes.line) > 1)  # after these old points, or a stroke ends there
+        stops = np.zeros(len(self.points) + 1, dtype=bool)
+        stops[np.searchsorted(self.source, interrupted, side="right") - 1] = True
+        return plan_moves(self.points, self.first, arc_deviation=self.arc_deviation, stops=stops[:-1])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,11 +73,14 @@ class SplicedText:
         Number of lines added before each old line; invalid for lines that were replaced.
     same : (N,) bool
         The lines that were copied and do not stand between the moves of a replaced stroke.
+    owner : (R,) int
+        Of new paths: the number of the path of each move.
     """
 
     text: bytes
     shift: Places
     same: NDArray[np.bool_]
+    owner: Places = field(default_factory=lambda: np.empty(0, dtype=np.intp))
 
     def new_lines(self, count: int) -> NDArray[np.bool_]:
         """Mark the lines of the new text, `count` in all, that are not copies of old ones."""
@@ -76,20 +93,16 @@ class SplicedText:
 def splice_paths(table: GcodeTable, strokes: InfillStrokes, new: NewPaths) -> SplicedText:
     """Replace strokes of a table by new paths; return the new text."""
     ends = _line_end(table)
-    starts = np.zeros(len(new.points), dtype=bool)
-    starts[new.first[:-1]] = True
-    row = np.flatnonzero(~starts)
-    owner = np.repeat(np.arange(len(new.which)), np.diff(new.first))
+    planned = new.plan(strokes)
     begin_line = strokes.line[strokes.first[new.which]]  # the line before the first move
     first_line, last_line = begin_line + 1, strokes.line[strokes.first[new.which + 1] - 1]
-    counter, words = _filament_words(table, new, row, owner, begin_line)
-    feed = np.full(len(row), np.nan)
+    counter, words = _filament_words(table, new, planned, begin_line)
+    feed = np.full(len(planned.end), np.nan)
     # The first move states the feed rate where the old one did.
-    opens = np.concatenate([[0], np.cumsum(np.diff(new.first) - 1)])
+    opens = planned.first
     moves = strokes.line[strokes.first[new.which] + 1]
     feed[opens[:-1]] = np.where(table.given[moves, 4], table.f[moves], np.nan)
-    columns = [(b" X", new.points[row, 0], 3), (b" Y", new.points[row, 1], 3), (b" E", words, 5), (b" F", feed, 3)]
-    rows = write_words(columns, b"G1", ends)
+    rows = planned.write(words, feed, ends)
     expected = table.e[last_line]
     reset = ~table.relative_e[last_line] & (np.abs(counter - expected) >= FILAMENT_UNIT / 2)
     pieces: list[bytes] = []
@@ -100,18 +113,18 @@ def splice_paths(table: GcodeTable, strokes: InfillStrokes, new: NewPaths) -> Sp
         first_old, last_old = int(first_line[k]), int(last_line[k])
         pieces.append(table.text(copied_lines, first_old))
         low, high = int(opens[k]), int(opens[k + 1])
-        old = int(strokes.first[new.which[k] + 1] - strokes.first[new.which[k]]) - 1
+        old = len(strokes.moves_between(first_old, last_old))
         if last_old + 1 - first_old == old:
             pieces.append(rows.text[rows.start[low] : rows.start[high]])
         else:
-            _append_mixed(pieces, table, strokes, new, k, row[low:high], low, rows.text, rows.start)
+            _append_mixed(pieces, table, strokes, new, k, planned.end[low:high], low, rows.text, rows.start)
         if reset[k]:
             pieces.append(b"G92 E%s%s" % (format_word(float(expected[k]), 5), ends))
         same[first_old : last_old + 1] = False
         change[last_old + 1] += high - low - old + bool(reset[k])
         copied_lines = last_old + 1
     pieces.append(table.text(copied_lines, len(table)))
-    return SplicedText(text=b"".join(pieces), shift=np.cumsum(change), same=same)
+    return SplicedText(text=b"".join(pieces), shift=np.cumsum(change), same=same, owner=planned.owner)
 
 
 def _append_mixed(
@@ -141,12 +154,9 @@ def _append_mixed(
         raise AssertionError("a stroke begins with something other than a move")
 
 
-def _filament_words(
-    table: GcodeTable, new: NewPaths, row: Places, owner: Places, begin_line: Places
-) -> tuple[Floats, Floats]:
-    """Return the counter after each stroke, and the E word of every row."""
-    length = np.hypot(*(new.points[row] - new.points[row - 1]).T)
-    owner = owner[row]
+def _filament_words(table: GcodeTable, new: NewPaths, planned: PathMoves, begin_line: Places) -> tuple[Floats, Floats]:
+    """Return the counter after each stroke, and the E word of every move."""
+    length, owner = planned.length, planned.owner
     total = np.bincount(owner, weights=length, minlength=len(new.which))
     rate = new.filament / total
     along = np.cumsum(length)
@@ -221,15 +231,14 @@ def _find_wrong_move(
 ) -> str:
     """Describe the first fault of the new moves; "" if there is none."""
     fresh = spliced_text.new_lines(len(new_table))
-    move = np.flatnonzero(fresh & (new_table.kind == MOVE) & (new_table.given[:, 0] | new_table.given[:, 1]))
-    owner = np.repeat(np.arange(len(new.which)), np.diff(new.first) - 1)
+    move = np.flatnonzero(fresh & (new_table.code >= 0) & (new_table.given[:, 0] | new_table.given[:, 1]))
+    owner = spliced_text.owner
     if len(move) != len(owner):
         return "the number of new moves"
-    back = move - 1
-    x = np.where(back >= 0, new_table.x[back], new_table.before.x)
-    y = np.where(back >= 0, new_table.y[back], new_table.before.y)
-    z = np.where(back >= 0, new_table.z[back], new_table.before.z)
-    length = np.hypot(new_table.x[move] - x, new_table.y[move] - y)
+    if not is_on(find_arcs(new_table), len(new_table))[move[new_table.kind[move] == ARC]].all():
+        return "a new arc that closes on no circle"
+    z = np.where(move >= 1, new_table.z[move - 1], new_table.before.z)
+    length = path_steps(new_table)[move]
     if not (new_table.z[move] == z).all():
         return "a new move in z"
     extruded = new_table.extruded[move]

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.arrays import Floats, Places
+from infill.gcode.arcs import find_arcs, is_on
 from infill.gcode.lines import BLANK, COMMENT, MOVE
 from infill.gcode.machine_state import MachineState
 from infill.gcode.sections import SPARSE, LineMarks, TagState, is_printing, mark_lines
@@ -18,6 +19,7 @@ from infill.gcode.stream import batches
 from infill.gcode.table import GcodeTable, read_table
 
 RATE_VARIATION = 0.02  # two moves extrude alike if their filament per mm differs by less than this share
+CHORD_SAGITTA = 0.004  # mm between an arc and the chords that stand for it
 FILAMENT_UNIT = 1e-5  # mm: the last decimal of an E word
 # Commands to the display or the host alone: moves before and after them are still one line of plastic.
 DISPLAY_COMMANDS = {"M73", "M117", "M118", "M70"}
@@ -34,7 +36,8 @@ class InfillStrokes:
     first : (M + 1,) int
         Stroke k has the points `first[k]` to `first[k + 1]`.
     line : (N,) int
-        The line that ends at each point; for the first point of a stroke, the line before its first move.
+        The line that ends at each point, or the arc on which it lies; for the first point of a stroke, the line before
+        its first move.
     filament : (M,) float64, mm
         Filament of each stroke.
     length : (M,) float64, mm
@@ -65,8 +68,14 @@ class InfillStrokes:
 
     @cached_property
     def moves(self) -> Places:
-        """The lines of all moves of the strokes, (N - M,)."""
-        return np.delete(self.line, self.first[:-1])
+        """The lines of all moves of the strokes, ascending."""
+        lines = np.delete(self.line, self.first[:-1])
+        return np.asarray(lines[np.diff(lines, prepend=-1) > 0])
+
+    def moves_between(self, first_line: int, last_line: int) -> Places:
+        """Return the lines of moves from one line to another, inclusive."""
+        low, high = np.searchsorted(self.moves, [first_line, last_line + 1])
+        return self.moves[low:high]
 
 
 def read_strokes(
@@ -101,11 +110,15 @@ def find_strokes(table: GcodeTable, marks: LineMarks, role: str = SPARSE) -> Inf
 
     A stroke ends where the feed rate or the filament per mm changes, and at every line other than a comment or talk
     to the display. Lines with something odd (line numbers, relative moves, inches, a change of z) are in no stroke.
+    An arc lies in the plane of the layers, and its points are those of its chords.
     """
     x0, y0, z0 = (_shift(getattr(table, name), getattr(table.before, name)) for name in "xyz")
+    arcs = find_arcs(table)
     length = np.hypot(table.x - x0, table.y - y0)
+    length[arcs.line] = arcs.length
+    on_arc = is_on(arcs, len(table))
     with np.errstate(invalid="ignore"):
-        drawn = (table.kind == MOVE) & (table.extruded > 0) & (length > 0) & np.isfinite(length)
+        drawn = ((table.kind == MOVE) | on_arc) & (table.extruded > 0) & (length > 0) & np.isfinite(length)
     drawn &= (table.z == z0) | ~table.given[:, 2]
     drawn &= marks.is_role(role) & ~marks.wiping & ~table.numbered & ~table.unsure & ~_is_unsupported(table)
     passive = ((table.kind == COMMENT) & ~marks.tagged) | (table.kind == BLANK)
@@ -122,16 +135,18 @@ def find_strokes(table: GcodeTable, marks: LineMarks, role: str = SPARSE) -> Inf
     joined = (broken[before_row] == broken[after_row]) & (table.f[before_row] == table.f[after_row])
     joined &= np.abs(np.diff(rate)) <= RATE_VARIATION * rate[:-1] + unsure[:-1] + unsure[1:]
     begins = np.flatnonzero(np.concatenate([[True], ~joined])[: len(rows)])
-    number = np.diff(np.append(begins, len(rows)))
-    # One additional point for every stroke: its start.
-    order = np.insert(rows, begins, -1) if len(rows) else rows
-    at_start = order < 0
-    line = order.copy()
-    line[at_start] = rows[begins] - 1
-    points = np.empty((len(order), 2))
-    points[~at_start] = np.stack([table.x[rows], table.y[rows]], axis=1)
-    points[at_start] = np.stack([x0[rows[begins]], y0[rows[begins]]], axis=1)
-    stroke_start = np.concatenate([[0], np.cumsum(number + 1)])
+    # A move has one point, its end, an arc those of its chords; every stroke has one more, its start.
+    count = np.ones(len(rows), dtype=np.intp)
+    arc, chord_ends = arcs.select(drawn[arcs.line]).chord_ends(CHORD_SAGITTA)
+    count[on_arc[rows]] = np.bincount(arc)
+    move = np.repeat(np.arange(len(rows)), count)
+    ends = np.stack([table.x[rows], table.y[rows]], axis=1)[move]
+    ends[on_arc[rows][move]] = chord_ends
+    first_end = (np.cumsum(count) - count)[begins]
+    line = np.insert(rows[move], first_end, rows[begins] - 1)
+    starts = np.stack([x0[rows[begins]], y0[rows[begins]]], axis=1)
+    points = np.insert(ends, first_end, starts, axis=0)
+    stroke_start = np.append(first_end + np.arange(len(begins)), len(points))
     sums = (np.add.reduceat(v[rows], begins) if len(rows) else np.empty(0) for v in (table.extruded, length))
     filament, total = sums
     return InfillStrokes(

@@ -30,6 +30,7 @@ _SLICER = re.compile(
     rb"(?:generated (?:by|with) |Sliced by |^; (?=BambuStudio ))([A-Za-z][\w.+-]*(?: (?!on\b)[\w.+-]+){0,3})",
     re.IGNORECASE | re.MULTILINE,
 )
+_ARC = re.compile(rb"^G0?[23] [^;\n]*[IJR][^;\n]*E", re.MULTILINE)
 # First bytes of other kinds of files.
 OTHER_FORMATS = {
     b"PK\x03\x04": "a zip or 3MF file",
@@ -66,6 +67,8 @@ class Survey:
         True if nearly every layer was read.
     missing_end : str
         The line with which its slicer ends a file, if it lacks that; else "".
+    has_arcs : bool
+        It prints arcs, G2 or G3.
     """
 
     size: int
@@ -78,6 +81,7 @@ class Survey:
     layers: float
     small: bool
     missing_end: str = ""
+    has_arcs: bool = False
 
     def number(self, *names: str, limit: str = "") -> float | None:
         """Return the first of several settings that is present, as a number; the first item of a list.
@@ -156,6 +160,7 @@ def survey_print(file: BinaryIO, *, more: bool = False, settings: Mapping[str, s
         layers=size * tags / max(1, sum(map(len, samples))),
         small=size <= SMALL_FILE,
         missing_end="" if settings else find_missing_end(slicer_name, tail),
+        has_arcs=any(_ARC.search(text) is not None for text in (head, *samples)),
     )
 
 
@@ -164,7 +169,8 @@ def merge_surveys(surveys: Sequence[Survey]) -> Survey:
     base = surveys[0]
     shared = set.intersection(*(set(member.settings.items()) for member in surveys))
     settings = {name: value for name, value in base.settings.items() if (name, value) in shared}
-    return replace(base, size=sum(member.size for member in surveys), settings=settings)
+    has_arcs = any(member.has_arcs for member in surveys)
+    return replace(base, size=sum(member.size for member in surveys), settings=settings, has_arcs=has_arcs)
 
 
 def _check_is_gcode(head: bytes, size: int) -> None:

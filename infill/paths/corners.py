@@ -42,12 +42,15 @@ class Machine:
     corner : float
         Turn, in radians, times speed, in mm/s, that the firmware passes without slowing down: 1.82 × the square
         corner velocity, √(8 a × junction deviation), or the jerk.
+    coarsest : float, mm
+        Largest distance between a chord and its curve.
     """
 
     acceleration: float | Floats = 1000.0
     speed: float | Floats = 80.0
     corner: float = 9.0
     shortest: float | Floats = SHORTEST_CHORD
+    coarsest: float = COARSEST
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -162,7 +165,7 @@ def _chord_counts(arc: Floats, turn: Floats, machine: Machine, corners: Places) 
     speed = np.minimum(np.sqrt(_take(machine.acceleration, corners) * arc), _take(machine.speed, corners))
     speed_count = np.ceil(turn * speed / machine.corner - 1e-9)
     speed_count = np.minimum(speed_count, np.floor(turn * arc / _take(machine.shortest, corners)))
-    shape_count = np.ceil(turn / (2 * np.arccos(np.maximum(1 - COARSEST / arc, 0.0))) - 1e-9)
+    shape_count = np.ceil(turn / (2 * np.arccos(np.maximum(1 - machine.coarsest / arc, 0.0))) - 1e-9)
     number: Places = np.maximum(np.maximum(speed_count, shape_count), 1).astype(np.intp)
     return number
 

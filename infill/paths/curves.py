@@ -148,7 +148,7 @@ def _chord_density(control: Floats, bent: Places, machine: Machine) -> Floats:
     pace = np.minimum(np.sqrt(acceleration / curvature), speed)
     shortest = machine.shortest[bent][:, None] if isinstance(machine.shortest, np.ndarray) else machine.shortest
     wanted = np.minimum(curvature * pace / machine.corner, 1 / shortest)
-    number: Floats = length * np.maximum(wanted, np.sqrt(curvature / (8 * COARSEST)))
+    number: Floats = length * np.maximum(wanted, np.sqrt(curvature / (8 * machine.coarsest)))
     return number
 
 

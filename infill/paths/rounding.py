@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from infill.arrays import Floats, Places
 from infill.paths.corner_offset import CornerFreedom, corner_freedom, offset_corners
-from infill.paths.corners import SHORTEST_CHORD, UNIT, Machine, RoundedPaths, round_corners
+from infill.paths.corners import COARSEST, SHORTEST_CHORD, UNIT, Machine, RoundedPaths, round_corners
 from infill.paths.curves import MOST_BULGE, RecutPaths, recut_curves
 from infill.paths.neighbours import BESIDE, TOWARDS_LIMIT, BeadIndex, deviation_beside_beads
 from infill.paths.short_segments import merge_short_segments
@@ -40,6 +40,8 @@ class Rounding:
         Widen the beads so that each stroke keeps its filament, up to 8 %.
     segments_per_second : float
         That the controller of the machine can take at the commanded speed.
+    coarsest : float, mm
+        See `Machine`.
     """
 
     deviation: float = math.inf
@@ -48,6 +50,7 @@ class Rounding:
     corner: float = 9.0
     same_filament: bool = False
     segments_per_second: float = math.inf
+    coarsest: float = COARSEST
 
     def shortest_segments(self, speed: Floats) -> Floats:
         """Return the length, mm, below which segments are merged at some speeds, mm/s."""
@@ -134,6 +137,7 @@ def find_corners(
     corner: float,
     line_width: float,
     segments_per_second: float = math.inf,
+    coarsest: float = COARSEST,
     hard: NDArray[np.bool_] | None = None,
     wide: bool = False,
     limit: Floats | None = None,
@@ -155,7 +159,7 @@ def find_corners(
     corner : float
         See `Machine`.
     line_width : float, mm
-    segments_per_second : float
+    segments_per_second, coarsest : float
         See `Rounding`.
     hard : (N,) bool, optional
         Points that stay as they are.
@@ -174,6 +178,7 @@ def find_corners(
             speed=np.repeat(speed, count),
             corner=corner,
             shortest=np.repeat(np.maximum(speed / segments_per_second, SHORTEST_CHORD), count),
+            coarsest=coarsest,
         )
 
     layer_of = np.repeat(layer, np.diff(offsets))
@@ -237,6 +242,7 @@ def round_paths(
         corner=rounding.corner,
         line_width=line_width,
         segments_per_second=rounding.segments_per_second,
+        coarsest=rounding.coarsest,
         hard=hard,
         wide=wide,
     )

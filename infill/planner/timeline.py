@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from infill.arrays import Floats
 from infill.errors import FormatError
+from infill.gcode.chords import chords_of_arc_lines
 from infill.gcode.dialect import MAX_TAG_BYTES, TAGS, parse_tag
 from infill.gcode.found_limits import FileLimits, read_limits
 from infill.gcode.limits import LIMITING_CODES, Limits
@@ -22,7 +23,6 @@ from infill.gcode.machine_state import MachineState, firmware_retraction
 from infill.gcode.table import GcodeTable, read_table
 from infill.gcode.unusual_moves import is_macro
 from infill.planner.bounds import Moves
-from infill.planner.chords import chords_of_arc_lines
 from infill.planner.lookahead import EMPTY_PLAN, MotionPlan, plan_settled
 from infill.planner.struct_of_arrays import concatenate_rows, slice_rows
 

@@ -98,6 +98,7 @@ def refill(
     smooth_radius: str | float = AUTO,
     max_deviation: float | None = None,
     max_segments: str | float = AUTO,
+    arcs: str = AUTO,
     layers: tuple[int, int] | None = None,
     part: str | None = None,
     dry_run: bool = False,
@@ -131,6 +132,8 @@ def refill(
     max_segments : "auto", "none" or float
         Segments per second that the controller of the printer can take at the speed of the infill. "auto": 200 where
         the file is for Marlin (legacy), else no limit.
+    arcs : "auto", "on" or "off"
+        Write curves as arcs (G2, G3), at most 0.0125 mm from the points of the path. "auto": if the file has arcs.
     layers : tuple of int, optional
         The first and the last layer to refill, counted from 1.
     part : str, optional
@@ -165,6 +168,7 @@ def refill(
         smooth_radius=smooth_radius,
         max_deviation=max_deviation,
         max_segments=max_segments,
+        arcs=arcs,
         layers=layers,
         part=part,
         parameters=parameters,
@@ -227,7 +231,7 @@ def _check_paths_remain(request: Request, parts: Sequence[_Draft]) -> None:
     if any(part.tally is not None or part.is_same for part in parts):
         return
     plain = Request(pattern=KEEP)
-    options = ("density", "smooth_radius", "max_deviation", "max_segments", "layers", "part")
+    options = ("density", "smooth_radius", "max_deviation", "max_segments", "arcs", "layers", "part")
     changed = tuple(name for name in options if getattr(request, name) != getattr(plain, name))
     if changed:
         raise UsageError.about(

@@ -10,9 +10,10 @@ from typing import BinaryIO
 import numpy as np
 
 from infill.arrays import Floats, Places
+from infill.gcode.arcs import find_arcs, path_steps
 from infill.gcode.machine_state import MachineState
 from infill.gcode.sections import SKIN_ROLES, LineMarks, is_printing
-from infill.gcode.strokes import InfillStrokes, mark_text, read_strokes
+from infill.gcode.strokes import CHORD_SAGITTA, InfillStrokes, mark_text, read_strokes
 from infill.gcode.survey import Survey
 from infill.gcode.table import GcodeTable
 from infill.paths.contact import STEP, Samples, sample_paths
@@ -127,15 +128,13 @@ class Layers:
     @cached_property
     def seconds(self) -> Floats:
         """Time of each layer at its feed rates, from the first on, without acceleration, as slicers count."""
-        table, layer = self.table, self.marks.layer
-        x = np.diff(table.x, prepend=table.before.x)
-        y = np.diff(table.y, prepend=table.before.y)
-        seconds = np.nan_to_num(np.hypot(x, y) / (table.f / 60))
+        layer = self.marks.layer
+        seconds = np.nan_to_num(path_steps(self.table) / (self.table.f / 60))
         return np.bincount(layer - layer[0], weights=seconds).astype(np.float64)
 
     @cached_property
     def bead_lines(self) -> tuple[Floats, Places]:
-        """Moves that extrude and are not infill: both ends of each, (K, 2, 2), mm, and their lines, (K,)."""
+        """Other moves that extrude, arcs as chords: both ends of each, (K, 2, 2), mm, and their lines, (K,)."""
         table = self.table
         prints = is_printing(table)
         prints[self.infill.moves] = False
@@ -144,6 +143,14 @@ class Layers:
         x = np.where(previous >= 0, table.x[previous], table.before.x)
         y = np.where(previous >= 0, table.y[previous], table.before.y)
         ends = np.stack([x, y, table.x[line], table.y[line]], axis=1).reshape(-1, 2, 2)
+        arcs = find_arcs(table)
+        arcs = arcs.select(prints[arcs.line])
+        if len(arcs):
+            chord, chord_line = arcs.chords(CHORD_SAGITTA)
+            straight = ~np.isin(line, arcs.line)
+            line = np.concatenate([line[straight], chord_line])
+            order = np.argsort(line, kind="stable")
+            line, ends = line[order], np.concatenate([ends[straight], chord])[order]
         finite = np.isfinite(ends).all(axis=(1, 2))
         return ends[finite], line[finite]
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from infill.arrays import Floats, Places
+from infill.gcode.arcs import path_steps
 from infill.gcode.infill_sections import InfillSection, find_sections
 from infill.gcode.section_text import TravelSettings, measure_travel, redraw_sections
 from infill.gcode.table import GcodeTable
@@ -190,7 +191,7 @@ class NewSection:
         printing = np.flatnonzero(table.extruded[: body.first] > 0)
         lead = int(printing[-1]) if len(printing) else max(body.first - 1, 0)
         lines = slice(lead, body.last + 1)
-        distance = np.hypot(np.diff(table.x[lines]), np.diff(table.y[lines]))
+        distance = path_steps(table)[lines][1:]
         distance = np.where(distance > 0, distance, np.abs(table.extruded[lines][1:]))
         available = float(np.nan_to_num(60 * distance / table.f[lines][1:]).sum())
         travels = self.travels.copy()
@@ -231,7 +232,7 @@ def replace_infill(layers: Layers, rules: RefillRules, plan: RefillPlan, memory:
     slow = may_be_slowed(layers, rules)
     new = [s.not_faster(table) if slow[s.body.layer - int(layers.marks.layer[0])] else s for s in new]
     text, filament, fault = redraw_sections(
-        table, [(s.body, s.paths, s.rate, s.retractions()) for s in new], memory.ways
+        table, [(s.body, s.paths, s.rate, s.retractions()) for s in new], memory.ways, rules.arc_deviation
     )
     if fault:
         return NewInfill.unchanged(layers, kept | {f"a check failed: {fault}": drawn})

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from infill.gcode.ending import describe_missing_end
+from infill.gcode.infill_sections import ODD_ARCS
 from infill.gcode.survey import Survey
 from infill.refilling.placement import facts
 from infill.refilling.request import KEEP, Request
@@ -23,8 +24,8 @@ FILAMENT_TOLERANCE = 0.01  # relative error of the filament of all infill that i
 TIME_TOLERANCE = 0.01  # relative increase of the time of all infill that is reported
 MANY_KEPT = 0.1  # of the sections: as many that stay for one of these reasons are reported
 WHY_KEPT = {
-    UNREAD: "they hold arcs (G2, G3) or moves that cannot be redrawn; slice with arc fitting off",
-    "arcs": "they hold arcs (G2, G3); slice with arc fitting off",
+    UNREAD: "they hold moves that cannot be redrawn, such as arcs that climb; slice with arc fitting off",
+    ODD_ARCS: "they hold arcs that climb, or that close on no circle; slice with arc fitting off",
     PURGED: "a tool change purges filament into them, and that must stay; they get no faster",
     "no faster": "round corners would save no time in them",
 }
@@ -51,6 +52,7 @@ def refill_report(
             "density": request.density,
             "smooth_radius_mm": request.smooth_radius,
             "max_deviation_mm": request.max_deviation,
+            "arcs": request.arcs,
             "max_segments": request.max_segments,
             "layers": list(request.layers) if request.layers else None,
             "part": request.part,

@@ -20,6 +20,7 @@ KEEP = "keep"
 AUTO = "auto"
 SAME = "same"
 NO_LIMIT = "none"
+ON, OFF = "on", "off"
 FEWEST_SEGMENTS, MOST_SEGMENTS = 10.0, 100_000.0  # per second
 LARGEST_RADIUS = 100.0  # mm
 ENDLESS = 10**9  # layers
@@ -111,6 +112,8 @@ class Request:
         Largest move of a path, mm.
     max_segments : "auto", "none" or float
         Segments per second that the controller takes. "auto": as the file's G-code flavour implies.
+    arcs : str
+        "on": write curves as arcs (G2, G3). "off": as straight segments. "auto": as arcs if the file has some.
     layers : tuple of int, optional
         First and last layer to refill, counted from 1.
     part : str, optional
@@ -182,6 +185,16 @@ class Request:
             typed=str,
         ),
     ] = AUTO
+    arcs: Annotated[
+        str,
+        Option(
+            "Write curves as arcs, G2 and G3, in about a third of the lines, for a printer that takes them; auto: if "
+            "the file has some.",
+            PATHS,
+            unit="auto|on|off",
+            default="auto",
+        ),
+    ] = AUTO
     layers: Annotated[
         tuple[int, int] | None,
         Option(
@@ -217,6 +230,8 @@ class Request:
                 )
         else:
             check_range("max_segments", self.max_segments, FEWEST_SEGMENTS, MOST_SEGMENTS, "segments per second")
+        if self.arcs not in (AUTO, ON, OFF):
+            raise UsageError.about("arcs", f"is {quote_value(self.arcs)}; give auto, on or off")
         if self.layers is not None and not 1 <= self.layers[0] <= self.layers[1]:
             raise ParameterError.about(
                 "layers", f"is {self.layers[0]} to {self.layers[1]}; count from 1, the lower one first"

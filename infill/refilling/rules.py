@@ -9,12 +9,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from infill.arrays import Flags
+from infill.gcode.path_moves import ARC_DEVIATION
+from infill.gcode.strokes import CHORD_SAGITTA
 from infill.gcode.survey import Survey
 from infill.paths.contact import MOST_POINTS, STEP
-from infill.paths.corners import UNIT
+from infill.paths.corners import COARSEST, UNIT
 from infill.paths.rounding import Rounding
 from infill.refilling.layers import Layers
-from infill.refilling.request import AUTO, SAME, Request
+from infill.refilling.request import AUTO, ON, SAME, Request
 
 ACCELERATION = 1000.0  # mm/s², where neither the print nor its settings give it
 CORNER = 9.0  # mm/s × rad: of a square corner velocity of 5 mm/s
@@ -47,6 +49,8 @@ class RefillRules:
         True if the print sets its counter of filament by G92, so that new lines may.
     stride : int
         Sampling stride, in layers.
+    arc_deviation : float, mm
+        Largest distance of written arcs from the segments for which they stand; 0 if none are written.
     """
 
     request: Request
@@ -56,6 +60,7 @@ class RefillRules:
     least_layer: float = 0.0
     resets_filament: bool = True
     stride: int = 1
+    arc_deviation: float = 0.0
 
     def rounded_by(self, deviation: float) -> RefillRules:
         """Return the rules with another largest deviation, mm."""
@@ -74,6 +79,7 @@ def derive_rules(request: Request, print_survey: Survey, samples: Sequence[Layer
     lengths = [layer.length for layers in samples for layer in layers]
     cooled = print_survey.settings.get("cooling", "1") != "0"
     least_seconds = print_survey.number("slowdown_below_layer_time", "slow_down_layer_time") if cooled else 0.0
+    as_arcs = request.arcs == ON or (request.arcs == AUTO and print_survey.has_arcs)
     settings = "infill_acceleration", "sparse_infill_acceleration", "default_acceleration"
     return RefillRules(
         request=request,
@@ -83,13 +89,15 @@ def derive_rules(request: Request, print_survey: Survey, samples: Sequence[Layer
             radius=request.radius,
             corner=max(jerk or CORNER, LEAST_CORNER),
             same_filament=request.density == SAME,
-            segments_per_second=segment_limit(request, print_survey),
+            segments_per_second=math.inf if as_arcs else segment_limit(request, print_survey),
+            coarsest=CHORD_SAGITTA if as_arcs else COARSEST,
         ),
         acceleration=print_survey.number(*settings, limit="acceleration") or ACCELERATION,
         usual_speed=float(np.median(np.concatenate(feeds))) if feeds else 0.0,
         least_layer=least_seconds or 0.0,
         resets_filament=print_survey.resets_filament,
         stride=sampling_stride(print_survey.layers, float(np.median(lengths)) if lengths else 0.0),
+        arc_deviation=ARC_DEVIATION if as_arcs else 0.0,
     )
 
 

@@ -43,7 +43,7 @@ def smooth_in_place(layers: Layers, rules: RefillRules, seconds: Floats) -> NewI
     acceleration = layers.acceleration(rules.acceleration)
     new_seconds = path_seconds(smooth.points, smooth.first, layers.speed, acceleration)
     reasons = {**unchangeable_strokes(layers, rules), "no faster": new_seconds > seconds * SLOWER}
-    new = redraw_strokes(infill, smooth, moved & ~np.any(list(reasons.values()), axis=0), rules.rounding)
+    new = redraw_strokes(infill, smooth, moved & ~np.any(list(reasons.values()), axis=0), rules)
     spliced = splice_paths(layers.table, infill, new)
     fault = verify_replay(layers.table, infill, new, spliced)
     if fault:
@@ -92,6 +92,7 @@ def stroke_corners(layers: Layers, rounding: Rounding, *, acceleration: float) -
         speed=layers.speed,
         corner=rounding.corner,
         segments_per_second=rounding.segments_per_second,
+        coarsest=rounding.coarsest,
         line_width=layers.line_width,
         wide=True,
         limit=largest_moves(layers),
@@ -105,7 +106,7 @@ def path_lengths(points: Floats, offsets: Places) -> Floats:
     return np.asarray(along[offsets[1:] - 1] - along[offsets[:-1]])
 
 
-def redraw_strokes(infill: InfillStrokes, new: RoundedPaths, chosen: NDArray[np.bool_], rounding: Rounding) -> NewPaths:
+def redraw_strokes(infill: InfillStrokes, new: RoundedPaths, chosen: NDArray[np.bool_], rules: RefillRules) -> NewPaths:
     """Return the new paths of the chosen strokes."""
     strokes = np.flatnonzero(chosen)
     points_at, offsets = select_rows(new.first, strokes)
@@ -117,8 +118,9 @@ def redraw_strokes(infill: InfillStrokes, new: RoundedPaths, chosen: NDArray[np.
         first=offsets,
         source=new.source[points_at],
         filament=rate * length,
+        arc_deviation=rules.arc_deviation,
     )
-    return replace(drawn, filament=widened_filament(infill, drawn)) if rounding.same_filament else drawn
+    return replace(drawn, filament=widened_filament(infill, drawn)) if rules.rounding.same_filament else drawn
 
 
 def widened_filament(infill: InfillStrokes, new: NewPaths) -> Floats:

@@ -15,6 +15,7 @@ class RefillRequest(TypedDict):
     density: Annotated[float | str | None, "Share of the volume, or `same`; null for the filament of the slicer"]
     smooth_radius_mm: Annotated[float | str, "Largest radius of a corner, mm, or `auto`"]
     max_deviation_mm: Annotated[float | None, "Largest distance by which a path may move, mm"]
+    arcs: Annotated[str, "Whether curves are written as arcs: `auto`, `on` or `off`"]
     max_segments: Annotated[float | str, "Segments per second, or `auto` or `none`"]
     layers: Annotated[Annotated[list[int], 2] | None, "First and last layer, counted from 1; null for all layers"]
     part: Annotated[str | None, "Text in the names of the objects to refill; null for all objects"]

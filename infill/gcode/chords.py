@@ -51,7 +51,7 @@ def chords_of_arc_lines(
         begin, finish = start[selected][:, axes], end[selected][:, axes]
         centre = begin[:, :2] + offset[selected][:, axes[:2]]
         by_radius = ~np.isnan(radius[selected])
-        centre[by_radius] = _centres_by_radius(begin, finish, radius[selected], clockwise[selected])[by_radius]
+        centre[by_radius] = centres_by_radius(begin, finish, radius[selected], clockwise[selected])[by_radius]
         which, first, chord_end = cut_chords(begin, finish, centre, clockwise[selected], np.floor(turns[selected]))
         back = np.argsort(axes)
         way = (chord_end - first) * _arc_ratio(chord_end - first, np.hypot(*(begin[:, :2] - centre).T)[which])[:, None]
@@ -69,7 +69,7 @@ def _arc_ratio(chord_vector: Floats, radius: Floats) -> Floats:
     return np.where(fine, np.arcsin(half) / half, 1.0)
 
 
-def _centres_by_radius(start: Floats, end: Floats, radius: Floats, clockwise: NDArray[np.bool_]) -> Floats:
+def centres_by_radius(start: Floats, end: Floats, radius: Floats, clockwise: NDArray[np.bool_]) -> Floats:
     """Return the centres of arcs with these radii, (N, 2); a negative radius is an arc of more than half a circle."""
     way = (end - start)[:, :2]
     chord = np.hypot(*way.T)
@@ -77,6 +77,14 @@ def _centres_by_radius(start: Floats, end: Floats, radius: Floats, clockwise: ND
     side = np.where(clockwise == (radius > 0), 1.0, -1.0)  # to the right
     right = np.column_stack([way[:, 1], -way[:, 0]]) / np.maximum(chord, 1e-300)[:, None]
     return np.asarray(start[:, :2] + way / 2 + right * (side * height)[:, None])
+
+
+def arc_turns(start_offset: Floats, end_offset: Floats, clockwise: NDArray[np.bool_]) -> Floats:
+    """Return the angles of arcs, (N,), positive counterclockwise, by the offsets of their ends from their centres."""
+    begin = np.arctan2(start_offset[:, 1], start_offset[:, 0])
+    turn = (np.arctan2(end_offset[:, 1], end_offset[:, 0]) - begin) % (2 * np.pi)
+    turn = np.where(turn < 1e-9, 2 * np.pi, turn)  # a full circle, to the last digits of the file
+    return np.where(clockwise & (turn < 2 * np.pi), turn - 2 * np.pi, np.where(clockwise, -turn, turn))
 
 
 def cut_chords(
@@ -109,9 +117,7 @@ def cut_chords(
     start_offset, end_offset = start[:, :2] - centre, end[:, :2] - centre
     radius = np.hypot(*start_offset.T)
     begin = np.arctan2(start_offset[:, 1], start_offset[:, 0])
-    turn = (np.arctan2(end_offset[:, 1], end_offset[:, 0]) - begin) % (2 * np.pi)
-    turn = np.where(turn < 1e-9, 2 * np.pi, turn)  # a full circle, to the last digits of the file
-    turn = np.where(clockwise & (turn < 2 * np.pi), turn - 2 * np.pi, np.where(clockwise, -turn, turn))
+    turn = arc_turns(start_offset, end_offset, clockwise)
     if turns is not None:
         turn = turn + np.where(clockwise, -2 * np.pi, 2 * np.pi) * np.maximum(turns - 1, 0)
     length = np.abs(turn) * radius

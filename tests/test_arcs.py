@@ -1,0 +1,240 @@
+"""Arcs of sliced prints: read as circles, written in the place of segments, and counted like the straight print."""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given
+from hypothesis import strategies as st
+
+from infill import UsageError, refill
+from infill.gcode.arcs import find_arcs, path_steps
+from infill.gcode.machine_state import MachineState
+from infill.gcode.path_moves import ARC_DEVIATION, plan_moves
+from infill.gcode.table import read_table
+from tests.gcode_judge import arc as judge_arc
+from tests.gcode_judge import changed, infilled, judge, pushed, words
+from tests.gcode_structure import supported
+from tests.handmade_prints import Dialect, written
+
+ROUNDED = 0.002  # mm: two decimals of a place, and those of a centre
+PRINTS = ["p29_arcs_gyroid_marlin2.gcode", "p29_arcs_honeycomb_klipper.gcode"]
+PATTERNS = ["keep", "gyroid", "honeycomb", "grid", "triangles", "hilbert", "concentric"]
+
+
+def straightened(data: bytes) -> bytes:
+    """Return a print with relative filament in which chords stand for its arcs, as the judge cuts them."""
+    lines, x, y = [], 0.0, 0.0
+    for raw in data.splitlines(keepends=True):
+        given = dict(words(raw.split(b";")[0])) if raw[:1] == b"G" else {}
+        code = raw[:3].strip()
+        goal = (given.get("X", x) or 0.0, given.get("Y", y) or 0.0) if code in (b"G0", b"G1", b"G2", b"G3") else (x, y)
+        if code in (b"G2", b"G3") and "E" in given:
+            points = judge_arc((x, y), goal, given, clockwise=code == b"G2")
+            keep = [*points[1:-1:6], points[-1]]
+            lengths = [math.dist(a, b) for a, b in zip([points[0], *keep], keep, strict=False)]
+            for (px, py), length in zip(keep, lengths, strict=True):
+                share = given["E"] * length / sum(lengths)
+                feed = b" F%g" % given["F"] if "F" in given and (px, py) == keep[0] else b""
+                lines.append(b"G1 X%.3f Y%.3f E%.5f%s\n" % (px, py, share, feed))
+        else:
+            lines.append(raw)
+        x, y = goal
+    return b"".join(lines)
+
+
+def drawn_arcs(moves_of: bytes) -> tuple[int, int]:
+    """Count the arcs and all moves that print in the sparse infill."""
+    arcs = moves = 0
+    inside = False
+    for line in moves_of.split(b"\n"):
+        if line.startswith((b";TYPE:", b"; FEATURE:")):
+            inside = b"nternal infill" in line or b"Sparse infill" in line
+        elif inside and re.match(rb"G[123] .*[XY].*E[\d.]", line):
+            moves += 1
+            arcs += line.startswith((b"G2", b"G3"))
+    return arcs, moves
+
+
+def outside(faults: list[str]) -> float:
+    """Return how far paths leave the region of the infill, mm; no other fault is allowed."""
+    assert [fault for fault in faults if not fault.startswith("move outside")] == []
+    return max((float(far) for far in re.findall(r"by ([\d.]+) mm", " ".join(faults))), default=0.0)
+
+
+@given(
+    st.tuples(st.floats(-50, 50), st.floats(-50, 50)),
+    st.floats(0.3, 80),
+    st.floats(-3.1, 3.1),
+    st.floats(0.1, 3.0),
+    st.booleans(),
+    st.booleans(),
+)
+def test_an_arc_is_read_as_its_circle(
+    middle: tuple[float, float], radius: float, angle: float, turn: float, clockwise: bool, by_radius: bool
+) -> None:
+    """By its centre and by its radius: its length, and points within the sagitta of it."""
+    start = np.array(middle) + radius * np.array([math.cos(angle), math.sin(angle)])
+    last = angle - turn if clockwise else angle + turn
+    end = np.array(middle) + radius * np.array([math.cos(last), math.sin(last)])
+    centre = np.array(middle) - start
+    circle = f"R{radius:.6f}" if by_radius else f"I{centre[0]:.6f} J{centre[1]:.6f}"
+    text = f"G{2 if clockwise else 3} X{end[0]:.6f} Y{end[1]:.6f} {circle} E1 F900\n".encode()
+    table = read_table(text, MachineState(x=float(start[0]), y=float(start[1]), z=0.2))
+    arcs = find_arcs(table)
+    assert len(arcs) == 1
+    near = 0.05 if by_radius and turn > 2.5 else 1e-3  # near half a circle, a radius hardly tells the centre
+    assert path_steps(table)[0] == pytest.approx(radius * turn, rel=near)
+    _, points = arcs.chord_ends(0.004)
+    assert np.abs(np.hypot(*(points - middle).T) - radius).max() <= near * max(radius, 1.0)
+    assert points[-1] == pytest.approx(end, abs=1e-6)
+    path = np.vstack([start, points])
+    between = (path[1:] + path[:-1]) / 2
+    sagitta = radius - np.hypot(*(between - middle).T)
+    assert sagitta.max() <= 0.004 + near * max(radius, 1.0)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "G2 X10 Y0 I0 J0 E1",  # of no radius
+        "G2 X10 Y0 I3 J0 E1",  # whose ends lie on two circles
+        "G2 X10 Y0 R4 E1",  # whose radius does not reach
+        "G3 X10 Y0 I5 Z.4 E1",  # that climbs
+        "G3 X10 Y0 I5 P3 E1",  # of three turns
+        "G2 X10 Y0 E1",  # without a circle
+    ],
+)
+def test_an_arc_that_closes_on_no_circle_is_none(line: str) -> None:
+    table = read_table(f"{line}\n".encode(), MachineState(x=0.0, y=0.0, z=0.2))
+    assert len(find_arcs(table)) == 0
+
+
+def curves() -> st.SearchStrategy[np.ndarray]:
+    """Paths of straight legs and waves, cut into segments."""
+
+    def make(seed: int, waves: int, step: float) -> np.ndarray:
+        rng = np.random.default_rng(seed)
+        along = np.arange(0.0, 20.0, step)
+        height = sum(
+            rng.uniform(0, 1.5) * np.sin(rng.uniform(0.2, 2) * along + rng.uniform(0, 6)) for _ in range(waves)
+        )
+        corner = rng.uniform(0.0, 8.0, (3, 2)) + np.array([20.0, 0.0])
+        return np.round(np.vstack([np.column_stack([along, height + 0 * along]), corner]), 3)
+
+    return st.builds(make, st.integers(0, 10**6), st.integers(0, 3), st.floats(0.1, 0.9))
+
+
+@given(curves(), st.floats(0.005, 0.05))
+def test_arcs_stay_near_their_segments(path: np.ndarray, deviation: float) -> None:
+    """Both ways, where the machine draws them: the points within the deviation, the segments within half as much again."""
+    moves = plan_moves(path, np.array([0, len(path)]), arc_deviation=deviation)
+    text = (
+        b"G0 X%.3f Y%.3f\n" % tuple(path[0])
+        + moves.write(np.ones(len(moves.end)), np.full(len(moves.end), np.nan), b"\n").text
+    )
+    table = read_table(b"M83\n" + text, MachineState(z=0.2))
+    arcs = find_arcs(table)
+    assert len(arcs) == np.count_nonzero(moves.turn)
+    drawn = [path[0]]
+    for line in range(2, len(table)):
+        at = np.flatnonzero(arcs.line == line)
+        if len(at):
+            drawn += list(arcs.select(arcs.line == line).chord_ends(1e-4)[1])
+        else:
+            drawn.append(np.array([table.x[line], table.y[line]]))
+    new, old = shapely.linestrings(np.array(drawn)), shapely.linestrings(path)
+    assert shapely.distance(shapely.points(path), new).max() <= deviation + ROUNDED
+    assert shapely.hausdorff_distance(shapely.segmentize(new, 0.05), old) <= 1.5 * deviation + ROUNDED
+    assert shapely.hausdorff_distance(shapely.segmentize(old, 0.05), new) <= 1.5 * deviation + ROUNDED
+    assert moves.end[-1] == len(path) - 1
+    assert (np.diff(moves.end) > 0).all()
+    assert np.allclose(path_steps(table)[2:], moves.length, atol=ROUNDED)
+
+
+def test_a_circle_takes_few_arcs_and_a_square_none() -> None:
+    angle = np.linspace(0, 2 * np.pi, 181)
+    circle = np.round(5 * np.column_stack([np.cos(angle), np.sin(angle)]), 3)
+    assert len(plan_moves(circle, np.array([0, 181]), arc_deviation=ARC_DEVIATION).end) <= 3
+    square = np.array([[0.0, 0], [5, 0], [5, 5], [0, 5], [0, 0]])
+    assert not plan_moves(square, np.array([0, 5]), arc_deviation=ARC_DEVIATION).turn.any()
+
+
+def test_no_arc_passes_a_stop() -> None:
+    angle = np.linspace(0, 2, 41)
+    path = np.column_stack([np.cos(angle), np.sin(angle)]) * 5
+    stops = np.zeros(41, dtype=bool)
+    stops[[7, 19]] = True
+    assert {7, 19} <= set(plan_moves(path, np.array([0, 41]), arc_deviation=0.02, stops=stops).end.tolist())
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("name", "pattern"),
+    [*((PRINTS[0], pattern) for pattern in PATTERNS), (PRINTS[1], "keep"), (PRINTS[1], "honeycomb")],
+)
+def test_a_print_with_arcs_is_refilled_as_the_straight_one(name: str, pattern: str, data: Path, tmp_path: Path) -> None:
+    """As many sections; the same filament and time within 1 %; and an independent judge passes what is written."""
+    path, straight = data / "prints" / name, tmp_path / "straight.gcode"
+    old = path.read_bytes()
+    straight.write_bytes(straightened(old))
+    round_report = refill(path, output=tmp_path / "arcs.gcode", pattern=pattern).report
+    straight_report = refill(straight, output=tmp_path / "lines.gcode", pattern=pattern).report
+    new, lines = (tmp_path / "arcs.gcode").read_bytes(), (tmp_path / "lines.gcode").read_bytes()
+    bounds = (0.8, 1.15 if pattern == "concentric" else 1.05)  # of whole rings, in a print of few
+    allowed = outside(judge(straight.read_bytes(), lines, filament=bounds))  # of a ring 4 mm wide, 0.03 mm
+    assert outside(judge(old, new, filament=bounds)) <= (allowed + 0.02 if allowed else 0.0)
+    assert changed(old, new) >= 0.95 * straight_report["sections"]["replaced"] > 0
+    before, after = pushed(new), pushed(lines)
+    assert sum(before) == pytest.approx(sum(after), rel=0.01)
+    assert round_report["time"]["print_after_s"] == pytest.approx(straight_report["time"]["print_after_s"], rel=0.01)
+    assert supported(new) >= 0.94 * supported(old)
+    arcs, moves = drawn_arcs(new)
+    straight_moves = drawn_arcs(lines)
+    assert straight_moves[0] == 0
+    assert arcs or pattern in ("grid", "triangles", "concentric")
+    assert moves < straight_moves[1]
+
+
+def test_arcs_are_written_where_they_are_asked_for(data: Path, tmp_path: Path) -> None:
+    path, straight, output = data / "prints" / PRINTS[0], tmp_path / "straight.gcode", tmp_path / "out.gcode"
+    straight.write_bytes(straightened(path.read_bytes()))
+    counts = {}
+    for source, arcs in ((path, "auto"), (path, "off"), (straight, "auto"), (straight, "on")):
+        refill(source, output=output, arcs=arcs)
+        counts[source.name, arcs] = drawn_arcs(output.read_bytes())
+    assert counts[path.name, "auto"][0] > 1000 < counts["straight.gcode", "on"][0]
+    assert counts[path.name, "off"][0] == counts["straight.gcode", "auto"][0] == 0
+    assert 3 * counts[path.name, "auto"][1] < counts[path.name, "off"][1]  # of a gyroid, a third of the lines and fewer
+    with pytest.raises(UsageError, match="arcs is 'yes'; give auto, on or off"):
+        refill(path, arcs="yes", dry_run=True)
+
+
+def test_a_binary_print_with_arcs_is_refilled(data: Path, tmp_path: Path) -> None:
+    report = refill(
+        data / "prints" / "p29_binary_arcs.bgcode", output=tmp_path / "out.bgcode", pattern="honeycomb"
+    ).report
+    assert report["sections"]["replaced"] >= 0.95 * report["sections"]["all"]
+
+
+def test_a_rise_before_the_first_bead_is_no_lift(data: Path, tmp_path: Path) -> None:
+    """The print begins at 5 mm and comes down to its first layer: travel to new paths rises no higher for that."""
+    refill(data / "prints" / PRINTS[0], output=tmp_path / "out.gcode", pattern="grid")
+    old, new = ((data / "prints" / PRINTS[0]).read_bytes(), (tmp_path / "out.gcode").read_bytes())
+    heights = [{float(z) for z in re.findall(rb"^G1 Z([\d.]+)", text, re.MULTILINE)} for text in (old, new)]
+    assert heights[1] <= heights[0]
+    assert new.count(b"\nG1 Z") == old.count(b"\nG1 Z")
+
+
+def test_arcs_of_other_beads_bound_the_region(tmp_path: Path) -> None:
+    """Walls as arcs of a round part: infill ends as far from them as from walls of chords."""
+    path = tmp_path / "round.gcode"
+    path.write_bytes(written(Dialect(slicer="orca", arcs=True)))
+    report = refill(path, output=tmp_path / "out.gcode", pattern="honeycomb").report
+    assert report["sections"]["replaced"] == report["sections"]["all"] > 0
+    assert infilled(path.read_bytes()) == report["sections"]["all"]
