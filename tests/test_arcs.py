@@ -173,7 +173,7 @@ def test_no_arc_passes_a_stop() -> None:
     assert {7, 19} <= set(plan_moves(path, np.array([0, 41]), arc_deviation=0.02, stops=stops).end.tolist())
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize(
     ("name", "pattern"),
     [*((PRINTS[0], pattern) for pattern in PATTERNS), (PRINTS[1], "keep"), (PRINTS[1], "honeycomb")],
