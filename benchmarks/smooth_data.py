@@ -94,11 +94,38 @@ def _judged(case: Case, result: trimesh.Trimesh, spacing: np.ndarray, image: Any
         return judge(isosurface(image, case.scan.level), result, image.spacing[::-1])
     if case.path.suffix == ".xyz":
         return judge_points(np.loadtxt(case.path)[:, :3] * (1000.0 if metres else 1.0), result, spacing)
-    given = trimesh.load(case.path, force="mesh")
+    given = _read_mesh(case.path)
     if not len(given.faces):
         raise ValueError("no faces")
     given.apply_scale(1000.0 if metres else 1.0)
     return judge(given, result, spacing)
+
+
+def _read_mesh(path: Path) -> trimesh.Trimesh:
+    """Return a mesh as trimesh reads it; polygons of an OBJ are cut by VTK, since a fan may cover too much."""
+    mesh: trimesh.Trimesh = trimesh.load(path, force="mesh")
+    text = path.read_text(encoding="utf-8", errors="replace") if path.suffix == ".obj" else ""
+    lines = re.sub(r"\\\r?\n", " ", text).splitlines()
+    polygons = [[int(word.split("/")[0]) for word in line.split()[1:]] for line in lines if line.startswith("f ")]
+    if max(map(len, polygons), default=3) < 4 or min(map(min, polygons)) < 1:
+        return mesh
+    import vtk
+    from vtk.util.numpy_support import vtk_to_numpy
+
+    points, cells = vtk.vtkPoints(), vtk.vtkCellArray()
+    for line in lines:
+        if line.startswith("v "):
+            points.InsertNextPoint(*map(float, line.split()[1:4]))
+    for polygon in polygons:
+        cells.InsertNextCell(len(polygon), [corner - 1 for corner in polygon])
+    data, triangles = vtk.vtkPolyData(), vtk.vtkTriangleFilter()
+    data.SetPoints(points)
+    data.SetPolys(cells)
+    triangles.SetInputData(data)
+    triangles.Update()
+    cut = triangles.GetOutput()
+    faces = vtk_to_numpy(cut.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    return trimesh.Trimesh(vtk_to_numpy(cut.GetPoints().GetData()), faces, process=False)
 
 
 def unreported(row: dict[str, Any]) -> bool:
