@@ -44,6 +44,20 @@ class LimitKeys(TypedDict):
     minimum_cruise_ratio: NotRequired[Annotated[float, "Model `klipper`: least share of a move at constant speed"]]
 
 
+class NoteKeys(TypedDict):
+    """Limits that the printer states, or that were given, and the plan does not follow or had to assume."""
+
+    name: Annotated[str, "The limit, as the printer spells it, such as `[extruder] pressure_advance`"]
+    note: Annotated[str, "The rest of the sentence: why it is not followed, or what is assumed"]
+
+
+class WrittenKeys(TypedDict):
+    """The print that was written with the planned time."""
+
+    file: Annotated[str, "Name of the file"]
+    statements: Annotated[int, "Number of lines and values that state time, such as `M73`; 0 if the print states none"]
+
+
 class MotionReport(TypedDict):
     """The report of `infill.motion`: `Motion.to_dict`."""
 
@@ -58,7 +72,9 @@ class MotionReport(TypedDict):
     retractions: Annotated[int, "Number of retractions"]
     features: tuple[FeatureKeys, ...]
     limits: LimitKeys
-    sources: Annotated[dict[str, str], "Source of each limit: `settings`, `commands`, `given` or `assumed`"]
+    sources: Annotated[
+        dict[str, str], "Source of each limit: `settings`, `printer`, `limits`, `commands`, `given` or `assumed`"
+    ]
     plate: Annotated[int | None, "Plate of an archive; null for other files"]
     plates: Annotated[tuple[int, ...], "All plates of the archive"]
     unread_lines: Annotated[int, "Number of lines that may move or extrude and are left out"]
@@ -68,6 +84,10 @@ class MotionReport(TypedDict):
         str, "Line with which its slicer ends a file, if this one lacks it and was cut off; else empty"
     ]
     macros: Annotated[tuple[str, ...], "Macros of the printer that may move, such as `PRINT_START`; they are left out"]
+    macro_seconds: Annotated[dict[str, float], "Time of all calls of each macro whose time was given, s, by its name"]
+    printer: Annotated[str, "File of the printer's limits; empty without one"]
+    notes: tuple[NoteKeys, ...]
+    written: WrittenKeys | None
     volumetric: Annotated[bool, "Whether E counts mm³ at the end of the file"]
     filament_diameter: Annotated[float, "Diameter of the filament, mm"]
 
