@@ -467,9 +467,9 @@ def test_a_macro_takes_its_time(tmp_path: Path) -> None:
     assert plan.seconds == pytest.approx(2 * trapezoid(50, 100, 1000) + 45 + 20 + 90)
     assert plan.macro_seconds == {"G28": 20, "START_PRINT": 45, "T1": 90}
     assert (plain.macros, plan.macros) == (("START_PRINT", "END_PRINT"), ("END_PRINT",))
-    text = run("motion", path, "--macro", "START_PRINT=45s", "--macro", "STRAT=3").stdout
+    text = run("motion", path, "--macro", "START_PRINT=45s", "--macro", "STRT_PRINT=3").stdout
     assert "--macro END_PRINT=45s counts it" in text
-    assert "note: STRAT has a time, and no line calls it" in text
+    assert "note: STRT_PRINT has a time, and no line calls it" in text
     assert motion(path, macros={"END_PRINT": 10}).seconds == pytest.approx(motion(path).seconds + 10)
 
 

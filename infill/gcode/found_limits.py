@@ -217,15 +217,16 @@ def read_limits(
     slicer = _find_slicer(head)
     limits, sources = _first_limits(_default_limits(flavour, head, slicer), settings, given)
     firmware = flavour if flavour in ("repetier", "smoothie") else ""
+    rule_of_e = extrusion_rule(head, settings)
     if given.printer is not None:
-        firmware = "klipper" if given.printer.firmware == "klipper" else ""
+        firmware = rule_of_e = "klipper" if given.printer.firmware == "klipper" else ""
     volumetric, diameters = filament_units(head, settings)
     return FileLimits(
         limits=limits,
         sources=sources,
         start=(limits, sources),
         firmware=firmware,
-        rule_of_e=extrusion_rule(head, settings),
+        rule_of_e=rule_of_e,
         volumetric=volumetric,
         diameters=diameters,
         fixed=given.fixed,
