@@ -305,6 +305,18 @@ def test_what_is_in_force_wins_over_what_is_configured(tmp_path: Path) -> None:
     assert [note.name for note in alone.notes] == ["[extruder]"]
 
 
+def test_defaults_that_moonraker_fills_in_are_not_told(tmp_path: Path) -> None:
+    """Notes are about what was written in printer.cfg."""
+    defaults = {"pressure_advance": 0.0, "pressure_advance_smooth_time": 0.04, "max_extrude_cross_section": 0.64}
+    texts = {"printer": dict(PRINTER), "extruder": dict(EXTRUDER)}
+    settings = {"printer": dict(PRINTER), "extruder": {**EXTRUDER, **defaults}}
+    printer = read_printer(answer(tmp_path, {"configfile": {"config": texts, "settings": settings}}), {})
+    assert printer.notes == ()
+    texts["extruder"]["pressure_advance"] = "0.05"
+    printer = read_printer(answer(tmp_path, {"configfile": {"config": texts, "settings": settings}}), {})
+    assert [note.name for note in printer.notes] == ["[extruder] pressure_advance"]
+
+
 @pytest.mark.parametrize("before", ["", "Recv: ", "[12:03:04.567] Recv: ", "12:03:04.567 >> ", "10. "])
 @pytest.mark.parametrize("echo", ["echo:", "", "echo: "])
 def test_marlin_by_its_settings(before: str, echo: str, tmp_path: Path) -> None:
@@ -488,7 +500,7 @@ def test_times_that_cannot_be_read_are_wrong_usage(text: str, tmp_path: Path) ->
 LOOP = "[include other.cfg]\n"
 BROKEN: dict[str, tuple[str | bytes, str]] = {
     "a loop": (LOOP, "bad.cfg includes other.cfg includes bad.cfg, in a loop; remove"),
-    "no include": ("[include gone.cfg]\n[printer]\n", "includes gone.cfg, and there is no file .*gone.cfg; copy"),
+    "no include": ("[include gone.cfg]\n[printer]\n", "includes gone.cfg, which is not in .*; copy it there"),
     "no printer": ("[mcu]\nserial: x\n", r"no section \[printer\], only \[mcu\]"),
     "no number": ("[printer]\nmax_velocity: 1\nmax_accel: fast\n", r"\[printer\] max_accel is 'fast'; it must be"),
     "negative": ("[printer]\nmax_velocity: -1\nmax_accel: 5\n", r"\[printer\] max_velocity is '-1'"),

@@ -15,6 +15,8 @@ from pathlib import Path
 from typing import Any, Final
 
 from infill.errors import FormatError
+from infill.files.broken import wrap_read_errors
+from infill.files.excerpts import excerpt
 from infill.gcode.limit_names import LIMIT_NAMES, cruise_ratio
 from infill.gcode.limits import MAX_LIMIT, Limits
 from infill.gcode.printer_limits import LimitMacro, LimitNote, PrinterLimits, read_limit, read_printer_text
@@ -78,9 +80,11 @@ def _add_file(sections: Sections, text: str, stack: tuple[Path, ...], count: lis
             continue
         _add_lines(sections, "\n".join(lines))
         lines.clear()
-        for included in _find_included(stack[-1], header[1][len("include ") :].strip()):
+        with wrap_read_errors(stack[-1]):
+            included_files = _find_included(stack[-1], header[1][len("include ") :].strip())
+        for included in included_files:
             if included.resolve() in (path.resolve() for path in stack):
-                names = " includes ".join(path.name for path in (*stack, included))
+                names = excerpt(" includes ".join(path.name for path in (*stack, included)), 200)
                 raise FormatError(f"{stack[0]}: {names}, in a loop; remove one of these lines")
             count[0] += 1
             if count[0] > MAX_FILES:
@@ -94,8 +98,9 @@ def _find_included(file: Path, pattern: str) -> list[Path]:
     place = str(file.parent / pattern)
     if not glob.has_magic(place) or Path(place).is_file():
         if not Path(place).is_file():
+            where = excerpt(str(file.parent), 200)
             raise FormatError(
-                f"{file} includes {pattern}, and there is no file {place}; copy it there, or remove that line"
+                f"{file} includes {excerpt(pattern)}, which is not in {where}; copy it there, or remove that line"
             )
         return [Path(place)]
     names = sorted(glob.glob(place))  # noqa: PTH207 - a pattern may be absolute, or lead out of the folder
@@ -152,7 +157,12 @@ def _place_given(sections: Mapping[str, Mapping[str, Any]], given: Mapping[str, 
     return options
 
 
-def klipper_limits(sections: Mapping[str, Mapping[str, Any]], source: str, given: Mapping[str, float]) -> PrinterLimits:
+def klipper_limits(
+    sections: Mapping[str, Mapping[str, Any]],
+    source: str,
+    given: Mapping[str, float],
+    written: Mapping[str, Mapping[str, Any]] | None = None,
+) -> PrinterLimits:
     """Return the limits that the sections of a Klipper printer state, with Klipper's own defaults.
 
     Parameters
@@ -163,6 +173,8 @@ def klipper_limits(sections: Mapping[str, Mapping[str, Any]], source: str, given
         Name of the file, for messages.
     given : mapping
         Limits by the names of `LIMIT_NAMES`, which take the place of those in the file.
+    written : mapping, optional
+        The options that a person wrote, if `sections` has defaults as well; notes are about them.
 
     Raises
     ------
@@ -199,7 +211,7 @@ def klipper_limits(sections: Mapping[str, Mapping[str, Any]], source: str, given
         limits=limits,
         stated=frozenset({"feedrate", "axis_acceleration", "acceleration", "square_corner_velocity"})
         | {"travel_acceleration", "corner_extrusion_velocity", "minimum_cruise_ratio"},
-        notes=tuple(_notes(sections)),
+        notes=tuple(_notes(written or sections)),
         macros=_read_macros(sections),
     )
 
@@ -207,7 +219,7 @@ def klipper_limits(sections: Mapping[str, Mapping[str, Any]], source: str, given
 def _notes(sections: Mapping[str, Mapping[str, Any]]) -> Iterator[LimitNote]:
     """Yield a note for each limit that the plan does not follow or had to assume."""
     printer, extruder = sections.get("printer", {}), sections.get("extruder", {})
-    kinematics = str(printer.get("kinematics", "cartesian"))
+    kinematics = excerpt(str(printer.get("kinematics", "cartesian")))
     if kinematics in SLOW_AT_THE_EDGE:
         yield LimitNote(
             name=f"[printer] kinematics: {kinematics}",
@@ -226,7 +238,7 @@ def _notes(sections: Mapping[str, Mapping[str, Any]]) -> Iterator[LimitNote]:
     known = {limit.klipper for limit in LIMIT_NAMES.values()}
     for option in printer:
         if option.startswith(("max_", "min_")) and ("printer", option) not in known:
-            yield LimitNote(name=f"[printer] {option}", note="is not known, and not followed")
+            yield LimitNote(name=f"[printer] {excerpt(option)}", note="is not known, and not followed")
     for (section, option), note in _NOT_FOLLOWED.items():
         if option in sections.get(section, {}):
             yield LimitNote(name=f"[{section}] {option}", note=note)
@@ -284,7 +296,7 @@ def read_klipper(path: Path, given: Mapping[str, float]) -> PrinterLimits:
     """
     sections = read_klipper_config(path)
     if "printer" not in sections:
-        names = ", ".join(f"[{name}]" for name in list(sections)[:3])
+        names = excerpt(", ".join(f"[{name}]" for name in list(sections)[:3]))
         raise FormatError(
             f"{path} has no section [printer]{f', only {names}' if names else ''}; give the printer.cfg that has it"
         )

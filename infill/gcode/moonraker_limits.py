@@ -52,7 +52,9 @@ def read_moonraker(path: Path, text: str, given: Mapping[str, float]) -> Printer
         objects = objects.get(layer, objects) if isinstance(objects, dict) else objects
     if not isinstance(objects, dict):
         objects = {}
-    sections = _configured(objects.get("configfile"))
+    configfile = objects.get("configfile")
+    written = _sections_of(configfile, "config")
+    sections = _sections_of(configfile, "config", "settings")
     toolhead = objects.get("toolhead")
     if isinstance(toolhead, dict):
         in_force = {name: toolhead[name] for name in _IN_FORCE if toolhead.get(name) is not None}
@@ -65,17 +67,16 @@ def read_moonraker(path: Path, text: str, given: Mapping[str, float]) -> Printer
         raise FormatError(
             f"{path} has neither the object configfile nor toolhead of a printer; save the answer to {QUERY}"
         )
-    return klipper_limits(sections, str(path), given)
+    return klipper_limits(sections, str(path), given, written if "printer" in written else None)
 
 
-def _configured(configfile: Any) -> Sections:  # noqa: ANN401 - of JSON
-    """Return the sections of the object configfile: numbers where Klipper read them, and texts."""
+def _sections_of(configfile: Any, *parts: str) -> Sections:  # noqa: ANN401 - of JSON
+    """Return the sections of the object configfile: as written (config), or as understood, with defaults (settings)."""
     sections: Sections = {}
-    if isinstance(configfile, dict):
-        for part in ("config", "settings"):  # as written, and as understood, with defaults
-            written = configfile.get(part)
-            for name, options in written.items() if isinstance(written, dict) else ():
-                if isinstance(options, dict):
-                    section = sections.setdefault(name if name in sections else name.lower(), {})
-                    section.update({str(option).lower(): value for option, value in options.items()})
+    for part in parts:
+        written = configfile.get(part) if isinstance(configfile, dict) else None
+        for name, options in written.items() if isinstance(written, dict) else ():
+            if isinstance(options, dict):
+                section = sections.setdefault(name.lower(), {})
+                section.update({str(option).lower(): value for option, value in options.items()})
     return sections

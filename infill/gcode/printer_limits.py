@@ -72,18 +72,19 @@ class PrinterLimits:
 
 def read_printer_text(path: Path) -> str:
     """Read a text of a printer; raise FormatError if it cannot be read, is empty, or is not text."""
-    if path.is_dir():
-        raise FormatError(f"{path} is a folder; give a file, such as printer.cfg")
-    if not path.is_file():
-        raise FormatError(missing_file(path))
-    require_not_empty(path)
-    size = path.stat().st_size
-    if size > MAX_BYTES:
-        raise FormatError(
-            f"{path} has {size / 2**20:,.0f} MiB, and the limits of a printer take some kB; give printer.cfg, the "
-            "answer of Moonraker or of M503"
-        )
     with wrap_read_errors(path):
+        if path.is_dir():
+            raise FormatError(f"{path} is a folder; give a file, such as printer.cfg")
+        if not path.is_file():
+            pipe = f"{path} is a pipe or a device; save its content as a file and give that"
+            raise FormatError(pipe if path.exists() else missing_file(path))
+        require_not_empty(path)
+        size = path.stat().st_size
+        if size > MAX_BYTES:
+            raise FormatError(
+                f"{path} has {size / 2**20:,.0f} MiB, and the limits of a printer take some kB; give printer.cfg, the "
+                "answer of Moonraker or of M503"
+            )
         data = path.read_bytes()
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):  # as a terminal of Windows saves its output
         return data.decode("utf-16", errors="replace")
