@@ -413,6 +413,7 @@ def test_the_sources_of_limits(tmp_path: Path) -> None:
     plan = motion(path, printer=config(tmp_path), limits={"max_accel": 500}, minimum_cruise_ratio=0.0)
     expected = {"feedrate": "printer", "axis_acceleration": "printer", "acceleration": "limits"}
     expected |= {"square_corner_velocity": "commands", "minimum_cruise_ratio": "given"}
+    expected |= {"corner_extrusion_velocity": "printer"}
     assert plan.sources == expected
     assert plan.seconds == pytest.approx(trapezoid(100, 100, 500), rel=1e-6)
     alone = motion(path, limits="M204 S=500, velocity=100mm/s,jerk=8")

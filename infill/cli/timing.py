@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 UNITS = {"feedrate": "mm/s", "axis_acceleration": "mm/s²", "acceleration": "mm/s²", "jerk": "mm/s"}
 UNITS |= {"junction_deviation": "mm", "square_corner_velocity": "mm/s", "travel_acceleration": "mm/s²"}
+UNITS |= {"corner_extrusion_velocity": "mm/s"}
 # Columns of a single file: heading, and the text of a feature below it.
 COLUMNS: dict[str, Callable[[FeatureMotion], str]] = {
     "laid m": lambda each: f"{each.length / 1000:.2f}",

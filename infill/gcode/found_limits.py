@@ -49,7 +49,10 @@ FIELDS_BY_MODEL: Final[dict[str, tuple[str, ...]]] = {
     "jerk": ("feedrate", "axis_acceleration", "acceleration", "jerk"),
     "vector-jerk": ("feedrate", "axis_acceleration", "acceleration", "jerk"),
     "junction": ("feedrate", "axis_acceleration", "acceleration", "junction_deviation"),
-    "klipper": ("feedrate", "axis_acceleration", "acceleration", "square_corner_velocity", "minimum_cruise_ratio"),
+    "klipper": (
+        *("feedrate", "axis_acceleration", "acceleration"),
+        *("square_corner_velocity", "minimum_cruise_ratio", "corner_extrusion_velocity"),
+    ),
 }
 # Fields that belong to some of the models only.
 _OF_ONE_MODEL: Final[dict[str, str]] = {

@@ -42,6 +42,9 @@ class LimitKeys(TypedDict):
     junction_deviation: NotRequired[Annotated[float, "Model `junction`: junction deviation, mm"]]
     square_corner_velocity: NotRequired[Annotated[float, "Model `klipper`: speed at a corner of 90°, mm/s"]]
     minimum_cruise_ratio: NotRequired[Annotated[float, "Model `klipper`: least share of a move at constant speed"]]
+    corner_extrusion_velocity: NotRequired[
+        Annotated[float, "Model `klipper`: largest jump of the speed of filament between moves, mm/s"]
+    ]
 
 
 class NoteKeys(TypedDict):
