@@ -211,6 +211,11 @@ class Timeline:
         return self._waiting, plan
 
     @property
+    def limits(self) -> list[Limits]:
+        """The limits that the moves so far were planned with, in the order in which `Moves.setting` counts them."""
+        return list(self._limits)
+
+    @property
     def trouble(self) -> str:
         """Message about a file without a readable line that extrudes; "" if every line was read."""
         if not self.unread.lines:
