@@ -179,6 +179,23 @@ def test_filament_may_change_its_speed_at_once(tmp_path: Path) -> None:
     assert motion(gcode(tmp_path, lines), printer=path).seconds == pytest.approx(2 * trapezoid(50, 50, 1000), rel=1e-6)
 
 
+def test_retraction_by_firmware_takes_its_time(tmp_path: Path) -> None:
+    """Once drawn back, a second G10 does nothing; a G11 pushes the extra length as well."""
+    more = (
+        "[firmware_retraction]\nretract_length: 3\nretract_speed: 20\nunretract_extra_length: 1\nunretract_speed: 90\n"
+    )
+    path = gcode(tmp_path, "G1 X50 F6000\nG10\nG10\nG1 X100\nG11\nG11\nG1 X50\n")
+    moves = 3 * trapezoid(50, 100, 1000)
+    assert motion(path, printer=config(tmp_path)).seconds == pytest.approx(moves)
+    plan = motion(path, printer=config(tmp_path, more))
+    assert plan.seconds == pytest.approx(moves + trapezoid(3, 20, 600) + trapezoid(4, 30, 600))
+    assert plan.retractions == 1
+    slow = motion(path, printer=config(tmp_path, more, minimum_cruise_ratio=0.95))  # sqrt(50 * 3) mm/s, sqrt(50 * 4)
+    ratio = motion(path, printer=config(tmp_path, minimum_cruise_ratio=0.95)).seconds
+    expected = trapezoid(3, math.sqrt(150), 600) + trapezoid(4, math.sqrt(200), 600)
+    assert slow.seconds - ratio == pytest.approx(expected)
+
+
 # --- Klipper's files -------------------------------------------------------------------------------------------
 
 
@@ -214,7 +231,6 @@ def test_what_was_saved_yields_to_what_is_written(tmp_path: Path) -> None:
         ("[extruder]\npressure_advance_smooth_time: 0.04\n", "[extruder] pressure_advance_smooth_time", "not change"),
         ("[extruder]\nmax_extrude_cross_section: 5\n", "[extruder] max_extrude_cross_section", "refuse"),
         ("[input_shaper]\nshaper_freq_x: 50\n", "[input_shaper]", "does not change"),
-        ("[firmware_retraction]\nretract_speed: 20\n", "[firmware_retraction]", "no time"),
         ("[extruder1]\nmax_extrude_only_velocity: 3\n", "[extruder1] max_extrude_only_velocity", "as [extruder]"),
     ],
 )
@@ -522,6 +538,7 @@ BROKEN: dict[str, tuple[str | bytes, str]] = {
     "a text for a number": ('{"status": {"toolhead": {"max_velocity": "x", "max_accel": 5}}}', "max_velocity is 'x'"),
     "no limits": ("echo: M92 X80.00 Y80.00\nok\n", "states no limits"),
     "inches": ("echo: G20\necho: M203 X5 Y5\n", "inches"),
+    "another firmware": ("M566 X600 Y600\nM203 X12000 Y12000\n", r"RepRapFirmware \(M566\)"),
     "impossible": ("echo: M203 X0.00 Y5\n", "no possible X"),
 }
 

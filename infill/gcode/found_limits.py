@@ -138,6 +138,8 @@ class FileLimits:
         Macros of the printer that set limits.
     macro_seconds : mapping of str to float
         As in `GivenLimits`.
+    retraction : tuple of float
+        As in `PrinterLimits`.
     """
 
     limits: Limits
@@ -156,6 +158,7 @@ class FileLimits:
     notes: tuple[LimitNote, ...] = ()
     macros: Mapping[str, LimitMacro] = dataclass_field(default_factory=dict)
     macro_seconds: Mapping[str, float] = dataclass_field(default_factory=dict)
+    retraction: tuple[float, float] = (0.0, 0.0)
 
     def after(self, code: str, line: bytes) -> FileLimits:
         """Return the limits in force after a command."""
@@ -241,6 +244,7 @@ def read_limits(
         notes=_notes(given, limits.model),
         macros=given.printer.macros if given.printer is not None else {},
         macro_seconds=given.macro_seconds,
+        retraction=given.printer.retraction if given.printer is not None else (0.0, 0.0),
     )
 
 

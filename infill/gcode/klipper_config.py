@@ -9,7 +9,7 @@ from __future__ import annotations
 import glob
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
@@ -44,10 +44,7 @@ _NOT_FOLLOWED: Final = {  # options by section, and why they do not change the p
     ("extruder", "pressure_advance_smooth_time"): "does not change when moves begin and end",
     ("gcode_arcs", "resolution"): "is not followed: arcs are planned as chords of 1 mm or 5°",
 }
-_SECTIONS_NOT_FOLLOWED: Final = {
-    "input_shaper": "does not change when moves begin and end",
-    "firmware_retraction": "is not followed: G10 and G11 take no time in the plan",
-}
+_SECTIONS_NOT_FOLLOWED: Final = {"input_shaper": "does not change when moves begin and end"}
 
 
 def read_klipper_config(path: Path) -> Sections:
@@ -147,7 +144,7 @@ class _NumberReader:
 
 def _place_given(sections: Mapping[str, Mapping[str, Any]], given: Mapping[str, float]) -> Sections:
     """Return the options of the printer and its extruder, with limits by name in the place of theirs."""
-    options = {name: dict(sections.get(name, {})) for name in ("printer", "extruder")}
+    options = {name: dict(sections.get(name, {})) for name in ("printer", "extruder", "firmware_retraction")}
     if "max_accel_to_decel" in given:
         options["printer"].pop("minimum_cruise_ratio", None)
     for name, value in given.items():
@@ -212,8 +209,23 @@ def klipper_limits(
         stated=frozenset({"feedrate", "axis_acceleration", "acceleration", "square_corner_velocity"})
         | {"travel_acceleration", "corner_extrusion_velocity", "minimum_cruise_ratio"},
         notes=tuple(_notes(written or sections)),
+        retraction=_retraction_seconds(number, limits) if "firmware_retraction" in sections else (0.0, 0.0),
         macros=_read_macros(sections),
     )
+
+
+def _retraction_seconds(number: Callable[[str, str, str, float], float], limits: Limits) -> tuple[float, float]:
+    """Return the seconds that G10 and G11 take: moves of the extruder alone, from rest to rest."""
+    section, seconds = "firmware_retraction", []
+    length = number(section, "retract_length", "minimum_feedrate", 0.0)
+    extra = number(section, "unretract_extra_length", "minimum_feedrate", 0.0)
+    for name, distance, default in (("retract", length, 20.0), ("unretract", length + extra, 10.0)):
+        acceleration = limits.axis_acceleration[3]
+        steady = min(acceleration, limits.acceleration * (1 - limits.minimum_cruise_ratio))
+        speed = min(number(section, f"{name}_speed", "feedrate", default), limits.feedrate[3])
+        speed = min(speed, math.sqrt(steady * distance))
+        seconds.append(2 * speed / acceleration + (distance - speed**2 / acceleration) / speed if distance else 0.0)
+    return seconds[0], seconds[1]
 
 
 def _notes(sections: Mapping[str, Mapping[str, Any]]) -> Iterator[LimitNote]:

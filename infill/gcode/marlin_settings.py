@@ -55,7 +55,7 @@ def read_marlin(path: Path, text: str, given: Mapping[str, float]) -> PrinterLim
     Raises
     ------
     FormatError
-        If it states no limits, a limit is not a possible number, or its lengths are inches.
+        If it states no limits, a limit is not a possible number, its lengths are inches, or it is of RepRapFirmware.
     """
     limits, stated, notes = MARLIN, set[str](), dict[str, LimitNote]()
     silent = False
@@ -71,6 +71,11 @@ def read_marlin(path: Path, text: str, given: Mapping[str, float]) -> PrinterLim
         words = {letter.upper(): float(number) for letter, number in _WORD.findall(line[len(code) :])}
         if code == "G20":
             raise FormatError(f"{path} states inches (G20); send G21 to the printer, then M503, and save the answer")
+        if code == "M566":
+            raise FormatError(
+                f"{path} is of RepRapFirmware (M566), which counts in mm/min; give its limits by name, as "
+                "--limits jerk=8"
+            )
         if code in _NOT_FOLLOWED:
             notes[code] = LimitNote(name=code, note=_NOT_FOLLOWED[code])
         if code not in _LIMITING:

@@ -61,6 +61,8 @@ class PrinterLimits:
     notes : tuple of LimitNote
     macros : mapping of str to LimitMacro
         By name, in capitals.
+    retraction : tuple of float
+        Seconds of a retraction by firmware (G10), and of its end (G11).
     """
 
     firmware: Firmware
@@ -68,6 +70,7 @@ class PrinterLimits:
     stated: frozenset[str]
     notes: tuple[LimitNote, ...] = ()
     macros: Mapping[str, LimitMacro] = field(default_factory=dict)
+    retraction: tuple[float, float] = (0.0, 0.0)
 
 
 def read_printer_text(path: Path) -> str:

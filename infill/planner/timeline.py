@@ -253,7 +253,9 @@ class Timeline:
                 case "G10" | "G11":
                     back = firmware_retraction(command, table.before.firmware)
                     retractions[line] = back is True and not self._drawn_back
-                    self._drawn_back = self._drawn_back if back is None else back
+                    if back is not None and back != self._drawn_back:
+                        pause[line] += self.found.retraction[not back]
+                        self._drawn_back = back
                 case "M220":
                     speed[line:] = self._apply_m220(command)
                 case "M221":
