@@ -20,6 +20,7 @@ from infill import FormatError, Motion, ParameterError, motion
 from infill.cli.app import build_app
 from infill.gcode.chords import cut_chords
 from infill.gcode.found_limits import CURA, KLIPPER, MARLIN, read_limits
+from infill.gcode.given_limits import GivenLimits
 from infill.gcode.limits import LIMITING_CODES, Limits, apply_command
 from infill.pictures.speeds import BAR, CAPTION, LEAST_HEIGHT, MARGIN, draw_speeds, speed_colours
 from infill.planner import timeline
@@ -262,7 +263,7 @@ def test_reprap_counts_in_minutes() -> None:
 
 
 def test_commands_are_a_source_and_what_is_given_stays() -> None:
-    found = read_limits(b"", b"", {"acceleration": 500.0})
+    found = read_limits(b"", b"", GivenLimits(fixed={"acceleration": 500.0}))
     for line in (b"M204 P900", b"M205 X12", b"M201 X900"):
         found = found.after(line[:4].decode(), line)
     assert found.limits.acceleration == 500
@@ -500,7 +501,7 @@ def test_one_file_is_told(tmp_path: Path) -> None:
     told = json.loads(run(path, "--json", "--jerk", "6").stdout)
     assert told["file"] == str(path)
     assert told["limits"]["jerk"][:2] == [6, 6]
-    assert {each.name for each in fields(Motion)} - {"source"} | {"file"} == set(told)
+    assert {each.name for each in fields(Motion)} - {"source", "arguments"} | {"file"} == set(told)
     assert told["features"][1] == asdict(motion(path, jerk=6).features[1])
 
 

@@ -119,6 +119,8 @@ OUT_OF_RANGE = {
         "--square-corner-velocity": "-1 nan",
         "--minimum-cruise-ratio": "-1 2 nan",
         "--plate": "9",
+        "--limits": "foo=3 max_accel=-1 accel=5,max_accel=5 jerk=8,scv=5 minimum_cruise_ratio=1",
+        "--macro": "START_PRINT=-1 START_PRINT=1e9 A=1,a=2",
     },
     "motion plot": {"--layer": "999 0 -1"},
 }
@@ -156,7 +158,11 @@ UNREAD = {
     },
     "check": {"--for": "foo"},
     "refill": {"--density": "dense", "--smooth-radius": "wide", "--layers": "1.5"},
-    "motion": {"--model": "foo"},
+    "motion": {
+        "--model": "foo",
+        "--limits": "max_accel =5 max_accel=fast max_accel=5mm",
+        "--macro": "START_PRINT START_PRINT=x START-PRINT=3",
+    },
 }
 NAMES = {"FILE", "NAME", "UID", "keep|NAME|FILE"}  # metavars of what may be any word
 

@@ -25,7 +25,7 @@ COMPLETE = [
     "README.md",
     *sorted(page.relative_to(ROOT).as_posix() for page in (ROOT / "docs" / "tutorials").glob("*.md")),
 ]
-HOW_TO = [f"docs/{name}.md" for name in ("make", "smooth", "fill", "refill", "motion")]
+HOW_TO = [f"docs/{name}.md" for name in ("make", "smooth", "fill", "refill", "motion", "printer")]
 PAGES = [*COMPLETE, *HOW_TO]
 # Lines that install from a clone.
 SKIPPED = {
@@ -46,6 +46,8 @@ GIVEN = {
     "print.gcode",
     "before.gcode",
     "after.gcode",
+    "printer.cfg",
+    "m503.txt",
 }
 
 
@@ -107,6 +109,8 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     )
     for name in ("print.gcode", "before.gcode", "after.gcode"):
         Path(name).write_bytes(written(Dialect(layers=5)))
+    Path("printer.cfg").write_text("[printer]\nkinematics: corexy\nmax_velocity: 300\nmax_accel: 3000\n")
+    Path("m503.txt").write_text("echo: M203 X200 Y200 Z12 E120\necho: M204 P1000 R1000 T1000\necho: M205 X8 Y8\n")
     assert {path.name for path in tmp_path.iterdir()} == GIVEN
     return tmp_path
 

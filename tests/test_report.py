@@ -250,6 +250,9 @@ def motion_reports(folder: Path, results: Results) -> dict[str, Any]:
         "junction": motion(sliced, junction_deviation=0.02).to_dict(),
         "klipper": motion(sliced, square_corner_velocity=8.0).to_dict(),
         "plate": motion(archive(folder), plate=2).to_dict(),
+        "written": motion(
+            sliced, limits="jerk=5", model="klipper", macros="G28=20s", write=folder / "written.gcode"
+        ).to_dict(),
     }
 
 

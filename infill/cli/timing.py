@@ -5,21 +5,25 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from infill.cli.console import format_table, print_json, say
+from infill.cli.declared import takes_options
+from infill.cli.piping import is_piped
 from infill.gcode.ending import describe_missing_end
+from infill.options.declaration import by_field, read_options
 from infill.plain_numbers import count_noun, plain_argument, plain_number, plain_size
+from infill.timing.request import FILES, MotionOptions
 
 if TYPE_CHECKING:
     from infill.reports.timing import MotionReports
-    from infill.timing.printing_time import FeatureMotion, Motion
+    from infill.timing.printing_time import FeatureMotion, Motion, WrittenTimes
 
-MACHINE, FILES = "The machine, instead of the limits in the file", "Files"
 UNITS = {"feedrate": "mm/s", "axis_acceleration": "mm/s²", "acceleration": "mm/s²", "jerk": "mm/s"}
 UNITS |= {"junction_deviation": "mm", "square_corner_velocity": "mm/s", "travel_acceleration": "mm/s²"}
+UNITS |= {"corner_extrusion_velocity": "mm/s"}
 # Columns of a single file: heading, and the text of a feature below it.
 COLUMNS: dict[str, Callable[[FeatureMotion], str]] = {
     "laid m": lambda each: f"{each.length / 1000:.2f}",
@@ -34,6 +38,7 @@ COLUMNS: dict[str, Callable[[FeatureMotion], str]] = {
 }
 
 
+@takes_options(MotionOptions)
 def motion(
     file: Annotated[
         Path, typer.Argument(metavar="A.gcode", help="G-code from a slicer: .gcode, .bgcode or .gcode.3mf.")
@@ -41,53 +46,20 @@ def motion(
     other: Annotated[
         Path | None, typer.Argument(metavar="[B.gcode]", help="A second print, to compare with the first.")
     ] = None,
-    model: Annotated[
-        Literal["jerk", "vector-jerk", "junction-deviation", "junction", "klipper"] | None,
+    *,
+    typed: dict[str, Any],
+    write: Annotated[
+        Path | None,
         typer.Option(
-            metavar="jerk|vector-jerk|junction-deviation|klipper",
-            help="What bounds the speed at corners: jerk as PrusaSlicer estimates, vector-jerk as CuraEngine does, "
-            "Marlin's junction deviation, or Klipper. (default: as in the file)",
-            rich_help_panel=MACHINE,
+            metavar="FILE",
+            help="G-code to write: the print with its estimate of time as planned, and nothing else changed.",
+            rich_help_panel=FILES,
         ),
     ] = None,
-    acceleration: Annotated[
-        float | None,
-        typer.Option(
-            metavar="MM/S2",
-            help="Acceleration of printing and travel. (default: as in the file)",
-            rich_help_panel=MACHINE,
-        ),
-    ] = None,
-    jerk: Annotated[
-        float | None,
-        typer.Option(metavar="MM/S", help="Jerk of x and y. (default: as in the file)", rich_help_panel=MACHINE),
-    ] = None,
-    junction_deviation: Annotated[
-        float | None,
-        typer.Option(
-            metavar="MM", help="Junction deviation of Marlin. (default: as in the file)", rich_help_panel=MACHINE
-        ),
-    ] = None,
-    square_corner_velocity: Annotated[
-        float | None,
-        typer.Option(
-            metavar="MM/S", help="Square corner velocity of Klipper. (default: as in the file)", rich_help_panel=MACHINE
-        ),
-    ] = None,
-    minimum_cruise_ratio: Annotated[
-        float | None,
-        typer.Option(
-            metavar="NUMBER",
-            help="Minimum cruise ratio of Klipper, from 0 to less than 1. (default: as in the file)",
-            rich_help_panel=MACHINE,
-        ),
-    ] = None,
-    plate: Annotated[
-        int | None,
-        typer.Option(
-            metavar="N", help="Which plate of an archive, .gcode.3mf. (default: the first)", rich_help_panel=FILES
-        ),
-    ] = None,
+    in_place: Annotated[
+        bool,
+        typer.Option("--in-place", help="Write the estimate into the print itself.", rich_help_panel=FILES),
+    ] = False,
     plot: Annotated[
         Path | None,
         typer.Option(
@@ -100,30 +72,25 @@ def motion(
             metavar="N", help="Which layer to plot, counted from 1. (default: the middle one)", rich_help_panel=FILES
         ),
     ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Overwrite an existing file.", rich_help_panel=FILES)] = False,
+    force: Annotated[bool, typer.Option("--force", help="Overwrite existing files.", rich_help_panel=FILES)] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object to stdout.")] = False,
 ) -> None:
     """Plan every move of a print as firmware does, and say how long each feature takes and why."""
     from infill.timing.printing_time import motion as planned
 
-    planner_options: dict[str, Any] = {
-        "model": model,
-        "acceleration": acceleration,
-        "jerk": jerk,
-        "junction_deviation": junction_deviation,
-        "square_corner_velocity": square_corner_velocity,
-        "minimum_cruise_ratio": minimum_cruise_ratio,
-        "plate": plate,
-    }
+    options = by_field(MotionOptions, read_options("motion", MotionOptions, typed))
     if plot is None and layer is not None:
         raise typer.BadParameter("a layer is for a picture; name one with --plot")
+    target = _check_write(file, other, write, in_place=in_place)
     if plot is not None:
         _check_plot(plot, overwrite=force)
     paths = [file] if other is None else [file, other]
-    motions = [planned(path, **planner_options) for path in paths]
+    motions = [planned(path, **options, write=target, overwrite=force or in_place) for path in paths]
+    if target is not None:
+        say(f"wrote {target}")
     if plot is not None:
         chosen = layer if layer is not None else max(motions[0].layers // 2, 1)
-        _write_plot(paths, chosen, planner_options, plot)
+        _write_plot(paths, chosen, options, plot)
     if as_json:
         reports: MotionReports = {
             "files": [{"file": str(path), **plan.to_dict()} for path, plan in zip(paths, motions, strict=True)]
@@ -135,6 +102,17 @@ def motion(
     typer.echo(_feature_table(motions[0]) if other is None else _comparison_table(motions))
 
 
+def _check_write(file: Path, other: Path | None, write: Path | None, *, in_place: bool) -> Path | None:
+    """Return the file to write the estimate to, None without one; raise BadParameter if there is not one choice."""
+    if (write is not None or in_place) and other is not None:
+        raise typer.BadParameter("an estimate is written for one print; give one file")
+    if write is not None and in_place:
+        raise typer.BadParameter("--write and --in-place name two files; leave one out")
+    if write is not None and is_piped(write):
+        raise typer.BadParameter("'-' is stdout, where the report goes; give a file name")
+    return file if in_place else write
+
+
 def _check_plot(path: Path, *, overwrite: bool) -> None:
     """Raise if the file of the plot is not a picture, or exists and may not be overwritten."""
     from infill.files.whole_files import check_targets
@@ -143,14 +121,14 @@ def _check_plot(path: Path, *, overwrite: bool) -> None:
     check_targets([check_preview(path)], overwrite=overwrite)
 
 
-def _write_plot(paths: Sequence[Path], layer: int, planner_options: dict[str, Any], plot: Path) -> None:
+def _write_plot(paths: Sequence[Path], layer: int, options: dict[str, Any], plot: Path) -> None:
     """Draw the planned speeds of one layer of every file into a picture file."""
     from infill.files.whole_files import write_all_files
     from infill.pictures.speeds import write_speeds
     from infill.planner.layer_speeds import layer_speeds
 
     layers = {
-        f"{number}: {path.name}, layer {layer}": layer_speeds(path, layer, **planner_options)
+        f"{number}: {path.name}, layer {layer}": layer_speeds(path, layer, **options)
         for number, path in enumerate(paths, 1)
     }
     write_all_files({plot: partial(write_speeds, layers)})
@@ -172,6 +150,7 @@ def _summary(path: Path, plan: Motion) -> str:
         "filament": f"{format_length(plan.filament, 2)}, "
         f"{count_noun(plan.retractions, 'retraction')}{_volumetric_note(plan)}",
         "laid, travelled": f"{format_length(plan.length, 1)}, {format_length(plan.travel, 1)}",
+        **({"printer": plan.printer} if plan.printer else {}),
         "model": "junction-deviation" if plan.limits["model"] == "junction" else plan.limits["model"],
         "limits": limits,
     }
@@ -182,9 +161,25 @@ def _summary(path: Path, plan: Motion) -> str:
             f"left out {count_noun(plan.unread_lines, 'line')} that may move or extrude, first at line "
             f"{plan.first_unread_line}: {plan.first_unread_text}"
         )
+    if plan.macro_seconds:
+        given = ", ".join(f"{name} {_format_clock(seconds)}" for name, seconds in plan.macro_seconds.items())
+        rows["given times"] = given
     if plan.macros:
-        rows["macros"] = f"{', '.join(plan.macros)}: what the printer does there is not known and left out"
-    return format_table(rows, title=str(path))
+        rows["macros"] = (
+            f"{', '.join(plan.macros)}: what the printer does there is not known and left out; --macro "
+            f"{plan.macros[0]}=45s counts it"
+        )
+    if plan.written is not None:
+        rows["written"] = _written_text(plan.written)
+    notes = [f"  note: {note.name} {note.note}" for note in plan.notes]
+    return "\n".join([format_table(rows, title=str(path)), *notes])
+
+
+def _written_text(written: WrittenTimes) -> str:
+    """Describe the file that was written."""
+    if not written.statements:
+        return f"{written.file}, unchanged: the print states no time"
+    return f"{written.file}, with {count_noun(written.statements, 'statement')} of time"
 
 
 def format_length(mm: float, decimals: int) -> str:

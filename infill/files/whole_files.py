@@ -100,6 +100,13 @@ def atomic_file(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
         yield files[0]
 
 
+def copy_mode(source: Path, file: BinaryIO) -> None:
+    """Give a new file the permissions of another, where the system has them."""
+    if hasattr(os, "fchmod"):
+        with contextlib.suppress(OSError):
+            os.fchmod(file.fileno(), source.stat().st_mode & 0o7777)
+
+
 @contextlib.contextmanager
 def scratch_file(folder: Path | None) -> Iterator[BinaryIO]:
     """Yield a nameless file in the folder of the result, so that the same disk holds both.

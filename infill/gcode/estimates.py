@@ -161,6 +161,57 @@ def restate(
     )
 
 
+def restate_times(
+    lines: Sequence[bytes],
+    metadata: Iterable[tuple[bytes, bytes]],
+    seconds: float,
+    first_layer: float,
+    elapsed: Sequence[float],
+) -> Restatement:
+    """Update all that a print states of its time, and nothing of its filament.
+
+    Times that are not planned, such as those of a silent mode, change in the proportion of the stated to the new time.
+
+    Parameters
+    ----------
+    lines : sequence of bytes
+        Those of the text that state time, see `states_time`.
+    metadata : iterable of (name, value)
+        Of the print, outside the text.
+    seconds, first_layer : float
+        As planned, of the entire print and up to the end of its first layer.
+    elapsed : sequence of float
+        Seconds that the print takes up to each line.
+    """
+    times = [(name, value) for name, value in metadata if states_time(b"; %s = %s" % (name, value))]
+    old = [*lines, *(b"; %s = %s" % pair for pair in times)]
+    stated = max((stated_seconds(line) for line in old if b"silent" not in line), default=0.0)
+    stated_first = max((_stated_first_layer(line) for line in old if b"silent" not in line), default=0.0)
+    ratio = seconds / stated if stated else 1.0
+    change = EstimateChange(
+        seconds=seconds,
+        first_layer=first_layer,
+        ratio=ratio,
+        first_ratio=first_layer / stated_first if stated_first else ratio,
+    )
+    return restate(lines, times, change, {}, elapsed)
+
+
+def states_time(line: bytes) -> bool:
+    """Tell whether a line states a time of the print, or its progress.
+
+    >>> states_time(b"M73 P0 R9"), states_time(b"; filament cost = 1.20"), states_time(b"; a remark")
+    (True, False, False)
+    """
+    return b"ilament" not in line[:24] and any(find_estimates(line))
+
+
+def _stated_first_layer(line: bytes) -> float:
+    """Return the seconds that a line states for the first layer, 0 if it states none."""
+    match = _TIME.search(line) if line.startswith(b"; estimated first layer printing time") else None
+    return _parse_duration(match[0]) if match else 0.0
+
+
 def find_estimates(text: bytes) -> Iterator[tuple[int, int]]:
     """Find the lines that state time or filament; yield their begin and end, without line ends."""
     for place in _line_begins(text):
@@ -239,7 +290,8 @@ def completion_letters(lines: Sequence[bytes]) -> list[bytes]:
     for letters in (b"PR", b"QS"):
         words = [_words_of(line, letters) for line in lines]
         places = [place for place, word in enumerate(words) if word]
-        if places and (words[places[-1]].get(letters[:1]) == 100.0 or words[places[-1]].get(letters[1:]) == 0.0):
+        last = words[places[-1]] if places else {}
+        if last.get(letters[:1], 100.0 if last.get(letters[1:]) == 0.0 else 0.0) == 100.0:
             letters_by_line[places[-1]] += letters
     elapsed = [place for place, line in enumerate(lines) if line.startswith(b";TIME_ELAPSED:")]
     for place in elapsed[-1:]:

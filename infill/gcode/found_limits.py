@@ -3,6 +3,7 @@
 PrusaSlicer, SuperSlicer, OrcaSlicer and Bambu Studio write their settings as comments ``; name = value``, at the end or
 at the top; the first value of a list is that of the normal mode. Commands (M201 to M205, M566, SET_VELOCITY_LIMIT) then
 change them on the way. Cura states only its name; its own estimates use the defaults of its machine definitions.
+Limits that the printer itself states take the place of all of these but the commands.
 """
 
 from __future__ import annotations
@@ -11,11 +12,25 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from dataclasses import field as dataclass_field
 from typing import Any, Final
 
+from infill.files.excerpts import excerpt
 from infill.gcode.ending import find_missing_end
-from infill.gcode.limits import JERK_MODELS, Axes, Limits, Model, apply_command, is_valid_limit
+from infill.gcode.given_limits import GivenLimits
+from infill.gcode.limit_names import changed_fields, is_used, model_of_limits, set_limits
+from infill.gcode.limits import (
+    JERK_MODELS,
+    JUNCTION_DEVIATION,
+    NOT_LIMITING,
+    Axes,
+    Limits,
+    Model,
+    apply_command,
+    is_valid_limit,
+)
 from infill.gcode.machine_state import DIAMETER, MAX_TOOLS
+from infill.gcode.printer_limits import LimitMacro, LimitNote
 
 KLIPPER: Final = Limits(model="klipper", feedrate=(300.0, 300.0, 5.0, 50.0))
 MARLIN: Final = Limits()  # its factory settings
@@ -34,7 +49,18 @@ FIELDS_BY_MODEL: Final[dict[str, tuple[str, ...]]] = {
     "jerk": ("feedrate", "axis_acceleration", "acceleration", "jerk"),
     "vector-jerk": ("feedrate", "axis_acceleration", "acceleration", "jerk"),
     "junction": ("feedrate", "axis_acceleration", "acceleration", "junction_deviation"),
-    "klipper": ("feedrate", "axis_acceleration", "acceleration", "square_corner_velocity", "minimum_cruise_ratio"),
+    "klipper": (
+        *("feedrate", "axis_acceleration", "acceleration"),
+        *("square_corner_velocity", "minimum_cruise_ratio", "corner_extrusion_velocity"),
+    ),
+}
+# Fields that belong to some of the models only.
+_OF_ONE_MODEL: Final[dict[str, str]] = {
+    "jerk": "jerk vector-jerk",
+    "junction_deviation": "junction",
+    "square_corner_velocity": "klipper",
+    "minimum_cruise_ratio": "klipper",
+    "corner_extrusion_velocity": "klipper",
 }
 _SETS: Final[dict[str, tuple[str, ...]]] = {
     "M201": ("axis_acceleration",),
@@ -82,7 +108,8 @@ class FileLimits:
     limits : Limits
         In force now.
     sources : mapping of str to str
-        Where each limit that the model works with comes from: "settings", "commands", "given" or "assumed".
+        Where each limit that the model works with comes from: "settings", "commands", "printer" (its own file),
+        "limits" (the user's, in place of the printer's), "given" (for the entire file) or "assumed".
     fixed : mapping of str to object
         Limits that were given, and that commands do not change.
     feedrate_unit : float
@@ -105,6 +132,14 @@ class FileLimits:
         As `MachineState.firmware`.
     missing_end : str
         The line with which the slicer ends a file, if it lacks that; else "".
+    notes : tuple of LimitNote
+        Limits that were stated or given and are not followed, or are assumed.
+    macros : mapping of str to LimitMacro
+        Macros of the printer that set limits.
+    macro_seconds : mapping of str to float
+        As in `GivenLimits`.
+    retraction : tuple of float
+        As in `PrinterLimits`.
     """
 
     limits: Limits
@@ -120,11 +155,18 @@ class FileLimits:
     firmware: str
     rule_of_e: str = ""
     missing_end: str = ""
+    notes: tuple[LimitNote, ...] = ()
+    macros: Mapping[str, LimitMacro] = dataclass_field(default_factory=dict)
+    macro_seconds: Mapping[str, float] = dataclass_field(default_factory=dict)
+    retraction: tuple[float, float] = (0.0, 0.0)
 
     def after(self, code: str, line: bytes) -> FileLimits:
         """Return the limits in force after a command."""
         if code == "RESET_VELOCITY_LIMIT":
             return replace(self, limits=self.start[0], sources=self.start[1])
+        if code in NOT_LIMITING.get(self.firmware, ()):
+            ignored = f"in the file is ignored, as {self.firmware.capitalize()} does"
+            return self.with_note(LimitNote(name=code, note=ignored))
         limits = apply_command(self.limits, code, line, feedrate_unit=self.feedrate_unit, firmware=self.firmware)
         if self.fixed:
             limits = replace(limits, **self.fixed)
@@ -136,26 +178,40 @@ class FileLimits:
             return self
         return replace(self, limits=limits, sources=sources)
 
+    def after_macro(self, name: str) -> FileLimits:
+        """Return the limits in force after a call of one of `macros`."""
+        macro, file_limits = self.macros[name], self
+        for code, line in macro.lines:
+            file_limits = file_limits.after(code, line)
+        if macro.unread:
+            note = f"sets limits that only the printer can work out, and is not followed: {excerpt(macro.unread)}"
+            file_limits = file_limits.with_note(LimitNote(name=f"[gcode_macro {name}]", note=note))
+        return file_limits
+
+    def with_note(self, note: LimitNote) -> FileLimits:
+        """Return the limits with one more note, or unchanged if they have it."""
+        return self if note in self.notes else replace(self, notes=(*self.notes, note))
+
 
 def read_limits(
-    head: bytes, tail: bytes, fixed: Mapping[str, Any] | None = None, settings: Mapping[str, str] | None = None
+    head: bytes, tail: bytes, given: GivenLimits | None = None, settings: Mapping[str, str] | None = None
 ) -> FileLimits:
     """Read the limits that the beginning and the end of a file state.
 
     Parameters
     ----------
     head, tail : bytes
-    fixed : mapping, optional
-        Fields of `Limits` that override those of the file.
+    given : GivenLimits, optional
+        Limits that override those of the file.
     settings : mapping, optional
         Settings of the slicer from outside the text.
 
     Raises
     ------
     ParameterError
-        If a limit that was given is out of range.
+        If a limit that was given is out of range, or limits belong to two models.
     """
-    fixed = dict(fixed or {})
+    given = given or GivenLimits()
     missing_end = "" if settings else find_missing_end(_find_slicer(head), tail)
     settings = dict(settings or {})
     for text in (head, tail):
@@ -165,33 +221,75 @@ def read_limits(
         (b"M566" in head or b"M203" in head) and _BY_MINUTE.search(head) is not None
     )
     slicer = _find_slicer(head)
-    start, stated = _default_limits(flavour, head, slicer), {}
-    if settings.get("machine_limits_usage") != "ignore":
-        stated = _parse_settings(settings, start)
-    model: Model = fixed.get("model") or stated.pop("model", start.model)
-    if "jerk" in fixed and "model" not in fixed and model not in JERK_MODELS:
-        model = "jerk"
-    limits = replace(start, **{**stated, "model": model, **fixed})
-    sources = {
-        name: "given" if name in fixed else "settings" if name in stated else "assumed"
-        for name in FIELDS_BY_MODEL[limits.model]
-    }
+    limits, sources = _first_limits(_default_limits(flavour, head, slicer), settings, given)
+    firmware = flavour if flavour in ("repetier", "smoothie") else ""
+    rule_of_e = extrusion_rule(head, settings)
+    if given.printer is not None:
+        firmware = rule_of_e = "klipper" if given.printer.firmware == "klipper" else ""
     volumetric, diameters = filament_units(head, settings)
     return FileLimits(
         limits=limits,
         sources=sources,
         start=(limits, sources),
-        firmware=flavour if flavour in ("repetier", "smoothie") else "",
-        rule_of_e=extrusion_rule(head, settings),
+        firmware=firmware,
+        rule_of_e=rule_of_e,
         volumetric=volumetric,
         diameters=diameters,
-        fixed=fixed,
+        fixed=given.fixed,
         feedrate_unit=1 / 60 if by_minute else 1.0,
         slicer=slicer,
         filament_diameter=diameters[0],
         estimate=_slicer_estimate(settings, head, tail),
         missing_end=missing_end,
+        notes=_notes(given, limits.model),
+        macros=given.printer.macros if given.printer is not None else {},
+        macro_seconds=given.macro_seconds,
+        retraction=given.printer.retraction if given.printer is not None else (0.0, 0.0),
     )
+
+
+def _first_limits(start: Limits, settings: Mapping[str, str], given: GivenLimits) -> tuple[Limits, dict[str, str]]:
+    """Return the limits before any command, and the source of each that the model works with.
+
+    Parameters
+    ----------
+    start : Limits
+        To assume until the file states others.
+    settings : mapping
+        Of the slicer.
+    given : GivenLimits
+    """
+    fixed, stated = given.fixed, dict[str, Any]()
+    if given.printer is not None:
+        start, origin = given.printer.limits, dict.fromkeys(given.printer.stated, "printer")
+    else:
+        if settings.get("machine_limits_usage") != "ignore":
+            stated = _parse_settings(settings, start)
+        origin = dict.fromkeys(stated, "settings")
+    model: Model = fixed.get("model") or stated.pop("model", start.model)
+    if "jerk" in fixed and "model" not in fixed and model not in JERK_MODELS:
+        model = "jerk"
+    elif given.printer is None and "model" not in fixed:
+        model = model_of_limits(given.values, model)
+    used = {name: value for name, value in given.values.items() if is_used(name, model)}
+    limits = replace(start, **{**stated, "model": model})
+    if given.printer is None:
+        limits = set_limits(limits, used)
+    origin |= dict.fromkeys(changed_fields(used), "limits") | dict.fromkeys(fixed, "given")
+    limits = replace(limits, **fixed)
+    return limits, {name: origin.get(name, "assumed") for name in FIELDS_BY_MODEL[limits.model]}
+
+
+def _notes(given: GivenLimits, model: Model) -> tuple[LimitNote, ...]:
+    """Return the notes of the printer, and one for each limit that the model does not use."""
+    note = f"is not used: the model of corners is {model.replace('junction', JUNCTION_DEVIATION)}"
+    names = [name for name in given.values if not is_used(name, model)]
+    printer = given.printer
+    if printer is not None:
+        unused = [name for name, models in _OF_ONE_MODEL.items() if model not in models.split()]
+        names += [name for name in unused if name in printer.stated and name not in names]
+    own = () if printer is None else printer.notes
+    return (*own, *(LimitNote(name=name, note=note) for name in names))
 
 
 def _find_slicer(head: bytes) -> str:

@@ -23,11 +23,17 @@ LIMITING_CODES: Final = frozenset(
     {"M201", "M203", "M204", "M205", "M566", "SET_VELOCITY_LIMIT", "RESET_VELOCITY_LIMIT"}
 )
 _MAY_BE_ZERO: Final = {
+    "corner_extrusion_velocity",
     "jerk",
     "minimum_feedrate",
     "minimum_travel_feedrate",
     "square_corner_velocity",
     "minimum_cruise_ratio",
+}
+# Commands that a firmware does not know, or takes for something else.
+NOT_LIMITING: Final[dict[str, frozenset[str]]] = {
+    "repetier": frozenset({"M203", "M204", "M205"}),
+    "klipper": frozenset({"M201", "M203", "M205", "M566"}),
 }
 MIN_LIMIT, MAX_LIMIT = 1e-3, 1e9  # of a limit in mm/s or mm/s²: other values are mistakes of the file
 MIN_DEVIATION: Final = 1e-6  # mm
@@ -102,7 +108,7 @@ class Limits:
                     is_valid_limit(value, limit.name) or (value == INFINITE and limit.name != "minimum_cruise_ratio")
                 ):
                     raise ParameterError.about(
-                        limit.name, f"is {plain_argument(value)}; give {_describe_valid(limit.name)}"
+                        limit.name, f"is {plain_argument(value)}; give {describe_valid(limit.name)}"
                     )
         for name in ("acceleration", "travel_acceleration", "retract_acceleration"):
             if getattr(self, name) == INFINITE:
@@ -121,8 +127,8 @@ def is_valid_limit(value: float, name: str) -> bool:
     return lower <= value <= MAX_LIMIT or (value == 0 and name in _MAY_BE_ZERO)
 
 
-def _describe_valid(name: str) -> str:
-    """Describe the valid numbers of a limit."""
+def describe_valid(name: str) -> str:
+    """Describe the valid numbers of a limit; name is a field of `Limits`."""
     if name == "minimum_cruise_ratio":
         return "a number from 0 and below 1"
     lower = MIN_DEVIATION if name == "junction_deviation" else MIN_LIMIT
@@ -146,12 +152,13 @@ def apply_command(limits: Limits, code: str, line: bytes, *, feedrate_unit: floa
     feedrate_unit : float
         Value of one unit of M203, mm/s: RepRapFirmware counts in mm/min.
     firmware : str
-        "repetier", whose M203 to M205 set no limits, or "smoothie", whose M205 X is the junction deviation; else "".
+        "repetier" or "klipper", which ignore some of these commands (`NOT_LIMITING`), or "smoothie", whose M205 X is
+        the junction deviation; else "".
 
     >>> apply_command(Limits(), "M204", b"M204 P900 T1500").acceleration
     900.0
     """
-    if firmware == "repetier" and code in ("M203", "M204", "M205"):
+    if code in NOT_LIMITING.get(firmware, ()):
         return limits
     match code:
         case "M205" if firmware == "smoothie":

@@ -54,6 +54,8 @@ class BoundedMoves:
         Only the extruder moves.
     speed, acceleration : (N,) float64
         mm/s and mm/s² along the distance.
+    path_acceleration : (N,) float64
+        mm/s², before the limits of axes.
     """
 
     distance: Floats
@@ -61,11 +63,20 @@ class BoundedMoves:
     turning_only: NDArray[np.bool_]
     speed: Floats
     acceleration: Floats
+    path_acceleration: Floats
 
     @property
     def reach(self) -> Floats:
         """Largest possible change of the squared speed along each move: 2 a d, mm²/s²."""
         return 2 * self.acceleration * self.distance
+
+    def slower_reach(self, cruise_ratio: Floats) -> Floats:
+        """Return the reach at the acceleration that Klipper's minimum cruise ratio leaves, mm²/s².
+
+        The ratio lowers the acceleration of the path; the limits of axes, which may be lower still, it leaves as they
+        are.
+        """
+        return np.minimum(self.reach, 2 * self.path_acceleration * (1 - cruise_ratio) * self.distance)
 
 
 def limit_values(limits: Sequence[Limits], name: str, setting: NDArray[np.intp]) -> Floats:
@@ -88,18 +99,23 @@ def bound_moves(moves: Moves, limits: Sequence[Limits]) -> BoundedMoves:
 
     lowest = np.where(pushed == 0, limit("minimum_travel_feedrate"), limit("minimum_feedrate"))
     speed = np.maximum(np.maximum(np.nan_to_num(moves.feedrate, nan=DEFAULT_FEEDRATE), lowest), MIN_FEEDRATE)
-    acceleration = np.where(pushed == 0, limit("travel_acceleration"), limit("acceleration"))
-    acceleration = np.where(turning_only, limit("retract_acceleration"), acceleration)
+    path_acceleration = np.where(pushed == 0, limit("travel_acceleration"), limit("acceleration"))
+    acceleration = np.where(turning_only, limit("retract_acceleration"), path_acceleration)
     share = np.abs(direction)
     if limits[0].model == "klipper":  # which limits x and y together, and filament only where it is drawn or alone
         share = share.copy()
         share[:, :2] = 0.0
-        share[pushed > 0, 3] *= turning_only[pushed > 0]
+        share[(pushed > 0) & delta[:, :2].any(axis=1), 3] = 0.0
         speed = np.where(turning_only, speed, np.minimum(speed, limit("feedrate")[:, :2].min(axis=1)))
     speed = _limit_by_axes(speed, limit("feedrate"), share)
     acceleration = _limit_by_axes(acceleration, limit("axis_acceleration"), share)
     return BoundedMoves(
-        distance=distance, direction=direction, turning_only=turning_only, speed=speed, acceleration=acceleration
+        distance=distance,
+        direction=direction,
+        turning_only=turning_only,
+        speed=speed,
+        acceleration=acceleration,
+        path_acceleration=path_acceleration,
     )
 
 

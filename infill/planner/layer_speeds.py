@@ -16,7 +16,7 @@ from infill.gcode.dialect import role_of
 from infill.gcode.sliced_file import open_sliced
 from infill.gcode.stream import LAYER_TAG, batches
 from infill.planner.lookahead import MotionPlan
-from infill.planner.open_timeline import collect_limits, open_timeline
+from infill.planner.open_timeline import collect_given, open_timeline
 from infill.planner.struct_of_arrays import concatenate_rows, slice_rows
 from infill.planner.timeline import Steps
 
@@ -72,7 +72,8 @@ def layer_speeds(
         If the file does not have this layer or plate.
     """
     batches_of_pieces = []
-    with open_sliced(Path(path)) as file, open_timeline(file, file.part(plate), collect_limits(**given)) as timeline:
+    stated = collect_given(**given)
+    with open_sliced(Path(path)) as file, open_timeline(file, file.part(plate), stated) as timeline:
         for steps, plan in timeline:
             begin, end = np.searchsorted(steps.layer, (layer, layer + 1))  # layers only ever rise
             rows = slice(int(begin), int(end))

@@ -130,9 +130,10 @@ def plan_settled(
     reach = bounds.reach
     squares, cruise = look_ahead(joints, reach), bounds.speed**2
     is_settled = squares <= _stopping_squares(reach)
-    ratio = limit_values(limits, "minimum_cruise_ratio", moves.setting)
-    if limits[0].model == "klipper" and (ratio.any() or not ends):  # moves that follow may have one, in the same hump
-        squares, cruise, between = _cut_humps(bounds, joints, squares, reach * (1 - ratio))
+    slower_reach = bounds.slower_reach(limit_values(limits, "minimum_cruise_ratio", moves.setting))
+    # Moves that follow may be slower, in the same hump.
+    if limits[0].model == "klipper" and ((slower_reach < reach).any() or not ends):
+        squares, cruise, between = _cut_humps(bounds, joints, squares, slower_reach)
         is_settled &= between
     is_settled[0] = True
     settled = len(moves) if ends else int(np.flatnonzero(is_settled)[-1])

@@ -99,6 +99,41 @@ class PrintTime:
     first_unread: int = 0
 
 
+class ElapsedTimes:
+    """Seconds of a print up to some places of its text, and up to the end of its first layer.
+
+    Parameters
+    ----------
+    places : sequence of int, ascending
+        Bytes of the text.
+    """
+
+    def __init__(self, places: Sequence[int] = ()) -> None:
+        self._places = np.asarray(places, dtype=np.int64)
+        self._elapsed = np.zeros(len(self._places))
+        self._known = 0  # of the places
+        self.total = self.first_layer = 0.0
+
+    def add(self, steps: Steps, plan: MotionPlan) -> None:
+        """Add moves that follow the previous ones."""
+        if not len(steps):
+            return
+        seconds = plan.seconds + steps.pause
+        cumulative = np.concatenate([[0.0], np.cumsum(seconds)])
+        self.first_layer += float(seconds[steps.layer < 2].sum())
+        begin, self._known = self._known, int(np.searchsorted(self._places, steps.place[-1], side="right"))
+        reached = slice(begin, self._known)
+        self._elapsed[reached] = (
+            self.total + cumulative[np.searchsorted(steps.place, self._places[reached], side="left")]
+        )
+        self.total += float(cumulative[-1])
+
+    def finish(self) -> Floats:
+        """Return the seconds up to each place, (N,) float64."""
+        self._elapsed[self._known :] = self.total
+        return self._elapsed
+
+
 class PrintClock:
     """The time of a print, batch by batch.
 
@@ -125,10 +160,7 @@ class PrintClock:
         self._timeline = make_timeline(sliced, text, found=found)
         self.found: FileLimits = self._timeline.found
         self.begin: MachineState = self._timeline.state
-        self._sums, self._asked = FeatureSums(times_only=True), np.asarray(places, dtype=np.int64)
-        self._elapsed = np.zeros(len(self._asked))
-        self._first_layer = self._total = 0.0
-        self._known = 0  # of the places
+        self._sums, self._elapsed = FeatureSums(times_only=True), ElapsedTimes(places)
 
     def add(self, table: GcodeTable) -> None:
         """Take the next lines of the print."""
@@ -146,29 +178,19 @@ class PrintClock:
         if timeline.moved:
             self._count(*timeline.rest())
         sums.finish(timeline.pause, timeline.retractions)
-        self._elapsed[self._known :] = self._total
         seconds = sums.total("seconds").tolist()
         return PrintTime(
             seconds=float(sums.total("seconds").sum()),
             infill=sum(
                 (spent for name, spent in zip(timeline.features, seconds, strict=False) if role_of(name) == SPARSE), 0.0
             ),
-            first_layer=self._first_layer,
-            elapsed=self._elapsed,
+            first_layer=self._elapsed.first_layer,
+            elapsed=self._elapsed.finish(),
             unread=timeline.unread.lines,
             first_unread=timeline.unread.first,
         )
 
     def _count(self, steps: Steps, motion_plan: MotionPlan) -> None:
-        if not len(steps):
-            return
-        self._sums.add(steps, motion_plan)
-        seconds = motion_plan.seconds + steps.pause
-        cumulative = np.concatenate([[0.0], np.cumsum(seconds)])
-        self._first_layer += float(seconds[steps.layer < 2].sum())
-        begin, self._known = self._known, int(np.searchsorted(self._asked, steps.place[-1], side="right"))
-        reached = slice(begin, self._known)
-        self._elapsed[reached] = (
-            self._total + cumulative[np.searchsorted(steps.place, self._asked[reached], side="left")]
-        )
-        self._total += float(cumulative[-1])
+        if len(steps):
+            self._sums.add(steps, motion_plan)
+            self._elapsed.add(steps, motion_plan)

@@ -17,6 +17,7 @@ from infill.errors import FormatError
 from infill.gcode.chords import chords_of_arc_lines
 from infill.gcode.dialect import MAX_TAG_BYTES, TAGS, parse_tag
 from infill.gcode.found_limits import FileLimits, read_limits
+from infill.gcode.given_limits import GivenLimits
 from infill.gcode.limits import LIMITING_CODES, Limits
 from infill.gcode.lines import ARC, COMMENT, MOVE, ODD, GcodeCommand
 from infill.gcode.machine_state import MachineState, firmware_retraction
@@ -126,8 +127,8 @@ class Timeline:
     ----------
     file : binary file
         G-code as text, which can be read from any place.
-    fixed : mapping, optional
-        Fields of `Limits` that override those of the file.
+    given : GivenLimits, optional
+        Limits that override those of the file, and times of macros.
     settings : mapping, optional
         Settings of the slicer from outside the text.
     found : FileLimits, optional
@@ -142,7 +143,7 @@ class Timeline:
     def __init__(
         self,
         file: BinaryIO,
-        fixed: Mapping[str, Any] | None = None,
+        given: GivenLimits | None = None,
         settings: Mapping[str, str] | None = None,
         found: FileLimits | None = None,
     ) -> None:
@@ -152,7 +153,8 @@ class Timeline:
         self.pause = 0.0  # seconds of dwelling since the last move
         self.retractions = 0  # by firmware since the last move
         self.unread = UnreadLines()
-        self.macros: dict[str, None] = {}  # in the order of the file
+        self.macros: dict[str, None] = {}  # without a time, in the order of the file
+        self.macro_seconds: dict[str, float] = {}  # of all calls of the others
         self._stopped = self._drawn_back = False
         self.moved = False  # a move was read
         self._waiting: Steps | None = None
@@ -161,7 +163,7 @@ class Timeline:
         self._lines = self._bytes = 0  # read so far
         self._speed = self._stored_speed = 1.0
         self._flow: dict[int | None, float] = {None: 1.0}  # by tool
-        self.found = found or read_limits(*_read_ends(file), fixed, settings)
+        self.found = found or read_limits(*_read_ends(file), given, settings)
         self.state = MachineState(
             volumetric=self.found.volumetric, diameters=self.found.diameters, firmware=self.found.rule_of_e
         )
@@ -209,6 +211,11 @@ class Timeline:
         return self._waiting, plan
 
     @property
+    def limits(self) -> list[Limits]:
+        """The limits that the moves so far were planned with, in the order in which `Moves.setting` counts them."""
+        return list(self._limits)
+
+    @property
     def trouble(self) -> str:
         """Message about a file without a readable line that extrudes; "" if every line was read."""
         if not self.unread.lines:
@@ -233,14 +240,22 @@ class Timeline:
                 setting[line:] = self._number(self.found.limits)
             elif code in STOPS:
                 stop[line] = True
+            if code in self.found.macros:
+                self.found = self.found.after_macro(code)
+                setting[line:] = self._number(self.found.limits)
+            if (seconds := self.found.macro_seconds.get(code)) is not None:
+                self.macro_seconds[code] = self.macro_seconds.get(code, 0.0) + seconds
+                pause[line], stop[line] = seconds, True
             match code:
                 case "G4":
                     words = command.words
-                    pause[line] = max(words.get("S") or 0.0, 0.0) + max(words.get("P") or 0.0, 0.0) / 1000
+                    pause[line] += max(words.get("S") or 0.0, 0.0) + max(words.get("P") or 0.0, 0.0) / 1000
                 case "G10" | "G11":
                     back = firmware_retraction(command, table.before.firmware)
                     retractions[line] = back is True and not self._drawn_back
-                    self._drawn_back = self._drawn_back if back is None else back
+                    if back is not None and back != self._drawn_back:
+                        pause[line] += self.found.retraction[not back]
+                        self._drawn_back = back
                 case "M220":
                     speed[line:] = self._apply_m220(command)
                 case "M221":
@@ -252,7 +267,7 @@ class Timeline:
                 case _ if code[:1] == "T" and code[1:].isdigit():
                     tool = int(code[1:])
                     flow[line:] = self._flow_of(tool)
-                case _ if is_macro(code):
+                case _ if is_macro(code) and seconds is None:
                     if len(self.macros) < MAX_MACROS:
                         self.macros[code] = None
             if code == "M101" and not table.after.letters and not table.unread[line]:

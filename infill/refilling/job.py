@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 from infill.errors import FormatError, ParameterError, UsageError
 from infill.files.broken import missing_file
 from infill.files.excerpts import quote_value
-from infill.files.whole_files import atomic_file, check_target, scratch_file
+from infill.files.whole_files import atomic_file, check_target, copy_mode, scratch_file
 from infill.gcode.estimates import EstimateChange, Restatement, StatedAmounts, restate
 from infill.gcode.sliced_file import SlicedText, open_sliced
 from infill.gcode.stream import edited_text
@@ -200,7 +200,7 @@ def refill(
         if changed and progress is not None:
             progress("writing", 0.95)
         with atomic_file(target) as file:
-            _copy_mode(source, file)
+            copy_mode(source, file)
             if changed:
                 texts = {plate: edited_text(draft.draft, draft.edits) for plate, draft in changed.items()}
                 sliced.rewrite(
@@ -410,13 +410,6 @@ def _print_amounts(time: PrintTime, stated: StatedAmounts, used: float, print_su
     if grams is None and density:
         grams = filament * math.pi / 4 * print_survey.begin.diameter**2 / 1000 * density
     return PrintAmounts(seconds=time.seconds, infill_seconds=time.infill, filament=filament, grams=grams)
-
-
-def _copy_mode(source: Path, file: BinaryIO) -> None:
-    """Give a new file the permissions of the old one, where the system has them."""
-    if hasattr(os, "fchmod"):
-        with contextlib.suppress(OSError):
-            os.fchmod(file.fileno(), source.stat().st_mode & 0o7777)
 
 
 def _options_mark(request: Request) -> bytes:

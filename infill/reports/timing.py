@@ -42,6 +42,23 @@ class LimitKeys(TypedDict):
     junction_deviation: NotRequired[Annotated[float, "Model `junction`: junction deviation, mm"]]
     square_corner_velocity: NotRequired[Annotated[float, "Model `klipper`: speed at a corner of 90°, mm/s"]]
     minimum_cruise_ratio: NotRequired[Annotated[float, "Model `klipper`: least share of a move at constant speed"]]
+    corner_extrusion_velocity: NotRequired[
+        Annotated[float, "Model `klipper`: largest jump of the speed of filament between moves, mm/s"]
+    ]
+
+
+class NoteKeys(TypedDict):
+    """Limits that the printer states, or that were given, and the plan does not follow or had to assume."""
+
+    name: Annotated[str, "The limit, as the printer spells it, such as `[extruder] pressure_advance`"]
+    note: Annotated[str, "The rest of the sentence: why it is not followed, or what is assumed"]
+
+
+class WrittenKeys(TypedDict):
+    """The print that was written with the planned time."""
+
+    file: Annotated[str, "Name of the file"]
+    statements: Annotated[int, "Number of lines and values that state time, such as `M73`; 0 if the print states none"]
 
 
 class MotionReport(TypedDict):
@@ -58,7 +75,9 @@ class MotionReport(TypedDict):
     retractions: Annotated[int, "Number of retractions"]
     features: tuple[FeatureKeys, ...]
     limits: LimitKeys
-    sources: Annotated[dict[str, str], "Source of each limit: `settings`, `commands`, `given` or `assumed`"]
+    sources: Annotated[
+        dict[str, str], "Source of each limit: `settings`, `printer`, `limits`, `commands`, `given` or `assumed`"
+    ]
     plate: Annotated[int | None, "Plate of an archive; null for other files"]
     plates: Annotated[tuple[int, ...], "All plates of the archive"]
     unread_lines: Annotated[int, "Number of lines that may move or extrude and are left out"]
@@ -68,6 +87,10 @@ class MotionReport(TypedDict):
         str, "Line with which its slicer ends a file, if this one lacks it and was cut off; else empty"
     ]
     macros: Annotated[tuple[str, ...], "Macros of the printer that may move, such as `PRINT_START`; they are left out"]
+    macro_seconds: Annotated[dict[str, float], "Time of all calls of each macro whose time was given, s, by its name"]
+    printer: Annotated[str, "File of the printer's limits; empty without one"]
+    notes: tuple[NoteKeys, ...]
+    written: WrittenKeys | None
     volumetric: Annotated[bool, "Whether E counts mm³ at the end of the file"]
     filament_diameter: Annotated[float, "Diameter of the filament, mm"]
 

@@ -149,6 +149,31 @@ def print_seeds() -> dict[str, bytes]:
     return {f"{name}.gcode": written(dialect) for name, dialect in dialects.items()}
 
 
+def printer_seeds() -> dict[str, bytes]:
+    """Limits of printers: Klipper's configuration, Moonraker's answer, and Marlin's to M503."""
+    klipper = (
+        "[include gone/*.cfg]\n[printer]\nkinematics: corexy\nmax_velocity: 300 # fast\nmax_accel = 3000\n"
+        "max_z_velocity: 15\nmax_accel_to_decel: 1500\n[extruder]\nnozzle_diameter: 0.4\nfilament_diameter: 1.75\n"
+        "[gcode_macro START_PRINT]\ngcode:\n    {% set bed = 60 %}\n    SET_VELOCITY_LIMIT ACCEL=900\n    M204 S800\n"
+        "#*# <---------------------- SAVE_CONFIG ---------------------->\n#*# [printer]\n#*# max_accel = 7\n"
+    )
+    printer = {"kinematics": "delta", "max_velocity": 300.0, "max_accel": 3000.0, "minimum_cruise_ratio": 0.5}
+    status = {
+        "configfile": {"settings": {"printer": printer, "gcode_macro start_print": {"gcode": "M204 S500"}}},
+        "toolhead": {"max_velocity": 250.0, "max_accel": 2000.0, "square_corner_velocity": 5.0},
+    }
+    marlin = (
+        "Recv: echo:  G21    ; Units in mm\nRecv: echo:; Maximum feedrates (units/s):\n"
+        "Recv: echo:  M203 X300.00 Y300.00 Z5.00 E25.00\nRecv: echo:  M201 X3000.00 Y3000.00 Z100.00 E10000.00\n"
+        "Recv: echo:  M204 P500.00 R1000.00 T500.00\nRecv: echo:  M205 B20000.00 S0.00 T0.00 J0.08\n"
+    )
+    return {
+        "printer.cfg": klipper.encode(),
+        "answer.json": json.dumps({"result": {"eventtime": 1.5, "status": status}}).encode(),
+        "m503.txt": marlin.encode(),
+    }
+
+
 def settings_seeds() -> dict[str, bytes]:
     """Options in TOML, as `--save-config` writes them."""
     fill = 'pattern = "gyroid"\ndensity = 0.2\nwall = 1.2\nline-width = 0.45\n'

@@ -140,6 +140,14 @@ def _is_unambiguous(path: Path, answer: Answer) -> bool:
     return unread == 0 and all(map(PROGRESS.fullmatch, progress)) and one_ending
 
 
+def judge_printer(path: Path, folder: Path, rng: Random) -> Iterator[str]:
+    """Plan a print within the limits of a printer, and write its time into it."""
+    sliced = folder.parent / "timed.gcode"
+    if not sliced.exists():
+        sliced.write_bytes(seeds.print_seeds()["prusa.gcode"].replace(b"\n", b"\nSTART_PRINT\n", 1))
+    yield from _made(folder, "motion", sliced, "--printer", path, "--json", "--write", "OUT.gcode")
+
+
 def judge_settings(path: Path, folder: Path, rng: Random) -> Iterator[str]:
     """Take options from a file."""
     if path.name.startswith("make"):
@@ -190,5 +198,6 @@ TARGETS: dict[str, Target] = {
     "points": Target(make_seeds=seeds.point_seeds, judge=judge_points),
     "drawings": Target(make_seeds=seeds.drawing_seeds, judge=judge_drawing, corpus=(".png",)),
     "prints": Target(make_seeds=seeds.print_seeds, judge=judge_print),
+    "printers": Target(make_seeds=seeds.printer_seeds, judge=judge_printer),
     "settings": Target(make_seeds=seeds.settings_seeds, judge=judge_settings),
 }
