@@ -27,6 +27,7 @@ LEAST_DEVIATION = 0.001  # mm: less than the numbers of G-code can tell
 UNIT = 0.001  # mm: the last decimal of a position in G-code
 COARSEST = 0.02  # mm between a chord and its arc
 SHORTEST_CHORD = 0.06  # mm
+MOST_CHORD_TURN = 0.5  # radians from one chord to the next, where chords are long enough: a corner that is none
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -165,6 +166,7 @@ def _chord_counts(arc: Floats, turn: Floats, machine: Machine, corners: Places) 
     speed = np.minimum(np.sqrt(_take(machine.acceleration, corners) * arc), _take(machine.speed, corners))
     speed_count = np.ceil(turn * speed / machine.corner - 1e-9)
     speed_count = np.minimum(speed_count, np.floor(turn * arc / _take(machine.shortest, corners)))
+    speed_count = np.maximum(speed_count, np.floor(np.minimum(turn / MOST_CHORD_TURN, turn * arc / SHORTEST_CHORD)))
     shape_count = np.ceil(turn / (2 * np.arccos(np.maximum(1 - machine.coarsest / arc, 0.0))) - 1e-9)
     number: Places = np.maximum(np.maximum(speed_count, shape_count), 1).astype(np.intp)
     return number

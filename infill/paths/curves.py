@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.arrays import Floats, Places
-from infill.paths.corners import COARSEST, Machine
+from infill.paths.corners import COARSEST, MOST_CHORD_TURN, SHORTEST_CHORD, Machine
 
 GENTLE = math.radians(40)  # a turn above this is a corner
 MOST_BULGE = 0.1  # mm between a curve and the slicer's chord
@@ -148,6 +148,7 @@ def _chord_density(control: Floats, bent: Places, machine: Machine) -> Floats:
     pace = np.minimum(np.sqrt(acceleration / curvature), speed)
     shortest = machine.shortest[bent][:, None] if isinstance(machine.shortest, np.ndarray) else machine.shortest
     wanted = np.minimum(curvature * pace / machine.corner, 1 / shortest)
+    wanted = np.maximum(wanted, np.minimum(curvature / MOST_CHORD_TURN, 1 / SHORTEST_CHORD))
     number: Floats = length * np.maximum(wanted, np.sqrt(curvature / (8 * machine.coarsest)))
     return number
 

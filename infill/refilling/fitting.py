@@ -16,6 +16,7 @@ from infill.paths.layer_below import LayerBelow
 from infill.paths.neighbours import BeadIndex
 from infill.paths.rounding import round_paths
 from infill.paths.short_segments import merge_short_segments
+from infill.paths.wall_joins import round_wall_joins
 from infill.ragged import concatenate_rows, split_rows
 from infill.refilling.planning import RefillPlan
 
@@ -202,6 +203,9 @@ def _cover_smoothly(area: Polygon, cell: float, setting: AreaSetting) -> FittedP
         return FittedPaths(paths=[], radii=np.empty(0), cell=cell)
     tolerance_area = shapely.buffer(area, REGION_TOLERANCE)
     shapely.prepare(tolerance_area)
+    strands = round_wall_joins(
+        strands, setting.walls, tolerance_area, line_width=plan.line_width, largest=plan.rounding_of(cell).radius
+    )
     corners = np.concatenate(strands)
     hard = np.zeros(len(corners), dtype=bool)
     for _ in range(ROUNDING_TRIES):

@@ -1,0 +1,124 @@
+r"""Lines that run into the walls along which they are joined, by a curve in the place of a corner.
+
+::
+
+        wall   ==========================          ==========================
+                   ,----------------.                  .-""------------""-.
+                   |                |      becomes    /                    \
+                   |                |                |                      |
+
+A machine brakes at such a corner nearly to rest. The curve takes a quarter of the way along the wall at each end, so
+that half of it stays beside the wall, and as much of the line, if it is that long.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from infill.arrays import Flags, Floats
+from infill.paths.neighbours import BESIDE, BeadIndex
+
+if TYPE_CHECKING:
+    from shapely import MultiPolygon, Polygon
+
+LEAST_TURN = math.radians(25)  # of a corner
+MOST_TURN = math.radians(170)  # a path that turns back on itself keeps its corner
+SHARE = 0.25  # of the way along a wall that a curve takes at each of its ends
+OF_LINE = 0.5  # of the length of a line up to its next corner
+LEAST_SLOPE = 0.2  # of a leg that leaves a wall: how much nearer to it one end lies, over its length
+LEAST_SETBACK = 0.1  # mm
+CURVE_POINTS = 9  # on a curve, with its ends
+
+
+def round_wall_joins(
+    paths: Sequence[Floats],
+    walls: BeadIndex,
+    area: Polygon | MultiPolygon,
+    *,
+    line_width: float,
+    largest: float = math.inf,
+) -> list[Floats]:
+    """Replace the corners between lines and the walls along which they run by curves.
+
+    Parameters
+    ----------
+    paths : sequence of (N, 2) float64, mm
+        Of layer 0.
+    walls : BeadIndex
+        The other beads.
+    area : Polygon or MultiPolygon, mm
+        Which no curve leaves; prepared for queries.
+    line_width, largest : float, mm
+        `largest` is that of the setbacks of curves from their corners.
+    """
+    return [_round_path(path, walls, area, line_width, largest) for path in paths]
+
+
+def _round_path(
+    path: Floats, walls: BeadIndex, area: Polygon | MultiPolygon, line_width: float, largest: float
+) -> Floats:
+    """Round the corners of one path."""
+    import shapely
+
+    if len(path) < 3 or largest < LEAST_SETBACK:
+        return path
+    step = np.diff(path, axis=0)
+    length = np.hypot(*step.T)
+    heading = np.arctan2(step[:, 1], step[:, 0])
+    turn = np.abs((np.diff(heading) + np.pi) % (2 * np.pi) - np.pi)
+    corners = np.flatnonzero((turn > LEAST_TURN) & (turn < MOST_TURN)) + 1
+    if not len(corners):
+        return path
+    along_wall = _legs_along(path, length, walls, BESIDE * line_width)
+    along = np.concatenate([[0.0], np.cumsum(length)])
+    stops = np.concatenate([[0], corners, [len(path) - 1]])
+    pieces, begun = [], 0  # the points of the path from `begun` on are still to be copied
+    for number, corner in enumerate(corners.tolist(), 1):
+        before, after = along_wall[corner - 1], along_wall[corner]
+        if before == after:
+            continue
+        sides = (along[corner] - along[stops[number - 1]], along[stops[number + 1]] - along[corner])
+        shares = (SHARE if before else OF_LINE, SHARE if after else OF_LINE)
+        setback = min(sides[0] * shares[0], sides[1] * shares[1], largest)
+        while setback >= LEAST_SETBACK:
+            first, leg_in = _point_at(path, along, along[corner] - setback)
+            last, leg_out = _point_at(path, along, along[corner] + setback)
+            curve = _curve(first, step[leg_in], last, step[leg_out], setback)
+            if shapely.covers(area, shapely.linestrings(curve)):
+                pieces += [path[begun : leg_in + 1], curve]
+                begun = leg_out + 1
+                break
+            setback /= 2
+    return np.concatenate([*pieces, path[begun:]]) if pieces else path
+
+
+def _legs_along(path: Floats, length: Floats, walls: BeadIndex, reach: float) -> Flags:
+    """Tell for each leg of a path, (N - 1,), whether it runs along other beads: about as near to them at both ends."""
+    distance = walls.near(np.concatenate([path, (path[1:] + path[:-1]) / 2]), 0, reach)
+    ends, middles = distance[: len(path)], distance[len(path) :]
+    with np.errstate(invalid="ignore"):
+        along: Flags = np.isfinite(middles) & (np.abs(ends[1:] - ends[:-1]) <= LEAST_SLOPE * length)
+    return along
+
+
+def _point_at(path: Floats, along: Floats, place: float) -> tuple[Floats, int]:
+    """Return the point of a path at a length along it, and its leg."""
+    leg = int(np.clip(np.searchsorted(along, place, side="right") - 1, 0, len(path) - 2))
+    share = (place - along[leg]) / max(along[leg + 1] - along[leg], 1e-12)
+    return path[leg] + share * (path[leg + 1] - path[leg]), leg
+
+
+def _curve(first: Floats, way_in: Floats, last: Floats, way_out: Floats, setback: float) -> Floats:
+    """Return points of a cubic curve between two points with these directions: of straight legs, an arc."""
+    way_in, way_out = way_in / np.hypot(*way_in), way_out / np.hypot(*way_out)
+    turn = math.acos(float(np.clip(way_in @ way_out, -1.0, 1.0)))
+    handle = 4 / 3 * math.tan(turn / 4) * setback / max(math.tan(turn / 2), 1e-9) if turn > 1e-6 else setback / 3
+    control = np.stack([first, first + handle * way_in, last - handle * way_out, last])
+    u = np.linspace(0.0, 1.0, CURVE_POINTS)[:, None]
+    v = 1 - u
+    points: Floats = v**3 * control[0] + 3 * v * v * u * control[1] + 3 * v * u * u * control[2] + u**3 * control[3]
+    return points
