@@ -114,6 +114,25 @@ def test_a_repeated_drawing_of_islands_is_one_piece(shell: dict[str, Any], tmp_p
     assert result.report["problems"] == []
 
 
+def test_loose_bodies_without_a_shell_are_told(tmp_path: Path) -> None:
+    """Rings that touch nothing: how many there are besides one, and the remedy, which ties them all."""
+    path = tmp_path / "ring.svg"
+    path.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="6mm" height="6mm" viewBox="0 0 6 6">'
+        '<circle cx="3" cy="3" r="2" fill="none" stroke="black"/></svg>'
+    )
+    loose = fill(box(20, 20, 4), str(path), density=0.25, wall=0, ties=False)
+    count = count_bodies(loose)
+    assert count > 4
+    assert loose.report["voids"]["loose"] == count - 1
+    assert [problem for problem in loose.report["problems"] if "come apart" in problem] == [
+        f"{count - 1} bodies of infill touch nothing and come apart; leave out --no-ties"
+    ]
+    tied = fill(box(20, 20, 4), str(path), density=0.25, wall=0)
+    assert tied.report["voids"]["loose"] == 0
+    assert not any("come apart" in problem for problem in tied.report["problems"])
+
+
 def test_rings_along_the_outline_are_tied_too() -> None:
     """Islands are a matter of the lines, not of drawings."""
     assert count_bodies(fill(box(20, 20, 4), "concentric", open_="both")) == 1

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from infill.planner.layer_speeds import LayerSpeeds
     from infill.reports.refilling import FilamentKeys, RefillReport, TimeKeys
 
+LEAST_SHOWN = 0.005  # of the infill: less, rounded to 0 %, has no row
 ALIKE = 0.995  # of the filament of the infill: no less is the old amount
 
 
@@ -217,6 +218,11 @@ def _summary(report: RefillReport, name: str, files: list[str]) -> str:
                 f"{contact['supported_after']:.0%} on the layer below ({contact['supported_before']:.0%}), "
                 f"{contact['bonded_after']:.0%} beside another line ({contact['bonded_before']:.0%})"
             )
+            if max(contact["free_after"], contact["free_before"]) >= LEAST_SHOWN:
+                rows["free"] = (
+                    f"{contact['free_after']:.0%} touches no wall, not even through other lines "
+                    f"({contact['free_before']:.0%})"
+                )
     if report["problems"]:
         rows["PROBLEMS"] = "; ".join(report["problems"])
     if files:

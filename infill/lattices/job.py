@@ -344,6 +344,7 @@ def _fill_report(
             "triangles": hollow.triangles,
             "specks": hollow.specks,
             "islands": hollow.islands,
+            "loose": facts.loose,
             "closed": [{"volume": volume, "at": place} for volume, place in facts.closed],
         },
         "drains": drained.facts(),

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 FILAMENT_TOLERANCE = 0.01  # relative error of the filament of all infill that is reported
 TIME_TOLERANCE = 0.01  # relative increase of the time of all infill that is reported
 MANY_KEPT = 0.1  # of the sections: as many that stay for one of these reasons are reported
+MOST_FREE = 0.05  # of the length: if more of it touches no wall, than did as sliced, that is reported
 WHY_KEPT = {
     UNREAD: "they hold arcs (G2, G3) or moves that cannot be redrawn; slice with arc fitting off",
     "arcs": "they hold arcs (G2, G3); slice with arc fitting off",
@@ -123,7 +124,7 @@ def loses_filament(tally: RefillStats) -> bool:
 
 
 def contact_section(tally: RefillStats) -> ContactKeys:
-    """Report support and contact of the infill, before and after, as measured on some layers."""
+    """Report support, contact and hold of the infill, before and after, as measured on some layers."""
     before, after = tally.before.shares, tally.after.shares
     shares = kept_shares(tally.before, tally.after)
     return {
@@ -132,6 +133,8 @@ def contact_section(tally: RefillStats) -> ContactKeys:
         "supported_after": after[0],
         "bonded_before": before[1],
         "bonded_after": after[1],
+        "free_before": tally.before.free_share,
+        "free_after": tally.after.free_share,
         "kept_supported": shares[0],
         "kept_bonded": shares[1],
     }
@@ -173,6 +176,11 @@ def _problems(report: RefillReport, tally: RefillStats) -> list[str]:
         problems.append(
             f"{1 - contact['kept_supported']:.0%} less of this infill rests on the layer below than before; "
             + ("give a smaller --max-deviation" if keeps else "try another --pattern, or leave --pattern out")
+        )
+    if not keeps and contact["free_after"] - contact["free_before"] > MOST_FREE:
+        problems.append(
+            f"{contact['free_after']:.0%} of this infill touches no wall, not even through other lines; draw lines from "
+            "wall to wall, or take another --pattern, such as gyroid"
         )
     if keeps and contact["measured_mm"] and contact["kept_bonded"] < LEAST_SHARE:
         problems.append(
