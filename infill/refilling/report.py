@@ -179,8 +179,8 @@ def _problems(report: RefillReport, tally: RefillStats) -> list[str]:
         )
     if not keeps and contact["free_after"] - contact["free_before"] > MOST_FREE:
         problems.append(
-            f"{contact['free_after']:.0%} of this infill touches no wall, not even through other lines; draw lines from "
-            "wall to wall, or take another --pattern, such as gyroid"
+            f"{contact['free_after']:.0%} of this infill touches no wall, not even through other lines; draw lines "
+            "from wall to wall, or take another --pattern, such as gyroid"
         )
     if keeps and contact["measured_mm"] and contact["kept_bonded"] < LEAST_SHARE:
         problems.append(

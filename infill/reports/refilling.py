@@ -95,10 +95,8 @@ class ContactKeys(TypedDict):
     supported_after: Annotated[float, "Share of the length on the layer below, as refilled"]
     bonded_before: Annotated[float, "Share of the length that touches a neighbouring line, as sliced"]
     bonded_after: Annotated[float, "Share of the length that touches a neighbouring line, as refilled"]
-    free_before: Annotated[
-        float, "Share of the length that touches no wall of its layer, nor lines that do, as sliced"
-    ]
-    free_after: Annotated[float, "Share of the length that touches no wall of its layer, nor lines that do, as refilled"]
+    free_before: Annotated[float, "Share that touches no wall of its layer, nor lines that do, as sliced"]
+    free_after: Annotated[float, "Share that touches no wall of its layer, nor lines that do, as refilled"]
     kept_supported: Annotated[float, "Supported share, after over before"]
     kept_bonded: Annotated[float, "Bonded share, after over before; 1 if hardly any infill was bonded"]
 
