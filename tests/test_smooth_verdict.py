@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import trimesh
 from made_shapes import box, speckled, spiked, together, turned, union, vessels, wing
 from numpy.typing import NDArray
 
@@ -239,6 +240,16 @@ def test_bodies_that_become_one_get_the_hint_that_keeps_them_apart() -> None:
     ]
     assert change == "the mesh has 2 components, the result 1; --by-component keeps them apart"
     assert len(smooth_mesh(pair, voxel=1.0, by_component=True, tolerance=None).surfaces) == 2
+
+
+def test_bodies_that_become_one_are_named_first() -> None:
+    """Balls that run together while they are smoothed: before what else changed, such as crumbs and slits."""
+    balls = together(*(trimesh.creation.icosphere(3, 5.0).apply_translation((10.1 * k, 0, 0)) for k in range(3)))
+    report = smooth_mesh(surface_of(balls), voxel=1.0, tolerance=None).report
+    changes = report["verdict"]["changes"]
+    assert report["changes"]["fused"]
+    assert len(changes) > 1
+    assert changes[0] == "the mesh has 3 components, the result 1; --by-component keeps them apart"
 
 
 def test_strict_refuses_a_scan_whose_tunnels_close() -> None:

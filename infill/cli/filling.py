@@ -138,7 +138,8 @@ def fill(
         return
     with progress_bar(shown=not quiet and not dry_run) as progress:
         from infill.formats.mesh_files import PART_WRITERS
-        from infill.lattices.job import fill_request, plan_fill
+        from infill.lattices.forecast import plan_fill
+        from infill.lattices.job import fill_request
         from infill.smoothing.sources import read_source
 
         if progress is not None:

@@ -17,7 +17,8 @@ from infill.checks import check_length
 from infill.errors import ParameterError
 from infill.isosurfaces.components import count_bodies
 from infill.lattices.choosing import HELD
-from infill.lattices.job import fill_request, plan_fill
+from infill.lattices.forecast import plan_fill
+from infill.lattices.job import fill_request
 from infill.lattices.placed_regions import LOWEST, check_density
 from infill.lattices.request import LINE_WIDTH, TOLERANCE, FillSpec, check_request
 from infill.making.stages import LatticeStages
