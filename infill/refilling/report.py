@@ -61,6 +61,7 @@ def refill_report(
             "bytes": print_survey.size,
             "plates": list(plates),
             "already_refilled": already,
+            "refilled_before": bool(print_survey.stamp),
         },
         "problems": [],
     }
@@ -152,15 +153,17 @@ def _problems(report: RefillReport, tally: RefillStats) -> list[str]:
     elif not tally.replaced:
         reasons = ", ".join(f"{reason} ({number})" for reason, number in sorted(tally.kept.items()))
         problems.append(f"none of {tally.sections} sections of infill was changed: {reasons or 'no corner to round'}")
+    stay = "they were" if report["print"]["refilled_before"] else "sliced"
     problems += [
-        f"{tally.kept[reason]} of {tally.sections} sections stay as sliced: {words}"
+        f"{tally.kept[reason]} of {tally.sections} sections stay as {stay}: {words}"
         for reason, words in WHY_KEPT.items()
         if tally.kept.get(reason, 0) >= MANY_KEPT * max(tally.sections, 1)
     ]
     before, after = report["time"]["infill_before_s"], report["time"]["infill_after_s"]
+    earlier = "that of the last refill" if report["print"]["refilled_before"] else "the slicer's"
     if tally.replaced and before and after > before * (1 + TIME_TOLERANCE):
         problems.append(
-            f"the new infill is slower than the slicer's: it takes {after / before - 1:+.0%} printing time; "
+            f"the new infill is slower than {earlier}: it takes {after / before - 1:+.0%} printing time; "
             "for less, take another pattern, or keep, which is never slower"
         )
     failed = sum(number for reason, number in tally.kept.items() if reason.startswith("a check failed"))

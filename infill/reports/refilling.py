@@ -27,6 +27,7 @@ class PrintKeys(TypedDict):
     bytes: Annotated[int, "Size of the unpacked G-code, bytes"]
     plates: Annotated[list[int], "Numbers of the plates of an archive (`.gcode.3mf`), all of which count; else empty"]
     already_refilled: Annotated[bool, "Whether the print was refilled before, so that round corners were nothing to do"]
+    refilled_before: Annotated[bool, "Whether infill refilled it before: values before are then those of that refill"]
     layers: NotRequired[Annotated[int, "Number of layers"]]
     unread_lines: NotRequired[
         Annotated[int, "Number of lines that may move or extrude and were not understood; times leave them out"]
