@@ -10,6 +10,7 @@ import manifold3d
 import pytest
 import shapely
 from made_shapes import box
+from test_command_line import run, usage_error
 
 from infill import GeometryError, UsageError, fill
 from infill.drawings.tiled import read_tiled
@@ -181,3 +182,14 @@ def test_a_project_does_not_move_a_single_drawing(tmp_path: Path) -> None:
     report = fill(box(10, 10, 6), str(path), repeat=False, as_="project", **sizes).report
     assert report["infill"]["phase"] == [0, 0, 0]
     assert report["infill"]["narrow"] > 0.1
+
+
+def test_ties_are_refused_where_there_is_nothing_to_tie(tmp_path: Path) -> None:
+    """A pattern in space has no islands of upright walls, and a floor and a roof hold all of them."""
+    part = tmp_path / "part.stl"
+    box(20, 20, 4).export(part)
+    words = ("fill", part, "--ties", "--dry-run", "--pattern")
+    usage_error(run(*words, "gyroid", "--wall", "0"), "--ties is for islands of upright walls, and gyroid has none")
+    usage_error(run(*words, "grid"), "--ties is given, and floor and roof of the shell hold all walls")
+    assert run(*words, "grid", "--open", "both").exit_code == 0
+    assert run("fill", part, "--dry-run", "--no-ties").exit_code == 0

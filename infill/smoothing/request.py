@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal, TypedDict
 
@@ -291,6 +292,8 @@ class Way:
     option : str, optional
         The option to give for it, such as "--despeckle 27". Such a way is run only to find out what a message may
         recommend: its surface is not taken.
+    later : callable, optional
+        Makes the way in place of this one when it is run, because making it takes long.
     """
 
     name: str
@@ -298,3 +301,4 @@ class Way:
     request: SmoothRequest
     cost: float = 1.0
     option: str | None = None
+    later: Callable[[], Way] | None = None
