@@ -12,7 +12,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from infill.paths.contact import STEP as CONTACT_STEP
-from infill.paths.contact import Contact, Samples, concatenate_samples, layer_contact, sample_paths
+from infill.paths.contact import Contact, Samples, concatenate_samples, free_length, layer_contact, sample_paths
 from infill.paths.corners import COARSEST, SHARPEST, SHORTEST_CHORD, Machine, round_corners
 from infill.paths.curves import GENTLE, MOST_BULGE, recut_curves
 from infill.paths.neighbours import (
@@ -393,9 +393,24 @@ def test_crossing_lines_lie_on_one_another_where_they_cross(angle: float) -> Non
     assert found.shares[0] == pytest.approx(crossed, abs=0.06)
 
 
+@pytest.mark.parametrize(("apart", "free"), [(0.45, 0.0), (0.49, 0.0), (0.5, 90.0), (2.0, 90.0)])
+def test_a_chain_of_lines_is_held_by_the_wall_that_one_of_them_touches(apart: float, free: float) -> None:
+    """Three lines side by side: the last is held through the others, and all are free if the first is."""
+    chain = concatenate_samples(concatenate_samples(along(apart), along(apart + 0.45)), along(apart + 0.9))
+    assert free_length(chain, along(0), WIDTH) == pytest.approx(free)
+    assert free_length(chain, NOTHING, WIDTH) == pytest.approx(90)
+    assert free_length(NOTHING, along(0), WIDTH) == 0
+
+
+def test_a_line_that_ends_at_a_wall_is_held() -> None:
+    assert free_length(line((3, 0.45), (3, 20)), along(0), WIDTH) == 0
+    assert free_length(line((3, 0.55), (3, 20)), along(0), WIDTH) == pytest.approx(19.45)
+
+
 def test_contacts_add_up() -> None:
-    sums = Contact(length=4, supported=2, bonded=1) + Contact(length=1, supported=1, bonded=0)
+    sums = Contact(length=4, supported=2, bonded=1, free=3) + Contact(length=1, supported=1, bonded=0, free=1)
     assert sums.shares == (0.6, 0.2)
+    assert sums.free_share == 0.8
     assert layer_contact(NOTHING, along(0), WIDTH) == Contact()
     assert Contact().shares == (0, 0)
 

@@ -10,6 +10,7 @@ import manifold3d
 import pytest
 import shapely
 from made_shapes import box
+from test_command_line import run, usage_error
 
 from infill import GeometryError, UsageError, fill
 from infill.drawings.tiled import read_tiled
@@ -114,6 +115,25 @@ def test_a_repeated_drawing_of_islands_is_one_piece(shell: dict[str, Any], tmp_p
     assert result.report["problems"] == []
 
 
+def test_loose_bodies_without_a_shell_are_told(tmp_path: Path) -> None:
+    """Rings that touch nothing: how many there are besides one, and the remedy, which ties them all."""
+    path = tmp_path / "ring.svg"
+    path.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="6mm" height="6mm" viewBox="0 0 6 6">'
+        '<circle cx="3" cy="3" r="2" fill="none" stroke="black"/></svg>'
+    )
+    loose = fill(box(20, 20, 4), str(path), density=0.25, wall=0, ties=False)
+    count = count_bodies(loose)
+    assert count > 4
+    assert loose.report["voids"]["loose"] == count - 1
+    assert [problem for problem in loose.report["problems"] if "come apart" in problem] == [
+        f"{count - 1} bodies of infill touch nothing and come apart; leave out --no-ties"
+    ]
+    tied = fill(box(20, 20, 4), str(path), density=0.25, wall=0)
+    assert tied.report["voids"]["loose"] == 0
+    assert not any("come apart" in problem for problem in tied.report["problems"])
+
+
 def test_rings_along_the_outline_are_tied_too() -> None:
     """Islands are a matter of the lines, not of drawings."""
     assert count_bodies(fill(box(20, 20, 4), "concentric", open_="both")) == 1
@@ -162,3 +182,14 @@ def test_a_project_does_not_move_a_single_drawing(tmp_path: Path) -> None:
     report = fill(box(10, 10, 6), str(path), repeat=False, as_="project", **sizes).report
     assert report["infill"]["phase"] == [0, 0, 0]
     assert report["infill"]["narrow"] > 0.1
+
+
+def test_ties_are_refused_where_there_is_nothing_to_tie(tmp_path: Path) -> None:
+    """A pattern in space has no islands of upright walls, and a floor and a roof hold all of them."""
+    part = tmp_path / "part.stl"
+    box(20, 20, 4).export(part)
+    words = ("fill", part, "--ties", "--dry-run", "--pattern")
+    usage_error(run(*words, "gyroid", "--wall", "0"), "--ties is for islands of upright walls, and gyroid has none")
+    usage_error(run(*words, "grid"), "--ties is given, and floor and roof of the shell hold all walls")
+    assert run(*words, "grid", "--open", "both").exit_code == 0
+    assert run("fill", part, "--dry-run", "--no-ties").exit_code == 0

@@ -21,7 +21,7 @@ from shapes import IN_SPACE, one_of_each_kind
 
 from infill import Surface, fill
 from infill.lattices.fillets import DEGREES, TIPS
-from infill.lattices.job import plan_fill
+from infill.lattices.forecast import plan_fill
 from infill.lattices.line_sample import centred_square, faces_between
 from infill.lattices.request import check_request
 from infill.meshes.distance import TriangleTree

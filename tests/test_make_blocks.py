@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from pathlib import Path
 from typing import Any
 
@@ -209,3 +210,11 @@ def test_a_comma_between_sides_is_asked_about() -> None:
     refused = run("make", "honeycomb", "--size", "60,40", "--dry-run")
     assert refused.exit_code == 2
     assert "give 60x40 for two sides, or 60.40 for one" in " ".join(refused.stderr.replace("│", " ").split())
+
+
+def test_pieces_of_a_block_that_touch_nowhere_are_told(tmp_path: Path) -> None:
+    """As for blocks without a density: rings about one another are many pieces, and a gyroid is one."""
+    rings = run("make", "concentric", "--size", "20x20x2", "--density", "20%", "-o", tmp_path / "rings.stl")
+    assert re.search(r"\d+ pieces touch nowhere, and come apart unless", " ".join(rings.stderr.split()))
+    one = run("make", "gyroid", "--size", "10x10x10", "--density", "20%", "-o", tmp_path / "one.stl")
+    assert "touch nowhere" not in one.stderr

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
 import pytest
 from gcode_judge import judge
+from test_command_line import run
 
 from infill import UsageError, refill
 from infill.gcode.survey import STAMP
@@ -60,3 +62,18 @@ def test_what_was_done_is_nothing_to_do(options: dict[str, Any], sliced: Path, t
     assert done.report["print"]["already_refilled"]
     assert done.path is None
     assert once.read_bytes() == before
+
+
+def test_what_was_refilled_is_not_called_the_slicers(sliced: Path, tmp_path: Path) -> None:
+    """Values before and the stated estimate are those of the last refill, in the report and in the summary."""
+    once = tmp_path / "once.gcode"
+    refill(sliced, output=once, pattern="grid")
+    again = run("refill", once, "--pattern", "voronoi", "--set", "cell=2", "--dry-run", "--json")
+    report, told = json.loads(again.stdout), " ".join(again.stderr.split())
+    assert report["print"]["refilled_before"]
+    assert "the last refill said" in told
+    assert "slower than that of the last refill" in told
+    assert "slicer" not in told
+    told = " ".join(run("refill", sliced, "--pattern", "voronoi", "--set", "cell=2", "--dry-run").stderr.split())
+    assert "the slicer said" in told
+    assert "slower than the slicer's" in told

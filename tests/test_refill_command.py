@@ -236,7 +236,7 @@ def test_the_preview_shows_a_layer_that_is_asked_for(
     result = run("refill", gcode, "--preview", tmp_path / "layer.png", *words)
     assert result.exit_code == 0
     assert re.search(rf"^  wrote .*{re.escape(str(tmp_path / 'layer.png'))}$", result.stderr, re.MULTILINE)
-    assert shown == [f"layer {layer}, as sliced", f"layer {layer}, refilled"]
+    assert shown == [f"layer {layer}, before", f"layer {layer}, refilled"]
 
 
 @pytest.mark.slow

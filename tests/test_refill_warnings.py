@@ -75,3 +75,25 @@ def test_a_print_with_arcs_that_climb_says_what_to_do(tmp_path: Path) -> None:
     assert not any(
         "stay as sliced" in problem for problem in refill(path, dry_run=True, pattern="honeycomb").report["problems"]
     )
+
+
+RING = (
+    '<svg xmlns="http://www.w3.org/2000/svg" width="6mm" height="6mm" viewBox="0 0 6 6">'
+    '<circle cx="3" cy="3" r="2" fill="none" stroke="black"/></svg>'
+)
+
+
+def test_infill_that_touches_no_wall_is_told(tmp_path: Path) -> None:
+    """Circles that touch nothing, in the report and in the summary; what is recommended touches walls everywhere."""
+    path, ring = tmp_path / "box.gcode", tmp_path / "ring.svg"
+    path.write_bytes(written(Dialect(size=30, cell=4)))
+    ring.write_text(RING)
+    report = refill(path, dry_run=True, pattern=ring).report
+    assert report["contact"]["free_before"] == 0
+    assert report["contact"]["free_after"] > 0.9
+    assert any("touches no wall" in problem and "gyroid" in problem for problem in report["problems"])
+    told = " ".join(run("refill", path, "--dry-run", "--pattern", ring).stderr.split())
+    assert "free 100% touches no wall, not even through other lines (0%)" in told
+    report = refill(path, dry_run=True, pattern="gyroid").report
+    assert report["contact"]["free_after"] == 0
+    assert not any("touches no wall" in problem for problem in report["problems"])

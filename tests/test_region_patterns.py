@@ -414,3 +414,12 @@ def test_the_command_tells_patterns_and_walls_of_regions(tmp_path: Path) -> None
         broken = run(*words, "--line-width", "0.5", "--region", "z=0..:pattern=grid,density=40%", *extra)
         assert broken.exit_code != 0
     assert not (tmp_path / "no.stl").exists()
+
+
+def test_a_project_as_a_region_is_its_modifiers(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    """The column alone, and not the part that it changes, which is said."""
+    settings = prusa_config(volume(0, 11, volume_type="ModelPart"), volume(12, 23, modifier=1, fill_density="40%"))
+    project = packed(tmp_path / "p.3mf", model(thing(1, PART, COLUMN)), **{PRUSA: settings})
+    region = place_region(parse_region("region", f"{project}:density=40%"))
+    assert [region.low.tolist(), region.high.tolist()] == [list(map(float, corner)) for corner in COLUMN]
+    assert "not the part" in caplog.text

@@ -325,3 +325,8 @@ def test_places_as_people_type_them() -> None:
     assert parse_region("region", "part-2.stl:density=60%").mesh == "part-2.stl"
     with pytest.raises(UsageError, match="give a place and a setting, such as z=10"):
         parse_region("region", "middle:density=60%")
+
+
+def test_a_density_of_a_region_beyond_its_range_is_shown_with_the_region() -> None:
+    with pytest.raises(UsageError, match=r"is 'z=0..10:density=200%', with a density of '200%'; .*, up to 90%"):
+        parse_region("region", "z=0..10:density=200%")

@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from test_command_line import one_line_error, run
+from test_command_line import one_line_error, run, usage_error
 
-from infill import ParameterError
+from infill import ParameterError, Smoothing, UsageError, smooth_volume
+from infill.smoothing.request import SmoothRequest
 from infill.smoothing.settings import SmoothSettings, resolve
 
 pytestmark = pytest.mark.usefixtures("compiled", "silent_compiler")
@@ -76,8 +77,8 @@ def test_a_config_alone_is_written_and_shown(folder: Path) -> None:
 
 def test_flags_win_over_the_file(folder: Path) -> None:
     config = folder / "a.toml"
-    config.write_text("otsu = true\nsteps = 12\nsmooth-radius = 1\ngrey = true\nfidelity = 0.1\nvoxel = 2\n")
-    assert resolve({}, config) == SmoothSettings(otsu=True, steps=12, smooth_radius=1, grey=True, fidelity=0.1, voxel=2)
+    config.write_text("otsu = true\nsmooth-radius = 1\ngrey = true\nfidelity = 0.1\nvoxel = 2\n")
+    assert resolve({}, config) == SmoothSettings(otsu=True, smooth_radius=1, grey=True, fidelity=0.1, voxel=2)
     # What is typed takes the place of what says the same thing in another way.
     assert resolve({"threshold": 3.0}, config) == dataclasses.replace(resolve({}, config), otsu=False, threshold=3)
     assert resolve({"steps": 20}, config) == dataclasses.replace(resolve({}, config), smooth_radius=None, steps=20)
@@ -121,6 +122,7 @@ def test_a_flag_that_is_typed_wins_even_if_it_is_the_default(folder: Path) -> No
         ('refine = true\nsmooth = "plain"', "refine is smooth = refine, and smooth is plain; leave one"),
         ('fidelity = 0.1\nsmooth = "grey"', "fidelity is for smooth = plain alone"),
         ("[set]\ncell = 3", "smooth has no option 'set'"),
+        ("steps = 12\nsmooth-radius = 1", "steps and smooth_radius are both given, and each decides the other"),
         ("otsu = true\nthreshold = 3", "threshold and otsu exclude each other"),
         ("steps = ", "is not TOML"),
     ],
@@ -134,6 +136,18 @@ def test_a_bad_config_is_one_clear_line(text: str, says: str, folder: Path) -> N
 
 def test_a_missing_config_is_told() -> None:
     one_line_error(run("smooth", "ct.npy", "--config", "no.toml", "-o", "a.stl"), "there is no config file no.toml")
+
+
+def test_steps_beside_a_radius_are_refused(folder: Path) -> None:
+    """One decides the other: typed, in Python, and not in what is saved, which has the radius alone."""
+    says = "--steps and --smooth-radius are both given, and each decides the other; give one of them"
+    usage_error(run("smooth", "ct.npy", "--steps", "12", "--smooth-radius", "1", "-o", "a.stl"), says)
+    with pytest.raises(UsageError, match="smoothing and radius are both given, and a radius decides the steps"):
+        smooth_volume(BALL < 64, smoothing=Smoothing(steps=12), radius=1.0)
+    assert SmoothRequest(smoothing=Smoothing(steps=20, interface=3.0), radius=1.0).radius == 1
+    path = folder / "b.toml"
+    path.write_text(SmoothSettings(smooth_radius=1.5).to_toml())
+    assert resolve({}, path) == SmoothSettings(smooth_radius=1.5)
 
 
 VALUES = {

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import trimesh
 from made_shapes import box, speckled, spiked, together, turned, union, vessels, wing
 from numpy.typing import NDArray
 
@@ -239,6 +240,27 @@ def test_bodies_that_become_one_get_the_hint_that_keeps_them_apart() -> None:
     ]
     assert change == "the mesh has 2 components, the result 1; --by-component keeps them apart"
     assert len(smooth_mesh(pair, voxel=1.0, by_component=True, tolerance=None).surfaces) == 2
+
+
+def test_larger_voxels_are_recommended_for_a_noisy_mask_if_they_help() -> None:
+    """One voxel in a hundred is wrong: too little for a noisy scan, and too much to be kept."""
+    ball = ((np.indices((60, 60, 60)) - 29.5) ** 2).sum(axis=0) < 20**2
+    mask = ball ^ (np.random.default_rng(0).random(ball.shape) < 0.01)
+    with pytest.raises(GeometryError, match="; give --voxel 2, or give --allow-broken to have it anyway"):
+        smooth_volume(mask)
+    report = smooth_volume(mask, voxel=2.0).report
+    assert report["verdict"]["word"] != "lost"
+    assert report["volume"] == pytest.approx(ball.sum(), rel=0.05)
+
+
+def test_bodies_that_become_one_are_named_first() -> None:
+    """Balls that run together while they are smoothed: before what else changed, such as crumbs and slits."""
+    balls = together(*(trimesh.creation.icosphere(3, 5.0).apply_translation((10.1 * k, 0, 0)) for k in range(3)))
+    report = smooth_mesh(surface_of(balls), voxel=1.0, tolerance=None).report
+    changes = report["verdict"]["changes"]
+    assert report["changes"]["fused"]
+    assert len(changes) > 1
+    assert changes[0] == "the mesh has 3 components, the result 1; --by-component keeps them apart"
 
 
 def test_strict_refuses_a_scan_whose_tunnels_close() -> None:

@@ -35,6 +35,8 @@ def lattice_summary(report: LatticeReport, files: list[str], *, verbose: bool) -
     }
     if request["frame"]:
         rows["frame"] = f"{plain_argument(request['frame'], 3)} mm wide; {infill['density']:.1%} inside it is solid"
+    if report["components"] > 1:
+        rows["loose"] = describe_loose(report["components"], "piece")
     if infill["crumbs"]:
         rows["left out"] = f"{count_noun(infill['crumbs'], 'loose piece')}, cut off the pattern by the sides"
     if report["problems"]:
@@ -47,6 +49,11 @@ def lattice_summary(report: LatticeReport, files: list[str], *, verbose: bool) -
     for path in files:
         rows[f"wrote {path}"] = format_bytes(Path(path).stat().st_size) if Path(path).is_file() else ""
     return format_table(rows, title=_format_request(request))
+
+
+def describe_loose(count: int, noun: str) -> str:
+    """Describe pieces of a block that touch nowhere, several of them."""
+    return f"{count:,} {noun}s touch nowhere, and come apart unless something holds them"
 
 
 def _format_request(request: LatticeRequest) -> str:

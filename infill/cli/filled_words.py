@@ -94,7 +94,7 @@ def summary(
             f"{plain_size(infill['left_out'], power=3)} of infill, left out: slicers would print none of it"
         )
     if infill["ties"]:
-        rows["tied"] = _tie_text(infill["ties"])
+        rows["tied"] = _tie_text(infill["ties"], "out" if request["wall"] else "loose")
     if voids["islands"]:
         rows["left out"] = f"{count_noun(voids['islands'], 'piece')} of infill that would have hung free"
     if objects is not None and objects[1] > 1:
@@ -116,7 +116,7 @@ def summary(
     return format_table(rows, title=f"{name}, {request['pattern']}")
 
 
-def _tie_text(ties: list[FillTie]) -> str:
+def _tie_text(ties: list[FillTie], without: str) -> str:
     """Describe the bars that tie islands to the rest: how many, how long, and where the longest are."""
     lengths = sorted(tie["length"] for tie in ties)
     span = " to ".join(dict.fromkeys(plain_size(length) for length in (lengths[0], lengths[-1])))
@@ -124,7 +124,7 @@ def _tie_text(ties: list[FillTie]) -> str:
     places = ", ".join(plain_place(tie["at"]) for tie in longest)
     return (
         f"{count_noun(len(ties), 'island')} that nothing held, by {'a bar' if len(ties) == 1 else 'bars'} of {span} "
-        f"at {places}{' and elsewhere' if len(ties) > PLACES_SHOWN else ''}; --no-ties leaves them out"
+        f"at {places}{' and elsewhere' if len(ties) > PLACES_SHOWN else ''}; --no-ties leaves them {without}"
     )
 
 

@@ -124,7 +124,7 @@ def fill(
         from infill.pictures.preview import check_preview
 
         check_preview(preview)
-    cuts = _parse_cuts(cut or [], drawn=preview is not None and not dry_run)
+    cuts = _parse_cuts(cut or [], drawn=preview is not None, dry_run=dry_run)
     limit = None if max_memory is None else parse_bytes(max_memory)
     saved: dict[Path, Callable[[BinaryIO], object]] = {}
     if save_config is not None:
@@ -138,7 +138,8 @@ def fill(
         return
     with progress_bar(shown=not quiet and not dry_run) as progress:
         from infill.formats.mesh_files import PART_WRITERS
-        from infill.lattices.job import fill_request, plan_fill
+        from infill.lattices.forecast import plan_fill
+        from infill.lattices.job import fill_request
         from infill.smoothing.sources import read_source
 
         if progress is not None:
@@ -195,13 +196,15 @@ def _divide(
     return divide_by_objects(result.surface, mesh, objects, threads=threads)
 
 
-def _parse_cuts(texts: list[str], *, drawn: bool) -> tuple[Cut, ...]:
+def _parse_cuts(texts: list[str], *, drawn: bool, dry_run: bool) -> tuple[Cut, ...]:
     """Parse the cuts of a preview, or raise UsageError."""
     if not texts:
         return ()
     from infill.pictures.sections import parse_cut
 
     cuts = tuple(parse_cut(text) for text in texts)
+    if dry_run:
+        raise typer.BadParameter("a dry run draws nothing; leave --cut out")
     if not drawn:
         raise typer.BadParameter("--cut says where a preview is cut open; give --preview FILE.png too, or leave it out")
     return cuts

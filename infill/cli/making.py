@@ -217,7 +217,9 @@ def _summary(report: MakeReport, files: list[str], *, verbose: bool) -> str:
     if (exact := report["walls"]["exact"]) is not None:
         rows["advice"] = f"--stamp exact makes the walls {exact:.3f} mm wide (measured in the middle of the block)"
     if report["components"] > 1:
-        rows["loose"] = f"{report['components']:,} components touch nowhere, and come apart unless something holds them"
+        from infill.cli.block_words import describe_loose
+
+        rows["loose"] = describe_loose(report["components"], "component")
     if change["pinholes"]:
         share = f"{change['pinhole_share']:.2%} of the void"
         rows["closed up"] = f"{count_noun(change['pinholes'], 'gap')} narrower than a line, {share}"

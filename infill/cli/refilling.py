@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from infill.planner.layer_speeds import LayerSpeeds
     from infill.reports.refilling import FilamentKeys, RefillReport, TimeKeys
 
+LEAST_SHOWN = 0.005  # of the infill: less, rounded to 0 %, has no row
 ALIKE = 0.995  # of the filament of the infill: no less is the old amount
 
 
@@ -142,7 +143,7 @@ def _read_sliced_layer(
     number = middle_layer(gcode)
     if layers is not None and not layers[0] <= number <= layers[1]:
         number = layers[0] if layers[0] > number else layers[1]
-    return number, {f"layer {number}, as sliced": layer_speeds(gcode, number)}
+    return number, {f"layer {number}, before": layer_speeds(gcode, number)}
 
 
 def _write_preview(number: int, sliced_layers: dict[str, LayerSpeeds], path: Path, preview: Path) -> None:
@@ -200,7 +201,8 @@ def _summary(report: RefillReport, name: str, files: list[str]) -> str:
     if sections["kept"]:
         rows["kept"] = ", ".join(f"{number} ({reason})" for reason, number in sections["kept"].items())
     if sections["replaced"]:
-        rows["print"] = _print_text(filament, seconds)
+        source = "the last refill" if report["print"]["refilled_before"] else "the slicer"
+        rows["print"] = _print_text(filament, seconds, source)
         before, after = filament["infill_before_mm"], filament["infill_after_mm"]
         rows["filament"] = f"{after / 1000:.3f} m of infill, {after / before - 1:+.1%}"
         density = filament["density_for_the_same_percent"]
@@ -217,6 +219,11 @@ def _summary(report: RefillReport, name: str, files: list[str]) -> str:
                 f"{contact['supported_after']:.0%} on the layer below ({contact['supported_before']:.0%}), "
                 f"{contact['bonded_after']:.0%} beside another line ({contact['bonded_before']:.0%})"
             )
+            if max(contact["free_after"], contact["free_before"]) >= LEAST_SHOWN:
+                rows["free"] = (
+                    f"{contact['free_after']:.0%} touches no wall, not even through other lines "
+                    f"({contact['free_before']:.0%})"
+                )
     if report["problems"]:
         rows["PROBLEMS"] = "; ".join(report["problems"])
     if files:
@@ -224,8 +231,11 @@ def _summary(report: RefillReport, name: str, files: list[str]) -> str:
     return format_table(rows, title=name)
 
 
-def _print_text(filament: FilamentKeys, seconds: TimeKeys) -> str:
-    """Format time and filament of the entire print, and the old ones in brackets, by the same planner."""
+def _print_text(filament: FilamentKeys, seconds: TimeKeys, source: str) -> str:
+    """Format time and filament of the entire print, and the old ones in brackets, by the same planner.
+
+    `source` wrote the estimate that the print stated.
+    """
     new_s, old_s = seconds["print_after_s"], seconds["print_before_s"]
     grams, old_g = filament["print_after_g"], filament["print_before_g"]
     if grams is None or old_g is None:
@@ -233,7 +243,7 @@ def _print_text(filament: FilamentKeys, seconds: TimeKeys) -> str:
     else:
         unit = "g"
     change = f", {new_s / old_s - 1:+.1%}" if old_s else ""
-    slicer = f"; the slicer said {_clock(seconds['slicer_s'])}" if seconds["slicer_s"] else ""
+    slicer = f"; {source} said {_clock(seconds['slicer_s'])}" if seconds["slicer_s"] else ""
     return f"{_clock(new_s)} and {grams:.2f} {unit}{change} ({_clock(old_s)} and {old_g:.2f} {unit}{slicer})"
 
 

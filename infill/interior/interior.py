@@ -197,11 +197,7 @@ def compute_interior(
     extents = np.ptp(part.bounds, axis=0)
     thinnest, thickest = (choose((wall, *(place.wall for place in places))) for choose in (min, max))
     further = added_length(open_, thickest, beyond, voxel)
-    sides = plain_size(*extents)
-    nowhere = (
-        f"is {plain_argument(thinnest)} mm, and the part, {sides}, is nowhere thicker than two of those; give a "
-        f"thinner wall{', or the right unit' if extents.max() < TINY else ''}"
-    )
+    nowhere = describe_no_room(part, thinnest)
     # Checked first, as measuring may take long; a flat sheet has a separate message.
     if extents.min() > 0 and (extents + further * UP).min() <= 2 * thinnest:
         raise GeometryError.about("wall", nowhere)
@@ -209,7 +205,7 @@ def compute_interior(
     margin = MARGIN + math.ceil(outside - BEYOND)
     grid = grid_for_part(part, voxel=voxel, further=further, margin=margin)
     advice = f"the grid has {' x '.join(map(str, grid.shape))} cells; give larger voxels or larger cells"
-    require_memory(_memory_bytes(grid.shape, held, slabs=slabs), max_memory, advice)
+    require_memory(expected_bytes(grid.shape, held, slabs=slabs), max_memory, advice)
     voxelised = voxelise_with_report(part, voxel=voxel, margin=margin, max_memory=max_memory)
     closed_part, skin, overlap = _repair_skin(voxelised)
     longer, cells, opening, repairs = closed_part, voxelised.volume, None, voxelised.repairs
@@ -257,7 +253,16 @@ def compute_interior(
     return space
 
 
-def _memory_bytes(shape: tuple[int, ...], held: int, *, slabs: bool) -> int:
+def describe_no_room(part: Surface, wall: float) -> str:
+    """Describe a wall, mm, that leaves no room inside a part, with a remedy."""
+    extents = np.ptp(part.bounds, axis=0)
+    return (
+        f"is {plain_argument(wall)} mm, and the part, {plain_size(*extents)}, is nowhere thicker than two of those; "
+        f"give a thinner wall{', or the right unit' if extents.max() < TINY else ''}"
+    )
+
+
+def expected_bytes(shape: tuple[int, ...], held: int, *, slabs: bool) -> int:
     """Return the memory for a grid in bytes; in slabs, for one slab and the packed rest."""
     cells = math.prod(shape)
     if slabs and cells > WHOLE:

@@ -18,7 +18,7 @@ from infill.kernels.disjoint_sets import name_sets
 from infill.kernels.sparse import BRICK, CELLS, SOLID_BRICK, VOID_BRICK
 from infill.kernels.sparse_marching import ROWS, face_volumes
 from infill.kernels.threads import in_threads, thread_count
-from infill.meshes.shells import vertex_components
+from infill.meshes.shells import shell_volumes, vertex_components
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
 
@@ -275,6 +275,12 @@ def label_shells(
 def shell_names(surface: Surface) -> tuple[NDArray[np.int32], int]:
     """Label the connected parts of a surface; return the label of every vertex (V,), and the number of parts."""
     return vertex_components(surface.faces, len(surface.vertices))
+
+
+def count_bodies(surface: Surface) -> int:
+    """Count the components that face outwards: bodies that touch nowhere; cavities are none."""
+    names, count = shell_names(surface)
+    return int((shell_volumes(surface, names, count) > 0).sum())
 
 
 def face_sums(

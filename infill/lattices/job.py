@@ -16,9 +16,8 @@ from typing import TYPE_CHECKING, Any
 
 from infill.errors import UsageError
 from infill.formats.units import to_surface
-from infill.interior.interior import BYTES_PER_CELL, Interior, added_length, grid_for_part
+from infill.interior.interior import Interior
 from infill.interior.opening import clip_to_opening, cut_open
-from infill.lattices.areas import find_areas
 from infill.lattices.at_skin import drop_crumbs, subtract_voids
 from infill.lattices.bodies import Fields
 from infill.lattices.drain_holes import DrainedSolid, check_drain_width, drill_drains
@@ -30,7 +29,6 @@ from infill.lattices.quality_checks import SolidMeasures, find_problems, measure
 from infill.lattices.regions import Region
 from infill.lattices.request import TOLERANCE, FillSpec, check_request
 from infill.lattices.settings import parse_slicers
-from infill.lattices.sizing import choose_sizes, choose_voxel
 from infill.lattices.stages import FillStages
 from infill.lattices.surfacing import SHARE, extract_inner_side
 from infill.lattices.task import FillTask
@@ -45,7 +43,7 @@ from infill.surface import Surface
 if TYPE_CHECKING:
     import trimesh
 
-    from infill.reports.filling import FillForecast, FillReport, UntimedFillReport
+    from infill.reports.filling import FillReport, UntimedFillReport
 
 
 def fill(
@@ -344,6 +342,7 @@ def _fill_report(
             "triangles": hollow.triangles,
             "specks": hollow.specks,
             "islands": hollow.islands,
+            "loose": facts.loose,
             "closed": [{"volume": volume, "at": place} for volume, place in facts.closed],
         },
         "drains": drained.facts(),
@@ -357,20 +356,3 @@ def _inner_surface(task: FillTask, space: Interior) -> Surface:
     tolerance = min(SHARE * task.request.tolerance, overlap / 2)
     inner = extract_inner_side(space, overlap=overlap, tolerance=tolerance, threads=task.threads)
     return inner if space.opening is None else clip_to_opening(inner, space.opening, space.size)
-
-
-def plan_fill(part: Surface, request: FillSpec, *, threads: int | None = None) -> FillForecast:
-    """Return the report of a dry run."""
-    part, request = add_modifiers(part, request)
-    task = FillTask.of(part, request, threads=threads)
-    find_areas(request)  # raises an error if the pattern of a region cannot be had
-    request, (cell, width) = task.request, choose_sizes(task)
-    voxel = choose_voxel(task, cell, width)
-    further = added_length(request.open_, max(request.walls), request.beyond, voxel)
-    grid = grid_for_part(part, voxel=voxel, further=further)
-    return {
-        "request": request.facts(),
-        "infill": {"cell": cell, "line_width": width},
-        "grid": {"shape": list(grid.shape), "spacing": [voxel] * 3, "origin": list(grid.origin), "space": ""},
-        "memory": (BYTES_PER_CELL + request.held) * math.prod(grid.shape),
-    }

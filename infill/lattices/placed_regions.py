@@ -6,6 +6,7 @@ box around a node, the width is a mean, so it changes within one step between no
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -24,11 +25,13 @@ from infill.lattices.grading import LocalWidths, Varies, cells_inside
 from infill.lattices.region_nodes import PlacedRegion, RegionNodes
 from infill.lattices.regions import SHARE, Region, parse_region, parse_wall
 from infill.meshes.merging import surface_of
+from infill.meshes.split_components import concatenate_surfaces
 from infill.options.keyword_options import parse_share
 from infill.options.resolve_pattern import resolve_pattern
 from infill.plain_numbers import plain_argument
 from infill.surface import Surface
 
+LOG = logging.getLogger("infill")
 FINEST_STEP, MOST_NODES = 1.0, 4e6  # cells between nodes, at least; and how many there may be
 LOWEST, HIGHEST = 0.01, 0.9  # densities
 
@@ -113,7 +116,10 @@ def _read_region_mesh(region: Region) -> Surface:
         surface = read_mesh(region.mesh)
         stated = STATED_UNITS.get(Path(region.mesh).suffix.lower(), 1.0)
         if region.units is not None:
-            surface = replace(surface, vertices=surface.vertices * (UNITS[region.units] / stated))
+            surface = surface.scaled(UNITS[region.units] / stated)
+        if modifiers := surface.modifiers:
+            LOG.warning("%s: the region is %s, not the part", region.mesh, ", ".join(each.name for each in modifiers))
+            surface = concatenate_surfaces([each.surface for each in modifiers])
     else:
         surface = surface_of(region.mesh)
     if not surface.closed:

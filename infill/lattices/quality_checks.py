@@ -14,7 +14,7 @@ from infill.drawings.tiled import Tiled
 from infill.interior.interior import LEAST_OVERLAP
 from infill.interior.narrow import NARROW, NarrowShares
 from infill.interior.opening import Opening
-from infill.isosurfaces.components import shell_names
+from infill.isosurfaces.components import count_bodies, shell_names
 from infill.lattices.bodies import Fields
 from infill.lattices.density_search import has_uniform_width, requested_density, solid_share
 from infill.lattices.drain_holes import DrainedSolid, drain_problems, find_closed_voids
@@ -119,6 +119,8 @@ class SolidMeasures:
         Voids outside of the part.
     closed : list of (float, list of float)
         Voids without a drain: see `find_closed_voids`.
+    loose : int
+        Without a shell: bodies of infill that touch nothing, besides one for each body of the part.
     crowded : int
         Vertices that coincide with another one in single precision, not counting those of the skin.
     verdict : str
@@ -142,6 +144,7 @@ class SolidMeasures:
     at: list[float] | None
     astray: int
     closed: list[tuple[float, list[float]]]
+    loose: int
     crowded: int
     verdict: str
     width: float
@@ -175,6 +178,7 @@ def measure_solid(
         at=place,
         astray=astray,
         closed=find_closed_voids(solid) if request.form == "solid" else [],
+        loose=max(0, count_bodies(solid) - count_bodies(space.part)) if request.wall == 0 else 0,
         crowded=max(0, crowded),
         verdict=next((word for word in map(manifold_status, split_into_batches(solid, AT_ONCE)) if word != FINE), FINE),
         width=(hollow.median[0] if has_uniform_width(task) and not request.has_areas else None) or hollow.width,
@@ -381,6 +385,10 @@ def find_problems(
                 f"{plain_argument(wide, 2)} mm wide: there is too little room for cells of such sizes beside one "
                 "another; give densities closer to each other"
             )
+    if facts.loose and not request.is_block:
+        verb = "touches nothing and comes apart" if facts.loose == 1 else "touch nothing and come apart"
+        remedy = "give a wall, such as --wall 1.2" if request.ties else "leave out --no-ties"
+        yield f"{count_noun(facts.loose, 'body', 'bodies')} of infill {verb}; {remedy}"
     share = hollow.density_before if request.reaches_skin else hollow.density
     if isinstance(request.kind, Tiled) and hollow.islands:
         remedy = "draw lines from them to the rest" if request.ties else "leave out --no-ties"

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from infill.errors import UsageError
+from infill.errors import ParameterError, UsageError
 from infill.files.excerpts import quote_value
 from infill.options.keyword_options import parse_share
 from infill.plain_numbers import plain_argument
@@ -153,10 +153,20 @@ def _parse_settings(name: str, text: str, words: str) -> dict[str, Any]:
         if key in settings:
             raise UsageError.about(name, f"is {quote_value(text)}, with {key} twice; give it once")
         if key == "density":
-            settings[key] = parse_share(name, value, SHARE)
+            settings[key] = _parse_density(name, text, value)
         else:
             settings[key] = value if key == "pattern" else parse_wall(name, value)
     return settings
+
+
+def _parse_density(name: str, text: str, value: str) -> float:
+    """Read the density of a region, or raise UsageError that shows the region and its density."""
+    try:
+        return parse_share(name, value, SHARE)
+    except ParameterError:
+        raise UsageError.about(
+            name, f"is {quote_value(text)}, with a density of {quote_value(value)}; {SHARE}, up to 90%"
+        ) from None
 
 
 def _parse_end(name: str, text: str, word: str, left_out: float) -> float:

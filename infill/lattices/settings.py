@@ -361,9 +361,23 @@ def resolve(
     apart = ("units", "slicer", "form", "seed")
     values = {field: getattr(options, field) for field in FillOptions.__dataclass_fields__ if field not in apart}
     values["regions"] = tuple(replace(region, units=options.units) for region in options.regions)
-    return FillSettings(
-        request=check_request(own=own_values, form=form, **values), units=options.units, slicers=slicers
-    )
+    request = check_request(own=own_values, form=form, **values)
+    if typed.get("ties"):
+        _check_ties(request)
+    return FillSettings(request=request, units=options.units, slicers=slicers)
+
+
+def _check_ties(request: FillSpec) -> None:
+    """Raise UsageError for requested ties where there is nothing to tie."""
+    from patterns.cellular import Cells
+    from patterns.lightning import Lightning
+
+    if isinstance(request.kind, (Cells, Lightning)):
+        raise UsageError.about("ties", f"is for islands of upright walls, and {request.pattern} has none; leave it out")
+    if not request.ties_islands:
+        raise UsageError.about(
+            "ties", "is given, and floor and roof of the shell hold all walls; give open both or a wall of 0 too"
+        )
 
 
 def _drop_dependent(typed: Mapping[str, Any], filed: Mapping[str, Any]) -> dict[str, Any]:

@@ -15,13 +15,13 @@ import numpy as np
 
 from infill.checks import check_length
 from infill.errors import ParameterError
-from infill.isosurfaces.components import shell_names
+from infill.isosurfaces.components import count_bodies
 from infill.lattices.choosing import HELD
-from infill.lattices.job import fill_request, plan_fill
+from infill.lattices.forecast import plan_fill
+from infill.lattices.job import fill_request
 from infill.lattices.placed_regions import LOWEST, check_density
 from infill.lattices.request import LINE_WIDTH, TOLERANCE, FillSpec, check_request
 from infill.making.stages import LatticeStages
-from infill.meshes.shells import shell_volumes
 from infill.options.keyword_options import parse_share
 from infill.options.resolve_pattern import Kind, resolve_pattern
 from infill.plain_numbers import plain_argument
@@ -203,12 +203,11 @@ def make_lattice(
     """Make a block that is filled as a part is: see `infill.make`."""
     filled = fill_request(block.box, block.spec, max_memory=max_memory, progress=progress)
     surface, told = filled.surface, filled.report
-    names, count = shell_names(surface)
     report: LatticeReport = {
         **report_head("make"),
         **surface_keys(surface),
         "volume": surface.volume,
-        "components": int((shell_volumes(surface, names, count) > 0).sum()),
+        "components": count_bodies(surface),
         "density": surface.volume / math.prod(block.sides),
         "problems": told["problems"],
         "request": block.request_keys(),

@@ -1,8 +1,9 @@
-"""Support of infill by the layer below, and its contact with the beads beside it.
+"""Support of infill by the layer below, its contact with the beads beside it, and its hold on the walls.
 
-Both are shares of the infill's length. A point of a centre line is *supported* if a centre line of the layer below
+All are shares of the infill's length. A point of a centre line is *supported* if a centre line of the layer below
 passes within half a line width of it, so that at least half of the bead lies on something. It is *bonded* if another
-stretch of infill passes in its own layer within 1.05 line widths, so that two beads touch.
+stretch of infill passes in its own layer within 1.05 line widths, so that two beads touch. A path is *free* if neither
+it nor any path that it touches, over however many others, touches another bead of its layer, such as a wall.
 """
 
 from __future__ import annotations
@@ -12,11 +13,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.arrays import Floats, Places
+from infill.arrays import Flags, Floats, Places
+from infill.graph import label_connected
 
 LEAST_POINTS, MOST_POINTS = 1000, 5000  # sampled points in a layer: with fewer, shares would be inaccurate
 STEP = 0.4  # mm, of the pieces that paths are cut into; distances to pieces are exact
 TOUCHING = 1.05  # line widths between two centre lines whose beads touch
+HOLDING = 1.1  # line widths between the centre lines of two paths that hold each other; beads of walls may be wider
 SELF_STRETCH = 4.0  # line widths along a path within which it is its own neighbour
 # Within 1.05 line widths of 0.45 mm lie 5 pieces of the path itself, and fewer of any other path; the search takes
 # more where beads are wider, or chords shorter.
@@ -25,24 +28,28 @@ NEIGHBOURS = 12
 
 @dataclass(frozen=True, kw_only=True)
 class Contact:
-    """Length of some infill, and the lengths of it that are supported and bonded.
+    """Length of some infill, and the lengths of it that are supported, bonded and free.
 
     Parameters
     ----------
     length : float, mm
     supported, bonded : float, mm
         Lengths that lie on the layer below, and that touch something in their own layer.
+    free : float, mm
+        Length of the paths that no wall of their layer holds, not even through other paths.
     """
 
     length: float = 0.0
     supported: float = 0.0
     bonded: float = 0.0
+    free: float = 0.0
 
     def __add__(self, other: Contact) -> Contact:
         return Contact(
             length=self.length + other.length,
             supported=self.supported + other.supported,
             bonded=self.bonded + other.bonded,
+            free=self.free + other.free,
         )
 
     @property
@@ -50,6 +57,11 @@ class Contact:
         """Supported and bonded per length, 0 to 1."""
         length = self.length or 1.0
         return self.supported / length, self.bonded / length
+
+    @property
+    def free_share(self) -> float:
+        """Free per length, 0 to 1."""
+        return self.free / (self.length or 1.0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -156,6 +168,43 @@ def layer_contact(infill: Samples, below: Samples, line_width: float) -> Contact
         supported=float(weight[supported].sum()),
         bonded=float(weight[bonded].sum()),
     )
+
+
+def free_length(infill: Samples, walls: Samples, line_width: float) -> float:
+    """Measure the length, mm, of the paths of a layer that no wall holds, not even through other paths.
+
+    Parameters
+    ----------
+    infill : Samples
+        The infill of the layer.
+    walls : Samples
+        All other beads of the layer.
+    line_width : float, mm
+
+    >>> wall, across, aside = ([[0.0, 0], [9, 0]], [[2.0, 0.4], [2, 5]], [[4.0, 2], [4, 5]])
+    >>> infill = sample_paths(np.array([*across, *aside]), np.array([0, 2, 4]))
+    >>> round(free_length(infill, sample_paths(np.array(wall), np.array([0, 2])), 0.45), 9)
+    3.0
+    """
+    from scipy.spatial import cKDTree
+
+    if not len(infill.points):
+        return 0.0
+    # The ends of the pieces, too: a path may touch a wall with its very end.
+    points = np.concatenate([infill.points, infill.points - infill.half, infill.points + infill.half])
+    path, reach = np.tile(infill.path, 3), HOLDING * line_width
+    count = int(path.max()) + 1
+    holds: Flags = np.zeros(count, dtype=np.bool_)
+    if len(walls.points):
+        tree = cKDTree(walls.points, balanced_tree=False)
+        _, candidates = tree.query(points, k=3, distance_upper_bound=reach + STEP / 2)
+        holds[path[(_nearest(points, walls, np.asarray(candidates))[0] <= reach).any(axis=1)]] = True
+    if not holds[infill.path].all():
+        pairs = path[cKDTree(points, balanced_tree=False).query_pairs(reach, output_type="ndarray")]
+        group, groups = label_connected(pairs[:, 0], pairs[:, 1], count)
+        is_held = np.bincount(group, weights=holds, minlength=groups) > 0
+        holds = is_held[group]
+    return float(infill.weight[~holds[infill.path]].sum())
 
 
 def _nearest(points: Floats, samples: Samples, candidates: Places) -> tuple[Floats, Floats]:

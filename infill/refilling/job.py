@@ -79,7 +79,7 @@ class RefillResult(Picturable):
         old = self.source
         if old is not None and self.path == Path(os.path.realpath(old)):
             old = None  # the new print took its place
-        named = {"as sliced": old, "refilled": self.path}
+        named = {"before": old, "refilled": self.path}
         files = {name: path for name, path in named.items() if path is not None and path.is_file()}
         if not files:
             raise FormatError("a picture needs the files of the print; refill a file")

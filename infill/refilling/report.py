@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 FILAMENT_TOLERANCE = 0.01  # relative error of the filament of all infill that is reported
 TIME_TOLERANCE = 0.01  # relative increase of the time of all infill that is reported
 MANY_KEPT = 0.1  # of the sections: as many that stay for one of these reasons are reported
+MOST_FREE = 0.05  # of the length: if more of it touches no wall, than did as sliced, that is reported
 WHY_KEPT = {
     UNREAD: "they hold moves that cannot be redrawn, such as arcs that climb; slice with arc fitting off",
     ODD_ARCS: "they hold arcs that climb, or that close on no circle; slice with arc fitting off",
@@ -62,6 +63,7 @@ def refill_report(
             "bytes": print_survey.size,
             "plates": list(plates),
             "already_refilled": already,
+            "refilled_before": bool(print_survey.stamp),
         },
         "problems": [],
     }
@@ -125,7 +127,7 @@ def loses_filament(tally: RefillStats) -> bool:
 
 
 def contact_section(tally: RefillStats) -> ContactKeys:
-    """Report support and contact of the infill, before and after, as measured on some layers."""
+    """Report support, contact and hold of the infill, before and after, as measured on some layers."""
     before, after = tally.before.shares, tally.after.shares
     shares = kept_shares(tally.before, tally.after)
     return {
@@ -134,6 +136,8 @@ def contact_section(tally: RefillStats) -> ContactKeys:
         "supported_after": after[0],
         "bonded_before": before[1],
         "bonded_after": after[1],
+        "free_before": tally.before.free_share,
+        "free_after": tally.after.free_share,
         "kept_supported": shares[0],
         "kept_bonded": shares[1],
     }
@@ -151,15 +155,17 @@ def _problems(report: RefillReport, tally: RefillStats) -> list[str]:
     elif not tally.replaced:
         reasons = ", ".join(f"{reason} ({number})" for reason, number in sorted(tally.kept.items()))
         problems.append(f"none of {tally.sections} sections of infill was changed: {reasons or 'no corner to round'}")
+    stay = "they were" if report["print"]["refilled_before"] else "sliced"
     problems += [
-        f"{tally.kept[reason]} of {tally.sections} sections stay as sliced: {words}"
+        f"{tally.kept[reason]} of {tally.sections} sections stay as {stay}: {words}"
         for reason, words in WHY_KEPT.items()
         if tally.kept.get(reason, 0) >= MANY_KEPT * max(tally.sections, 1)
     ]
     before, after = report["time"]["infill_before_s"], report["time"]["infill_after_s"]
+    earlier = "that of the last refill" if report["print"]["refilled_before"] else "the slicer's"
     if tally.replaced and before and after > before * (1 + TIME_TOLERANCE):
         problems.append(
-            f"the new infill is slower than the slicer's: it takes {after / before - 1:+.0%} printing time; "
+            f"the new infill is slower than {earlier}: it takes {after / before - 1:+.0%} printing time; "
             "for less, take another pattern, or keep, which is never slower"
         )
     failed = sum(number for reason, number in tally.kept.items() if reason.startswith("a check failed"))
@@ -175,6 +181,11 @@ def _problems(report: RefillReport, tally: RefillStats) -> list[str]:
         problems.append(
             f"{1 - contact['kept_supported']:.0%} less of this infill rests on the layer below than before; "
             + ("give a smaller --max-deviation" if keeps else "try another --pattern, or leave --pattern out")
+        )
+    if not keeps and contact["free_after"] - contact["free_before"] > MOST_FREE:
+        problems.append(
+            f"{contact['free_after']:.0%} of this infill touches no wall, not even through other lines; draw lines "
+            "from wall to wall, or take another --pattern, such as gyroid"
         )
     if keeps and contact["measured_mm"] and contact["kept_bonded"] < LEAST_SHARE:
         problems.append(

@@ -16,7 +16,7 @@ import numpy as np
 from infill.arrays import Places
 from infill.gcode.strokes import InfillStrokes
 from infill.kernels.threads import in_order, thread_count
-from infill.paths.contact import Contact, Samples, concatenate_samples, layer_contact, sample_paths
+from infill.paths.contact import Contact, Samples, concatenate_samples, free_length, layer_contact, sample_paths
 from infill.paths.corners import RoundedPaths
 from infill.paths.rounding import PathCorners, Rounding
 from infill.refilling.layers import LayerPaths, Layers
@@ -182,7 +182,7 @@ def measure_layers(
     stride: int,
     last: SampledLayer | None,
 ) -> tuple[Contact, Contact, SampledLayer | None]:
-    """Measure the support and contact of the infill of every `stride`-th layer, old and new.
+    """Measure the support, contact and hold of the infill of every `stride`-th layer, old and new.
 
     Parameters
     ----------
@@ -227,7 +227,13 @@ def measure_layers(
         else:
             continue
         old_samples, new_samples = layer_samples(number)
-        before += layer_contact(old_samples, lower.before, line_width)
-        after += layer_contact(new_samples, lower.after, line_width)
+        beads = walls(number)
+        before += _measure_layer(old_samples, lower.before, beads, line_width)
+        after += _measure_layer(new_samples, lower.after, beads, line_width)
     final = int(numbers[-1]) if len(numbers) else 0
     return before, after, below(final) if len(numbers) and (final + 1) % stride == 0 else None
+
+
+def _measure_layer(infill: Samples, below: Samples, walls: Samples, line_width: float) -> Contact:
+    """Measure the infill of one layer against everything in the layer below, and the other beads of its own."""
+    return replace(layer_contact(infill, below, line_width), free=free_length(infill, walls, line_width))

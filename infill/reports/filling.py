@@ -148,6 +148,9 @@ class FillVoids(TypedDict):
     triangles: Annotated[int, "Number of triangles of the voids"]
     specks: Annotated[int, "Number of voids too small for the grid, which were left solid"]
     islands: Annotated[int, "Number of loose pieces of infill, which were left out"]
+    loose: Annotated[
+        int, "Without a shell: number of bodies of infill that touch nothing and stay in the result, besides one a part"
+    ]
     closed: list[ClosedVoid]
 
 

@@ -28,6 +28,7 @@ class PrintKeys(TypedDict):
     bytes: Annotated[int, "Size of the unpacked G-code, bytes"]
     plates: Annotated[list[int], "Numbers of the plates of an archive (`.gcode.3mf`), all of which count; else empty"]
     already_refilled: Annotated[bool, "Whether the print was refilled before, so that round corners were nothing to do"]
+    refilled_before: Annotated[bool, "Whether infill refilled it before: values before are then those of that refill"]
     layers: NotRequired[Annotated[int, "Number of layers"]]
     unread_lines: NotRequired[
         Annotated[int, "Number of lines that may move or extrude and were not understood; times leave them out"]
@@ -89,13 +90,15 @@ class TimeKeys(TypedDict):
 
 
 class ContactKeys(TypedDict):
-    """Support and contact of the infill, measured on some layers."""
+    """Support, contact and hold of the infill, measured on some layers."""
 
     measured_mm: Annotated[float, "Length of infill that was measured, mm; 0 without a measurement"]
     supported_before: Annotated[float, "Share of the length on the layer below, as sliced"]
     supported_after: Annotated[float, "Share of the length on the layer below, as refilled"]
     bonded_before: Annotated[float, "Share of the length that touches a neighbouring line, as sliced"]
     bonded_after: Annotated[float, "Share of the length that touches a neighbouring line, as refilled"]
+    free_before: Annotated[float, "Share that touches no wall of its layer, nor lines that do, as sliced"]
+    free_after: Annotated[float, "Share that touches no wall of its layer, nor lines that do, as refilled"]
     kept_supported: Annotated[float, "Supported share, after over before"]
     kept_bonded: Annotated[float, "Bonded share, after over before; 1 if hardly any infill was bonded"]
 

@@ -203,7 +203,7 @@ def find_differences(
     is_sieve = new_holes >= max(LOST_HOLES, holes)
     if is_sieve or smooth_input.topology is not None:  # told in other words
         topology = replace(topology, changes=replace(topology.changes, walls_pierced=0))
-    problems = [*topology.problems, *_topology_changes(topology, smooth_input, but_tunnels=is_sieve)]
+    problems = [*_topology_changes(topology, smooth_input, but_tunnels=is_sieve), *topology.problems]
     if off := volume_error(surfaced, smoothed):
         phrase = f"the volume is {abs(off):.1%} too {'large' if off > 0 else 'small'}"
         (losses if abs(off) >= LOST_VOLUME else problems).append(phrase)
@@ -221,9 +221,10 @@ def find_differences(
     if smooth_input.mesh_volumes is not None and smooth_input.topology is None:
         mesh_parts, result_parts = int((smooth_input.mesh_volumes.volumes > 0).sum()), topology.result.components
         if result_parts < mesh_parts:
-            remarks.append(
+            remarks.insert(
+                0,
                 f"the mesh has {mesh_parts} components, some of which overlap or touch, and the result {result_parts}; "
-                "--by-component keeps them apart"
+                "--by-component keeps them apart",
             )
     fewer = _describe_counts(topology) if smooth_input.mesh_volumes is None else []
     remarks.extend(fewer)

@@ -120,8 +120,9 @@ def _find_remedy(remedies: Iterable[Way], work_left: float) -> str | None:
     work_left : float
         They are tried as long as they take less work than this, in cells at the surface times steps.
     """
-    for way in remedies:
+    for remedy in remedies:
         try:
+            way = remedy if remedy.later is None else remedy.later()
             smooth_input = _input_of(way)
             work_left -= estimate_work(smooth_input, way.request)
             if work_left < 0:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal, TypedDict
 
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 LevelMethod = Literal["volume"] | float
 Method = Literal["auto", "plain", "refine", "grey"]
 METHODS = ("auto", "plain", "refine", "grey")
+DEFAULT_STEPS = 20
 AUTO: Literal["auto"] = "auto"
 DEFAULT_TOLERANCE_IN_CELLS = 0.1  # of a cell: the distance by which simplification may move the surface by default
 STEPS_PER_VARIANCE = 3.5  # cells²: the standard deviation of n steps is sqrt(2 n / 7) cells
@@ -72,7 +74,7 @@ class SmoothRequest:
         For a level that is neither "volume" nor a number in its range, or a despeckling volume below 0.
     """
 
-    smoothing: Smoothing = Smoothing(steps=20)  # noqa: RUF009 - frozen
+    smoothing: Smoothing = Smoothing(steps=DEFAULT_STEPS)  # noqa: RUF009 - frozen
     method: Method = "auto"
     refine: bool | None = None
     radius: float | None = None
@@ -99,6 +101,12 @@ class SmoothRequest:
             object.__setattr__(self, "method", "refine" if self.refine else "plain")
         if self.radius is not None:
             object.__setattr__(self, "radius", check_positive("radius", self.radius, "mm"))
+            if self.smoothing.steps != DEFAULT_STEPS:
+                raise UsageError.about(
+                    ("smoothing", "radius"),
+                    f"are both given, and a radius decides the steps; leave the {self.smoothing.steps} steps out, or "
+                    "the radius",
+                )
         if isinstance(self.tolerance, str) and self.tolerance != AUTO:
             raise UsageError.about("tolerance", f"is {self.tolerance!r}; give a number of mm, or auto")
         if self.tolerance == 0:
@@ -284,6 +292,8 @@ class Way:
     option : str, optional
         The option to give for it, such as "--despeckle 27". Such a way is run only to find out what a message may
         recommend: its surface is not taken.
+    later : callable, optional
+        Makes the way in place of this one when it is run, because making it takes long.
     """
 
     name: str
@@ -291,3 +301,4 @@ class Way:
     request: SmoothRequest
     cost: float = 1.0
     option: str | None = None
+    later: Callable[[], Way] | None = None

@@ -28,6 +28,7 @@ Threshold = float | tuple[float | None, float | None] | Literal["otsu"] | None
 SAMPLED_LAYERS = 16  # sampled for grey values
 SPECK_CELLS = 27  # cells: specks up to this size are taken out of noisy data
 DESPECKLE_CELLS = (SPECK_CELLS, 125)  # cells: sizes of specks to take out that are tried before one is recommended
+LARGER = 2.0  # times the size of voxels, tried before it is recommended
 HELD = 1.0  # a fidelity at which the data hold, tried before it is recommended
 
 
@@ -49,7 +50,7 @@ def volume_ways(
     threshold, label, grey, voxel
         See `infill.smooth_volume`.
     """
-    low, high = threshold_range(threshold)
+    given, (low, high) = scan, threshold_range(threshold)
     solid, used = segment_volume(scan, low=low, high=high, label=label, otsu=isinstance(threshold, str))
     phase = used["method"] == "phase"
     if voxel is not None:
@@ -70,7 +71,18 @@ def volume_ways(
         "coarse": voxel is not None,
         "warnings": list(scan.warnings),
     }
-    return scan_ways(scan, solid, used, facts, request, grey=grey, phase=phase)
+    ways = scan_ways(scan, solid, used, facts, request, grey=grey, phase=phase)
+    if voxel is None:
+        larger = plain_argument(LARGER * float(given.cell_size.max()), 3)
+        option = f"--voxel {larger}"
+
+        def coarsen_scan() -> Way:
+            size = float(larger)
+            ways = volume_ways(given, request, threshold=threshold, label=label, grey=grey, voxel=size)
+            return replace(ways[0], name=option, option=option)
+
+        ways.append(replace(ways[0], name=option, option=option, later=coarsen_scan))
+    return ways
 
 
 def threshold_range(threshold: Threshold) -> tuple[float | None, float | None]:

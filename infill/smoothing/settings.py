@@ -331,8 +331,20 @@ class SmoothSettings:
     def to_toml(self) -> str:
         """Return all settings, defaults included, as a TOML document that `resolve` reads back."""
         labels = None if self.labels is None else str(self.labels)
-        rows = format_rows({**by_key(self), "labels": labels})
+        values = {**by_key(self), "labels": labels}
+        if self.smooth_radius is not None:
+            del values["steps"]  # which the radius replaces
+        rows = format_rows(values)
         return "\n".join(["# infill smooth INPUT --config THIS_FILE -o OUT", *rows, ""])
+
+
+def _refuse_both(values: dict[str, Any]) -> dict[str, Any]:
+    """Return the options of one source; raise UsageError if they have both steps and the radius that replaces them."""
+    if "steps" in values and "smooth_radius" in values:
+        raise UsageError.about(
+            ("steps", "smooth_radius"), "are both given, and each decides the other; give one of them"
+        )
+    return values
 
 
 def resolve(typed: Mapping[str, Any], config: Path | None = None, *, trust: bool = False) -> SmoothSettings:
@@ -354,12 +366,12 @@ def resolve(typed: Mapping[str, Any], config: Path | None = None, *, trust: bool
     FormatError
         If the file is missing or not TOML.
     """
-    typed = read_options("smooth", SmoothSettings, typed)
+    typed = _refuse_both(read_options("smooth", SmoothSettings, typed))
     filed: dict[str, Any] = {}
     if config:
         read = read_toml(config, example="threshold = 226")
         check_trusted(
             {name: value for name, value in read.items() if name not in typed}, config, trust=trust, code=False
         )
-        filed = drop_replaced(SmoothSettings, typed, read_options("smooth", SmoothSettings, read))
+        filed = drop_replaced(SmoothSettings, typed, _refuse_both(read_options("smooth", SmoothSettings, read)))
     return SmoothSettings(**by_field(SmoothSettings, {**filed, **typed}))
