@@ -198,6 +198,9 @@ def _summary(report: RefillReport, name: str, files: list[str]) -> str:
     rows = {"infill": f"{sections['replaced']} of {sections['all']} sections in {report['print']['layers']} layers"}
     if plates := report["print"]["plates"]:
         rows["plates"] = ", ".join(map(str, plates))
+    if "choice" in report:
+        times = ", ".join(f"{pattern} {_clock(time)}" for pattern, time in report["choice"]["seconds"].items())
+        rows["pattern"] = f"{report['request']['pattern']}, since {report['choice']['reason']} ({times} for the print)"
     if sections["kept"]:
         rows["kept"] = ", ".join(f"{number} ({reason})" for reason, number in sections["kept"].items())
     if sections["replaced"]:

@@ -118,7 +118,8 @@ def refill(
     output : path, optional
         File to write; without it, the input is replaced.
     pattern : str, Path, Pattern or Cells
-        "keep": the slicer's own paths with round corners. Or the name of a pattern that offers paths, lines or a level
+        "keep": the slicer's own paths with round corners. "auto": a honeycomb if it prints faster with the same
+        filament, else "keep". Or the name of a pattern that offers paths, lines or a level
         set, see `patterns.offers`; the path of a drawing: .svg .dxf .wkt .png; "module.py:name"; or a pattern itself,
         such as `patterns.Gyroid(cell=6)`.
     density : "same" or float, optional
@@ -162,6 +163,20 @@ def refill(
     OutputError
         If the file cannot be written.
     """
+    if not isinstance(gcode, str | os.PathLike):
+        gcode = list(gcode)
+    options = {
+        "density": density,
+        "smooth_radius": smooth_radius,
+        "max_deviation": max_deviation,
+        "max_segments": max_segments,
+        "arcs": arcs,
+        "layers": layers,
+        "part": part,
+        **parameters,
+    }
+    if pattern == AUTO:
+        return _refill_by_choice(gcode, options, output, dry_run=dry_run, overwrite=overwrite, progress=progress)
     request = Request(
         pattern=pattern,  # type: ignore[arg-type]  # whose name takes its place
         density=density,
@@ -210,6 +225,36 @@ def refill(
                 sliced.file.seek(0)
                 shutil.copyfileobj(sliced.file, file)
     return RefillResult(report=report, path=target, source=source)
+
+
+def _refill_by_choice(
+    gcode: str | os.PathLike[str] | list[str],
+    options: dict[str, Any],
+    output: str | os.PathLike[str] | None,
+    *,
+    dry_run: bool,
+    overwrite: bool,
+    progress: Progress | None,
+) -> RefillResult:
+    """Refill a print with the pattern that suits it better: two dry runs choose it."""
+    from infill.refilling.choosing import PATTERNS, choose_pattern
+
+    runs = len(PATTERNS) + 1
+
+    def try_pattern(pattern: str) -> RefillReport:
+        shown = _scale_progress(progress, PATTERNS.index(pattern), runs)
+        return refill(gcode, pattern=pattern, dry_run=True, progress=shown, **options).report
+
+    if not dry_run and isinstance(gcode, str | os.PathLike) and output is not None and Path(gcode).exists():
+        check_target(Path(output), overwrite=overwrite)
+    pattern, choice = choose_pattern(try_pattern)
+    shown = _scale_progress(progress, runs - 1, runs)
+    result = refill(
+        gcode, output=output, pattern=pattern, dry_run=dry_run, overwrite=overwrite, progress=shown, **options
+    )
+    if choice is not None:
+        result.report["choice"] = choice
+    return result
 
 
 def _check_choice(request: Request, prints: Sequence[RefillStats]) -> None:

@@ -132,12 +132,13 @@ class Request:
     pattern: Annotated[
         str,
         Option(
-            "keep: the slicer's own paths, with round corners. Or a drawing: tile.svg, .dxf, .png, .wkt. Or a"
+            "keep: the slicer's own paths, with round corners. auto: honeycomb if it prints faster with the same "
+            "filament, else keep. Or a drawing: tile.svg, .dxf, .png, .wkt. Or a"
             " built-in pattern: honeycomb, zigzag, concentric-heart, grid, triangles, tri-hexagon, cubic, rectilinear, "
             "hilbert, gyroid, schwarz-p, schwarz-d, concentric, honeycomb-3d, octagons, voronoi, cross, cross-"
             "hatch, quarter-cubic, lateral-honeycomb, archimedean-chords, octagram-spiral. Or module.py:name.",
             PATHS,
-            unit="keep|NAME|FILE",
+            unit="keep|auto|NAME|FILE",
             default="keep",
         ),
     ] = KEEP

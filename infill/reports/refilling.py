@@ -10,7 +10,7 @@ from infill.reports.common import ReportHead
 class RefillRequest(TypedDict):
     """Requested refill."""
 
-    pattern: Annotated[str, "`keep`, the name of a pattern, or the path of a drawing"]
+    pattern: Annotated[str, "`keep`, the name of a pattern, or the path of a drawing; with `auto`, the one taken"]
     parameters: Annotated[dict[str, Any], "Parameters of the pattern by name, angles in degrees"]
     density: Annotated[float | str | None, "Share of the volume, or `same`; null for the filament of the slicer"]
     smooth_radius_mm: Annotated[float | str, "Largest radius of a corner, mm, or `auto`"]
@@ -19,6 +19,13 @@ class RefillRequest(TypedDict):
     max_segments: Annotated[float | str, "Segments per second, or `auto` or `none`"]
     layers: Annotated[Annotated[list[int], 2] | None, "First and last layer, counted from 1; null for all layers"]
     part: Annotated[str | None, "Text in the names of the objects to refill; null for all objects"]
+
+
+class ChoiceKeys(TypedDict):
+    """Choice among patterns with `--pattern auto`."""
+
+    seconds: Annotated[dict[str, float], "Printing time with each pattern that was tried, s"]
+    reason: Annotated[str, "Why the pattern in `request.pattern` was taken, in words"]
 
 
 class PrintKeys(TypedDict):
@@ -108,6 +115,7 @@ class RefillReport(ReportHead):
 
     problems: Annotated[list[str], "Warnings before printing, one phrase each; empty without warnings"]
     request: RefillRequest
+    choice: NotRequired[ChoiceKeys]
     print: PrintKeys
     sections: NotRequired[SectionKeys]
     rounding: NotRequired[RoundingKeys]
