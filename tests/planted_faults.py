@@ -157,14 +157,14 @@ def drop_line(pattern: bytes, *, last: bool = False) -> Callable[[list[bytes]], 
 def drop_prime(lines: list[bytes]) -> Planted:
     """Drop the move or command that primes the nozzle before a wall."""
     a = wall_beads(lines)[0]
-    i = next(i for i in range(a, 0, -1) if re.match(rb"(N\d+ )?(G1 (F[\d.]+ )?E\d|G1 (F[\d.]+ )?E\.|G11)", lines[i]))
+    i = next(i for i in range(a, 0, -1) if re.match(rb"(N\d+ )?(G1 ?(F[\d.]+ ?)?E[\d.]|G11)", lines[i]))
     return changed(lines, i)
 
 
 def drop_retraction(lines: list[bytes]) -> Planted:
     """Drop a retraction that is primed later."""
     a = wall_beads(lines)[0]
-    i = next(i for i in range(a, 0, -1) if re.match(rb"(N\d+ )?(G1 (F[\d.]+ )?E-|G10)", lines[i]))
+    i = next(i for i in range(a, 0, -1) if re.match(rb"(N\d+ )?(G1 ?(F[\d.]+ ?)?E-|G10)", lines[i]))
     return changed(lines, i)
 
 

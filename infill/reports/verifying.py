@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, TypedDict
 
-from infill.reports.common import ReportHead
+from infill.reports.common import ReportForm
 
 
 class VerifyKeys(TypedDict):
@@ -23,7 +23,7 @@ class ViolationKeys(TypedDict):
     line: Annotated[int, "Line of the new print where it begins, from 1"]
     layer: Annotated[int, "Layer by the tags of the slicer, from 1; 0 before the first, or without tags"]
     z: Annotated[float | None, "Height of the nozzle, mm; null before it is stated"]
-    text: Annotated[str, "What is there, and what was"]
+    text: Annotated[str, "New value, and the old one"]
     lines: Annotated[int, "Number of lines with this fault"]
     last_line: Annotated[int, "Last of these lines"]
     old_line: Annotated[int, "Line of the old print that it is compared with; 0 without one"]
@@ -59,7 +59,7 @@ class VerifiedPrintKeys(TypedDict):
     plate: Annotated[int | None, "Plate of an archive; null for other files"]
 
 
-class VerifyReport(ReportHead):
+class VerifyReport(ReportForm):
     """The report of `infill.verify`."""
 
     agrees: Annotated[bool, "Whether there is no violation but allowed ones"]

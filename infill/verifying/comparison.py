@@ -69,6 +69,7 @@ class BeadComparison:
         """Length of the old beads that are compared, and of those that the new print has in the same place, mm."""
         a, b = self.a, self.b
         near = distances(a.end[self.first, :2], b.end[self.second, :2]) <= PATH_TOLERANCE
+        near[len(self.alignment.old) :] = True  # in another order, and perhaps in the other direction
         agrees = np.zeros(len(a), dtype=bool)
         agrees[self.first[near & b.draws[self.second]]] = True
         agrees[self.gaps.old[self.gaps.old_off <= PATH_TOLERANCE]] = True

@@ -78,7 +78,7 @@ def verify(
     """Compare a post-processed print with the print that it was made from.
 
     Moves are compared by place and material, not by lines: other comments, line numbers, arcs in place of lines and
-    another order of beads are no violations. docs/verify.md explains every kind.
+    another order of beads are not violations. docs/verify.md explains every kind.
 
     Parameters
     ----------
@@ -143,7 +143,7 @@ def _choose_features(request: VerifyRequest, before: Trace, after: Trace) -> tup
     if request.changed is None:
         return ("sparse infill",) if after.stamp and after.stamp != before.stamp else ()
     for trace in (before, after) if request.changed else ():
-        if set(trace.roles) <= {"untagged", "other"}:
+        if {trace.roles[number] for number in np.unique(trace.rows.role).tolist()} <= {"untagged", "other"}:
             raise UsageError.about(
                 "changed",
                 f"is {', '.join(request.changed)}, but no comment of {trace.path} names a feature; leave it out",
@@ -219,13 +219,16 @@ def _report(
 ) -> VerifyReport:
     """Return the report of a comparison."""
     before, after = comparison.old, comparison.new
+    head = report_head("verify")
     length, agreeing = comparison.lengths
     every, kept = violations
     free = is_changed(after, features) & after.rows.draws
     roles = list(dict.fromkeys([*before.features, *after.features]))
     nothing = (0.0, 0.0)
     return {
-        **report_head("verify"),
+        "form": head["form"],
+        "version": head["version"],
+        "product": head["product"],
         "agrees": not kept,
         "count": len(kept),
         "by_kind": dict(Counter(violation.kind for violation in kept)),

@@ -111,7 +111,7 @@ class SettingsHistory:
         elif code in ("M106", "M107"):
             index = words.get("P") or 0.0
             speed = 0.0 if code == "M107" else words.get("S", _FULL_FAN)
-            yield f"fan {index:g}", round((speed or 0.0) / _FULL_FAN * 100, 1)
+            yield f"fan {plain_argument(index)}", round((speed or 0.0) / _FULL_FAN * 100, 1)
         elif code == "M204":
             yield from _read_m204(words)
         elif code in _BY_AXIS:
@@ -140,7 +140,10 @@ class SettingsHistory:
             return
         heater = "chamber" if code in _TEMPERATURES_OF_CHAMBER else _TEMPERATURES.get(code, "nozzle")
         tool = words.get("T", words.get("P") if code == "M568" else None)
-        yield heater if heater != "nozzle" else f"nozzle {self._tool if tool is None else f'T{tool:g}'}", value
+        yield (
+            heater if heater != "nozzle" else f"nozzle {self._tool if tool is None else f'T{plain_argument(tool)}'}",
+            value,
+        )
 
 
 def _read_m204(words: Mapping[str, float | None]) -> Iterator[tuple[str, Value]]:
@@ -204,7 +207,7 @@ def differing_settings(old: Settings, new: Settings) -> Iterator[tuple[str, str]
     """Compare settings; yield the name and a description of each that differs.
 
     >>> list(differing_settings((("nozzle T0", 210.0),), (("nozzle T0", 215.0),)))
-    [('nozzle T0', 'nozzle T0 215 °C, was 210 °C')]
+    [('nozzle T0', 'nozzle 215 °C, was 210 °C')]
     """
     before, after = dict(old), dict(new)
     for name in sorted({*before, *after}):
@@ -213,7 +216,8 @@ def differing_settings(old: Settings, new: Settings) -> Iterator[tuple[str, str]
         if was == now or (was is None and first == "tool" and now == "T0"):
             continue
         unit = _KINDS[first][1]
-        yield name, f"{name} {_describe(now, unit)}, was {_describe(was, unit)}"
+        shown = name.removesuffix(" T0").removesuffix(" 0")  # of a machine with one tool and one fan
+        yield name, f"{shown} {_describe(now, unit)}, was {_describe(was, unit)}"
 
 
 def _describe(value: Value | None, unit: str) -> str:

@@ -4,16 +4,37 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Final
 
 from infill.errors import UsageError
 from infill.files.excerpts import quote_value
 from infill.gcode.dialect import ROLES
 from infill.options.declaration import Option
 from infill.options.keyword_options import parse_share
-from infill.verifying.violations import KINDS
 from patterns.given import suggest_name
 
+# Every kind, with what it says.
+KINDS: Final[dict[str, str]] = {
+    "place": "a bead lies beside that of the old print",
+    "missing": "a bead, a layer or an object of the old print is missing",
+    "added": "a bead or a layer is new",
+    "height": "a bead has another z",
+    "material": "a bead, or an object in a layer, has another amount of filament",
+    "E jump": "the extruder moves much further in one line than in the old print",
+    "temperature": "of a nozzle, the bed or the chamber",
+    "fan": "the speed of a fan",
+    "acceleration": "or jerk, or another limit of the machine",
+    "pressure advance": "as set at a bead",
+    "retraction": "filament that is retracted at a bead or a travel",
+    "tool": "the tool in use",
+    "object": "the object that a command names to the printer",
+    "speed": "a bead is printed faster",
+    "travel": "the nozzle goes through what stands",
+    "F0": "a feed rate of 0 or less",
+    "number": "a word that is not a number",
+    "unreadable": "a line that may move or extrude and cannot be read",
+    "command": "a macro, a pause or another command is missing or new",
+}
 NOTHING = "none"
 MAY_DIFFER, LIMITS, FILES = "What may differ", "Limits", "Files"
 

@@ -32,7 +32,7 @@ from infill.verifying.machine_settings import SettingsHistory
 MAX_KEPT_LINES: Final = 1000  # lines with a fault of the text that are stored; further ones are counted
 MAX_TEXT: Final = 60  # bytes of such a line that are shown
 NOT_A_NUMBER: Final = re.compile(
-    rb"[XYZEFSPIJKTRD=]\s*[-+]?(?:nan|inf|infinity|none|null|undefined)(?![A-Za-z_])", re.IGNORECASE
+    rb"[XYZEFSPIJKTRD=]\s*[-+]?(?:nan|inf|infinity|none|null|undefined)(?![a-z_](?![-+.\d]))", re.IGNORECASE
 )
 STAMP_SEARCH: Final = 1 << 18  # bytes at the beginning in which a refill leaves its stamp
 

@@ -12,28 +12,6 @@ from infill.arrays import Floats, Places
 from infill.plain_numbers import count_noun, plain_argument
 from infill.verifying.trace import Trace
 
-# Every kind, with what it says.
-KINDS: Final[dict[str, str]] = {
-    "place": "a bead lies beside that of the old print",
-    "missing": "a bead, a layer or an object of the old print is missing",
-    "added": "a bead or a layer is new",
-    "height": "a bead has another z",
-    "material": "a bead, or an object in a layer, has another amount of filament",
-    "E jump": "the extruder moves much further in one line than in the old print",
-    "temperature": "of a nozzle, the bed or the chamber",
-    "fan": "the speed of a fan",
-    "acceleration": "or jerk, or another limit of the machine",
-    "pressure advance": "as set at a bead",
-    "retraction": "filament that is retracted at a bead or a travel",
-    "tool": "the tool in use",
-    "object": "the object that the printer is told",
-    "speed": "a bead is printed faster",
-    "travel": "the nozzle goes through what stands",
-    "F0": "a feed rate of 0 or less",
-    "number": "a word that is not a number",
-    "unreadable": "a line that may move or extrude and cannot be read",
-    "command": "a macro, a pause or another command is missing or new",
-}
 RUN_GAP: Final = 3  # rows between two faults of one run
 
 
@@ -44,7 +22,7 @@ class Violation:
     Parameters
     ----------
     kind : str
-        One of `KINDS`.
+        One of `infill.verifying.settings.KINDS`.
     line : int
         Line of the new print where it begins, from 1.
     layer : int
@@ -52,7 +30,7 @@ class Violation:
     z : float or None
         Height of the nozzle, mm; None before it is stated.
     text : str
-        What is there, and what was.
+        New value, and the old one.
     lines : int
         Number of lines with this fault.
     last_line : int
@@ -70,7 +48,7 @@ class Violation:
     old_line: int = 0
 
     def __str__(self) -> str:
-        """Return one line: where, what is there and what was, and how often."""
+        """Return one line: place, kind, new and old value, and number of lines."""
         place = [f"layer {self.layer}"] if self.layer else []
         place += [] if self.z is None else [f"z {plain_argument(round(self.z, 3))} mm"]
         where = f"line {self.line}" + (f" ({', '.join(place)})" if place else "")
