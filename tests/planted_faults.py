@@ -204,6 +204,24 @@ def add_bead(lines: list[bytes]) -> Planted:
     return Planted(planted.lines, planted.line + 1)
 
 
+def no_wait(lines: list[bytes]) -> Planted:
+    """Heat the nozzle without waiting for it."""
+    i = next(i for i, line in enumerate(lines) if line.startswith(b"M109"))
+    return changed(lines, i, lines[i].replace(b"M109", b"M104"))
+
+
+def print_twice(lines: list[bytes]) -> Planted:
+    """Go back along a bead of a wall and print it again."""
+    a, b, _ = wall_beads(lines)
+    x, y = number(lines[a], b"X"), number(lines[a], b"Y")
+    bare = re.sub(rb" ?F[\d.]+", b"", lines[b].rstrip(b"\r\n").split(b" ;")[0])
+    words = [lines[b].rstrip(b"\r\n").split(b" ;")[0], b"G1 X%.3f Y%.3f" % (x, y)]
+    if is_absolute(lines):
+        words.append(b"G92 E%.5f" % number(lines[a], b"E"))
+    planted = changed(lines, b, *words, bare)
+    return Planted(planted.lines, planted.line + 1)
+
+
 FAULTS: dict[str, tuple[str, Callable[[list[bytes]], Planted]]] = {
     "a bead moved": ("place", move_bead),
     "a corner dropped": ("place", drop_bead),
@@ -230,6 +248,8 @@ FAULTS: dict[str, tuple[str, Callable[[list[bytes]], Planted]]] = {
     "an exponent": ("unreadable", exponent),
     "a spline": ("unreadable", before_walls(b"G5 X1 Y2 I1 J1")),
     "a pause": ("command", before_walls(b"M600")),
+    "no wait for the nozzle": ("command", no_wait),
+    "a bead printed twice": ("added", print_twice),
     "a macro": ("command", before_walls(b"CLEAN_NOZZLE TIMES=3")),
     "a bead added": ("added", add_bead),
 }
@@ -291,7 +311,7 @@ def drop_object(lines: list[bytes]) -> Planted:
     )
     ends = re.compile(rb"(M486 S-1|EXCLUDE_OBJECT_END|; stop printing object)")
     kept, inside, first = [], False, 0
-    for i, line in enumerate(lines):
+    for line in lines:
         if begin.match(line) and (not line.startswith(b"M624") or inside):
             inside = True
             first = first or len(kept) + 1
@@ -300,7 +320,6 @@ def drop_object(lines: list[bytes]) -> Planted:
         if ends.match(line) and inside:
             inside = False
             kept.append(line)
-        del i
     assert first, "no labels of objects"
     return Planted(kept, first)
 

@@ -41,6 +41,7 @@ WORKING = {
     "motion": "print.gcode",
     "motion plot": "print.gcode --plot a.png",
     "motion corner": "print.gcode --model klipper",
+    "verify": "print.gcode print.gcode",
 }
 # Values out of range, which cannot be done, by option; "nan" is among them wherever it can be typed.
 OUT_OF_RANGE = {
@@ -121,6 +122,7 @@ OUT_OF_RANGE = {
         "--plate": "9",
     },
     "motion plot": {"--layer": "999 0 -1"},
+    "verify": {"--material-limit": "-5% 150% nan%", "--speed-limit": "-5% 150% nan%", "--plate": "9"},
 }
 # Words that an option cannot read, in addition to what is out of range above.
 UNREAD = {
@@ -157,6 +159,7 @@ UNREAD = {
     "check": {"--for": "foo"},
     "refill": {"--density": "dense", "--smooth-radius": "wide", "--layers": "1.5"},
     "motion": {"--model": "foo"},
+    "verify": {"--changed": "foo perimeter,foo", "--allow": "foo speed,foo", "--material-limit": "much"},
 }
 NAMES = {"FILE", "NAME", "UID", "keep|NAME|FILE"}  # metavars of what may be any word
 

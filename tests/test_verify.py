@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import re
+import struct
+import zlib
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
@@ -70,6 +72,7 @@ def test_faults_are_many_and_of_many_kinds() -> None:
     assert len(FAULTS) * len(DIALECTS) >= 40
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dialect", DIALECTS)
 def test_every_planted_fault_is_found_on_its_line(
     dialect: str, prints_of_all_kinds: Mapping[str, Path], tmp_path: Path
@@ -80,6 +83,7 @@ def test_every_planted_fault_is_found_on_its_line(
     assert missed(path, lines, faults | LABELLED.get(dialect, {}), tmp_path) == []
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("pattern", ["keep", "honeycomb"])
 @pytest.mark.parametrize("dialect", ["prusa", "cura-by-hand", "orca", "bambu", "sequential"])
 def test_faults_of_a_refilled_print_are_found(
@@ -90,6 +94,31 @@ def test_faults_of_a_refilled_print_are_found(
     refill(path, output=smooth, pattern=pattern)
     faults = {name: fault for name, fault in FAULTS.items() if (dialect, name) not in IMPOSSIBLE}
     assert missed(path, smooth.read_bytes().splitlines(keepends=True), FAULTS_OF_INFILL | faults, tmp_path) == []
+
+
+def test_a_binary_print_is_compared_with_its_text(tmp_path: Path) -> None:
+    """Lines are those of the text inside."""
+    old, binary = tmp_path / "old.gcode", tmp_path / "new.bgcode"
+    text = written(Dialect(layers=4))
+    old.write_bytes(text)
+    binary.write_bytes(binary_print(text))
+    assert verify(old, binary).agrees
+    planted = FAULTS["a hotter nozzle"][1](text.splitlines(keepends=True))
+    binary.write_bytes(binary_print(b"".join(planted.lines)))
+    (violation,) = verify(old, binary).violations
+    assert violation.text == f"nozzle 245 °C, was 215 °C, set at line {planted.line}"
+
+
+def binary_print(text: bytes) -> bytes:
+    """Write a text as binary G-code: a header, metadata, and blocks of G-code without compression."""
+
+    def block(kind: int, data: bytes) -> bytes:
+        body = struct.pack("<HHI", kind, 0, len(data)) + struct.pack("<H", 0) + data
+        return body + struct.pack("<I", zlib.crc32(body))
+
+    pieces = [text[i : i + 50_000] for i in range(0, len(text), 50_000)]
+    blocks = [block(0, b"Producer=PrusaSlicer 2.9.0\n"), block(3, b""), block(4, b""), block(2, b"")]
+    return b"".join([struct.pack("<4sIH", b"GCDE", 1, 1), *blocks, *(block(1, piece) for piece in pieces)])
 
 
 def test_what_looks_for_missed_faults_can_miss_one(prints_of_all_kinds: Mapping[str, Path], tmp_path: Path) -> None:
@@ -142,6 +171,7 @@ HARMLESS = (
 )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("change", HARMLESS, ids=lambda change: change.__name__)
 def test_a_change_of_the_text_alone_is_no_violation(
     change: Callable[[bytes], bytes], prints_of_all_kinds: Mapping[str, Path], tmp_path: Path
@@ -159,6 +189,7 @@ def test_a_change_of_the_text_alone_is_no_violation(
     assert compared >= 15
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("pattern", ["keep", "honeycomb", "gyroid"])
 def test_a_refill_is_no_violation(pattern: str, prints_of_all_kinds: Mapping[str, Path], tmp_path: Path) -> None:
     new, free = tmp_path / "new.gcode", 0
@@ -396,7 +427,7 @@ BAD: dict[str, tuple[bytes | None, str]] = {
     "not G-code": (b"hello\nworld\n", "the file has no moves"),
     "binary": (b"\0\1\2" * 99, "the file is not text"),
     "no filament": (b"G28\nG1 X1 Y1\nG1 X2 Y2\n", "no line lays filament"),
-    "another print": (written(Dialect(size=30, cell=5.0)), "another print"),
+    "another print": (round_print(), "another print"),
 }
 
 

@@ -92,34 +92,48 @@ def _end_keys(rows: TraceRows) -> Places:
 def _pair_layers(
     old: TraceRows, new: TraceRows
 ) -> tuple[list[tuple[int, int, int, int]], list[tuple[int, int]], list[tuple[int, int]]]:
-    """Pair the layers of two prints by their tags or, where these differ in number, by their heights."""
+    """Pair the layers of two prints by their tags or, where these differ, by their heights.
+
+    Returns
+    -------
+    blocks : list of (int, int, int, int)
+        Begin and end of each layer in both prints.
+    missing, added : list of (int, int)
+        Begin and end of the layers that only the old print, or only the new one, has.
+    """
     starts = [_tagged_starts(rows) for rows in (old, new)]
     levels = [rows.layer[begin[:-1]] for rows, begin in zip((old, new), starts, strict=True)]
-    if len(levels[0]) < 2 or not np.array_equal(levels[0], levels[1]):
+    tagged = len(levels[0]) > 1 and np.array_equal(levels[0], levels[1])
+    if not tagged:
         starts = [_height_starts(rows) for rows in (old, new)]
-        if any(
-            len(begin) - 1 > SPIRAL_SHARE * max(len(rows), 1) for rows, begin in zip((old, new), starts, strict=True)
-        ):
+        counts = [(len(begin) - 1) / max(len(rows), 1) for rows, begin in zip((old, new), starts, strict=True)]
+        if max(counts) > SPIRAL_SHARE:
             starts = [np.array([0, len(rows)]) for rows in (old, new)]
-    heights = [_heights(rows, begin) for rows, begin in zip((old, new), starts, strict=True)]
     ranges = [list(zip(begin[:-1].tolist(), begin[1:].tolist(), strict=True)) for begin in starts]
-    blocks: list[tuple[int, int, int, int]] = []
-    missing: list[tuple[int, int]] = []
-    added: list[tuple[int, int]] = []
-    for word, a, a_end, b, b_end in _compare_heights(*heights):
+    places = [[] if tagged else _layer_places(rows, begin) for rows, begin in zip((old, new), starts, strict=True)]
+    if tagged or places[0] == places[1]:
+        return [(*first, *second) for first, second in zip(*ranges, strict=True)], [], []
+    pairs = _pair_places(places[0], places[1])
+    taken = [{pair[side] for pair in pairs} for side in (0, 1)]
+    missing, added = ([layer for k, layer in enumerate(ranges[side]) if k not in taken[side]] for side in (0, 1))
+    return [(*ranges[0][first], *ranges[1][second]) for first, second in pairs], missing, added
+
+
+def _pair_places(old: list[tuple[int, ...]], new: list[tuple[int, ...]]) -> list[tuple[int, int]]:
+    """Pair layers in order by height and place; those in between by height alone, or one by one if they are as many.
+
+    >>> _pair_places([(1, 1, 200), (5, 5, 400), (1, 1, 600)], [(1, 1, 200), (1, 1, 600)])
+    [(0, 0), (2, 1)]
+    """
+    pairs: list[tuple[int, int]] = []
+    for word, a, a_end, b, b_end in SequenceMatcher(None, old, new, autojunk=False).get_opcodes():
         if word == "equal" or a_end - a == b_end - b:
-            blocks += [(*first, *second) for first, second in zip(ranges[0][a:a_end], ranges[1][b:b_end], strict=True)]
-        else:
-            missing += ranges[0][a:a_end]
-            added += ranges[1][b:b_end]
-    return blocks, missing, added
-
-
-def _compare_heights(old: list[tuple[int, ...]], new: list[tuple[int, ...]]) -> list[tuple[str, int, int, int, int]]:
-    """Return how to turn the heights of one print into those of another, as `difflib` words it."""
-    if len(old) == len(new):
-        return [("equal", 0, len(old), 0, len(new))]
-    return list(SequenceMatcher(None, old, new, autojunk=False).get_opcodes())
+            pairs += zip(range(a, a_end), range(b, b_end), strict=True)
+            continue
+        heights = [place[-1] for place in old[a:a_end]], [place[-1] for place in new[b:b_end]]
+        for first, second, count in SequenceMatcher(None, *heights, autojunk=False).get_matching_blocks():
+            pairs += zip(range(a + first, a + first + count), range(b + second, b + second + count), strict=True)
+    return pairs
 
 
 def _tagged_starts(rows: TraceRows) -> Places:
@@ -135,8 +149,8 @@ def _height_starts(rows: TraceRows) -> Places:
     return np.concatenate([[0], begins, [len(rows)]]).astype(np.int64)
 
 
-def _heights(rows: TraceRows, starts: Places) -> list[tuple[int, ...]]:
-    """Return the height of the first bead of each layer, in units, and where it ends to the millimetre.
+def _layer_places(rows: TraceRows, starts: Places) -> list[tuple[int, ...]]:
+    """Return where the first bead of each layer ends: x and y to the millimetre, z in units.
 
     Objects that are printed one after the other have the same heights in other places.
     """

@@ -18,6 +18,8 @@ from infill.verifying.tolerances import (
 )
 from infill.verifying.violations import ViolationList, describe_lengths, describe_place, describe_speeds
 
+LENGTH_SHARE, LENGTH_STEP = 0.02, 0.3  # of the beads in a gap, and mm, that an arc in place of lines may be longer
+
 
 def report_gaps(comparison: BeadComparison, speed_limit: float, found: ViolationList) -> None:
     """Compare beads without a partner as paths: place, height, filament, speed, settings."""
@@ -64,14 +66,21 @@ def _compare_gap_sums(comparison: BeadComparison, found: ViolationList) -> None:
     beads = np.bincount(gaps.old_gap, minlength=count) + np.bincount(gaps.new_gap, minlength=count)
     lost = np.bincount(gaps.old_gap[gaps.old_off > PATH_TOLERANCE], minlength=count) > 0
     wrong = np.abs(now - was) > FILAMENT_SHARE * was + FILAMENT_STEP * np.sqrt(np.maximum(beads, 1))
-    wrong &= ~comparison.bad & ~lost & ~comparison.skipped & (now > 0)
-    numbers = np.flatnonzero(wrong)
-    rows = gaps.new[np.searchsorted(gaps.new_gap, numbers)] if len(numbers) else np.empty(0, dtype=np.int64)
+    usable = ~comparison.bad & ~lost & ~comparison.skipped & (now > 0)
+    longer = usable & (lengths[1] - lengths[0] > LENGTH_SHARE * lengths[0] + LENGTH_STEP)
+    again = np.flatnonzero(longer)
+    found.add_runs(
+        "added",
+        comparison.new_rows[gaps.new[np.searchsorted(gaps.new_gap, again)]],
+        lambda k: f"{lengths[1][again[k]]:.1f} mm of beads on each other, was {lengths[0][again[k]]:.1f} mm",
+    )
+    numbers = np.flatnonzero(wrong & usable & ~longer)
+    rows = gaps.new[np.searchsorted(gaps.new_gap, numbers)]
     found.add_runs(
         "material",
         comparison.new_rows[rows],
         lambda k: describe_lengths(now[numbers[k]], was[numbers[k]], "of filament"),
-        comparison.a.line[gaps.old[np.searchsorted(gaps.old_gap, numbers)]] if len(numbers) else None,
+        comparison.a.line[gaps.old[np.searchsorted(gaps.old_gap, numbers)]],
     )
 
 

@@ -159,12 +159,12 @@ def _measure_large_gap(beads: TraceRows, others: TraceRows, inside: slice) -> tu
     """Return the greatest distance of each bead from the nearest of many others, and that one for its middle."""
     import shapely
 
-    ends = np.stack([others.start[inside, :2], others.end[inside, :2]], axis=1)
+    ends = np.nan_to_num(np.stack([others.start[inside, :2], others.end[inside, :2]], axis=1))
     tree = shapely.STRtree(shapely.linestrings(ends))
     worst = np.zeros(len(beads))
     nearest = np.empty(len(beads), dtype=np.int64)
     for point in (beads.start[:, :2], beads.end[:, :2], (beads.start + beads.end)[:, :2] / 2):
-        nearest = tree.nearest(shapely.points(point))
+        nearest = tree.nearest(shapely.points(np.nan_to_num(point)))
         worst = np.maximum(worst, distance_to_segments(point, ends[nearest, 0], ends[nearest, 1]))
     return worst, nearest + inside.start
 

@@ -46,6 +46,7 @@ _PAIR: Final = re.compile(r"([A-Za-z_]+)\s*=\s*[\"']?([^\s\"']+)")
 _FULL_FAN: Final = 255.0
 _LINE_NUMBER: Final = re.compile(rb"^\s*[Nn]\d+\s*|\*\s*\d+\s*$")
 # Commands that set nothing on the machine that outlasts them, or whose effect is followed elsewhere.
+_WAITS: Final = ("M109", "M190", "M191")
 _FOLLOWED: Final = frozenset(
     word
     for line in (
@@ -87,8 +88,14 @@ class SettingsHistory:
         changes = dict(self._read(command, text, firmware))
         for name in changes:
             self.since.setdefault(name, []).append(line)
+        if command.code in _WAITS:
+            self.others.append((line, f"{command.code}, the wait for a temperature,"))
         if not changes:
-            if command.code and command.code not in _FOLLOWED and not firmware_retraction(command, firmware):
+            if (
+                command.code
+                and command.code not in (*_FOLLOWED, *_WAITS)
+                and not firmware_retraction(command, firmware)
+            ):
                 self.others.append((line, plain_command(text)))
             return
         if all(self._values.get(name) == value for name, value in changes.items()):
