@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 import numpy as np
 
 from infill.arrays import Floats, Places
@@ -10,7 +12,6 @@ from infill.verifying.comparison import BeadComparison
 from infill.verifying.setting_faults import add_settings, settings_codes
 from infill.verifying.tolerances import (
     DEPTH_TOLERANCE,
-    FILAMENT_SHARE,
     FILAMENT_STEP,
     HEIGHT_TOLERANCE,
     PATH_TOLERANCE,
@@ -18,6 +19,8 @@ from infill.verifying.tolerances import (
 )
 from infill.verifying.violations import ViolationList, describe_lengths, describe_place, describe_speeds
 
+POINT_FILAMENT: Final = 0.05  # mm on a bead as short as the tolerance, which may be without a partner
+GAP_SHARE: Final = 0.06  # of the filament in a gap: fitters of arcs join beads that differ by 5 %
 LENGTH_SHARE, LENGTH_STEP = 0.02, 0.3  # of the beads in a gap, and mm, that an arc in place of lines may be longer
 
 
@@ -27,6 +30,8 @@ def report_gaps(comparison: BeadComparison, speed_limit: float, found: Violation
     readable = ~comparison.skipped
     usable = readable[gaps.new_gap] if len(gaps.new) else np.zeros(0, dtype=bool)
     off = (gaps.new_off > PATH_TOLERANCE) & usable
+    point = (comparison.b.length[gaps.new] <= PATH_TOLERANCE) & (comparison.b.filament[gaps.new] <= POINT_FILAMENT)
+    off &= ~(np.isinf(gaps.new_off) & point)  # a point of a bead, which an arc passes by
     rows, off_by = gaps.new[off], gaps.new_off[off]
     for kind, chosen in (("added", np.isinf(off_by)), ("place", np.isfinite(off_by))):
         places, apart = rows[chosen], off_by[chosen]
@@ -65,7 +70,7 @@ def _compare_gap_sums(comparison: BeadComparison, found: ViolationList) -> None:
     now = np.bincount(gaps.new_gap, weights=comparison.b.filament[gaps.new], minlength=count)
     beads = np.bincount(gaps.old_gap, minlength=count) + np.bincount(gaps.new_gap, minlength=count)
     lost = np.bincount(gaps.old_gap[gaps.old_off > PATH_TOLERANCE], minlength=count) > 0
-    wrong = np.abs(now - was) > FILAMENT_SHARE * was + FILAMENT_STEP * np.sqrt(np.maximum(beads, 1))
+    wrong = np.abs(now - was) > GAP_SHARE * was + FILAMENT_STEP * np.sqrt(np.maximum(beads, 1))
     usable = ~comparison.bad & ~lost & ~comparison.skipped & (now > 0)
     longer = usable & (lengths[1] - lengths[0] > LENGTH_SHARE * lengths[0] + LENGTH_STEP)
     again = np.flatnonzero(longer)

@@ -38,6 +38,8 @@ def report_missing(comparison: BeadComparison, found: ViolationList) -> NDArray[
     breaks = np.flatnonzero(np.diff(rows) > RUN_GAP) + 1
     for run in np.split(rows, breaks) if len(rows) else []:
         length = float(comparison.a.length[run].sum())
+        if length <= PATH_TOLERANCE:  # a point of a bead, which an arc passes by
+            continue
         _add_missing(
             comparison, found, run, f"{count_noun(len(run), 'bead')} of {length:.1f} mm, missing before this line"
         )

@@ -97,7 +97,7 @@ def _compare_filament(comparison: BeadComparison, found: ViolationList) -> None:
     after_jump = np.zeros(len(comparison.b) + 1, dtype=bool)
     after_jump[comparison.second[draws & jump] + 1] = True  # where E is absolute, the next line takes it back
     _add_runs(comparison, found, "material", draws & wrong & ~jump & ~after_jump[comparison.second], describe)
-    retracts = ~draws & (np.abs(now - was) > DEPTH_TOLERANCE)
+    retracts = ~draws & _begins_alike(comparison) & (np.abs(now - was) > DEPTH_TOLERANCE)
     _add_runs(comparison, found, "retraction", retracts, describe)
     blob_was, blob = comparison.a.blob[comparison.first], comparison.b.blob[comparison.second]
     for kind, chosen in (
@@ -112,6 +112,12 @@ def _compare_filament(comparison: BeadComparison, found: ViolationList) -> None:
             lambda k: describe_lengths(blob[k], blob_was[k], "pushed in one place beyond what was retracted"),
             comparison.b.blob_line[comparison.second] if kind == "E jump" else None,
         )
+
+
+def _begins_alike(comparison: BeadComparison) -> NDArray[np.bool_]:
+    """Return True for pairs that begin at the same point: an arc of a wipe begins before the last of its lines."""
+    a, b = comparison.a.start[comparison.first, :2], comparison.b.start[comparison.second, :2]
+    return np.asarray(distances(a, b) <= 1.5 * UNIT)
 
 
 def _expected_filament(comparison: BeadComparison) -> Floats:
@@ -133,7 +139,7 @@ def _compare_retraction(comparison: BeadComparison, found: ViolationList) -> Non
         comparison,
         found,
         "retraction",
-        np.abs(now - was) > DEPTH_TOLERANCE,
+        (np.abs(now - was) > DEPTH_TOLERANCE) & (comparison.both_draw | _begins_alike(comparison)),
         lambda k: describe_lengths(now[k], was[k], "retracted"),
     )
 

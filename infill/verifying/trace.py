@@ -216,6 +216,8 @@ class _Collector:
         first = np.concatenate([[True], np.diff(line) != 0])[: len(line)]
         blob, blob_line = self._count_blobs(highest - highest_before, line[first], len(table))
         number = np.cumsum(first) - 1
+        passed = np.cumsum(share) - share  # of the lines up to each chord
+        passed -= passed[first][number] if len(line) else 0.0
         self.parts.append(
             TraceRows(
                 start=start,
@@ -226,7 +228,7 @@ class _Collector:
                 layer=marks.layer[line].astype(np.int64),
                 role=_renumber(marks.roles, self.roles)[marks.role[line]],
                 thing=self._number_objects(marks, line),
-                retracted=(highest_before - total_before)[line],
+                retracted=np.maximum((highest_before - total_before)[line] - filament[line] * passed, 0.0),
                 blob=np.where(first, blob[number], 0.0) if len(line) else np.empty(0),
                 blob_line=blob_line[number] if len(line) else np.empty(0, dtype=np.int64),
             )
