@@ -89,7 +89,10 @@ class BeadComparison:
 def compare_beads(old: Trace, new: Trace, changed: Collection[str]) -> BeadComparison:
     """Pair the moves of two prints, without those of the features in `changed`."""
     old_rows, new_rows = (np.flatnonzero(~is_changed(trace, changed)) for trace in (old, new))
-    a, b = old.rows.at(old_rows), new.rows.at(new_rows)
+    a, b = (
+        trace.rows if len(rows) == len(trace.rows) else trace.rows.at(rows)
+        for trace, rows in ((old, old_rows), (new, new_rows))
+    )
     alignment = align(a, b)
     reordered = pair_reordered(a, b, alignment)
     gaps = compare_gaps(a, b, alignment, reordered)

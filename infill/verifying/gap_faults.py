@@ -70,7 +70,8 @@ def _compare_gap_sums(comparison: BeadComparison, found: ViolationList) -> None:
     now = np.bincount(gaps.new_gap, weights=comparison.b.filament[gaps.new], minlength=count)
     beads = np.bincount(gaps.old_gap, minlength=count) + np.bincount(gaps.new_gap, minlength=count)
     lost = np.bincount(gaps.old_gap[gaps.old_off > PATH_TOLERANCE], minlength=count) > 0
-    wrong = np.abs(now - was) > GAP_SHARE * was + FILAMENT_STEP * np.sqrt(np.maximum(beads, 1))
+    slack = 2 * PATH_TOLERANCE * was / np.where(lengths[1] > 0, lengths[1], 1.0)
+    wrong = np.abs(now - was) > GAP_SHARE * was + FILAMENT_STEP * np.sqrt(np.maximum(beads, 1)) + slack
     usable = ~comparison.bad & ~lost & ~comparison.skipped & (now > 0)
     longer = usable & (lengths[1] - lengths[0] > LENGTH_SHARE * lengths[0] + LENGTH_STEP)
     again = np.flatnonzero(longer)

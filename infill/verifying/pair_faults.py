@@ -83,12 +83,13 @@ def _compare_places(comparison: BeadComparison, found: ViolationList) -> None:
 
 def _compare_filament(comparison: BeadComparison, found: ViolationList) -> None:
     """Compare the filament of pairs, and what is pushed in one place before them."""
-    was, now = _expected_filament(comparison), comparison.b.filament[comparison.second]
+    was, slack = _expected_filament(comparison)
+    now = comparison.b.filament[comparison.second]
     draws = comparison.a.draws[comparison.first] | comparison.b.draws[comparison.second]
     jump = (now > JUMP_RATIO * np.maximum(was, 0.0) + JUMP_LENGTH) | (
         comparison.a.draws[comparison.first] & (now < -JUMP_LENGTH)
     )
-    wrong = np.abs(now - was) > FILAMENT_SHARE * np.abs(was) + FILAMENT_STEP
+    wrong = np.abs(now - was) > FILAMENT_SHARE * np.abs(was) + FILAMENT_STEP + slack
 
     def describe(k: int) -> str:
         return describe_lengths(now[k], was[k], "of filament")
@@ -120,16 +121,18 @@ def _begins_alike(comparison: BeadComparison) -> NDArray[np.bool_]:
     return np.asarray(distances(a, b) <= 1.5 * UNIT)
 
 
-def _expected_filament(comparison: BeadComparison) -> Floats:
-    """Return the filament of the old moves in pairs; where ends differ within the tolerance, in proportion to length.
+def _expected_filament(comparison: BeadComparison) -> tuple[Floats, Floats]:
+    """Return the filament of the old moves in pairs, and a slack where ends differ within the tolerance.
 
-    Points of an arc do not lie where the ends of its lines lay.
+    Points of an arc do not lie where the ends of its lines lay: there the filament is in proportion to the length, and
+    its slack is that of the distance between the ends.
     """
     a, b = comparison.a.at(comparison.first), comparison.b.at(comparison.second)
     shift = np.maximum(distances(a.start[:, :2], b.start[:, :2]), distances(a.end[:, :2], b.end[:, :2]))
     loose = (shift > 1.5 * UNIT) & (shift <= PATH_TOLERANCE) & comparison.both_draw
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where(loose, a.filament * b.length / a.length, a.filament)
+        expected = np.where(loose, a.filament * b.length / a.length, a.filament)
+        return expected, np.where(loose, 2 * shift * a.filament / a.length, 0.0)
 
 
 def _compare_retraction(comparison: BeadComparison, found: ViolationList) -> None:
