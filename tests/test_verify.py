@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import re
 import struct
+import tempfile
 import zlib
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from test_command_line import one_line_error, run, usage_error
 
-from infill import FormatError, ParameterError, UsageError, Verification, Violation, refill, verify
+from infill import FormatError, InfillError, ParameterError, UsageError, Verification, Violation, refill, verify
 from infill.verifying.alignment import longest_rise
 from infill.verifying.settings import KINDS
 from tests.arc_fitting import fit_arcs
-from tests.gcode_corpus import CORPUS
+from tests.gcode_corpus import CORPUS, prints
 from tests.handmade_prints import Dialect, written
 from tests.planted_faults import (
     FAULTS,
@@ -389,6 +393,21 @@ def test_a_speed_within_the_limit_passes(tmp_path: Path) -> None:
     assert not verify(old, new).agrees
     assert verify(old, new, speed_limit=0.25).agrees
     assert verify(new, old).agrees  # slower
+
+
+@settings(max_examples=20)
+@given(text=prints(), cut=st.tuples(st.integers(0, 10**6), st.integers(1, 60)))
+def test_any_dialect_agrees_with_itself_and_any_damage_is_survived(text: bytes, cut: tuple[int, int]) -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        old, new = Path(folder) / "old.gcode", Path(folder) / "new.gcode"
+        old.write_bytes(text)
+        assert list(map(str, verify(old, old).violations)) == []
+        lines = text.splitlines(keepends=True)
+        at = cut[0] % len(lines)
+        new.write_bytes(b"".join(lines[:at] + lines[at + cut[1] :]))
+        for pair in ((old, new), (new, old)):
+            with contextlib.suppress(InfillError):
+                json.dumps(verify(*pair).report)
 
 
 # --- the command -----------------------------------------------------------------------------------------------
