@@ -18,7 +18,7 @@ from infill.verifying.tolerances import PATH_TOLERANCE, UNIT
 from infill.verifying.trace import TraceRows
 
 MOST_AT_ONCE: Final = 1 << 18  # distances that are computed at a time
-LARGE_GAP: Final = 1 << 24  # distances in a gap; beads of larger ones are found by a tree
+LARGE_GAP: Final = 1 << 18  # distances in a gap; beads of larger ones are found by a tree
 NEAR: Final = 2 * PATH_TOLERANCE  # mm beyond the nearest old bead within which others count as its neighbours
 _PRIMES: Final = np.array([73856093, 19349663, 83492791, 49979687, 15485863], dtype=np.int64)
 
