@@ -60,7 +60,7 @@ NOT_EXPORTED = ("FeatureMotion", "HasName", "Progress", "SmoothOptions", "StampM
 NOT_EXPORTED += ("LimitNote", "WrittenTimes")
 NOT_EXPORTED += ("ComponentStages", "FillStages", "LabelStages", "MakeStages", "SmoothStages", "Stages")
 NOT_EXPORTED += ("ComponentsReport", "FillReport", "LabelsReport", "MakeReport", "PrintedVolume", "SmoothReport")
-NOT_EXPORTED += ("CheckReport", "MotionReport", "ProjectReport", "RefillReport")
+NOT_EXPORTED += ("CheckReport", "MotionReport", "ProjectReport", "RefillReport", "VerifyReport")
 NOT_EXPORTED += ("Edges", "Floats", "Modifier", "Picturable", "Spiral", "Straight", "WholeMesh")
 # Every other name of ours must resolve. Those of other projects lead nowhere, as the build needs no network.
 OTHERS = ("Image", "collections", "dataclasses", "datetime", "importlib", "manifold3d", "np", "numpy", "os", "pathlib")

@@ -49,6 +49,8 @@ if TYPE_CHECKING:
     from infill.smoothing.labels import smooth_labels
     from infill.surface import Surface
     from infill.timing.printing_time import Motion, motion
+    from infill.verifying.job import Verification, verify
+    from infill.verifying.violations import Violation
     from infill.volume import Volume
     from infill.voxels.stamping import stamp, stamp_lines
 
@@ -72,6 +74,8 @@ _HOMES = {
     "inspection.printability": ("Inspection", "check"),
     "timing.printing_time": ("Motion", "motion"),
     "making.block": ("make",),
+    "verifying.job": ("Verification", "verify"),
+    "verifying.violations": ("Violation",),
     "result": ("Result",),
     "formats.point_files": ("read_points",),
     "samples.catalogue": ("write_sample",),
@@ -114,6 +118,8 @@ __all__ = [
     "Smoothing",
     "Surface",
     "UsageError",
+    "Verification",
+    "Violation",
     "Volume",
     "WallWidth",
     "check",
@@ -140,6 +146,7 @@ __all__ = [
     "stack",
     "stamp",
     "stamp_lines",
+    "verify",
     "wall_width",
     "write_sample",
 ]

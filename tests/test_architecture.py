@@ -31,7 +31,7 @@ ROWS: tuple[tuple[str, ...], ...] = (
     ("planner", "inspection", "interior"),
     ("pictures", "options", "drains"),
     ("result",),
-    ("smoothing", "lattices", "refilling", "projects", "samples", "timing"),
+    ("smoothing", "lattices", "refilling", "projects", "samples", "timing", "verifying"),
     ("making",),
     ("cli", "studio"),
 )

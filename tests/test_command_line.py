@@ -29,7 +29,7 @@ from infill.making.settings import MakeSettings, parse_size, resolve
 from patterns import PATTERNS, gives, parameters
 from patterns.shared import SHARED
 
-COMMANDS = ["make", "smooth", "fill", "refill", "list", "check", "motion", "sample"]
+COMMANDS = ["make", "smooth", "fill", "refill", "list", "check", "motion", "verify", "sample"]
 SMALL = ["--size", "20", "--height", "2"]
 RUN = [sys.executable, "-m", "infill.cli"]
 
@@ -732,11 +732,12 @@ def test_a_broken_plugin_is_one_line_on_stderr(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("dry", [False, True])
-@pytest.mark.parametrize("command", ["smooth", "fill", "refill", "motion", "check"])
+@pytest.mark.parametrize("command", ["smooth", "fill", "refill", "motion", "verify", "check"])
 def test_a_missing_input_is_told_before_an_output_that_exists(command: str, dry: bool, tmp_path: Path) -> None:
     old = tmp_path / "old.stl"
     old.write_bytes(b"old")
-    output = [] if command in ("check", "motion") else ["-o", old, *(["--dry-run"] if dry else [])]
+    written = ["-o", old, *(["--dry-run"] if dry else [])]
+    output = {"verify": [old], "check": [], "motion": []}.get(command, written)
     done = run(command, tmp_path / "gone.stl", *output)
     assert done.exit_code == 1
     assert f"there is no file {tmp_path / 'gone.stl'}; check the name" in done.stderr

@@ -28,6 +28,7 @@ from infill.refilling.request import Request
 from infill.smoothing.request import SmoothOptions
 from infill.smoothing.settings import SmoothSettings
 from infill.timing.request import MotionOptions
+from infill.verifying.settings import VerifyRequest
 
 DECLARATIONS: dict[str, type[Any]] = {
     "make": MakeSettings,
@@ -35,6 +36,7 @@ DECLARATIONS: dict[str, type[Any]] = {
     "fill": FillOptions,
     "refill": Request,
     "motion": MotionOptions,
+    "verify": VerifyRequest,
 }
 # Flags of the run and its files, which no config file has.
 RUN = {"ascii", "config", "dry_run", "force", "json", "max_memory", "output", "preview", "quiet", "save_config", "set"}
@@ -198,6 +200,12 @@ def test_the_keywords_of_refill_are_its_options() -> None:
     declared, python = declared_defaults("refill"), keywords(infill.refill)
     assert {name: python.pop(name) for name in declared} == declared
     assert set(python) == {"gcode", "output", "dry_run", "overwrite", "progress"}
+
+
+def test_the_keywords_of_verify_are_its_options() -> None:
+    declared, python = declared_defaults("verify"), keywords(infill.verify)
+    assert {name: python.pop(name) for name in declared} == declared
+    assert set(python) == {"old", "new"}
 
 
 def test_the_keywords_of_make_are_its_options() -> None:

@@ -41,6 +41,7 @@ WORKING = {
     "motion": "print.gcode",
     "motion plot": "print.gcode --plot a.png",
     "motion corner": "print.gcode --model klipper",
+    "verify": "print.gcode print.gcode",
 }
 # Values out of range, which cannot be done, by option; "nan" is among them wherever it can be typed.
 OUT_OF_RANGE = {
@@ -123,6 +124,7 @@ OUT_OF_RANGE = {
         "--macro": "START_PRINT=-1 START_PRINT=1e9 A=1,a=2",
     },
     "motion plot": {"--layer": "999 0 -1"},
+    "verify": {"--material-limit": "-5% 150% nan%", "--speed-limit": "-5% 150% nan%", "--plate": "9"},
 }
 # Words that an option cannot read, in addition to what is out of range above.
 UNREAD = {
@@ -163,8 +165,9 @@ UNREAD = {
         "--limits": "max_accel =5 max_accel=fast max_accel=5mm",
         "--macro": "START_PRINT START_PRINT=x START-PRINT=3",
     },
+    "verify": {"--changed": "foo perimeter,foo", "--allow": "foo speed,foo", "--material-limit": "much"},
 }
-NAMES = {"FILE", "NAME", "UID", "keep|NAME|FILE"}  # metavars of what may be any word
+NAMES = {"FILE", "NAME", "UID", "keep|auto|NAME|FILE"}  # metavars of what may be any word
 
 
 def run(*words: str) -> Any:

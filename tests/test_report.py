@@ -31,6 +31,7 @@ from infill import (
     smooth_mesh,
     smooth_points,
     smooth_volume,
+    verify,
 )
 from infill.cli.app import build_app
 from infill.reports.checking import FailedCheck
@@ -257,6 +258,21 @@ def motion_reports(folder: Path, results: Results) -> dict[str, Any]:
     }
 
 
+def verify_reports(folder: Path, results: Results) -> dict[str, Any]:
+    sliced = sliced_print(folder)
+    smooth = folder / "verified.gcode"
+    refill(sliced, output=smooth)
+    hot = folder / "hot.gcode"
+    hot.write_bytes(sliced.read_bytes().replace(b"M109 S215", b"M109 S225"))
+    return {
+        "same": verify(sliced, sliced).report,
+        "refilled": verify(sliced, smooth).report,
+        "plate": verify(archive(folder), archive(folder), plate=2).report,
+        "allowed": verify(sliced, hot, allow="temperature").report,
+        "command": printed("verify", sliced, hot, status=1),
+    }
+
+
 def check_reports(folder: Path, results: Results) -> dict[str, Any]:
     SPHERE.export(folder / "ball.stl")
     trimesh.Trimesh(SPHERE.vertices, SPHERE.faces[5:]).export(folder / "open.stl")
@@ -293,6 +309,7 @@ REPORTS: dict[str, Callable[[Path, Results], dict[str, Any]]] = {
     "fill --dry-run": fill_plans,
     "refill": refill_reports,
     "motion": motion_reports,
+    "verify": verify_reports,
     "check": check_reports,
     "check --for": project_reports,
     "list": lists,

@@ -103,7 +103,7 @@ def calls() -> dict[str, Callable[[], object]]:
     from handmade_prints import Dialect, written
 
     import infill.kernels.threads
-    from infill import fill, make, motion, refill, smooth_mesh, smooth_volume
+    from infill import fill, make, motion, refill, smooth_mesh, smooth_volume, verify
 
     vars(infill.kernels.threads)["ThreadPoolExecutor"] = Inline
     sliced = Path(tempfile.mkdtemp()) / "box.gcode"
@@ -119,6 +119,7 @@ def calls() -> dict[str, Callable[[], object]]:
             sliced, output=sliced.with_name("new.gcode"), pattern="honeycomb"
         ),
         "motion(print)": lambda: motion(sliced),
+        "verify(print, keep)": lambda: verify(sliced, sliced.with_name("keep.gcode")),
     }
 
 

@@ -21,7 +21,7 @@ ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "report.md"
 sys.path.insert(0, str(ROOT))
 
-from infill.reports import checking, common, filling, making, refilling, smoothing, timing  # noqa: E402
+from infill.reports import checking, common, filling, making, refilling, smoothing, timing, verifying  # noqa: E402
 
 HEAD = """# The report
 
@@ -161,6 +161,12 @@ CHAPTERS = (
         text="`motion(…).to_dict()` returns this report, and `infill motion` prints it; for two files, it prints an "
         "object with a list of both, `files`.",
         report=timing.MotionReport,
+    ),
+    Chapter(
+        title="Verify: a post-processed print",
+        word="verify",
+        text="`verify(…).report` is this report, and `infill verify --json` prints it.",
+        report=verifying.VerifyReport,
     ),
     Chapter(
         title="Check: a mesh",

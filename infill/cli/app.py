@@ -24,6 +24,7 @@ COMMANDS: dict[str, tuple[str, str, str]] = {
     "list": ("listing", "list_patterns", "infill list honeycomb --preview honeycomb.png"),
     "check": ("checking", "check", "infill check part.stl smooth.stl --json"),
     "motion": ("timing", "motion", "infill motion part.gcode smooth.gcode --plot speeds.png"),
+    "verify": ("verifying", "verify", "infill verify before.gcode after.gcode"),
     "sample": ("sampling", "sample", "infill sample part scan print"),
 }
 

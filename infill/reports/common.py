@@ -33,12 +33,17 @@ def declare(declaration: Callable[..., Declared], values: Mapping[str, Any]) -> 
     return declaration(**values)
 
 
-class ReportHead(TypedDict):
-    """First keys of a report."""
+class ReportForm(TypedDict):
+    """Form and product of a report."""
 
     form: Annotated[int, "Version of the form of this report"]
     version: Annotated[str, "Version of phasefill"]
-    product: Annotated[str, "`make`, `smooth`, `labels`, `components`, `fill` or `refill`"]
+    product: Annotated[str, "`make`, `smooth`, `labels`, `components`, `fill`, `refill` or `verify`"]
+
+
+class ReportHead(ReportForm):
+    """First keys of the report of a product that writes files."""
+
     files: NotRequired[Annotated[list[str], "Names of the files written; from the command line only"]]
 
 
