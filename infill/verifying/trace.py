@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from infill.arrays import Floats, Places
 from infill.errors import FormatError
+from infill.gcode.chords import chords_of_arc_lines
 from infill.gcode.dialect import role_of
 from infill.gcode.found_limits import FileLimits
 from infill.gcode.lines import ARC, MOVE, ODD
@@ -24,7 +25,6 @@ from infill.gcode.sections import LineMarks, TagState, mark_lines
 from infill.gcode.sliced_file import open_sliced
 from infill.gcode.survey import STAMP
 from infill.gcode.table import GcodeTable
-from infill.planner.chords import chords_of_arc_lines
 from infill.planner.feature_sums import FeatureSums
 from infill.planner.open_timeline import make_timeline
 from infill.verifying.machine_settings import SettingsHistory
