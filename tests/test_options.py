@@ -159,7 +159,7 @@ UNREAD = {
         "--seed": "2.5",
     },
     "check": {"--for": "foo"},
-    "refill": {"--density": "dense", "--smooth-radius": "wide", "--layers": "1.5"},
+    "refill": {"--density": "dense", "--smooth-radius": "wide", "--layers": "1.5", "--arcs": "maybe"},
     "motion": {
         "--model": "foo",
         "--limits": "max_accel =5 max_accel=fast max_accel=5mm",
