@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from infill.errors import ParameterError
+from infill.files.suffixes import MESHES
 from infill.options.modules import load_object, names_code
 from infill.plain_numbers import plain_argument
 from patterns import PATTERNS
@@ -19,7 +20,6 @@ from patterns.protocol import CELLS, LEVEL_SET, LINES, PATHS, Pattern, offers
 from patterns.unit_cells import Surfaces
 
 DRAWINGS = (".svg", ".dxf", ".wkt", ".png", ".jpg", ".jpeg", ".bmp")
-MESHES = (".stl", ".3mf", ".obj", ".ply", ".off", ".glb", ".gltf")
 SAMPLES = 16  # points along a cell at which a function is tested
 NEEDS = {  # of these, a product needs one
     "make": (LINES, LEVEL_SET, CELLS),
