@@ -643,7 +643,7 @@ def test_a_mesh_in_the_place_of_a_print_is_recognised(suffix: str, text: bool, t
     path.write_bytes(b"solid part\nfacet\n" if text else bytes(200))
     for command in (["motion", path], ["refill", path, "-o", tmp_path / "out.gcode"]):
         one_line_error(
-            run_infill(*command), "is named like a mesh, and is no sliced print; slice it first, or infill fill"
+            run_infill(*command), "is named like a mesh, and is not a sliced print; slice it first, or infill fill"
         )
 
 
