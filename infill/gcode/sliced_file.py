@@ -185,8 +185,8 @@ def open_sliced(source: Path) -> Iterator[SlicedFile]:
     except FormatError as error:
         if form == "text" and source.suffix.lower() in MESHES:
             raise FormatError(
-                f"{source} is named like a mesh, and is not a sliced print; slice it first, or infill fill fills it and "
-                "infill check says whether it is printable"
+                f"{source} is named like a mesh, and is not a sliced print; slice it first, or infill fill fills it, "
+                "and infill check says whether it is printable"
             ) from error
         raise FormatError(f"{source}: {error}") from error
 
