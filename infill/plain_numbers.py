@@ -34,8 +34,33 @@ def plain_number(value: SupportsFloat, digits: int = 3, *, separator: str = ",")
     return text.rstrip("0").rstrip(".") if decimals else text
 
 
-def plain_size(*values: SupportsFloat, digits: int = 3, power: int = 1, separator: str = ",") -> str:
-    """Write lengths, areas or volumes with their unit: mm where a person would, else nm, µm, m or km.
+def choose_unit(*values: SupportsFloat, power: int = 1) -> str:
+    """Choose the unit of lengths, areas or volumes by the largest: mm where a person would, else nm, µm, m or km.
+
+    Parameters
+    ----------
+    *values : float
+        mm, mm² or mm³.
+    power : int
+        1 for lengths, 2 for areas, 3 for volumes.
+
+    >>> choose_unit(12.345), choose_unit(1.234e-4), choose_unit(1.234e-4, 0.1), choose_unit(2e-9, power=3)
+    ('mm', 'µm', 'mm', 'µm')
+    """
+    numbers = [float(value) for value in values]
+    largest = max((abs(number) for number in numbers if math.isfinite(number)), default=0.0)
+    names, unit = list(UNITS), "mm"
+    while 0 < largest * UNITS[unit] ** -power < FEWEST_UNITS and unit != names[0]:
+        unit = names[names.index(unit) - 1]
+    while largest * UNITS[unit] ** -power >= MOST_UNITS[power] and unit != names[-1]:
+        unit = names[names.index(unit) + 1]
+    return unit
+
+
+def plain_size(
+    *values: SupportsFloat, digits: int = 3, power: int = 1, separator: str = ",", unit: str | None = None
+) -> str:
+    """Write lengths, areas or volumes with their unit.
 
     Parameters
     ----------
@@ -46,20 +71,18 @@ def plain_size(*values: SupportsFloat, digits: int = 3, power: int = 1, separato
         1 for lengths, 2 for areas, 3 for volumes.
     separator : str
         Between thousands.
+    unit : str, optional
+        One of `UNITS`, such as that of another size in the same message; the choice of `choose_unit` by default.
 
     >>> plain_size(12.345), plain_size(1.234e-4), plain_size(123456789), plain_size(2e-9, power=3)
     ('12.3 mm', '0.123 µm', '123 km', '2 µm³')
     >>> plain_size(0.002, 0.0004), plain_size(8834810, power=3, digits=6), plain_size(0)
     ('0.002 x 0.0004 mm', '8,834,810 mm³', '0 mm')
+    >>> plain_size(1.234e-4, unit="mm")
+    '0.000123 mm'
     """
-    numbers = [float(value) for value in values]
-    largest = max((abs(number) for number in numbers if math.isfinite(number)), default=0.0)
-    names, unit = list(UNITS), "mm"
-    while 0 < largest * UNITS[unit] ** -power < FEWEST_UNITS and unit != names[0]:
-        unit = names[names.index(unit) - 1]
-    while largest * UNITS[unit] ** -power >= MOST_UNITS[power] and unit != names[-1]:
-        unit = names[names.index(unit) + 1]
-    scaled = (number * UNITS[unit] ** -power for number in numbers)
+    unit = choose_unit(*values, power=power) if unit is None else unit
+    scaled = (float(value) * UNITS[unit] ** -power for value in values)
     return f"{' x '.join(plain_number(number, digits, separator=separator) for number in scaled)} {unit}{POWERS[power]}"
 
 

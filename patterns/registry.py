@@ -9,6 +9,8 @@ A third party adds a pattern with the entry-point group ``infill.patterns``::
 from __future__ import annotations
 
 import importlib
+import itertools
+import re
 import warnings
 from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
@@ -21,7 +23,7 @@ if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
 
 GROUP = "infill.patterns"
-# Words that people type, and whose letters are nearer to another name.
+# Words that people type, and names that slicers use, whose letters are nearer to another name; as `_letters` has them.
 OTHER_NAMES = {
     "hexagon": "honeycomb",
     "hexagons": "honeycomb",
@@ -29,16 +31,22 @@ OTHER_NAMES = {
     "squares": "grid",
     "lines": "rectilinear",
     "line": "rectilinear",
-    "stars": "octagram-spiral",
+    "monotonic": "rectilinear",
+    "monotonicline": "rectilinear",
+    "monotoniclines": "rectilinear",
+    "stars": "tri-hexagon",  # of PrusaSlicer
     "spiral": "archimedean-chords",
     "diamonds": "diamond",
     "heart": "concentric-heart",
     "schwarz": "schwarz-p",
     "primitive": "schwarz-p",
+    "tpmsd": "schwarz-d",
+    "tpmsfk": "fischer-koch-s",
     "foam": "voronoi-foam",
-    "3d-honeycomb": "honeycomb-3d",
-    "3dhoneycomb": "honeycomb-3d",
-    "cubic-subdivision": "adaptive-cubic",
+    "2dhoneycomb": "lateral-honeycomb",
+    "2dlattice": "lateral-lattice",
+    "cubicsubdiv": "adaptive-cubic",
+    "cubicsubdivision": "adaptive-cubic",
 }
 PatternClass = type[Pattern] | type[Cells]
 
@@ -105,16 +113,48 @@ class Registry(Mapping[str, PatternClass]):
     def __len__(self) -> int:
         return len(self.built_in) + len(self._load_plugins())
 
-    def find(self, name: str) -> PatternClass:
-        """Return the pattern called `name`, or raise PatternError suggesting the nearest name."""
+    def spelled(self, name: str) -> str:
+        """Return the registered name that `name` spells in the way of a slicer, or `name` itself if there is none.
+
+        Case, blanks, dashes and underscores do not count, nor does the order of words.
+
+        >>> from patterns import PATTERNS
+        >>> [PATTERNS.spelled(name) for name in ("Zig-zag", "3D Honeycomb", "CrossHatch", "gyriod")]
+        ['zigzag', 'honeycomb-3d', 'cross-hatch', 'gyriod']
+        """
+        if name in self:
+            return name
+        typed = _letters(name)
+        return next((registered for registered in self if typed in _spellings(registered)), name)
+
+    def nearest(self, name: str, names: Collection[str]) -> str | None:
+        """Return the pattern that a person who typed `name` may have meant, the nearest of `names`, or None."""
         import difflib
 
-        if name in self:
-            return self[name]
-        known = OTHER_NAMES.get(name.strip().lower().replace("_", "-").replace(" ", "-"))
-        matches = [known] if known else difflib.get_close_matches(name.lower(), self, n=1, cutoff=0.4)
-        advice = f"did you mean {matches[0]!r}?" if matches else f"there are {', '.join(self)}"
+        known = OTHER_NAMES.get(_letters(name))
+        if known in self:
+            return known
+        return next(iter(difflib.get_close_matches(name.lower(), names, n=1, cutoff=0.4)), None)
+
+    def find(self, name: str) -> PatternClass:
+        """Return the pattern called `name`, as `spelled` reads it, or raise PatternError suggesting the nearest."""
+        spelled = self.spelled(name)
+        if spelled in self:
+            return self[spelled]
+        meant = self.nearest(name, list(self))
+        advice = f"there are {', '.join(self)}" if meant is None else f"did you mean {meant!r}?"
         raise PatternError(f"there is no pattern {name!r}; {advice} ('infill list' shows all)")
+
+
+def _letters(name: str) -> str:
+    """Return a name in lower case, with its letters and digits alone."""
+    return "".join(re.findall(r"[^\W_]", name.lower()))
+
+
+def _spellings(name: str) -> set[str]:
+    """Return the letters of a name with its words in every order."""
+    words = re.findall(r"[^\W_]+", name.lower())
+    return {"".join(order) for order in itertools.permutations(words)}
 
 
 def _load(entry: EntryPoint, used_names: Collection[str]) -> PatternClass:

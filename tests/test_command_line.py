@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 import pytest
 import trimesh
+import typer.main
 from PIL import Image
 from shapely import box
 from shapes import BUILT_IN, IN_SPACE
@@ -22,6 +23,7 @@ from typer.testing import CliRunner
 import infill
 from infill import ParameterError, read_mesh
 from infill.cli.app import build_app
+from infill.cli.commands import OTHER_OPTIONS
 from infill.cli.console import format_bytes
 from infill.cli.listing import BRAILLE_BLANK
 from infill.cli.words import parse_bytes
@@ -130,6 +132,11 @@ def test_python_runs_the_package(package: str) -> None:
         (["--version"], 0, f"infill {infill.__version__} (phasefill)\n"),
         (["list", "honycomb"], 1, "error: there is no pattern 'honycomb'; did you mean 'honeycomb'?"),
         (["list", "--nonsense"], 2, "No such option: --nonsense"),
+        (["make", "grid", "--wall", "1", "-o", "a.stl"], 2, "No such option: --wall; did you mean --line-width?"),
+        (["make", "voronoi", "--seed", "3", "-o", "a.stl"], 2, "No such option: --seed; did you mean --set seed=N?"),
+        (["fill", "a.stl", "--infill", "20", "-o", "b.stl"], 2, "No such option: --infill; did you mean --density?"),
+        (["check", "--wall", "1", "a.stl"], 2, "No such option: --wall"),
+        (["motion", "-"], 1, "error: '-' is not a file, and nothing is read from stdin; save it"),
     ):
         done = subprocess.run([sys.executable, "-m", package, *words], capture_output=True, text=True, check=False)
         assert done.returncode == code
@@ -743,3 +750,11 @@ def test_a_missing_input_is_told_before_an_output_that_exists(command: str, dry:
     assert f"there is no file {tmp_path / 'gone.stl'}; check the name" in done.stderr
     assert "exists" not in done.stderr
     assert old.read_bytes() == b"old"
+
+
+def test_options_of_other_programs_are_answered_with_options_that_exist() -> None:
+    """Some command has each of the answers."""
+    commands = typer.main.get_command(build_app()).commands.values()  # type: ignore[attr-defined]
+    flags = [{flag for option in command.params for flag in option.opts} for command in commands]
+    for typed, answers in OTHER_OPTIONS.items():
+        assert all(any(answer.split()[0] in known for known in flags) for answer in answers), typed

@@ -14,6 +14,7 @@ from typer.testing import CliRunner
 
 from infill import ParameterError, Surface, UsageError
 from infill.cli.app import build_app
+from infill.pictures import cuts
 from infill.pictures.cuts import CUT, draw_cuts
 from infill.pictures.sections import AXES, Cut, check_cuts, choose_cuts, parse_cut
 
@@ -102,6 +103,35 @@ def test_given_cuts_take_the_place_of_their_kind() -> None:
     assert choose_cuts(mesh, given=[side, low]) == [side, low]
 
 
+def test_a_caption_has_regions_and_walls(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Density, pattern and wall of every region, as the summary has them, beside those of the whole part."""
+    region = {"wanted": 0.4, "volume": 1.0, "wall": 2.0}
+    report = {
+        "extents": [SIDE] * 3,
+        "density": 0.3,
+        "request": {"pattern": "grid", "wall": 1.2},
+        "voids": {"count": 1},
+        "regions": [
+            {**region, "place": "rest", "pattern": "grid", "density": 0.199, "wall": 1.2, "least": 1.18},
+            {**region, "place": "z=0..10", "pattern": "cubic", "density": 0.401, "least": 1.99},
+            {**region, "place": "z=90..", "pattern": None, "density": None, "least": None},
+        ],
+    }
+    captions = []
+    monkeypatch.setattr(cuts, "arrange_panels", lambda panels, facts, legend: captions.append(facts))
+    monkeypatch.setattr(cuts, "choose_cuts", lambda *_: [])
+    mesh = surface(walls(0, 1, cells=4))
+    cuts.draw_cuts(mesh, report)
+    cuts.draw_cuts(mesh, report | {"regions": []})
+    cuts.draw_cuts(mesh, report | {"regions": [], "request": {"pattern": "grid", "wall": 0}})
+    assert [caption.partition(" mm, ")[2] for caption in captions] == [
+        "grid, 30.0% solid inside walls of 1.2 mm to 2 mm: 19.9% elsewhere with a wall of 1.18 mm, "
+        "40.1% cubic in z=0..10 with a wall of 1.99 mm",
+        "grid, 30.0% solid inside walls of 1.2 mm",
+        "grid, 30.0% solid, without a shell",
+    ]
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("axis", range(3))
 def test_the_cut_face_is_seen(axis: int) -> None:
@@ -110,6 +140,7 @@ def test_the_cut_face_is_seen(axis: int) -> None:
         "extents": [SIDE] * 3,
         "density": 0.2,
         "request": {"pattern": "grid", "wall": WALL},
+        "regions": [],
         "voids": {"count": 1},
     }
     given = [Cut(axis=axis, at=2.0)]

@@ -13,11 +13,15 @@ from typing import Any
 import numpy as np
 import pytest
 from PIL import Image
+from test_command_line import one_line_error
+from test_command_line import run as run_infill
 from typer.testing import CliRunner
 
 import infill
 from infill import FormatError, Motion, ParameterError, motion
 from infill.cli.app import build_app
+from infill.files.suffixes import MESHES
+from infill.formats.mesh_files import READERS
 from infill.gcode.chords import cut_chords
 from infill.gcode.found_limits import CURA, KLIPPER, MARLIN, read_limits
 from infill.gcode.given_limits import GivenLimits
@@ -629,3 +633,19 @@ def test_curaengine_estimates_the_same(tmp_path: Path, pattern: str, settings: d
 
 def test_it_is_public() -> None:
     assert infill.motion is motion
+
+
+@pytest.mark.parametrize("suffix", MESHES)
+@pytest.mark.parametrize("text", [True, False])
+def test_a_mesh_in_the_place_of_a_print_is_recognised(suffix: str, text: bool, tmp_path: Path) -> None:
+    """By its name, once it is certain that it holds no print; the commands for meshes are named."""
+    path = tmp_path / f"part{suffix}"
+    path.write_bytes(b"solid part\nfacet\n" if text else bytes(200))
+    for command in (["motion", path], ["refill", path, "-o", tmp_path / "out.gcode"]):
+        one_line_error(
+            run_infill(*command), "is named like a mesh, and is not a sliced print; slice it first, or infill fill"
+        )
+
+
+def test_the_suffixes_of_meshes_are_those_that_are_read() -> None:
+    assert set(MESHES) == set(READERS)

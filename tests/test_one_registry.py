@@ -19,11 +19,12 @@ from test_command_line import one_line_error, run
 import patterns
 from infill import ParameterError, fill, make, refill
 from infill.errors import UsageError
+from infill.formats.volume_settings import SLICER_PATTERNS
 from infill.lattices.choosing import place_pattern
 from infill.lattices.request import check_request
 from infill.lattices.settings import FillOptions
 from infill.making.request import instantiate_pattern
-from infill.options.resolve_pattern import resolve_pattern
+from infill.options.resolve_pattern import NEEDS, resolve_pattern
 from infill.paths.families.catalogue import FAMILIES
 from infill.paths.families.family import TOUCH, PathSpec
 from infill.paths.families.lines import line_paths, separate_lines
@@ -296,3 +297,61 @@ def test_a_pattern_of_a_users_is_resolved_once_for_all(folder: Path) -> None:
     assert lines is not None
     made: Pattern = resolve_pattern("bricks_module.py:Bricks", "make")[0]()  # type: ignore[operator]
     assert made.name == "bricks"
+
+
+# --- names as people and slicers spell them --------------------------------------------------------------
+
+SPELLINGS = {
+    "Gyroid": "gyroid",
+    "3D Honeycomb": "honeycomb-3d",
+    "Adaptive Cubic": "adaptive-cubic",
+    "archimedean_chords": "archimedean-chords",
+    "CrossHatch": "cross-hatch",
+    "Zig-Zag": "zigzag",
+    " cubic ": "cubic",
+}
+
+
+@pytest.mark.parametrize(("typed", "name"), SPELLINGS.items())
+def test_every_product_knows_a_pattern_as_slicers_spell_it(typed: str, name: str) -> None:
+    """The name is in requests and reports as the registry has it."""
+    assert PATTERNS.find(typed) is PATTERNS[name]
+    assert resolve_pattern(typed, "fill")[1] == name
+    assert check_request(pattern=typed, own={}, density=0.2).pattern == name
+    if set(offers(PATTERNS[name])) & set(NEEDS["refill"]):
+        assert resolve_paths(typed, {})[0] == name
+        assert Request(pattern=typed).pattern == name
+    assert json.loads(run("list", typed, "--json").stdout) == json.loads(run("list", name, "--json").stdout)
+
+
+def test_the_names_of_two_patterns_are_never_spelled_alike() -> None:
+    for name in PATTERNS:
+        assert PATTERNS.spelled(name.replace("-", " ").title()) == name
+        assert PATTERNS.spelled(name.replace("-", "").upper()) == name
+
+
+def test_a_block_is_named_as_the_registry_has_it(tmp_path: Path) -> None:
+    done = run("make", "Tri Hexagon", "--size", "20", "--json", "-o", tmp_path / "a.stl")
+    assert json.loads(done.stdout)["request"]["pattern"] == "tri-hexagon"
+    done = run("make", "CUBIC", "--size", "20", "--dry-run")
+    assert done.stdout.startswith("cubic, 20 x 20 x 6 mm: nothing is written")
+
+
+def test_a_name_of_a_slicer_is_the_same_pattern_everywhere() -> None:
+    """A name that a modifier of a project has is that pattern, or is answered with it."""
+    for typed, name in SLICER_PATTERNS.items():
+        spelled = PATTERNS.spelled(typed)
+        if spelled in PATTERNS:
+            assert spelled == name or typed == "zigzag"  # of Cura: straight lines; zigzag is a pattern of ours
+            continue
+        for resolve in (PATTERNS.find, lambda value: resolve_paths(value, {})):
+            with pytest.raises(ValueError, match=f"did you mean '{name}'"):
+                resolve(typed)
+
+
+@pytest.mark.parametrize("command", [["make", "part.stl"], ["fill", "PART", "--pattern", "part.stl"]])
+def test_a_mesh_in_the_place_of_a_pattern_is_recognised(command: list[str], tmp_path: Path) -> None:
+    part = tmp_path / "cube.stl"
+    box(10, 10, 10).export(part)
+    words = [str(part) if word == "PART" else word for word in command]
+    one_line_error(run(*words, "-o", tmp_path / "out.stl"), "named like a mesh; infill fill part.stl --pattern NAME")

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
-from PIL import Image
+from PIL import Image, ImageFont
 from test_command_line import run
 
 from infill import FormatError, OutputError, Smoothing, Surface, make, smooth_labels, smooth_mesh, smooth_volume
@@ -17,7 +17,7 @@ from infill.pictures.before_and_after import FAR_VOXELS, LEAST_HITS, MarkedSurfa
 from infill.pictures.close_up import FRAME, SIDE, SURROUNDINGS, insert_close_up
 from infill.pictures.preview import check_preview
 from infill.pictures.render import render
-from infill.pictures.sheet import CAPTION, MARGIN, PANEL
+from infill.pictures.sheet import CAPTION, LINE, MARGIN, PANEL, arrange_panels, spell_units, wrap_words
 
 WHITE = 255
 
@@ -322,3 +322,61 @@ def test_an_existing_file_is_replaced_unless_it_may_not_be(tmp_path: Path) -> No
     with pytest.raises(OutputError, match="there is no folder|No such file"):
         result.save(tmp_path / "no" / "a.png")
     assert sorted(each.name for each in tmp_path.iterdir()) == ["a.png", "a.stl"]
+
+
+def test_all_words_below_the_panels_are_seen() -> None:
+    """Facts and legends wider than a picture go on in further lines, and nothing reaches its edges."""
+    panel = Image.new("RGB", (PANEL, PANEL), (255, 255, 255))
+    entry = ((214, 39, 40), "452 mm² of a wall that is too thin to count")
+    short = arrange_panels({"a": panel}, "one line", [entry])
+    facts = "as many words as a picture has no room for " * 4
+    lines = wrap_words(facts, PANEL, ImageFont.load_default(16))
+    assert len(lines) > 2
+    long = arrange_panels({"a": panel}, facts, [entry] * 3)
+    assert long.height == short.height + LINE * (len(lines) - 1 + 2)  # each entry needs a row
+    pixels = np.asarray(long)[CAPTION + PANEL :]
+    assert (pixels[:, :MARGIN] == WHITE).all()
+    assert (pixels[:, -MARGIN // 2 :] == WHITE).all()
+    assert (pixels[-MARGIN // 2 :] == WHITE).all()
+    rows = (pixels < WHITE).any(axis=(1, 2))
+    assert all(rows[10 + LINE * line : 10 + LINE * (line + 1)].any() for line in range(len(lines) + 3))
+
+
+def test_lines_of_words_keep_all_words_within_the_width() -> None:
+    font, text = ImageFont.load_default(16), "1 22 333 4444 " * 20 + "w" * 80
+    lines = wrap_words(text, 200, font)
+    assert " ".join(lines).split() == text.split()
+    assert all(font.getlength(line) <= 200 for line in lines[:-1])
+
+
+def test_a_picture_has_no_sign_that_its_font_lacks() -> None:
+    """The font of pictures draws a box for the signs of powers and of micro."""
+    text = spell_units("12 µm², 3 mm³ ± 0.5 mm, 5°")
+    font = ImageFont.load_default(16)
+    box = bytes(font.getmask("\uffff"))
+    assert bytes(font.getmask("³")) == box
+    assert not [sign for sign in text if bytes(font.getmask(sign)) == box]
+    assert text == "12 square um, 3 cubic mm ± 0.5 mm, 5°"
+
+
+def test_a_caption_has_one_unit(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Size, volume, distance and areas of a part a tenth of a millimetre long are in the unit of its size."""
+    mesh = surface(trimesh.creation.icosphere(subdivisions=2, radius=0.05))
+    report = {
+        "extents": [0.1] * 3,
+        "volume": 5.1e-5,
+        "volume_change": 0.0,
+        "verdict": {"word": "kept", "far": 0.00107, "missing": 2e-6, "thin": 0.0, "new": 0.0},
+    }
+    words: list[str] = []
+
+    def record(panels: object, facts: str, legend: list[tuple[object, str]]) -> Image.Image:
+        words.extend([facts, *(text for _, text in legend)])
+        return Image.new("RGB", (1, 1))
+
+    monkeypatch.setattr("infill.pictures.before_and_after.arrange_panels", record)
+    draw_before_and_after(mesh, mesh, cell=0.0005, report=report, captions=("a", "b"))
+    assert words[0] == (
+        "0.1 x 0.1 x 0.1 mm, volume 0.000051 mm³ (+0.0000%); marked if more than 0.00107 mm (2 voxels) apart"
+    )
+    assert words[2].startswith("0.000002 mm² lost")

@@ -131,6 +131,8 @@ def test_one_sentence_says_how_much_is_missing_and_how_far() -> None:
     assert tip.phrases == ("a tip of the input is missing, up to 4.1 mm away, at (1, 2, 3)",)
     near = deviation([], whole=400.0, far=1.6)
     assert near.phrases == ("the surface moved by up to 1.6 mm, at (1, 2, 3)",)
+    tiny = deviation([177e-6], whole=0.4, far=0.000991, cell=0.0001)  # beside a place in mm
+    assert tiny.phrases == ("0.000177 mm² of the input (under 0.1%) is missing, up to 0.000991 mm away, at (1, 2, 3)",)
     thin = replace(near, thin=many.lost, thin_distance=4.1)
     assert thin.phrases == ("the rest of the surface moved by up to 1.6 mm, at (1, 2, 3)",)
 
@@ -157,7 +159,7 @@ def test_the_picture_has_the_areas_of_the_verdict(rng: np.random.Generator) -> N
     numbers = re.findall(r"[\d.,]*\d", caption)
     assert len(numbers) == 2
     assert all(f"{number} mm²" in "; ".join(verdict["changes"]) for number in numbers)
-    assert describe_areas(lost, added, {"word": "lost"})[0].endswith(" square mm")  # of components: as it is drawn
+    assert describe_areas(lost, added, {"word": "lost"})[0].endswith(" mm²")  # of components: as it is drawn
 
 
 # --- advice ----------------------------------------------------------------------------------------------

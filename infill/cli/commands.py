@@ -72,6 +72,23 @@ class Command(TyperCommand):
         raise typer.Exit(FAILED)
 
 
+# Options that people type from another command or a slicer, and what they mean here: the first that the command has.
+OTHER_OPTIONS = {
+    "--wall": ("--line-width",),
+    "--wall-thickness": ("--wall", "--line-width"),
+    "--line": ("--line-width",),
+    "--width": ("--line-width", "--size"),
+    "--infill": ("--density",),
+    "--infill-density": ("--density",),
+    "--fill-density": ("--density",),
+    "--infill-pattern": ("--pattern",),
+    "--fill-pattern": ("--pattern",),
+    "--seed": ("--set seed=N",),
+    "--angle": ("--set angle=DEGREES",),
+    "--output": ("-o",),
+}
+
+
 def _find_missing_input(context: typer.Context) -> Path | None:
     """Find an input file that does not exist: a message about it comes before any about the outputs."""
     arguments = [option.name for option in context.command.params if option.param_type_name == "argument"]
@@ -126,6 +143,11 @@ def _typed_option(word: str, context: typer.Context) -> str:
 def _plain_message(error: Any) -> str:  # noqa: ANN401 - a usage error of typer's
     """Return a message of typer without its empty words."""
     message: str = error.format_message()
+    option = getattr(error, "option_name", None)  # of an option that the command does not have
+    if option in OTHER_OPTIONS and error.ctx is not None:
+        flags = {flag for known in error.ctx.command.params for flag in known.opts}
+        meant = next((words for words in OTHER_OPTIONS[option] if words.split()[0] in flags), None)
+        message = f"No such option: {option}; did you mean {meant}?" if meant else message
     return message.removeprefix("Invalid value: ").replace("Value error, ", "")
 
 

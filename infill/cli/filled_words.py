@@ -9,9 +9,10 @@ import typer
 
 from infill.cli.console import format_bytes, format_table, print_json
 from infill.plain_numbers import count_noun, plain_number, plain_place, plain_size
+from infill.reports.filled_regions import describe_region
 
 if TYPE_CHECKING:
-    from infill.reports.filling import FillForecast, FillRegion, FillReport, FillRequest, FillTie
+    from infill.reports.filling import FillForecast, FillReport, FillTie
     from infill.reports.making import LatticePlan
 
 REPAIR_TEXTS = {
@@ -143,21 +144,10 @@ def _density_rows(report: FillReport) -> dict[str, str]:
                 f"{plain_size(wide, digits=2)}"
             )
         rows["density"] = f"{ends}; {report['density']:.1%} on average: {sizes}"
-    regions = [_region_text(region, request) for region in report["regions"] if region["density"] is not None]
+    regions = [describe_region(region, request) for region in report["regions"] if region["density"] is not None]
     if regions:
         rows["regions"] = ", ".join(regions)
     return rows
-
-
-def _region_text(region: FillRegion, request: FillRequest) -> str:
-    """Describe a region: its density, its pattern and its wall, where these are not those of the part."""
-    words = [f"{region['density']:.1%}"]
-    if region["pattern"] is not None and region["pattern"] != request["pattern"]:
-        words.append(region["pattern"])
-    words.append("elsewhere" if region["place"] == "rest" else f"in {region['place']}")
-    if region["least"] is not None:
-        words.append(f"with a wall of {plain_number(region['least'])} mm")
-    return " ".join(words)
 
 
 def _drain_text(report: FillReport) -> str:

@@ -43,6 +43,7 @@ def list_patterns(
 
     if pattern is None and preview is not None:
         raise typer.BadParameter("a preview shows a single pattern; name one")
+    pattern = None if pattern is None else PATTERNS.spelled(pattern)
     shown: Mapping[str, PatternClass] = PATTERNS if pattern is None else {pattern: PATTERNS.find(pattern)}
     kinds = {name: kind for name, kind in shown.items() if kind.prismatic and not issubclass(kind, Cells)}
     in_space = {name: kind.summary for name, kind in shown.items() if name not in kinds}

@@ -28,7 +28,7 @@ from infill.cli.console import format_bytes, format_table, print_json, print_log
 from infill.cli.declared import takes_options
 from infill.cli.foreseeing import format_steps, show_smooth_plan
 from infill.cli.labelled import SmoothOutput, refuse_options, smooth_every_label, wants_every_label
-from infill.plain_numbers import count_noun, plain_argument, plain_number, plain_size
+from infill.plain_numbers import choose_unit, count_noun, plain_argument, plain_number, plain_size
 from infill.smoothing.settings import SmoothSettings, resolve
 
 if TYPE_CHECKING:
@@ -264,14 +264,17 @@ def _facet_text(facets: FacetKeys, voxel: float, wall: float | None) -> str:
     """Describe the flat facets that are left, and the options that round them, if the thinnest wall bears these."""
     larger = f"--voxel {plain_argument(facets['voxel'], 2)} " if facets["voxel"] > voxel else ""
     radius = plain_argument(facets["radius"], 2)  # as it is typed
+    unit = choose_unit(facets["width"], facets["radius"])
     advice = f"{larger}--smooth-radius {radius} rounds them, and details of their size"
     if not facets["fits"]:
-        thickness = "as thin as the walls here are" if wall is None else f"of {plain_size(wall, digits=2)}, as here"
-        round_radius = plain_size(facets["radius"], digits=2)
+        thickness = (
+            "as thin as the walls here are" if wall is None else f"of {plain_size(wall, digits=2, unit=unit)}, as here"
+        )
+        round_radius = plain_size(facets["radius"], digits=2, unit=unit)
         advice = (
             f"they stay, because a smooth radius of {round_radius}, which would round them, loses walls {thickness}"
         )
     return (
         f"{facets['share']:.0%} of the surface still has the flat facets of the mesh, about "
-        f"{plain_size(facets['width'], digits=2)} wide; {advice}"
+        f"{plain_size(facets['width'], digits=2, unit=unit)} wide; {advice}"
     )

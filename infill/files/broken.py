@@ -41,7 +41,13 @@ DATA_ERRORS = (ValueError, OverflowError, EOFError, struct.error, zlib.error)
 
 
 def missing_file(path: object) -> str:
-    """Return the message about a file that does not exist."""
+    """Return the message about a file that does not exist.
+
+    >>> missing_file("-")
+    "'-' is not a file, and nothing is read from stdin; save it, and give the name of the file"
+    """
+    if str(path) == "-":
+        return "'-' is not a file, and nothing is read from stdin; save it, and give the name of the file"
     return f"there is no file {path}; check the name"
 
 

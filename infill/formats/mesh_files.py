@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from infill.errors import FormatError
 from infill.files.broken import require_readable, wrap_reader_errors
+from infill.files.suffixes import PRINTS
 from infill.files.whole_files import atomic_file
 from infill.formats.gltf import write_glb, write_glb_parts
 from infill.formats.obj import read_obj, write_obj
@@ -31,7 +32,6 @@ if TYPE_CHECKING:
 
 FARTHEST = 1e12  # mm, a million kilometres: a larger number is broken, and its squares may overflow
 LOG = logging.getLogger("infill")
-PRINTS = (".gcode", ".bgcode", ".gco")  # suffixes of sliced prints
 
 
 def save(mesh: trimesh.Trimesh | Surface, path: str | os.PathLike[str], *, ascii: bool = False) -> Path:  # noqa: A002

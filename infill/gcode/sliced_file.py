@@ -10,6 +10,7 @@ from typing import BinaryIO, Literal
 
 from infill.errors import FormatError, ParameterError
 from infill.files.broken import missing_file
+from infill.files.suffixes import MESHES
 from infill.files.whole_files import scratch_file
 
 HEAD = 4  # bytes that identify the form
@@ -171,6 +172,7 @@ def open_sliced(source: Path) -> Iterator[SlicedFile]:
     except OSError as error:
         reason = error.strerror or str(error)
         raise FormatError(f"cannot read {source}: {reason[:1].lower()}{reason[1:]}") from error
+    form: Form = "text"
     try:
         with file:
             form = _detect_form(file.read(HEAD))
@@ -181,6 +183,11 @@ def open_sliced(source: Path) -> Iterator[SlicedFile]:
                 numbers = list_plates(file)
             yield SlicedFile(name=source.name, file=file, form=form, plates=numbers, parts=numbers or (None,))
     except FormatError as error:
+        if form == "text" and source.suffix.lower() in MESHES:
+            raise FormatError(
+                f"{source} is named like a mesh, and is not a sliced print; slice it first, or infill fill fills it, "
+                "and infill check says whether it is printable"
+            ) from error
         raise FormatError(f"{source}: {error}") from error
 
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from infill.arrays import Floats
 from infill.meshes.distance import TriangleTree, morton_order
 from infill.meshes.measuring import face_areas
-from infill.plain_numbers import plain_place, plain_share, plain_size
+from infill.plain_numbers import UNITS, choose_unit, plain_place, plain_share, plain_size
 from infill.surface import Surface
 
 if TYPE_CHECKING:
@@ -157,17 +157,29 @@ class Deviation:
                 continue
             worst = max(patches, key=lambda patch: patch.distance)
             area = total_area(patches)
-            share = (
-                f"{plain_size(area, power=2)} of {owner} ({plain_share(area / whole)})" if area else f"a tip of {owner}"
-            )
+            unit = _choose_unit_beside(worst.distance, worst.at)
+            size = f"{plain_size(area, power=2, unit=unit)} of {owner} ({plain_share(area / whole)})"
+            share = size if area else f"a tip of {owner}"
             number = f" in {len(patches)} places" if len(patches) > 1 else ""
             phrases.append(
-                f"{share} {change}{number}, up to {plain_size(worst.distance)} away, at {plain_place(worst.at)}"
+                f"{share} {change}{number}, up to {plain_size(worst.distance, unit=unit)} away, "
+                f"at {plain_place(worst.at)}"
             )
         if not phrases and moved.max > KEPT * self.cell:
             what = "the rest of the surface" if self.thin_area else "the surface"
-            phrases.append(f"{what} moved by up to {plain_size(moved.max)}, at {plain_place(moved.at)}")
+            distance = plain_size(moved.max, unit=_choose_unit_beside(moved.max, moved.at))
+            phrases.append(f"{what} moved by up to {distance}, at {plain_place(moved.at)}")
         return tuple(phrases)
+
+
+def _choose_unit_beside(distance: float, place: Iterable[float]) -> str:
+    """Choose the unit of a distance beside a place, which is in mm: at least mm, unless the part itself is tiny.
+
+    >>> _choose_unit_beside(0.0009, (0.03, 0.15, 0.0)), _choose_unit_beside(0.0009, (0.0001, 0.0, 0.0))
+    ('mm', 'µm')
+    """
+    unit = choose_unit(distance)
+    return "mm" if UNITS[unit] < UNITS[choose_unit(*place)] and UNITS[unit] < 1 else unit
 
 
 def total_area(patches: Iterable[ChangedPatch]) -> float:

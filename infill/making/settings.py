@@ -296,7 +296,7 @@ def resolve(
         raise ParameterError(
             "no pattern is given; name one ('infill list' shows all), or set pattern in the config file"
         )
-    kind, _ = resolve_pattern(parse_word("pattern", values["pattern"]), "make")
+    kind, values["pattern"] = resolve_pattern(parse_word("pattern", values["pattern"]), "make")
     declared: Any = kind
     if not is_stamped(kind, values.get("density")):
         from infill.making.lattice_block import declare_placed

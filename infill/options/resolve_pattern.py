@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from infill.errors import ParameterError
+from infill.files.suffixes import MESHES
 from infill.options.modules import load_object, names_code
 from infill.plain_numbers import plain_argument
 from patterns import PATTERNS
@@ -35,8 +36,8 @@ def resolve_pattern(pattern: object, product: str) -> tuple[Kind, str]:
     Parameters
     ----------
     pattern : str, Path, Pattern, Cells or callable
-        A name; a drawing; "module.py:name"; a pattern, or a class of patterns; or a function of x, y and z, of one
-        shape, in radians (2 pi is a cell), whose zeros are walls.
+        A name, also as slicers spell it, such as "3D Honeycomb"; a drawing; "module.py:name"; a pattern, or a class of
+        patterns; or a function of x, y and z, of one shape, in radians (2 pi is a cell), whose zeros are walls.
     product : {"make", "fill", "refill"}
         The product that needs it.
 
@@ -61,6 +62,8 @@ def resolve_pattern(pattern: object, product: str) -> tuple[Kind, str]:
 
             kind = read_tiled(name)
         else:
+            _refuse_mesh(name)
+            name = PATTERNS.spelled(name)
             kind = _pattern_from_object(PATTERNS.find(name), name)
     offered = offers(kind)
     if not set(offered) & set(NEEDS[product]):
@@ -72,6 +75,15 @@ def resolve_pattern(pattern: object, product: str) -> tuple[Kind, str]:
     if product != "make" and not hasattr(kind, "cell"):
         raise PatternError(f"{name} has no parameter cell, and {product} needs one to reach a density; declare it")
     return kind, name
+
+
+def _refuse_mesh(name: str) -> None:
+    """Raise PatternError for the name of a file with a mesh, which a person may give where a pattern is needed."""
+    if Path(name).suffix.lower() in MESHES and name not in PATTERNS:
+        raise PatternError(
+            f"there is no pattern {name!r}, which is named like a mesh; infill fill {Path(name).name} --pattern NAME "
+            "fills a part, and infill list shows the patterns"
+        )
 
 
 def _join(words: Sequence[str], last: str) -> str:

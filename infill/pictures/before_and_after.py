@@ -27,7 +27,7 @@ from infill.pictures.close_up import (
 )
 from infill.pictures.render import AZIMUTH, ELEVATION, Colour, Paint, Window, directions, render
 from infill.pictures.sheet import BACKGROUND, PANEL, arrange_panels
-from infill.plain_numbers import plain_argument, plain_number, plain_size
+from infill.plain_numbers import choose_unit, plain_argument, plain_size
 from infill.surface import Surface
 
 FAR_VOXELS = LOST  # voxels: points further away are marked
@@ -133,23 +133,26 @@ def draw_before_and_after(
     window = _square_window((given, result), view)
     pictures = [_draw_marked(marked, view, window) for marked in (lost, added)]
     panels = {caption: picture for caption, (picture, _) in zip(captions, pictures, strict=True)}
-    size = plain_size(*report["extents"], digits=4, separator="")
-    facts = f"{size}, volume {plain_number(report['volume'], 6)} cubic mm ({report['volume_change']:+.4%})"
+    unit = choose_unit(*report["extents"])
+    size = plain_size(*report["extents"], digits=4, separator="", unit=unit)
+    volume = plain_size(report["volume"], power=3, digits=6, unit=unit)
+    facts = f"{size}, volume {volume} ({report['volume_change']:+.4%})"
+    areas = describe_areas(lost, added, report["verdict"], unit)
     legend = [
         (marked.colour, f"{area} {word}{'' if shown else ', not seen here'}") if area else (None, f"nothing {word}")
-        for marked, area, word, (_, shown) in zip(
-            (lost, added), describe_areas(lost, added, report["verdict"]), ("lost", "added"), pictures, strict=True
-        )
+        for marked, area, word, (_, shown) in zip((lost, added), areas, ("lost", "added"), pictures, strict=True)
     ]
-    ends = f"{facts}; marked if more than {plain_size(far)} ({plain_argument(FAR_VOXELS)} voxels) apart"
+    ends = f"{facts}; marked if more than {plain_size(far, unit=unit)} ({plain_argument(FAR_VOXELS)} voxels) apart"
     return arrange_panels(panels, ends, [(None, f"{report['verdict']['word']}:"), *legend])
 
 
-def describe_areas(lost: MarkedSurface, added: MarkedSurface, verdict: Mapping[str, Any]) -> tuple[str, str]:
+def describe_areas(
+    lost: MarkedSurface, added: MarkedSurface, verdict: Mapping[str, Any], unit: str = "mm"
+) -> tuple[str, str]:
     """Describe the areas that were lost and added, as the verdict does if it has them; empty for none."""
     missing, new = verdict.get("missing", lost.area), verdict.get("new", added.area)
     thin = verdict.get("thin", 0.0)
-    counted, narrow, grown = (f"{plain_number(area)} square mm" if area else "" for area in (missing, thin, new))
+    counted, narrow, grown = (plain_size(area, power=2, unit=unit) if area else "" for area in (missing, thin, new))
     return " and ".join(filter(None, (counted, narrow and f"{narrow} too thin to count,"))).rstrip(","), grown
 
 

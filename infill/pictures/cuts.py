@@ -16,7 +16,8 @@ from infill.meshes.solids import FINE, from_manifold, solid_status, to_manifold
 from infill.pictures.render import AZIMUTH, ELEVATION, Colour, render
 from infill.pictures.sections import Cut, choose_cuts
 from infill.pictures.sheet import BACKGROUND, PANEL, arrange_panels
-from infill.plain_numbers import count_noun, plain_size
+from infill.plain_numbers import choose_unit, count_noun, plain_size
+from infill.reports.filled_regions import describe_region
 from infill.surface import Surface
 
 CUT: Colour = (240, 160, 60)
@@ -47,11 +48,20 @@ def draw_cuts(
     panels = {f"cut at {cut}": _draw_half(surface, cut) for cut in choose_cuts(surface, part, given)}
     size = plain_size(*report["extents"], digits=4)
     request, voids = report["request"], report["voids"]
-    facts = (
-        f"{size}, {request['pattern']}, {report['density']:.1%} solid inside walls of "
-        f"{plain_size(request['wall'], digits=6)}"
-    )
+    facts = f"{size}, {request['pattern']}, {report['density']:.1%} solid{_describe_walls(report)}"
+    regions = [describe_region(region, request) for region in report["regions"] if region["density"] is not None]
+    facts += f": {', '.join(regions)}" if regions else ""
     return arrange_panels(panels, facts, [(CUT, "cut"), (BEHIND, f"behind it; {count_noun(voids['count'], 'void')}")])
+
+
+def _describe_walls(report: Mapping[str, Any]) -> str:
+    """Describe the requested shell, from the least to the largest thickness if regions have their own."""
+    walls = [report["request"]["wall"], *(region["wall"] for region in report["regions"] if region["wall"] is not None)]
+    if not max(walls):
+        return ", without a shell"
+    unit = choose_unit(max(walls))
+    ends = (plain_size(wall, digits=6, unit=unit) for wall in sorted({min(walls), max(walls)}))
+    return f" inside walls of {' to '.join(ends)}"
 
 
 def draw_block(surface: Surface, box: Surface, report: Mapping[str, Any]) -> Image.Image:

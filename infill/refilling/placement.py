@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import PurePath
@@ -134,12 +133,12 @@ def resolve_paths(pattern: object, parameters: Mapping[str, Any]) -> tuple[str, 
     from patterns import PATTERNS
 
     if isinstance(pattern, (str, PurePath)):
-        name = str(pattern)
+        name = pattern = PATTERNS.spelled(str(pattern))
         if name in FAMILIES or is_drawing(name):
             return name, parameters, None
         if name not in PATTERNS and not names_code(name):
-            matches = difflib.get_close_matches(name.lower(), FAMILIES, n=1, cutoff=0.4)
-            advice = f"did you mean {matches[0]!r}?" if matches else f"give keep, or one of {', '.join(FAMILIES)}"
+            meant = PATTERNS.nearest(name, FAMILIES)
+            advice = f"give keep, or one of {', '.join(FAMILIES)}" if meant is None else f"did you mean {meant!r}?"
             raise ParameterError(f"there is no pattern {name!r}; {advice}")
     kind, name = resolve_pattern(pattern, "refill")
     own = {} if isinstance(kind, type) else given_parameters(kind)

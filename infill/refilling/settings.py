@@ -62,7 +62,8 @@ def resolve(
         )
     table = pop_table(file_options)
     pattern = parse_word("pattern", typed.get("pattern", file_options.get("pattern", KEEP)))
-    kind = default_parameters(pattern, None if pattern == KEEP else resolve_paths(pattern, {})[2])
+    pattern, _, lines = (KEEP, {}, None) if pattern == KEEP else resolve_paths(pattern, {})
+    kind = default_parameters(pattern, lines)
     pattern_arguments = collect_parameters(
         kind, declared_options(Request), flags=typed, assigned=assigned, filed=file_options, table=table
     )
