@@ -229,6 +229,7 @@ def refill_reports(folder: Path, results: Results) -> dict[str, Any]:
         "two plates": refill(archive(folder), dry_run=True).report,
         "every option": refill(named, dry_run=True, **every).report,
         "another pattern": refill(sliced, dry_run=True, pattern="honeycomb", density=0.2).report,
+        "even layers": refill(sliced, dry_run=True, pattern="honeycomb", even="volume", leeway="5%").report,
         "no infill": refill(bare, dry_run=True).report,
         "command": printed("refill", sliced, "-o", folder / "a.gcode"),
     }
