@@ -159,7 +159,7 @@ UNREAD = {
         "--seed": "2.5",
     },
     "check": {"--for": "foo"},
-    "refill": {"--density": "dense", "--smooth-radius": "wide", "--layers": "1.5"},
+    "refill": {"--density": "dense", "--smooth-radius": "wide", "--layers": "1.5", "--arcs": "foo"},
     "refill even": {"--even": "foo", "--leeway": "foo"},
     "motion": {
         "--model": "foo",

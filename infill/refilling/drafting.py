@@ -23,7 +23,8 @@ from infill.gcode.survey import Survey
 from infill.kernels.threads import in_order, thread_count
 from infill.planner.open_timeline import make_timeline
 from infill.planner.print_clock import PrintClock, path_seconds
-from infill.refilling.even_layers import EvenDrawing, measure_layers_of
+from infill.refilling.even_drawing import EvenDrawing
+from infill.refilling.even_layers import measure_layers_of
 from infill.refilling.layers import Layers, read_layers
 from infill.refilling.planning import RefillPlan
 from infill.refilling.replace import LayerMemory, replace_infill

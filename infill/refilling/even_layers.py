@@ -6,7 +6,7 @@ another. So filament is evened out by the width of beads, and time by the speed 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, BinaryIO
 
@@ -20,19 +20,14 @@ from infill.refilling.request import TIME, VOLUME
 if TYPE_CHECKING:
     from infill.planner.lookahead import MotionPlan
     from infill.planner.timeline import Steps, Timeline
-    from infill.refilling.planning import RefillPlan
-    from infill.refilling.stats import RefillStats
     from infill.reports.refilling import EvenKeys
 
 UNITS = {TIME: "s", VOLUME: "mm"}
 LEAST_WIDTH, MOST_WIDTH = 0.92, 1.08  # of the slicer's filament per mm, to meet the filament of a region
 ROUNDS = 200  # of averaging with both neighbours: a Gaussian with a standard deviation of 10 layers
 LEAST_GAIN = 0.5  # of the step between two layers that both together must be able to take away
-REDRAWS = {TIME: 4, VOLUME: 1}  # curves are driven slower than the speed allows: the time changes less than it does
 MOST_TIMES_SLOWER = 2.0
-POWER = (
-    1.5  # of the seconds that a layer gains, by the share by which it is slower: 1 for straight lines, more for curves
-)
+POWER = 1.5  # of slowness, for the seconds that it adds: 1 for straight lines, more for curves
 BISECTIONS = 50
 
 
@@ -93,75 +88,6 @@ class LayerSteps:
             "median_step_before": _median(self.before),
             "median_step_after": _median(self.after),
         }
-
-
-@dataclass(frozen=True, kw_only=True)
-class EvenDrawing:
-    """How a print is drawn and measured, to even out its layers.
-
-    Parameters
-    ----------
-    by : str
-        TIME or VOLUME.
-    leeway : float
-        Largest share by which infill may take more time, or more or less filament.
-    draw : callable
-        Draws the print by a plan.
-    measure : callable
-        Returns seconds or mm of every layer of the last drawing, (N,), from the first layer on.
-    section : float
-        Of the filament, mm², where the print counts it in mm³; else 1.
-    """
-
-    by: str
-    leeway: float
-    draw: Callable[[RefillPlan], RefillStats]
-    measure: Callable[[], Floats]
-    section: float = 1.0
-
-    def even_out(self, stats: RefillStats, plan: RefillPlan, sliced: Floats) -> RefillStats:
-        """Draw a print again with even layers; return its statistics, with the steps between layers before and after.
-
-        Parameters
-        ----------
-        stats : RefillStats
-            Of the last drawing, by `plan`.
-        plan : RefillPlan
-        sliced : (N,) float64, s or mm
-            Of every layer as sliced.
-        """
-        before = self.measure()
-        gain, low, high = self._find_leeway(stats, len(before))
-        pairs = (gain[1:] > 0) & (gain[:-1] > 0)
-        best, after, current = plan, before, plan
-        shares = choose_shares(before, gain, low, high, keeps_sum=self.by == VOLUME)
-        wanted = gain * (shares - 1)
-        if self.by == TIME:
-            shares[wanted > 0] = MOST_TIMES_SLOWER
-        for _ in range(REDRAWS[self.by] if pairs.any() else 0):
-            chosen = {layer + 1: float(shares[layer]) for layer in np.flatnonzero(gain > 0).tolist()}
-            current = replace(plan, even=LayerShares(by=self.by, shares=chosen))
-            stats = self.draw(current)
-            measured = self.measure()
-            if np.std(np.diff(measured)[pairs]) < np.std(np.diff(after)[pairs]):
-                best, after = current, measured
-            shares = next_paces(shares, measured - before, wanted)
-        drawn = stats if best is current else self.draw(best)
-        steps = [np.diff(values)[pairs].tolist() for values in (sliced, before, after)]
-        drawn.steps = LayerSteps(sliced=steps[0], before=steps[1], after=steps[2])
-        return drawn
-
-    def _find_leeway(self, stats: RefillStats, layers: int) -> tuple[Floats, Floats, Floats]:
-        """Return seconds or mm of the new infill of every layer, and its least and largest share, (N,)."""
-        gain, low, high = np.zeros(layers), np.ones(layers), np.ones(layers)
-        for layer, (usual, filament, seconds) in stats.drawn.items():
-            if self.by == TIME:
-                gain[layer - 1], high[layer - 1] = seconds, 1 + self.leeway
-            elif filament > 0:
-                gain[layer - 1] = filament / self.section
-                low[layer - 1] = min(max(1 - self.leeway, LEAST_WIDTH * usual / filament), 1)
-                high[layer - 1] = max(min(1 + self.leeway, MOST_WIDTH * usual / filament), 1)
-        return gain, low, high
 
 
 def choose_shares(amounts: Floats, gain: Floats, low: Floats, high: Floats, *, keeps_sum: bool) -> Floats:
