@@ -112,7 +112,7 @@ def test_a_step_beyond_all_leeway_stays_and_so_do_the_layers_around_it() -> None
 @given(AMOUNTS, st.floats(0, 200), st.floats(0, 200))
 def test_paces_slow_down_and_no_more_than_allowed(paces: np.ndarray, gained: float, wanted: float) -> None:
     paces = np.clip(paces, 1, MOST_TIMES_SLOWER)
-    new = next_paces(paces, np.full(len(paces), gained), np.full(len(paces), wanted))
+    new = next_paces([(paces, np.full(len(paces), gained))], np.full(len(paces), wanted))
     assert ((new >= 1) & (new <= MOST_TIMES_SLOWER)).all()
     if gained >= wanted:
         assert (new <= paces + 1e-9).all()

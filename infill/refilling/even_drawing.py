@@ -66,6 +66,7 @@ class EvenDrawing:
         shares = choose_shares(before, gain, low, high, keeps_sum=self.by == VOLUME)
         wanted = gain * (shares - 1)
         best, after, current, least_error = plan, before, plan, float(np.abs(wanted).sum())
+        drawings: list[tuple[Floats, Floats]] = []
         tolerance = TOLERANCE * least_error
         if self.by == TIME:
             shares[wanted > 0] = MOST_TIMES_SLOWER
@@ -79,7 +80,8 @@ class EvenDrawing:
                 best, after, least_error = current, measured, error
             if error <= tolerance:
                 break
-            shares = next_paces(shares, measured - before, wanted)
+            drawings.append((shares, measured - before))
+            shares = next_paces(drawings, wanted)
         drawn = stats if best is current else self.draw(best)
         steps = [np.diff(values)[pairs].tolist() for values in (sliced, before, after)]
         drawn.steps = LayerSteps(sliced=steps[0], before=steps[1], after=steps[2])

@@ -6,7 +6,7 @@ another. So filament is evened out by the width of beads, and time by the speed 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, BinaryIO
 
@@ -27,7 +27,9 @@ LEAST_WIDTH, MOST_WIDTH = 0.92, 1.08  # of the slicer's filament per mm, to meet
 ROUNDS = 200  # of averaging with both neighbours: a Gaussian with a standard deviation of 10 layers
 LEAST_GAIN = 0.5  # of the step between two layers that both together must be able to take away
 MOST_TIMES_SLOWER = 2.0
-POWER = 1.5  # of slowness, for the seconds that it adds: 1 for straight lines, more for curves
+# Of slowness, for the seconds that it adds: 1 for straight lines, more for curves, which are driven slower anyway.
+FIRST_POWER, POWERS = 2.0, (1.0, 3.0)
+LEAST, SURE = 1e-6, 0.02  # s or share, and logarithm of a ratio of shares
 BISECTIONS = 50
 
 
@@ -125,22 +127,29 @@ def choose_shares(amounts: Floats, gain: Floats, low: Floats, high: Floats, *, k
     return np.clip(shares, low, high)
 
 
-def next_paces(paces: Floats, gained: Floats, wanted: Floats) -> Floats:
+def next_paces(drawn: Sequence[tuple[Floats, Floats]], wanted: Floats) -> Floats:
     """Return better paces of layers: how many times as slow as without evening out the infill should be.
+
+    The seconds that a layer gains are taken as a power of its pace less 1, which the last two drawings give.
 
     Parameters
     ----------
-    paces : (N,) float64
-        Of the last drawing, from 1.
-    gained, wanted : (N,) float64, s
-        What the layers took longer in it, and what they should.
+    drawn : sequence of tuple of (N,) float64
+        Of every drawing, the paces, from 1, and what the layers took longer, s.
+    wanted : (N,) float64, s
+        What they should take longer.
 
-    >>> next_paces(np.array([2.0, 2, 1]), np.array([4.0, 1, 0]), np.array([4.0, 3, 0])).tolist()
-    [2.0, 2.0, 1.0]
+    >>> next_paces([(np.array([2.0, 2, 1]), np.array([4.0, 1, 0]))], np.array([1.0, 3, 0])).tolist()
+    [1.5, 2.0, 1.0]
     """
-    slower = (paces > 1) & (wanted > 0)
-    ratio = np.divide(wanted, np.maximum(gained, 1e-9), out=np.ones(len(paces)), where=slower)
-    return np.clip(1 + (paces - 1) * ratio ** (1 / POWER), 1, MOST_TIMES_SLOWER)
+    paces, gained = drawn[-1]
+    slower, power = (paces > 1) & (wanted > 0), np.full(len(paces), FIRST_POWER)
+    if len(drawn) > 1:
+        longer = np.log(np.maximum(gained, LEAST) / np.maximum(drawn[-2][1], LEAST))
+        further = np.log(np.maximum(paces - 1, LEAST) / np.maximum(drawn[-2][0] - 1, LEAST))
+        power = np.divide(longer, further, out=power, where=np.abs(further) > SURE)
+    ratio = np.divide(wanted, np.maximum(gained, LEAST), out=np.ones(len(paces)), where=slower)
+    return np.asarray(np.clip(1 + (paces - 1) * ratio ** (1 / np.clip(power, *POWERS)), 1, MOST_TIMES_SLOWER))
 
 
 def measure_layers_of(timeline: Timeline, text: BinaryIO, by: str) -> Floats:
