@@ -111,7 +111,7 @@ def choose_shares(amounts: Floats, gain: Floats, low: Floats, high: Floats, *, k
 
     >>> amounts, infill = np.array([10.0, 10, 11, 10, 10]), np.full(5, 5.0)
     >>> choose_shares(amounts, infill, np.full(5, 0.9), np.full(5, 1.1), keeps_sum=True).round(2).tolist()
-    [1.04, 1.04, 0.9, 1.04, 1.04]
+    [1.02, 1.03, 0.9, 1.03, 1.02]
     """
     least, most = amounts + gain * (low - 1), amounts + gain * (high - 1)
     changes = gain > 0
