@@ -7,7 +7,7 @@ A part is a box: two walls, solid first and last layers, and between them rows o
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 LAYER, WIDTH = 0.2, 0.45  # mm
 SPACING = WIDTH - LAYER * (1 - math.pi / 4)
@@ -48,6 +48,7 @@ class Dialect:
     newline: bool = True  # at the end of the file
     packed: bool = False  # words without blanks between
     size: float = 12.0  # mm
+    sizes: tuple[float, ...] = ()  # mm, of layers, over and over
     cell: float = 3.0  # mm
     tools: int = 1
     infill_first: bool = False
@@ -274,7 +275,9 @@ def _layer_begins(pen: _Pen, number: int, z: float, height: float, *, retract: b
 
 
 def _object(pen: _Pen, i: int, place: tuple[float, float], layer: int, heights: list[float], z: float) -> None:
-    dialect = pen.dialect
+    dialect = whole = pen.dialect
+    if dialect.sizes:
+        pen.dialect = dialect = replace(dialect, size=dialect.sizes[layer % len(dialect.sizes)])
     _label(pen, i, start=True)
     solid = layer == 0 or layer == len(heights) - 1
     thick = dialect.thick if not solid else 1
@@ -295,6 +298,7 @@ def _object(pen: _Pen, i: int, place: tuple[float, float], layer: int, heights: 
     elif not dialect.infill_first:
         _waves(pen, place, layer, dose, thick, heights)
     _label(pen, i, start=False)
+    pen.dialect = whole
 
 
 def _role(pen: _Pen, role: int, acceleration: int, height: float, thick: int = 1) -> None:

@@ -26,6 +26,8 @@ from infill.gcode.chords import cut_chords
 from infill.gcode.found_limits import CURA, KLIPPER, MARLIN, read_limits
 from infill.gcode.given_limits import GivenLimits
 from infill.gcode.limits import LIMITING_CODES, Limits, apply_command
+from infill.pictures.layer_times import COLOURS as CURVES
+from infill.pictures.layer_times import draw_layer_times
 from infill.pictures.speeds import BAR, CAPTION, LEAST_HEIGHT, MARGIN, draw_speeds, speed_colours
 from infill.planner import timeline
 from infill.planner.layer_speeds import PIECE_LENGTH, LayerSpeeds, layer_speeds
@@ -530,6 +532,33 @@ def test_a_layer_is_drawn(tmp_path: Path) -> None:
     assert "layers 1 to 1" in run(path, "--plot", plot, "--force", "--layer", 9).stderr
     assert ".png" in run(path, "--plot", tmp_path / "speeds.txt").stderr
     assert run(path, "--layer", 1).exit_code == 2
+
+
+def test_the_seconds_of_every_layer_are_told_and_drawn(tmp_path: Path) -> None:
+    """They sum up to the time from the first mark on; a layer at half the speed takes longer."""
+    head, mark, body = SQUARE.partition(b";LAYER_CHANGE")
+    slow = body.replace(b"F3000", b"F1500").replace(b"F4800", b"F2400")
+    path = written(tmp_path, head + mark + body + mark + slow + mark + body)
+    layers = motion(path).by_layer
+    assert sum(layers.seconds) == pytest.approx(motion(path).seconds, abs=0.1)  # without the move to the start
+    assert 1.3 * layers.seconds[0] < layers.seconds[1] < 2 * layers.seconds[0]  # and ramps take as long
+    assert layers.filament == pytest.approx([4 + 0.7 + 0.002 + 0.5] * 3)
+    assert layers.seconds_spread == pytest.approx(np.std(np.diff(layers.seconds)))
+    assert layers.filament_spread == pytest.approx(0, abs=1e-9)
+    assert re.search(r"layers +3, spread of \d", run(path).stdout)
+    plot = tmp_path / "layers.png"
+    assert f"wrote {plot}" in run(path, path, "--plot", f"layers={plot}").stderr
+    with Image.open(plot) as picture:
+        colours = {colour for _, colour in picture.convert("RGB").getcolors(1 << 20)}
+    assert set(CURVES) <= colours
+    assert "exists" in run(path, "--plot", f"layers={plot}").stderr
+    assert "--layer" in run(path, "--plot", f"layers={plot}", "--force", "--layer", 1).stderr
+    assert "no marked layers" in run(written(tmp_path, head + body, "b.gcode"), "--plot", f"layers={plot}x.png").stderr
+
+
+@pytest.mark.parametrize("seconds", [[3.0], [0.0], [0.0, 0.0], [1e-3, 2e-3], [1e5] * 3])
+def test_any_layers_have_a_picture(seconds: list[float]) -> None:
+    assert draw_layer_times({"one": seconds, "two": seconds[:1]}).width > 100
 
 
 def test_the_pieces_of_a_layer(tmp_path: Path) -> None:

@@ -37,6 +37,7 @@ WORKING = {
     "fill voronoi": "box.stl -o a.stl --pattern voronoi",
     "refill": "print.gcode -o a.gcode",
     "refill gyroid": "print.gcode -o a.gcode --pattern gyroid",
+    "refill even": "print.gcode -o a.gcode --pattern gyroid --even volume",
     "check": "box.stl",
     "motion": "print.gcode",
     "motion plot": "print.gcode --plot a.png",
@@ -113,6 +114,7 @@ OUT_OF_RANGE = {
         "--layers": "9-2 0-3",
     },
     "refill gyroid": {"--density": "-5% 150% nan%", "--set": "cell=-1 angle=nan"},
+    "refill even": {"--leeway": "-5% 0 90% nan%"},
     "motion": {
         "--acceleration": "-1 nan",
         "--jerk": "-1 nan",
@@ -159,7 +161,8 @@ UNREAD = {
         "--seed": "2.5",
     },
     "check": {"--for": "foo"},
-    "refill": {"--density": "dense", "--smooth-radius": "wide", "--layers": "1.5", "--arcs": "maybe"},
+    "refill": {"--density": "dense", "--smooth-radius": "wide", "--layers": "1.5", "--arcs": "foo"},
+    "refill even": {"--even": "foo", "--leeway": "foo"},
     "motion": {
         "--model": "foo",
         "--limits": "max_accel =5 max_accel=fast max_accel=5mm",

@@ -182,7 +182,9 @@ def run_page(page: str, capsys: pytest.CaptureFixture[str]) -> None:
             result = done(line)
             assert result.exit_code == 0, f"{line}\n{result.output}"
             printed += result.output
-            for made in re.findall(r"(?:-o|--preview|--save-config|--plot|>) (\S+)", line.partition(" #")[0]):
+            for made in re.findall(
+                r"(?:-o|--preview|--save-config|--plot|>) (?:layers=)?(\S+)", line.partition(" #")[0]
+            ):
                 if "--dry-run" not in line and "{" not in made and made != "-":
                     assert Path(made).stat().st_size > 100, line
         if language == "text":

@@ -231,6 +231,7 @@ def refill_reports(folder: Path, results: Results) -> dict[str, Any]:
         "every option": refill(named, dry_run=True, **every).report,
         "another pattern": refill(sliced, dry_run=True, pattern="honeycomb", density=0.2).report,
         "chosen": refill(sliced, dry_run=True, pattern="auto").report,
+        "even layers": refill(sliced, dry_run=True, pattern="honeycomb", even="volume", leeway="5%").report,
         "no infill": refill(bare, dry_run=True).report,
         "command": printed("refill", sliced, "-o", folder / "a.gcode"),
     }

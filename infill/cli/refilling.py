@@ -25,7 +25,7 @@ from patterns.errors import PatternError
 
 if TYPE_CHECKING:
     from infill.planner.layer_speeds import LayerSpeeds
-    from infill.reports.refilling import FilamentKeys, RefillReport, TimeKeys
+    from infill.reports.refilling import EvenKeys, FilamentKeys, RefillReport, TimeKeys
 
 LEAST_SHOWN = 0.005  # of the infill: less, rounded to 0 %, has no row
 ALIKE = 0.995  # of the filament of the infill: no less is the old amount
@@ -216,6 +216,8 @@ def _summary(report: RefillReport, name: str, files: list[str]) -> str:
         before, after = seconds["infill_before_s"], seconds["infill_after_s"]
         if before:
             rows["time"] = f"{_format_span(after)} of infill, {after / before - 1:+.1%} ({_format_span(before)})"
+        if "even" in report:
+            rows["even"] = _even_text(report["even"])
         contact = report["contact"]
         if contact["measured_mm"]:
             rows["support"] = (
@@ -248,6 +250,19 @@ def _print_text(filament: FilamentKeys, seconds: TimeKeys, source: str) -> str:
     change = f", {new_s / old_s - 1:+.1%}" if old_s else ""
     slicer = f"; {source} said {_clock(seconds['slicer_s'])}" if seconds["slicer_s"] else ""
     return f"{_clock(new_s)} and {grams:.2f} {unit}{change} ({_clock(old_s)} and {old_g:.2f} {unit}{slicer})"
+
+
+def _even_text(even: EvenKeys) -> str:
+    """Format the spread of the steps between layers, and the old ones in brackets."""
+    if not even["steps"]:
+        return "no neighbouring layers have new infill"
+    unit = even["unit"]
+    return (
+        f"{plain_number(even['spread_after'])} {unit} of spread from one layer to the next, half of the steps under "
+        f"{plain_number(even['median_step_after'])} {unit} (without --even {plain_number(even['spread_before'])} and "
+        f"{plain_number(even['median_step_before'])} {unit}; as sliced {plain_number(even['spread_sliced'])} and "
+        f"{plain_number(even['median_step_sliced'])} {unit})"
+    )
 
 
 def _clock(seconds: float) -> str:

@@ -12,6 +12,7 @@ import typer
 from infill.cli.console import format_table, print_json, say
 from infill.cli.declared import takes_options
 from infill.cli.piping import is_piped
+from infill.errors import FormatError
 from infill.gcode.ending import describe_missing_end
 from infill.options.declaration import by_field, read_options
 from infill.plain_numbers import count_noun, plain_argument, plain_number, plain_size
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from infill.reports.timing import MotionReports
     from infill.timing.printing_time import FeatureMotion, Motion, WrittenTimes
 
+EVERY_LAYER = "layers="  # begins the name of a picture of every layer
 UNITS = {"feedrate": "mm/s", "axis_acceleration": "mm/s²", "acceleration": "mm/s²", "jerk": "mm/s"}
 UNITS |= {"junction_deviation": "mm", "square_corner_velocity": "mm/s", "travel_acceleration": "mm/s²"}
 UNITS |= {"corner_extrusion_velocity": "mm/s"}
@@ -61,9 +63,11 @@ def motion(
         typer.Option("--in-place", help="Write the estimate into the print itself.", rich_help_panel=FILES),
     ] = False,
     plot: Annotated[
-        Path | None,
+        str | None,
         typer.Option(
-            metavar="FILE", help="Picture to write of a layer, coloured by speed: a .png.", rich_help_panel=FILES
+            metavar="FILE",
+            help="Picture to write, a .png: of a layer, coloured by speed; layers=FILE: of the seconds of all layers.",
+            rich_help_panel=FILES,
         ),
     ] = None,
     layer: Annotated[
@@ -81,16 +85,22 @@ def motion(
     options = by_field(MotionOptions, read_options("motion", MotionOptions, typed))
     if plot is None and layer is not None:
         raise typer.BadParameter("a layer is for a picture; name one with --plot")
+    picture = None if plot is None else Path(plot.removeprefix(EVERY_LAYER))
+    shows_every_layer = plot is not None and plot.startswith(EVERY_LAYER)
+    if shows_every_layer and layer is not None:
+        raise typer.BadParameter(f"{EVERY_LAYER} shows every layer; leave --layer out, or give --plot {picture}")
     target = _check_write(file, other, write, in_place=in_place)
-    if plot is not None:
-        _check_plot(plot, overwrite=force)
+    if picture is not None:
+        _check_plot(picture, overwrite=force)
     paths = [file] if other is None else [file, other]
     motions = [planned(path, **options, write=target, overwrite=force or in_place) for path in paths]
     if target is not None:
         say(f"wrote {target}")
-    if plot is not None:
+    if picture is not None and shows_every_layer:
+        _write_layer_times(paths, motions, picture)
+    elif picture is not None:
         chosen = layer if layer is not None else max(motions[0].layers // 2, 1)
-        _write_plot(paths, chosen, options, plot)
+        _write_plot(paths, chosen, options, picture)
     if as_json:
         reports: MotionReports = {
             "files": [{"file": str(path), **plan.to_dict()} for path, plan in zip(paths, motions, strict=True)]
@@ -135,6 +145,21 @@ def _write_plot(paths: Sequence[Path], layer: int, options: dict[str, Any], plot
     say(f"wrote {plot}")
 
 
+def _write_layer_times(paths: Sequence[Path], motions: Sequence[Motion], plot: Path) -> None:
+    """Draw the seconds of every layer of every file as curves into a picture file."""
+    from infill.files.whole_files import write_all_files
+    from infill.pictures.layer_times import write_layer_times
+
+    if not all(plan.by_layer.seconds for plan in motions):
+        raise FormatError("the file has no marked layers; give the G-code of a slicer, with its comments")
+    curves = {
+        f"{number}: {path.name}, spread {plain_number(plan.by_layer.seconds_spread, 3)} s": plan.by_layer.seconds
+        for number, (path, plan) in enumerate(zip(paths, motions, strict=True), 1)
+    }
+    write_all_files({plot: partial(write_layer_times, curves)})
+    say(f"wrote {plot}")
+
+
 def _summary(path: Path, plan: Motion) -> str:
     """Format the facts about a file as a table."""
     limits = "; ".join(
@@ -146,7 +171,7 @@ def _summary(path: Path, plan: Motion) -> str:
         "time": _format_clock(plan.seconds),
         "slicer": plan.slicer or "unknown",
         "its estimate": "none" if plan.estimate is None else _format_clock(plan.estimate),
-        "layers": f"{plan.layers}",
+        "layers": _layers_text(plan),
         "filament": f"{format_length(plan.filament, 2)}, "
         f"{count_noun(plan.retractions, 'retraction')}{_volumetric_note(plan)}",
         "laid, travelled": f"{format_length(plan.length, 1)}, {format_length(plan.travel, 1)}",
@@ -173,6 +198,13 @@ def _summary(path: Path, plan: Motion) -> str:
         rows["written"] = _written_text(plan.written)
     notes = [f"  note: {note.name} {note.note}" for note in plan.notes]
     return "\n".join([format_table(rows, title=str(path)), *notes])
+
+
+def _layers_text(plan: Motion) -> str:
+    """Describe the number of layers and how much the times of neighbours differ."""
+    if plan.layers < 2:
+        return f"{plan.layers}"
+    return f"{plan.layers}, spread of {plain_number(plan.by_layer.seconds_spread, 3)} s from one to the next"
 
 
 def _written_text(written: WrittenTimes) -> str:

@@ -13,13 +13,18 @@ from typing import BinaryIO
 
 import numpy as np
 
+from infill.arrays import Floats
 from infill.errors import FormatError
 from infill.files.whole_files import wrap_os_errors
 from infill.gcode.estimates import find_estimates
 from infill.gcode.machine_state import MachineState
+from infill.gcode.sliced_file import SlicedText
 from infill.gcode.survey import Survey
 from infill.kernels.threads import in_order, thread_count
+from infill.planner.open_timeline import make_timeline
 from infill.planner.print_clock import PrintClock, path_seconds
+from infill.refilling.even_drawing import EvenDrawing
+from infill.refilling.even_layers import measure_layers_of
 from infill.refilling.layers import Layers, read_layers
 from infill.refilling.planning import RefillPlan
 from infill.refilling.replace import LayerMemory, replace_infill
@@ -59,8 +64,8 @@ class Drafting:
 
     def meet_targets(
         self, rules: RefillRules, plan: RefillPlan | None, clock: PrintClock | None = None
-    ) -> tuple[RefillStats, RefillRules]:
-        """Draw the print until it meets its targets; return the statistics and the final rules.
+    ) -> tuple[RefillStats, RefillRules, RefillPlan | None]:
+        """Draw the print until it meets its targets; return the statistics, the final rules and the final plan.
 
         Parameters
         ----------
@@ -79,7 +84,7 @@ class Drafting:
         """
         stats = self.draw(rules, plan, clock)
         if plan is not None and plan.density is None and not plan.fixed:
-            stats = self._match_filament(stats, rules, plan)
+            stats, plan = self._match_filament(stats, rules, plan)
         previous = 0.0
         for _ in range(MOST_REDRAWS if rules.request.pattern == KEEP and rules.request.smooth_radius == AUTO else 0):
             length = kept_length_share(stats.infill.length, stats.infill_after.length)
@@ -93,9 +98,42 @@ class Drafting:
             if previous and kept_length_share(stats.infill.length, stats.infill_after.length) < LEAST_SHARE:
                 rules = rules.rounded_by(0.0)
                 stats = self.draw(rules, plan)
-        return stats, rules
+        return stats, rules, plan
 
-    def _match_filament(self, stats: RefillStats, rules: RefillRules, plan: RefillPlan) -> RefillStats:
+    def even_out(
+        self, stats: RefillStats, rules: RefillRules, plan: RefillPlan, clock: PrintClock, sliced: SlicedText
+    ) -> RefillStats:
+        """Draw the print again, with even layers, if that is requested; return the statistics.
+
+        Parameters
+        ----------
+        stats : RefillStats
+            Of the last drawing, by `rules` and `plan`.
+        rules : RefillRules
+        plan : RefillPlan
+        clock : PrintClock
+            Of the print as sliced.
+        sliced : SlicedText
+        """
+        by, begin = rules.request.even, self.print_survey.begin
+        if by is None:
+            return stats
+
+        def measure(text: BinaryIO) -> Floats:
+            return measure_layers_of(make_timeline(sliced, text, found=clock.found), text, by)
+
+        drawing = EvenDrawing(
+            by=by,
+            leeway=rules.request.allowed_leeway,
+            draw=lambda plan: self.draw(rules, plan),
+            measure=lambda: measure(self.draft),
+            section=math.pi / 4 * begin.diameter**2 if begin.volumetric else 1.0,
+        )
+        return drawing.even_out(stats, plan, measure(self.file))
+
+    def _match_filament(
+        self, stats: RefillStats, rules: RefillRules, plan: RefillPlan
+    ) -> tuple[RefillStats, RefillPlan]:
         """Redraw a print at other cells until its infill takes the old amount of filament; else at the best cell.
 
         In a large print, later layers make up for the excess or shortage of earlier ones, so that few need it.
@@ -107,7 +145,7 @@ class Drafting:
         for _ in range(tries):
             error = errors[current.cell] = stats.filament_error
             if abs(error) <= tolerance:
-                return stats
+                return stats, current
             # The filament jumps with the cell: try between two that take too much and too little, if both exist.
             opposite = [cell for cell, cell_error in errors.items() if cell_error * error < 0]
             nearest = min(opposite, key=lambda cell: abs(cell - current.cell), default=0.0)
@@ -115,7 +153,7 @@ class Drafting:
             stats = self.draw(rules, current)
             if abs(stats.filament_error) < smallest_error:
                 best, smallest_error = current, abs(stats.filament_error)
-        return stats if current is best else self.draw(rules, best)
+        return stats if current is best else self.draw(rules, best), best
 
     def draw(self, rules: RefillRules, plan: RefillPlan | None, clock: PrintClock | None = None) -> RefillStats:
         """Write the new text to the draft, once."""

@@ -99,6 +99,8 @@ def refill(
     max_deviation: float | None = None,
     max_segments: str | float = AUTO,
     arcs: str = AUTO,
+    even: str | None = None,
+    leeway: str | float | None = None,
     layers: tuple[int, int] | None = None,
     part: str | None = None,
     dry_run: bool = False,
@@ -135,6 +137,12 @@ def refill(
         the file is for Marlin (legacy), else no limit.
     arcs : "auto", "on" or "off"
         Write curves as arcs (G2, G3), at most 0.0125 mm from the points of the path. "auto": if the file has arcs.
+    even : "time" or "volume", optional
+        An experiment: slow down the infill of single layers, or change the width of its beads, so that neighbouring
+        layers take alike time or filament. For a new pattern.
+    leeway : float, optional
+        Largest share by which the infill of a layer may take more time, or more or less filament, for that;
+        by default 0.1.
     layers : tuple of int, optional
         The first and the last layer to refill, counted from 1.
     part : str, optional
@@ -184,6 +192,8 @@ def refill(
         max_deviation=max_deviation,
         max_segments=max_segments,
         arcs=arcs,
+        even=even,
+        leeway=leeway,
         layers=layers,
         part=part,
         parameters=parameters,
@@ -395,13 +405,15 @@ def _refill_text(sliced: SlicedText, draft: BinaryIO, request: Request, progress
         rules = rules.rounded_by(largest_deviation(samples, rules.rounding, rules.acceleration))
     clock = PrintClock(sliced)
     drafting = Drafting(file=sliced.text, begin=clock.begin, draft=draft, print_survey=print_survey, progress=progress)
-    tally, rules = drafting.meet_targets(rules, plan, clock)
+    tally, rules, final_plan = drafting.meet_targets(rules, plan, clock)
+    if final_plan is not None and tally.replaced:
+        tally = drafting.even_out(tally, rules, final_plan, clock, sliced)
     remedy = None
     if request.pattern == KEEP and loses_filament(tally) and request.smooth_radius != AUTO:
         by_itself = replace(rules, request=replace(request, smooth_radius=AUTO)).with_radius(math.inf)
         by_itself = by_itself.rounded_by(largest_deviation(samples, by_itself.rounding, rules.acceleration))
         with tempfile.TemporaryFile() as trial:
-            remedy, _ = replace(drafting, draft=trial).meet_targets(by_itself, None)
+            remedy, _, _ = replace(drafting, draft=trial).meet_targets(by_itself, None)
     if print_survey.begin.volumetric:
         for stats in [tally] if remedy is None else [tally, remedy]:
             stats.count_millimetres([math.pi / 4 * diameter**2 for diameter in print_survey.begin.diameters])

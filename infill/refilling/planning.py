@@ -13,6 +13,7 @@ from infill.paths.covering import check_cell, solve_cell, total_length
 from infill.paths.families.family import TOUCH, CentredFamily, Family
 from infill.paths.neighbours import index_beads
 from infill.paths.rounding import Rounding, round_paths
+from infill.refilling.even_layers import LayerShares
 from infill.refilling.layers import Layers
 from infill.refilling.regions import FreeAreas
 
@@ -39,6 +40,8 @@ class RefillPlan:
         Requested mm of line per mm²; else every section keeps its filament.
     fixed : bool
         True for a requested cell: it is the same everywhere, and decides the filament.
+    even : LayerShares, optional
+        More or less filament, or more time, for the infill of single layers.
     """
 
     family: Family
@@ -47,6 +50,7 @@ class RefillPlan:
     rounding: Rounding
     density: float | None
     fixed: bool = False
+    even: LayerShares | None = None
 
     def with_cell(self, cell: float) -> RefillPlan:
         """Return the plan with another cell, mm, or the smallest that beads fit into."""

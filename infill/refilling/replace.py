@@ -21,6 +21,7 @@ from infill.paths.layer_below import LayerBelow, index_layer_below
 from infill.paths.neighbours import BeadIndex
 from infill.planner.print_clock import path_seconds
 from infill.ragged import concatenate_rows, split_rows
+from infill.refilling.even_layers import LEAST_WIDTH, MOST_WIDTH, LayerShares
 from infill.refilling.fitting import (
     LENGTH_TOLERANCE,
     REGION_TOLERANCE,
@@ -42,7 +43,6 @@ if TYPE_CHECKING:
 
 Paths = list[Floats]
 
-LEAST_WIDTH, MOST_WIDTH = 0.92, 1.08  # of the slicer's filament per mm, to meet the filament of a region
 LEAST_TRAVEL = 1.0  # mm; shorter travel never retracts
 DEBT = 0.1  # of the filament of a layer: the error at which columns choose new cells
 AGAIN_AFTER = 8  # layers until columns may choose new cells again
@@ -178,6 +178,11 @@ class NewSection:
         acceleration = np.full(len(self.paths), self.acceleration)
         return float(path_seconds(points, first, speed, acceleration).sum())
 
+    def even_out(self, even: LayerShares) -> NewSection:
+        """Return the section with the speed and the filament per mm that even out its layer."""
+        body = replace(self.body, feed=even.slow(self.body.layer, self.body.feed))
+        return replace(self, body=body, rate=even.widen(body.layer, self.rate, body.rate))
+
     def not_faster(self, table: GcodeTable) -> NewSection:
         """Return the section, slowed down if it would take less time than the old one.
 
@@ -231,6 +236,8 @@ def replace_infill(layers: Layers, rules: RefillRules, plan: RefillPlan, memory:
         return NewInfill.unchanged(layers, kept)
     slow = may_be_slowed(layers, rules)
     new = [s.not_faster(table) if slow[s.body.layer - int(layers.marks.layer[0])] else s for s in new]
+    if plan.even is not None:
+        new = [section.even_out(plan.even) for section in new]
     text, filament, fault = redraw_sections(
         table, [(s.body, s.paths, s.rate, s.retractions()) for s in new], memory.ways, rules.arc_deviation
     )
@@ -257,7 +264,17 @@ def replace_infill(layers: Layers, rules: RefillRules, plan: RefillPlan, memory:
         lines=np.array([body.first for body in bodies]),
         increase=np.array(filament) - np.array([body.filament for body in bodies]),
         radii=np.concatenate([section.radii for section in new]),
+        drawn=_sum_by_layer(new),
     )
+
+
+def _sum_by_layer(sections: Sequence[NewSection]) -> dict[int, Floats]:
+    """Sum up filament at the slicer's filament per mm, filament, and seconds of new sections by layer, (3,) each."""
+    sums: dict[int, Floats] = {}
+    for section in sections:
+        amounts = section.body.rate * section.length, section.rate * section.length, section.seconds()
+        sums[section.body.layer] = sums.get(section.body.layer, np.zeros(3)) + amounts
+    return sums
 
 
 def draw_sections(

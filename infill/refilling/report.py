@@ -54,6 +54,8 @@ def refill_report(
             "smooth_radius_mm": request.smooth_radius,
             "max_deviation_mm": request.max_deviation,
             "arcs": request.arcs,
+            "even": request.even,
+            "leeway": request.allowed_leeway if request.even else None,
             "max_segments": request.max_segments,
             "layers": list(request.layers) if request.layers else None,
             "part": request.part,
@@ -104,6 +106,8 @@ def refill_report(
         "infill_after_s": tally.print_after.infill_seconds,
     }
     report["contact"] = contact_section(tally)
+    if request.even is not None:
+        report["even"] = tally.steps.report(request.even)
     report["problems"] = _problems(report, tally)
     if print_survey.missing_end:
         report["problems"].insert(0, describe_missing_end(print_survey.missing_end))

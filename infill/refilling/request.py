@@ -25,6 +25,8 @@ FEWEST_SEGMENTS, MOST_SEGMENTS = 10.0, 100_000.0  # per second
 LARGEST_RADIUS = 100.0  # mm
 ENDLESS = 10**9  # layers
 MOST_LISTED = 10  # objects in a message
+LEEWAY, MOST_LEEWAY = 0.1, 0.5  # share of the infill of a layer
+TIME, VOLUME = "time", "volume"
 PATHS, WHERE = "Paths", "Where"
 
 
@@ -65,6 +67,18 @@ def parse_share_or_same(name: str, value: object) -> str | float:
     (0.2, 'same')
     """
     return SAME if value == SAME else parse_share(name, value, "give same, or a share such as 20%")
+
+
+def parse_leeway(name: str, value: object) -> float:
+    """Parse the share in ``10%`` or 0.1, or raise ParameterError.
+
+    >>> parse_leeway("leeway", "10%")
+    0.1
+    """
+    share = parse_share(name, value, "give a share such as 10%")
+    if share > MOST_LEEWAY:
+        raise ParameterError.about(name, f"is {quote_value(value)}; give a share such as 10%, up to {MOST_LEEWAY:.0%}")
+    return share
 
 
 def parse_range(name: str, value: object) -> tuple[int, int]:
@@ -114,6 +128,10 @@ class Request:
         Segments per second that the controller takes. "auto": as the file's G-code flavour implies.
     arcs : str
         "on": write curves as arcs (G2, G3). "off": as straight segments. "auto": as arcs if the file has some.
+    even : "time" or "volume", optional
+        Even out the layers of a new pattern.
+    leeway : float, optional
+        Share by which the infill of a layer may change for that; by default `LEEWAY`.
     layers : tuple of int, optional
         First and last layer to refill, counted from 1.
     part : str, optional
@@ -196,6 +214,27 @@ class Request:
             default="auto",
         ),
     ] = AUTO
+    even: Annotated[
+        str | None,
+        Option(
+            "An experiment: infill of single layers slower, or of wider or narrower beads, so that neighbouring layers "
+            "take alike time or filament; for a new pattern.",
+            PATHS,
+            unit="time|volume",
+            default="as drawn",
+        ),
+    ] = None
+    leeway: Annotated[
+        str | float | None,
+        Option(
+            "Share by which the infill of a layer may change for --even, 50% at most; beads change by 8 % at most.",
+            PATHS,
+            unit="PERCENT",
+            default="10%",
+            read=parse_leeway,
+            typed=str,
+        ),
+    ] = None
     layers: Annotated[
         tuple[int, int] | None,
         Option(
@@ -233,6 +272,7 @@ class Request:
             check_range("max_segments", self.max_segments, FEWEST_SEGMENTS, MOST_SEGMENTS, "segments per second")
         if self.arcs not in (AUTO, ON, OFF):
             raise UsageError.about("arcs", f"is {quote_value(self.arcs)}; give auto, on or off")
+        self._check_even()
         if self.layers is not None and not 1 <= self.layers[0] <= self.layers[1]:
             raise ParameterError.about(
                 "layers", f"is {self.layers[0]} to {self.layers[1]}; count from 1, the lower one first"
@@ -253,6 +293,18 @@ class Request:
                 raise ParameterError.like(error) from None
             if self.cell is not None and self.density is not None:
                 raise UsageError.about(("density", "cell"), "are both given, and each decides the other; leave one out")
+
+    def _check_even(self) -> None:
+        """Raise UsageError or ParameterError if layers cannot be evened out as requested; read the leeway."""
+        if self.even not in (None, TIME, VOLUME):
+            raise UsageError.about("even", f"is {quote_value(self.even)}; give time or volume")
+        if self.even is not None and self.pattern == KEEP:
+            raise UsageError.about("even", "only works with --pattern NAME, such as gyroid; the slicer's paths stay")
+        if self.leeway is None:
+            return
+        object.__setattr__(self, "leeway", parse_leeway("leeway", self.leeway))
+        if self.even is None:
+            raise UsageError.about("leeway", "only works with --even time or --even volume; give one of them")
 
     def _resolve_pattern(self) -> None:
         """Put the name of the pattern in its place, and find its parameters and lines."""
@@ -275,6 +327,11 @@ class Request:
         """The requested size of the pattern, mm."""
         cell = self.parameters.get("cell")
         return None if cell is None else float(cell)
+
+    @property
+    def allowed_leeway(self) -> float:
+        """The share by which the infill of a layer may change to even out layers."""
+        return LEEWAY if self.leeway is None else float(self.leeway)
 
     @property
     def deviation(self) -> float:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from infill.arrays import Flags, Floats, Places
 from infill.paths.contact import Contact
+from infill.refilling.even_layers import LayerSteps
 from infill.refilling.layers import LayerPaths, Layers
 
 if TYPE_CHECKING:
@@ -90,6 +91,8 @@ class NewInfill:
         Further mm of filament that the new paths would take with the beads of ``--density same``.
     radii : (C,) float64, mm
         Of their arcs; 0 or infinite at corners without an arc.
+    drawn : mapping of int to (3,) float64
+        Of the new paths by layer: mm of filament at the slicer's filament per mm, mm of filament, and seconds.
     """
 
     text: bytes
@@ -101,6 +104,7 @@ class NewInfill:
     increase: Floats = field(default_factory=lambda: np.empty(0))
     widened: float = 0.0
     radii: Floats = field(default_factory=lambda: np.empty(0))
+    drawn: Mapping[int, Floats] = field(default_factory=dict)
 
     @classmethod
     def unchanged(cls, layers: Layers, kept: Mapping[str, Places]) -> NewInfill:
@@ -168,6 +172,10 @@ class RefillStats:
         Lines that may move or extrude and are not understood, and the number of the first in its print.
     objects : dict of str to int
         Names of the objects of the print, as keys.
+    drawn : dict of int to (3,) float64
+        As in `NewInfill`.
+    steps : LayerSteps
+        Between layers that were evened out.
     """
 
     layers: int = 0
@@ -190,6 +198,8 @@ class RefillStats:
     unread: int = 0
     first_unread: int = 0
     objects: dict[str, int] = field(default_factory=dict)
+    drawn: dict[int, Floats] = field(default_factory=dict)
+    steps: LayerSteps = field(default_factory=LayerSteps)
 
     @property
     def filament_error(self) -> float:
@@ -284,6 +294,7 @@ def count_refill(layers: Layers, new: NewInfill, seconds: Floats) -> RefillStats
         change=_sum_by_tool(layers.tools[new.lines], new.increase),
         corners=len(arcs),
         objects=dict.fromkeys(layers.marks.names.values(), 1),
+        drawn=dict(new.drawn),
     )
     stats.radii.add(arcs)
     replaced = np.unique(layers.section[new.changed])

@@ -15,6 +15,8 @@ class RefillRequest(TypedDict):
     density: Annotated[float | str | None, "Share of the volume, or `same`; null for the filament of the slicer"]
     smooth_radius_mm: Annotated[float | str, "Largest radius of a corner, mm, or `auto`"]
     max_deviation_mm: Annotated[float | None, "Largest distance by which a path may move, mm"]
+    even: Annotated[str | None, "Whether layers are evened out, by `time` or `volume`; null if not"]
+    leeway: Annotated[float | None, "Share by which the infill of a layer may change for that; null without"]
     arcs: Annotated[str, "Whether curves are written as arcs: `auto`, `on` or `off`"]
     max_segments: Annotated[float | str, "Segments per second, or `auto` or `none`"]
     layers: Annotated[Annotated[list[int], 2] | None, "First and last layer, counted from 1; null for all layers"]
@@ -110,6 +112,19 @@ class ContactKeys(TypedDict):
     kept_bonded: Annotated[float, "Bonded share, after over before; 1 if hardly any infill was bonded"]
 
 
+class EvenKeys(TypedDict):
+    """Steps between neighbouring layers that both have new infill, with `--even` only."""
+
+    unit: Annotated[str, "Unit of the steps and of their spread: `s`, or `mm` of filament"]
+    steps: Annotated[int, "Number of steps"]
+    spread_sliced: Annotated[float, "Standard deviation of the steps as sliced"]
+    spread_before: Annotated[float, "Standard deviation of the steps with the new infill, not evened out"]
+    spread_after: Annotated[float, "Standard deviation of the steps as written"]
+    median_step_sliced: Annotated[float, "Median size of a step as sliced"]
+    median_step_before: Annotated[float, "Median size of a step with the new infill, not evened out"]
+    median_step_after: Annotated[float, "Median size of a step as written"]
+
+
 class RefillReport(ReportHead):
     """The report of `infill.refill`; a print that was refilled before lacks the keys from `sections` on."""
 
@@ -122,3 +137,4 @@ class RefillReport(ReportHead):
     filament: NotRequired[FilamentKeys]
     time: NotRequired[TimeKeys]
     contact: NotRequired[ContactKeys]
+    even: NotRequired[EvenKeys]

@@ -47,6 +47,15 @@ class LimitKeys(TypedDict):
     ]
 
 
+class LayerTimeKeys(TypedDict):
+    """Every layer, from the slicer's mark to the next, in the order of the file, and how much neighbours differ."""
+
+    seconds: Annotated[tuple[float, ...], "Time of each layer, s"]
+    filament: Annotated[tuple[float, ...], "Filament that each layer lays, mm"]
+    seconds_spread: Annotated[float, "Standard deviation of the difference in time between neighbouring layers, s"]
+    filament_spread: Annotated[float, "The same of the filament, mm"]
+
+
 class NoteKeys(TypedDict):
     """Limits that the printer states, or that were given, and the plan does not follow or had to assume."""
 
@@ -74,6 +83,7 @@ class MotionReport(TypedDict):
     travel: Annotated[float, "Length of travel, mm"]
     retractions: Annotated[int, "Number of retractions"]
     features: tuple[FeatureKeys, ...]
+    by_layer: LayerTimeKeys
     limits: LimitKeys
     sources: Annotated[
         dict[str, str], "Source of each limit: `settings`, `printer`, `limits`, `commands`, `given` or `assumed`"

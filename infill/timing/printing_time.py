@@ -20,6 +20,7 @@ from infill.gcode.sliced_file import SlicedFile, open_sliced
 from infill.pictures.picturable import Picturable
 from infill.plain_numbers import count_noun
 from infill.planner.feature_sums import FeatureSums
+from infill.planner.layer_sums import LayerSums, neighbour_spread
 from infill.planner.open_timeline import collect_given, make_timeline
 from infill.planner.print_clock import ElapsedTimes
 from infill.planner.timeline import Timeline
@@ -63,6 +64,16 @@ class FeatureMotion:
 
 
 @dataclass(frozen=True, kw_only=True)
+class LayerTimes:
+    """Seconds and filament of every layer; the attributes are the keys of `LayerTimeKeys`."""
+
+    seconds: tuple[float, ...]
+    filament: tuple[float, ...]
+    seconds_spread: float
+    filament_spread: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class WrittenTimes:
     """A print that was written with the planned time; the attributes are the keys of `WrittenKeys`."""
 
@@ -90,6 +101,7 @@ class Motion(Picturable):
     travel: float
     retractions: int
     features: tuple[FeatureMotion, ...]
+    by_layer: LayerTimes
     limits: dict[str, Any]
     sources: dict[str, str]
     plate: int | None = None
@@ -243,6 +255,7 @@ class _PartPlan:
     """The plan of one print of a file, and its new statements of time if they are to be written."""
 
     sums: FeatureSums
+    layers: LayerSums
     timeline: Timeline
     edits: TimeEdits | None
 
@@ -254,10 +267,11 @@ def _plan_part(
     sliced = texts.enter_context(file.text(part, None if target is None else target.parent))
     statements = TimeStatements() if target is None else find_time_statements(sliced.text)
     timeline = make_timeline(sliced, given=given)
-    sums, elapsed = FeatureSums(), ElapsedTimes(statements.places)
+    sums, elapsed, layers = FeatureSums(), ElapsedTimes(statements.places), LayerSums()
     for steps, plan in timeline:
         sums.add(steps, plan)
         elapsed.add(steps, plan)
+        layers.add(steps, plan)
     sums.finish(timeline.pause, timeline.retractions)
     if timeline.trouble and not sums.total("length").any():
         raise FormatError(timeline.trouble)
@@ -265,7 +279,7 @@ def _plan_part(
     if target is not None:
         seconds = float(sums.total("seconds").sum())
         edits = edit_times(sliced, statements, seconds, elapsed.first_layer, elapsed.finish().tolist())
-    return _PartPlan(sums=sums, timeline=timeline, edits=edits)
+    return _PartPlan(sums=sums, layers=layers, timeline=timeline, edits=edits)
 
 
 def _sum_up(plan: _PartPlan, **facts: Any) -> Motion:  # noqa: ANN401 - attributes of a Motion
@@ -284,6 +298,7 @@ def _sum_up(plan: _PartPlan, **facts: Any) -> Motion:  # noqa: ANN401 - attribut
         travel=float(sums.total("travel").sum()),
         retractions=round(float(sums.total("retractions").sum())),
         features=tuple(feature for feature in features if feature.seconds > 0),
+        by_layer=_layer_times(plan.layers),
         limits=_used_limits(file_limits),
         sources=dict(file_limits.sources),
         unread_lines=timeline.unread.lines,
@@ -296,6 +311,17 @@ def _sum_up(plan: _PartPlan, **facts: Any) -> Motion:  # noqa: ANN401 - attribut
         volumetric=timeline.state.volumetric,
         filament_diameter=timeline.state.diameter,
         **facts,
+    )
+
+
+def _layer_times(layers: LayerSums) -> LayerTimes:
+    """Return seconds, filament and spread of the layers from the first on."""
+    seconds, filament = layers.seconds[1:].tolist(), layers.filament[1:].tolist()
+    return LayerTimes(
+        seconds=tuple(seconds),
+        filament=tuple(filament),
+        seconds_spread=neighbour_spread(seconds),
+        filament_spread=neighbour_spread(filament),
     )
 
 
