@@ -173,30 +173,24 @@ def refill(
     """
     if not isinstance(gcode, str | os.PathLike):
         gcode = list(gcode)
-    options = {
+    options: dict[str, Any] = {
         "density": density,
         "smooth_radius": smooth_radius,
         "max_deviation": max_deviation,
         "max_segments": max_segments,
         "arcs": arcs,
+        "even": even,
+        "leeway": leeway,
         "layers": layers,
         "part": part,
-        **parameters,
     }
     if pattern == AUTO:
+        options |= parameters
         return _refill_by_choice(gcode, options, output, dry_run=dry_run, overwrite=overwrite, progress=progress)
     request = Request(
         pattern=pattern,  # type: ignore[arg-type]  # whose name takes its place
-        density=density,
-        smooth_radius=smooth_radius,
-        max_deviation=max_deviation,
-        max_segments=max_segments,
-        arcs=arcs,
-        even=even,
-        leeway=leeway,
-        layers=layers,
-        part=part,
         parameters=parameters,
+        **options,
     )
     if not isinstance(gcode, str | os.PathLike):
         return _refill_lines(gcode, request, progress)
