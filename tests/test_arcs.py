@@ -24,7 +24,6 @@ from tests.handmade_prints import Dialect, written
 
 ROUNDED = 0.002  # mm: two decimals of a place, and those of a centre
 PRINTS = ["p29_arcs_gyroid_marlin2.gcode", "p29_arcs_honeycomb_klipper.gcode"]
-PATTERNS = ["keep", "gyroid", "honeycomb", "grid", "triangles", "hilbert", "concentric"]
 
 
 def straightened(data: bytes) -> bytes:
@@ -176,7 +175,7 @@ def test_no_arc_passes_a_stop() -> None:
 @pytest.mark.longest
 @pytest.mark.parametrize(
     ("name", "pattern"),
-    [*((PRINTS[0], pattern) for pattern in PATTERNS), (PRINTS[1], "keep"), (PRINTS[1], "honeycomb")],
+    [(PRINTS[0], "keep"), (PRINTS[0], "honeycomb"), (PRINTS[0], "gyroid"), (PRINTS[1], "keep")],
 )
 def test_a_print_with_arcs_is_refilled_as_the_straight_one(name: str, pattern: str, data: Path, tmp_path: Path) -> None:
     """As many sections; the same filament and time within 1 %; and an independent judge passes what is written."""
@@ -186,7 +185,7 @@ def test_a_print_with_arcs_is_refilled_as_the_straight_one(name: str, pattern: s
     round_report = refill(path, output=tmp_path / "arcs.gcode", pattern=pattern).report
     straight_report = refill(straight, output=tmp_path / "lines.gcode", pattern=pattern).report
     new, lines = (tmp_path / "arcs.gcode").read_bytes(), (tmp_path / "lines.gcode").read_bytes()
-    bounds = (0.8, 1.15 if pattern == "concentric" else 1.05)  # of whole rings, in a print of few
+    bounds = (0.8, 1.05)
     allowed = outside(judge(straight.read_bytes(), lines, filament=bounds))  # of a ring 4 mm wide, 0.03 mm
     assert outside(judge(old, new, filament=bounds)) <= (allowed + 0.02 if allowed else 0.0)
     assert changed(old, new) >= 0.95 * straight_report["sections"]["replaced"] > 0
@@ -197,7 +196,7 @@ def test_a_print_with_arcs_is_refilled_as_the_straight_one(name: str, pattern: s
     arcs, moves = drawn_arcs(new)
     straight_moves = drawn_arcs(lines)
     assert straight_moves[0] == 0
-    assert arcs or pattern in ("grid", "triangles", "concentric")
+    assert arcs
     assert moves < straight_moves[1]
 
 

@@ -97,7 +97,8 @@ def test_a_pattern_takes_the_filament_that_was_there(name: str, taller: Path, tm
     """Within 1 %, with no more retractions; an independent judge finds nothing else changed."""
     report = refill(taller, output=tmp_path / "new.gcode", pattern=name).report
     old, new = taller.read_bytes(), (tmp_path / "new.gcode").read_bytes()
-    known = "% less of this infill rests on the layer below", "the new infill is slower"  # as some patterns are
+    # As some patterns are: rings of concentric and loops of schwarz-p stand free by nature.
+    known = "% less of this infill rests on the layer below", "the new infill is slower", "touches no wall"
     assert all(any(words in problem for words in known) for problem in report["problems"])
     assert report["sections"] == {"all": 6, "replaced": 6, "kept": {}}
     assert judge(old, new, filament=(0.99, 1.01)) == []
