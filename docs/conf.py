@@ -57,7 +57,7 @@ default_role = "code"  # single backquotes in docstrings are names of arguments 
 
 # What public functions take or return and the packages do not export.
 NOT_EXPORTED = ("FeatureMotion", "HasName", "Progress", "SmoothOptions", "StampMethod", "SurfaceMethod", "Told")
-NOT_EXPORTED += ("LimitNote", "WrittenTimes")
+NOT_EXPORTED += ("LayerTimes", "LimitNote", "WrittenTimes")
 NOT_EXPORTED += ("ComponentStages", "FillStages", "LabelStages", "MakeStages", "SmoothStages", "Stages")
 NOT_EXPORTED += ("ComponentsReport", "FillReport", "LabelsReport", "MakeReport", "PrintedVolume", "SmoothReport")
 NOT_EXPORTED += ("CheckReport", "MotionReport", "ProjectReport", "RefillReport", "VerifyReport")
