@@ -39,7 +39,7 @@ MOST_REDRAWS = 3  # times that a print is redrawn with smaller moves of corners
 # Of a small print and of a larger one: times that it is redrawn at another cell, and the relative tolerance of the
 # filament of all infill, which decides whether it is.
 CELL_TRIES, FILAMENT_TOLERANCE = 6, 0.005
-MORE_CELL_TRIES, LOOSE_TOLERANCE = 3, 0.01
+MORE_CELL_TRIES, LOOSE_TOLERANCE = 1, 0.01
 MOST_THREADS = 4  # more threads would only take memory: a single one reads for all of them
 
 
