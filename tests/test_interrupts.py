@@ -19,7 +19,8 @@ from infill.kernels.threads import run_interruptibly, run_together
 # Like a compiled loop, this holds its thread for long without a step of Python, and lets other threads run.
 LOOP = "import hashlib; loop = lambda: hashlib.pbkdf2_hmac('sha256', b'a', b'b', 10**9)"
 SCRIPT = """
-import os
+import os, signal
+signal.signal(signal.SIGINT, signal.default_int_handler)  # which a shell's background jobs ignore
 from infill.kernels.threads import run_interruptibly, run_together
 {loop}
 print("ready", flush=True)
