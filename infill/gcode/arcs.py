@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.arrays import Flags, Floats, Places
-from infill.gcode.chords import arc_turns, centres_by_radius
+from infill.gcode.chords import arc_turns, centres_by_radius, stated_circles
 from infill.gcode.lines import ARC, ODD
 from infill.gcode.table import GcodeTable
 
@@ -111,10 +111,9 @@ def find_arcs(table: GcodeTable) -> PlaneArcs:
 
     start = np.column_stack([at_start("x"), at_start("y")])
     end = np.column_stack([table.x[lines], table.y[lines]])
-    words = [table.further.get(line, {}) for line in lines.tolist()] if table.further else [{}] * len(lines)
+    offset, stated, turns = stated_circles(table, lines)
     clockwise = table.code[lines] == 2
-    centre = start + np.nan_to_num(np.column_stack([table.i[lines], table.j[lines]]))
-    stated = np.array([arc_words.get("R", np.nan) for arc_words in words])
+    centre = start + offset[:, :2]
     by_radius = ~np.isnan(stated)
     if by_radius.any():
         centre[by_radius] = centres_by_radius(start[by_radius], end[by_radius], stated[by_radius], clockwise[by_radius])
@@ -123,7 +122,7 @@ def find_arcs(table: GcodeTable) -> PlaneArcs:
     arcs = PlaneArcs(line=lines, start=start, end=end, centre=centre, turn=turn)
     height = at_start("z")
     level = (table.z[lines] == height) | ~table.given[lines, 2]
-    once = np.array([arc_words.get("P", 1.0) <= 1 and "K" not in arc_words for arc_words in words], dtype=bool)
+    once = (turns <= 1) & (offset[:, 2] == 0)
     inner, outer = np.hypot(*first.T), np.hypot(*last.T)
     with np.errstate(invalid="ignore"):
         sound = (np.abs(outer - inner) <= OFF_CIRCLE) & (inner > SMALLEST_RADIUS) & (inner < LARGEST_RADIUS)

@@ -19,9 +19,36 @@ COARSE_RATIO = 0.26  # of the diameter: the sine of 15 degrees; even the smalles
 PLANES = {17: [0, 1, 2], 18: [2, 0, 1], 19: [1, 2, 0]}  # the axes of the plane and the one across it
 
 
+def stated_circles(table: GcodeTable, arcs: NDArray[np.intp]) -> tuple[Floats, Floats, Floats]:
+    """Read what the words of arcs state of their circles.
+
+    Parameters
+    ----------
+    table : GcodeTable
+    arcs : (N,) int
+        Lines.
+
+    Returns
+    -------
+    offset : (N, 3) float64, mm
+        From the start to the centre, I, J and K; 0 where a word is missing.
+    radius : (N,) float64, mm
+        R; NaN where it is missing. A negative radius is an arc of more than half a circle.
+    turns : (N,) float64
+        P; 1 where it is missing.
+    """
+    words = [table.further.get(line, {}) for line in arcs.tolist()] if table.further else [{}] * len(arcs)
+    further = {
+        letter: np.array([arc_words.get(letter, missing) for arc_words in words], dtype=np.float64)
+        for letter, missing in (("K", 0.0), ("R", np.nan), ("P", 1.0))
+    }
+    offset = np.nan_to_num(np.column_stack([table.i[arcs], table.j[arcs], further["K"]]))
+    return offset, further["R"], further["P"]
+
+
 def chords_of_arc_lines(
     table: GcodeTable, arcs: NDArray[np.intp], start: Floats, end: Floats
-) -> tuple[NDArray[np.intp], Floats, Floats]:
+) -> tuple[NDArray[np.intp], Floats, Floats, Floats]:
     """Cut arcs into chords; return the arc, begin and vector of each, stretched to the length of its arc.
 
     Parameters
@@ -37,13 +64,10 @@ def chords_of_arc_lines(
     arc, first : as by `cut_chords`
     way : (M, 3) float64
         From the begin to the end of each chord, stretched to the length of its arc, mm.
+    share : (M,) float64
+        Of the length of its arc, and so of its filament.
     """
-    words = [table.further.get(line, {}) for line in arcs.tolist()] if table.further else [{}] * len(arcs)
-    offset = np.nan_to_num(
-        np.column_stack([table.i[arcs], table.j[arcs], [arc_words.get("K", 0.0) for arc_words in words]])
-    )
-    radius = np.array([arc_words.get("R", np.nan) for arc_words in words])
-    turns = np.maximum(np.array([arc_words.get("P", 1.0) for arc_words in words]), 1.0)
+    offset, radius, turns = stated_circles(table, arcs)
     clockwise = table.code[arcs] == 2
     parts = []
     for plane in np.unique(table.plane[arcs]).tolist():
@@ -52,13 +76,17 @@ def chords_of_arc_lines(
         centre = begin[:, :2] + offset[selected][:, axes[:2]]
         by_radius = ~np.isnan(radius[selected])
         centre[by_radius] = centres_by_radius(begin, finish, radius[selected], clockwise[selected])[by_radius]
-        which, first, chord_end = cut_chords(begin, finish, centre, clockwise[selected], np.floor(turns[selected]))
+        whole = np.floor(np.maximum(turns[selected], 1.0))
+        which, first, chord_end = cut_chords(begin, finish, centre, clockwise[selected], whole)
         back = np.argsort(axes)
         way = (chord_end - first) * _arc_ratio(chord_end - first, np.hypot(*(begin[:, :2] - centre).T)[which])[:, None]
         parts.append((selected[which], first[:, back], way[:, back]))
     which, first, way = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
     order = np.argsort(which, kind="stable")
-    return which[order], first[order], way[order]
+    which, first, way = which[order], first[order], way[order]
+    length = np.linalg.norm(way, axis=1)
+    share = length / np.maximum(np.bincount(which, weights=length, minlength=len(arcs))[which], 1e-300)
+    return which, first, way, share
 
 
 def _arc_ratio(chord_vector: Floats, radius: Floats) -> Floats:

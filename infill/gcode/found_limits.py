@@ -8,7 +8,6 @@ Limits that the printer itself states take the place of all of these but the com
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -18,19 +17,25 @@ from typing import Any, Final
 from infill.files.excerpts import excerpt
 from infill.gcode.ending import find_missing_end
 from infill.gcode.given_limits import GivenLimits
-from infill.gcode.limit_names import changed_fields, is_used, model_of_limits, set_limits
+from infill.gcode.limit_names import MODEL_OF_FIELD, changed_fields, is_used, model_of_limits, set_limits
 from infill.gcode.limits import (
+    FIELDS_BY_MODEL,
     JERK_MODELS,
     JUNCTION_DEVIATION,
     NOT_LIMITING,
-    Axes,
     Limits,
     Model,
     apply_command,
-    is_valid_limit,
 )
-from infill.gcode.machine_state import DIAMETER, MAX_TOOLS
 from infill.gcode.printer_limits import LimitMacro, LimitNote
+from infill.gcode.slicer_settings import (
+    extrusion_rule,
+    filament_units,
+    find_slicer,
+    parse_limits_of_settings,
+    read_settings,
+    slicer_estimate,
+)
 
 KLIPPER: Final = Limits(model="klipper", feedrate=(300.0, 300.0, 5.0, 50.0))
 MARLIN: Final = Limits()  # its factory settings
@@ -44,24 +49,6 @@ CURA: Final = Limits(  # of its definition fdmprinter, which its own estimate us
     travel_acceleration=4000.0,
     retract_acceleration=4000.0,
 )
-# Fields that each model works with; the others are not reported.
-FIELDS_BY_MODEL: Final[dict[str, tuple[str, ...]]] = {
-    "jerk": ("feedrate", "axis_acceleration", "acceleration", "jerk"),
-    "vector-jerk": ("feedrate", "axis_acceleration", "acceleration", "jerk"),
-    "junction": ("feedrate", "axis_acceleration", "acceleration", "junction_deviation"),
-    "klipper": (
-        *("feedrate", "axis_acceleration", "acceleration"),
-        *("square_corner_velocity", "minimum_cruise_ratio", "corner_extrusion_velocity"),
-    ),
-}
-# Fields that belong to some of the models only.
-_OF_ONE_MODEL: Final[dict[str, str]] = {
-    "jerk": "jerk vector-jerk",
-    "junction_deviation": "junction",
-    "square_corner_velocity": "klipper",
-    "minimum_cruise_ratio": "klipper",
-    "corner_extrusion_velocity": "klipper",
-}
 _SETS: Final[dict[str, tuple[str, ...]]] = {
     "M201": ("axis_acceleration",),
     "M203": ("feedrate",),
@@ -76,27 +63,9 @@ _SAYS: Final = {
     "square_corner_velocity": re.compile(rb"SQUARE_CORNER_VELOCITY\s*="),
     "minimum_cruise_ratio": re.compile(rb"MINIMUM_CRUISE_RATIO\s*=|ACCEL_TO_DECEL\s*="),
 }
-_SETTING: Final = re.compile(rb"^; ?([a-z_0-9 ()]+?) = ([^\r\n]*)", re.MULTILINE)
-_TIMES: Final = (  # Cura's engine counts up; its header is a placeholder until the program around it fills it
-    re.compile(rb"^;TIME_ELAPSED:(\d+(?:\.\d+)?)", re.MULTILINE),
-    re.compile(rb"^;TIME:(\d+(?:\.\d+)?)", re.MULTILINE),
-)
-_TOTAL: Final = re.compile(rb"total estimated time: ([0-9dhms ]+)")
-_SLICER: Final = re.compile(
-    rb"^; ?(?:generated (?:by|with)|Generated with)?[ :]*(\w+(?:Slicer|Studio|SteamEngine)) ?v?([\d.]+\S*)",
-    re.MULTILINE,
-)
-_FLAVOUR: Final = re.compile(rb"^;FLAVOR:([^\r\n]*)", re.MULTILINE)
-_VOLUMETRIC: Final = {
-    b"ultigcode",
-    b"marlin(volumetric)",
-    b"marlin (volumetric)",
-    b"reprap (volumetric)",
-    b"reprap(volumetric)",
-}
+
 # Commands of RepRapFirmware alone, and feed rates that no machine reaches in mm/s.
 _BY_MINUTE: Final = re.compile(rb"^(?:M566\b|M203\b[^;\n]*[XY]\s*[3-9]\d{3}|M203\b[^;\n]*[XY]\s*\d{5})", re.MULTILINE)
-_UNIT_OF_TIME: Final = {"d": 86400, "h": 3600, "m": 60, "s": 1}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -212,15 +181,14 @@ def read_limits(
         If a limit that was given is out of range, or limits belong to two models.
     """
     given = given or GivenLimits()
-    missing_end = "" if settings else find_missing_end(_find_slicer(head), tail)
+    slicer = find_slicer(head)
+    missing_end = "" if settings else find_missing_end(slicer, tail)
     settings = dict(settings or {})
-    for text in (head, tail):
-        settings |= {name.decode(): value.decode("latin-1").strip() for name, value in _SETTING.findall(text)}
+    settings |= read_settings(head, tail)
     flavour = settings.get("gcode_flavor", "")
     by_minute = flavour in ("reprapfirmware", "sprinter") or (
         (b"M566" in head or b"M203" in head) and _BY_MINUTE.search(head) is not None
     )
-    slicer = _find_slicer(head)
     limits, sources = _first_limits(_default_limits(flavour, head, slicer), settings, given)
     firmware = flavour if flavour in ("repetier", "smoothie") else ""
     rule_of_e = extrusion_rule(head, settings)
@@ -239,7 +207,7 @@ def read_limits(
         feedrate_unit=1 / 60 if by_minute else 1.0,
         slicer=slicer,
         filament_diameter=diameters[0],
-        estimate=_slicer_estimate(settings, head, tail),
+        estimate=slicer_estimate(settings, head, tail),
         missing_end=missing_end,
         notes=_notes(given, limits.model),
         macros=given.printer.macros if given.printer is not None else {},
@@ -264,7 +232,7 @@ def _first_limits(start: Limits, settings: Mapping[str, str], given: GivenLimits
         start, origin = given.printer.limits, dict.fromkeys(given.printer.stated, "printer")
     else:
         if settings.get("machine_limits_usage") != "ignore":
-            stated = _parse_settings(settings, start)
+            stated = parse_limits_of_settings(settings, start)
         origin = dict.fromkeys(stated, "settings")
     model: Model = fixed.get("model") or stated.pop("model", start.model)
     if "jerk" in fixed and "model" not in fixed and model not in JERK_MODELS:
@@ -286,51 +254,10 @@ def _notes(given: GivenLimits, model: Model) -> tuple[LimitNote, ...]:
     names = [name for name in given.values if not is_used(name, model)]
     printer = given.printer
     if printer is not None:
-        unused = [name for name, models in _OF_ONE_MODEL.items() if model not in models.split()]
+        unused = [field for field in MODEL_OF_FIELD if field not in FIELDS_BY_MODEL[model]]
         names += [name for name in unused if name in printer.stated and name not in names]
     own = () if printer is None else printer.notes
     return (*own, *(LimitNote(name=name, note=note) for name in names))
-
-
-def _find_slicer(head: bytes) -> str:
-    """Return the name and version of the slicer, "" if the beginning of the file does not state it."""
-    named = _SLICER.search(head)
-    return b" ".join(named.groups()).decode("latin-1") if named else ""
-
-
-def filament_units(head: bytes, settings: Mapping[str, str]) -> tuple[bool, tuple[float, ...]]:
-    """Return True if E counts mm³ before any command, and the diameters of the filaments by tool, mm.
-
-    Parameters
-    ----------
-    head : bytes
-        The beginning of the file: Cura names its flavour there, and two of them count mm³.
-    settings : mapping
-        Of the slicer.
-
-    >>> filament_units(b";FLAVOR:UltiGCode", {}), filament_units(b"", {"filament_diameter": "2.85,1.75"})
-    ((True, (1.75,)), (False, (2.85, 1.75)))
-    """
-    flavour = _FLAVOUR.search(head)
-    volumetric = flavour is not None and flavour[1].strip().lower() in _VOLUMETRIC
-    if "use_volumetric_e" in settings:
-        volumetric = settings["use_volumetric_e"].strip() not in ("0", "", "nil", "false")
-    numbers = [
-        _first_number(text) or DIAMETER for text in settings.get("filament_diameter", "").replace(";", ",").split(",")
-    ]
-    return volumetric, tuple(numbers[:MAX_TOOLS])
-
-
-def extrusion_rule(head: bytes, settings: Mapping[str, str]) -> str:
-    """Return klipper or reprapfirmware if its own rule makes E relative, else "": see `MachineState.firmware`.
-
-    >>> extrusion_rule(b"", {"gcode_flavor": "klipper"}), extrusion_rule(b"", {"gcode_flavor": "marlin2"})
-    ('klipper', '')
-    """
-    flavour = settings.get("gcode_flavor", "")
-    if flavour == "klipper" or b"SET_VELOCITY_LIMIT" in head.upper():
-        return "klipper"
-    return "reprapfirmware" if flavour == "reprapfirmware" else ""
 
 
 def _sets_limit(line: bytes, name: str) -> bool:
@@ -345,71 +272,3 @@ def _default_limits(flavour: str, head: bytes, slicer: str) -> Limits:
     if flavour == "smoothie":
         return SMOOTHIE
     return CURA if slicer.startswith("Cura") else MARLIN
-
-
-def _parse_settings(settings: Mapping[str, str], start: Limits) -> dict[str, Any]:
-    """Return the fields of `Limits` that a block of settings states."""
-    stated: dict[str, Any] = {}
-    for field, prefixes in {
-        "feedrate": ("machine_max_feedrate", "machine_max_speed"),
-        "axis_acceleration": ("machine_max_acceleration",),
-        "jerk": ("machine_max_jerk",),
-    }.items():
-        values = [
-            next(
-                (
-                    _first_limit(settings.get(f"{prefix}_{axis}"), field)
-                    for prefix in prefixes
-                    if f"{prefix}_{axis}" in settings
-                ),
-                None,
-            )
-            for axis in "xyze"
-        ]
-        if any(values):
-            before: Axes = getattr(start, field)
-            stated[field] = tuple(value or old for value, old in zip(values, before, strict=True))
-    for field, name in {
-        "acceleration": "machine_max_acceleration_extruding",
-        "travel_acceleration": "machine_max_acceleration_travel",
-        "retract_acceleration": "machine_max_acceleration_retracting",
-        "junction_deviation": "machine_max_junction_deviation",
-        "minimum_feedrate": "machine_min_extruding_rate",
-        "minimum_travel_feedrate": "machine_min_travel_rate",
-    }.items():
-        value = _first_limit(settings.get(name), field)
-        if value:
-            stated[field] = value
-            if field.endswith("acceleration") and start.model != "klipper":
-                stated[f"highest_{field}"] = value
-    if settings.get("gcode_flavor") == "marlin" and "acceleration" in stated:  # before 2.0 it has none of travel
-        stated["travel_acceleration"] = stated["highest_travel_acceleration"] = stated["acceleration"]
-    if "junction_deviation" in stated and start.model in JERK_MODELS:
-        stated["model"] = "junction"
-    return stated
-
-
-def _first_number(text: str | None) -> float | None:
-    """Return the first number of a list; None if it is missing, unreadable, negative or infinite."""
-    try:
-        number = float((text or "").split(",")[0])
-    except ValueError:
-        return None
-    return number if 0 <= number < math.inf else None
-
-
-def _first_limit(text: str | None, field: str) -> float | None:
-    """Return the first number of a list, or None if no machine has that limit."""
-    number = _first_number(text)
-    return None if number is None or not is_valid_limit(number, field) else number
-
-
-def _slicer_estimate(settings: Mapping[str, str], head: bytes, tail: bytes) -> float | None:
-    """Return the slicer's own estimate in the file, s."""
-    total = _TOTAL.search(head)
-    text = settings.get("estimated printing time (normal mode)", total[1].decode() if total else "")
-    parts = re.findall(r"(\d+)\s*([dhms])", text)
-    if parts:
-        return float(sum(int(number) * _UNIT_OF_TIME[unit] for number, unit in parts))
-    times = next((times for pattern in _TIMES if (times := pattern.findall(head + tail))), None)
-    return float(times[-1]) if times else None

@@ -9,7 +9,7 @@ from typing import Any, Final
 
 from infill.errors import ParameterError, UsageError
 from infill.files.excerpts import quote_value
-from infill.gcode.limits import Limits, Model, describe_valid, is_valid_limit
+from infill.gcode.limits import FIELDS_BY_MODEL, Limits, Model, describe_valid, is_valid_limit
 from patterns.given import suggest_name
 from patterns.quantities import parse_quantity
 
@@ -119,22 +119,16 @@ LIMIT_NAMES: Final = {limit.name: limit for limit in NAMES}
 _SEPARATORS: Final = re.compile(r"[\s_.-]+")
 _BY_WORD: Final = {_SEPARATORS.sub("", word).lower(): limit for limit in NAMES for word in (limit.name, *limit.others)}
 _BETWEEN: Final = re.compile(r"[,;](?=\s*[A-Za-z][\w .-]*=)")  # not the comma of 0,5
-# The fields that each model works with.
-_USED: Final[dict[str, frozenset[str]]] = {
-    "klipper": frozenset({"feedrate", "acceleration", "square_corner_velocity", RATIO, "corner_extrusion_velocity"}),
-    **dict.fromkeys(("jerk", "vector-jerk"), frozenset({"jerk"})),
-    "junction": frozenset({"junction_deviation"}),
-}
+# Fields that every model works with, though none of them is reported.
 _ALWAYS_USED: Final = frozenset(
-    {"feedrate", "acceleration", "travel_acceleration", "retract_acceleration", "axis_acceleration"}
-    | {"minimum_feedrate", "minimum_travel_feedrate"}
+    {"travel_acceleration", "retract_acceleration", "minimum_feedrate", "minimum_travel_feedrate"}
 )
-_MEANS: Final[dict[str, Model]] = {
-    "jerk": "jerk",
-    "junction_deviation": "junction",
-    "square_corner_velocity": "klipper",
-    RATIO: "klipper",
-    "corner_extrusion_velocity": "klipper",
+# The fields that not all models work with, and the first model that does.
+MODEL_OF_FIELD: Final[dict[str, Model]] = {
+    field: next(model for model, known in FIELDS_BY_MODEL.items() if field in known)
+    for fields in FIELDS_BY_MODEL.values()
+    for field in fields
+    if not all(field in other for other in FIELDS_BY_MODEL.values())
 }
 
 
@@ -235,7 +229,9 @@ def model_of_limits(limits: Iterable[str], before: Model) -> Model:
     ParameterError
         If they belong to two models.
     """
-    meant = {_MEANS[field]: name for name in limits for field in LIMIT_NAMES[name].fields if field in _MEANS}
+    meant = {
+        MODEL_OF_FIELD[field]: name for name in limits for field in LIMIT_NAMES[name].fields if field in MODEL_OF_FIELD
+    }
     if len(meant) > 1:
         names = " and ".join(meant.values())
         raise ParameterError.about("limits", f"has {names}, which belong to two models; leave one out, or give model")
@@ -284,7 +280,7 @@ def is_used(name: str, model: Model) -> bool:
     limit = LIMIT_NAMES[name]
     if model == "klipper":
         return limit.klipper is not None
-    return bool(set(limit.fields) & (_USED[model] | _ALWAYS_USED))
+    return not _ALWAYS_USED.union(FIELDS_BY_MODEL[model]).isdisjoint(limit.fields)
 
 
 def changed_fields(values: Iterable[str]) -> set[str]:

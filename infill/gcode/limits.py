@@ -18,6 +18,16 @@ JERK_MODELS: Final = ("jerk", "vector-jerk")
 MODELS: Final[tuple[str, ...]] = get_args(Model)
 JUNCTION_DEVIATION: Final = "junction-deviation"  # the model "junction" as firmware calls it
 Axes = tuple[float, float, float, float]
+# Fields that each model works with; the others are not reported.
+FIELDS_BY_MODEL: Final[dict[Model, tuple[str, ...]]] = {
+    "jerk": ("feedrate", "axis_acceleration", "acceleration", "jerk"),
+    "vector-jerk": ("feedrate", "axis_acceleration", "acceleration", "jerk"),
+    "junction": ("feedrate", "axis_acceleration", "acceleration", "junction_deviation"),
+    "klipper": (
+        *("feedrate", "axis_acceleration", "acceleration"),
+        *("square_corner_velocity", "minimum_cruise_ratio", "corner_extrusion_velocity"),
+    ),
+}
 INFINITE: Final = float("inf")
 LIMITING_CODES: Final = frozenset(
     {"M201", "M203", "M204", "M205", "M566", "SET_VELOCITY_LIMIT", "RESET_VELOCITY_LIMIT"}

@@ -11,9 +11,9 @@ from typing import BinaryIO
 
 from infill.errors import FormatError
 from infill.gcode.ending import find_missing_end
-from infill.gcode.found_limits import extrusion_rule, filament_units
 from infill.gcode.limits import is_valid_limit
 from infill.gcode.machine_state import MachineState
+from infill.gcode.slicer_settings import extrusion_rule, filament_units
 from infill.gcode.stream import LAYER_TAG, MAX_LINE_BYTES
 from infill.gcode.table import read_table
 

@@ -142,8 +142,6 @@ def layer_contact(infill: Samples, below: Samples, line_width: float) -> Contact
         Everything in the layer below.
     line_width : float, mm
     """
-    from scipy.spatial import cKDTree
-
     if not len(infill.points):
         return Contact()
     # One of a few neighbours, anywhere on its piece: patterns repeat, and so would the error of a regular choice.
@@ -157,11 +155,7 @@ def layer_contact(infill: Samples, below: Samples, line_width: float) -> Contact
     weight = infill.weight[chosen] * (infill.weight.sum() / infill.weight[chosen].sum())
     supported: NDArray[np.bool_] = np.zeros(len(points), dtype=np.bool_)
     if len(below.points):
-        reach = line_width / 2
-        _, candidates = cKDTree(below.points, balanced_tree=False).query(
-            points, k=3, distance_upper_bound=reach + STEP / 2
-        )
-        supported |= (_nearest(points, below, np.asarray(candidates))[0] <= reach).any(axis=1)
+        supported |= _are_near(points, below, line_width / 2)
     bonded = _beside(points, infill.path[chosen], along, infill, TOUCHING * line_width)
     return Contact(
         length=float(infill.weight.sum()),
@@ -196,15 +190,23 @@ def free_length(infill: Samples, walls: Samples, line_width: float) -> float:
     count = int(path.max()) + 1
     holds: Flags = np.zeros(count, dtype=np.bool_)
     if len(walls.points):
-        tree = cKDTree(walls.points, balanced_tree=False)
-        _, candidates = tree.query(points, k=3, distance_upper_bound=reach + STEP / 2)
-        holds[path[(_nearest(points, walls, np.asarray(candidates))[0] <= reach).any(axis=1)]] = True
+        holds[path[_are_near(points, walls, reach)]] = True
     if not holds[infill.path].all():
         pairs = path[cKDTree(points, balanced_tree=False).query_pairs(reach, output_type="ndarray")]
         group, groups = label_connected(pairs[:, 0], pairs[:, 1], count)
         is_held = np.bincount(group, weights=holds, minlength=groups) > 0
         holds = is_held[group]
     return float(infill.weight[~holds[infill.path]].sum())
+
+
+def _are_near(points: Floats, samples: Samples, reach: float) -> Flags:
+    """Tell which points, (N, 2), have a piece of some samples within `reach`, mm."""
+    from scipy.spatial import cKDTree
+
+    _, candidates = cKDTree(samples.points, balanced_tree=False).query(
+        points, k=3, distance_upper_bound=reach + STEP / 2
+    )
+    return np.asarray((_nearest(points, samples, np.asarray(candidates))[0] <= reach).any(axis=1))
 
 
 def _nearest(points: Floats, samples: Samples, candidates: Places) -> tuple[Floats, Floats]:

@@ -122,8 +122,8 @@ def _wrap_angle(angle: Floats) -> Floats:
     return result
 
 
-def _bezier(control: Floats, share: Floats) -> Floats:
-    """Return points of cubic curves; `control` is (4, n, 2), `share` (n,)."""
+def points_of_cubic(control: Floats, share: Floats) -> Floats:
+    """Return points of cubic curves, (n, 2); `control` is (4, n, 2) or, of one curve, (4, 1, 2), and `share` (n,)."""
     u, v = share[:, None], 1 - share[:, None]
     curve_points: Floats = (
         v**3 * control[0] + 3 * v * v * u * control[1] + 3 * v * u * u * control[2] + u**3 * control[3]
@@ -133,7 +133,7 @@ def _bezier(control: Floats, share: Floats) -> Floats:
 
 def _chord_density(control: Floats, bent: Places, machine: Machine) -> Floats:
     """Compute the number of chords that each quarter of each curved leg needs: (legs, PIECES)."""
-    grid = np.stack([_bezier(control, np.full(len(bent), k / PIECES)) for k in range(PIECES + 1)], axis=1)
+    grid = np.stack([points_of_cubic(control, np.full(len(bent), k / PIECES)) for k in range(PIECES + 1)], axis=1)
     piece = np.diff(grid, axis=1)
     length = np.hypot(piece[..., 0], piece[..., 1])
     heading = np.arctan2(piece[..., 1], piece[..., 0])
@@ -176,7 +176,7 @@ def _resample_runs(
     place = np.interp(positions, along, np.arange(len(along)) / PIECES)
     lowest, highest = opens[run_of], np.append(opens[1:], len(bent))[run_of] - 1
     leg = np.clip(place.astype(np.intp), lowest, highest)
-    new = _bezier(control[:, leg], np.clip(place - leg, 0.0, 1.0))
+    new = points_of_cubic(control[:, leg], np.clip(place - leg, 0.0, 1.0))
     starts = np.empty((int(before[-1]), 2))
     starts[before[:-1]], starts[inner] = points[bent[opens]], new
     ends = np.roll(starts, -1, axis=0)

@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from infill.arrays import Flags, Floats
+from infill.paths.curves import points_of_cubic
 from infill.paths.neighbours import BESIDE, BeadIndex
 
 if TYPE_CHECKING:
@@ -118,7 +119,4 @@ def _curve(first: Floats, way_in: Floats, last: Floats, way_out: Floats, setback
     turn = math.acos(float(np.clip(way_in @ way_out, -1.0, 1.0)))
     handle = 4 / 3 * math.tan(turn / 4) * setback / max(math.tan(turn / 2), 1e-9) if turn > 1e-6 else setback / 3
     control = np.stack([first, first + handle * way_in, last - handle * way_out, last])
-    u = np.linspace(0.0, 1.0, CURVE_POINTS)[:, None]
-    v = 1 - u
-    points: Floats = v**3 * control[0] + 3 * v * v * u * control[1] + 3 * v * u * u * control[2] + u**3 * control[3]
-    return points
+    return points_of_cubic(control[:, None], np.linspace(0.0, 1.0, CURVE_POINTS))

@@ -343,11 +343,9 @@ class Timeline:
         arcs = (table.kind == ARC) | (odd & (table.code > 1) & ~table.unread)
         if arcs.any():
             bent = np.flatnonzero(arcs)
-            which, start, way = chords_of_arc_lines(
+            which, start, way, share = chords_of_arc_lines(
                 table, bent, np.nan_to_num(before[bent]), np.nan_to_num(place[bent])
             )
-            long = np.linalg.norm(way, axis=1)
-            share = long / np.maximum(np.bincount(which, weights=long, minlength=len(bent))[which], 1e-300)
             order = np.argsort(np.concatenate([line, bent[which]]), kind="stable")
             line = np.concatenate([line, bent[which]])[order]
             begin, delta = np.concatenate([begin, start])[order], np.concatenate([delta, way])[order]

@@ -126,10 +126,15 @@ class Layers:
         return tools
 
     @cached_property
+    def steps(self) -> Floats:
+        """Length of the path of each line of the table, (N,), mm."""
+        return path_steps(self.table)
+
+    @cached_property
     def seconds(self) -> Floats:
         """Time of each layer at its feed rates, from the first on, without acceleration, as slicers count."""
         layer = self.marks.layer
-        seconds = np.nan_to_num(path_steps(self.table) / (self.table.f / 60))
+        seconds = np.nan_to_num(self.steps / (self.table.f / 60))
         return np.bincount(layer - layer[0], weights=seconds).astype(np.float64)
 
     @cached_property

@@ -10,10 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from infill.arrays import Floats, Places
-from infill.gcode.arcs import path_steps
 from infill.gcode.infill_sections import InfillSection, find_sections
 from infill.gcode.section_text import TravelSettings, measure_travel, redraw_sections
-from infill.gcode.table import GcodeTable
 from infill.kernels.threads import in_order
 from infill.paths.corners import UNIT
 from infill.paths.covering import total_length
@@ -183,20 +181,20 @@ class NewSection:
         body = replace(self.body, feed=even.slow(self.body.layer, self.body.feed))
         return replace(self, body=body, rate=even.widen(body.layer, self.rate, body.rate))
 
-    def not_faster(self, table: GcodeTable) -> NewSection:
+    def not_faster(self, layers: Layers) -> NewSection:
         """Return the section, slowed down if it would take less time than the old one.
 
         Travel counts on both sides, at the feed rates of the section and without acceleration, as slicers count it.
         Retractions count among the old moves only: those of the new ones are not yet known.
         """
-        body = self.body
+        body, table = self.body, layers.table
         if not self.length > 0:
             return self
         # A section begins with its travel: after the last line that prints.
         printing = np.flatnonzero(table.extruded[: body.first] > 0)
         lead = int(printing[-1]) if len(printing) else max(body.first - 1, 0)
         lines = slice(lead, body.last + 1)
-        distance = path_steps(table)[lines][1:]
+        distance = layers.steps[lines][1:]
         distance = np.where(distance > 0, distance, np.abs(table.extruded[lines][1:]))
         available = float(np.nan_to_num(60 * distance / table.f[lines][1:]).sum())
         travels = self.travels.copy()
@@ -235,7 +233,7 @@ def replace_infill(layers: Layers, rules: RefillRules, plan: RefillPlan, memory:
     if not new:
         return NewInfill.unchanged(layers, kept)
     slow = may_be_slowed(layers, rules)
-    new = [s.not_faster(table) if slow[s.body.layer - int(layers.marks.layer[0])] else s for s in new]
+    new = [s.not_faster(layers) if slow[s.body.layer - int(layers.marks.layer[0])] else s for s in new]
     if plan.even is not None:
         new = [section.even_out(plan.even) for section in new]
     text, filament, fault = redraw_sections(

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from infill.errors import FormatError
 from infill.gcode.dialect import role_of
-from infill.gcode.found_limits import FIELDS_BY_MODEL, FileLimits
+from infill.gcode.found_limits import FileLimits
 from infill.gcode.given_limits import GivenLimits
-from infill.gcode.limits import Model
+from infill.gcode.limits import FIELDS_BY_MODEL, Model
 from infill.gcode.printer_limits import LimitNote
 from infill.gcode.sliced_file import SlicedFile, open_sliced
 from infill.pictures.picturable import Picturable

@@ -12,6 +12,7 @@ from typing import Final
 import numpy as np
 
 from infill.arrays import Floats, Places
+from infill.paths.curves import segment_distances
 from infill.ragged import expand_rows
 from infill.verifying.alignment import Alignment
 from infill.verifying.tolerances import PATH_TOLERANCE, UNIT
@@ -144,7 +145,7 @@ def _distances_to(beads: TraceRows, gap: Places, others: TraceRows, bounds: Plac
         start, end = others.start[other, :2], others.end[other, :2]
         worst = np.zeros(len(owner))
         for point in (beads.start[:, :2], beads.end[:, :2], middle):
-            distance = distance_to_segments(point[bead], start, end)
+            distance = segment_distances(point[bead], start, end)
             worst = np.maximum(worst, np.minimum.reduceat(distance, opens))
         off[owner] = worst
         least = np.repeat(np.minimum.reduceat(distance, opens), np.diff(np.append(opens, len(bead))))  # of the middle
@@ -165,14 +166,5 @@ def _measure_large_gap(beads: TraceRows, others: TraceRows, inside: slice) -> tu
     nearest = np.empty(len(beads), dtype=np.int64)
     for point in (beads.start[:, :2], beads.end[:, :2], (beads.start + beads.end)[:, :2] / 2):
         nearest = tree.nearest(shapely.points(np.nan_to_num(point)))
-        worst = np.maximum(worst, distance_to_segments(point, ends[nearest, 0], ends[nearest, 1]))
+        worst = np.maximum(worst, segment_distances(point, ends[nearest, 0], ends[nearest, 1]))
     return worst, nearest + inside.start
-
-
-def distance_to_segments(point: Floats, start: Floats, end: Floats) -> Floats:
-    """Return the distance of each point to its segment, (N, 2) each, mm."""
-    way = end - start
-    square = (way**2).sum(axis=1)
-    share = ((point - start) * way).sum(axis=1) / np.where(square > 0, square, 1.0)
-    foot = start + np.clip(share, 0.0, 1.0)[:, None] * way
-    return np.asarray(np.hypot(*(point - foot).T))

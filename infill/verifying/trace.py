@@ -283,9 +283,8 @@ def _insert_arcs(
 ) -> tuple[Places, Floats, Floats, Floats]:
     """Return lines, starts and ends of straight moves and chords of arcs, and the share of the filament of each."""
     line, start, end = straight
-    which, begin, way = chords_of_arc_lines(table, arcs, np.nan_to_num(before[arcs]), np.nan_to_num(place[arcs]))
-    length = np.linalg.norm(way, axis=1)
-    share = length / np.maximum(np.bincount(which, weights=length, minlength=len(arcs))[which], 1e-300)
+    start_at, end_at = np.nan_to_num(before[arcs]), np.nan_to_num(place[arcs])
+    which, begin, _, share = chords_of_arc_lines(table, arcs, start_at, end_at)
     finish = np.vstack([begin[1:], begin[:1]])
     closing = np.concatenate([np.diff(which) != 0, [True]])
     finish[closing] = place[arcs[which[closing]]]
