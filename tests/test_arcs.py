@@ -175,7 +175,14 @@ def test_no_arc_passes_a_stop() -> None:
 @pytest.mark.longest
 @pytest.mark.parametrize(
     ("name", "pattern"),
-    [(PRINTS[0], "keep"), (PRINTS[0], "honeycomb"), (PRINTS[0], "gyroid"), (PRINTS[1], "keep")],
+    [
+        (PRINTS[0], "keep"),
+        (PRINTS[0], "honeycomb"),
+        (PRINTS[0], "gyroid"),
+        (PRINTS[0], "triangles"),
+        (PRINTS[0], "hilbert"),
+        (PRINTS[1], "keep"),
+    ],
 )
 def test_a_print_with_arcs_is_refilled_as_the_straight_one(name: str, pattern: str, data: Path, tmp_path: Path) -> None:
     """As many sections; the same filament and time within 1 %; and an independent judge passes what is written."""
@@ -196,7 +203,7 @@ def test_a_print_with_arcs_is_refilled_as_the_straight_one(name: str, pattern: s
     arcs, moves = drawn_arcs(new)
     straight_moves = drawn_arcs(lines)
     assert straight_moves[0] == 0
-    assert arcs
+    assert arcs or pattern == "triangles"
     assert moves < straight_moves[1]
 
 

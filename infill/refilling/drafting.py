@@ -36,10 +36,8 @@ from infill.refilling.support import LEAST_SHARE, kept_length_share, kept_shares
 
 PROGRESS_BYTES = 1 << 22  # bytes between two reports of progress
 MOST_REDRAWS = 3  # times that a print is redrawn with smaller moves of corners
-# Of a small print and of a larger one: times that it is redrawn at another cell, and the relative tolerance of the
-# filament of all infill, which decides whether it is.
-CELL_TRIES, FILAMENT_TOLERANCE = 6, 0.005
-MORE_CELL_TRIES, LOOSE_TOLERANCE = 1, 0.01
+MOST_CELL_TRIES = 6  # times that a small print is redrawn at another cell
+FILAMENT_TOLERANCE = 0.005  # relative tolerance of the filament of all infill
 MOST_THREADS = 4  # more threads would only take memory: a single one reads for all of them
 
 
@@ -83,7 +81,7 @@ class Drafting:
             If the draft cannot be written.
         """
         stats = self.draw(rules, plan, clock)
-        if plan is not None and plan.density is None and not plan.fixed:
+        if plan is not None and plan.density is None and not plan.fixed and self.print_survey.small:
             stats, plan = self._match_filament(stats, rules, plan)
         previous = 0.0
         for _ in range(MOST_REDRAWS if rules.request.pattern == KEEP and rules.request.smooth_radius == AUTO else 0):
@@ -134,17 +132,16 @@ class Drafting:
     def _match_filament(
         self, stats: RefillStats, rules: RefillRules, plan: RefillPlan
     ) -> tuple[RefillStats, RefillPlan]:
-        """Redraw a print at other cells until its infill takes the old amount of filament; else at the best cell.
+        """Redraw a small print at other cells until its infill takes the old amount of filament; else at the best cell.
 
-        In a large print, later layers make up for the excess or shortage of earlier ones, so that few need it.
+        In a large print, later layers make up for the excess or shortage of earlier ones. Its regions choose cells of
+        their own around that of the plan: another one there would cost support.
         """
-        small = self.print_survey.small
-        tries, tolerance = (CELL_TRIES, FILAMENT_TOLERANCE) if small else (MORE_CELL_TRIES, LOOSE_TOLERANCE)
         best, smallest_error, current = plan, abs(stats.filament_error), plan
         errors: dict[float, float] = {}  # relative error of the filament, by cell
-        for _ in range(tries):
+        for _ in range(MOST_CELL_TRIES):
             error = errors[current.cell] = stats.filament_error
-            if abs(error) <= tolerance:
+            if abs(error) <= FILAMENT_TOLERANCE:
                 return stats, current
             # The filament jumps with the cell: try between two that take too much and too little, if both exist.
             opposite = [cell for cell, cell_error in errors.items() if cell_error * error < 0]
