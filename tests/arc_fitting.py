@@ -13,8 +13,9 @@ BEAD = re.compile(rb"G1 X(-?[\d.]+) Y(-?[\d.]+) E(-?[\d.]+)\s*$")
 Point = tuple[float, float]
 
 
-def fit_arcs(text: bytes, *, relative: bool) -> bytes:
-    """Return a print with arcs in place of lines; `relative` says how E counts."""
+def fit_arcs(text: bytes) -> bytes:
+    """Return a print with arcs in place of lines."""
+    relative = b"\nM82" not in text
     out: list[bytes] = []
     run: list[tuple[Point, float, bytes]] = []
     place: Point | None = None
@@ -31,6 +32,8 @@ def fit_arcs(text: bytes, *, relative: bool) -> bytes:
         run = []
         out.append(line)
         words = line.split(b";")[0]
+        if words.startswith((b"M82", b"M83")):
+            relative = words.startswith(b"M83")
         for letter in (b"X", b"Y", b"E"):
             value = re.search(letter + rb"(-?[\d.]+)", words)
             if not value or not re.match(rb"G[0-3] |G92 ", words):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import re
 from pathlib import Path
 from typing import Any
@@ -27,6 +28,7 @@ from infill.refilling.stats import InfillAmounts, RefillStats
 from infill.refilling.support import AIM, LEAST_SHARE, largest_deviation, largest_sufficient, measure_layers
 from tests.gcode_judge import judge, lines_of
 from tests.gcode_structure import bonded, layers_of, supported
+from tests.handmade_prints import Dialect, written
 from tests.prints import box, prusa_print
 from tests.slicers import missing_prusa
 
@@ -86,6 +88,19 @@ def room(path: Path) -> float:
     """Return the area, mm², between the outermost centre lines of the infill: it runs along all four walls."""
     low, high = np.array([[line.min(axis=0), line.max(axis=0)] for line in infill_of(path)]).transpose(1, 0, 2)
     return float(np.prod(high.max(axis=0) - low.min(axis=0)))
+
+
+def test_a_sampled_layer_knows_its_height_though_the_nozzle_rose_before_its_tag(tmp_path: Path) -> None:
+    """As Cura writes layers that begin with infill."""
+    text = written(Dialect(slicer="cura", layers=8, hop=0.0))
+    late = re.sub(rb"(;LAYER:\d\n)(G1 Z[^\n]*\n)", rb"\2\1", text)
+    assert late != text
+    heights = [[layer.z for layer in layers] for layers in sample_layers(survey_print(io.BytesIO(late)))]
+    assert sum(map(len, heights)) >= 4
+    assert np.isfinite(np.concatenate(heights)).all()
+    (tmp_path / "late.gcode").write_bytes(late)
+    report = refill(tmp_path / "late.gcode", output=tmp_path / "new.gcode", pattern="gyroid").report
+    assert report["sections"]["replaced"] > 0
 
 
 # --- patterns --------------------------------------------------------------------------------------------------

@@ -161,7 +161,7 @@ def with_other_line_ends(text: bytes) -> bytes:
 
 
 def with_arcs(text: bytes) -> bytes:
-    return fit_arcs(text, relative=b"\nM82" not in text)
+    return fit_arcs(text)
 
 
 HARMLESS = (

@@ -30,6 +30,7 @@ _SLICER = re.compile(
     rb"(?:generated (?:by|with) |Sliced by |^; (?=BambuStudio ))([A-Za-z][\w.+-]*(?: (?!on\b)[\w.+-]+){0,3})",
     re.IGNORECASE | re.MULTILINE,
 )
+_HEIGHT = re.compile(rb"^G0?[0-3] [^;\n]*Z(\d*\.?\d+)", re.MULTILINE)
 _ARC = re.compile(rb"^G0?[23] [^;\n]*[IJR][^;\n]*E", re.MULTILINE)
 # First bytes of other kinds of files.
 OTHER_FORMATS = {
@@ -59,8 +60,8 @@ class Survey:
         The line that an earlier refill wrote; empty if there was none.
     resets_filament : bool
         The file itself sets its counter of filament by G92.
-    windows : tuple of bytes
-        Whole layers at several places of the file.
+    windows : tuple of (bytes, float)
+        Whole layers at several places of the file, and the height before each, mm; NaN where nothing gives it.
     layers : float
         Approximate number of layers.
     small : bool
@@ -77,7 +78,7 @@ class Survey:
     begin: MachineState
     stamp: bytes
     resets_filament: bool
-    windows: tuple[bytes, ...]
+    windows: tuple[tuple[bytes, float], ...]
     layers: float
     small: bool
     missing_end: str = ""
@@ -144,10 +145,10 @@ def survey_print(file: BinaryIO, *, more: bool = False, settings: Mapping[str, s
         diameters=before.diameters,
     )
     windows = ALL_WINDOWS if size <= SMALL_FILE else MORE_WINDOWS if more else WINDOWS
-    samples = [text for text in (_read_window(file, size, (k + 0.5) / windows) for k in range(windows)) if text]
-    samples = list(dict.fromkeys(samples))
+    samples = [_read_window(file, size, (k + 0.5) / windows) for k in range(windows)]
+    samples = list({text: (text, z) for text, z in samples if text}.values())
     slicer_name = slicer[1].decode("latin-1").strip() if slicer else ""
-    tags = sum(len(LAYER_TAG.findall(text)) for text in samples)
+    tags = sum(len(LAYER_TAG.findall(text)) for text, _ in samples)
     file.seek(0)
     return Survey(
         size=size,
@@ -155,12 +156,12 @@ def survey_print(file: BinaryIO, *, more: bool = False, settings: Mapping[str, s
         settings=all_settings,
         begin=begin,
         stamp=head[head.find(STAMP) :].partition(b"\n")[0] if STAMP in head else b"",
-        resets_filament=b"G92 E" in head or any(b"G92 E" in text for text in samples),
+        resets_filament=b"G92 E" in head or any(b"G92 E" in text for text, _ in samples),
         windows=tuple(samples),
-        layers=size * tags / max(1, sum(map(len, samples))),
+        layers=size * tags / max(1, sum(len(text) for text, _ in samples)),
         small=size <= SMALL_FILE,
         missing_end="" if settings else find_missing_end(slicer_name, tail),
-        has_arcs=any(_ARC.search(text) is not None for text in (head, *samples)),
+        has_arcs=any(_ARC.search(text) is not None for text in (head, *(text for text, _ in samples))),
     )
 
 
@@ -188,17 +189,27 @@ def _check_is_gcode(head: bytes, size: int) -> None:
         raise FormatError("the file has no line of G-code in it; give the G-code that a slicer wrote")
 
 
-def _read_window(file: BinaryIO, size: int, share: float) -> bytes:
-    """Return up to three whole layers around a place; none if there is no layer."""
-    file.seek(int(size * share))
+def _read_window(file: BinaryIO, size: int, share: float) -> tuple[bytes, float]:
+    """Return up to three whole layers around a place, and the height before them, mm; no text if there is no layer."""
+    begin = int(size * share)
+    file.seek(begin)
     text = file.read(WINDOW)
     while len(text) < MAX_WINDOW:
         tags = [match.start() for match in LAYER_TAG.finditer(text)]
         if len(tags) > LAYERS_PER_WINDOW:
-            return text[tags[0] : tags[LAYERS_PER_WINDOW]]
+            return text[tags[0] : tags[LAYERS_PER_WINDOW]], _height_before(file, begin + tags[0])
         more = file.read(len(text))
         if not more:
             break
         text += more
     tags = [match.start() for match in LAYER_TAG.finditer(text)]
-    return text[tags[0] : tags[-1]] if len(tags) >= 2 else b""
+    if len(tags) < 2:
+        return b"", math.nan
+    return text[tags[0] : tags[-1]], _height_before(file, begin + tags[0])
+
+
+def _height_before(file: BinaryIO, place: int) -> float:
+    """Return the height that the last move before a place of a file gives, mm; NaN if none near it does."""
+    file.seek(max(0, place - WINDOW))
+    heights = _HEIGHT.findall(file.read(min(place, WINDOW)))
+    return float(heights[-1]) if heights else math.nan

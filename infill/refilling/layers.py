@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import BinaryIO
 
@@ -254,6 +254,6 @@ def read_layers(file: BinaryIO, begin: MachineState | None = None) -> Iterator[L
 
 def sample_layers(print_survey: Survey) -> list[Layers]:
     """Read the layers of a survey that hold infill."""
-    samples = [mark_text(text, print_survey.begin) for text in print_survey.windows]
+    samples = [mark_text(text, replace(print_survey.begin, z=z)) for text, z in print_survey.windows]
     layers = [Layers(table=table, marks=marks, infill=infill) for table, marks, infill in samples]
     return [window for window in layers if window.typical]
