@@ -725,8 +725,9 @@ def test_the_modes_and_the_windows_of_a_print() -> None:
     assert (begin.relative, begin.relative_e, begin.tool, begin.retracted, begin.f) == (False, True, 1, 2.0, 1800.0)
     assert np.isnan([begin.x, begin.y, begin.z]).all()
     assert found.windows
-    for window in found.windows:
+    for window, height in found.windows:
         assert window == layer * 3
+        assert np.isnan(height)  # no line gives one
     assert found.layers == pytest.approx(400, rel=0.01)  # layers are alike; what stands before the first is not
     assert not found.resets_filament
     assert not found.stamp
