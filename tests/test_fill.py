@@ -587,9 +587,32 @@ def test_what_hangs_free_is_left_out_and_what_is_lost_is_told() -> None:
     solid = broken.surface.to_trimesh().split(only_watertight=False)
     assert sum(each.volume > 0 for each in solid) == 1
     gone = fill(box(20, 20, 20), BAR, cell=8, line_width=0.4, voxel=0.4)
-    for report in (broken.report, gone.report):
-        assert any(each.startswith("the infill was drawn with a density of") for each in report["problems"])
-    assert fill(box(20, 20, 20), BAR, cell=8, line_width=1.2).report["problems"] == []
+    worn = fill(box(20, 20, 20), BAR, cell=8, line_width=0.4)
+    advised = ("of 0.12 mm and voxels of 0.12 mm", "of 0.1 mm and voxels of 0.1 mm", "of 0.1 mm")
+    for result, remedy in zip((broken, gone, worn), advised, strict=True):
+        (told,) = (text for text in result.report["problems"] if text.startswith("the infill was drawn with a density of"))
+        assert told.endswith(f"; give a smooth radius {remedy}, or wider lines")
+
+
+@pytest.mark.longest
+@pytest.mark.parametrize(
+    ("pattern", "settings"),
+    [
+        (BAR, {"line_width": 1.2}),
+        (BAR, {"line_width": 0.4, "smooth_radius": 0.1}),
+        ("bcc", {"line_width": 0.5, "smooth_radius": 0.12, "voxel": 0.12}),
+    ],
+)
+def test_what_is_advised_against_lost_bars_works(pattern: Any, settings: dict[str, float]) -> None:
+    assert fill(box(20, 20, 20), pattern, cell=8, **settings).report["problems"] == []
+
+
+@pytest.mark.slow
+def test_bars_that_are_only_narrower_are_not_lost() -> None:
+    """Drawn wider, so that the density holds after smoothing."""
+    report = fill(box(24, 24, 24), "octet", density=0.05).report
+    assert report["problems"] == []
+    assert report["density"] == pytest.approx(0.05, abs=0.002)
 
 
 @pytest.mark.slow

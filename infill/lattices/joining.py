@@ -186,7 +186,7 @@ def _unite_voids(surfaces: tuple[Surface, ...]) -> manifold3d.Manifold:
 def _loose_volume(voids: manifold3d.Manifold) -> float:
     """Return the volume of the pieces of infill that hang free in voids, mm³."""
     *_, loose = drop_small_and_floating(from_manifold(voids), 0.0)
-    return sum(piece.volume for piece in loose)
+    return 0.0 if loose is None else loose.volume
 
 
 def _cut_region(piece: PatternVoids, width: float) -> tuple[manifold3d.Manifold, manifold3d.Manifold]:

@@ -339,6 +339,15 @@ def slicer_problems(request: FillSpec, hollow: VoidMeshes, width: float, lost: N
         )
 
 
+def _remedy_for_worn_lines(request: FillSpec, width: float) -> str:
+    """Say how lines of a width, mm, of which much was lost stay."""
+    if request.is_block:
+        return "give wider lines or a higher density"
+    fine = plain_argument(width / 4, 2)
+    voxels = f" and voxels of {fine} mm" if request.voxel is not None and request.voxel > width / 3 else ""
+    return f"give a smooth radius of {fine} mm{voxels}, or wider lines"
+
+
 def find_problems(
     request: FillSpec, hollow: VoidMeshes, facts: SolidMeasures, drained: DrainedSolid, lost: NarrowShares | None = None
 ) -> Iterator[str]:
@@ -395,10 +404,10 @@ def find_problems(
         if request.open_ is not None:
             remedy += ", or close the top or the bottom of the part"
         yield f"pieces of the drawing that touch no wall were left out: {hollow.islands}; {remedy}"
-    elif share < LEAST_LEFT * facts.drawn:
+    elif share < LEAST_LEFT * facts.drawn * min(1.0, facts.width / hollow.width):  # narrower is told as a width
         yield (
             f"the infill was drawn with a density of {facts.drawn:.1%}, and {share:.1%} is left: walls or bars are too "
-            "thin for the grid, or were smoothed away; give smaller voxels, a smaller smooth radius or wider lines"
+            f"thin for the grid, or were smoothed away; {_remedy_for_worn_lines(request, hollow.width)}"
         )
     if request.line_width is not None and request.grading is None and not is_width_ok(facts.width, request.line_width):
         yield (

@@ -77,7 +77,8 @@ def drop_useless(surfaces: Iterable[Surface], layout: Layout) -> VoidMeshes:
     for surface in surfaces:
         useful, floating, small, loose = drop_small_and_floating(surface, least)
         islands, specks = islands + floating, specks + small
-        lost.extend(loose)
+        if loose is not None:
+            lost.append(loose)
         if useful is not None:
             voids.append(useful)
     rest = (drop_inside_pieces(surface, lost, layout.threads) for surface in voids)
@@ -127,25 +128,26 @@ def smooth_void(
     return field if (field.values > 0).any() else None
 
 
-def drop_small_and_floating(surface: Surface, least: float) -> tuple[Surface | None, int, int, list[Surface]]:
-    """Drop voids below a volume, mm³, and floating solid; return the rest, both counts, and the floating pieces."""
+def drop_small_and_floating(surface: Surface, least: float) -> tuple[Surface | None, int, int, Surface | None]:
+    """Drop voids below a volume, mm³, and floating solid; return the rest, both counts, and the floating solid."""
     names, count = shell_names(surface)
     volume = shell_volumes(surface, names, count)
     islands, specks = volume < 0, (volume >= 0) & (volume < least)
     if not (islands.any() or specks.any()):
-        return surface, 0, 0, []
+        return surface, 0, 0, None
     shell, is_kept = names[surface.faces[:, 0]], volume >= least
-    pieces = [select_faces(surface, shell == island) for island in np.flatnonzero(islands)]
-    loose = [replace(piece, faces=piece.faces[:, ::-1]) for piece in pieces]
+    loose = select_faces(surface, islands[shell]) if islands.any() else None
+    if loose is not None:
+        loose = replace(loose, faces=loose.faces[:, ::-1])
     rest = select_faces(surface, is_kept[shell]) if is_kept.any() else None
     return rest, int(islands.sum()), int(specks.sum()), loose
 
 
 def drop_inside_pieces(surface: Surface, dropped: list[Surface], threads: int | None) -> Surface | None:
-    """Drop the shells that lie in pieces of solid that were dropped; return None if no shell remains."""
-    for piece in dropped:
+    """Drop the shells that lie in floating solid that was dropped; return None if no shell remains."""
+    for solid in dropped:
         names, starts = shell_names(surface)[0], first_vertex_of_shells(surface)
-        within = winding_numbers(np.asarray(surface.vertices, dtype=np.float64)[starts], piece, threads=threads) > 0
+        within = winding_numbers(np.asarray(surface.vertices, dtype=np.float64)[starts], solid, threads=threads) > 0
         if within.any():
             is_kept = ~within[names[surface.faces[:, 0]]]
             if not is_kept.any():
