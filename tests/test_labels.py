@@ -650,6 +650,21 @@ def test_what_is_said_of_a_label_map_works(tmp_path: Path) -> None:
     assert run("smooth", path, "-o", tmp_path / "a.stl", "--label", "7").exit_code == 0
 
 
+def test_a_dry_run_over_labels_names_the_files_of_the_run(tmp_path: Path) -> None:
+    path = seg_nrrd(tmp_path / "knee.seg.nrrd", NAMED, knee())
+    typed = ("smooth", path, "-o", tmp_path / "{label}.stl", "-o", tmp_path / "all.3mf")
+    plan = json.loads(run(*typed, "--dry-run", "--json").stdout)
+    assert not list(tmp_path.glob("*.stl"))
+    report = json.loads(run(*typed, "--json").stdout)
+    assert plan["files"] == report["files"]
+    for planned, made in zip(plan["labels"], report["labels"], strict=True):
+        assert [planned[key] for key in ("name", "number", "layer")] == [made[key] for key in ("name", "number", "layer")]
+        assert planned["data"] == pytest.approx(made["report"]["solid"]["data"], rel=1e-9)
+    text = run(*typed, "--dry-run", "--force").stdout
+    assert "7 Tibia" in text
+    assert "would write" in text
+
+
 def test_every_label_has_its_verdict(tmp_path: Path) -> None:
     """A rod of one voxel is lost from a ball; another ball is kept."""
     values = np.zeros((40, 20, 20), dtype=np.uint8)

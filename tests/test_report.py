@@ -159,6 +159,12 @@ def labels_reports(folder: Path, results: Results) -> dict[str, Any]:
     }
 
 
+def labels_plans(folder: Path, results: Results) -> dict[str, Any]:
+    np.save(folder / "labels.npy", LABELS)
+    words = ["--spacing", 1, "--each-label", "-o", folder / "a.3mf", "--dry-run"]
+    return {"command": printed("smooth", folder / "labels.npy", *words)}
+
+
 def components_reports(folder: Path, results: Results) -> dict[str, Any]:
     small = trimesh.creation.icosphere(radius=0.5).apply_translation((20, 0, 0))
     mesh = trimesh.util.concatenate([SPHERE, small])
@@ -305,6 +311,7 @@ REPORTS: dict[str, Callable[[Path, Results], dict[str, Any]]] = {
     "smooth": smooth_reports,
     "smooth --dry-run": smooth_plans,
     "labels": labels_reports,
+    "labels --dry-run": labels_plans,
     "components": components_reports,
     "fill": fill_reports,
     "fill --dry-run": fill_plans,

@@ -103,15 +103,13 @@ def test_it_is_told_in_words(folder: Path) -> None:
         ("p.xyz --voxel 1 --shell 0.5", "shell is 0.5 mm and voxel 1 mm"),
         ("ball.npy --max-memory 1M", "is allowed; give larger voxels"),
         ("ball.npy -o old.stl", "old.stl exists"),
+        ("ball.npy --each-label --label 9 -o a.3mf", "label is 9, and the volume holds 1"),
+        ("p.xyz --each-label -o a.3mf", "are those of a volume"),
     ],
 )
 def test_what_would_fail_fails_beforehand(words: str, says: str, folder: Path) -> None:
     (folder / "old.stl").write_text("precious")
     one_line_error(run("smooth", *words.split(), "--dry-run"), says)
-
-
-def test_labels_have_no_plan(folder: Path) -> None:
-    assert run("smooth", "ball.npy", "--each-label", "-o", "a.3mf", "--dry-run").exit_code == 2
 
 
 def test_the_program_is_loaded_with_a_small_ball(monkeypatch: pytest.MonkeyPatch) -> None:

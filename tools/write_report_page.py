@@ -125,6 +125,13 @@ CHAPTERS = (
         known=(smoothing.SolidRequest, smoothing.SmoothReport),
     ),
     Chapter(
+        title="Labels: a dry run",
+        word="labels --dry-run",
+        text="`infill smooth … --dry-run` over labels prints the request, the labels, and the expected costs.",
+        report=smoothing.LabelsForecast,
+        known=(smoothing.SolidRequest,),
+    ),
+    Chapter(
         title="Components: every component of a mesh",
         word="components",
         text="`smooth_mesh` with `by_component` returns this report, and `infill smooth --by-component` prints it. "

@@ -71,10 +71,11 @@ def _plan_table(plan: SmoothPlan, files: list[str], name: str) -> str:
             if free_memory is not None and free_memory < plan.memory
             else ""
         ),
-        "time": f"about {_format_span(plan.seconds)} on this machine, as busy as it is",
+        "time": f"about {format_span(plan.seconds)} on this machine, as busy as it is",
     }
     if plan.ways[1:]:
-        rows["if something is lost"] = f"it tries in turn: {'; '.join(plan.ways[1:])}"
+        flag = " (--resolution)" if facts["source"] == "mesh" else ""
+        rows["if something is lost"] = f"it tries in turn: {'; '.join(plan.ways[1:])}{flag}"
     if files:
         rows["would write"] = ", ".join(files)
     return format_table(rows, title=f"{name}: nothing is written (--dry-run)")
@@ -112,10 +113,10 @@ def _source_text(facts: PlannedInput) -> str:
     )
 
 
-def _format_span(seconds: float) -> str:
+def format_span(seconds: float) -> str:
     """Format a time to two digits.
 
-    >>> _format_span(0.8432), _format_span(37.2), _format_span(412.0)
+    >>> format_span(0.8432), format_span(37.2), format_span(412.0)
     ('0.84 s', '37 s', '6.9 minutes')
     """
     return f"{plain_number(seconds, 2)} s" if seconds < MINUTE else f"{plain_number(seconds / MINUTE, 2)} minutes"

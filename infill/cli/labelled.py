@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -11,9 +12,12 @@ from typing import TYPE_CHECKING, BinaryIO
 import typer
 
 from infill.cli.console import format_bytes, format_table, print_json, print_log, progress_bar, say
+from infill.cli.foreseeing import format_span
 from infill.plain_numbers import plain_size
 
 if TYPE_CHECKING:
+    from infill.imaging.label_tables import Segment
+    from infill.imaging.segmentations import Segmentation
     from infill.reports.smoothing import LabelsReport
     from infill.result import Result
     from infill.smoothing.labels import LabelStages
@@ -70,7 +74,7 @@ def refuse_options(settings: SmoothSettings, output: SmoothOutput) -> None:
     declared = declared_options(type(settings))
     given = ["preview"] * (output.preview is not None)
     given += [key for key in UNFIT if getattr(settings, declared[key].field) != declared[key].default]
-    given += ["grey"] * (settings.method == "grey") + ["dry_run"] * output.dry_run
+    given += ["grey"] * (settings.method == "grey")
     if given:
         option = given[0].replace("_", "-")
         raise typer.BadParameter(f"--{option} does not go with --each-label or {{label}}; leave one of them out")
@@ -88,17 +92,16 @@ def smooth_every_label(source: Path, settings: SmoothSettings, output: SmoothOut
         if path in single:
             parts_writer(path)
     text = next(iter(output.saved), None)
-    check_outputs(single, text=text, overwrite=output.force, as_json=output.as_json)
+    check_outputs(single, text=text, overwrite=output.force, as_json=output.as_json, dry_run=output.dry_run)
+    if output.dry_run:
+        _show_label_plan(source, settings, output, options)
+        return
     with progress_bar(shown=not output.quiet) as progress, print_log(shown=not output.quiet):
-        from infill.imaging.label_tables import read_labels
         from infill.smoothing.labels import smooth_labels
-        from infill.smoothing.sources import read_label_source
 
         if progress is not None:
             progress("read", 0.0)
-        segments = () if settings.labels is None else read_labels(settings.labels)
-        reading = {name: value for name, value in settings.reading.items() if name != "units"}
-        segmentation = read_label_source(source, **reading)
+        segmentation, segments = _read_labels(source, settings)
         label_options: SmoothOptions = {**options, "progress": _scaled_progress(progress)}
         result = smooth_labels(
             segmentation,
@@ -120,6 +123,58 @@ def smooth_every_label(source: Path, settings: SmoothSettings, output: SmoothOut
     if failed:
         say(f"error: {len(failed)} of {len(failed) + len(result.surfaces)} labels failed; the others were written")
         raise typer.Exit(1)
+
+
+def _read_labels(source: Path, settings: SmoothSettings) -> tuple[Segmentation, tuple[Segment, ...]]:
+    """Read a segmentation, and the names and colours of another file if there is one."""
+    from infill.imaging.label_tables import read_labels
+    from infill.smoothing.sources import read_label_source
+
+    segments = () if settings.labels is None else tuple(read_labels(settings.labels))
+    reading = {name: value for name, value in settings.reading.items() if name != "units"}
+    return read_label_source(source, **reading), segments
+
+
+def _show_label_plan(source: Path, settings: SmoothSettings, output: SmoothOutput, options: SmoothOptions) -> None:
+    """Print the labels that would be smoothed, and the files that would be written."""
+    from infill.smoothing.plan import plan_labels
+
+    begin = time.perf_counter()
+    with print_log(shown=not output.quiet):
+        segmentation, segments = _read_labels(source, settings)
+        plan = plan_labels(segmentation, begin=begin, label=settings.label, table=segments, **options)
+    labels = plan["labels"]
+    files = [
+        str(path)
+        for path in _label_files(output, [label["name"] for label in labels], [label["number"] for label in labels])
+    ]
+    files += [str(path) for path in output.saved]
+    if output.as_json:
+        print_json({**plan, "files": files})
+        return
+    rows = {
+        f"{label['number']} {label['name']}": f"{plain_size(label['data'], digits=6, power=3)}, about "
+        f"{label['triangles_before']:,} triangles before simplification"
+        for label in labels[:MOST_ROWS]
+    }
+    if len(labels) > MOST_ROWS:
+        rows["…"] = f"and {len(labels) - MOST_ROWS} more"
+    rows["memory"] = f"about {format_bytes(plan['memory'])} for the largest"
+    rows["time"] = f"about {format_span(plan['seconds']['total'])} on this machine, as busy as it is"
+    if files:
+        rows["would write"] = ", ".join(files)
+    typer.echo(format_table(rows, title=f"{source}: nothing is written (--dry-run)"))
+
+
+def _label_files(output: SmoothOutput, names: Sequence[str], numbers: Sequence[int]) -> list[Path]:
+    """Return the files of a run over labels, in the order of the outputs."""
+    from infill.files.file_names import fill_template, is_template
+
+    return [
+        path
+        for named in output.outputs
+        for path in (fill_template(named, names, numbers) if is_template(named) else [named])
+    ]
 
 
 def _scaled_progress(progress: Callable[[str, float], None] | None) -> Callable[[str, float], None] | None:

@@ -377,3 +377,20 @@ class SmoothForecast(TypedDict):
     memory: Annotated[int, "Expected memory, bytes"]
     seconds: PlannedSeconds
     files: NotRequired[Annotated[list[str], "Names of the files that a run would write; from the command line only"]]
+
+
+class PlannedLabel(LabelName):
+    """Labels that would be smoothed, by layer and number."""
+
+    data: Annotated[float, "Volume of its cells, mm³"]
+    triangles_before: Annotated[int, "Number of triangles before simplification, about"]
+
+
+class LabelsForecast(TypedDict):
+    """The report of ``infill smooth --dry-run`` for every label."""
+
+    request: SolidRequest
+    labels: list[PlannedLabel]
+    memory: Annotated[int, "Expected memory of the largest label, bytes"]
+    seconds: PlannedSeconds
+    files: NotRequired[Annotated[list[str], "Names of the files that a run would write; from the command line only"]]

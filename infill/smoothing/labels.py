@@ -72,12 +72,22 @@ class LabelStages:
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Piece:
+class LabelPiece:
     """One label to smooth: its name, its segment, and its place."""
 
     name: str
     segment: Segment
     extent: LabelExtent
+
+    @property
+    def triangles(self) -> int:
+        """Triangles of its surface before it is simplified, about: two for each face of a cell."""
+        return 2 * FACES_PER_RUN * self.extent.runs
+
+    @property
+    def place(self) -> LabelName:
+        """Its name, number and layer."""
+        return {"name": self.name, "number": self.segment.value, "layer": self.segment.layer}
 
     def work(self, request: SmoothRequest) -> LabelWork:
         """Estimate the work of smoothing it."""
@@ -147,7 +157,7 @@ def smooth_labels(
         segmentation = _as_segmentation(volume, 1.0 if spacing is None else spacing, origin)
     clock = Clock(request.progress)
     with clock.stage("labels", 0.0):
-        pieces = _find_pieces(segmentation, label, tuple(table))
+        pieces = find_pieces(segmentation, label, tuple(table))
         absent = _absent_names(segmentation, pieces) if label is None else []
     surfaces: dict[str, Surface] = {}
     reports: dict[str, SmoothReport] = {}
@@ -187,9 +197,9 @@ def _as_segmentation(
     return Segmentation(layers=(volume,))
 
 
-def _find_pieces(
+def find_pieces(
     segmentation: Segmentation, label: int | tuple[int, ...] | None, table: tuple[Segment, ...]
-) -> list[_Piece]:
+) -> list[LabelPiece]:
     """Return the labels to smooth, each with a unique name."""
     requested = None if label is None else label if isinstance(label, tuple) else (label,)
     file_segments = {(segment.layer, segment.value): segment for segment in segmentation.segments}
@@ -225,7 +235,7 @@ def _find_pieces(
             continue
         name = _unique_name(segment, used_names)
         used_names.add(name)
-        pieces.append(_Piece(name=name, segment=segment, extent=extent))
+        pieces.append(LabelPiece(name=name, segment=segment, extent=extent))
     return pieces
 
 
@@ -241,7 +251,7 @@ def _unique_name(segment: Segment, used_names: set[str]) -> str:
     return unused[0]
 
 
-def _absent_names(segmentation: Segmentation, pieces: Sequence[_Piece]) -> list[str]:
+def _absent_names(segmentation: Segmentation, pieces: Sequence[LabelPiece]) -> list[str]:
     """Return the names of the segments that hold no cell."""
     present = {(piece.segment.layer, piece.segment.value) for piece in pieces}
     return [segment.name for segment in segmentation.segments if (segment.layer, segment.value) not in present]
@@ -249,7 +259,7 @@ def _absent_names(segmentation: Segmentation, pieces: Sequence[_Piece]) -> list[
 
 def _smooth_pieces(
     segmentation: Segmentation,
-    pieces: Sequence[_Piece],
+    pieces: Sequence[LabelPiece],
     request: SmoothRequest,
     options: SmoothOptions,
     keep_going: bool,
@@ -274,7 +284,7 @@ def _smooth_pieces(
     )
 
 
-def _smooth_piece(volume: Volume, piece: _Piece, request: SmoothRequest, options: SmoothOptions) -> _Outcome:
+def _smooth_piece(volume: Volume, piece: LabelPiece, request: SmoothRequest, options: SmoothOptions) -> _Outcome:
     """Smooth one label in its part of the volume, whose sides lie between bricks of the whole volume."""
     margin = math.ceil(REACH_IN_INTERFACES * request.smoothing.interface) + REFINING_MARGIN
     low = tuple(max(0, (at - margin) // size * size) for at, size in zip(piece.extent.low, BRICK, strict=True))
@@ -288,7 +298,7 @@ def _smooth_piece(volume: Volume, piece: _Piece, request: SmoothRequest, options
     return result.surface, keep_report(result, request)
 
 
-def _title(piece: _Piece) -> str:
+def _title(piece: LabelPiece) -> str:
     """Return the number of a label and its name, if it has one."""
     number = f"label {piece.segment.value}"
     return number if piece.name == f"label_{piece.segment.value}" else f"{number} ({piece.name})"
@@ -296,19 +306,14 @@ def _title(piece: _Piece) -> str:
 
 def _report(
     request: SmoothRequest,
-    smoothed_pieces: Sequence[_Piece],
+    smoothed_pieces: Sequence[LabelPiece],
     reports: Mapping[str, SmoothReport],
-    failed_pieces: Sequence[_Piece],
+    failed_pieces: Sequence[LabelPiece],
     failed: Mapping[str, str],
     absent: Sequence[str],
     clock: Clock,
 ) -> LabelsReport:
     """Return the report: totals over all labels, and the report of each."""
-
-    def label_facts(piece: _Piece) -> LabelName:
-        segment = piece.segment
-        return {"name": piece.name, "number": segment.value, "layer": segment.layer}
-
     label_reports = [reports[piece.name] for piece in smoothed_pieces]
     return {
         **report_head("labels"),
@@ -320,13 +325,13 @@ def _report(
         "request": request.facts(),
         "labels": [
             {
-                **label_facts(piece),
+                **piece.place,
                 "colour": None if piece.segment.colour is None else hex_colour(piece.segment.colour),
                 "report": reports[piece.name],
             }
             for piece in smoothed_pieces
         ],
-        "failed": [{**label_facts(piece), "error": failed[piece.name]} for piece in failed_pieces],
+        "failed": [{**piece.place, "error": failed[piece.name]} for piece in failed_pieces],
         "absent": list(absent),
         "seconds": clock.timings(LabelSeconds),
     }

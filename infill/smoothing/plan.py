@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import time
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Unpack
 
@@ -19,23 +19,27 @@ from numpy.typing import NDArray
 from infill.errors import GeometryError
 from infill.grid import Grid
 from infill.imaging.dicom.sampling import SampledStack
+from infill.imaging.label_tables import Segment
+from infill.imaging.segmentations import Segmentation
 from infill.kernels.compiling import log_compilation
 from infill.machine import require_memory
 from infill.meshes.merging import merge_unless_closed
 from infill.phasefield.schedule import MIN_STEPS
 from infill.reports.common import declare
-from infill.reports.smoothing import InputKeys, PlannedInput, SmoothForecast
+from infill.reports.smoothing import InputKeys, LabelsForecast, PlannedInput, PlannedLabel, SmoothForecast
 from infill.smoothing.attempt import bytes_per_surface_cell
+from infill.smoothing.labels import find_pieces
 from infill.smoothing.meshes import BYTES_PER_CELL as MESH_BYTES_PER_CELL
 from infill.smoothing.meshes import MARGIN, mesh_ways
 from infill.smoothing.remedies import first_sound
-from infill.smoothing.request import AUTO, SmoothInput, SmoothRequest, Way
+from infill.smoothing.request import AUTO, SmoothInput, SmoothOptions, SmoothRequest, Way
 from infill.smoothing.scans import scan_ways, volume_ways
 from infill.smoothing.sources import AXES, Source, SourceOptions, split_options
 from infill.surface import Surface
 from infill.volume import Volume
 from infill.voxels.from_mesh import estimate_solid_cells, grid_around
 from infill.voxels.from_points import grid_around_points, voxelise_points
+from infill.voxels.labels import count_labels
 
 TRIANGLES_PER_VERTEX = 2  # triangles
 BALL_RADIUS = 16.0  # cells: the radius of the ball on which the time per triangle is measured
@@ -141,9 +145,7 @@ def plan_smoothing(source: Source | SampledStack, *, begin: float, **options: Un
     if request.max_memory is not None:
         needed = round(max(cells, surface))
         require_memory(needed, request.max_memory, "give larger voxels, or --roi for a part of a volume")
-    shortest_smoothing = replace(cell_request.smoothing, steps=min(cell_request.smoothing.steps, MIN_STEPS))
-    # Loads what a run needs.
-    _seconds_per_triangle(replace(cell_request, smoothing=shortest_smoothing), grid, radius=LOADING_RADIUS)
+    _load_smoother(cell_request, grid)
     loaded = time.perf_counter()
     work = survey.share * _seconds_per_triangle(cell_request, grid) * TRIANGLES_PER_VERTEX * survey.vertices
     return SmoothPlan(
@@ -157,6 +159,55 @@ def plan_smoothing(source: Source | SampledStack, *, begin: float, **options: Un
         memory=round(BYTES_BEFORE + cells + surface),
         seconds=loaded - begin + work + survey.seconds,
     )
+
+
+def plan_labels(
+    segmentation: Segmentation,
+    *,
+    begin: float,
+    label: int | tuple[int, ...] | None = None,
+    table: Iterable[Segment] = (),
+    **options: Unpack[SmoothOptions],
+) -> LabelsForecast:
+    """Return the plan for `infill.smooth_labels` with the same arguments, as plain numbers.
+
+    Parameters
+    ----------
+    segmentation : Segmentation
+    begin : float
+        Start of reading it, by `time.perf_counter`.
+    label, table, **options
+        See `infill.smooth_labels`.
+
+    Raises
+    ------
+    ParameterError
+        If there is no label, or the requested one is missing.
+    """
+    request = SmoothRequest(**options)
+    pieces = find_pieces(segmentation, label, tuple(table))
+    sizes = [dict(count_labels(volume)) for volume in segmentation.layers]
+    smallest = min(segmentation.layers, key=lambda volume: float(volume.cell_size.min()))
+    cell_request = request.at(float(smallest.cell_size.min()))
+    grid = Grid(shape=smallest.values.shape, spacing=tuple(smallest.cell_size.tolist()), origin=smallest.origin)
+    _load_smoother(cell_request, grid)
+    loaded = time.perf_counter()
+    triangles = sum(piece.triangles for piece in pieces)
+    labels: list[PlannedLabel] = [
+        {
+            **piece.place,
+            "data": segmentation.layers[piece.segment.layer].cell_volume
+            * sizes[piece.segment.layer][piece.segment.value],
+            "triangles_before": piece.triangles,
+        }
+        for piece in pieces
+    ]
+    return {
+        "request": cell_request.facts(),
+        "labels": labels,
+        "memory": round(BYTES_BEFORE + max(piece.work(cell_request).memory for piece in pieces)),
+        "seconds": {"total": loaded - begin + _seconds_per_triangle(cell_request, grid) * triangles},
+    }
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -273,6 +324,12 @@ def _survey_points(
 
 
 @log_compilation("the smoother")
+def _load_smoother(request: SmoothRequest, grid: Grid) -> None:
+    """Load what a run needs, by smoothing a small ball in a few steps."""
+    shortest = replace(request.smoothing, steps=min(request.smoothing.steps, MIN_STEPS))
+    _seconds_per_triangle(replace(request, smoothing=shortest), grid, radius=LOADING_RADIUS)
+
+
 def _seconds_per_triangle(request: SmoothRequest, grid: Grid, *, radius: float = BALL_RADIUS) -> float:
     """Measure the seconds per triangle before simplification, by smoothing a ball of cells of the same size."""
     offsets = np.indices((round(2 * radius) + 2 * MARGIN,) * 3) - (radius + MARGIN - 0.5)

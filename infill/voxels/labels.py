@@ -136,7 +136,7 @@ def describe_labels(layers: Iterable[Volume], names: Mapping[tuple[int, int], st
         f"{value} {(names or {}).get((layer, value), '')}".rstrip()
         + f" ({plain_size(volume.cell_volume * count, power=3)})"
         for layer, volume in enumerate(layers)
-        for value, count in _count_labels(volume)
+        for value, count in count_labels(volume)
     ]
     shown = (
         labels if len(labels) <= MOST_LISTED else [*labels[: MOST_LISTED - 1], f"{len(labels) - MOST_LISTED + 1} more"]
@@ -144,7 +144,7 @@ def describe_labels(layers: Iterable[Volume], names: Mapping[tuple[int, int], st
     return f"{count_noun(len(labels), 'label')}: {', '.join(shown)}"
 
 
-def _count_labels(volume: Volume) -> Iterator[tuple[int, int]]:
+def count_labels(volume: Volume) -> Iterator[tuple[int, int]]:
     """Yield each label and the number of its cells."""
     counts: dict[int, int] = {}
     for part in _slabs(_whole_numbers(volume.values)):
