@@ -50,7 +50,7 @@ def component_summary(result: Result[ComponentStages, ComponentsReport], files: 
         changes = "; ".join([part["verdict"]["word"], *part["verdict"]["changes"]])
         rows[component["name"]] = (
             f"{part['triangles']:,} triangles, {plain_size(part['volume'], digits=6, power=3)}, "
-            f"{part['volume_change']:+.4%}; {changes}"
+            f"{part['volume_change']:+z.4%}; {changes}"
         )
     if len(report["components"]) > MOST_ROWS:
         rows["…"] = f"and {len(report['components']) - MOST_ROWS} more"

@@ -220,7 +220,7 @@ def _summary(result: Result[LabelStages, LabelsReport], files: Sequence[str], na
         verdict = "; ".join([part["verdict"]["word"], *part["verdict"]["changes"]])
         rows[f"{label['number']} {label['name']}"] = (
             f"{part['triangles']:,} triangles, {plain_size(part['volume'], digits=6, power=3)}, "
-            f"{part['volume_change']:+.4%} of the data; {verdict}"
+            f"{part['volume_change']:+z.4%} of the data; {verdict}"
         )
     if len(report["labels"]) > MOST_ROWS:
         rows["…"] = f"and {len(report['labels']) - MOST_ROWS} more"

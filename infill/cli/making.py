@@ -212,7 +212,7 @@ def _summary(report: MakeReport, files: list[str], *, verbose: bool) -> str:
         "solid": f"{report['volume']:.1f} mm³, {report['density']:.1%} of the block",
         "walls": measured,
         "smoothing": f"{request['steps']} steps, "
-        f"volume {report['volume_change']:+.2%}{' (excluding rims)' if request['surface'] == 'grid' else ''}",
+        f"volume {report['volume_change']:+z.2%}{' (excluding rims)' if request['surface'] == 'grid' else ''}",
     }
     if (exact := report["walls"]["exact"]) is not None:
         rows["advice"] = f"--stamp exact makes the walls {exact:.3f} mm wide (measured in the middle of the block)"

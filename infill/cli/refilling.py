@@ -207,7 +207,7 @@ def _summary(report: RefillReport, name: str, files: list[str]) -> str:
         source = "the last refill" if report["print"]["refilled_before"] else "the slicer"
         rows["print"] = _print_text(filament, seconds, source)
         before, after = filament["infill_before_mm"], filament["infill_after_mm"]
-        rows["filament"] = f"{after / 1000:.3f} m of infill, {after / before - 1:+.1%}"
+        rows["filament"] = f"{after / 1000:.3f} m of infill, {after / before - 1:+z.1%}"
         density = filament["density_for_the_same_percent"]
         if density and after < before * 0.999:
             rows["filament"] += f"; for the old amount, set {plain_number(density, 6)} % in the slicer"
@@ -215,7 +215,7 @@ def _summary(report: RefillReport, name: str, files: list[str]) -> str:
                 rows["filament"] += ", or give --density same"
         before, after = seconds["infill_before_s"], seconds["infill_after_s"]
         if before:
-            rows["time"] = f"{_format_span(after)} of infill, {after / before - 1:+.1%} ({_format_span(before)})"
+            rows["time"] = f"{_format_span(after)} of infill, {after / before - 1:+z.1%} ({_format_span(before)})"
         if "even" in report:
             rows["even"] = _even_text(report["even"])
         contact = report["contact"]
@@ -247,7 +247,7 @@ def _print_text(filament: FilamentKeys, seconds: TimeKeys, source: str) -> str:
         grams, old_g, unit = filament["print_after_mm"] / 1000, filament["print_before_mm"] / 1000, "m"
     else:
         unit = "g"
-    change = f", {new_s / old_s - 1:+.1%}" if old_s else ""
+    change = f", {new_s / old_s - 1:+z.1%}" if old_s else ""
     slicer = f"; {source} said {_clock(seconds['slicer_s'])}" if seconds["slicer_s"] else ""
     return f"{_clock(new_s)} and {grams:.2f} {unit}{change} ({_clock(old_s)} and {old_g:.2f} {unit}{slicer})"
 

@@ -268,7 +268,7 @@ def _comparison_table(motions: Sequence[Motion]) -> str:
             [
                 role,
                 *map(_format_clock, times),
-                f"{times[1] / times[0] - 1:+.1%}" if times[0] else "-",
+                f"{times[1] / times[0] - 1:+z.1%}" if times[0] else "-",
                 *(f"{sum(feature.length for feature in features) / 1000:.2f}" for features in features_of_role),
                 *(f"{sum(feature.turns for feature in features)}" for features in features_of_role),
                 *(

@@ -136,7 +136,7 @@ def draw_before_and_after(
     unit = choose_unit(*report["extents"])
     size = plain_size(*report["extents"], digits=4, separator="", unit=unit)
     volume = plain_size(report["volume"], power=3, digits=6, unit=unit)
-    facts = f"{size}, volume {volume} ({report['volume_change']:+.4%})"
+    facts = f"{size}, volume {volume} ({report['volume_change']:+z.4%})"
     areas = describe_areas(lost, added, report["verdict"], unit)
     legend = [
         (marked.colour, f"{area} {word}{'' if shown else ', not seen here'}") if area else (None, f"nothing {word}")

@@ -45,7 +45,7 @@ def _objection(reports: Mapping[str, RefillReport]) -> str:
     if not before or new["sections"]["replaced"] < LEAST_REPLACED * new["sections"]["all"]:
         return f"{FASTEST} fits in {new['sections']['replaced']} of {new['sections']['all']} sections"
     if abs(after / before - 1) > FILAMENT_TOLERANCE:
-        return f"{FASTEST} would take {after / before - 1:+.1%} filament of infill"
+        return f"{FASTEST} would take {after / before - 1:+z.1%} filament of infill"
     if new["time"]["print_after_s"] >= kept["time"]["print_after_s"]:
         return f"{FASTEST} would be no faster"
     return ""

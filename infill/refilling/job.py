@@ -68,7 +68,7 @@ class RefillResult(Picturable):
         if sections is None or time is None:
             return f"RefillResult({self.path or 'no file'}: refilled before, unchanged)"
         before, after = time["infill_before_s"], time["infill_after_s"]
-        change = f", infill {after / before - 1:+.1%} of its time" if before else ""
+        change = f", infill {after / before - 1:+z.1%} of its time" if before else ""
         return f"RefillResult({self.path or 'no file'}: {sections['replaced']} of {sections['all']} sections{change})"
 
     def picture(self) -> Image.Image:

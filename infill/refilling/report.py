@@ -112,14 +112,14 @@ def refill_report(
     if print_survey.missing_end:
         report["problems"].insert(0, describe_missing_end(print_survey.missing_end))
     if keeps_paths and loses_filament(tally):
-        lost = f"the infill takes {ratio - 1:+.1%} filament"
+        lost = f"the infill takes {ratio - 1:+z.1%} filament"
         if remedy is not None and not loses_filament(remedy):
-            lost += f"; leave --smooth-radius out, and it takes {remedy.infill_ratio - 1:+.1%}"
+            lost += f"; leave --smooth-radius out, and it takes {remedy.infill_ratio - 1:+z.1%}"
         report["problems"].append(lost)
     promised = not keeps_paths and isinstance(request.density, str | None) and request.cell is None
     if promised and tally.replaced and abs(ratio - 1) > FILAMENT_TOLERANCE:
         report["problems"].append(
-            f"the infill takes {ratio - 1:+.1%} filament: only whole lines can be added or removed here; take another "
+            f"the infill takes {ratio - 1:+z.1%} filament: only whole lines can be added or removed here; take another "
             "pattern, or another --density"
         )
     return report
@@ -169,7 +169,7 @@ def _problems(report: RefillReport, tally: RefillStats) -> list[str]:
     earlier = "that of the last refill" if report["print"]["refilled_before"] else "the slicer's"
     if tally.replaced and before and after > before * (1 + TIME_TOLERANCE):
         problems.append(
-            f"the new infill is slower than {earlier}: it takes {after / before - 1:+.0%} printing time; "
+            f"the new infill is slower than {earlier}: it takes {after / before - 1:+z.0%} printing time; "
             "for less, take another pattern, or keep, which is never slower"
         )
     failed = sum(number for reason, number in tally.kept.items() if reason.startswith("a check failed"))

@@ -431,7 +431,7 @@ def _simplify_result(full: Surface, request: SmoothRequest, clock: Clock) -> tup
     change = result.volume / full.volume - 1
     if abs(change) > MAX_VOLUME_CHANGE and not request.allow_broken:
         raise GeometryError(
-            f"simplifying to {len(result.faces):,} triangles would change the volume by {change:+.0%}; "
+            f"simplifying to {len(result.faces):,} triangles would change the volume by {change:+z.0%}; "
             f"{advise_all_triangles(request)}"
         )
     facts: Simplified = {

@@ -188,7 +188,7 @@ def _check_amounts(before: Trace, after: Trace, features: tuple[str, ...], limit
             "material",
             int(after.rows.line[row]),
             f"{now:.1f} mm of filament for {', '.join(features)}{of} in the layer, was {was:.1f} mm: "
-            f"{(now - was) / total:+.1%} of all{of} in it",
+            f"{(now - was) / total:+z.1%} of all{of} in it",
         )
 
 
