@@ -522,7 +522,7 @@ def test_check_says_what_a_slicer_will_do(project: Project, folder: Path) -> Non
     both = command("check", "a.3mf", "part.stl", "--for", "orcaslicer", "--json")
     assert both.exit_code == 1
     assert [each.get("fine") for each in json.loads(both.stdout)] == [True, None]
-    one_line_error(command("check", "part.stl", "--for", "cura"), "cannot tell a project from 'part.stl'")
+    one_line_error(command("check", "part.stl", "--for", "cura"), "part.stl is a mesh, and .* leave --for out")
     warned = changed(path, MODEL, to("millimeter", "inch"))
     assert command("check", str(warned), "--for", "orcaslicer").exit_code == 0
     assert command("check", str(warned), "--for", "orcaslicer", "--strict").exit_code == 1
