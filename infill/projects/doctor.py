@@ -10,7 +10,7 @@ from typing import cast
 
 from infill.checks import choose_word
 from infill.errors import FormatError, UsageError
-from infill.formats.mesh_files import READERS
+from infill.formats.mesh_files import READERS as MESH_READERS
 from infill.plain_numbers import count_noun
 from infill.projects import bambustudio, cura, prusaslicer
 from infill.projects.findings import Finding, PrintedVolume, Severity, as_problem, as_warning
@@ -71,7 +71,7 @@ def check_project(path: str | os.PathLike[str], slicer: Slicer) -> Diagnosis:
     slicer = cast("Slicer", choose_word(slicer, SLICERS))
     if slicer not in SLICERS:
         raise UsageError.about("slicer", f"is {slicer!r}; choose from {', '.join(SLICERS)}")
-    if Path(path).suffix.lower() in set(READERS) - {".3mf"}:
+    if Path(path).suffix.lower() in set(MESH_READERS) - {".3mf"}:
         raise FormatError(
             f"{path} is a mesh, and only a .3mf has settings of a slicer; leave --for out to check the mesh, or give a .3mf"
         )
