@@ -73,7 +73,8 @@ def check_project(path: str | os.PathLike[str], slicer: Slicer) -> Diagnosis:
         raise UsageError.about("slicer", f"is {slicer!r}; choose from {', '.join(SLICERS)}")
     if Path(path).suffix.lower() in set(MESH_READERS) - {".3mf"}:
         raise FormatError(
-            f"{path} is a mesh, and only a .3mf has settings of a slicer; leave --for out to check the mesh, or give a .3mf"
+            f"{path} is a mesh, and only a .3mf has settings of a slicer; leave --for out to check the mesh, or give a "
+            ".3mf"
         )
     package = read_package(Path(path))
     findings: list[Finding] = []
