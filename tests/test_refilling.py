@@ -19,6 +19,7 @@ from infill.paths.contact import sample_paths
 from infill.paths.families.catalogue import FAMILIES
 from infill.paths.rounding import Rounding
 from infill.ragged import concatenate_rows
+from infill.refilling.drafting import Drafting
 from infill.refilling.layers import LayerPaths, Layers, sample_layers
 from infill.refilling.planning import plan_refill
 from infill.refilling.report import refill_report
@@ -101,6 +102,17 @@ def test_a_sampled_layer_knows_its_height_though_the_nozzle_rose_before_its_tag(
     (tmp_path / "late.gcode").write_bytes(late)
     report = refill(tmp_path / "late.gcode", output=tmp_path / "new.gcode", pattern="gyroid").report
     assert report["sections"]["replaced"] > 0
+
+
+@pytest.mark.slow
+def test_layers_that_are_alike_are_drawn_once(honeycomb: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Sampled layers are rounded as they are drawn, with short segments merged, so that they keep the same contact."""
+    drawings = []
+    draw = Drafting.draw
+    monkeypatch.setattr(Drafting, "draw", lambda self, *given: drawings.append(given) or draw(self, *given))
+    for number in (100, 200, 400):
+        refill(honeycomb, output=tmp_path / "new.gcode", max_segments=number)
+    assert len(drawings) == 3
 
 
 # --- patterns --------------------------------------------------------------------------------------------------

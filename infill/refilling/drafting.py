@@ -7,7 +7,7 @@ and contact and, in a small print, on the filament.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import BinaryIO
 
@@ -33,6 +33,7 @@ from infill.refilling.rules import RefillRules
 from infill.refilling.smooth_in_place import smooth_in_place
 from infill.refilling.stats import NewInfill, RefillStats, count_refill
 from infill.refilling.support import LEAST_SHARE, kept_length_share, kept_shares, measure_layers, smaller_deviation
+from infill.refilling.widest_gap import GapMemory
 
 PROGRESS_BYTES = 1 << 22  # bytes between two reports of progress
 MOST_REDRAWS = 3  # times that a print is redrawn with smaller moves of corners
@@ -52,6 +53,7 @@ class Drafting:
         The state before the file, in which every drawing begins.
     print_survey : Survey
     progress : callable, optional
+    gaps : GapMemory
     """
 
     file: BinaryIO
@@ -59,6 +61,7 @@ class Drafting:
     draft: BinaryIO
     print_survey: Survey
     progress: Progress | None
+    gaps: GapMemory = field(default_factory=GapMemory)
 
     def meet_targets(
         self, rules: RefillRules, plan: RefillPlan | None, clock: PrintClock | None = None
@@ -167,7 +170,7 @@ class Drafting:
             if plan is not None:
                 new = replace_infill(layers, rules, plan, memory)
             elif len(infill):
-                new = smooth_in_place(layers, rules, seconds)
+                new = smooth_in_place(layers, rules, seconds, self.gaps)
             else:
                 new = NewInfill.unchanged(layers, {})
             return new, count_refill(layers, new, seconds)

@@ -73,12 +73,15 @@ class Layers:
         return map(self.of, np.unique(self.layer).tolist())
 
     @cached_property
-    def typical(self) -> list[Layer]:
+    def resting(self) -> list[Layer]:
         """Layers with infill, without the lowest unless it is the only one: the layer below it is unknown."""
         lowest, layers = int(self.marks.layer.min()), list(self)
-        chosen = [layer for layer in layers if layer.number > lowest] or layers[-1:]
-        # A single layer is enough if it holds much infill.
-        return chosen[-1:] if chosen and chosen[-1].length > ENOUGH_INFILL else chosen
+        return [layer for layer in layers if layer.number > lowest] or layers[-1:]
+
+    @cached_property
+    def typical(self) -> list[Layer]:
+        """Resting layers that stand for the others: a single one is enough if it holds much infill."""
+        return self.resting[-1:] if self.resting and self.resting[-1].length > ENOUGH_INFILL else self.resting
 
     @cached_property
     def layer(self) -> Places:

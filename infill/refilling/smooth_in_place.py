@@ -20,13 +20,13 @@ from infill.refilling.regions import NO_REGION
 from infill.refilling.request import KEEP
 from infill.refilling.rules import RefillRules, unchangeable_strokes
 from infill.refilling.stats import InfillAmounts, NewInfill
-from infill.refilling.widest_gap import largest_moves
+from infill.refilling.widest_gap import GapMemory, largest_moves
 
 MOST_WIDENED = 1.08  # largest widening of beads, to make up for shorter paths
 SLOWER = 1.01  # a stroke that takes longer than this share of its old time keeps its corners
 
 
-def smooth_in_place(layers: Layers, rules: RefillRules, seconds: Floats) -> NewInfill:
+def smooth_in_place(layers: Layers, rules: RefillRules, seconds: Floats, gaps: GapMemory) -> NewInfill:
     """Round the slicer's paths of some layers, and prove that nothing else changed.
 
     Parameters
@@ -35,9 +35,11 @@ def smooth_in_place(layers: Layers, rules: RefillRules, seconds: Floats) -> NewI
     rules : RefillRules
     seconds : (M,) float64
         Times of the old strokes.
+    gaps : GapMemory
     """
     infill, section = layers.infill, layers.section
-    smooth = stroke_corners(layers, rules.rounding, acceleration=rules.acceleration).rounded(rules.rounding)
+    corners = stroke_corners(layers, rules.rounding, acceleration=rules.acceleration, gaps=gaps)
+    smooth = corners.rounded(rules.rounding)
     moved = _moved_strokes(infill, smooth)
     smooth = merge_short_segments(smooth, rules.rounding.shortest_segments(layers.speed))
     acceleration = layers.acceleration(rules.acceleration)
@@ -73,7 +75,7 @@ def smooth_in_place(layers: Layers, rules: RefillRules, seconds: Floats) -> NewI
     )
 
 
-def stroke_corners(layers: Layers, rounding: Rounding, *, acceleration: float) -> PathCorners:
+def stroke_corners(layers: Layers, rounding: Rounding, *, acceleration: float, gaps: GapMemory) -> PathCorners:
     """Recut the curves in the strokes of some layers, and find their corners.
 
     Parameters
@@ -82,6 +84,7 @@ def stroke_corners(layers: Layers, rounding: Rounding, *, acceleration: float) -
     rounding : Rounding
     acceleration : float, mm/s²
         Where the print commands none.
+    gaps : GapMemory
     """
     return find_corners(
         layers.infill.points,
@@ -95,7 +98,7 @@ def stroke_corners(layers: Layers, rounding: Rounding, *, acceleration: float) -
         coarsest=rounding.coarsest,
         line_width=layers.line_width,
         wide=True,
-        limit=largest_moves(layers),
+        limit=largest_moves(layers, gaps),
         keep_touch=True,
     )
 

@@ -19,8 +19,10 @@ from infill.kernels.threads import in_order, thread_count
 from infill.paths.contact import Contact, Samples, concatenate_samples, free_length, layer_contact, sample_paths
 from infill.paths.corners import RoundedPaths
 from infill.paths.rounding import PathCorners, Rounding
+from infill.paths.short_segments import merge_short_segments
 from infill.refilling.layers import LayerPaths, Layers
 from infill.refilling.smooth_in_place import path_lengths, stroke_corners
+from infill.refilling.widest_gap import GapMemory
 
 LEAST_SHARE = 0.94
 LEAST_LENGTH = 0.97  # of the infill's length, and so of its filament
@@ -67,7 +69,8 @@ def largest_deviation(samples: Sequence[Layers], rounding: Rounding, acceleratio
     acceleration : float, mm/s²
         Where the print commands none.
     """
-    tried = [_SampledLayers.of(layers, rounding, acceleration) for layers in samples]
+    gaps = GapMemory()
+    tried = [_SampledLayers.of(layers, rounding, acceleration, gaps) for layers in samples]
     threads = thread_count()
 
     def measure_all(infill: Callable[[_SampledLayers], InfillStrokes | RoundedPaths]) -> tuple[Contact, float]:
@@ -78,7 +81,7 @@ def largest_deviation(samples: Sequence[Layers], rounding: Rounding, acceleratio
 
     def share(deviation: float) -> float:
         trial_rounding = replace(rounding, deviation=deviation)
-        contact, new = measure_all(lambda sample: sample.corners.rounded(trial_rounding))
+        contact, new = measure_all(lambda sample: sample.rounded(trial_rounding))
         return min(*kept_shares(old_contact, contact), kept_length_share(old, new))
 
     if share(rounding.deviation) >= AIM:
@@ -139,12 +142,16 @@ class _SampledLayers:
     walls: dict[int, Samples]
 
     @classmethod
-    def of(cls, layers: Layers, rounding: Rounding, acceleration: float) -> _SampledLayers:
+    def of(cls, layers: Layers, rounding: Rounding, acceleration: float, gaps: GapMemory) -> _SampledLayers:
         return cls(
             layers=layers,
-            corners=stroke_corners(layers, rounding, acceleration=acceleration),
-            walls={layer.number: layers.bead_samples(layer.number - 1) for layer in layers.typical},
+            corners=stroke_corners(layers, rounding, acceleration=acceleration, gaps=gaps),
+            walls={layer.number: layers.bead_samples(layer.number - 1) for layer in layers.resting},
         )
+
+    def rounded(self, rounding: Rounding) -> RoundedPaths:
+        """Round the corners as a drawing does."""
+        return merge_short_segments(self.corners.rounded(rounding), rounding.shortest_segments(self.layers.speed))
 
     def measure(self, infill: InfillStrokes | RoundedPaths) -> tuple[Contact, float]:
         """Measure the contact of the layers with some infill, and the length of all of it, mm."""

@@ -11,6 +11,8 @@ may be wrong.
 
 from __future__ import annotations
 
+import hashlib
+
 import numpy as np
 
 from infill.arrays import Flags, Floats, Places
@@ -23,11 +25,30 @@ MARGIN = 2.0  # mm around the infill of a layer
 ERROR = 0.75  # pixels: that a centre line may lie from the pixels that stand for it, diagonally
 
 
-def largest_moves(layers: Layers) -> Floats:
+class GapMemory:
+    """The gaps of the layers of a print: those with the same beads have the same, in every drawing."""
+
+    def __init__(self) -> None:
+        """Begin without layers."""
+        self._radii: dict[bytes, Floats] = {}
+
+    def radii_of(self, layer: Layer) -> Floats:
+        """Return the radius, mm, of the widest gap around each stroke of a layer."""
+        beads = (*layer.paths, layer.bead_ends, np.array(layer.layers.line_width))
+        digest = hashlib.blake2b(digest_size=16)
+        for array in beads:
+            digest.update(np.ascontiguousarray(array).tobytes())
+        key = digest.digest()
+        if key not in self._radii:
+            self._radii[key] = _widest_gap_radii(layer)
+        return self._radii[key]
+
+
+def largest_moves(layers: Layers, gaps: GapMemory) -> Floats:
     """Compute the largest move of each stroke of some layers by the gaps of its region, (M,), mm."""
     moves = np.zeros(len(layers.infill))
     for layer in layers:
-        moves[layer.strokes] = MOST_GROWTH * _widest_gap_radii(layer)
+        moves[layer.strokes] = MOST_GROWTH * gaps.radii_of(layer)
     return moves
 
 
