@@ -590,7 +590,9 @@ def test_what_hangs_free_is_left_out_and_what_is_lost_is_told() -> None:
     worn = fill(box(20, 20, 20), BAR, cell=8, line_width=0.4)
     advised = ("of 0.12 mm and voxels of 0.12 mm", "of 0.1 mm and voxels of 0.1 mm", "of 0.1 mm")
     for result, remedy in zip((broken, gone, worn), advised, strict=True):
-        (told,) = (text for text in result.report["problems"] if text.startswith("the infill was drawn with a density of"))
+        (told,) = (
+            text for text in result.report["problems"] if text.startswith("the infill was drawn with a density of")
+        )
         assert told.endswith(f"; give a smooth radius {remedy}, or wider lines")
 
 

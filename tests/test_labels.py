@@ -658,7 +658,9 @@ def test_a_dry_run_over_labels_names_the_files_of_the_run(tmp_path: Path) -> Non
     report = json.loads(run(*typed, "--json").stdout)
     assert plan["files"] == report["files"]
     for planned, made in zip(plan["labels"], report["labels"], strict=True):
-        assert [planned[key] for key in ("name", "number", "layer")] == [made[key] for key in ("name", "number", "layer")]
+        assert [planned[key] for key in ("name", "number", "layer")] == [
+            made[key] for key in ("name", "number", "layer")
+        ]
         assert planned["data"] == pytest.approx(made["report"]["solid"]["data"], rel=1e-9)
     text = run(*typed, "--dry-run", "--force").stdout
     assert "7 Tibia" in text

@@ -23,8 +23,7 @@ from infill.formats.volume_settings import SLICER_PATTERNS
 from infill.lattices.choosing import place_pattern
 from infill.lattices.request import check_request
 from infill.lattices.settings import FillOptions
-from infill.making.request import instantiate_pattern
-from infill.options.resolve_pattern import NEEDS, resolve_pattern
+from infill.options.resolve_pattern import NEEDS, instantiate_pattern, resolve_pattern
 from infill.paths.families.catalogue import FAMILIES
 from infill.paths.families.family import TOUCH, PathSpec
 from infill.paths.families.lines import line_paths, separate_lines

@@ -7,8 +7,9 @@ import shapely
 from numpy.typing import NDArray
 
 from infill.arrays import Floats
+from infill.contours.straightening import simplify_contours
 from infill.contours.strips import cut_strips
-from infill.contours.zero_contours import Contours
+from infill.contours.zero_contours import Contours, trace_contours
 from infill.errors import GeometryError
 from infill.surface import Surface
 
@@ -80,6 +81,19 @@ def _point_indices(points: Floats, corners: Floats) -> Indices:
     key, sought = points @ (1, 1j), corners @ (1, 1j)
     order = np.argsort(key)
     return np.asarray(order[np.searchsorted(key, sought, sorter=order)])
+
+
+def extrude_layer(
+    layer: NDArray[np.floating],
+    height: float,
+    spacing: tuple[float, ...],
+    *,
+    origin: tuple[float, ...],
+    tolerance: float,
+) -> Surface:
+    """Extrude the contours of {layer > 0}, simplified within a tolerance, mm: see `trace_contours`."""
+    contours = trace_contours(layer, spacing, origin=origin)
+    return extrude_contours(simplify_contours(contours, tolerance), height)
 
 
 def extrude_contours(contours: Contours, height: float, *, base: float = 0.0) -> Surface:

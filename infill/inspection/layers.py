@@ -125,6 +125,42 @@ def compare_layers(before: LayerRegions, after: LayerRegions, *, line_cells: int
     )
 
 
+@dataclass(frozen=True, kw_only=True)
+class LayerInspection:
+    """What smoothing did to a layer.
+
+    Parameters
+    ----------
+    before, after : ConnectionCounts
+        Of the layer, extruded.
+    changes : TopologyChanges
+        Component by component.
+    area : float
+        Solid area before, in cells.
+    area_change : float
+        As a share of it.
+    """
+
+    before: ConnectionCounts
+    after: ConnectionCounts
+    changes: TopologyChanges
+    area: float
+    area_change: float
+
+
+def inspect_smoothing(before: NDArray[np.floating], after: NDArray[np.floating], *, line_cells: int) -> LayerInspection:
+    """Compare a layer (nx, ny) with its smoothed state, whose lines are some cells wide."""
+    regions, smoothed_regions = label_regions(before), label_regions(after)
+    area = solid_area(before)
+    return LayerInspection(
+        before=regions.topology.extruded,
+        after=smoothed_regions.topology.extruded,
+        changes=compare_layers(regions, smoothed_regions, line_cells=line_cells),
+        area=area,
+        area_change=solid_area(after) / area - 1,
+    )
+
+
 def solid_area(layer: NDArray[np.floating]) -> float:
     """Measure the area, in cells, inside the zero contour that marching squares draws, saddles joined.
 

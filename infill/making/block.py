@@ -16,12 +16,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import shapely
 
-from infill.contours.straightening import simplify_contours
-from infill.contours.triangulation import extrude_contours
-from infill.contours.zero_contours import trace_contours
+from infill.contours.triangulation import extrude_layer
 from infill.errors import GeometryError
 from infill.inspection.changes import TopologyChanges
-from infill.inspection.layers import LayerRegions, compare_layers, label_regions, solid_area
+from infill.inspection.layers import inspect_smoothing
 from infill.inspection.width import WallWidth, wall_width
 from infill.isosurfaces.stacking import extrude_surface
 from infill.making.forecast import exact_width
@@ -43,8 +41,7 @@ from infill.plain_numbers import count_noun, plain_argument
 from infill.reports.common import Topology, declare, mesh_keys, report_head, surface_keys
 from infill.reports.making import BlockChanges, BlockSeconds, MakeReport, Width
 from infill.result import Clock, Progress, Result
-from infill.voxels.stamping import stamp as stamp_points
-from infill.voxels.stamping import stamp_lines
+from infill.voxels.stamping import stamp_layer
 from patterns import Cells, Pattern
 from patterns.linework import body_numbers, sample_points
 
@@ -193,20 +190,17 @@ def _make_stamped(
 ) -> Result[MakeStages, MakeReport]:
     """Make a block that is drawn once and extruded: stamp, smooth and check its layer."""
     with clock.stage("stamp", 0.1):
-        if block.stamp == "exact":
-            data = stamp_lines(block.lines, block.grid, width=block.line_width)
-        else:
-            data = stamp_points(points, block.grid, block=block.cells)
+        data = stamp_layer(
+            block.lines, points, block.grid, method=block.stamp, block=block.cells, width=block.line_width
+        )
     with clock.stage("smooth", 0.2):
         smoothed = smooth(data, block.smoothing, spacing=block.grid.spacing)
     with clock.stage("check", 0.3):
-        before, after = label_regions(data), label_regions(smoothed)
-        differences = compare_layers(before, after, line_cells=block.cells)
-        area = solid_area(data)
-        volume_change = solid_area(smoothed) / area - 1
+        layer = inspect_smoothing(data, smoothed, line_cells=block.cells)
         width = wall_width(block.lines, smoothed, block.grid, requested=block.line_width)
         exact = _exact_stamp_width(block, width, cells)
-        problems = list(_problems(differences, width, _count_fused_lines(block.lines, before, block.line_width)))
+        fused_lines = _count_fused_lines(block.lines, layer.before.components, block.line_width)
+        problems = list(_problems(layer.changes, width, fused_lines))
         if problems and not allow_broken:
             raise GeometryError(f"{'; '.join(problems)}; {ADVICE}")
     with clock.stage("surface", 0.5):
@@ -214,16 +208,16 @@ def _make_stamped(
         if not mesh.closed or mesh.volume <= 0:
             raise GeometryError(f"the surface of {block.pattern.name} is not closed; {ADVICE}")
     cells_per_layer = math.prod(block.grid.shape)
-    layer = math.prod(block.grid.extents) * block.height
-    components = after.topology.components
+    volume = math.prod(block.grid.extents) * block.height
+    components = layer.after.components
     widths = declare(Width, {name: _finite(value) for name, value in asdict(width).items()})
     report: MakeReport = {
         **report_head("make"),
         **surface_keys(mesh),
         "volume": mesh.volume,
-        "volume_change": volume_change,
-        "components": after.topology.extruded.components,
-        "density": mesh.volume / layer,
+        "volume_change": layer.area_change,
+        "components": components,
+        "density": mesh.volume / volume,
         "wall_width": widths,
         "problems": problems,
         "request": block.request_keys(),
@@ -231,15 +225,13 @@ def _make_stamped(
         "mesh": {**mesh_keys(mesh), "surface": block.surface, "tolerance": block.tolerance},
         "solid": {
             "volume": mesh.volume,
-            "change": volume_change,
-            "data": area / cells_per_layer * layer,
-            "density": mesh.volume / layer,
+            "change": layer.area_change,
+            "data": layer.area / cells_per_layer * volume,
+            "density": mesh.volume / volume,
             "level": {"method": "fixed", "common": 0.0, "lowest": 0.0, "highest": 0.0, "components": components},
         },
-        "topology": declare(
-            Topology, {"data": asdict(before.topology.extruded), "result": asdict(after.topology.extruded)}
-        ),
-        "changes": declare(BlockChanges, differences.facts()),
+        "topology": declare(Topology, {"data": asdict(layer.before), "result": asdict(layer.after)}),
+        "changes": declare(BlockChanges, layer.changes.facts()),
         "walls": {"width": widths, "exact": exact},
         "seconds": clock.timings(BlockSeconds),
     }
@@ -252,8 +244,7 @@ def _make_surface(block: Block, smoothed: NDArray[np.floating]) -> Surface:
     spacing = tuple(block.grid.cell_size.tolist())
     if block.surface == "grid":
         return extrude_surface(smoothed, block.height, spacing, origin=block.origin)
-    contour = trace_contours(smoothed, spacing, origin=block.origin)
-    return extrude_contours(simplify_contours(contour, block.tolerance), block.height)
+    return extrude_layer(smoothed, block.height, spacing, origin=block.origin, tolerance=block.tolerance)
 
 
 def _exact_stamp_width(block: Block, width: WallWidth, cells: int | None) -> float | None:
@@ -278,11 +269,11 @@ def _points(block: Block) -> NDArray[np.float64]:
     return block.pattern.points(block.region, spacing) if has_points else sample_points(block.lines, spacing)
 
 
-def _count_fused_lines(lines: MultiLineString, before: LayerRegions, line_width: float) -> int:
+def _count_fused_lines(lines: MultiLineString, components: int, line_width: float) -> int:
     """Count bodies of lines that the stamp fused; those up to three line widths long do not count."""
     number = body_numbers(lines)
     length = np.bincount(number, weights=shapely.length(np.array(lines.geoms, dtype=object)))
-    return max(0, int((length > 3 * line_width).sum()) - before.topology.components)
+    return max(0, int((length > 3 * line_width).sum()) - components)
 
 
 def _problems(tally: TopologyChanges, width: WallWidth, fused_lines: int) -> Iterator[str]:

@@ -16,8 +16,7 @@ from infill.grid import Grid
 from infill.inspection.width import wall_width
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.methods import smooth
-from infill.voxels.stamping import stamp as stamp_points
-from infill.voxels.stamping import stamp_lines
+from infill.voxels.stamping import stamp_layer
 from patterns.linework import sample_points
 
 if TYPE_CHECKING:
@@ -50,11 +49,8 @@ def smoothed_layer(
     stamp, cells, width, smoothing
         As of `infill.make`.
     """
-    if stamp == "exact":
-        data = stamp_lines(lines, grid, width=width)
-    else:
-        points = sample_points(lines, min(grid.cell_size) / 2)
-        data = stamp_points(points, grid, block=cells, outside="clip")
+    points = np.empty((0, 2)) if stamp == "exact" else sample_points(lines, min(grid.cell_size) / 2)
+    data = stamp_layer(lines, points, grid, method=stamp, block=cells, width=width, outside="clip")
     return smooth(data, smoothing, spacing=grid.spacing)
 
 

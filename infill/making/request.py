@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, get_args
@@ -16,10 +16,10 @@ from infill.errors import ParameterError, UsageError
 from infill.grid import Grid
 from infill.isosurfaces.stacking import layer_count
 from infill.machine import require_memory
-from infill.options.resolve_pattern import resolve_lines, resolve_pattern, with_parameters
+from infill.options.resolve_pattern import instantiate_pattern, resolve_pattern
 from infill.phasefield.allen_cahn import Smoothing
 from infill.plain_numbers import plain_argument
-from patterns import Cells, Pattern, PatternError, lacking, parameter_values
+from patterns import Cells, Pattern, PatternError, parameter_values
 from patterns.declared import parameters as declared
 from patterns.protocol import draw_lines
 
@@ -334,25 +334,3 @@ def refuse_frame(pattern: object, *, given: bool) -> None:
     kind, _ = resolve_pattern(pattern, "make")
     if given and "frame" not in declared(kind):
         raise UsageError.about("frame", f"is not for {kind.name} without a density; add a density, such as 20%")
-
-
-def instantiate_pattern(
-    pattern: Pattern | Cells | Path | str | Callable[..., Any], parameters: dict[str, Any]
-) -> Pattern:
-    """Return the pattern that a name and its parameters describe, or the pattern itself."""
-    if not isinstance(pattern, (str, Path)):
-        if isinstance(pattern, type) or lacking(pattern):
-            raise ParameterError(f"{pattern!r} is not a pattern; give a name, or a pattern such as Honeycomb(cell=5)")
-        if parameters:
-            raise ParameterError(
-                f"{', '.join(parameters)} given together with a ready-made pattern; "
-                "set parameters where the pattern is made"
-            )
-        return with_parameters(resolve_lines(pattern), {})
-    kind = resolve_lines(pattern)
-    is_class = isinstance(kind, type) and is_dataclass(kind)
-    field_names = [f.name for f in fields(kind) if f.init] if is_class else list(declared(kind))  # type: ignore[arg-type]
-    for name in parameters:
-        if name not in field_names:
-            raise PatternError(f"{pattern} has no parameter {name!r}; it has {', '.join(field_names)}")
-    return with_parameters(kind, parameters)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Callable, Sequence
+from dataclasses import fields, is_dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -13,8 +13,9 @@ from infill.errors import ParameterError
 from infill.files.suffixes import MESHES
 from infill.options.modules import load_object, names_code
 from infill.plain_numbers import plain_argument
-from patterns import PATTERNS
+from patterns import PATTERNS, lacking
 from patterns.cellular import Cells
+from patterns.declared import parameters as declared
 from patterns.errors import PatternError
 from patterns.protocol import CELLS, LEVEL_SET, LINES, PATHS, Pattern, offers
 from patterns.unit_cells import Surfaces
@@ -97,6 +98,28 @@ def resolve_lines(pattern: object) -> Pattern | type[Pattern]:
     kind, _ = resolve_pattern(pattern, "make")
     assert not isinstance(kind, Cells)
     return kind
+
+
+def instantiate_pattern(
+    pattern: Pattern | Cells | Path | str | Callable[..., Any], parameters: dict[str, Any]
+) -> Pattern:
+    """Return the pattern with lines that a name and its parameters describe, or the pattern itself."""
+    if not isinstance(pattern, (str, Path)):
+        if isinstance(pattern, type) or lacking(pattern):
+            raise ParameterError(f"{pattern!r} is not a pattern; give a name, or a pattern such as Honeycomb(cell=5)")
+        if parameters:
+            raise ParameterError(
+                f"{', '.join(parameters)} given together with a ready-made pattern; "
+                "set parameters where the pattern is made"
+            )
+        return with_parameters(resolve_lines(pattern), {})
+    kind = resolve_lines(pattern)
+    is_class = isinstance(kind, type) and is_dataclass(kind)
+    field_names = [f.name for f in fields(kind) if f.init] if is_class else list(declared(kind))  # type: ignore[arg-type]
+    for name in parameters:
+        if name not in field_names:
+            raise PatternError(f"{pattern} has no parameter {name!r}; it has {', '.join(field_names)}")
+    return with_parameters(kind, parameters)
 
 
 def is_drawing(name: str) -> bool:

@@ -154,3 +154,19 @@ def _segment_distance(
     remainder = offset - share.clip(0, 1)[:, None] * along
     distance: NDArray[np.float64] = np.sqrt(np.einsum("ij,ij->i", remainder, remainder))
     return distance
+
+
+def stamp_layer(
+    lines: MultiLineString,
+    points: ArrayLike,
+    grid: Grid,
+    *,
+    method: Literal["block", "exact"],
+    block: int,
+    width: float,
+    outside: Literal["error", "clip"] = "error",
+) -> NDArray[np.float32]:
+    """Stamp a layer by its points ("block": see `stamp`) or by its lines ("exact": see `stamp_lines`)."""
+    if method == "exact":
+        return stamp_lines(lines, grid, width=width)
+    return stamp(points, grid, block=block, outside=outside)
