@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from infill import FormatError, GeometryError, Surface, check, isosurface, save
 from infill.inspection.printability import guess_unit
-from infill.meshes.intersections import count_self_intersections
+from infill.meshes.intersections import count_self_intersections, intersecting_pairs
 
 BOX = trimesh.creation.box((10, 10, 10))
 
@@ -163,13 +163,15 @@ def test_crossing_triangles_are_counted_as_by_brute_force(seed: int, size: float
 
 
 @pytest.mark.slow
-def test_many_pairs_are_tried_some_at_a_time(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_there_is_room_for_many_pairs_on_any_number_of_threads(monkeypatch: pytest.MonkeyPatch) -> None:
     sphere = trimesh.creation.icosphere(subdivisions=3)
     both = joined(sphere, moved(sphere, 0.5, 0.2, 0.1))
-    whole = count_self_intersections(both.vertices, both.faces)
-    assert whole > 50
-    monkeypatch.setattr("infill.meshes.intersections.PAIRS_AT_ONCE", 100)
-    assert count_self_intersections(both.vertices, both.faces) == whole
+    surface = Surface(vertices=np.asarray(both.vertices), faces=np.asarray(both.faces))
+    whole = intersecting_pairs(surface, threads=1)
+    assert len(whole) > 50
+    monkeypatch.setattr("infill.meshes.intersections.ROOM", 5)
+    for threads in (1, 2, 3):
+        np.testing.assert_array_equal(intersecting_pairs(surface, threads=threads), whole)
 
 
 def test_a_surface_of_ours_passes(rng: np.random.Generator) -> None:

@@ -197,22 +197,11 @@ def test_cells_take_the_nearest_component_and_its_level(field: SparseField) -> N
         assert found.tolist() == [nearest(names, tuple(at), reach) for at in places.tolist()]
     values = field.values.reshape(-1, CELLS)
     levels, common, out = rng.uniform(-0.5, 0.5, every.count).astype(np.float32), np.float32(0.25), values.copy()
-    parts.lower_to_levels(
-        values,
-        field.where,
-        field.slots,
-        every.bits,
-        every.bricks,
-        every.starts,
-        every.alone,
-        every.names,
-        levels,
-        common,
-        3,
-        out,
-        0,
-        1,
-    )
+    for kind in (np.int16, np.int32):
+        labels = np.full(values.shape, 7, dtype=kind)
+        parts.label_bricks(values, field.where, *how, 3, labels, 0, 1)
+        assert (labels[abs(values) == 1] == -1).all()
+        parts.lower_to_levels(values, labels, levels, common, out, 0, 1)
     for s, t in zip(rng.integers(0, len(values), 600), rng.integers(0, CELLS, 600), strict=True):
         at = tuple(field.where[s] * BRICK + np.unravel_index(t, BRICK))
         component = nearest(names, at, 3)

@@ -246,6 +246,34 @@ def test_a_piece_whose_corners_are_near_one_face_is_left_out() -> None:
     assert len(sample_between_vertices(TriangleTree.of(flat), above, owner, away, 0.5, 0.4).points) > 20
 
 
+@pytest.mark.parametrize("slope", [0.1, 0.5, 2.0])
+@pytest.mark.parametrize("at", [-0.8, 0.0, 0.35])
+def test_a_piece_that_two_faces_share_is_left_out_where_both_are_near(slope: float, at: float) -> None:
+    """A face lies below a ridge: it needs a place of its own only where the ridge is too far above it."""
+    ends = np.array([[at - 9, -9, -9 * slope], [at - 9, 9, -9 * slope], [at, -9, 0], [at, 9, 0]])
+    ends = np.concatenate([ends, np.array([[at + 9, -9, -9 * slope], [at + 9, 9, -9 * slope]])])
+    roof = Surface(vertices=ends, faces=np.array([[0, 2, 1], [2, 3, 1], [2, 4, 3], [4, 5, 3]]))
+    corners = np.array([[-1.0, -1, 0], [-1, 1, 0], [1, 0, 0]])
+    corners[:, 2] = -slope * abs(corners[:, 0] - at)
+    below, tree = Surface(vertices=corners, faces=np.array([[0, 1, 2]])), TriangleTree.of(roof)
+    exact = tree.nearest(spread_at_random(below, 4000, 7))[0].max()
+    away, owner = tree.nearest(corners)
+    near, far = (
+        sample_between_vertices(tree, below, owner, away, 0.01, share * exact, all_places=False).points
+        for share in (1.02, 0.9)
+    )
+    assert len(near) == 0
+    assert len(far) > 0
+    assert len(sample_between_vertices(tree, below, owner, away, 0.01, 1.2 * exact).points) <= 12
+
+
+def test_some_faces_are_level_as_all_are() -> None:
+    surface = made("box with a hole", 16)
+    every = level_faces(surface, 0.1)
+    some = np.array([5, 3, len(every) - 1, 3])
+    np.testing.assert_array_equal(level_faces(surface, 0.1, faces=some), every[some])
+
+
 def test_faces_that_two_surfaces_share_are_known_whatever_their_order() -> None:
     surface, rng = made("torus", 24), np.random.default_rng(4)
     order = rng.permutation(len(surface.vertices))

@@ -296,9 +296,9 @@ def _level_components(
     levels = np.full(data.count, common)
     low, high = np.full(data.count, -1.0), np.full(data.count, 1.0)  # levels known to be below and above the right one
     best: LevelSurface | None = None
-    smallest_error = math.inf
+    smallest_error, labels = math.inf, _label_cells(field, data, threads)
     for _ in range(ROUNDS):
-        shifted = _lower_to_levels(field, data, levels, common, threads)
+        shifted = _lower_to_levels(field, labels, levels, common, threads)
         extracted = extract_level(shifted, spacing=spacing, threads=threads)
         surface_shells = label_shells(extracted.surface, extracted.rate, threads=threads)
         shell_component, fused = _assign_components(surface_shells, extracted.surface, shifted, data, spacing)
@@ -339,13 +339,12 @@ def _level_components(
     return best
 
 
-def _lower_to_levels(
-    field: SparseField, data: Components, levels: NDArray[np.float64], common: float, threads: int
-) -> SparseField:
-    """Subtract from the field the level of the nearest component."""
-    out = np.empty_like(field.values)
+def _label_cells(field: SparseField, data: Components, threads: int) -> NDArray[np.integer]:
+    """Return the component nearest to every cell of the field's bricks, (bricks, cells); -1 for none."""
+    kind = np.int16 if data.count <= np.iinfo(np.int16).max else np.int32
+    labels = np.empty((len(field.where), CELLS), dtype=kind)
     in_threads(
-        components_kernels.lower_to_levels,
+        components_kernels.label_bricks,
         field.values.reshape(-1, CELLS),
         field.where,
         field.slots,
@@ -354,9 +353,24 @@ def _lower_to_levels(
         data.starts,
         data.alone,
         data.names,
+        REACH,
+        labels,
+        threads=threads,
+    )
+    return labels
+
+
+def _lower_to_levels(
+    field: SparseField, labels: NDArray[np.integer], levels: NDArray[np.float64], common: float, threads: int
+) -> SparseField:
+    """Subtract from the field the level of the nearest component: see `_label_cells`."""
+    out = np.empty_like(field.values)
+    in_threads(
+        components_kernels.lower_to_levels,
+        field.values.reshape(-1, CELLS),
+        labels,
         levels.astype(np.float32),
         np.float32(common),
-        REACH,
         out.reshape(-1, CELLS),
         threads=threads,
     )

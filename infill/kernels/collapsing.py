@@ -274,7 +274,9 @@ def sweep_short_edges(vertices, start, twin, leaving, name, fixed, quadric, boun
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def _collapse_in_order(mesh, fixed, quadric, held, was, tolerance, bound, sizes, queue, ends, marked, space, into):
+def _collapse_in_order(
+    mesh, fixed, quadric, held, was, tolerance, bound, sizes, queue, ends, marked, failed, changed_in, space, into
+):
     """Collapse edges, cheapest first, as `collapse` does, with all arrays at hand; return the number of faces left."""
     vertices, start, twin, leaving, name = mesh
     points, corner, first_point, next_point = held
@@ -303,6 +305,9 @@ def _collapse_in_order(mesh, fixed, quadric, held, was, tolerance, bound, sizes,
         _dequeue(c, queue, ends)
         step += 1
         u, v, d = start[c], start[next_corner(c)], twin[c]
+        if failed[c] > max(changed_in[u], changed_in[v]):  # all that its collapse depends on is as it was
+            continue
+        failed[c] = step
         ring_size, end_ring_size = corners_of(u, twin, leaving, ring), corners_of(v, twin, leaving, end_ring)
         if ring_size < 0 or end_ring_size < 0 or not 3 <= ring_size + end_ring_size - 4 <= MAX_CORNERS:
             continue
@@ -346,7 +351,9 @@ def _collapse_in_order(mesh, fixed, quadric, held, was, tolerance, bound, sizes,
         copy_row(vertices[u], place)
         into[v] = u
         remaining -= 2
+        changed_in[u] = step
         for n in range(corners_of(u, twin, leaving, ring)):
+            changed_in[start[next_corner(ring[n])]] = step
             bucket = _update_bucket(ring[n], vertices, start, twin, fixed, quadric, bound, edge, queue, ends, s, place)
             lowest = min(lowest, bucket)
     return remaining
@@ -402,11 +409,12 @@ def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corne
     sample_step = min(SAMPLE_SPACING * edge, WIDE * tolerance)
     queue, ends = np.full((len(start), 3), NO_CORNER, dtype=np.int32), np.full((BUCKETS, 2), NO_CORNER, dtype=np.int32)
     marked = np.full(name.max() + 1, NO_CORNER, dtype=np.int32)
+    failed, changed_in = np.full(len(start), NO_CORNER, dtype=np.int32), np.zeros(len(vertices), dtype=np.int32)
     space = *_work_space(), np.empty(MAX_HELD_POINTS, dtype=np.int32), np.empty(MAX_HELD_POINTS, dtype=np.int32)
     mesh = vertices, start, twin, leaving, name
     held = points, corner, first_point, next_point
     was = original_corners, was_twin, was_leaving
     sizes = remaining, fewest, edge, sample_step
     return _collapse_in_order(
-        mesh, fixed, quadric, held, was, tolerance, bound, sizes, queue, ends, marked, space, into
+        mesh, fixed, quadric, held, was, tolerance, bound, sizes, queue, ends, marked, failed, changed_in, space, into
     )

@@ -315,20 +315,27 @@ def label_cells(places, slots, bits, bricks, starts, alone, names, reach, labels
 
 
 @njit(nogil=True, cache=True)
-def lower_to_levels(
-    values, where, slots, bits, bricks, starts, alone, names, levels, common, reach, out, thread, threads
-):
-    """Subtract from every cell the level of the nearest component along the axes, or `common` where there is none."""
+def label_bricks(values, where, slots, bits, bricks, starts, alone, names, reach, labels, thread, threads):
+    """Set the nearest component along the axes for every cell of bricks; -1 where there is none, or phi is 1 or -1."""
     for s in range(thread, len(where), threads):
         p, q, r = where[s]
         for t in range(CELLS):
-            value = values[s, t]
-            if value == 1 or value == -1:
-                out[s, t] = value
+            labels[s, t] = -1
+            if values[s, t] == 1 or values[s, t] == -1:
                 continue
             x, y, z = p * B0 + t // (B1 * B2), q * B1 + t // B2 % B1, r * B2 + t % B2
-            component = nearest_component(slots, x, y, z, bits, bricks, starts, alone, names, reach)
-            out[s, t] = value - (levels[component] if component >= 0 else common)
+            labels[s, t] = nearest_component(slots, x, y, z, bits, bricks, starts, alone, names, reach)
+
+
+@njit(nogil=True, cache=True)
+def lower_to_levels(values, labels, levels, common, out, thread, threads):
+    """Subtract from every cell where phi is not 1 or -1 the level of its component, or `common` where it has none."""
+    for s in range(thread, len(values), threads):
+        for t in range(CELLS):
+            value, component = values[s, t], labels[s, t]
+            if value != 1 and value != -1:
+                value -= levels[component] if component >= 0 else common
+            out[s, t] = value
 
 
 @njit(inline="always", cache=True)

@@ -1,7 +1,7 @@
 """Points on the triangles of a mesh to measure its distance from another mesh, dense only where that may be far.
 
 A piece of a triangle whose corners are all near the same triangle is near it everywhere, since the distance from a
-triangle is convex. All other pieces are cut in two, down to a size.
+triangle is convex; so is a piece that two triangles share. All other pieces are cut in two, down to a size.
 """
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201, ANN202
@@ -25,14 +25,13 @@ SLOPE = 10.0
 SLENDER = 0.02  # shape of a triangle whose normal says nothing of its neighbours
 FOLD = 0.5  # of a length: twice the share by which a piece may leave two planes that meet below it
 PIECE_COSINE = 0.995  # the same for a piece of a triangle, of which no edge is sampled: 6 degrees
+HALVINGS = 4  # of a side of a piece, to find the place on it where the nearest triangle changes
 LEVEL_COSINE = 0.866  # cosine of the angle, 30 degrees, up to which neighbouring triangles count as level
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def _is_covered(piece, owners, squared, corners, tolerance):
+def _is_covered_by_one(piece, owners, corners, tolerance):
     """Return True if all corners of a piece are near the same triangle, one of their nearest triangles."""
-    if squared[0] > tolerance or squared[1] > tolerance or squared[2] > tolerance:
-        return False
     for k in range(3):
         at, all_near = owners[k], True
         for j in range(3):
@@ -42,6 +41,59 @@ def _is_covered(piece, owners, squared, corners, tolerance):
         if all_near:
             return True
     return False
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def _is_near(x, y, z, at, corners, tolerance):
+    """Return True if a place is near a triangle."""
+    return squared_distance(x, y, z, corners[at, 0], corners[at, 1], corners[at, 2]) <= tolerance
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def _is_side_shared(p, q, near_p, near_q, corners, tolerance):
+    """Return True if a place between p and q is near both a triangle that p is near and one that q is near."""
+    low, high = 0.0, 1.0
+    for _ in range(HALVINGS):
+        share = (low + high) / 2
+        x, y, z = p[0] + share * (q[0] - p[0]), p[1] + share * (q[1] - p[1]), p[2] + share * (q[2] - p[2])
+        is_near_p = _is_near(x, y, z, near_p, corners, tolerance)
+        if is_near_p == _is_near(x, y, z, near_q, corners, tolerance):
+            return is_near_p
+        if is_near_p:
+            low = share
+        else:
+            high = share
+    return False
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def _is_covered_by_two(piece, owners, corners, tolerance):
+    """Return True if one of their nearest triangles is near two corners of a piece, and another the rest of it.
+
+    A place on either side to the third corner is near both triangles: these places part the piece into a quadrangle
+    and a triangle, each with all corners near the same triangle.
+    """
+    for k in range(3):
+        i, j = (k + 1) % 3, (k + 2) % 3
+        at, beyond = owners[i], owners[k]
+        if at == beyond:
+            continue
+        if owners[j] != at and not _is_near(piece[j, 0], piece[j, 1], piece[j, 2], at, corners, tolerance):
+            continue
+        if not _is_side_shared(piece[i], piece[k], at, beyond, corners, tolerance):
+            continue
+        if _is_side_shared(piece[j], piece[k], at, beyond, corners, tolerance):
+            return True
+    return False
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def _is_covered(piece, owners, squared, corners, tolerance):
+    """Return True if all of a piece is near one or two of the triangles nearest to its corners."""
+    if squared[0] > tolerance or squared[1] > tolerance or squared[2] > tolerance:
+        return False
+    one = _is_covered_by_one(piece, owners, corners, tolerance)
+    return one or _is_covered_by_two(piece, owners, corners, tolerance)
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
@@ -309,8 +361,8 @@ def sample_faces(
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def mark_level_faces(corners, normals, low, high, leaf, reach, level, thread, threads):
-    """Set True if all triangles within `reach` of every `threads`-th triangle face nearly the same way.
+def mark_level_faces(corners, normals, low, high, leaf, reach, chosen, level, thread, threads):
+    """Set True if all triangles within `reach` of every `threads`-th chosen triangle face nearly the same way.
 
     Parameters
     ----------
@@ -320,9 +372,12 @@ def mark_level_faces(corners, normals, low, high, leaf, reach, level, thread, th
         Of length 1, or of length 0 where a triangle has no area: neither such a triangle nor its neighbours are level.
     reach : float
         Triangles that are clearly further away, by planes of either triangle, do not count; all others do.
-    level : (F,) bool
+    chosen : (N,) int64
+        Triangles.
+    level : (N,) bool
         The result.
     """
     stack = np.empty(STACK_SIZE, dtype=np.int64)
-    for f in range(thread, len(corners), threads):
-        level[f] = _is_level(corners[f], normals[f], corners, normals, low, high, leaf, reach, LEVEL_COSINE, stack)
+    for n in range(thread, len(chosen), threads):
+        f = chosen[n]
+        level[n] = _is_level(corners[f], normals[f], corners, normals, low, high, leaf, reach, LEVEL_COSINE, stack)

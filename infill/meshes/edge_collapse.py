@@ -383,7 +383,7 @@ def collapse_edges(
             fewer = fewer.without_edges(tolerance**2, aim, near=tolerance)
         tell(1 - 0.5 ** (attempt + 1))
         candidate = fewer.placed_in(surface)
-        places, excess = crossing_corners(candidate), 0
+        places, excess = crossing_corners(candidate, threads), 0
         if not len(places) or attempt == ATTEMPTS - 1:  # the slowest check comes last
             candidate, places, samples = project_back(
                 candidate, surface, tree, tolerance, known=samples, threads=threads

@@ -240,9 +240,14 @@ def _sample_arrays(threads: int, capacity: int) -> tuple[Floats, NDArray[np.int3
 
 
 def level_faces(
-    surface: Surface, tolerance: float, *, tree: TriangleTree | None = None, threads: int | None = None
+    surface: Surface,
+    tolerance: float,
+    *,
+    faces: Integers | None = None,
+    tree: TriangleTree | None = None,
+    threads: int | None = None,
 ) -> NDArray[np.bool_]:
-    """Mark the faces (F,) around which, within `CLEAR` tolerances, all faces point the same way to 30 degrees.
+    """Mark the faces (N,) around which, within `CLEAR` tolerances, all faces point the same way to 30 degrees.
 
     If all of another surface lies within the tolerance, mm, of this one, then such a face lies within the tolerance of
     the other: this surface is a single sheet there, and the other surface has to cross its normals close to it.
@@ -252,6 +257,8 @@ def level_faces(
     surface : Surface, closed, mm
     tolerance : float, mm
         No face within `CLEAR` times this may point elsewhere by more than 30 degrees.
+    faces : (N,) int64, optional
+        Some faces, instead of all.
     tree : TriangleTree, optional
         Of the surface, if it is known.
     threads : int, optional
@@ -268,12 +275,14 @@ def level_faces(
     """
     from infill.kernels.covering import mark_level_faces
 
-    tree, level = tree or TriangleTree.of(surface), np.empty(len(surface.faces), dtype=bool)
+    tree = tree or TriangleTree.of(surface)
+    place = np.empty(len(tree.order), dtype=np.int64)
+    place[tree.order] = np.arange(len(tree.order))
+    chosen = place if faces is None else place[faces]
+    level = np.empty(len(chosen), dtype=bool)
     arguments = tree.corners, tree.normals(), tree.low, tree.high, LEAF, CLEAR * tolerance
-    in_threads(mark_level_faces, *arguments, level, threads=thread_count(threads))
-    by_face = np.empty_like(level)
-    by_face[tree.order] = level
-    return by_face
+    in_threads(mark_level_faces, *arguments, chosen, level, threads=thread_count(threads))
+    return level
 
 
 def find_strays(

@@ -68,29 +68,31 @@ def project_back(
         missed = np.flatnonzero(samples.away > tolerance)
         assumed_near = np.concatenate([assumed_near, np.zeros(len(candidate.faces) - len(assumed_near), dtype=bool)])
         own = TriangleTree.of(candidate)
-        steep = ~level_faces(candidate, tolerance, tree=own, threads=threads)
-        assumed_near[changed] = ~steep[changed]
+        assumed_near[changed] = level_faces(candidate, tolerance, faces=changed, tree=own, threads=threads)
         strays = find_strays(
             tree, candidate, changed, side, tolerance, sure=assumed_near[changed], own=own, threads=threads
         )
         if n > 0:
             bent_vertices = np.union1d(bent_vertices, candidate.faces[changed])
-        if n > 0 and not len(missed) and not len(strays.points):
-            beside = np.isin(candidate.faces, bent_vertices).any(axis=1)  # pieces of them were level before
-            bent = np.flatnonzero((assumed_near | beside) & steep)
-            assumed_near[bent] = False
-            strays = find_strays(tree, candidate, bent, side, tolerance, own=own, threads=threads)
         if not len(missed) and not len(strays.points):
             samples = replace(samples, unsure=np.empty(0, dtype=np.int64))
-            crossing = intersecting_pairs(np.asarray(candidate.vertices), candidate.faces)
-            if not len(crossing):
+            crossing = intersecting_pairs(candidate, tree=own, threads=threads)
+            if len(crossing):
+                failed = _corners_of_faces(candidate, crossing)
+                candidate, changed = _push_apart(candidate, crossing, tolerance)
+                if not len(changed):
+                    break
+                samples = replace(samples, unsure=changed)
+                continue
+            if n == 0:
                 return candidate, np.empty((0, 3)), samples
-            failed = _corners_of_faces(candidate, crossing)
-            candidate, changed = _push_apart(candidate, crossing, tolerance)
-            if not len(changed):
-                break
-            samples = replace(samples, unsure=changed)
-            continue
+            beside = np.isin(candidate.faces, bent_vertices).any(axis=1)  # pieces of them were level before
+            bent = np.flatnonzero(assumed_near | beside)
+            bent = bent[~level_faces(candidate, tolerance, faces=bent, tree=own, threads=threads)]
+            assumed_near[bent] = False
+            strays = find_strays(tree, candidate, bent, side, tolerance, own=own, threads=threads)
+            if not len(strays.points):
+                return candidate, np.empty((0, 3)), samples
         faces = np.concatenate([owner[missed], strays.face])
         targets = np.concatenate([points[missed], _project_to_faces(original, strays.owner, strays.points)])
         sources = np.concatenate([_project_to_faces(candidate, owner[missed], points[missed]), strays.points])
@@ -195,9 +197,9 @@ def _push_apart(surface: Surface, pairs: Integers, tolerance: float) -> tuple[Su
     return replace(surface, vertices=vertices), np.flatnonzero(np.isin(surface.faces, moved).any(axis=1))
 
 
-def crossing_corners(surface: Surface) -> Floats:
+def crossing_corners(surface: Surface, threads: int | None = None) -> Floats:
     """Return the corners (N, 3) of the triangles that pass through each other, mm."""
-    return _corners_of_faces(surface, intersecting_pairs(np.asarray(surface.vertices), surface.faces))
+    return _corners_of_faces(surface, intersecting_pairs(surface, threads=threads))
 
 
 def _corners_of_faces(surface: Surface, faces: Integers) -> Floats:
