@@ -56,7 +56,7 @@ test: .venv/test
 	@$(BIN)/python -m pytest -q -n 2 -m "not left_out" -p no:cov
 
 longest: .venv/test
-	@$(BIN)/python -m pytest -q -n 2 -m "left_out" -p no:cov
+	@$(BIN)/python -m pytest -q -n 2 --dist worksteal -m "left_out" -p no:cov
 
 # Everything, counting the lines that it reaches, which takes twice as long.
 coverage: .venv/test

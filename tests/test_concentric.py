@@ -19,7 +19,7 @@ from infill.lattices.choosing import place_pattern
 from infill.lattices.drawn_voids import Prismatic, silhouette
 from infill.lattices.voids import Layout
 from infill.meshes.distance import TriangleTree
-from infill.meshes.solids import FINE, manifold_status
+from infill.meshes.solids import FINE, manifold_status, to_manifold
 from infill.meshes.winding import winding_numbers
 
 pytestmark = pytest.mark.usefixtures("compiled")
@@ -103,7 +103,9 @@ def astray(result: Result[Any, Any], inside: shapely.Polygon, away: float, *, he
         np.array(inside.bounds)[:2, None], np.array(inside.bounds)[2:, None], (2, 9000)
     )
     deep = np.where(shapely.contains_xy(inside, x, y), shapely.distance(shapely.points(x, y), inside.boundary), np.nan)
-    solid = winding_numbers(np.stack([x, y, np.full(len(x), height)], axis=1), result.stages.voids) <= 0
+    rings = map(shapely.Polygon, to_manifold(result.stages.voids).slice(height).to_polygons())
+    turns = [(1 if ring.exterior.is_ccw else -1) * shapely.contains_xy(ring, x, y) for ring in rings]
+    solid = np.sum(turns, axis=0) <= 0
     place = deep % CELL
     wall = (place > CELL - WIDTH + away) & (place < CELL - away)
     void = (place > away) & (place < CELL - WIDTH - away)

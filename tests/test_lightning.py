@@ -185,7 +185,7 @@ def test_steep_roofs_need_none() -> None:
 @pytest.mark.longest
 @pytest.mark.parametrize("name", PARTS)
 def test_nothing_hangs_free_and_it_is_light(name: str) -> None:
-    given: dict[str, Any] = {"cell": CELL, "line_width": 0.8, "wall": 1.0, "voxel": 0.25}
+    given: dict[str, Any] = {"cell": CELL, "line_width": 0.8, "wall": 1.0, "voxel": 0.4}
     result = fill(PARTS[name](), "lightning", **given)
     assert result.report["problems"] == []
     assert result.report["voids"]["islands"] == 0

@@ -143,7 +143,13 @@ def test_an_offer_that_does_not_serve_is_one_clear_line(words: tuple[str, ...], 
 def test_a_config_file_may_not_run_code_unless_trusted(folder: Path) -> None:
     for command, name in (("make", "a.toml"), ("refill", "b.toml")):
         Path(name).write_text('pattern = "bricks_module.py:Bricks"\n')
-        words = (command, *(["print.gcode"] if command == "refill" else []), "--config", name, "--dry-run")
+        words = (
+            command,
+            *(["print.gcode", "--set", "cell=5"] if command == "refill" else []),
+            "--config",
+            name,
+            "--dry-run",
+        )
         one_line_error(run(*words), "asks to run code: pattern = 'bricks_module.py:Bricks'; .* give --trust")
         assert run(*words, "--trust").exit_code == 0
 

@@ -149,7 +149,8 @@ def test_walls_in_small_parts_stay_as_wide_as_two_lines(side: float) -> None:
 
 @pytest.mark.longest
 def test_walls_that_slicers_leave_out_are_told() -> None:
-    report = fill(box(6, 6, 10), as_="project", density=0.2, line_width=0.3).report
+    """Whether the pattern is shifted or not: here it stays where it is, as eight more places take long to try."""
+    report = fill(box(6, 6, 6), as_="project", density=0.2, line_width=0.3, align="bed").report
     assert report["infill"]["line_width"] == pytest.approx(0.3, rel=0.06)
     assert any(
         "less than a line of a usual nozzle: slicers leave most of them out" in each for each in report["problems"]

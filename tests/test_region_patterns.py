@@ -132,8 +132,9 @@ def test_a_region_of_lightning_and_one_within_it() -> None:
 @pytest.mark.longest
 @pytest.mark.parametrize("name", [name for name in PATTERNS if name != "gyroid"])
 def test_every_pattern_can_be_that_of_a_region(name: str) -> None:
+    """In a part of a few cells, whose region ends beside its middle."""
     result = fill(
-        box(20, 16, 16), density=0.2, wall=1, voxel=0.4, regions=[f"box=-20,-20,-20,1,3,20:pattern={name},density=30%"]
+        box(14, 12, 12), density=0.2, wall=1, voxel=0.4, regions=[f"box=-20,-20,-20,1,2,20:pattern={name},density=30%"]
     )
     assert_one_solid(result)
     assert result.report["regions"][1]["pattern"] == name

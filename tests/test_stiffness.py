@@ -89,12 +89,12 @@ def test_the_octet_is_as_stiff_as_published() -> None:
     """E = density / 9 along the axes of the cube, and density / 5 along its diagonals, for slender bars.
 
     Deshpande, Fleck & Ashby, "Effective properties of the octet-truss lattice material", J. Mech. Phys. Solids 49
-    (2001) 1747-1769. Nodes of finite size make ours stiffer, by 9 to 16 % at a density of 3 %.
+    (2001) 1747-1769. Nodes of finite size make ours stiffer, by 1 to 5 % at a density of 3 %.
     """
     cell = octet(40, 0.03)
     along, across = homogenise_stiffness(cell).modulus([(1, 0, 0), (1, 1, 1)]) / cell.mean()
-    assert 1 < 9 * along < 1.2
-    assert 1 < 5 * across < 1.2
+    assert 1 < 9 * along < 1.1
+    assert 1 < 5 * across < 1.1
     assert across / along == pytest.approx(9 / 5, rel=0.05)
 
 
