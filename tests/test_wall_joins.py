@@ -11,6 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from infill.paths.contact import sample_paths
+from infill.paths.covering import cover
+from infill.paths.families.catalogue import FAMILIES
 from infill.paths.neighbours import BeadIndex, index_beads
 from infill.paths.wall_joins import SHARE, round_wall_joins
 
@@ -60,6 +62,18 @@ def test_corners_at_walls_become_curves(spacing: float, lean: float, lines: int)
     )
     length = np.hypot(*(curved[along + 1] - curved[along]).T).sum()
     assert length == pytest.approx((lines - 1) * touching[0] * (1 - 2 * SHARE), rel=0.01)
+
+
+def test_a_curve_replaces_only_what_is_nearly_straight() -> None:
+    """Lines that leave a wall at a small angle and then turn away do not cross their neighbours."""
+    shapely.prepare(AREA)
+    family, walls = FAMILIES["schwarz-d"], walls_around()
+    cell = family.cell_for(0.5, WIDTH)
+    for z in np.array([0.1, 0.34, 0.66, 0.9]) * cell:
+        paths = cover(AREA, family, cell=cell, line_width=WIDTH, z=float(z), layer=0)
+        assert shapely.MultiLineString(paths).is_simple
+        curved = round_wall_joins(paths, walls, AREA, line_width=WIDTH)
+        assert shapely.MultiLineString(curved).is_simple
 
 
 def test_a_curve_is_tangent_to_both_legs() -> None:

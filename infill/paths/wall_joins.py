@@ -31,6 +31,9 @@ MOST_TURN = math.radians(170)  # a path that turns back on itself keeps its corn
 SHARE = 0.25  # of the way along a wall that a curve takes at each of its ends
 OF_LINE = 0.5  # of the length of a line up to its next corner
 LEAST_SLOPE = 0.2  # of a leg that leaves a wall: how much nearer to it one end lies, over its length
+MOST_BEND = math.radians(
+    45
+)  # of a line, off its direction at the corner, where a curve begins: beyond, lines could cross
 LEAST_SETBACK = 0.1  # mm
 CURVE_POINTS = 9  # on a curve, with its ends
 
@@ -84,7 +87,11 @@ def _round_path(
             continue
         sides = (along[corner] - along[stops[number - 1]], along[stops[number + 1]] - along[corner])
         shares = (SHARE if before else OF_LINE, SHARE if after else OF_LINE)
-        setback = min(sides[0] * shares[0], sides[1] * shares[1], largest)
+        straight = (
+            along[corner] - along[_end_of_straight(heading, corner - 1, int(stops[number - 1]))],
+            along[_end_of_straight(heading, corner, int(stops[number + 1]))] - along[corner],
+        )
+        setback = min(sides[0] * shares[0], sides[1] * shares[1], *straight, largest)
         while setback >= LEAST_SETBACK:
             first, leg_in = _point_at(path, along, along[corner] - setback)
             last, leg_out = _point_at(path, along, along[corner] + setback)
@@ -95,6 +102,14 @@ def _round_path(
                 break
             setback /= 2
     return np.concatenate([*pieces, path[begun:]]) if pieces else path
+
+
+def _end_of_straight(heading: Floats, leg: int, stop: int) -> int:
+    """Return the point up to which a path keeps the direction of a leg, to `MOST_BEND`; at most the point `stop`."""
+    legs = heading[leg:stop] if stop > leg else heading[stop : leg + 1][::-1]
+    bent = np.abs((legs - heading[leg] + np.pi) % (2 * np.pi) - np.pi) > MOST_BEND
+    count = int(np.argmax(bent)) if bent.any() else len(legs)
+    return leg + count if stop > leg else leg + 1 - count
 
 
 def _legs_along(path: Floats, length: Floats, walls: BeadIndex, reach: float) -> Flags:
