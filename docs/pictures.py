@@ -24,7 +24,7 @@ from tests import made_shapes, prints, slicers  # noqa: E402 - the folder beside
 
 
 def main() -> None:
-    """Write the four stages of a design, the mesh of each, both stamps, two solids and two prints before and after."""
+    """Write stages and meshes of designs, both stamps, two solids, two prints before and after, and gradients."""
     FOLDER.mkdir(exist_ok=True)
     make("honeycomb").save(FOLDER / "honeycomb.png")
     for name in ("honeycomb", "zigzag", "concentric-heart"):
@@ -40,10 +40,27 @@ def main() -> None:
     fill(bracket(), density=0.2).save(FOLDER / "fill.png")
     if not slicers.missing_prusa():
         save_refill(prints.prusa_print, {"fill_pattern": "honeycomb"}, FOLDER / "refill.png")
+        save_gradients(FOLDER / "refill-gradients.png")
     if not slicers.missing_cura():
         save_refill(
             prints.cura_print, {"infill_pattern": "cross", "zig_zaggify_infill": "true"}, FOLDER / "refill-cura.png"
         )
+
+
+def save_gradients(path: Path) -> None:
+    """Slice a box of 60 mm, and write a layer whose density changes along x, and one where it does from the walls."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        print_ = prints.prusa_print(prints.box(folder, (60, 60, 20)), folder / "print.gcode")
+        both = {}
+        for pattern, by in (("honeycomb", "x"), ("grid", "skin")):
+            graded = folder / f"{pattern}.gcode"
+            refill(print_, output=graded, pattern=pattern, density="40%:12%", by=by)
+            both[f"{pattern}, 40%:12% by {by}"] = layer_speeds(graded, 50)
+        with path.open("wb") as file:
+            write_speeds(both, file)
+    with Image.open(path) as picture:
+        picture.quantize(64).save(path, optimize=True)
 
 
 def save_refill(slice_it: Callable[..., Path], settings: dict[str, object], path: Path) -> None:

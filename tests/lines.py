@@ -30,8 +30,12 @@ def travel_length(paths: Sequence[np.ndarray], start: tuple[float, float] | None
     return float(np.hypot(*(np.array(begins) - np.array(ends)).T).sum())
 
 
-def least_spacing(paths: Sequence[np.ndarray], *, near: float, most: float, step: float = 0.05) -> float:
+def least_spacing(
+    paths: Sequence[np.ndarray], *, near: float, most: float, step: float = 0.05, within: shapely.Geometry | None = None
+) -> float:
     """Return how near paths come to each other, and to themselves more than `near` mm along; `most` at most.
+
+    Only points `within` an area count, if one is given.
 
     Judged at points `step` mm apart: too large by step² / 8 d at a distance d, 0.001 mm for beads of 0.4 mm.
     """
@@ -46,6 +50,9 @@ def least_spacing(paths: Sequence[np.ndarray], *, near: float, most: float, step
     if not points:
         return most
     point, place, owner, around = (np.concatenate(each) for each in (points, places, owners, rounds))
+    if within is not None:
+        held = shapely.contains_xy(within, point[:, 0], point[:, 1])
+        point, place, owner, around = point[held], place[held], owner[held], around[held]
     one, other = cKDTree(point).query_pairs(most, output_type="ndarray").T
     along = np.abs(place[one] - place[other])
     along = np.minimum(along, around[one] - along)

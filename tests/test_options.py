@@ -161,7 +161,7 @@ UNREAD = {
         "--seed": "2.5",
     },
     "check": {"--for": "foo"},
-    "refill": {"--density": "dense", "--smooth-radius": "wide", "--layers": "1.5", "--arcs": "foo"},
+    "refill": {"--density": "dense", "--by": "foo", "--smooth-radius": "wide", "--layers": "1.5", "--arcs": "foo"},
     "refill even": {"--even": "foo", "--leeway": "foo"},
     "motion": {
         "--model": "foo",

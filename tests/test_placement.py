@@ -211,7 +211,7 @@ def test_what_is_not_given_is_not_there(tmp_path: Path) -> None:
 
 MISTAKES = {
     'patern = "gyroid"': "keep has no option 'patern'; did you mean 'pattern'?",
-    "colour = 3": "keep has no option 'colour'; it has pattern, density, smooth_radius, max_deviation, max_segments, arcs, even, leeway, layers, object",
+    "colour = 3": "keep has no option 'colour'; it has pattern, density, by, smooth_radius, max_deviation, max_segments, arcs, even, leeway, layers, object",
     "[set]\nangle = 3": "keep has no parameter 'angle'; it has none",
     "set = 3": "set is 3; it must be a table",
     "pattern = 3": "pattern is 3; it must be a word",

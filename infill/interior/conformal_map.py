@@ -9,6 +9,7 @@ have as much wall in a volume as cubes would, as far as a limit allows.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +20,7 @@ ROUNDS = 6  # of corrections of the scales for cells that are not cubes
 MOST = 2.5  # largest correction of a scale, up or down, as a factor
 FOLDED = 0.02  # of the number of cells in a volume where they are largest: with fewer, cells nearly fold over
 EASED = 0.8  # power by which scales that would fold cells are evened out
-DIRECTIONS = 32  # of walls, over half a sphere
+DIRECTIONS = 32  # of walls, over half a circle or half a sphere
 
 
 def fit_conformal_map(scales: NDArray[np.floating]) -> tuple[Floats, Floats]:
@@ -49,8 +50,14 @@ def fit_conformal_map(scales: NDArray[np.floating]) -> tuple[Floats, Floats]:
         if np.linalg.det(slopes).min() > FOLDED * targets.min() ** 3:
             break
         targets = targets**EASED
-    middle = (np.array(targets.shape) - 1) / 2
-    return coordinates + (middle - map_points(coordinates, middle[None])[0]), more
+    return keep_middle(coordinates), more
+
+
+def keep_middle(coordinates: Floats) -> Floats:
+    """Shift coordinates so that the node in the middle stays where it is."""
+    middle = (np.array(coordinates.shape[:-1]) - 3) / 2
+    shifted: Floats = coordinates + (middle - map_points(coordinates, middle[None])[0])
+    return shifted
 
 
 def _fit_coordinates(targets: Floats) -> tuple[Floats, Floats, Floats]:
@@ -59,44 +66,57 @@ def _fit_coordinates(targets: Floats) -> tuple[Floats, Floats, Floats]:
     for number in range(ROUNDS):
         if number:
             scales = np.clip(scales * targets / more, targets / MOST, targets * MOST)
-        coordinates = _extrapolate(_integrate(scales))
+        along_axes = [step_divergence(scales, axis) for axis in range(targets.ndim)]
+        coordinates = extrapolate_nodes(solve_poisson(along_axes))
         slopes = spline_slopes(coordinates)
         more = wall_density_factor(slopes)
     return coordinates, slopes, more
 
 
 def map_points(coordinates: Floats, points: Floats) -> Floats:
-    """Map points (N, 3) to coordinates of `fit_conformal_map`, (N, 3); both in nodes."""
+    """Map points (N, 3) or (N, 2) to coordinates of `fit_conformal_map`; both in nodes."""
     from scipy.ndimage import map_coordinates
 
     along = [map_coordinates(axis, points.T + 1, order=3, prefilter=False) for axis in np.moveaxis(coordinates, -1, 0)]
     return np.stack(along, axis=-1)
 
 
-def _integrate(scales: Floats) -> Floats:
-    """Compute the coordinates whose steps between nodes come nearest to the scales there, (n, m, k, 3)."""
+def solve_poisson(divergences: Sequence[Floats]) -> Floats:
+    """Compute the coordinates whose steps between nodes come nearest to wanted ones, (n, m, k, 3).
+
+    Parameters
+    ----------
+    divergences : sequence of (n, m, k) float64
+        Of the wanted steps, for each coordinate: sums of `step_divergence`.
+    """
     from scipy.fft import dctn, idctn
 
     # At the ends, steps to missing neighbours are 0, so cosines solve it.
-    waves = [2 - 2 * np.cos(np.pi * np.arange(count) / count) for count in scales.shape]
-    squared = waves[0][:, None, None] + waves[1][:, None] + waves[2]
-    squared[0, 0, 0] = 1.0
-    coordinates = np.empty((*scales.shape, 3))
-    for axis in range(3):
-        along = np.moveaxis(scales, axis, 0)
-        steps = (along[1:] + along[:-1]) / 2
-        rise = np.zeros_like(along)
-        rise[1:] += steps
-        rise[:-1] -= steps
-        summed = dctn(np.moveaxis(rise, 0, axis), type=2) / squared
-        summed[0, 0, 0] = 0.0
+    shape = divergences[0].shape
+    waves = [2 - 2 * np.cos(np.pi * np.arange(count) / count) for count in shape]
+    squared = sum(np.ix_(*waves), np.zeros(()))
+    squared[(0,) * len(shape)] = 1.0
+    coordinates = np.empty((*shape, len(divergences)))
+    for axis, divergence in enumerate(divergences):
+        summed = dctn(divergence, type=2) / squared
+        summed[(0,) * len(shape)] = 0.0
         coordinates[..., axis] = idctn(summed, type=2)
     return coordinates
 
 
-def _extrapolate(nodes: Floats) -> Floats:
+def step_divergence(slopes: Floats, axis: int) -> Floats:
+    """Return the divergence of steps along an axis, whose slopes at the nodes are given."""
+    along = np.moveaxis(slopes, axis, 0)
+    steps = (along[1:] + along[:-1]) / 2
+    rise = np.zeros_like(along)
+    rise[1:] += steps
+    rise[:-1] -= steps
+    return np.moveaxis(rise, 0, axis)
+
+
+def extrapolate_nodes(nodes: Floats) -> Floats:
     """Extrapolate one more node linearly on either side along each axis."""
-    for axis in range(3):
+    for axis in range(nodes.ndim - 1):
         start, second, before, end = (np.take(nodes, [at], axis=axis) for at in (0, 1, -2, -1))
         nodes = np.concatenate([2 * start - second, nodes, 2 * end - before], axis=axis)
     return nodes
@@ -105,11 +125,12 @@ def _extrapolate(nodes: Floats) -> Floats:
 def spline_slopes(coordinates: Floats) -> Floats:
     """Compute slopes (n, m, k, 3, 3) at the nodes of a spline with coefficients (n + 2, m + 2, k + 2, 3)."""
     values, slopes = (1 / 6, 2 / 3, 1 / 6), (-1 / 2, 0.0, 1 / 2)
-    shape = tuple(count - 2 for count in coordinates.shape[:3])
-    derivatives = np.zeros((*shape, 3, 3))
-    for axis in range(3):
+    shape = tuple(count - 2 for count in coordinates.shape[:-1])
+    dimension = len(shape)
+    derivatives = np.zeros((*shape, dimension, dimension))
+    for axis in range(dimension):
         summed = coordinates
-        for along in range(3):
+        for along in range(dimension):
             weights = slopes if along == axis else values
             at = [np.take(summed, range(start, start + shape[along]), axis=along) for start in range(3)]
             summed = weights[0] * at[0] + weights[1] * at[1] + weights[2] * at[2]
@@ -117,16 +138,32 @@ def spline_slopes(coordinates: Floats) -> Floats:
     return derivatives
 
 
-def wall_density_factor(slopes: Floats) -> Floats:
+def all_directions(dimension: int) -> Floats:
+    """Return directions spread evenly over half a circle, or over half a sphere: (`DIRECTIONS`, dimension)."""
+    count = np.arange(DIRECTIONS)
+    if dimension == 2:
+        angle = np.pi * (count + 0.5) / DIRECTIONS
+        return np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    golden = math.pi * (3 - math.sqrt(5))
+    up = (count + 0.5) / DIRECTIONS
+    flat = np.sqrt(1 - up * up)
+    return np.stack([flat * np.cos(golden * count), flat * np.sin(golden * count), up], axis=-1)
+
+
+def wall_density_factor(slopes: Floats, normals: Floats | None = None) -> Floats:
     """Return the factor of wall area per volume where a pattern's coordinates have slopes (..., 3, 3).
 
-    Walls are assumed to lie in all directions alike: the mean over normals n of |slopesᵀ n|.
+    It is the mean over normals n of |slopesᵀ n|; without normals, walls are assumed to lie in all directions alike. In
+    a plane, with slopes (..., 2, 2), it is that of line per area.
     """
-    golden = math.pi * (3 - math.sqrt(5))
+    directions = all_directions(slopes.shape[-1]) if normals is None else normals
     total = np.zeros(slopes.shape[:-2])
-    for at in range(DIRECTIONS):
-        up = (at + 0.5) / DIRECTIONS
-        flat = math.sqrt(1 - up * up)
-        normal = np.array([flat * math.cos(golden * at), flat * math.sin(golden * at), up])
+    if slopes.shape[-1] == 2:  # |slopesᵀ n|² as a quadratic form of n, whose coefficients are computed once
+        (a, b), (c, d) = np.moveaxis(slopes, (-2, -1), (0, 1))
+        first, mixed, last = a * a + b * b, 2 * (a * c + b * d), c * c + d * d
+        for cosine, sine in directions.tolist():
+            total += np.sqrt(np.maximum(cosine**2 * first + cosine * sine * mixed + sine**2 * last, 0.0))
+        return total / len(directions)
+    for normal in directions:
         total += np.sqrt(((normal @ slopes) ** 2).sum(axis=-1))
-    return total / DIRECTIONS
+    return total / len(directions)

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from infill.errors import ParameterError
 from infill.lattices.branching import BranchLines
-from infill.lattices.density_fields import SKIN
 from infill.lattices.drawn_voids import Prismatic
 from infill.lattices.layered import LayerLines, NonPrismatic
 from infill.lattices.line_sample import follows_outline
@@ -20,6 +19,7 @@ from infill.lattices.request import FillSpec
 from infill.lattices.subdivided import Subdivided
 from infill.lattices.voids import Periodic, VoidPattern
 from infill.options.assignments import ParameterSource, merge_parameters, parse_assignments, parse_values
+from infill.options.density_fields import SKIN
 from infill.options.resolve_pattern import resolve_pattern, with_parameters
 from infill.plain_numbers import plain_argument
 from patterns.cellular import Cells

@@ -13,8 +13,9 @@ from infill.arrays import Floats
 from infill.errors import GeometryError
 from infill.interior.conformal_map import fit_conformal_map, spline_slopes
 from infill.interior.interior import Interior
-from infill.lattices.density_fields import LEAST_SHARE, Field
+from infill.lattices.field_place import LEAST_SHARE, InteriorPlace
 from infill.lattices.region_nodes import SHIFTS, RegionNodes
+from infill.options.density_fields import Field
 from infill.plain_numbers import plain_argument
 from infill.surface import Surface
 from infill.voxels.scanlines import fill_rows, intersect_rows
@@ -130,14 +131,15 @@ class Grading:
         nodes = [step * np.arange(count) for count in counts]
         points = np.stack(np.meshgrid(*nodes, indexing="ij"), axis=-1).reshape(-1, 3)
         places = space.origin + space.size * points
+        part = InteriorPlace(space=space)
         values = np.concatenate(
-            [self.by.at(places[low : low + AT_ONCE], space) for low in range(0, len(places), AT_ONCE)]
+            [self.by.at(places[low : low + AT_ONCE], part) for low in range(0, len(places), AT_ONCE)]
         )
         inside = cells_inside(space, points)
         if not np.isfinite(values[inside]).all():
             raise GeometryError.about("by", f"is {self.name}, which is not finite everywhere in the part; check it")
         drawn, outermost = _sample_cells(space)
-        drawn, outermost = (self.by.at(space.origin + space.size * cells, space) for cells in (drawn, outermost))
+        drawn, outermost = (self.by.at(space.origin + space.size * cells, part) for cells in (drawn, outermost))
         inside_values = np.concatenate([values[inside], drawn, outermost])
         low, high = float(np.nanmin(inside_values)), float(np.nanmax(inside_values))
         if high - low <= 1e-9 * max(abs(low), abs(high), 1e-30):

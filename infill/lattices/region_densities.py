@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from infill.arrays import Floats
 from infill.interior.interior import Interior
-from infill.lattices.density_fields import LEAST_SHARE
+from infill.lattices.field_place import LEAST_SHARE
 from infill.lattices.grading import LocalWidths, interpolate_nodes
 from infill.lattices.region_nodes import SHIFTS, PlacedRegion, label_regions
 from infill.lattices.region_solids import make_region_solid

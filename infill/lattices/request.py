@@ -13,10 +13,10 @@ from infill.checks import check_length, check_positive, check_range, check_whole
 from infill.drawings.tiled import Tiled
 from infill.errors import GeometryError, UsageError
 from infill.interior.opening import Open
-from infill.lattices.density_fields import resolve_field
 from infill.lattices.grading import Grading, Varies
 from infill.lattices.placed_regions import RegionDensities, check_density, place_region
 from infill.lattices.region_nodes import PlacedRegion
+from infill.options.density_fields import resolve_field
 from infill.options.keyword_options import parse_share
 from infill.options.resolve_pattern import Kind, resolve_pattern
 from infill.plain_numbers import plain_argument

@@ -80,7 +80,7 @@ def round_corners(
     offsets: Places,
     *,
     deviation: float | Floats = math.inf,
-    radius: float = math.inf,
+    radius: float | Floats = math.inf,
     machine: Machine | None = None,
     unit: float = 0.0,
 ) -> RoundedPaths:
@@ -94,7 +94,7 @@ def round_corners(
         Where each begins, and N.
     deviation : float or (N,) float64, mm
         How far an arc may lie from the corner.
-    radius : float, mm
+    radius : float or (N,) float64, mm
         Largest radius; an arc also ends at the middle of a leg that two corners share, unless one needs less.
     machine : Machine, optional
         Decides the number of chords.
@@ -119,7 +119,9 @@ def round_corners(
     turn, before, after, lengths = corner_turns(points, corners)
     half = turn / 2
     half_tangent = np.maximum(np.tan(half), 1e-12)
-    full_setback = np.minimum(radius * half_tangent, _take(deviation, corners) / np.maximum(np.tan(turn / 4), 1e-12))
+    full_setback = np.minimum(
+        _take(radius, corners) * half_tangent, _take(deviation, corners) / np.maximum(np.tan(turn / 4), 1e-12)
+    )
     full_setback[(turn > SHARPEST) | (lengths.min(axis=0) == 0)] = 0.0
     setback = _fit_setbacks(full_setback, corners, lengths, half_tangent, count)
     straight = half < 1e-9

@@ -215,7 +215,15 @@ def _draw_joined(
     if isinstance(family, RegionFamily):
         return family.strands_inside(outline.region, spec)
     pieces = clip(family.strands(outline.region.bounds, spec), outline)
-    return join(pieces, outline, line_width=spec.line_width, anchor=anchor, anchor_max=anchor_max, ground=ground)
+    return join(
+        pieces,
+        outline,
+        line_width=spec.line_width,
+        anchor=anchor,
+        anchor_max=anchor_max,
+        ground=ground,
+        least_spacing=family.least_spacing,
+    )
 
 
 def check_cell(cell: float, line_width: float) -> None:

@@ -12,10 +12,9 @@ from numpy.typing import NDArray
 
 from infill.arrays import Floats
 from infill.paths.clipping import Pieces
-from infill.paths.families.family import TOUCH, Path
+from infill.paths.families.family import Path
 from infill.paths.outlines import Numbers, Outline
 
-CLEAR = 0.95  # of the distance of touching beads: beads overlap by at most 5 %
 EXEMPT_LENGTH = 3.5  # line widths along a path within which it may come near itself: joins with corners of 30° and more
 EXEMPT_LENGTH_OF_ANCHOR = 2.0  # an anchor has another way to go, or none
 STEPS = 4  # samples of the outline per line width
@@ -51,8 +50,8 @@ class Gaps:
     backwards: Floats
 
 
-def find_gaps(pieces: Pieces, outline: Outline, line_width: float) -> Gaps:
-    """Find the gaps of all rings, and how far each is clear of paths."""
+def find_gaps(pieces: Pieces, outline: Outline, line_width: float, clear: float) -> Gaps:
+    """Find the gaps of all rings, and how far each is clear of paths, by a distance of `clear` mm."""
     ends = np.flatnonzero(pieces.ring.ravel() >= 0)
     ring, place = pieces.ring.ravel()[ends], pieces.place.ravel()[ends]
     order = np.lexsort((place, ring))
@@ -66,7 +65,7 @@ def find_gaps(pieces: Pieces, outline: Outline, line_width: float) -> Gaps:
     length = place[following] - place if len(ring) else place
     length[closing] += outline.around[ring[closing]]
     forwards, backwards, is_clear = _measure_clearance(
-        pieces, outline, line_width, (ring, place, length, ends, ends[following])
+        pieces, outline, line_width, clear, (ring, place, length, ends, ends[following])
     )
     return Gaps(
         ring=ring,
@@ -85,6 +84,7 @@ def _measure_clearance(
     pieces: Pieces,
     outline: Outline,
     line_width: float,
+    clear: float,
     gaps: tuple[Numbers, Floats, Floats, Numbers, Numbers],
 ) -> tuple[Floats, Floats, NDArray[np.bool_]]:
     """Measure the clear length of gaps from their begin and from their end, mm, and tell which are entirely clear."""
@@ -94,7 +94,7 @@ def _measure_clearance(
     forwards, backwards, is_clear = length.copy(), length.copy(), np.ones(len(length), dtype=bool)
     if not len(length):
         return forwards, backwards, is_clear
-    reach, exempt = CLEAR * TOUCH * line_width, EXEMPT_LENGTH * line_width
+    reach, exempt = clear, EXEMPT_LENGTH * line_width
     step = line_width / STEPS
     count = np.maximum(1, np.ceil(length / step).astype(np.intp))
     gap = np.repeat(np.arange(len(length)), count)

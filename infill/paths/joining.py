@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.paths.clipping import Pieces
-from infill.paths.families.family import TOUCH, Path
-from infill.paths.gaps import CLEAR, Gaps, find_gaps
+from infill.paths.families.family import CLEAR, TOUCH, Path
+from infill.paths.gaps import Gaps, find_gaps
 from infill.paths.layer_below import LayerBelow
 from infill.paths.outlines import Outline
 from infill.paths.pairing import choose_gaps
@@ -31,6 +31,7 @@ def join(
     anchor: float,
     anchor_max: float,
     ground: LayerBelow | None = None,
+    least_spacing: float = CLEAR * TOUCH,
 ) -> list[Path]:
     """Join paths along the outline.
 
@@ -47,16 +48,19 @@ def join(
         Length of the outline along which two ends are joined, mm, at most; the shortest are joined first.
     ground : LayerBelow, optional
         The layer below: where the outline lies on it, ends are joined before all others, and anchored.
+    least_spacing : float
+        Line widths that a walked stretch keeps from other lines.
 
     Returns
     -------
     list of (N, 2) float64, mm
         Joining closes a path only where its ends would overlap. Paths shorter than two line widths are dropped.
     """
-    gaps = find_gaps(pieces, outline, line_width)
-    apart = TOUCH * line_width
+    clear = least_spacing * line_width
+    gaps = find_gaps(pieces, outline, line_width, clear)
+    apart = max(TOUCH * line_width, clear)
     is_supported = None if ground is None else _supported_gaps(gaps, outline, ground)
-    walked = choose_gaps(gaps, len(pieces.paths), most=anchor_max, overlapping=CLEAR * apart, held=is_supported)
+    walked = choose_gaps(gaps, len(pieces.paths), most=anchor_max, overlapping=clear, held=is_supported)
     link: dict[int, tuple[int, Path]] = {}
     for gap in np.flatnonzero(walked).tolist():
         begin, end, place = int(gaps.begin[gap]), int(gaps.end[gap]), float(gaps.place[gap])

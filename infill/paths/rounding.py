@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from infill.arrays import Floats, Places
 from infill.paths.corner_offset import CornerFreedom, corner_freedom, offset_corners
-from infill.paths.corners import COARSEST, SHORTEST_CHORD, UNIT, Machine, RoundedPaths, round_corners
+from infill.paths.corners import COARSEST, SHORTEST_CHORD, UNIT, Machine, RoundedPaths, corner_turns, round_corners
 from infill.paths.curves import MOST_BULGE, RecutPaths, recut_curves
 from infill.paths.neighbours import BESIDE, TOWARDS_LIMIT, BeadIndex, deviation_beside_beads
 from infill.paths.short_segments import merge_short_segments
@@ -81,6 +82,8 @@ class PathCorners:
         Corners that may move outwards.
     limit : (K,) float64, mm, optional
         Limit of the move at each point of `curves`, whatever the rounding.
+    radii : (K,) float64, mm, optional
+        Limit of the radius at each of them.
     """
 
     curves: RecutPaths
@@ -94,6 +97,7 @@ class PathCorners:
     line_width: float
     room: CornerFreedom | None = None
     limit: Floats | None = None
+    radii: Floats | None = None
 
     def rounded(self, rounding: Rounding) -> RoundedPaths:
         """Return the paths with round corners."""
@@ -115,9 +119,8 @@ class PathCorners:
             room_limit = np.minimum(rounding.deviation, limit[self.room.corner])
             points, room_deviation = offset_corners(points, self.room, deviation=room_limit, radius=rounding.radius)
             deviation[self.room.corner] = room_deviation
-        result = round_corners(
-            points, offsets, deviation=deviation, radius=rounding.radius, machine=self.machine, unit=UNIT
-        )
+        largest = rounding.radius if self.radii is None else np.minimum(self.radii, rounding.radius)
+        result = round_corners(points, offsets, deviation=deviation, radius=largest, machine=self.machine, unit=UNIT)
         radius = np.full(self.old, np.inf)
         corners = np.flatnonzero(~self.curves.curved)
         radius[self.curves.source[corners]] = result.radius[corners]
@@ -142,6 +145,8 @@ def find_corners(
     wide: bool = False,
     limit: Floats | None = None,
     keep_touch: bool = False,
+    radii: Floats | None = None,
+    recut: bool = True,
 ) -> PathCorners:
     """Recut the curves of some paths, and find their corners.
 
@@ -169,6 +174,10 @@ def find_corners(
         Limit of the move of each path.
     keep_touch : bool
         Keep the length that touches walls: see `infill.paths.touch`.
+    radii : (N,) float64, mm, optional
+        Limit of the radius at each point.
+    recut : bool
+        Recut curves; otherwise all turns are corners.
     """
 
     def machine(begins: Places) -> Machine:
@@ -183,25 +192,23 @@ def find_corners(
 
     layer_of = np.repeat(layer, np.diff(offsets))
     distance = walls.near(points, layer_of, BESIDE * line_width)
-    bulge = np.where(np.isfinite(distance), TOWARDS_LIMIT, MOST_BULGE)
-    if hard is not None:
-        bulge[hard] = 0.0
+    hard = np.zeros(len(points), dtype=bool) if hard is None else hard
+    bulge = np.where(np.isfinite(distance), TOWARDS_LIMIT, MOST_BULGE) if recut else np.zeros(len(points))
+    bulge[hard] = 0.0
     curves = recut_curves(points, offsets, machine(offsets), bulge)
     inner = ~curves.curved
     inner[curves.first[:-1]] = inner[curves.first[1:] - 1] = False
-    corners = np.flatnonzero(inner)
-    if hard is not None:
-        corners = corners[~hard[curves.source[corners]]]
+    corners = np.flatnonzero(inner & ~hard[curves.source])
     is_beside = np.isfinite(distance[curves.source[corners]])
-    beside_walls, room = corners[is_beside], None
+    beside_walls = corners[is_beside]
     layers = layer_of[curves.source]
     point_limit = None if limit is None else np.repeat(limit, np.diff(curves.first))
     if keep_touch:
         point_limit = np.full(len(curves.points), np.inf) if point_limit is None else point_limit
         touch = touch_preserving_deviations(curves.points, curves.first, corners, layers, walls, line_width=line_width)
         point_limit[corners] = np.minimum(point_limit[corners], touch)
-    if wide:
-        room = corner_freedom(curves.points, curves.first, corners[~is_beside], layers, walls, line_width=line_width)
+    open_corners = corners[~is_beside]
+    freedom = partial(corner_freedom, curves.points, curves.first, open_corners, layers, walls, line_width=line_width)
     return PathCorners(
         curves=curves,
         old=len(points),
@@ -212,9 +219,19 @@ def find_corners(
         layer=layer_of[curves.source[beside_walls]],
         walls=walls,
         line_width=line_width,
-        room=room,
+        room=freedom() if wide else None,
         limit=point_limit,
+        radii=None if radii is None else radii[curves.source],
     )
+
+
+def _slight_turns(points: Floats, offsets: Places, least: float) -> NDArray[np.bool_]:
+    """Find the points inside paths where these turn by less than `least` radians: (N,)."""
+    slight = np.ones(len(points), dtype=bool)
+    slight[offsets[:-1]] = slight[offsets[1:] - 1] = False
+    inner = np.flatnonzero(slight)
+    slight[inner] = corner_turns(points, inner)[0] < least
+    return slight
 
 
 def round_paths(
@@ -227,11 +244,20 @@ def round_paths(
     line_width: float,
     hard: NDArray[np.bool_] | None = None,
     wide: bool = False,
+    radii: Floats | None = None,
+    kept_turn: float = 0.0,
 ) -> tuple[list[Floats], Floats]:
-    """Round the corners of paths of layer 0; return the paths and the radii of their arcs, mm."""
+    """Round the corners of paths of layer 0; return the paths and the radii of their arcs, mm.
+
+    The arguments are those of `find_corners`. With `kept_turn`, radians, no curves are recut, and points where a path
+    turns by less stay as they are.
+    """
     if not len(paths):
         return [], np.empty(0)
     points, offsets = concatenate_rows(paths)
+    if kept_turn:
+        slight = _slight_turns(points, offsets, kept_turn)
+        hard = slight if hard is None else hard | slight
     corners = find_corners(
         points,
         offsets,
@@ -245,6 +271,8 @@ def round_paths(
         coarsest=rounding.coarsest,
         hard=hard,
         wide=wide,
+        radii=radii,
+        recut=not kept_turn,
     )
     result = merge_short_segments(corners.rounded(rounding), float(rounding.shortest_segments(np.array(speed))))
     return split_rows(result.points, result.first), result.radius

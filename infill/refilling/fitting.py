@@ -28,9 +28,6 @@ Paths = list[Floats]
 REGION_TOLERANCE = 0.01  # mm that a path may leave its region
 ROUNDING_TRIES = 3  # rounds of rounding until all paths stay inside
 SHARP_RADIUS = 1.5  # mm from the place where a path leaves its region to the corners that cause it
-LENGTH_TOLERANCE = (
-    0.08  # relative error of the length in an area, more than beads can make up for, before it gets its own cell
-)
 COLUMN_TOLERANCE = 0.25  # the same before a column changes its cell, so that its layers no longer lie on one another
 TRIES = 4
 SEARCH_TOLERANCE = 0.02  # relative error of the length that ends the search
@@ -66,7 +63,7 @@ class Column:
         return self.density * float(self.area.area)
 
 
-def continue_column(area: Polygon, length: float, plan: RefillPlan, below: Sequence[Column]) -> Column:
+def continue_column(area: Polygon, length: float, plan: RefillPlan, below: Sequence[Column], z: float) -> Column:
     """Continue the column below an area, or begin a new one.
 
     Parameters
@@ -77,8 +74,8 @@ def continue_column(area: Polygon, length: float, plan: RefillPlan, below: Seque
     plan : RefillPlan
     below : sequence of Column
         Of the layer below.
+    z : float, mm
     """
-    density = length / area.area if plan.density is None else plan.density
     best, largest_overlap = None, 0.0
     for candidate in below:
         if candidate.area is area:
@@ -88,8 +85,12 @@ def continue_column(area: Polygon, length: float, plan: RefillPlan, below: Seque
             overlap = candidate.area.intersection(area).area
             if overlap > max(largest_overlap, area.area / 2):
                 best, largest_overlap = candidate, overlap
+    requested = plan.density_in(area, z if plan.height is None else plan.height)
+    density = length / area.area if requested is None else requested
     if best is None:
         return Column(area=area, cell=plan.cell, density=density, fresh=True)
+    if plan.graded is not None:
+        return Column(area=area, cell=best.cell, density=density, fresh=False)
     return Column(
         area=area, cell=best.cell, density=(1 - NEWEST_WEIGHT) * best.density + NEWEST_WEIGHT * density, fresh=False
     )
@@ -151,25 +152,26 @@ def fit_paths(column: Column, setting: AreaSetting) -> FittedPaths:
     target = column.length
     best = _cover_smoothly(column.area, column.cell, setting)
     # A pattern that varies with the height has one cell everywhere, or its layers would not fit one another.
-    if setting.plan.fixed or not setting.plan.family.prismatic or target <= LEAST_LENGTH:
+    plan = setting.plan
+    if not plan.has_own_cells or target <= LEAST_LENGTH:
         return best
     error = best.length / target - 1
-    if abs(error) <= (LENGTH_TOLERANCE if column.fresh else COLUMN_TOLERANCE):
+    if abs(error) <= (plan.tolerance if column.fresh else COLUMN_TOLERANCE):
         return best
     nearby_cells, cell = (
-        _nearby_cells(column, setting.plan) if target < SMALL_LENGTH or column.fresh else np.empty(0),
+        _nearby_cells(column, plan) if target < SMALL_LENGTH or column.fresh else np.empty(0),
         column.cell,
     )
     for attempt in range(TRIES + len(nearby_cells)):
-        if attempt >= TRIES and target >= SMALL_LENGTH and abs(best.length / target - 1) <= LENGTH_TOLERANCE:
+        if attempt >= TRIES and target >= SMALL_LENGTH and abs(best.length / target - 1) <= plan.tolerance:
             break
         cell = cell * float(np.clip(1 + error, 0.6, 1.6)) if attempt < TRIES else float(nearby_cells[attempt - TRIES])
-        cell = max(cell, TOUCH * setting.plan.line_width)
+        cell = max(cell, TOUCH * plan.line_width)
         candidate = _cover_smoothly(column.area, cell, setting)
         error = candidate.length / target - 1
         if abs(error) < abs(best.length / target - 1):
             best = candidate
-        if abs(error) < SEARCH_TOLERANCE:
+        if abs(error) < min(SEARCH_TOLERANCE, plan.tolerance):
             break
     return best
 
@@ -208,6 +210,7 @@ def _cover_smoothly(area: Polygon, cell: float, setting: AreaSetting) -> FittedP
     )
     corners = np.concatenate(strands)
     hard = np.zeros(len(corners), dtype=bool)
+    largest_radii = plan.radii_at(strands, cell)
     for _ in range(ROUNDING_TRIES):
         smooth_paths, radii = round_paths(
             strands,
@@ -218,6 +221,8 @@ def _cover_smoothly(area: Polygon, cell: float, setting: AreaSetting) -> FittedP
             line_width=plan.line_width,
             hard=hard,
             wide=plan.family.wide,
+            radii=largest_radii,
+            kept_turn=plan.kept_turn,
         )
         lines = np.array([shapely.linestrings(path) for path in smooth_paths])
         inside = shapely.covers(tolerance_area, lines)

@@ -31,11 +31,16 @@ from infill.pictures.picturable import Picturable
 from infill.refilling.request import AUTO, ENDLESS, KEEP, Progress, Request, describe_objects
 from infill.version import __version__
 
+SET_ONCE_CHECKED = ("lines", "gradient")  # fields of a request
+
 if TYPE_CHECKING:
     from PIL import Image
 
     from infill.gcode.survey import Survey
+    from infill.paths.families.family import Family
     from infill.planner.print_clock import PrintTime
+    from infill.refilling.layers import Layers
+    from infill.refilling.planning import RefillPlan
     from infill.refilling.rules import RefillRules
     from infill.refilling.stats import PrintAmounts, RefillStats
     from infill.reports.refilling import RefillReport
@@ -94,7 +99,8 @@ def refill(
     *,
     output: str | os.PathLike[str] | None = None,
     pattern: object = KEEP,
-    density: str | float | None = None,
+    density: str | float | tuple[float, float] | None = None,
+    by: object = None,
     smooth_radius: str | float = AUTO,
     max_deviation: float | None = None,
     max_segments: str | float = AUTO,
@@ -124,10 +130,15 @@ def refill(
         filament, else "keep". Or the name of a pattern that offers paths, lines or a level
         set, see `patterns.offers`; the path of a drawing: .svg .dxf .wkt .png; "module.py:name"; or a pattern itself,
         such as `patterns.Gyroid(cell=6)`.
-    density : "same" or float, optional
+    density : "same", float or two floats, optional
         With "keep", "same" widens beads by up to 8 % to make up for shorter paths; without it, the filament per mm
-        stays. With a pattern, a number above 0 and up to 1 is the share of the volume; else every section keeps its
-        amount of filament.
+        stays. With a pattern, a number above 0 and up to 1 is the share of the volume, and two such numbers one that
+        changes from place to place; else every section keeps its amount of filament.
+    by : str, Path, array or callable, optional
+        What a density of two numbers follows, from the first where it is lowest to the second where it is highest: "x",
+        "y" or "z", along the infill; "skin", the distance from walls, roofs and floors; "roofs", that from the roof
+        above; a file: a .csv of x, y, z on the bed and a value, a .npy of three axes over the box around the infill, or
+        a picture of it seen from above; "module.py:name"; such an array; or a function of points (N, 3), mm on the bed.
     smooth_radius : "auto" or float
         Largest radius of a corner, mm. "auto": as large as support and contact allow. 0 leaves corners.
     max_deviation : float, optional
@@ -175,6 +186,7 @@ def refill(
         gcode = list(gcode)
     options: dict[str, Any] = {
         "density": density,
+        "by": by,
         "smooth_radius": smooth_radius,
         "max_deviation": max_deviation,
         "max_segments": max_segments,
@@ -280,7 +292,7 @@ def _check_paths_remain(request: Request, parts: Sequence[_Draft]) -> None:
     if any(part.tally is not None or part.is_same for part in parts):
         return
     plain = Request(pattern=KEEP)
-    options = ("density", "smooth_radius", "max_deviation", "max_segments", "arcs", "layers", "part")
+    options = ("density", "by", "smooth_radius", "max_deviation", "max_segments", "arcs", "layers", "part")
     changed = tuple(name for name in options if getattr(request, name) != getattr(plain, name))
     if changed:
         raise UsageError.about(
@@ -373,7 +385,6 @@ def _refill_text(sliced: SlicedText, draft: BinaryIO, request: Request, progress
     from infill.refilling.drafting import Drafting
     from infill.refilling.layers import sample_layers
     from infill.refilling.placement import family_of
-    from infill.refilling.planning import plan_refill
     from infill.refilling.report import loses_filament
     from infill.refilling.rules import derive_rules
     from infill.refilling.support import largest_deviation
@@ -390,10 +401,7 @@ def _refill_text(sliced: SlicedText, draft: BinaryIO, request: Request, progress
     rules = derive_rules(request, print_survey, samples)
     plan = None
     if family is not None:
-        share = None if isinstance(request.density, str | None) else float(request.density)
-        plan = plan_refill(
-            family, samples, rules.rounding, density=share, acceleration=rules.acceleration, cell=request.cell
-        )
+        plan = _plan_pattern(request, family, samples, rules, sliced, print_survey)
         rules = rules if plan is not None else rules.rounded_by(0.0)
     elif request.smooth_radius == AUTO and samples:
         rules = rules.rounded_by(largest_deviation(samples, rules.rounding, rules.acceleration))
@@ -426,6 +434,35 @@ def _refill_text(sliced: SlicedText, draft: BinaryIO, request: Request, progress
         remedy=remedy,
         edits=tuple(sorted(edits)),
         metadata=new.metadata,
+    )
+
+
+def _plan_pattern(
+    request: Request,
+    family: Family,
+    samples: Sequence[Layers],
+    rules: RefillRules,
+    sliced: SlicedText,
+    print_survey: Survey,
+) -> RefillPlan | None:
+    """Plan a refill with a pattern; None without infill. A density that changes takes a pass over the print."""
+    from infill.refilling.gradients import measure_gradient
+    from infill.refilling.planning import plan_refill
+    from infill.refilling.print_place import look_at_infill
+
+    graded, density = None, request.density
+    if request.gradient is not None and samples:
+        place = look_at_infill(sliced.text, print_survey.begin, print_survey.layers)
+        graded = None if place is None else measure_gradient(request.gradient, place)
+        density = request.gradient.middle
+    return plan_refill(
+        family,
+        samples,
+        rules.rounding,
+        density=float(density) if isinstance(density, float | int) else None,
+        acceleration=rules.acceleration,
+        cell=request.cell,
+        graded=graded,
     )
 
 
@@ -465,7 +502,11 @@ def _print_amounts(time: PrintTime, stated: StatedAmounts, used: float, print_su
 
 def _options_mark(request: Request) -> bytes:
     """Return the pattern of a request, and a checksum of all its options, which the stamp holds."""
-    chosen = {item.name: getattr(request, item.name) for item in fields(request) if item.name != "lines"}
+    chosen = {item.name: getattr(request, item.name) for item in fields(request) if item.name not in SET_ONCE_CHECKED}
+    if request.gradient is None:
+        del chosen["by"]  # as before there were gradients
+    else:
+        chosen["by"] = request.by, request.gradient.checksum
     numbers = {name: value + 0.0 if isinstance(value, int) else value for name, value in request.parameters.items()}
     chosen["parameters"] = sorted(numbers.items())
     return f"{request.pattern} {zlib.crc32(repr(sorted(chosen.items())).encode()):08x}".encode()

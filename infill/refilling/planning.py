@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
@@ -13,16 +14,22 @@ from infill.paths.covering import check_cell, solve_cell, total_length
 from infill.paths.families.family import TOUCH, CentredFamily, Family
 from infill.paths.neighbours import index_beads
 from infill.paths.rounding import Rounding, round_paths
+from infill.paths.stretching import SteppedFamily, StretchedFamily
 from infill.refilling.even_layers import LayerShares
+from infill.refilling.gradients import GradedDensity, stretch_to_density
 from infill.refilling.layers import Layers
 from infill.refilling.regions import FreeAreas
 
 if TYPE_CHECKING:
-    from shapely import MultiPolygon
+    from shapely import MultiPolygon, Polygon
 
 
 USUAL_SPEED = 80.0  # mm/s, for lengths: it only decides how finely arcs are cut
 LARGEST_RADIUS = 1000.0  # mm, for an unlimited radius
+STRETCHED_TURN = math.radians(12)  # corners of waves turn by more, however they are stretched; divided legs by less
+LENGTH_TOLERANCE = 0.08  # relative error of the length in an area, about as much as beads can make up for
+GRADED_TOLERANCE = 0.01  # the same for a density that changes, as beads make up for its change within a step
+STEPPED_LAYERS = 8  # in which the cell of a family is solved for that changes in steps, at most
 USUAL_HEIGHT = 0.2  # mm of a layer, where no tag gives it
 
 
@@ -40,6 +47,10 @@ class RefillPlan:
         Requested mm of line per mm²; else every section keeps its filament.
     fixed : bool
         True for a requested cell: it is the same everywhere, and decides the filament.
+    graded : GradedDensity, optional
+        A share of the volume that changes from place to place; `density` is that of the middle then.
+    height : float, mm, optional
+        Of the middle of a step, if cells change in steps of height.
     even : LayerShares, optional
         More or less filament, or more time, for the infill of single layers.
     """
@@ -50,6 +61,8 @@ class RefillPlan:
     rounding: Rounding
     density: float | None
     fixed: bool = False
+    graded: GradedDensity | None = None
+    height: float | None = None
     even: LayerShares | None = None
 
     def with_cell(self, cell: float) -> RefillPlan:
@@ -65,6 +78,46 @@ class RefillPlan:
         """Return the rounding of corners for a cell, mm."""
         return replace(self.rounding, radius=min(self.radius, self.family.largest_radius(cell, self.line_width)))
 
+    def radii_at(self, paths: Sequence[Floats], cell: float) -> Floats | None:
+        """Return the largest radius of corners at all points of some paths, mm; None if it is the same everywhere."""
+        if not isinstance(self.family, StretchedFamily) or not paths:
+            return None
+        return self.family.radii_at(np.concatenate(paths), cell, self.line_width)
+
+    @property
+    def kept_turn(self) -> float:
+        """The turn, in radians, below which no point is one of the pattern's corners; 0 for lines other than waves."""
+        is_waves = isinstance(self.family, StretchedFamily) and self.family.family.touches
+        return STRETCHED_TURN if is_waves else 0.0
+
+    def at(self, z: float) -> RefillPlan:
+        """Return the plan for a height, mm: of a family that changes in steps, the one there."""
+        if not isinstance(self.family, SteppedFamily):
+            return self
+        return replace(self, family=self.family.at(z), height=self.family.middle_of(z))
+
+    def length_in(self, areas: Sequence[Polygon], z: float) -> float:
+        """Return the requested mm of line in areas at a height, if a density was requested."""
+        if self.graded is None:
+            return (self.density or 0.0) * float(sum(area.area for area in areas))
+        return sum((self.density_in(area, z) or 0.0) * float(area.area) for area in areas)
+
+    @property
+    def tolerance(self) -> float:
+        """The relative error of the length in an area before it gets a cell of its own."""
+        return LENGTH_TOLERANCE if self.graded is None else GRADED_TOLERANCE
+
+    @property
+    def has_own_cells(self) -> bool:
+        """True if areas may have cells of their own: in other patterns, layers would not fit one another."""
+        return not self.fixed and self.family.prismatic
+
+    def density_in(self, area: Polygon, z: float) -> float | None:
+        """Return the requested mm of line per mm² in an area at a height; None if sections keep their filament."""
+        if self.graded is None or self.density is None:
+            return self.density
+        return self.density * self.graded.mean(area, z) / self.graded.gradient.middle
+
 
 def plan_refill(
     family: Family,
@@ -74,6 +127,7 @@ def plan_refill(
     density: float | None,
     acceleration: float,
     cell: float | None = None,
+    graded: GradedDensity | None = None,
 ) -> RefillPlan | None:
     """Choose the cell so that the sampled layers take the requested filament; None without infill.
 
@@ -88,11 +142,13 @@ def plan_refill(
         Where the print commands none.
     cell : float, optional
         mm; overrides the filament.
+    graded : GradedDensity, optional
+        A density that changes from place to place; `density` is its middle.
     """
     import shapely
 
     regions: list[tuple[MultiPolygon, float, int]] = []
-    walls, length, width, spacing = [], 0.0, 0.0, 1.0
+    walls, lengths, width, spacing = [], list[float](), 0.0, 1.0
     region: FreeAreas | None = None
     visited: set[tuple[float, bytes]] = set()
     area = shapely.MultiPolygon()
@@ -110,19 +166,22 @@ def plan_refill(
             area = shapely.MultiPolygon(list(region.polygons))
         regions.append((area, layer.z, layer.number))
         spacing = _spacing(width, layer.height)
-        length += layer.length if density is None else density * area.area / spacing
+        if graded is not None:
+            lengths.append(sum(graded.mean(part, layer.z) * part.area for part in region.polygons) / spacing)
+        else:
+            lengths.append(layer.length if density is None else density * area.area / spacing)
     if not regions:
         return None
-    if isinstance(family, CentredFamily) and family.middle is None:  # one centre for the whole print
-        boxes = np.array([area.bounds for area, _, _ in regions])
-        low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
-        family = replace(family, middle=tuple(((low + high) / 2).tolist()))
+    family = _centre_family(family, [area for area, _, _ in regions])
+    if graded is not None:
+        family = stretch_to_density(family, graded, width)
     plan = RefillPlan(
         family=family,
         cell=1.0,
         line_width=width,
         rounding=rounding,
         density=None if density is None else density / spacing,
+        graded=graded,
     )
     if cell is not None:
         check_cell(cell, width)
@@ -131,19 +190,34 @@ def plan_refill(
     everywhere = index_beads(np.concatenate(walls))
 
     def measure(paths: Sequence[Floats], cell: float) -> float:
+        strands = [path for path in paths if len(path) > 1]
         smooth_paths, _ = round_paths(
-            [path for path in paths if len(path) > 1],
+            strands,
             walls=everywhere,
             acceleration=acceleration,
             speed=USUAL_SPEED,
             rounding=plan.rounding_of(cell),
             line_width=width,
             wide=family.wide,
+            radii=plan.radii_at(strands, cell),
+            kept_turn=plan.kept_turn,
         )
         return total_length(smooth_paths)
 
-    solved = solve_cell(regions, family, length, line_width=width, radius=plan.radius, measure=measure)
+    # Areas get cells of their own on every step, so that a few layers are enough there.
+    few = slice(None, None, -(-len(regions) // STEPPED_LAYERS) if isinstance(family, SteppedFamily) else 1)
+    length = sum(lengths[few])
+    solved = solve_cell(regions[few], family, length, line_width=width, radius=plan.radius, measure=measure)
     return replace(plan, cell=solved.cell)
+
+
+def _centre_family(family: Family, areas: Sequence[MultiPolygon]) -> Family:
+    """Return the family about one middle for the entire print, unless it has one."""
+    if not isinstance(family, CentredFamily) or family.middle is not None:
+        return family
+    boxes = np.array([area.bounds for area in areas])
+    low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
+    return replace(family, middle=tuple(((low + high) / 2).tolist()))
 
 
 def _spacing(width: float, height: float) -> float:

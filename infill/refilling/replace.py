@@ -15,13 +15,13 @@ from infill.gcode.section_text import TravelSettings, measure_travel, redraw_sec
 from infill.kernels.threads import in_order
 from infill.paths.corners import UNIT
 from infill.paths.covering import total_length
+from infill.paths.families.family import Family
 from infill.paths.layer_below import LayerBelow, index_layer_below
 from infill.paths.neighbours import BeadIndex
 from infill.planner.print_clock import path_seconds
 from infill.ragged import concatenate_rows, split_rows
 from infill.refilling.even_layers import LEAST_WIDTH, MOST_WIDTH, LayerShares
 from infill.refilling.fitting import (
-    LENGTH_TOLERANCE,
     REGION_TOLERANCE,
     AreaSetting,
     Column,
@@ -30,7 +30,7 @@ from infill.refilling.fitting import (
     fit_paths,
 )
 from infill.refilling.layers import LEAST_SPEED, Layer, LayerPaths, Layers
-from infill.refilling.planning import RefillPlan
+from infill.refilling.planning import LENGTH_TOLERANCE, RefillPlan
 from infill.refilling.regions import NO_REGION, FreeAreas, LayerBeads
 from infill.refilling.rules import RefillRules, may_be_slowed, unchangeable_strokes
 from infill.refilling.sharing import SectionGroup, group_sections
@@ -65,6 +65,8 @@ class LayerMemory:
         The layer below the one in which the region began, for a pattern that repeats in every layer.
     owed : float
         mm of filament still missing after beads are widened as far as allowed.
+    family : Family, optional
+        Of the paths drawn.
     fitted : int
         The last layer in which columns chose new cells, to make up for `owed`.
     """
@@ -76,18 +78,22 @@ class LayerMemory:
     ground: LayerBelow | None = None
     others: BeadIndex | None = None
     owed: float = 0.0
+    family: Family | None = None
     fitted: int = -AGAIN_AFTER
 
     def enter(self, region: FreeAreas, others: BeadIndex, plan: RefillPlan) -> None:
         """Go on to a layer with this region and these other beads."""
-        if region is not self.region:
+        changed = region is not self.region or plan.family is not self.family
+        if plan.family is not self.family:  # every column begins anew
+            self.columns = []
+        if changed:
             self.ground = None
             if self.others is not None and plan.family.prismatic:
                 below = [path for fitted in self.drawn.values() for path in fitted.paths]
                 self.ground = index_layer_below(below, self.others, plan.line_width)
-        if region is not self.region or not plan.family.prismatic:
+        if changed or not plan.family.prismatic:
             self.drawn.clear()
-        self.region, self.others = region, others
+        self.region, self.others, self.family = region, others, plan.family
 
     def settle_debt(self, layer: int, filament: float) -> None:
         """Let the columns that are far off choose new cells, if much filament of a layer is owed, mm."""
@@ -294,7 +300,8 @@ def draw_sections(
     new: list[NewSection] = []
     # Regions do not depend on the drawing: another thread searches the next one meanwhile.
     for layer, (region, beads) in in_order(_region_finder(memory.region), layers, threads=1):
-        memory.enter(region, beads.all, plan)
+        layer_plan = plan.at(layer.z)
+        memory.enter(region, beads.all, layer_plan)
         groups = group_sections(layer, region)
         layer_bodies = {body.section: body for body in bodies if body.layer == layer.number}
         lengths: dict[int, float] = {}  # mm of the slicer's infill, by area
@@ -302,7 +309,7 @@ def draw_sections(
             for area, length in group.lengths.items():
                 lengths[area] = lengths.get(area, 0.0) + length
         memory.columns = [
-            continue_column(polygon, lengths.get(area, 0.0), plan, memory.columns)
+            continue_column(polygon, lengths.get(area, 0.0), layer_plan, memory.columns, layer.z)
             for area, polygon in enumerate(region.polygons)
         ]
         memory.settle_debt(layer.number, sum(body.filament for body in layer_bodies.values()))
@@ -310,7 +317,7 @@ def draw_sections(
             members = [layer_bodies[member] for member in group.areas if member in layer_bodies]
             reason = group.refusal_reason(members)
             if not reason:
-                filled = _fill_group(group, members, region, plan, memory, commanded)
+                filled = _fill_group(group, members, region, layer_plan, memory, commanded)
                 new += filled
                 reason = "" if filled else "no path fits"
             if reason:
@@ -372,7 +379,7 @@ def _fill_group(
     elif plan.density is None:
         target = sum(body.filament for body in members)
     else:
-        target = members[0].rate * plan.density * sum(area.area for area in areas)
+        target = members[0].rate * plan.length_in(areas, members[0].z)
     target += memory.owed
     factor = float(np.clip(target / filament, LEAST_WIDTH, MOST_WIDTH))
     memory.owed = target - factor * filament

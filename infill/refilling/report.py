@@ -50,7 +50,9 @@ def refill_report(
         "request": {
             "pattern": request.pattern,
             "parameters": facts(request.pattern, request.parameters, request.lines),
-            "density": request.density,
+            "density": None if isinstance(request.density, tuple) else request.density,
+            "densities": None if request.gradient is None else [request.gradient.first, request.gradient.last],
+            "by": request.by,
             "smooth_radius_mm": request.smooth_radius,
             "max_deviation_mm": request.max_deviation,
             "arcs": request.arcs,

@@ -69,6 +69,18 @@ def parse_share_or_same(name: str, value: object) -> str | float:
     return SAME if value == SAME else parse_share(name, value, "give same, or a share such as 20%")
 
 
+def parse_densities(name: str, value: object) -> str | float | tuple[float, ...]:
+    """Parse "same", a share, or two shares with a colon between, or raise ParameterError.
+
+    >>> parse_densities("density", "40%:12%"), parse_densities("density", [0.4, 0.12]), parse_densities("density", 0.2)
+    ((0.4, 0.12), (0.4, 0.12), 0.2)
+    """
+    parts = value.split(":") if isinstance(value, str) else value if isinstance(value, (list, tuple)) else [value]
+    if len(parts) == 1:
+        return parse_share_or_same(name, parts[0])
+    return tuple(parse_share(name, part, "give a share such as 20%, or two such as 40%:12%") for part in parts)
+
+
 def parse_leeway(name: str, value: object) -> float:
     """Parse the share in ``10%`` or 0.1, or raise ParameterError.
 
@@ -117,9 +129,11 @@ class Request:
     ----------
     pattern : str, Path, Pattern or Cells
         "keep" for the slicer's own paths, or a pattern as `resolve_paths` takes it. Once checked, its name.
-    density : None, "same" or float
+    density : None, "same", float or tuple of float
         None: the slicer's filament per mm with its own paths, its filament with others. "same": its filament.
-        A number above 0 and up to 1: the share of the volume.
+        A number above 0 and up to 1: the share of the volume. Two: where `by` is lowest, and where it is highest.
+    by : object
+        The field that a density with two numbers follows, as `resolve_field` takes it. Once checked, its name.
     smooth_radius : "auto" or float
         mm; 0 leaves corners as they are.
     max_deviation : float, optional
@@ -140,6 +154,8 @@ class Request:
         Of the pattern, by name; angles in degrees. Once checked, with those that the pattern was made with.
     lines : Pattern or class of patterns, optional
         Set once checked: the pattern, if paths are to follow its lines.
+    gradient : Gradient, optional
+        Set once checked: the density that changes.
 
     Raises
     ------
@@ -161,15 +177,25 @@ class Request:
         ),
     ] = KEEP
     density: Annotated[
-        str | float | None,
+        str | float | tuple[float, ...] | None,
         Option(
             "same: the filament that the infill took; with keep, by beads up to 8 % wider. 20%: of the volume, "
-            "for a built-in pattern.",
+            "for a built-in pattern; 40%:12%: one that changes, see --by.",
             PATHS,
-            unit="same|PERCENT",
+            unit="same|PERCENT|A:B",
             default="the slicer's filament per mm for keep, else same",
-            read=parse_share_or_same,
+            read=parse_densities,
             typed=str,
+        ),
+    ] = None
+    by: Annotated[
+        str | None,
+        Option(
+            "What a density of two numbers follows, from its first to its second: x, y or z, along the infill; skin, "
+            "from walls, roofs and floors inwards; roofs, from these downwards; or a field: a .csv of x, y, z, value, "
+            "a .npy, a picture from above, or module.py:name.",
+            PATHS,
+            unit="FIELD",
         ),
     ] = None
     smooth_radius: Annotated[
@@ -252,10 +278,11 @@ class Request:
     ] = None
     parameters: Mapping[str, Any] = field(default_factory=dict)
     lines: Any = field(default=None, init=False)
+    gradient: Any = field(default=None, init=False)
 
     def __post_init__(self) -> None:
         if self.density is not None:
-            object.__setattr__(self, "density", parse_share_or_same("density", self.density))
+            object.__setattr__(self, "density", parse_densities("density", self.density))
         if isinstance(self.smooth_radius, str):
             if self.smooth_radius != AUTO:
                 raise UsageError.about("smooth_radius", f"is {self.smooth_radius!r}; give 'auto', or a number in mm")
@@ -279,7 +306,7 @@ class Request:
             )
         if self.pattern != KEEP:
             self._resolve_pattern()
-        if self.pattern == KEEP and isinstance(self.density, int | float):
+        if self.pattern == KEEP and isinstance(self.density, int | float | tuple):
             raise UsageError.about(
                 "density",
                 "only works with --pattern NAME; to change the slicer's own infill, set the density in the slicer",
@@ -293,6 +320,32 @@ class Request:
                 raise ParameterError.like(error) from None
             if self.cell is not None and self.density is not None:
                 raise UsageError.about(("density", "cell"), "are both given, and each decides the other; leave one out")
+
+        if isinstance(self.density, tuple):
+            self._check_gradient(self.density)
+        elif self.by is not None:
+            raise UsageError.about(
+                "by", "is given without two densities; give these too, such as 40%:12%, or leave it out"
+            )
+
+    def _check_gradient(self, densities: tuple[float, ...]) -> None:
+        """Check the density that changes, and that the pattern can follow it."""
+        from infill.refilling.gradients import check_gradient, check_stretches
+        from infill.refilling.placement import family_of
+
+        if self.even is not None:
+            raise UsageError.about(
+                ("even", "by"), "are both given, and layers whose density changes are not even; leave one out"
+            )
+        gradient = check_gradient(densities, self.by)
+        check_stretches(family_of(self.pattern, self.parameters, self.lines), self.pattern)
+        changes = gradient.first != gradient.last
+        for attribute, value in (
+            ("density", densities if changes else gradient.first),
+            ("by", gradient.name if changes else None),
+            ("gradient", gradient if changes else None),
+        ):
+            object.__setattr__(self, attribute, value)
 
     def _check_even(self) -> None:
         """Raise UsageError or ParameterError if layers cannot be evened out as requested; read the leeway."""

@@ -13,6 +13,11 @@ class RefillRequest(TypedDict):
     pattern: Annotated[str, "`keep`, the name of a pattern, or the path of a drawing; with `auto`, the one taken"]
     parameters: Annotated[dict[str, Any], "Parameters of the pattern by name, angles in degrees"]
     density: Annotated[float | str | None, "Share of the volume, or `same`; null for the filament of the slicer"]
+    densities: Annotated[
+        Annotated[list[float], 2] | None,
+        "Shares of the volume where `by` is lowest and highest; null for one density, or none",
+    ]
+    by: Annotated[str | None, "Field that the density follows, by its name; null for one density, or none"]
     smooth_radius_mm: Annotated[float | str, "Largest radius of a corner, mm, or `auto`"]
     max_deviation_mm: Annotated[float | None, "Largest distance by which a path may move, mm"]
     even: Annotated[str | None, "Whether layers are evened out, by `time` or `volume`; null if not"]

@@ -21,6 +21,7 @@ Path = NDArray[np.float64]  # (N, 2), mm; a closed one ends where it begins
 Bounds = tuple[float, float, float, float]
 
 TOUCH = 0.905
+CLEAR = 0.95  # of the distance of touching beads: beads overlap by at most 5 %
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,6 +56,28 @@ class PathSpec:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class NominalStrand:
+    """A centre line as if beads that touch lay on one another, so that it can be stretched before they move apart.
+
+    Parameters
+    ----------
+    points : (N, 2) float64, mm
+    sides : (N,) float64
+        How far each point lies off, in halves of the distance of touching beads.
+    across : (2,) float64
+        The direction in which it does, of length 1.
+    """
+
+    points: Path
+    sides: NDArray[np.float64]
+    across: NDArray[np.float64]
+
+    def offset(self, half_gap: float) -> Path:
+        """Return the centre line with beads that touch moved apart by twice `half_gap`, mm."""
+        return self.points + half_gap * self.sides[:, None] * self.across
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Family(ABC):
     """Centre lines over a box, at one layer.
 
@@ -75,6 +98,12 @@ class Family(ABC):
         Length of the lines in a square of side `cell`, in cells, in the mean over heights.
     corner_share : float
         Largest radius of corners, in cells.
+    stretches : bool
+        True if its cells may change from place to place: lines keep their distances when they are stretched.
+    touches : bool
+        True if its nominal strands touch, and move apart after they are stretched.
+    least_spacing : float
+        Line widths that a join along a wall keeps from other lines.
     """
 
     name: str
@@ -83,6 +112,9 @@ class Family(ABC):
     wide: bool = False
     length_in_cell: ClassVar[float] = 1.0
     corner_share: ClassVar[float] = math.inf
+    stretches: ClassVar[bool] = False
+    touches: ClassVar[bool] = False
+    least_spacing: ClassVar[float] = CLEAR * TOUCH
 
     @abstractmethod
     def strands(self, bounds: Bounds, spec: PathSpec) -> list[Path]:
@@ -99,6 +131,13 @@ class Family(ABC):
         list of (N, 2) float64, mm
             No line crosses itself or another, before rounding or after it.
         """
+
+    def nominal_strands(self, bounds: Bounds, spec: PathSpec) -> list[NominalStrand]:
+        """Return the same lines as `strands`, as if beads that touch lay on one another."""
+        across = np.array([0.0, 1.0])
+        return [
+            NominalStrand(points=path, sides=np.zeros(len(path)), across=across) for path in self.strands(bounds, spec)
+        ]
 
     def cell_for(self, density: float, line_width: float) -> float:
         """Return the cell, mm, at which beads fill about `density` (0 to 1) of the plane.
@@ -149,10 +188,29 @@ class TurnedFamily(Family):
         """Return the lines of the family in the turned box, turned and then shifted."""
         from patterns.linework import turn
 
+        return [turn(path, self.angle) + self.phase for path in self.family.strands(self._turned_bounds(bounds), spec)]
+
+    def nominal_strands(self, bounds: Bounds, spec: PathSpec) -> list[NominalStrand]:
+        """Return the nominal strands of the family in the turned box, turned and then shifted."""
+        from patterns.linework import turn
+
+        return [
+            NominalStrand(
+                points=turn(strand.points, self.angle) + self.phase,
+                sides=strand.sides,
+                across=turn(strand.across[None], self.angle)[0],
+            )
+            for strand in self.family.nominal_strands(self._turned_bounds(bounds), spec)
+        ]
+
+    def _turned_bounds(self, bounds: Bounds) -> Bounds:
+        """Return the box around a box that is shifted and turned back."""
+        from patterns.linework import turn
+
         corners = np.array([[x, y] for x in bounds[::2] for y in bounds[1::2]], dtype=np.float64)
         turned_corners = turn(corners - self.phase, -self.angle)
         (x0, y0), (x1, y1) = turned_corners.min(axis=0).tolist(), turned_corners.max(axis=0).tolist()
-        return [turn(path, self.angle) + self.phase for path in self.family.strands((x0, y0, x1, y1), spec)]
+        return x0, y0, x1, y1
 
     def cell_for(self, density: float, line_width: float) -> float:
         """Return the cell of the family."""

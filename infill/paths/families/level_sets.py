@@ -38,6 +38,7 @@ class GyroidPaths(Family):
     summary: str = "smooth waves that turn with height; equally stiff in every direction"
     prismatic: bool = False
     length_in_cell: ClassVar[float] = 2.45
+    stretches: ClassVar[bool] = True
 
     def strands(self, bounds: Bounds, spec: PathSpec) -> list[Path]:
         """Return two waves a period."""
@@ -69,6 +70,7 @@ class SchwarzPPaths(Family):
     summary: str = "smooth tubes along three axes; every one a closed loop"
     prismatic: bool = False
     length_in_cell: ClassVar[float] = 1.88
+    stretches: ClassVar[bool] = True
 
     def strands(self, bounds: Bounds, spec: PathSpec) -> list[Path]:
         """Return one closed loop a period."""
@@ -97,6 +99,7 @@ class SchwarzDPaths(Family):
     summary: str = "smooth waves at 45 degrees that turn with height, as atoms in diamond are bound"
     prismatic: bool = False
     length_in_cell: ClassVar[float] = 3.04
+    stretches: ClassVar[bool] = True
 
     def strands(self, bounds: Bounds, spec: PathSpec) -> list[Path]:
         """Return two waves a period."""

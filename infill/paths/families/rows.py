@@ -39,6 +39,7 @@ class RectilinearPaths(Family):
     summary: str = "straight lines, across one another from layer to layer; quick to print"
     prismatic: bool = False
     corner_share: ClassVar[float] = 0.5  # of a turn at the wall
+    stretches: ClassVar[bool] = True
 
     def strands(self, bounds: Bounds, spec: PathSpec) -> list[Path]:
         """Return one line per row."""
@@ -57,6 +58,8 @@ class Zigzags(WaveFamily):
 
     angle: float = 0.0
     corner_share: ClassVar[float] = 0.3  # cells stay nearly square; crests touch at any radius
+    stretches: ClassVar[bool] = True
+    touches: ClassVar[bool] = True
 
     def rows(self, spec: PathSpec) -> Rows:
         """Return the rows of zigzags."""
@@ -86,6 +89,8 @@ class HoneycombPaths(WaveFamily):
     summary: str = "hexagons drawn as touching waves; stiff from above, equally soft from all sides"
     flats: float = 1.0
     corner_share: ClassVar[float] = 0.5  # where the arcs of a flank meet; flanks alone are the limit
+    stretches: ClassVar[bool] = True
+    touches: ClassVar[bool] = True
 
     def rows(self, spec: PathSpec) -> Rows:
         """Return the rows of waves."""

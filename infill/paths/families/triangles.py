@@ -39,6 +39,8 @@ class Threefold(WaveFamily):
     share: float = 0.0
     rises: bool = False
     corner_share: ClassVar[float] = 0.25  # cells keep their shape; crests touch at any radius
+    stretches: ClassVar[bool] = True
+    touches: ClassVar[bool] = True
 
     def rows(self, spec: PathSpec) -> Rows:
         """Return the rows of waves."""

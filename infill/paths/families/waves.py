@@ -17,11 +17,11 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from infill.paths.families.family import TOUCH, Bounds, Family, Path, PathSpec
+from infill.paths.families.family import TOUCH, Bounds, Family, NominalStrand, Path, PathSpec
 
 BOND = 1.0  # line widths that crests touch along, at least
 
@@ -70,6 +70,10 @@ class WaveFamily(Family):
         """Return one line per row and wave."""
         return draw_rows(self.rows(spec), bounds)
 
+    def nominal_strands(self, bounds: Bounds, spec: PathSpec) -> list[NominalStrand]:
+        """Return the same lines, as if crests that touch lay on one another."""
+        return draw_nominal_rows(self.rows(spec), spec.gap, bounds)
+
     def heights(self, cell: float) -> list[float]:  # noqa: ARG002 - where layers differ
         """Return the heights, mm, over which the mean of the density is taken."""
         return [0.0]
@@ -114,6 +118,25 @@ def draw_rows(rows: Rows, bounds: Bounds) -> list[Path]:
         )
         paths.extend(lines if wave.height else [line[[0, -1]] for line in lines])
     return paths
+
+
+def draw_nominal_rows(rows: Rows, gap: float, bounds: Bounds) -> list[NominalStrand]:
+    """Draw the lines of `draw_rows` as if crests that touch, `gap` mm apart, lay on one another.
+
+    A crest that touches a straight line lies off by the entire gap, as the line stays in its place.
+    """
+    angle = math.radians(rows.angle)
+    across = np.array([-math.sin(angle), math.cos(angle)])
+    strands: list[NominalStrand] = []
+    for number, wave in enumerate(rows.waves):
+        below, above = rows.waves[number - 1], rows.waves[(number + 1) % len(rows.waves)]
+        off = [0.0, 0.0] if not wave.height else [1.0 if beside.height else 2.0 for beside in (below, above)]
+        nominal = replace(wave, base=wave.base - off[0] * gap / 2, height=wave.height + (off[0] + off[1]) * gap / 2)
+        corners = _wave_corners(nominal)
+        sides = np.where(corners[:, 1] > 0, -off[1], off[0])
+        lines = draw_rows(replace(rows, waves=[nominal]), bounds)
+        strands.extend(NominalStrand(points=line, sides=np.resize(sides, len(line)), across=across) for line in lines)
+    return strands
 
 
 def repeat_line(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,22 +14,41 @@ from infill.arrays import Floats
 from infill.drawings.bitmaps import read_grey
 from infill.errors import FormatError, ParameterError, UsageError
 from infill.files.broken import error_text, require_readable, wrap_reader_errors
-from infill.interior.interior import Interior
 from infill.options.modules import load_object, names_code
 
 AXES = ("x", "y", "z")
-SKIN = "skin"
+SKIN, ROOFS = "skin", "roofs"
 PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff")
 TABLES, ARRAYS = (".csv", ".txt"), (".npy",)
 COLUMNS = 4  # x, y, z and a value
-LEAST_SHARE = 0.5  # of a layer of cells that lies in the part
-MOST_CELLS = 2e6  # in which the distance from the skin is measured
+
+
+class FieldPlace(Protocol):
+    """The part, or the print, in which fields are evaluated."""
+
+    @property
+    def bounds(self) -> Floats:
+        """The lowest and the highest corner of its box, (2, 3), mm."""
+        ...
+
+    def skin_depth(self, points: Floats) -> Floats:
+        """Return the distance of points (N, 3), mm, from the skin, in a unit of its own: (N,)."""
+        ...
+
+
+@runtime_checkable
+class PlaceWithRoofs(FieldPlace, Protocol):
+    """A place that also knows what lies above a point."""
+
+    def roof_depth(self, points: Floats) -> Floats:
+        """Return how far points (N, 3) lie below the roof above them: (N,), mm."""
+        ...
 
 
 class Field(Protocol):
     """A number at every point."""
 
-    def at(self, points: Floats, space: Interior) -> Floats:
+    def at(self, points: Floats, place: FieldPlace) -> Floats:
         """Evaluate the field at points (N, 3), mm, inside the walls of a part: (N,)."""
         ...
 
@@ -40,7 +59,7 @@ class AxisField:
 
     axis: int
 
-    def at(self, points: Floats, space: Interior) -> Floats:  # noqa: ARG002 - of the protocol
+    def at(self, points: Floats, place: FieldPlace) -> Floats:  # noqa: ARG002 - of the protocol
         """Return the coordinates of points (N, 3) along the axis, mm: (N,)."""
         return points[:, self.axis]
 
@@ -49,21 +68,19 @@ class AxisField:
 class SkinDepthField:
     """The distance from the inner side of the walls."""
 
-    def at(self, points: Floats, space: Interior) -> Floats:
-        """Return the depth of points (N, 3) below the inner side of the walls, in cells of the grid: (N,)."""
-        from scipy.ndimage import distance_transform_edt, map_coordinates
+    def at(self, points: Floats, place: FieldPlace) -> Floats:
+        """Return the depth of points (N, 3) below the inner side of the walls: (N,)."""
+        return place.skin_depth(points)
 
-        stride = max(1, int(np.ceil((space.depth.size / MOST_CELLS) ** (1 / 3))))
-        # Beyond an open side there is neither wall nor part, so no point is nearest to cells there.
-        layers = np.flatnonzero(space.shares >= LEAST_SHARE)
-        bottom, top = int(layers[0]), int(layers[-1]) + 1
-        inside = space.depth[::stride, ::stride, bottom:top:stride] > 0
-        opening = space.opening
-        ends = (1, 1) if opening is None else (int(np.isinf(opening.low)), int(np.isinf(opening.high)))
-        distance = distance_transform_edt(np.pad(inside, ((1, 1), (1, 1), ends))).astype(np.float32)
-        nodes = ((points - space.origin) / space.size - (0, 0, bottom)).T / stride + np.array([[1], [1], [ends[0]]])
-        depths: Floats = map_coordinates(distance, nodes, order=1, mode="nearest")
-        return depths
+
+@dataclass(frozen=True, kw_only=True)
+class RoofDepthField:
+    """The distance upwards to the roof, in a place that knows its roofs."""
+
+    def at(self, points: Floats, place: FieldPlace) -> Floats:
+        """Return the depth of points (N, 3) below roofs: (N,)."""
+        assert isinstance(place, PlaceWithRoofs)
+        return place.roof_depth(points)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -79,7 +96,7 @@ class ScatteredField:
     points: Floats
     values: Floats
 
-    def at(self, points: Floats, space: Interior) -> Floats:  # noqa: ARG002 - of the protocol
+    def at(self, points: Floats, place: FieldPlace) -> Floats:  # noqa: ARG002 - of the protocol
         """Interpolate the values at points (N, 3), mm; beyond them, the nearest value counts: (N,)."""
         from scipy.interpolate import LinearNDInterpolator
         from scipy.spatial import QhullError, cKDTree
@@ -103,11 +120,11 @@ class BoxedField:
 
     values: Floats
 
-    def at(self, points: Floats, space: Interior) -> Floats:
+    def at(self, points: Floats, place: FieldPlace) -> Floats:
         """Interpolate the array over the box of the part at points (N, 3), mm: (N,)."""
         from scipy.ndimage import map_coordinates
 
-        low, high = np.asarray(space.part.bounds, dtype=np.float64)
+        low, high = np.asarray(place.bounds, dtype=np.float64)
         nodes = (points - low) / np.maximum(high - low, 1e-12) * self.values.shape - 0.5
         interpolated: Floats = map_coordinates(self.values, nodes.T, order=1, mode="nearest")
         return interpolated
@@ -120,7 +137,7 @@ class FunctionField:
     function: Callable[[Floats], Any]
     name: str
 
-    def at(self, points: Floats, space: Interior) -> Floats:  # noqa: ARG002 - of the protocol
+    def at(self, points: Floats, place: FieldPlace) -> Floats:  # noqa: ARG002 - of the protocol
         """Call the function with points (N, 3), mm, and check its numbers: (N,)."""
         try:
             numbers = np.asarray(self.function(points), dtype=np.float64)
@@ -133,7 +150,7 @@ class FunctionField:
         return numbers
 
 
-def resolve_field(by: object) -> tuple[Field, str]:
+def resolve_field(by: object, *, roofs: bool = False) -> tuple[Field, str]:
     """Resolve the field that a density follows; return it and its name.
 
     Parameters
@@ -141,6 +158,8 @@ def resolve_field(by: object) -> tuple[Field, str]:
     by : str, Path, array or callable
         "x", "y", "z" or "skin"; a file: a .csv of x, y, z and a value, a .npy of three axes, or a picture seen from
         above, over the box around the part; "module.py:name"; such an array; or a function of points (N, 3), mm.
+    roofs : bool
+        Take "roofs" too: the place knows them.
 
     Raises
     ------
@@ -154,13 +173,16 @@ def resolve_field(by: object) -> tuple[Field, str]:
         return FunctionField(function=by, name=name), name
     if isinstance(by, np.ndarray):
         return _field_of_array(by, "an array"), f"an array of shape {by.shape}"
+    words = ", ".join((*AXES, SKIN, *([ROOFS] if roofs else [])))
     if not isinstance(by, (str, Path)):
-        raise UsageError.about("by", f"is {by!r}; give x, y, z, skin, a file, an array or a function")
+        raise UsageError.about("by", f"is {by!r}; give {words}, a file, an array or a function")
     text = str(by)
     if text in AXES:
         return AxisField(axis=AXES.index(text)), text
     if text == SKIN:
         return SkinDepthField(), text
+    if text == ROOFS and roofs:
+        return RoofDepthField(), text
     path = Path(text)
     suffix = path.suffix.lower()
     if names_code(text):
@@ -176,7 +198,7 @@ def resolve_field(by: object) -> tuple[Field, str]:
         with wrap_reader_errors(source, "holds something other than numbers", "write rows of x, y, z and a value"):
             values = np.load(source, allow_pickle=False) if suffix in ARRAYS else _read_table(source)
         return _field_of_array(values, text), text
-    raise UsageError.about("by", f"is {text!r}; give x, y, z, skin, a .csv, a .npy, a picture, or module.py:name")
+    raise UsageError.about("by", f"is {text!r}; give {words}, a .csv, a .npy, a picture, or module.py:name")
 
 
 def _field_of_array(values: NDArray[Any], name: str) -> Field:

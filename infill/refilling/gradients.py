@@ -1,0 +1,350 @@
+"""A density that changes over a print: the field that it follows, its lines in an area, and cells that follow it."""
+
+from __future__ import annotations
+
+import math
+import zlib
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.arrays import Floats
+from infill.errors import GeometryError, ParameterError, UsageError
+from infill.interior.conformal_map import spline_slopes
+from infill.interior.plane_map import fit_plane_map
+from infill.options.density_fields import (
+    BoxedField,
+    Field,
+    ScatteredField,
+    resolve_field,
+)
+from infill.paths.families.family import Bounds, Family, NominalStrand, PathSpec
+from infill.paths.stretching import (
+    STRETCHED_TOUCH,
+    PlaneMap,
+    PlaneSpline,
+    SteppedFamily,
+    StretchedFamily,
+    equal_normals,
+    invert_map,
+    line_angles,
+    pattern_bounds,
+    scaled_length,
+    step_family,
+    stretch_family,
+)
+from infill.plain_numbers import plain_argument
+from infill.refilling.print_place import PrintPlace
+
+if TYPE_CHECKING:
+    from shapely import Polygon
+
+LOWEST, HIGHEST = 0.01, 0.6  # densities; above, lines of some patterns come too near where cells change
+LOCAL_STEP = 0.05  # of density, that it changes by within the heights of a step at most
+MEAN_STEP = 1.14  # ratio of the highest and the lowest mean density of the layers of a step, which beads make up for
+MOST_STEPS = 64
+STEP_POINTS = 2000  # at which densities are compared, in each layer
+NODES = 64  # along the longer side of the print, where the field is evaluated
+PADDING = 0.25  # of that side, and cells: around the print, as far as its lines may reach in the plane of the pattern
+PADDED_CELLS = 3.0
+TRIAL_CELLS = 24.0  # along a square of the pattern, in which its lines are measured
+TRIAL_HEIGHTS = 8  # in a period of a pattern that changes with height
+TABLE = 9  # scales for which lengths are measured
+WIDER_SCALES = 1.3  # factor by which their range is wider than that of densities
+DIRECTIONS = 8  # of lines
+AREA_POINTS, AREA_STEP = 4000, 0.5  # points in an area at which a density is averaged, about, and mm between them
+BEYOND = 0.1  # of the side of the infill: how far it may reach beyond the points of a field, whose nearest one counts
+SLIGHT = 1e-9
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Gradient:
+    """A density that follows a field.
+
+    Parameters
+    ----------
+    first, last : float
+        Shares of the volume where the field is lowest, and where it is highest.
+    by : Field
+    name : str
+        Of the field.
+    """
+
+    first: float
+    last: float
+    by: Field
+    name: str
+
+    @property
+    def middle(self) -> float:
+        """The density of the nominal cell."""
+        return (self.first + self.last) / 2
+
+    @property
+    def checksum(self) -> int:
+        """A checksum of the numbers of the field; 0 for one without numbers."""
+        if isinstance(self.by, BoxedField):
+            return zlib.crc32(np.ascontiguousarray(self.by.values).tobytes())
+        if isinstance(self.by, ScatteredField):
+            return zlib.crc32(self.by.points.tobytes() + self.by.values.tobytes())
+        return 0
+
+
+def check_gradient(densities: Sequence[float], by: object) -> Gradient:
+    """Check two densities, where a field is lowest and where it is highest, and the field."""
+    if len(densities) != 2:
+        raise UsageError.about("density", f"has {len(densities)} numbers; give one, or two such as 40%:12%")
+    for density in densities:
+        if not LOWEST <= density <= HIGHEST:
+            raise ParameterError.about(
+                "density",
+                f"is {_percent(density)} somewhere; where it changes, give {LOWEST:.0%} to {HIGHEST:.0%}",
+            )
+    if by is None:
+        raise UsageError.about(
+            "density",
+            f"is {_percent(densities[0])}:{_percent(densities[1])}, and by is missing; give by too, such as x, or one "
+            "density",
+        )
+    field, name = resolve_field(by, roofs=True)
+    return Gradient(first=densities[0], last=densities[1], by=field, name=name)
+
+
+def _percent(density: float) -> str:
+    return f"{plain_argument(100 * density)}%"
+
+
+def check_stretches(family: Family, name: str) -> None:
+    """Raise UsageError if the cells of a pattern cannot change from place to place."""
+    if not family.stretches:
+        from infill.paths.families.catalogue import FAMILIES
+
+        names = ", ".join(known for known, member in FAMILIES.items() if member.stretches)
+        raise UsageError.about(
+            "density", f"is to change from place to place, and cells of {name} cannot; choose from {names}"
+        )
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class GradedDensity:
+    """A gradient over the infill of a print.
+
+    Parameters
+    ----------
+    gradient : Gradient
+    place : PrintPlace
+    low, high : float
+        The lowest and the highest value of the field there.
+    """
+
+    gradient: Gradient
+    place: PrintPlace
+    low: float
+    high: float
+
+    def shares(self, points: Floats) -> Floats:
+        """Return the densities at points (N, 3), mm: (N,)."""
+        values = self.gradient.by.at(points, self.place)
+        share = np.clip((np.nan_to_num(values, nan=self.low) - self.low) / (self.high - self.low), 0.0, 1.0)
+        densities: Floats = self.gradient.first + (self.gradient.last - self.gradient.first) * share
+        return densities
+
+    def mean(self, area: Polygon, z: float) -> float:
+        """Return the mean density in an area at a height, mm."""
+        import shapely
+
+        x0, y0, x1, y1 = area.bounds
+        step = min(AREA_STEP, math.sqrt(area.area / 4)) if area.area < AREA_POINTS * AREA_STEP**2 else 0.0
+        step = step or math.sqrt(area.area / AREA_POINTS)
+        x, y = (np.arange(low + step / 2, high, step) for low, high in ((x0, x1), (y0, y1)))
+        nodes = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
+        shapely.prepare(area)
+        nodes = nodes[shapely.contains_xy(area, nodes[:, 0], nodes[:, 1])]
+        if not len(nodes):
+            nodes = shapely.get_coordinates(shapely.point_on_surface(area))
+        return float(self.shares(np.column_stack([nodes, np.full(len(nodes), z)])).mean())
+
+
+def measure_gradient(gradient: Gradient, place: PrintPlace) -> GradedDensity:
+    """Find the lowest and the highest value of a field in the infill of a print.
+
+    Raises
+    ------
+    GeometryError
+        If the field is not finite everywhere there, is the same everywhere, or does not cover the infill.
+    """
+    low, high = place.bounds
+    if isinstance(gradient.by, ScatteredField):
+        first, last = gradient.by.points.min(axis=0), gradient.by.points.max(axis=0)
+        most = np.where(last > first, BEYOND * (high - low), math.inf)  # points in a plane hold for all heights
+        most[:2] = BEYOND * (high - low)[:2]
+        if ((first - low > most) | (high - last > most)).any():
+            raise GeometryError.about(
+                "by",
+                f"is {gradient.name}, whose points lie at {_span(first, last)}, and the infill at {_span(low, high)}; "
+                "give points all over it, x, y and z on the bed as the G-code has them",
+            )
+    values = gradient.by.at(place.points, place)
+    if not np.isfinite(values).all():
+        raise GeometryError.about(
+            "by", f"is {gradient.name}, which is not finite everywhere in the infill; it lies at {_span(low, high)}"
+        )
+    lowest, highest = float(values.min()), float(values.max())
+    if highest - lowest <= SLIGHT * max(abs(lowest), abs(highest), SLIGHT):
+        raise GeometryError.about(
+            "by",
+            f"is {gradient.name}, which is {plain_argument(lowest)} everywhere in the infill; give one density, or "
+            "another field",
+        )
+    return GradedDensity(gradient=gradient, place=place, low=lowest, high=highest)
+
+
+def _span(low: Floats, high: Floats) -> str:
+    """Describe a box in words: the ranges of x, y and z."""
+    return ", ".join(
+        f"{axis} {plain_argument(round(float(a), 1))} to {plain_argument(round(float(b), 1))}"
+        for axis, a, b in zip("xyz", low, high, strict=True)
+    )
+
+
+def find_steps(graded: GradedDensity) -> list[tuple[float, float]]:
+    """Divide the heights of the infill into steps in which its density hardly changes; return their ends, mm.
+
+    Within a step, the mean of a layer changes by no more than beads can be wider or narrower, and a place by
+    `LOCAL_STEP`; unless that takes more than `MOST_STEPS`.
+    """
+    layers = graded.place.filled
+    low, high = graded.place.bounds[:, :2]
+    count = math.ceil(math.sqrt(STEP_POINTS))
+    axes = [np.linspace(start, end, count) for start, end in zip(low, high, strict=True)]
+    nodes = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
+    heights = np.array([layer.z for layer in layers])
+    shares = np.stack([graded.shares(np.column_stack([nodes, np.full(len(nodes), z)])) for z in heights])
+    inside = np.stack([_holds(layer.areas, nodes) for layer in layers])
+    means = np.array([row[held].mean() if held.any() else row.mean() for row, held in zip(shares, inside, strict=True)])
+    looser = 1.0
+    while True:
+        ends = _greedy_ends(np.where(inside, shares, np.nan), means, LOCAL_STEP * looser, MEAN_STEP**looser)
+        if len(ends) <= MOST_STEPS:
+            break
+        looser *= 1.25
+    middles = [(heights[end - 1] + heights[end]) / 2 for end in ends[:-1]]
+    return list(zip([-math.inf, *middles], [*middles, math.inf], strict=True))
+
+
+def _holds(areas: Sequence[Polygon], nodes: Floats) -> NDArray[np.bool_]:
+    import shapely
+
+    union = shapely.union_all(list(areas))
+    shapely.prepare(union)
+    held: NDArray[np.bool_] = shapely.contains_xy(union, nodes[:, 0], nodes[:, 1])
+    return held
+
+
+def _greedy_ends(shares: Floats, means: Floats, local: float, ratio: float) -> list[int]:
+    """Return where steps end, each as late as its densities allow."""
+    ends: list[int] = []
+    low, high = shares[0].copy(), shares[0].copy()
+    low_mean = high_mean = float(means[0])
+    for number in range(1, len(shares)):
+        low, high = np.fmin(low, shares[number]), np.fmax(high, shares[number])
+        low_mean, high_mean = min(low_mean, float(means[number])), max(high_mean, float(means[number]))
+        if np.nanmax(high - low, initial=0.0) > local or high_mean > ratio * low_mean:
+            ends.append(number)
+            low, high = shares[number].copy(), shares[number].copy()
+            low_mean = high_mean = float(means[number])
+    return [*ends, len(shares)]
+
+
+def stretch_to_density(family: Family, graded: GradedDensity, line_width: float) -> StretchedFamily | SteppedFamily:
+    """Return a family whose cells follow a graded density; its nominal cell is that of the middle density."""
+    cell = family.cell_for(graded.gradient.middle, line_width)
+    trial = _Trial.of(family, cell, line_width)
+    steps = find_steps(graded)
+    heights = np.array([layer.z for layer in graded.place.filled])
+    of_steps = [heights[(heights > low) & (heights <= high)] for low, high in steps]
+    middles = [float((within.min() + within.max()) / 2) for within in of_steps]
+    made = _stretch_at(trial, graded, middles)
+    rise = min(_rise(plane_map.slopes) for plane_map in made)
+    families = [stretch_family(family, plane_map, rise) for plane_map in made]
+    return families[0] if len(families) == 1 else step_family(family, families, [high for _, high in steps], middles)
+
+
+def _stretch_at(trial: _Trial, graded: GradedDensity, heights: Sequence[float]) -> list[PlaneMap]:
+    """Return the maps to the plane of the pattern at some heights, mm."""
+    low, high = graded.place.bounds[:, :2]
+    step = float((high - low).max()) / NODES
+    padding = max(PADDING * NODES * step, PADDED_CELLS * trial.cell)
+    corner = low - padding
+    counts = np.ceil((high + padding - corner) / step).astype(int) + 1
+    axes = [start + step * np.arange(count) for start, count in zip(corner, counts.tolist(), strict=True)]
+    nodes = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
+    inside = np.clip(nodes.reshape(-1, 2), low, high)
+    splines, slopes = [], []
+    for height in heights:
+        shares = graded.shares(np.column_stack([inside, np.full(len(inside), height)])).reshape(nodes.shape[:2])
+        coordinates, _ = fit_plane_map(trial.scales_of(shares, graded.gradient.middle), trial.normals)
+        splines.append(PlaneSpline(corner=corner, step=step, coefficients=corner + step * coordinates))
+        slopes.append(spline_slopes(coordinates))
+    bounds = float(low[0]), float(low[1]), float(high[0]), float(high[1])
+    return [
+        invert_map(spline, slope, pattern_bounds(spline, bounds), padding)
+        for spline, slope in zip(splines, slopes, strict=True)
+    ]
+
+
+def _rise(slopes: Floats) -> float:
+    return float(np.sqrt(np.linalg.det(slopes).min()))
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Trial:
+    """A family in a square of its own plane, at some heights if it changes with height.
+
+    Parameters
+    ----------
+    cell : float, mm
+    half_gap : float, mm
+        Half the distance of beads that touch; 0 if none do.
+    strands : sequence of NominalStrand
+    normals : (N, 2) float64
+        Directions across its lines, each for an equal share of their length.
+    """
+
+    cell: float
+    half_gap: float
+    strands: Sequence[NominalStrand]
+    normals: Floats
+
+    @classmethod
+    def of(cls, family: Family, cell: float, line_width: float) -> _Trial:
+        """Draw a family for a trial."""
+        count, period = 1 if family.prismatic else TRIAL_HEIGHTS, 2 * cell
+        spec = PathSpec(cell=cell, line_width=line_width, radius=math.inf)
+        layers = [
+            family.nominal_strands(_square(cell), replace(spec, z=period * (part + 0.5) / count, layer=part))
+            for part in range(count)
+        ]
+        strands = [strand for layer in layers for strand in layer]
+        normals = equal_normals(*line_angles(strands, _square(cell)), DIRECTIONS)
+        half_gap = STRETCHED_TOUCH * line_width / 2 if family.touches else 0.0
+        return cls(cell=cell, half_gap=half_gap, strands=strands, normals=normals)
+
+    def scales_of(self, shares: Floats, middle: float) -> Floats:
+        """Return the number of cells in a length, over that of the middle density, for densities."""
+        ratios = shares / middle
+        if not self.half_gap:  # as much line in an area as cells in a length
+            return ratios
+        scales = np.geomspace(float(ratios.min()) / WIDER_SCALES, float(ratios.max()) * WIDER_SCALES, TABLE)
+        square = _square(self.cell)
+        lengths = np.array([scaled_length(self.strands, square, scale, self.half_gap) for scale in scales])
+        nominal = scaled_length(self.strands, square, 1.0, self.half_gap)
+        return np.interp(ratios, lengths / nominal, scales)
+
+
+def _square(cell: float) -> Bounds:
+    half = TRIAL_CELLS * cell / 2
+    return -half, -half, half, half
