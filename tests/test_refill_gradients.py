@@ -142,7 +142,7 @@ def test_the_laws_can_fail(sliced: Path, tmp_path: Path) -> None:
     assert crossing_paths(layers[0]) > 0
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("pattern", ["gyroid", "honeycomb"])
 def test_two_equal_densities_are_one(sliced: Path, tmp_path: Path, pattern: str) -> None:
     """To the byte."""
@@ -151,7 +151,7 @@ def test_two_equal_densities_are_one(sliced: Path, tmp_path: Path, pattern: str)
     assert (tmp_path / "graded.gcode").read_bytes() == (tmp_path / "plain.gcode").read_bytes()
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("pattern", ["gyroid", "honeycomb", "rectilinear"])
 def test_a_density_that_hardly_changes_draws_the_lines_of_one_density(
     sliced: Path, tmp_path: Path, pattern: str
@@ -184,7 +184,7 @@ def test_by_the_roofs_it_is_dense_below_them(tall: Path, tmp_path: Path) -> None
     assert abs(errors.mean()) < 0.01
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_by_the_skin_it_is_dense_at_walls_roofs_and_floors(tall: Path, tmp_path: Path) -> None:
     layers = written_by(tall, tmp_path / "new.gcode", "grid", "skin", density=(DENSE, SPARSE))
     x0, y0, x1, y1 = area(layers).bounds
@@ -229,7 +229,7 @@ def array(path: Path) -> Path:
     return path
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("make", [table, picture, code, array])
 def test_every_kind_of_field_says_the_same(sliced: Path, tmp_path: Path, make: Callable[[Path], object]) -> None:
     suffix = {"table": ".csv", "picture": ".png", "code": ".py", "array": ".npy"}[make.__name__]
@@ -368,7 +368,7 @@ def test_a_map_that_stretches_nothing_changes_no_line(name: str) -> None:
             assert shapely.buffer(outer.intersection(around), apart).covers(inner.intersection(region))
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", STRETCHING)
 def test_stretched_lines_never_cross(name: str) -> None:
     family = stretch_family(FAMILIES[name], linear_map(1.5, 0.45), 0.45)
