@@ -208,6 +208,15 @@ def test_a_refill_is_no_violation(pattern: str, prints_of_all_kinds: Mapping[str
     assert free >= 10
 
 
+@pytest.mark.parametrize("pattern", ["honeycomb", "gyroid"])
+def test_the_rise_to_a_layer_is_no_lift_of_travels(pattern: str, tmp_path: Path) -> None:
+    """A print that never lifts asks for no lift, in its sections either, which a layer's rise follows."""
+    assert run("sample", "print", "-o", tmp_path / "old.gcode").exit_code == 0
+    assert b"Z0.4 F10800" in (tmp_path / "old.gcode").read_bytes()
+    refill(tmp_path / "old.gcode", output=tmp_path / "new.gcode", pattern=pattern)
+    assert list(map(str, verify(tmp_path / "old.gcode", tmp_path / "new.gcode").violations)) == []
+
+
 def test_a_refill_is_a_violation_where_infill_may_not_change(
     prints_of_all_kinds: Mapping[str, Path], tmp_path: Path
 ) -> None:

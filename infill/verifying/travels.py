@@ -72,10 +72,16 @@ def _travel_heights(rows: TraceRows) -> Floats:
 
 
 def _bead_heights(rows: TraceRows) -> Floats:
-    """Return for each row the height of the last bead before it, mm; NaN before the first."""
+    """Return for each row the height of the beads before and after it, mm, of which the rise to a layer has the higher.
+
+    NaN before the first bead.
+    """
     draws = np.flatnonzero(rows.draws)
-    place = np.searchsorted(draws, np.arange(len(rows))) - 1
-    return np.where(place < 0, np.nan, rows.end[draws[np.maximum(place, 0)], 2])
+    if not len(draws):
+        return np.full(len(rows), np.nan)
+    after = np.searchsorted(draws, np.arange(len(rows)))
+    before, following = (rows.end[draws[np.clip(at, 0, len(draws) - 1)], 2] for at in (after - 1, after))
+    return np.where(after == 0, np.nan, np.fmax(before, following))
 
 
 def _highest_so_far(rows: TraceRows) -> Floats:
