@@ -17,11 +17,11 @@ from infill.paths.rounding import Rounding
 from infill.refilling.report import refill_report
 from infill.refilling.request import Request
 from infill.refilling.rules import RefillRules
-from infill.refilling.stats import PURGED, PrintAmounts, RefillStats
+from infill.refilling.stats import PURGED, InfillAmounts, PrintAmounts, RefillStats
 
 
-def problems(pattern: str, tally: RefillStats) -> list[str]:
-    request = Request(pattern=pattern)
+def problems(pattern: str, tally: RefillStats, density: float | None = None) -> list[str]:
+    request = Request(pattern=pattern, density=density)
     survey = survey_print(io.BytesIO(written(Dialect())))
     rules = RefillRules(request=request, rounding=Rounding())
     return refill_report(request, survey, tally, already=False, rules=rules)["problems"]
@@ -38,6 +38,24 @@ def test_infill_that_is_slower_is_told(seconds: float, words: str) -> None:
     told = [problem for problem in problems("gyroid", tally) if "slower" in problem]
     assert len(told) == bool(words)
     assert all(f"takes {words} printing time" in problem for problem in told)
+
+
+@pytest.mark.parametrize(
+    ("density", "seconds", "words"),
+    [(0.3, 195.0, ""), (0.3, 220.0, "+120% printing time, +100% filament;"), (None, 195.0, "+95% printing time;")],
+)
+def test_more_infill_that_was_asked_for_may_take_longer(density: float | None, seconds: float, words: str) -> None:
+    tally = RefillStats(
+        sections=1,
+        replaced=1,
+        infill=InfillAmounts(filament=100.0),
+        infill_after=InfillAmounts(filament=200.0),
+        print_before=PrintAmounts(seconds=500.0, infill_seconds=100.0),
+        print_after=PrintAmounts(seconds=400.0 + seconds, infill_seconds=seconds),
+    )
+    told = [problem for problem in problems("gyroid", tally, density) if "slower" in problem]
+    assert len(told) == bool(words)
+    assert all(words in problem for problem in told)
 
 
 @pytest.mark.parametrize(

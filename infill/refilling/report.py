@@ -169,9 +169,13 @@ def _problems(report: RefillReport, tally: RefillStats) -> list[str]:
     ]
     before, after = report["time"]["infill_before_s"], report["time"]["infill_after_s"]
     earlier = "that of the last refill" if report["print"]["refilled_before"] else "the slicer's"
-    if tally.replaced and before and after > before * (1 + TIME_TOLERANCE):
+    # More infill than before, where a density asks for it, may take as much longer.
+    asked = report["request"]["density"] or report["request"]["densities"]
+    denser = max(1.0, tally.infill_ratio) if asked else 1.0
+    if tally.replaced and before and after > before * denser * (1 + TIME_TOLERANCE):
+        amount = f", {denser - 1:+z.0%} filament" if denser > 1 + TIME_TOLERANCE else ""
         problems.append(
-            f"the new infill is slower than {earlier}: it takes {after / before - 1:+z.0%} printing time; "
+            f"the new infill is slower than {earlier}: it takes {after / before - 1:+z.0%} printing time{amount}; "
             "for less, take another pattern, or keep, which is never slower"
         )
     failed = sum(number for reason, number in tally.kept.items() if reason.startswith("a check failed"))
