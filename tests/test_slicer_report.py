@@ -9,16 +9,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks.slicer_cases import CURA, MODES, PARTS, PRUSA, case_of, cases, quick
+from benchmarks.slicer_cases import CURA, MODES, NEWER, PARTS, PATTERNS, PRINTERS, PRUSA, SMALL, case_of, cases, quick
 from benchmarks.slicer_density import SPACING, WIDTH, curvature, distances
 from benchmarks.slicer_judge import judged, structure, windows
-from benchmarks.slicer_page import page
+from benchmarks.slicer_page import estimates, page
 from benchmarks.slicer_promises import kept, promises, saved, turns
+from benchmarks.slicer_report import JUDGES, REFILLS, ROOT, code_of, imported
 from benchmarks.slicer_tables import table
 from tests.handmade_prints import LAYER, PER_MM
 
 PAGE = Path(__file__).parents[1] / "docs" / "slicer-report.md"
-NAMED = [("prusa", pattern) for pattern in PRUSA] + [("cura", pattern) for pattern in CURA]
+NAMED = [(slicer, pattern) for slicer, patterns in PATTERNS.items() for pattern in patterns]
 
 
 def stacked(places: list[list[float]]) -> bytes:
@@ -83,9 +84,63 @@ def test_where_a_loop_closes_no_strand_is_too_near() -> None:
 
 def test_the_most_telling_cases_come_first() -> None:
     found = list(cases())
-    assert len(found) == len(set(found)) == 13 * len(PARTS) * 3 * 2
-    assert [case for case in found if quick(case)][:26] == found[:26]
+    assert len(found) == len(set(found))
+    boxes = len(NAMED) * len(PRINTERS)
+    assert [case for case in found if quick(case)][:boxes] == found[:boxes]
     assert all(case_of(case.key) == case for case in found)
+
+
+def test_the_matrix_is_six_patterns_in_six_parts_and_a_third_as_many_by_cura() -> None:
+    found = list(cases())
+    count = {slicer: sum(case.slicer == slicer for case in found) for slicer in PATTERNS}
+    assert (len(PRUSA), len(PARTS), len(PRINTERS)) == (6, 6, 2)
+    assert count["prusa"] == 6 * 6 * 2 * 2
+    assert 3 * count["cura"] == count["prusa"] == 72 * len(CURA)
+    assert {count[slicer] for slicer in SMALL} == {8}
+    assert all(quick(case) for case in found if case.slicer in SMALL)
+
+
+def test_a_case_that_was_not_run_takes_as_long_as_those_most_like_it() -> None:
+    found = estimates({"prusa/grid/box/15/fast": 10.0, "prusa/grid/box/30/fast": 30.0, "cura/cubic/box/30/fast": 50.0})
+    assert set(found) == {case.key for case in cases()}
+    assert found["prusa/grid/box/30/fast"] == 30.0
+    assert found["prusa/grid/box/30/normal"] == 30.0  # the same but for the printer
+    assert found["cura/gyroid/box/30/fast"] == 50.0  # of the part and the density, the same slicer
+    assert found["prusa-2.9/gyroid/bracket_medium/15/fast"] == 10.0  # of the density alone
+    assert estimates({"prusa/grid/box/15/fast": 10.0})["prusa/grid/box/30/fast"] == 20.0
+
+
+def test_the_page_says_how_long_the_whole_matrix_takes() -> None:
+    found = results()
+    assert "whole matrix" not in page(found, 216, "x")
+    found["seconds"] = dict.fromkeys((case.key for case in cases()), 72.0)
+    hours = 72 * len(list(cases())) / 2 / 3600
+    assert f"whole matrix takes about {hours:.1f} hours" in page(found, 216, "x")
+
+
+def test_what_prusaslicer_2_9_needs_is_told_where_it_was_left_out() -> None:
+    found = results()
+    assert "left out:" not in page(found, 216, "x")
+    found["runs"] = {key: run for key, run in found["runs"].items() if case_of(key).slicer not in NEWER}
+    (line,) = [line for line in page(found, 216, "x").splitlines() if "left out:" in line]
+    assert "--deli PYTHON" in line
+
+
+def test_runs_are_of_older_code_once_a_module_that_refill_imports_changes(tmp_path: Path) -> None:
+    files = [path.relative_to(ROOT) for path in imported(REFILLS)]
+    for file in ("refilling/job.py", "refilling/fitting.py", "paths/rounding.py", "planner/lookahead.py"):
+        assert Path("infill", file) in files
+    assert not [file for file in files if file.parts[:2] in (("infill", "smoothing"), ("infill", "cli"))]
+    for file in [*files, *map(Path, JUDGES)]:
+        (tmp_path / file).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / file).write_bytes((ROOT / file).read_bytes())
+    code = code_of(tmp_path)
+    assert code == code_of()
+    for file in (Path("infill/paths/rounding.py"), Path(JUDGES[0])):
+        with (tmp_path / file).open("a") as text:
+            text.write("# another\n")
+        assert code_of(tmp_path) != code
+        code = code_of(tmp_path)
 
 
 def results(**changed: float) -> dict:
@@ -106,8 +161,8 @@ def results(**changed: float) -> dict:
 
 
 def test_every_promise_can_be_kept_and_each_can_be_broken() -> None:
-    assert "NOT reached" not in page(results(), 468, "x")
-    assert "not measured" not in page(results(), 468, "x")
+    assert "NOT reached" not in page(results(), 216, "x")
+    assert "not measured" not in page(results(), 216, "x")
     made = results()
     runs, widths = made["runs"], made["widths"]
     for modes in runs.values():
@@ -121,7 +176,7 @@ def test_every_promise_can_be_kept_and_each_can_be_broken() -> None:
 
 @pytest.mark.parametrize("changed", [{"supported": 0.85}, {"bonded": 0.45}, {"seconds": 102.0}])
 def test_one_run_that_fails_is_told(changed: dict[str, float]) -> None:
-    assert "NOT reached" in page(results(**changed), 468, "x")
+    assert "NOT reached" in page(results(**changed), 216, "x")
 
 
 def test_shares_are_told_against_the_slicers_own() -> None:
@@ -133,8 +188,8 @@ def test_shares_are_told_against_the_slicers_own() -> None:
 
 def test_runs_that_failed_and_runs_of_older_code_are_told() -> None:
     found = results()
-    found["runs"]["prusa/stars/box/15/fast"]["keep"] = {"error": "it broke"}
-    text = page(found, 468, "y")
+    found["runs"]["prusa/grid/box/15/fast"]["keep"] = {"error": "it broke"}
+    text = page(found, 216, "y")
     assert "1 of these failed" in text
     assert "keep: it broke" in text
     assert re.search(r"\d+ of \d+ refills were made by older code", text)
@@ -144,7 +199,7 @@ def test_runs_that_failed_and_runs_of_older_code_are_told() -> None:
 
 def test_the_page_is_what_its_generator_writes() -> None:
     """The same headings and the same promises; the numbers are those of the last run."""
-    text, made = PAGE.read_text(encoding="utf-8"), page(results(), 468, "x")
+    text, made = PAGE.read_text(encoding="utf-8"), page(results(), 216, "x")
     headings = [line for line in text.splitlines() if line.startswith("#")]
     known = [line for line in made.splitlines() if line.startswith("#")] + ["## Density", "## Speed and memory"]
     known.append("## Where little is gained, and why")
