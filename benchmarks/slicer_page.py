@@ -33,7 +33,7 @@ from benchmarks.slicer_promises import (
     promises,
     saved,
 )
-from benchmarks.slicer_tables import percent, table, verdict
+from benchmarks.slicer_tables import percent, shown, table, verdict
 
 LITTLE = 0.05  # saved: less is little
 
@@ -184,14 +184,15 @@ def promises_section(results: dict[str, Any]) -> str:
             rows.append((promise.text, promise.limit, "-", "-", "not measured"))
             continue
         value, values = found
-        spread = f"{promise.show.format(min(values))} to {promise.show.format(max(values))}, {_runs(values)}"
-        rows.append((promise.text, promise.limit, promise.show.format(value), spread, verdict(promise.reached(value))))
+        least, most = (shown(end, promise.show) for end in (min(values), max(values)))
+        spread = f"{least} to {most}, {_runs(values)}"
+        rows.append((promise.text, promise.limit, shown(value, promise.show), spread, verdict(promise.reached(value))))
     for pattern in ("gyroid", "hilbertcurve"):
         wide = [value for case, value in against_keep(runs, pattern) if is_wide(widths, case)]
         text = f"our {OURS[pattern]} against `keep` of the slicer's, regions wider than {WIDE} cells, middle over runs"
         if wide:
-            spread = f"{min(wide):+.1%} to {max(wide):+.1%}, {_runs(wide)}"
-            rows.append((text, "no slower", f"{middle(wide):+.1%}", spread, verdict(middle(wide) <= 0)))
+            spread = f"{percent(min(wide))} to {percent(max(wide))}, {_runs(wide)}"
+            rows.append((text, "no slower", percent(middle(wide)), spread, verdict(middle(wide) <= 0)))
         else:
             rows.append((text, "no slower", "-", "-", "not measured"))
     head = ("promise", "limit", "measured", "from and to", "reached?")

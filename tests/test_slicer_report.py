@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import re
+import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ from benchmarks.slicer_judge import judged, structure, windows
 from benchmarks.slicer_page import estimates, page
 from benchmarks.slicer_promises import kept, promises, saved, turns
 from benchmarks.slicer_report import JUDGES, REFILLS, ROOT, code_of, imported
+from benchmarks.slicer_runs import run_case
 from benchmarks.slicer_tables import table
 from tests.handmade_prints import LAYER, PER_MM
 
@@ -108,6 +110,16 @@ def test_a_case_that_was_not_run_takes_as_long_as_those_most_like_it() -> None:
     assert found["cura/gyroid/box/30/fast"] == 50.0  # of the part and the density, the same slicer
     assert found["prusa-2.9/gyroid/bracket_medium/15/fast"] == 10.0  # of the density alone
     assert estimates({"prusa/grid/box/15/fast": 10.0})["prusa/grid/box/30/fast"] == 20.0
+
+
+def test_a_slicer_that_never_ends_is_an_error_of_one_case(monkeypatch: pytest.MonkeyPatch) -> None:
+    def never(*_: object) -> Path:
+        raise subprocess.TimeoutExpired("prusa-slicer", 300)
+
+    monkeypatch.setattr("benchmarks.slicer_runs.sliced", never)
+    found = run_case(next(cases()), list(MODES))
+    assert list(found) == list(MODES)
+    assert all("timed out" in run["error"] for run in found.values())
 
 
 def test_the_page_says_how_long_the_whole_matrix_takes() -> None:
