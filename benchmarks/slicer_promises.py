@@ -106,13 +106,18 @@ class Promise:
     wide: bool = False
 
     def judged(self, runs: Runs, widths: dict[str, float]) -> tuple[float, list[float]] | None:
-        """Return the one number and those of the cases, or None without any."""
-        values = [
-            self.measure(own, other)
-            for case, own, other in pairs(runs, self.mode, **self.chosen)
-            if not self.wide or is_wide(widths, case)
-        ]
-        return (self.collect(values), values) if values else None
+        """Return the one number and those of the cases, or None without any.
+
+        A middle is one over parts, so that a part of which many cases were run counts no more than another.
+        """
+        by_part: dict[str, list[float]] = {}
+        for case, own, other in pairs(runs, self.mode, **self.chosen):
+            if not self.wide or is_wide(widths, case):
+                by_part.setdefault(case.part, []).append(self.measure(own, other))
+        values = [value for part in by_part.values() for value in part]
+        if not values:
+            return None
+        return self.collect([middle(part) for part in by_part.values()] if self.collect is middle else values), values
 
     def of_wide(self) -> Promise:
         """Return the same promise for parts whose regions are wide."""

@@ -186,6 +186,19 @@ def test_every_promise_can_be_kept_and_each_can_be_broken() -> None:
         assert promise.wide == (promise.judged(runs, {"box": 5.0}) is None)
 
 
+def test_a_part_that_was_run_often_counts_no_more_than_another() -> None:
+    made = results()
+    runs = {key: run for key, run in made["runs"].items() if key.startswith("prusa/honeycomb/")}
+    run = runs["prusa/honeycomb/box/15/normal"]
+    runs["prusa/honeycomb/box/30/normal"] = run
+    for part, seconds in (("bracket_medium", 90.0), ("prusa_x-carriage", 96.0)):
+        slower = {**run, MODES[2]: {**run[MODES[2]], "seconds": seconds}}
+        runs[f"prusa/honeycomb/{part}/15/normal"] = slower
+    value, values = promises()[0].judged(runs, made["widths"])
+    assert sorted(values) == pytest.approx([0.04, 0.1, 0.5, 0.5])
+    assert value == pytest.approx(0.1)
+
+
 @pytest.mark.parametrize("changed", [{"supported": 0.85}, {"bonded": 0.45}, {"seconds": 102.0}])
 def test_one_run_that_fails_is_told(changed: dict[str, float]) -> None:
     assert "NOT reached" in page(results(**changed), 216, "x")
