@@ -119,8 +119,9 @@ bench: .venv/test
 	@$(BIN)/python -m benchmarks.smooth_points
 	@$(BIN)/python -m benchmarks.fill_parts
 
-# Refill in the real slicers, and docs/slicer-report.md: hours; what was run before is kept in build/slicer-report.json.
-# `make slicer-report ONLY=--quick` takes some minutes, `ONLY=--page` writes the page of what is there.
+# Refill in the real slicers, and docs/slicer-report.md: a night; what was run before is kept in build/slicer-report.json,
+# and `ONLY=--stale` runs again what older code made. `ONLY=--quick` takes a quarter of an hour, `ONLY=--page` writes the
+# page of what is there, and `ONLY='--deli PYTHON'` adds PrusaSlicer 2.9.
 slicer-report: .venv/test
 	@$(BIN)/python -m benchmarks.slicer_report $(ONLY)
 

@@ -19,8 +19,7 @@ from infill import refill
 from infill.refilling.support import LEAST_LENGTH
 from infill.refilling.widest_gap import MOST_GROWTH
 from tests.gap_judge import PIXEL, filament, infill_width, touching_walls, widest_gaps
-from tests.prints import PRINT, box, cura_print, prusa_print
-from tests.slicers import run_slicer
+from tests.prints import box, cura_print, deli_print, prusa_print
 
 PRUSA = [
     "rectilinear",
@@ -58,11 +57,6 @@ CURA = {
     "gyroid": 1,
     "lightning": 1,
 }
-DELI = """
-import sys
-from deli import _engine
-_engine.slice([(sys.argv[1], [1, 1, 1], [0, 0, 0], 1, [], 0.0, [], [])], open(sys.argv[2]).read(), sys.argv[3])
-"""
 CUT = 0.03  # mm that chords may add
 LEAST_TOUCH = 0.97  # of the length that touches walls
 WIDTH = 0.45  # mm of a line
@@ -74,10 +68,7 @@ def sliced(engine: str, pattern: str, density: int, part: Path, folder: Path, de
     if engine == "prusa":
         return prusa_print(part, path, settings)
     if engine == "deli":
-        config = path.with_suffix(".ini")
-        config.write_text("".join(f"{name} = {value}\n" for name, value in {**PRINT, **settings}.items()))
-        run_slicer([deli, "-c", DELI, str(part), str(config), str(path)], folder)
-        return path
+        return deli_print(part, path, settings, python=deli)
     apart = round(WIDTH * 100 / density * CURA[pattern], 3)
     return cura_print(part, path, {"infill_pattern": pattern, "infill_line_distance": apart})
 

@@ -6,7 +6,19 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-from benchmarks.slicer_cases import CURA, DENSITIES, OURS, PARTS, PRINTERS, PRUSA, Case, case_of
+from benchmarks.slicer_cases import (
+    DELI_PYTHON,
+    DENSITIES,
+    NEWER,
+    OURS,
+    PARTS,
+    PATTERNS,
+    PRINTERS,
+    SLICERS,
+    Case,
+    case_of,
+    cases,
+)
 from benchmarks.slicer_extras import density_section, speed_section
 from benchmarks.slicer_judge import TALL, WINDOWS
 from benchmarks.slicer_promises import (
@@ -21,7 +33,7 @@ from benchmarks.slicer_promises import (
     promises,
     saved,
 )
-from benchmarks.slicer_tables import percent, table, verdict
+from benchmarks.slicer_tables import percent, shown, table, verdict
 
 LITTLE = 0.05  # saved: less is little
 
@@ -51,9 +63,11 @@ layer touches: within 1.05 line widths from centre line to centre line, the path
 are measured on {windows} runs of {tall} layers, spread over the print, by an implementation that shares no code with
 the package (`tests/gcode_structure.py`), so they differ a little from what `refill` reports.
 
-*Printers.* {printers}. The slicers lay lines 0.45 mm wide, 0.2 mm high, with two walls; PrusaSlicer retracts 0.8 mm
-with wipe and lift. No minimum layer time. The machine that ran this is shared, so that the seconds of `refill` itself
-are upper bounds.
+*Printers.* {printers}. Their firmware is Marlin 2, which reads segments as
+fast as they come. For a board of 8 bits (the flavour *Marlin (legacy)*), `refill` writes 200 segments a second at most:
+curves save less then, and nothing at 300 mm/s. For such a board, the box and the bracket are sliced as well. The
+slicers lay lines 0.45 mm wide, 0.2 mm high, with two walls; PrusaSlicer retracts 0.8 mm with wipe and lift. No minimum
+layer time. The machine that ran this is shared, so that the seconds of `refill` itself are upper bounds.
 """
 
 
@@ -68,10 +82,11 @@ def page(results: dict[str, Any], total: int, code: str) -> str:
     parts = [
         INTRODUCTION,
         _stands_on(results, total, code),
+        _newer(results),
+        _takes(results),
         promises_section(results),
         READING.format(printers=_printers(), windows=WINDOWS, tall=TALL),
-        *(_pattern_section(runs, "prusa", pattern) for pattern in PRUSA),
-        *(_pattern_section(runs, "cura", pattern) for pattern in CURA),
+        *(_pattern_section(runs, slicer, pattern) for slicer, patterns in PATTERNS.items() for pattern in patterns),
         _little_section(runs),
         _planners_section(runs),
         density_section(results.get("density")),
@@ -82,8 +97,8 @@ def page(results: dict[str, Any], total: int, code: str) -> str:
 
 def _stands_on(results: dict[str, Any], total: int, code: str) -> str:
     runs, made = results["runs"], results.get("machine", {})
-    cases = [case_of(key) for key in runs]
-    count = {density: sum(case.density == density for case in cases) for density in DENSITIES}
+    named = [case_of(key) for key in runs]
+    count = {density: sum(case.density == density for case in named) for density in DENSITIES}
     told = ", ".join(f"{number} at {density} %" for density, number in count.items())
     made_runs = [run for modes in runs.values() for run in modes.values() if run.get("error") != _NONE]
     failed = sum("error" in run for run in made_runs)
@@ -91,11 +106,63 @@ def _stands_on(results: dict[str, Any], total: int, code: str) -> str:
     old = sum(run.get("code") != code for run in refills)
     stale = f"; {old} of {len(refills)} refills were made by older code, of refill or of this report" if old else ""
     return (
-        f"It stands on {len(runs)} of {total} slicings ({told}), of {len({case.part for case in cases})} of "
+        f"It stands on {len(runs)} of {total} slicings ({told}), of {len({case.part for case in named})} of "
         f"{len(PARTS)} parts, each refilled in up to three modes; {failed} of these failed{stale}. "
         f"Made with PrusaSlicer {made.get('prusa', '?')}, CuraEngine {made.get('cura', '?')}, "
         f"Python {made.get('python', '?')}, {made.get('system', '?')}, {made.get('date', '?')}.\n"
     )
+
+
+def _newer(results: dict[str, Any]) -> str:
+    """Return which slicings PrusaSlicer 2.9 made, or what is missing for them."""
+    number = sum(case_of(key).slicer in NEWER for key in results["runs"])
+    if not number:
+        return (
+            "PrusaSlicer 2.9 was left out: no Python that has the package deli-slicer was named "
+            f"(`--deli PYTHON`, or the environment variable {DELI_PYTHON}).\n"
+        )
+    package = results.get("machine", {}).get("deli") or "?"
+    return f"{number} of these slicings are of PrusaSlicer 2.9, whose engine the package deli-slicer {package} holds.\n"
+
+
+def _takes(results: dict[str, Any]) -> str:
+    """Return how long a case took, and how long the whole matrix takes."""
+    seconds: dict[str, float] = results.get("seconds", {})
+    if not seconds:
+        return ""
+    spent = sorted(seconds.values())
+    hours = sum(estimates(seconds).values()) / 2 / 3600
+    return (
+        f"One case, with its slicings, refills and measurements, takes {middle(spent):.0f} s of one core in the middle "
+        f"over {len(spent)} cases, {spent[0]:.0f} to {spent[-1]:.0f} s. So the whole matrix takes about {hours:.1f} "
+        "hours with `--jobs 2` on two cores: a case that was not run counts as the mean of those most like it.\n"
+    )
+
+
+def estimates(seconds: dict[str, float]) -> dict[str, float]:
+    """Return seconds of one core for every case of the matrix: measured, or the mean of the cases most like it.
+
+    Part, density, pattern, slicer and printer make cases alike, in this order. Where no case of the density was run,
+    the seconds are in proportion to it.
+
+    >>> found = estimates({"prusa/grid/box/15/fast": 10.0, "prusa/grid/bracket_medium/15/fast": 30.0})
+    >>> found["prusa/grid/box/15/fast"], found["cura/gyroid/box/30/normal"]
+    (10.0, 20.0)
+    """
+    known = [(case_of(key), value) for key, value in seconds.items()]
+    found = {}
+    for case in cases():
+        alike = [(_likeness(case, other), value * case.density / other.density) for other, value in known]
+        most = max(likeness for likeness, _ in alike)
+        values = [value for likeness, value in alike if likeness == most]
+        found[case.key] = seconds.get(case.key, sum(values) / len(values))
+    return found
+
+
+def _likeness(case: Case, other: Case) -> int:
+    """Return a weight of what two cases share: what comes before weighs more than all that comes after."""
+    names = ("part", "density", "pattern", "slicer", "printer")
+    return sum((getattr(case, name) == getattr(other, name)) << (len(names) - n) for n, name in enumerate(names))
 
 
 _NONE = "we have no such pattern"
@@ -117,14 +184,15 @@ def promises_section(results: dict[str, Any]) -> str:
             rows.append((promise.text, promise.limit, "-", "-", "not measured"))
             continue
         value, values = found
-        spread = f"{promise.show.format(min(values))} to {promise.show.format(max(values))}, {_runs(values)}"
-        rows.append((promise.text, promise.limit, promise.show.format(value), spread, verdict(promise.reached(value))))
+        least, most = (shown(end, promise.show) for end in (min(values), max(values)))
+        spread = f"{least} to {most}, {_runs(values)}"
+        rows.append((promise.text, promise.limit, shown(value, promise.show), spread, verdict(promise.reached(value))))
     for pattern in ("gyroid", "hilbertcurve"):
         wide = [value for case, value in against_keep(runs, pattern) if is_wide(widths, case)]
         text = f"our {OURS[pattern]} against `keep` of the slicer's, regions wider than {WIDE} cells, middle over runs"
         if wide:
-            spread = f"{min(wide):+.1%} to {max(wide):+.1%}, {_runs(wide)}"
-            rows.append((text, "no slower", f"{middle(wide):+.1%}", spread, verdict(middle(wide) <= 0)))
+            spread = f"{percent(min(wide))} to {percent(max(wide))}, {_runs(wide)}"
+            rows.append((text, "no slower", percent(middle(wide)), spread, verdict(middle(wide) <= 0)))
         else:
             rows.append((text, "no slower", "-", "-", "not measured"))
     head = ("promise", "limit", "measured", "from and to", "reached?")
@@ -145,7 +213,7 @@ def _of(runs: Runs, slicer: str, pattern: str) -> list[tuple[Case, dict[str, Any
 
 
 def _pattern_section(runs: Runs, slicer: str, pattern: str) -> str:
-    name = {"prusa": "PrusaSlicer", "cura": "CuraEngine"}[slicer]
+    name = SLICERS[slicer]
     ours = OURS.get(pattern)
     times, holds, failed = [], [], []
     for case, modes in _of(runs, slicer, pattern):
@@ -262,7 +330,7 @@ def _planners_section(runs: Runs) -> str:
     """Return the middle of what each mode saves by pattern, under three models of the firmware."""
     rows = []
     planners = ("seconds", "seconds_cruise", "seconds_jerk")
-    for slicer, patterns in (("prusa", PRUSA), ("cura", CURA)):
+    for slicer, patterns in PATTERNS.items():
         for pattern in patterns:
             for printer in PRINTERS:
                 cells = []

@@ -1,27 +1,33 @@
 """Refill against the slicers themselves: ``python -m benchmarks.slicer_report [--quick] [--only REGEX] [--page]``.
 
-Results go to build/slicer-report.json as they come; a run that is there is not made again. The page,
-docs/slicer-report.md, is written from them.
+Results go to build/slicer-report.json as they come; a run that is there is not made again, so that a night that ended
+early (or after `--minutes`) is taken up where it stopped. The page, docs/slicer-report.md, is written from them, with
+the time that the whole matrix takes. `--deli PYTHON` names a Python that has the package deli-slicer (3.12 or later),
+and adds PrusaSlicer 2.9; the environment variable INFILL_DELI does the same.
 """
 
 from __future__ import annotations
 
 import argparse
+import ast
 import hashlib
 import json
 import multiprocessing
 import os
 import platform
 import re
+import resource
+import shutil
 import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Iterable
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 from typing import Any
 
-from benchmarks.slicer_cases import MODES, PARTS, Case, cases, quick, width_of
+from benchmarks.slicer_cases import DELI_PYTHON, MODES, NEWER, PARTS, Case, cases, quick, width_of
 from benchmarks.slicer_page import write_page
 from benchmarks.slicer_runs import run_case
 
@@ -29,6 +35,9 @@ ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "build" / "slicer-report.json"
 PAGE = ROOT / "docs" / "slicer-report.md"
 EXTRAS = ("density", "speed")
+# What refills and judges; with all that these modules import, they are the code that a run was made by.
+REFILLS = ("infill.refilling.job", "infill.timing.printing_time")
+JUDGES = ("benchmarks/slicer_judge.py", "tests/gcode_judge.py", "tests/gcode_structure.py")
 
 
 def main() -> None:
@@ -42,7 +51,13 @@ def main() -> None:
     words.add_argument("--page", action="store_true", help="only write the page, of what is there")
     words.add_argument("--minutes", type=float, default=1e9, help="begin no case after so long")
     words.add_argument("--results", type=Path, default=RESULTS)
+    words.add_argument("--deli", default=os.environ.get(DELI_PYTHON, ""), help="a Python with the package deli-slicer")
     given = words.parse_args()
+    if given.deli and not shutil.which(given.deli):
+        words.error(f"--deli: {given.deli} cannot be run; give the path of a Python that has the package deli-slicer")
+    # Absolute, as slicers run in folders of their own, and no symbolic link resolved, which would leave an environment.
+    given.deli = str(Path(shutil.which(given.deli) or "").absolute()) if given.deli else ""
+    os.environ[DELI_PYTHON] = given.deli
     results = read_results(given.results)
     if not given.page:
         os.nice(5)
@@ -67,7 +82,8 @@ def save(results: dict[str, Any], path: Path) -> None:
 
 def fill(results: dict[str, Any], given: argparse.Namespace) -> None:
     """Make the runs that are missing."""
-    results["machine"] = machine()
+    made_with = {name: value for name, value in machine(given.deli).items() if value}
+    results["machine"] = {**results.get("machine", {}), **made_with}  # earlier nights may have had more slicers
     if "widths" not in results:
         with tempfile.TemporaryDirectory() as folder:
             results["widths"] = {part: width_of(part, Path(folder)) for part in PARTS}
@@ -75,6 +91,8 @@ def fill(results: dict[str, Any], given: argparse.Namespace) -> None:
     todo: list[tuple[Case, list[str]]] = []
     for case in cases():
         if (given.quick and not quick(case)) or not re.search(given.only, case.key):
+            continue
+        if case.slicer in NEWER and not given.deli:
             continue
         there = {} if given.again else results["runs"].get(case.key, {})
         if given.stale:
@@ -89,14 +107,16 @@ def fill(results: dict[str, Any], given: argparse.Namespace) -> None:
         for case, modes in todo:
             waiting[pool.submit(_timed, case, modes, begin + 60 * given.minutes)] = case
         for future in as_completed(waiting):
-            case, found = waiting[future], future.result()
+            case, (found, seconds) = waiting[future], future.result()
             if not found:
                 continue
             done += 1
+            if len(found) == len(MODES):
+                results.setdefault("seconds", {})[case.key] = seconds
             results["runs"].setdefault(case.key, {}).update({m: {**run, "code": code} for m, run in found.items()})
             save(results, given.results)
             told = _line(results["runs"][case.key])
-            print(f"{done}/{len(todo)} {case.key}: {told}", flush=True)
+            print(f"{done}/{len(todo)} {case.key}: {seconds:.0f} s; {told}", flush=True)
     for name in EXTRAS:
         if (
             (name not in results or given.again)
@@ -108,19 +128,45 @@ def fill(results: dict[str, Any], given: argparse.Namespace) -> None:
             save(results, given.results)
 
 
-def code_of() -> str:
-    """Return what tells the code that refills and judges from older code."""
-    found = hashlib.sha256()
-    for room in ("filling", "gcode"):
-        for path in sorted((ROOT / "infill" / room).rglob("*.py")):
-            found.update(path.read_bytes())
-    for path in (ROOT / "benchmarks" / "slicer_judge.py", ROOT / "tests" / "gcode_structure.py"):
-        found.update(path.read_bytes())
-    return found.hexdigest()[:12]
+def code_of(root: Path = ROOT) -> str:
+    """Return a name of the code that refills and judges: another one once a file of it changes."""
+    digest = hashlib.sha256()
+    for path in [*imported(REFILLS, root), *(root / name for name in JUDGES)]:
+        digest.update(path.read_bytes())
+    return digest.hexdigest()[:12]
 
 
-def _timed(case: Case, modes: list[str], until: float) -> dict[str, Any]:
-    return run_case(case, modes) if time.monotonic() < until else {}
+def imported(modules: Iterable[str], root: Path = ROOT) -> list[Path]:
+    """Return the files of modules and of all that they import of this repository's packages, in order."""
+    files: dict[str, Path] = {}
+    waiting = list(modules)
+    while waiting:
+        module = waiting.pop()
+        place = root.joinpath(*module.split("."))
+        path = next((path for path in (place.with_suffix(".py"), place / "__init__.py") if path.exists()), None)
+        if path is None or module in files:
+            continue
+        files[module] = path
+        for node in ast.walk(ast.parse(path.read_bytes())):
+            names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+            if isinstance(node, ast.ImportFrom) and node.module:
+                names = [node.module, *(f"{node.module}.{alias.name}" for alias in node.names)]
+            waiting += [name for name in names if name.partition(".")[0] in ("infill", "patterns")]
+    return [files[module] for module in sorted(files)]
+
+
+def _timed(case: Case, modes: list[str], until: float) -> tuple[dict[str, Any], float]:
+    """Run a case unless it is too late; return what it gave, and the seconds of one core that it took."""
+    if time.monotonic() >= until:
+        return {}, 0.0
+    begin = _core_seconds()
+    return run_case(case, modes), _core_seconds() - begin
+
+
+def _core_seconds() -> float:
+    """Return the seconds of one core that this process and the slicers it ran have taken."""
+    uses = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return sum(use.ru_utime + use.ru_stime for use in uses)
 
 
 def _line(found: dict[str, Any]) -> str:
@@ -140,12 +186,15 @@ def _line(found: dict[str, Any]) -> str:
     return "; ".join(parts)
 
 
-def machine() -> dict[str, str]:
+def machine(deli: str = "") -> dict[str, str]:
     """Return what the numbers were made with."""
     slicer = subprocess.run(["prusa-slicer", "--help"], capture_output=True, text=True, check=False).stdout
     cura = subprocess.run(["CuraEngine", "help"], capture_output=True, text=True, check=False).stderr
     number = re.search(r"version ([\d.]+)", cura)
+    version = "from importlib.metadata import version; print(version('deli-slicer'))"
+    package = subprocess.run([deli, "-c", version], capture_output=True, text=True, check=True).stdout if deli else ""
     return {
+        "deli": package.strip(),
         "prusa": (re.search(r"PrusaSlicer-([\d.]+)", slicer) or ["", "unknown"])[1],
         "cura": number[1] if number else "unknown",
         "python": platform.python_version(),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import subprocess
 import tempfile
 import time
 from pathlib import Path
@@ -22,7 +23,7 @@ def run_case(case: Case, modes: list[str]) -> dict[str, dict[str, Any]]:
         folder = Path(name)
         try:
             plain = sliced(case, case.density, folder)
-        except (RuntimeError, AssertionError, OSError) as error:
+        except (RuntimeError, AssertionError, OSError, subprocess.TimeoutExpired) as error:
             return {mode: {"error": f"slicing: {error}"[-300:]} for mode in modes}
         own = judged(plain, case.acceleration)
         if not own.length:
@@ -31,7 +32,7 @@ def run_case(case: Case, modes: list[str]) -> dict[str, dict[str, Any]]:
         for mode in modes:
             try:
                 found[mode] = _mode(case, mode, plain, own, folder, found)
-            except (InfillError, RuntimeError) as error:
+            except (InfillError, RuntimeError, subprocess.TimeoutExpired) as error:
                 found[mode] = {"error": str(error)[:300]}
         return found
 

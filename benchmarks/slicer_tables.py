@@ -30,5 +30,15 @@ def percent(value: float) -> str:
     return "0 %" if text in ("+0.0 %", "−0.0 %") else text
 
 
+def shown(value: float, form: str) -> str:
+    """Return a number in a form of `str.format`, with a space before the sign of per cent and no sign of nothing.
+
+    >>> shown(0.126, "{:.1%}"), shown(-0.00001, "{:+.1%}"), shown(-0.02, "{:+.1%}"), shown(0.946, "{:.3f}")
+    ('12.6 %', '0 %', '−2.0 %', '0.946')
+    """
+    text = form.format(value).replace("-", "−").replace("%", " %")
+    return "0 %" if text in ("0.0 %", "+0.0 %", "−0.0 %") else text
+
+
 def verdict(reached: bool) -> str:
     return "yes" if reached else "**NOT reached**"

@@ -137,6 +137,12 @@ CURA: Mapping[str, object] = {
     "layer_start_y": 0,
 }
 
+DELI = """
+import sys
+from deli import _engine
+_engine.slice([(sys.argv[1], [1, 1, 1], [0, 0, 0], 1, [], 0.0, [], [])], open(sys.argv[2]).read(), sys.argv[3])
+"""
+
 
 def box(folder: Path, size: tuple[float, float, float] = (60, 60, 20)) -> Path:
     """Write a box, standing on z = 0, and return its path."""
@@ -156,6 +162,16 @@ def prusa_print(meshes: Path | list[Path], gcode: Path, settings: Mapping[str, o
         merge = ["--merge"] if len(named) > 1 else []
         command = ["prusa-slicer", "--datadir", folder, "--load", str(ini), "--export-gcode", *merge]
         run_slicer([*command, "--center", "125,105", "-o", str(Path(gcode).resolve()), *map(str, named)], folder)
+    return Path(gcode)
+
+
+def deli_print(mesh: Path, gcode: Path, settings: Mapping[str, object] | None = None, *, python: str) -> Path:
+    """Slice one mesh with the engine of PrusaSlicer 2.9, by a Python that has deli-slicer; return the G-code's path."""
+    with tempfile.TemporaryDirectory() as folder:
+        ini = Path(folder, "print.ini")
+        ini.write_text("".join(f"{name} = {value}\n" for name, value in {**PRINT, **(settings or {})}.items()))
+        files = [Path(mesh).resolve(), ini, Path(gcode).resolve()]
+        run_slicer([python, "-c", DELI, *map(str, files)], folder, PYTHONPATH="")
     return Path(gcode)
 
 

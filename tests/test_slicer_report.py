@@ -4,21 +4,24 @@ from __future__ import annotations
 
 import copy
 import re
+import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from benchmarks.slicer_cases import CURA, MODES, PARTS, PRUSA, case_of, cases, quick
+from benchmarks.slicer_cases import CURA, MODES, NEWER, PARTS, PATTERNS, PRINTERS, PRUSA, SMALL, case_of, cases, quick
 from benchmarks.slicer_density import SPACING, WIDTH, curvature, distances
 from benchmarks.slicer_judge import judged, structure, windows
-from benchmarks.slicer_page import page
+from benchmarks.slicer_page import estimates, page
 from benchmarks.slicer_promises import kept, promises, saved, turns
+from benchmarks.slicer_report import JUDGES, REFILLS, ROOT, code_of, imported
+from benchmarks.slicer_runs import run_case
 from benchmarks.slicer_tables import table
 from tests.handmade_prints import LAYER, PER_MM
 
 PAGE = Path(__file__).parents[1] / "docs" / "slicer-report.md"
-NAMED = [("prusa", pattern) for pattern in PRUSA] + [("cura", pattern) for pattern in CURA]
+NAMED = [(slicer, pattern) for slicer, patterns in PATTERNS.items() for pattern in patterns]
 
 
 def stacked(places: list[list[float]]) -> bytes:
@@ -83,9 +86,73 @@ def test_where_a_loop_closes_no_strand_is_too_near() -> None:
 
 def test_the_most_telling_cases_come_first() -> None:
     found = list(cases())
-    assert len(found) == len(set(found)) == 13 * len(PARTS) * 3 * 2
-    assert [case for case in found if quick(case)][:26] == found[:26]
+    assert len(found) == len(set(found))
+    boxes = len(NAMED) * len(PRINTERS)
+    assert [case for case in found if quick(case)][:boxes] == found[:boxes]
     assert all(case_of(case.key) == case for case in found)
+
+
+def test_the_matrix_is_six_patterns_in_six_parts_and_a_third_as_many_by_cura() -> None:
+    found = list(cases())
+    count = {slicer: sum(case.slicer == slicer for case in found) for slicer in PATTERNS}
+    assert (len(PRUSA), len(PARTS), len(PRINTERS)) == (6, 6, 2)
+    assert count["prusa"] == 6 * 6 * 2 * 2
+    assert 3 * count["cura"] == count["prusa"] == 72 * len(CURA)
+    assert {count[slicer] for slicer in SMALL} == {8}
+    assert all(quick(case) for case in found if case.slicer in SMALL)
+
+
+def test_a_case_that_was_not_run_takes_as_long_as_those_most_like_it() -> None:
+    found = estimates({"prusa/grid/box/15/fast": 10.0, "prusa/grid/box/30/fast": 30.0, "cura/cubic/box/30/fast": 50.0})
+    assert set(found) == {case.key for case in cases()}
+    assert found["prusa/grid/box/30/fast"] == 30.0
+    assert found["prusa/grid/box/30/normal"] == 30.0  # the same but for the printer
+    assert found["cura/gyroid/box/30/fast"] == 50.0  # of the part and the density, the same slicer
+    assert found["prusa-2.9/gyroid/bracket_medium/15/fast"] == 10.0  # of the density alone
+    assert estimates({"prusa/grid/box/15/fast": 10.0})["prusa/grid/box/30/fast"] == 20.0
+
+
+def test_a_slicer_that_never_ends_is_an_error_of_one_case(monkeypatch: pytest.MonkeyPatch) -> None:
+    def never(*_: object) -> Path:
+        raise subprocess.TimeoutExpired("prusa-slicer", 300)
+
+    monkeypatch.setattr("benchmarks.slicer_runs.sliced", never)
+    found = run_case(next(cases()), list(MODES))
+    assert list(found) == list(MODES)
+    assert all("timed out" in run["error"] for run in found.values())
+
+
+def test_the_page_says_how_long_the_whole_matrix_takes() -> None:
+    found = results()
+    assert "whole matrix" not in page(found, 216, "x")
+    found["seconds"] = dict.fromkeys((case.key for case in cases()), 72.0)
+    hours = 72 * len(list(cases())) / 2 / 3600
+    assert f"whole matrix takes about {hours:.1f} hours" in page(found, 216, "x")
+
+
+def test_what_prusaslicer_2_9_needs_is_told_where_it_was_left_out() -> None:
+    found = results()
+    assert "left out:" not in page(found, 216, "x")
+    found["runs"] = {key: run for key, run in found["runs"].items() if case_of(key).slicer not in NEWER}
+    (line,) = [line for line in page(found, 216, "x").splitlines() if "left out:" in line]
+    assert "--deli PYTHON" in line
+
+
+def test_runs_are_of_older_code_once_a_module_that_refill_imports_changes(tmp_path: Path) -> None:
+    files = [path.relative_to(ROOT) for path in imported(REFILLS)]
+    for file in ("refilling/job.py", "refilling/fitting.py", "paths/rounding.py", "planner/lookahead.py"):
+        assert Path("infill", file) in files
+    assert not [file for file in files if file.parts[:2] in (("infill", "smoothing"), ("infill", "cli"))]
+    for file in [*files, *map(Path, JUDGES)]:
+        (tmp_path / file).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / file).write_bytes((ROOT / file).read_bytes())
+    code = code_of(tmp_path)
+    assert code == code_of()
+    for file in (Path("infill/paths/rounding.py"), Path(JUDGES[0])):
+        with (tmp_path / file).open("a") as text:
+            text.write("# another\n")
+        assert code_of(tmp_path) != code
+        code = code_of(tmp_path)
 
 
 def results(**changed: float) -> dict:
@@ -106,8 +173,8 @@ def results(**changed: float) -> dict:
 
 
 def test_every_promise_can_be_kept_and_each_can_be_broken() -> None:
-    assert "NOT reached" not in page(results(), 468, "x")
-    assert "not measured" not in page(results(), 468, "x")
+    assert "NOT reached" not in page(results(), 216, "x")
+    assert "not measured" not in page(results(), 216, "x")
     made = results()
     runs, widths = made["runs"], made["widths"]
     for modes in runs.values():
@@ -119,9 +186,22 @@ def test_every_promise_can_be_kept_and_each_can_be_broken() -> None:
         assert promise.wide == (promise.judged(runs, {"box": 5.0}) is None)
 
 
+def test_a_part_that_was_run_often_counts_no_more_than_another() -> None:
+    made = results()
+    runs = {key: run for key, run in made["runs"].items() if key.startswith("prusa/honeycomb/")}
+    run = runs["prusa/honeycomb/box/15/normal"]
+    runs["prusa/honeycomb/box/30/normal"] = run
+    for part, seconds in (("bracket_medium", 90.0), ("prusa_x-carriage", 96.0)):
+        slower = {**run, MODES[2]: {**run[MODES[2]], "seconds": seconds}}
+        runs[f"prusa/honeycomb/{part}/15/normal"] = slower
+    value, values = promises()[0].judged(runs, made["widths"])
+    assert sorted(values) == pytest.approx([0.04, 0.1, 0.5, 0.5])
+    assert value == pytest.approx(0.1)
+
+
 @pytest.mark.parametrize("changed", [{"supported": 0.85}, {"bonded": 0.45}, {"seconds": 102.0}])
 def test_one_run_that_fails_is_told(changed: dict[str, float]) -> None:
-    assert "NOT reached" in page(results(**changed), 468, "x")
+    assert "NOT reached" in page(results(**changed), 216, "x")
 
 
 def test_shares_are_told_against_the_slicers_own() -> None:
@@ -133,8 +213,8 @@ def test_shares_are_told_against_the_slicers_own() -> None:
 
 def test_runs_that_failed_and_runs_of_older_code_are_told() -> None:
     found = results()
-    found["runs"]["prusa/stars/box/15/fast"]["keep"] = {"error": "it broke"}
-    text = page(found, 468, "y")
+    found["runs"]["prusa/grid/box/15/fast"]["keep"] = {"error": "it broke"}
+    text = page(found, 216, "y")
     assert "1 of these failed" in text
     assert "keep: it broke" in text
     assert re.search(r"\d+ of \d+ refills were made by older code", text)
@@ -144,7 +224,7 @@ def test_runs_that_failed_and_runs_of_older_code_are_told() -> None:
 
 def test_the_page_is_what_its_generator_writes() -> None:
     """The same headings and the same promises; the numbers are those of the last run."""
-    text, made = PAGE.read_text(encoding="utf-8"), page(results(), 468, "x")
+    text, made = PAGE.read_text(encoding="utf-8"), page(results(), 216, "x")
     headings = [line for line in text.splitlines() if line.startswith("#")]
     known = [line for line in made.splitlines() if line.startswith("#")] + ["## Density", "## Speed and memory"]
     known.append("## Where little is gained, and why")
