@@ -12,7 +12,7 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
-from infill import UsageError, refill
+from infill import UsageError, refill, verify
 from infill.gcode.arcs import find_arcs, path_steps
 from infill.gcode.machine_state import MachineState
 from infill.gcode.path_moves import ARC_DEVIATION, plan_moves
@@ -246,6 +246,29 @@ def test_a_rise_before_the_first_bead_is_no_lift(data: Path, tmp_path: Path) -> 
     heights = [{float(z) for z in re.findall(rb"^G1 Z([\d.]+)", text, re.MULTILINE)} for text in (old, new)]
     assert heights[1] <= heights[0]
     assert new.count(b"\nG1 Z") == old.count(b"\nG1 Z")
+
+
+def test_wipes_along_arcs_are_no_odd_arcs(tmp_path: Path) -> None:
+    """Two half circles back to where they began, one of which retracts, after a line of every section."""
+    old, output = tmp_path / "old.gcode", tmp_path / "new.gcode"
+    straight = written(Dialect(slicer="orca"))
+    begins = list(
+        re.finditer(rb"(?m)^; FEATURE: (?:Sparse|Internal) infill\n|^;TYPE:(?:Sparse|Internal) infill\n", straight)
+    )
+    assert len(begins) > 2
+    pieces, last = [], 0
+    for begin in begins:
+        bead = re.compile(rb"(?m)^G1 X([\d.]+) Y([\d.]+) E[\d.]+\n").search(straight, begin.end())
+        assert bead
+        x, y = float(bead[1]), float(bead[2])
+        wipe = b"G2 X%.3f Y%.3f I.5 J0 E-.2\nG2 X%.3f Y%.3f I-.5 J0\nG1 E.2 F2100\n" % (x + 1, y, x, y)
+        pieces += [straight[last : bead.end()], wipe]
+        last = bead.end()
+    old.write_bytes(b"".join([*pieces, straight[last:]]))
+    for pattern in ("honeycomb", "gyroid"):
+        report = refill(old, output=output, pattern=pattern).report
+        assert report["sections"] == {"all": len(begins), "replaced": len(begins), "kept": {}}
+        assert verify(old, output).agrees
 
 
 def test_arcs_of_other_beads_bound_the_region(tmp_path: Path) -> None:

@@ -114,7 +114,7 @@ def _refusal_reason(
     drawn[infill.moves_between(first_line, last_line) - first_line] = True
     if ((table.kind[inside] == ODD) & ~drawn).any():
         return "a line that cannot be read"
-    if ((table.kind[inside] == ARC) & ~drawn).any():
+    if ((table.kind[inside] == ARC) & ~drawn & ~(table.extruded[inside] <= 0)).any():  # wipes may be arcs too
         return ODD_ARCS
     if table.numbered[inside].any():
         return "line numbers"
