@@ -210,7 +210,8 @@ def _summary(report: RefillReport, name: str, files: list[str]) -> str:
         rows["filament"] = f"{after / 1000:.3f} m of infill, {after / before - 1:+z.1%}"
         density = filament["density_for_the_same_percent"]
         if densities := report["request"]["densities"]:
-            rows["density"] = f"{100 * densities[0]:.3g}% to {100 * densities[1]:.3g}%, by {report['request']['by']}"
+            shares = " to ".join(f"{plain_number(100 * share)}%" for share in densities)
+            rows["density"] = f"{shares}, by {report['request']['by']}"
         if density and after < before * 0.999:
             rows["filament"] += f"; for the old amount, set {plain_number(density, 6)} % in the slicer"
             if (filament["ratio_with_density_same"] or 0.0) > ALIKE:
