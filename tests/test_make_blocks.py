@@ -86,6 +86,14 @@ def test_drawings_and_functions_are_blocks_too(pattern: str, tmp_path: Path, mon
         assert_block(make(given, size=SIDES, density=20).surface)
 
 
+@pytest.mark.parametrize("name", ["zigzag", "honeycomb", "gyroid"])
+def test_lines_of_a_low_block_without_a_frame_have_their_width(name: str) -> None:
+    """The voids come out of all its sides, which lie near most of them and are no walls."""
+    report = make(name, size=(30, 30, 4), density=0.15, frame=False).report
+    assert report["infill"]["line_width"] == pytest.approx(0.45, rel=0.05)
+    assert report["problems"] == []
+
+
 def test_the_third_of_cell_line_width_and_density_follows() -> None:
     small: dict[str, Any] = {"size": (12, 10, 4), "frame": False}
     by_cell = make("honeycomb", cell=4, density=0.3, **small).report

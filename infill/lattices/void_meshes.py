@@ -177,8 +177,10 @@ def median_width(
     a, b, c = (np.asarray(voids.vertices, dtype=np.float64)[voids.faces[sampled, corner]] for corner in range(3))
     points, across = (a + b + c) / 3, np.cross(b - a, c - a)
     normals = across / np.linalg.norm(across, axis=1, keepdims=True)
-    distance, _ = TriangleTree.of(part).nearest(points, threads=threads)
-    is_inside = distance > wall + AWAY * width
+    distance, face = TriangleTree.of(part).nearest(points, threads=threads)
+    a, b, c = (np.asarray(part.vertices, dtype=np.float64)[part.faces[face, corner]] for corner in range(3))
+    is_below_skin = np.einsum("ij,ij->i", points - a, np.cross(b - a, c - a)) < 0  # open voids come out of the part
+    is_inside = is_below_skin & (distance > wall + AWAY * width)
     points, normals = points[is_inside], normals[is_inside]
     if len(points) < FEWEST:
         return None, len(points)
