@@ -249,7 +249,10 @@ def test_the_report_says_what_the_density_follows(sliced: Path) -> None:
 
 def test_densities_and_their_field_belong_together() -> None:
     for options, message in (
-        ({"density": "40%:12%"}, "density is 40%:12%, and by is missing; give by too, such as x, or one density"),
+        (
+            {"density": "40%:12%"},
+            "density is 40%:12%, and a density that changes follows a field: give it too, such as --by x",
+        ),
         ({"density": "40%", "by": "x"}, "by is given without two densities; give these too, such as 40%:12%"),
         ({"by": "x"}, "by is given without two densities"),
         ({"density": "5%:20%:9%", "by": "x"}, "density has 3 numbers; give one, or two such as 40%:12%"),

@@ -76,6 +76,8 @@ def _summary(report: VerifyReport, name: str) -> str:
         "violations": f"{report['count']}: {kinds}" if kinds else "none",
         "compared": f"{compared['beads_mm'] / 1000:.2f} m of beads, {share:.1%} in the same place",
     }
+    if "material" in report["by_kind"]:
+        rows["if it was meant"] = "--allow material, or --material-limit 100%, takes other amounts of filament"
     if report["allowed"]:
         rows["ALLOWED"] = ", ".join(f"{count} of {kind}" for kind, count in report["allowed"].items())
     if compared["not_compared"]:
