@@ -106,8 +106,8 @@ def check_gradient(densities: Sequence[float], by: object) -> Gradient:
     if by is None:
         raise UsageError.about(
             "density",
-            f"is {_percent(densities[0])}:{_percent(densities[1])}, and a density that changes follows a field: give it "
-            "too, such as --by x, or one density",
+            f"is {_percent(densities[0])}:{_percent(densities[1])}, and a density that changes follows a field: give "
+            "it too, such as --by x, or one density",
         )
     field, name = resolve_field(by, roofs=True)
     return Gradient(first=densities[0], last=densities[1], by=field, name=name)

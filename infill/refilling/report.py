@@ -190,11 +190,8 @@ def _problems(report: RefillReport, tally: RefillStats) -> list[str]:
     if contact["measured_mm"] and contact["kept_supported"] < LEAST_SHARE:
         problems.append(
             f"{1 - contact['kept_supported']:.0%} less of this infill rests on the layer below than before; "
-            + (
-                "give a smaller --max-deviation"
-                if keeps
-                else f"try another --pattern{'' if asked else ', or leave --pattern out'}"
-            )
+            + ("give a smaller --max-deviation" if keeps else "try another --pattern")
+            + ("" if keeps or asked else ", or leave --pattern out")
         )
     if not keeps and contact["free_after"] - contact["free_before"] > MOST_FREE:
         problems.append(
