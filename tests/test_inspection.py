@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from infill import FormatError, GeometryError, Surface, check, isosurface, save
 from infill.inspection.printability import guess_unit
-from infill.meshes.intersections import count_self_intersections, intersecting_pairs
+from infill.meshes.intersections import count_self_intersections, intersecting_pairs, intersecting_pairs_reference
 
 BOX = trimesh.creation.box((10, 10, 10))
 
@@ -159,7 +159,13 @@ def test_crossing_triangles_are_counted_as_by_brute_force(seed: int, size: float
         for i in range(18)
         for j in range(i)
     )
-    assert count_self_intersections(corners.reshape(-1, 3), np.arange(54).reshape(-1, 3)) == expected
+    vertices, faces = corners.reshape(-1, 3), np.arange(54).reshape(-1, 3)
+    assert count_self_intersections(vertices, faces) == expected
+    by_numpy, by_kernel = (
+        intersecting_pairs_reference(vertices, faces),
+        intersecting_pairs(Surface(vertices=vertices, faces=faces)),
+    )
+    assert sorted(np.sort(by_numpy, axis=1).tolist()) == by_kernel.tolist()
 
 
 @pytest.mark.slow

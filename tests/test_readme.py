@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 import trimesh
 from handmade_prints import Dialect, written
+from PIL import Image
 from test_command_line import run
 from test_label_tables import FIELDS, seg_nrrd
 from test_scans import write_series
@@ -43,6 +44,7 @@ GIVEN = {
     "part.stl",
     "cloud.xyz",
     "leaf.svg",
+    "loads.png",
     "print.gcode",
     "before.gcode",
     "after.gcode",
@@ -107,6 +109,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     Path("leaf.svg").write_text(
         f'<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="20mm" viewBox="0 0 20 20">{leaf}</svg>'
     )
+    Image.fromarray(np.tile(np.arange(0, 240, 4, dtype=np.uint8), (60, 1))).save("loads.png")
     for name in ("print.gcode", "before.gcode", "after.gcode"):
         Path(name).write_bytes(written(Dialect(layers=5)))
     Path("printer.cfg").write_text("[printer]\nkinematics: corexy\nmax_velocity: 300\nmax_accel: 3000\n")
