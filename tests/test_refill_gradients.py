@@ -23,7 +23,8 @@ from infill.interior.plane_map import fit_plane_map
 from infill.paths.families.catalogue import FAMILIES
 from infill.paths.families.family import TOUCH, PathSpec
 from infill.paths.families.waves import WaveFamily
-from infill.paths.stretching import STRETCHED_TOUCH, PlaneMap, PlaneSpline, invert_map, pattern_bounds, stretch_family
+from infill.paths.plane_splines import PlaneMap, PlaneSpline, invert_map, pattern_bounds
+from infill.paths.stretching import STRETCHED_TOUCH, stretch_family
 
 WIDTH = 0.45
 DENSE, SPARSE = 0.4, 0.12

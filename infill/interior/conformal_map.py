@@ -9,7 +9,7 @@ have as much wall in a volume as cubes would, as far as a limit allows.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,16 +44,29 @@ def fit_conformal_map(scales: NDArray[np.floating]) -> tuple[Floats, Floats]:
     -----
     Where scales change so quickly that cells would fold over each other, the scales are evened out until no cell folds.
     """
+    return fit_without_folds(scales, _fit_coordinates)
+
+
+def fit_without_folds(
+    scales: NDArray[np.floating], fit: Callable[[Floats], tuple[Floats, Floats, Floats]]
+) -> tuple[Floats, Floats]:
+    """Even scales out until no cell folds; return the coordinates, kept in the middle, and the factors reached.
+
+    Parameters
+    ----------
+    scales : (n, m) or (n, m, k) float
+    fit : callable
+        Returns coordinates, their slopes, and the factors reached, for scales.
+    """
     targets = np.asarray(scales, dtype=np.float64)
     while True:
-        coordinates, slopes, more = _fit_coordinates(targets)
-        if np.linalg.det(slopes).min() > FOLDED * targets.min() ** 3:
-            break
+        coordinates, slopes, more = fit(targets)
+        if np.linalg.det(slopes).min() > FOLDED * targets.min() ** targets.ndim:
+            return _keep_middle(coordinates), more
         targets = targets**EASED
-    return keep_middle(coordinates), more
 
 
-def keep_middle(coordinates: Floats) -> Floats:
+def _keep_middle(coordinates: Floats) -> Floats:
     """Shift coordinates so that the node in the middle stays where it is."""
     middle = (np.array(coordinates.shape[:-1]) - 3) / 2
     shifted: Floats = coordinates + (middle - map_points(coordinates, middle[None])[0])

@@ -10,14 +10,14 @@ Source: O. Sorkine, M. Alexa, "As-rigid-as-possible surface modeling", 2007, sec
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from infill.arrays import Floats
 from infill.interior.conformal_map import (
-    EASED,
-    FOLDED,
     extrapolate_nodes,
-    keep_middle,
+    fit_without_folds,
     solve_poisson,
     spline_slopes,
     step_divergence,
@@ -51,12 +51,7 @@ def fit_plane_map(scales: Floats, normals: Floats | None = None) -> tuple[Floats
     -----
     Where scales change so quickly that cells would fold over each other, the scales are evened out until no cell folds.
     """
-    targets = np.asarray(scales, dtype=np.float64)
-    while True:
-        coordinates, slopes, more = _fit_coordinates(targets, normals)
-        if np.linalg.det(slopes).min() > FOLDED * targets.min() ** 2:
-            return keep_middle(coordinates), more
-        targets = targets**EASED
+    return fit_without_folds(scales, partial(_fit_coordinates, normals=normals))
 
 
 def _fit_coordinates(targets: Floats, normals: Floats | None) -> tuple[Floats, Floats, Floats]:

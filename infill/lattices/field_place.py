@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from infill.arrays import Floats
 from infill.interior.interior import Interior
@@ -13,7 +15,7 @@ LEAST_SHARE = 0.5  # of a layer of cells that lies in the part
 MOST_CELLS = 2e6  # in which the distance from the skin is measured
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class InteriorPlace:
     """The inside of a part."""
 
@@ -24,9 +26,10 @@ class InteriorPlace:
         """The box around the part, (2, 3), mm."""
         return np.asarray(self.space.part.bounds, dtype=np.float64)
 
-    def skin_depth(self, points: Floats) -> Floats:
-        """Return the depth of points (N, 3) below the inner side of the walls, in cells of the grid: (N,)."""
-        from scipy.ndimage import distance_transform_edt, map_coordinates
+    @cached_property
+    def _skin_distances(self) -> tuple[NDArray[np.float32], int, int, int]:
+        """Distance from the skin in cells a stride apart; the stride, the lowest layer, and those added below it."""
+        from scipy.ndimage import distance_transform_edt
 
         space = self.space
         stride = max(1, int(np.ceil((space.depth.size / MOST_CELLS) ** (1 / 3))))
@@ -37,6 +40,13 @@ class InteriorPlace:
         opening = space.opening
         ends = (1, 1) if opening is None else (int(np.isinf(opening.low)), int(np.isinf(opening.high)))
         distance = distance_transform_edt(np.pad(inside, ((1, 1), (1, 1), ends))).astype(np.float32)
-        nodes = ((points - space.origin) / space.size - (0, 0, bottom)).T / stride + np.array([[1], [1], [ends[0]]])
+        return distance, stride, bottom, ends[0]
+
+    def skin_depth(self, points: Floats) -> Floats:
+        """Return the depth of points (N, 3) below the inner side of the walls, in cells of the grid: (N,)."""
+        from scipy.ndimage import map_coordinates
+
+        (distance, stride, bottom, below), space = self._skin_distances, self.space
+        nodes = ((points - space.origin) / space.size - (0, 0, bottom)).T / stride + np.array([[1], [1], [below]])
         depths: Floats = map_coordinates(distance, nodes, order=1, mode="nearest")
         return depths

@@ -9,35 +9,26 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from infill.arrays import Floats
 from infill.errors import GeometryError, ParameterError, UsageError
 from infill.interior.conformal_map import spline_slopes
 from infill.interior.plane_map import fit_plane_map
-from infill.options.density_fields import (
-    BoxedField,
-    Field,
-    ScatteredField,
-    resolve_field,
-)
+from infill.options.density_fields import BoxedField, Field, ScatteredField, resolve_field
 from infill.paths.families.family import Bounds, Family, NominalStrand, PathSpec
+from infill.paths.plane_splines import PlaneMap, PlaneSpline, invert_map, pattern_bounds
 from infill.paths.stretching import (
     STRETCHED_TOUCH,
-    PlaneMap,
-    PlaneSpline,
     SteppedFamily,
     StretchedFamily,
     equal_normals,
-    invert_map,
     line_angles,
-    pattern_bounds,
     scaled_length,
     step_family,
     stretch_family,
 )
 from infill.plain_numbers import plain_argument
-from infill.refilling.print_place import PrintPlace
+from infill.refilling.print_place import PrintPlace, mark_inside
 
 if TYPE_CHECKING:
     from shapely import Polygon
@@ -223,7 +214,7 @@ def find_steps(graded: GradedDensity) -> list[tuple[float, float]]:
     nodes = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
     heights = np.array([layer.z for layer in layers])
     shares = np.stack([graded.shares(np.column_stack([nodes, np.full(len(nodes), z)])) for z in heights])
-    inside = np.stack([_holds(layer.areas, nodes) for layer in layers])
+    inside = np.stack([mark_inside(layer.areas, nodes) for layer in layers])
     means = np.array([row[held].mean() if held.any() else row.mean() for row, held in zip(shares, inside, strict=True)])
     looser = 1.0
     while True:
@@ -233,15 +224,6 @@ def find_steps(graded: GradedDensity) -> list[tuple[float, float]]:
         looser *= 1.25
     middles = [(heights[end - 1] + heights[end]) / 2 for end in ends[:-1]]
     return list(zip([-math.inf, *middles], [*middles, math.inf], strict=True))
-
-
-def _holds(areas: Sequence[Polygon], nodes: Floats) -> NDArray[np.bool_]:
-    import shapely
-
-    union = shapely.union_all(list(areas))
-    shapely.prepare(union)
-    held: NDArray[np.bool_] = shapely.contains_xy(union, nodes[:, 0], nodes[:, 1])
-    return held
 
 
 def _greedy_ends(shares: Floats, means: Floats, local: float, ratio: float) -> list[int]:

@@ -21,7 +21,7 @@ from infill.refilling.layers import read_layers
 from infill.refilling.regions import FreeAreas
 
 if TYPE_CHECKING:
-    from shapely import Polygon
+    from shapely import MultiPolygon, Polygon
 
 MOST_LAYERS = 96  # that are looked at, about
 MOST_GAP = 1.0  # mm: infill that is left out of fewer layers is combined into every second or third one, or more
@@ -92,26 +92,21 @@ class PrintPlace:
     @cached_property
     def _grid(self) -> tuple[Floats, Floats, NDArray[np.bool_]]:
         """The first node and the steps of a grid, (3,) each, mm, and which of its nodes lie in the infill."""
-        import shapely
-
         low, high = self.bounds
         heights, rise = self._heights
         step = max(LEAST_STEP, math.sqrt(float(np.prod(high[:2] - low[:2])) * len(heights) / MOST_NODES))
         x, y = (np.arange(low[axis] - step / 2, high[axis] + step, step) for axis in (0, 1))
         nodes = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
         inside = np.zeros((len(x), len(y), len(heights)), dtype=bool)
-        of_areas: dict[int, NDArray[np.bool_]] = {}
+        before, held = None, inside[:, :, 0]
         places = np.array([layer.z for layer in self.layers])
         for number, height in enumerate(heights.tolist()):
             if not low[2] - rise / 2 <= height <= high[2] + rise / 2:
                 continue
             layer = self.layers[int(np.argmin(np.abs(places - height)))]
-            if id(layer.areas) not in of_areas:
-                union = shapely.union_all(list(layer.areas))
-                shapely.prepare(union)
-                held = shapely.contains_xy(union, nodes[:, 0], nodes[:, 1])
-                of_areas = {id(layer.areas): held.reshape(inside.shape[:2])}
-            inside[:, :, number] = of_areas[id(layer.areas)]
+            if layer.areas is not before:
+                before, held = layer.areas, mark_inside(layer.areas, nodes).reshape(inside.shape[:2])
+            inside[:, :, number] = held
         return np.array([x[0], y[0], heights[0]]), np.array([step, step, rise]), _close_gaps(inside, rise)
 
     @cached_property
@@ -182,13 +177,21 @@ def _sample_areas(areas: Sequence[Polygon]) -> Floats:
     import shapely
 
     union = shapely.union_all(list(areas))
-    shapely.prepare(union)
     x0, y0, x1, y1 = union.bounds
     step = math.sqrt(max(union.area, 1e-6) / SAMPLES)
     nodes = np.stack(np.meshgrid(np.arange(x0, x1, step), np.arange(y0, y1, step), indexing="ij"), axis=-1)
     nodes = nodes.reshape(-1, 2)
-    inside = nodes[shapely.contains_xy(union, nodes[:, 0], nodes[:, 1])]
-    return np.concatenate([inside, shapely.get_coordinates(union)])
+    return np.concatenate([nodes[mark_inside([union], nodes)], shapely.get_coordinates(union)])
+
+
+def mark_inside(areas: Sequence[Polygon | MultiPolygon], points: Floats) -> NDArray[np.bool_]:
+    """Mark the points (N, 2), mm, that lie in one of some areas: (N,)."""
+    import shapely
+
+    union = shapely.union_all(list(areas))
+    shapely.prepare(union)
+    inside: NDArray[np.bool_] = shapely.contains_xy(union, points[:, 0], points[:, 1])
+    return inside
 
 
 def look_at_infill(file: BinaryIO, begin: MachineState, layers: float) -> PrintPlace | None:

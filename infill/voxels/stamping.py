@@ -166,7 +166,20 @@ def stamp_layer(
     width: float,
     outside: Literal["error", "clip"] = "error",
 ) -> NDArray[np.float32]:
-    """Stamp a layer by its points ("block": see `stamp`) or by its lines ("exact": see `stamp_lines`)."""
+    """Stamp a layer by its points ("block") or by its lines ("exact"): (grid.shape) float32.
+
+    Parameters
+    ----------
+    lines : MultiLineString, mm
+    points : (N, 2) float, mm
+        Along the lines.
+    grid : Grid
+    method : {"block", "exact"}
+    block, outside
+        See `stamp`.
+    width : float, mm
+        See `stamp_lines`.
+    """
     if method == "exact":
         return stamp_lines(lines, grid, width=width)
     return stamp(points, grid, block=block, outside=outside)
