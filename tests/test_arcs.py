@@ -232,6 +232,7 @@ def test_arcs_are_written_where_they_are_asked_for(data: Path, tmp_path: Path) -
         refill(path, arcs="yes", dry_run=True)
 
 
+@pytest.mark.longest
 def test_a_binary_print_with_arcs_is_refilled(data: Path, tmp_path: Path) -> None:
     report = refill(
         data / "prints" / "p29_binary_arcs.bgcode", output=tmp_path / "out.bgcode", pattern="honeycomb"
@@ -239,6 +240,7 @@ def test_a_binary_print_with_arcs_is_refilled(data: Path, tmp_path: Path) -> Non
     assert report["sections"]["replaced"] >= 0.95 * report["sections"]["all"]
 
 
+@pytest.mark.longest
 def test_a_rise_before_the_first_bead_is_no_lift(data: Path, tmp_path: Path) -> None:
     """The print begins at 5 mm and comes down to its first layer: travel to new paths rises no higher for that."""
     refill(data / "prints" / PRINTS[0], output=tmp_path / "out.gcode", pattern="grid")

@@ -175,7 +175,7 @@ def test_a_density_that_changes_with_height_takes_the_filament_of_every_layer(ta
     assert sum(crossing_paths(layer) for layer in layers) == 0
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_by_the_roofs_it_is_dense_below_them(tall: Path, tmp_path: Path) -> None:
     """A box has one roof, so its density falls with the distance from it."""
     layers = written_by(tall, tmp_path / "new.gcode", "grid", "roofs", density=(0.3, 0.15))
