@@ -614,9 +614,25 @@ BAD = [
     (["honeycomb", "--max-memory", "lots"], "--max-memory is 'lots'"),
     (["honeycomb", "--waves", "3"], "honeycomb has no option 'waves'"),
     (["honeycomb", "--angle", "200"], "angle of honeycomb is 200 degrees; .* -180 to 180"),
-    (["honeycomb", "--size", "20", "--cells", "1"], "in smoothing.*more cells per line, fewer steps or more fidelity"),
+    (["honeycomb", "--size", "20", "--cells", "1"], "in smoothing.*; with --stamp exact"),
     (["honeycomb", "--size", "1"], "no room for walls"),
 ]
+
+
+BROKEN = {
+    "--stamp exact": ["zigzag", "--size", "19.95", "--cell", "1.35"],
+    "--stamp exact --cells 5": ["honeycomb", "--size", "20", "--cells", "1"],
+    "--cells 5": ["honeycomb", "--size", "30", "--stamp", "exact", "--cells", "3", "--steps", "60"],
+}
+
+
+@pytest.mark.parametrize("remedy", BROKEN)
+def test_what_a_broken_block_is_told_mends_it(remedy: str, tmp_path: Path) -> None:
+    words = [*BROKEN[remedy], "-o", str(tmp_path / "a.stl")]
+    refused(run("make", *words), f"; with {remedy} nothing is lost; --allow-broken writes it as it is")
+    mended = run("make", *words, *remedy.split())
+    assert mended.exit_code == 0, mended.stderr
+    assert "PROBLEMS" not in mended.stderr
 
 
 @pytest.mark.long

@@ -23,6 +23,7 @@ from infill import GeometryError, MemoryLimitError, ParameterError, Surface, Usa
 from infill.cli.filled_words import summary
 from infill.interior.opening import Opening
 from infill.lattices import quality_checks as telling
+from infill.lattices.forecast import plan_fill
 from infill.lattices.grading import UNIFORM_WIDTH
 from infill.lattices.hollowing import make_void_meshes
 from infill.lattices.quality_checks import count_outside, measure_least_wall
@@ -30,6 +31,7 @@ from infill.lattices.request import check_request
 from infill.lattices.root_finding import find_root
 from infill.lattices.task import FillTask
 from infill.meshes.distance import TriangleTree
+from infill.meshes.flat_triangles import find_flat_triangles
 from infill.meshes.solids import FINE, coincident_vertices, manifold_status, simplify_solid, to_manifold
 from infill.meshes.winding import winding_numbers
 from patterns import PATTERNS
@@ -620,8 +622,39 @@ def test_bars_that_are_only_narrower_are_not_lost() -> None:
 @pytest.mark.slow
 def test_a_part_far_thinner_than_the_wall_is_refused_at_once() -> None:
     """In millimetres where metres were meant: no distance is measured over thousands of cells."""
-    with pytest.raises(GeometryError, match=r"0\.04 mm, is nowhere thicker .* a thinner wall, or the right unit$"):
+    with pytest.raises(
+        GeometryError, match=r"0\.04 mm, is nowhere thicker .* a thinner wall, or the right unit: --units m$"
+    ):
         fill(ball(0.02), "gyroid")
+
+
+@pytest.mark.parametrize(("inches", "units"), [(2.4, "in or cm"), (0.05, "m"), (0.5, "in or m")])
+def test_a_tiny_part_is_told_the_units_in_which_it_would_be_a_print(inches: float, units: str) -> None:
+    with pytest.raises(GeometryError, match=rf"or the right unit: --units {units}$"):
+        fill(box(inches, inches, inches), "gyroid")
+
+
+def test_a_line_width_whose_cells_are_larger_than_the_part_is_refused_with_one_that_fits() -> None:
+    """As before a run: a plan is refused too. The width that is named leaves cells of a third of the part."""
+    solid = box(60, 40, 40)
+    part = Surface(vertices=np.asarray(solid.vertices), faces=np.asarray(solid.faces))
+    for wide in (30.0, 450.0):
+        with pytest.raises(GeometryError, match=r"give a line width of ([\d.]+) mm or less") as caught:
+            plan_fill(part, check_request(pattern="gyroid", own={}, line_width=wide))
+        assert caught.value.parameters == ("line_width",)
+    fitting = re.search(r"line width of ([\d.]+) mm", str(caught.value))
+    assert fitting is not None
+    assert (
+        plan_fill(part, check_request(pattern="gyroid", own={}, line_width=float(fitting[1])))["infill"]["cell"] <= 20.5
+    )
+
+
+def test_no_triangle_of_filled_bars_is_without_an_area() -> None:
+    """Their sides are flat, and cut by planes in which corners lie on one line: at the precision of STL too."""
+    surface = fill(box(16, 16, 16), "octet", density=0.05).surface
+    assert not find_flat_triangles(surface.vertices, surface.faces).any()
+    assert not find_flat_triangles(surface.vertices.astype(np.float32), surface.faces).any()
+    assert surface.closed
 
 
 @pytest.mark.long

@@ -178,7 +178,10 @@ def test_the_command_grades_and_remembers(tmp_path: Path, monkeypatch: pytest.Mo
     usage_error(run(*words[:2], "--density", "20%", "--by", "y", "-o", "c.stl"), "--by")
     usage_error(run(*words[:2], "--density", "15%:40%", "--by", "w", "-o", "c.stl"), "--by is 'w'")
     Path("bad.csv").write_text("x,y,z,v\n1,2,3,here\n")
-    one_line_error(run(*words[:4], "--by", "bad.csv", "-o", "c.stl"), "bad.csv holds something other than numbers")
+    one_line_error(
+        run(*words[:4], "--by", "bad.csv", "-o", "c.stl"),
+        "line 2 of bad.csv is '1,2,3,here'; write x, y, z and a value, four numbers in each row",
+    )
     Path("bad.py").write_text("def field(points):\n    return 1 / 0\n\n\ndef none(:\n")
     one_line_error(run(*words[:4], "--by", "bad.py:field", "-o", "c.stl"), "bad.py cannot be loaded")
     Path("bad.py").write_text("def field(points):\n    return 1 / 0\n")

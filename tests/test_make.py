@@ -313,8 +313,7 @@ def test_memory_is_refused_for_triangles_too() -> None:
 def test_broken_walls_are_an_error_that_says_what_to_change(options: dict[str, Any], says: str) -> None:
     with pytest.raises(GeometryError, match=says) as caught:
         make("honeycomb", size=30, **options)
-    for advice in ("more cells per line", "fewer steps", "more fidelity", "--allow-broken"):
-        assert advice in str(caught.value)
+    assert "nothing is lost; --allow-broken" in str(caught.value)
 
 
 @pytest.mark.slow

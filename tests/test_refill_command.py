@@ -92,6 +92,12 @@ def test_an_existing_output_is_kept_without_force(gcode: Path, tmp_path: Path) -
     output = tmp_path / "old.gcode"
     output.write_bytes(b"precious")
     one_line_error(run("refill", gcode, "-o", output), "old.gcode exists; give another name, or --force")
+    for name in ("new.stl", "new.bgcode", "new.3mf"):  # names that promise another form, which a printer may refuse
+        one_line_error(
+            run("refill", gcode, "-o", tmp_path / name),
+            f"{name} is not a name for G-code as text, which a refilled {gcode.name} is; give new.gcode",
+        )
+        assert not (tmp_path / name).exists()
     assert output.read_bytes() == b"precious"
     assert names(tmp_path) == [gcode.name, output.name]  # a log is for slicers, which replace in place
     assert run("refill", gcode, "-o", output, "--force").exit_code == 0

@@ -18,6 +18,12 @@ if TYPE_CHECKING:
     from patterns.registry import PatternClass
 
 CUBE = (18.0, 18.0, 18.0)  # mm, of the picture of a pattern in space
+# The options of a pattern in space that decide its sizes, of make and of fill.
+SIZES = {
+    "--density": "solid share, 20% by default",
+    "--line-width": "width of walls or bars, 0.45 mm by default",
+    "--cell": "period of the pattern; of the three, the one left out follows from the others",
+}
 BRAILLE_BLANK = "\N{BRAILLE PATTERN BLANK}"
 
 
@@ -73,8 +79,9 @@ def _show_in_space(kind: PatternClass, *, as_json: bool) -> None:
         print_json(listed)
     else:
         place = "follows the part" if not getattr(kind, "repeats", True) else "repeats in space"
-        title = f"{name}: {kind.summary}\n  {place}: see --cell and --line-width of make and fill\n"
-        typer.echo(_parameter_table(kind, title, own=True).rstrip("\n"))
+        rows = {**SIZES, **_parameter_rows(kind, own=True)}
+        typer.echo(format_table(rows, title=f"{name}: {kind.summary}\n  {place}\n"))
+        typer.echo(f"\n'infill list {name} --preview {name}.png' draws it, 'infill make {name}' makes a block of it.")
 
 
 def _write_preview(kind: PatternClass, path: Path, *, overwrite: bool) -> None:
@@ -119,25 +126,23 @@ def _pattern_text(kind: type[Pattern]) -> str:
     heights = "the same at every height" if kind.prismatic else "changing with height"
     title = f"{kind.name}: {kind.summary}\n  {' and '.join(gives(kind))}, {heights}\n"
     drawing = draw_text(kind(), braille=can_show(BRAILLE_BLANK))
-    return f"{_parameter_table(kind, title)}\n{drawing}"
+    table = format_table(_parameter_rows(kind), title=title)
+    return f"{table}\n\n{drawing}"
 
 
-def _parameter_table(kind: type[Any], title: str, *, own: bool = False) -> str:
-    """Format a table of the parameters of a pattern, or only of those it does not share, below a title."""
+def _parameter_rows(kind: type[Any], *, own: bool = False) -> dict[str, str]:
+    """Return rows of a table of the parameters of a pattern, or only of those it does not share."""
     from patterns import parameters
     from patterns.declared import describe_values
     from patterns.given import default_text
     from patterns.shared import SHARED
 
     shown_parameters = {name: parameter for name, parameter in parameters(kind).items() if not (own and name in SHARED)}
-    if not shown_parameters:
-        return title
     flags = {name: name.replace("_", "-") for name in shown_parameters}
     words = {name: f"--{flag}" if name in SHARED else f"--set {flag}" for name, flag in flags.items()}
-    indent = " " * (max(map(len, words.values())) + 4)
-    rows = {
+    indent = " " * (max(map(len, [*words.values(), *(SIZES if own else [])]), default=0) + 4)
+    return {
         words[name]: f"{described.help}\n{indent}{default_text(shown_parameters[name])}; "
         + describe_values(field.default, described)
         for name, (field, described) in shown_parameters.items()
     }
-    return format_table(rows, title=title) + "\n"

@@ -193,7 +193,8 @@ def _summary(report: RefillReport, name: str, files: list[str]) -> str:
         is_kept = report["request"]["pattern"] == "keep"
         how = "and its corners are round; --pattern draws another infill" if is_kept else "with this pattern"
         reason = f"it was refilled before, {how}"
-        return format_table({"nothing to do": reason}, title=name)
+        copies = {"wrote": f"{', '.join(files)}, the same bytes"} if files else {}
+        return format_table({"nothing to do": reason, **copies}, title=name)
     sections, filament, seconds = report["sections"], report["filament"], report["time"]
     rows = {"infill": f"{sections['replaced']} of {sections['all']} sections in {report['print']['layers']} layers"}
     if plates := report["print"]["plates"]:

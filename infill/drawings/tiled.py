@@ -21,6 +21,7 @@ from patterns.protocol import Pattern
 from patterns.shared import angle_parameter, cell_parameter
 
 MOST_PLACED = 2_000_000  # points of all copies of a tile in a region
+FINEST = 0.005  # mm: in more copies, points that lie nearer to the line through the others are left out
 
 
 class TooManyCopiesError(PatternError):
@@ -32,7 +33,8 @@ class TooManyCopiesError(PatternError):
     def at(cls, cell: float, excess: str) -> Self:
         """Return the error for a cell, mm."""
         error = cls.about(
-            "cell", f"is {plain_argument(cell, 3)} mm: {excess}; give a larger cell, or simplify the drawing"
+            "cell",
+            f"is {plain_argument(cell, 3)} mm: {excess}; give a larger cell, a lower density or a simpler drawing",
         )
         error.excess = excess
         return error
@@ -69,7 +71,7 @@ class Tiled(Pattern):
     def lines(self, region: shapely.Polygon | shapely.MultiPolygon, z: float = 0.0) -> shapely.MultiLineString:  # noqa: ARG002 - prismatic
         """Return the lines of all tiles, clipped to a region; raise TooManyCopiesError for too many points."""
         corners = turn(shapely.get_coordinates(shapely.envelope(region)), -self.angle) / self.cell
-        points = np.concatenate(self.drawn)
+        drawn, points = self.drawn, np.concatenate(self.drawn)
         size = np.array([1.0, self.height])
         lower = np.floor((corners.min(axis=0) - points.max(axis=0)) / size)
         upper = np.ceil((corners.max(axis=0) - points.min(axis=0)) / size)
@@ -77,20 +79,27 @@ class Tiled(Pattern):
             lower = upper = np.zeros(2)
         copies = int(np.prod(upper - lower + 1))
         if copies * len(points) > MOST_PLACED:
+            drawn = _straighten(drawn, FINEST / self.cell)
+            points = np.concatenate(drawn)
+        if copies * len(points) > MOST_PLACED:
             excess = (
                 f"{copies:,} copies of {self.name} have {copies * len(points):,} points; the limit is {MOST_PLACED:,}"
             )
             raise TooManyCopiesError.at(self.cell, excess)
         column, row = np.meshgrid(np.arange(lower[0], upper[0] + 1), np.arange(lower[1], upper[1] + 1), indexing="ij")
         shifts = np.stack([column.ravel(), row.ravel()], axis=-1) * size
-        placed = [
-            shapely.linestrings(turn((line[None] + shifts[:, None]) * self.cell, self.angle)) for line in self.drawn
-        ]
+        placed = [shapely.linestrings(turn((line[None] + shifts[:, None]) * self.cell, self.angle)) for line in drawn]
         return clip(np.concatenate(placed), region)
 
     def line_spacing(self, region: shapely.Polygon | shapely.MultiPolygon) -> float:  # noqa: ARG002 - the same everywhere
         """Return the width of the tile, mm."""
         return self.cell
+
+
+def _straighten(lines: tuple[NDArray[np.float64], ...], tolerance: float) -> tuple[NDArray[np.float64], ...]:
+    """Leave out points of lines that lie within a tolerance of the rest."""
+    simplified = shapely.simplify([shapely.linestrings(line) for line in lines], tolerance, preserve_topology=False)
+    return tuple(shapely.get_coordinates(line) for line in simplified)
 
 
 def is_drawn_once(pattern: object) -> bool:

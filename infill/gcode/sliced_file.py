@@ -8,14 +8,20 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import BinaryIO, Literal
 
-from infill.errors import FormatError, ParameterError
+from infill.errors import FormatError, OutputError, ParameterError
 from infill.files.broken import missing_file
-from infill.files.suffixes import MESHES
+from infill.files.suffixes import MESHES, PRINTS
 from infill.files.whole_files import scratch_file
 
 HEAD = 4  # bytes that identify the form
 LINE_END_SAMPLE = 1 << 18  # bytes in which line ends are checked
 Form = Literal["text", "binary", "archive"]
+# By the form of a print: suffixes that promise it, and its name in words.
+FORMS: dict[Form, tuple[tuple[str, ...], str]] = {
+    "text": ((".gcode", ".gco"), "G-code as text"),
+    "binary": ((".bgcode",), "binary G-code"),
+    "archive": ((".3mf",), "a project with sliced plates"),
+}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -189,6 +195,15 @@ def open_sliced(source: Path) -> Iterator[SlicedFile]:
                 "and infill check says whether it is printable"
             ) from error
         raise FormatError(f"{source}: {error}") from error
+
+
+def check_output_name(output: Path, sliced: SlicedFile) -> None:
+    """Raise OutputError for a name that promises another form of file than that of the print, which is kept."""
+    suffix = output.suffix.lower()
+    own, words = FORMS[sliced.form]
+    if suffix in {*MESHES, *PRINTS} - set(own):
+        better = output.with_suffix(own[0]).name
+        raise OutputError(f"{output} is not a name for {words}, which a refilled {sliced.name} is; give {better}")
 
 
 def _check_line_ends(text: BinaryIO) -> None:

@@ -14,6 +14,7 @@ from infill.errors import FormatError
 from infill.formats.mesh_files import read_mesh
 from infill.imaging.units import STATED_UNITS, guess_unit
 from infill.meshes import solids
+from infill.meshes.flat_triangles import find_flat_triangles
 from infill.meshes.intersections import count_self_intersections
 from infill.meshes.merging import WholeMesh, merge_unless_closed, merge_vertices, surface_of
 from infill.meshes.sealed_voids import count_sealed_voids
@@ -25,8 +26,6 @@ from infill.surface import Edges, Surface
 
 if TYPE_CHECKING:
     import trimesh
-
-FLAT = 1e-12  # a triangle of less than this share of its longest side squared has no area
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,7 +87,7 @@ def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface | WholeMesh) 
     if collapsed.all():
         raise FormatError("the mesh has no triangle of three different corners; export it again")
     surface = Surface(vertices=read.vertices, faces=read.faces[~collapsed])
-    flat = _zero_area_faces(surface)
+    flat = find_flat_triangles(surface.vertices, surface.faces)
     if flat.all():
         raise FormatError("the mesh has no triangle with an area; export it again")
     merged_surface = merge_vertices(surface.vertices, surface.faces[~flat])
@@ -137,14 +136,6 @@ def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface | WholeMesh) 
         bounds=bounds.tolist(),
         unit_guess=unit,
     )
-
-
-def _zero_area_faces(surface: Surface) -> NDArray[np.bool_]:
-    """Mark the triangles without an area."""
-    a, b, c = (surface.vertices[surface.faces[:, i]] for i in range(3))
-    doubled = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    longest = np.max([((p - q) ** 2).sum(axis=1) for p, q in ((a, b), (b, c), (c, a))], axis=0)
-    return np.asarray(doubled <= FLAT * longest)
 
 
 def _faces_outwards(surface: Surface, component: NDArray[np.integer]) -> bool:

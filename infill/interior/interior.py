@@ -30,6 +30,7 @@ MARGIN = 3  # cells of void around the part
 OUT = 3.0  # cells by which voids reach out of an open side, at least
 BEYOND = 1.0  # cells by which voids reach out of the part, where no wall remains around them
 UP = np.array([0.0, 0.0, 1.0])
+PRINTED = (10.0, 1000.0)  # mm: longest sides of parts that are printed
 TINY = 10.0  # mm: parts smaller than this may be meant in another unit
 BYTES_PACKED = 3  # for each cell of a space in slabs: a bit for the inside, and the packed depth
 BYTES_PER_CELL = 18  # a measured peak: depth, one void and its phase, and the bricks in smoothing
@@ -258,8 +259,16 @@ def describe_no_room(part: Surface, wall: float) -> str:
     extents = np.ptp(part.bounds, axis=0)
     return (
         f"is {plain_argument(wall)} mm, and the part, {plain_size(*extents)}, is nowhere thicker than two of those; "
-        f"give a thinner wall{', or the right unit' if extents.max() < TINY else ''}"
+        f"give a thinner wall{f', or the right unit: {_units_for(extents.max())}' if extents.max() < TINY else ''}"
     )
+
+
+def _units_for(longest: float) -> str:
+    """Return the units in which a tiny part, mm, has the size of a print."""
+    fitting = [
+        unit for unit, mm in (("in", 25.4), ("cm", 10.0), ("m", 1000.0)) if PRINTED[0] < longest * mm < PRINTED[1]
+    ]
+    return f"--units {' or '.join(fitting or ['m'])}"
 
 
 def expected_bytes(shape: tuple[int, ...], held: int, *, slabs: bool) -> int:

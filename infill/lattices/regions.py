@@ -12,7 +12,7 @@ from infill.errors import ParameterError, UsageError
 from infill.files.excerpts import quote_value
 from infill.options.keyword_options import parse_share
 from infill.plain_numbers import plain_argument
-from patterns.quantities import parse_quantity
+from patterns.quantities import LENGTHS, parse_quantity
 
 if TYPE_CHECKING:
     import trimesh
@@ -21,9 +21,11 @@ if TYPE_CHECKING:
 
 EXAMPLES = "z=10..20:density=40%, box=0,0,0,10,10,5:pattern=grid or modifier.stl:density=60%,wall=2"
 RANGE = re.compile(r"z=(?P<low>[^:]*?)\.\.(?P<high>.*)")
-# As people type it: 0-10mm, z=0-10, 5..20 mm.
+# As people type it: 0-10mm, z=0-10, 5..20 mm, 0-0.4in.
+UNIT = "|".join(map(re.escape, LENGTHS))
 TYPED_RANGE = re.compile(
-    r"(?:z\s*=\s*)?(?P<low>-?[\d.,]*\d)\s*(?:mm)?\s*(?:\.\.|-|–|to)\s*(?P<high>-?[\d.,]*\d)\s*(?:mm)?"
+    rf"(?:z\s*=\s*)?(?P<low>-?[\d.,]*\d\s*(?P<low_unit>{UNIT})?)\s*(?:\.\.|-|–|to)\s*"
+    rf"(?P<high>-?[\d.,]*\d\s*(?P<unit>{UNIT})?)"
 )
 KEYS = ("density", "pattern", "wall")
 KEY = re.compile(rf"\s*(?P<key>{'|'.join(KEYS)})\s*=\s*")
@@ -112,6 +114,8 @@ def parse_region(name: str, text: str) -> Region:
     ((10.0, 20.0), 'a.stl')
     >>> parse_region("region", "0-10mm:density=60%").z, parse_region("region", "z=0,5 - 8:density=60%").z
     ((0.0, 10.0), (0.5, 8.0))
+    >>> parse_region("region", "0-1cm:wall=2").z, parse_region("region", "z=0..0.5in:wall=0.1in").wall
+    ((0.0, 10.0), 2.54)
     >>> region = parse_region("region", "z=0..:pattern=grid, density=60%, wall=2mm")
     >>> region.pattern, region.density, region.wall
     ('grid', 0.6, 2.0)
@@ -127,9 +131,10 @@ def parse_region(name: str, text: str) -> Region:
         raise UsageError.about(name, f"is {quote_value(text)}; give a place and a setting, such as {EXAMPLES}")
     settings = _parse_settings(name, text, text[found.start() + 1 :])
     if found_range := TYPED_RANGE.fullmatch(place) or RANGE.fullmatch(place):
-        low, high = (
-            _parse_end(name, text, found_range[end], at) for end, at in (("low", -math.inf), ("high", math.inf))
-        )
+        ends = found_range.groupdict()
+        if ends.get("unit") and not ends["low_unit"]:
+            ends["low"] += ends["unit"]  # 0-1cm: both are cm
+        low, high = (_parse_end(name, text, ends[end], at) for end, at in (("low", -math.inf), ("high", math.inf)))
         return Region(**settings, z=(low, high))
     if place.startswith("box="):
         corners = tuple(_parse_end(name, text, word, math.nan) for word in place[len("box=") :].split(","))
@@ -171,7 +176,9 @@ def _parse_density(name: str, text: str, value: str) -> float:
 
 def _parse_end(name: str, text: str, word: str, left_out: float) -> float:
     """Read a coordinate, mm, or return the one that stands for none."""
-    try:
-        return float(word.replace(",", ".")) if word.strip() or math.isnan(left_out) else left_out
-    except ValueError:
-        raise UsageError.about(name, f"is {quote_value(text)}; give numbers in mm, such as {EXAMPLES}") from None
+    if not word.strip() and not math.isnan(left_out):
+        return left_out
+    place = parse_quantity(word, "mm")
+    if place is None:
+        raise UsageError.about(name, f"is {quote_value(text)}; give numbers in mm, such as {EXAMPLES}")
+    return place

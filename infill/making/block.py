@@ -8,21 +8,19 @@ and a report on the result.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import shapely
 
 from infill.contours.triangulation import extrude_layer
 from infill.errors import GeometryError
-from infill.inspection.changes import TopologyChanges
-from infill.inspection.layers import inspect_smoothing
-from infill.inspection.width import WallWidth, wall_width
+from infill.inspection.width import WallWidth
 from infill.isosurfaces.stacking import extrude_surface
 from infill.making.forecast import exact_width
+from infill.making.layer import judge_layer, sample_block, stamp_block, suggest_remedies
 from infill.making.request import (
     DEFAULT_CELLS,
     Block,
@@ -37,25 +35,17 @@ from infill.making.request import (
 from infill.making.stages import MakeStages
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.methods import smooth
-from infill.plain_numbers import count_noun, plain_argument
 from infill.reports.common import Topology, declare, mesh_keys, report_head, surface_keys
 from infill.reports.making import BlockChanges, BlockSeconds, MakeReport, Width
 from infill.result import Clock, Progress, Result
-from infill.voxels.stamping import stamp_layer
 from patterns import Cells, Pattern
-from patterns.linework import body_numbers, sample_points
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-    from shapely import MultiLineString
 
     from infill.surface import Surface
 
-MIN_WIDTH_SHARE = 0.6  # of the requested width, at the 5th percentile; below this, a wall counts as lost
 WIDTH_TOLERANCE = 0.05  # of the requested width; beyond this, the report has the width of the exact stamp
-MAX_PINHOLE_SHARE = 0.02  # of the void in holes; acute angles alone do not explain more than this
-POINTS_PER_CELL = 2  # neighbouring stamps overlap
-ADVICE = "use more cells per line, fewer steps or more fidelity (or --allow-broken, to have it anyway)"
 
 
 def make(
@@ -181,7 +171,7 @@ def make(
             tolerance=tolerance,
         )
         block.require_memory(max_memory)
-        points = _points(block)
+        points = sample_block(block)
     return _make_stamped(block, points, clock, cells=cells, allow_broken=allow_broken)
 
 
@@ -190,23 +180,19 @@ def _make_stamped(
 ) -> Result[MakeStages, MakeReport]:
     """Make a block that is drawn once and extruded: stamp, smooth and check its layer."""
     with clock.stage("stamp", 0.1):
-        data = stamp_layer(
-            block.lines, points, block.grid, method=block.stamp, block=block.cells, width=block.line_width
-        )
+        data = stamp_block(block, points)
     with clock.stage("smooth", 0.2):
         smoothed = smooth(data, block.smoothing, spacing=block.grid.spacing)
     with clock.stage("check", 0.3):
-        layer = inspect_smoothing(data, smoothed, line_cells=block.cells)
-        width = wall_width(block.lines, smoothed, block.grid, requested=block.line_width)
+        judged = judge_layer(block, data, smoothed)
+        layer, width, problems = judged.inspection, judged.width, judged.problems
         exact = _exact_stamp_width(block, width, cells)
-        fused_lines = _count_fused_lines(block.lines, layer.before.components, block.line_width)
-        problems = list(_problems(layer.changes, width, fused_lines))
         if problems and not allow_broken:
-            raise GeometryError(f"{'; '.join(problems)}; {ADVICE}")
+            raise GeometryError(f"{'; '.join(problems)}; {suggest_remedies(block)}")
     with clock.stage("surface", 0.5):
         mesh = _make_surface(block, smoothed)
         if not mesh.closed or mesh.volume <= 0:
-            raise GeometryError(f"the surface of {block.pattern.name} is not closed; {ADVICE}")
+            raise GeometryError(f"the surface of {block.pattern.name} is not closed; {suggest_remedies(block)}")
     cells_per_layer = math.prod(block.grid.shape)
     volume = math.prod(block.grid.extents) * block.height
     components = layer.after.components
@@ -260,45 +246,6 @@ def _exact_stamp_width(block: Block, width: WallWidth, cells: int | None) -> flo
         smoothing=block.smoothing,
     )
     return exact_mean if exact_mean is not None and abs(exact_mean - block.line_width) < error else None
-
-
-def _points(block: Block) -> NDArray[np.float64]:
-    """Return points along the lines: from the pattern if it overrides `points`, else from the cached lines."""
-    spacing = min(block.grid.cell_size) / POINTS_PER_CELL
-    has_points = type(block.pattern).points is not Pattern.points
-    return block.pattern.points(block.region, spacing) if has_points else sample_points(block.lines, spacing)
-
-
-def _count_fused_lines(lines: MultiLineString, components: int, line_width: float) -> int:
-    """Count bodies of lines that the stamp fused; those up to three line widths long do not count."""
-    number = body_numbers(lines)
-    length = np.bincount(number, weights=shapely.length(np.array(lines.geoms, dtype=object)))
-    return max(0, int((length > 3 * line_width).sum()) - components)
-
-
-def _problems(tally: TopologyChanges, width: WallWidth, fused_lines: int) -> Iterator[str]:
-    """Describe the problems of the walls, one phrase each."""
-    if fused_lines:
-        yield f"{count_noun(fused_lines, 'line')} of the pattern fused with others at this line width: use larger cells"
-    for count, noun, event in (
-        (tally.broken + tally.voids_joined + tally.walls_pierced, "wall", "broke"),
-        (tally.vanished, "part", "vanished"),
-        (tally.appeared, "part", "appeared from nowhere"),
-        (tally.fused + tally.voids_cut, "gap", "between walls closed up"),
-        (tally.voids_closed, "hole", "closed"),
-    ):
-        if count:
-            yield f"{count_noun(count, noun)} {event} in smoothing"
-    if tally.pinholes and tally.pinhole_share and tally.pinhole_share > MAX_PINHOLE_SHARE:
-        yield (
-            f"{count_noun(tally.pinholes, 'hole')} narrower than a line, {tally.pinhole_share:.0%} of all void, closed "
-            "in smoothing: use larger cells or a thinner line"
-        )
-    if width.p5 < MIN_WIDTH_SHARE * width.requested:
-        yield (
-            f"the walls are {plain_argument(width.p5, 3)} mm thin at the 5th percentile, under {MIN_WIDTH_SHARE:.0%} "
-            f"of the {plain_argument(width.requested)} mm asked for"
-        )
 
 
 def _finite(value: float) -> float | None:

@@ -14,7 +14,9 @@ from infill.arrays import Floats
 from infill.drawings.bitmaps import read_grey
 from infill.errors import FormatError, ParameterError, UsageError
 from infill.files.broken import error_text, require_readable, wrap_reader_errors
+from infill.files.excerpts import excerpt
 from infill.options.modules import load_object, names_code
+from infill.plain_numbers import count_noun
 
 AXES = ("x", "y", "z")
 SKIN, ROOFS = "skin", "roofs"
@@ -213,15 +215,22 @@ def _field_of_array(values: NDArray[Any], name: str) -> Field:
 
 
 def _read_table(path: Path) -> Floats:
-    """Read the rows of a table with or without a heading, whatever separates the numbers."""
-    rows = []
-    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines()):
-        words = line.replace(";", " ").replace(",", " ").split()
+    """Read the rows of a table with or without a heading; between semicolons, numbers may have a decimal comma."""
+    rows: list[list[float]] = []
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        words = (line.replace(",", ".").replace(";", " ") if ";" in line else line.replace(",", " ")).split()
         if not words or words[0].startswith("#"):
             continue
         try:
-            rows.append([float(word) for word in words])
+            row = [float(word) for word in words]
         except ValueError:
-            if number or rows:
-                raise
+            if number == 1:
+                continue
+            complaint = f"is {excerpt(line)!r}"
+        else:
+            rows.append(row)
+            if len(row) == COLUMNS:
+                continue
+            complaint = f"has {count_noun(len(row), 'number')}"
+        raise FormatError(f"line {number} of {path} {complaint}; write x, y, z and a value, four numbers in each row")
     return np.array(rows)

@@ -25,7 +25,7 @@ from infill.files.broken import missing_file
 from infill.files.excerpts import quote_value
 from infill.files.whole_files import atomic_file, check_target, copy_mode, scratch_file
 from infill.gcode.estimates import EstimateChange, Restatement, StatedAmounts, restate
-from infill.gcode.sliced_file import SlicedText, open_sliced
+from infill.gcode.sliced_file import SlicedText, check_output_name, open_sliced
 from infill.gcode.stream import edited_text
 from infill.pictures.picturable import Picturable
 from infill.refilling.request import AUTO, ENDLESS, KEEP, Progress, Request, describe_objects
@@ -214,6 +214,8 @@ def refill(
         check_target(target, overwrite=overwrite or output is None)
     folder = None if dry_run else target.parent
     with open_sliced(source) as sliced, contextlib.ExitStack() as drafts:
+        if output is not None:
+            check_output_name(target, sliced)
         drafted: dict[int | None, _Draft] = {}
         for number, plate in enumerate(sliced.parts):
             scratch = drafts.enter_context(scratch_file(folder))

@@ -10,7 +10,7 @@ from infill.gcode.ending import describe_missing_end
 from infill.gcode.infill_sections import ODD_ARCS
 from infill.gcode.survey import Survey
 from infill.refilling.placement import facts
-from infill.refilling.request import KEEP, Request
+from infill.refilling.request import AUTO, KEEP, Request
 from infill.refilling.rules import RefillRules
 from infill.refilling.stats import PURGED, UNREAD, RefillStats
 from infill.refilling.support import LEAST_LENGTH, LEAST_SHARE, kept_shares
@@ -187,10 +187,12 @@ def _problems(report: RefillReport, tally: RefillStats) -> list[str]:
             f"{tally.first_unread}; they stay as they are, and the times leave them out"
         )
     contact = report["contact"]
+    by_itself = report["request"]["smooth_radius_mm"] == AUTO
+    less_rounding = "give a smaller --max-deviation" if by_itself else "give a smaller --smooth-radius, or leave it out"
     if contact["measured_mm"] and contact["kept_supported"] < LEAST_SHARE:
         problems.append(
             f"{1 - contact['kept_supported']:.0%} less of this infill rests on the layer below than before; "
-            + ("give a smaller --max-deviation" if keeps else "try another --pattern")
+            + (less_rounding if keeps else "try another --pattern")
             + ("" if keeps or asked else ", or leave --pattern out")
         )
     if not keeps and contact["free_after"] - contact["free_before"] > MOST_FREE:
@@ -200,7 +202,6 @@ def _problems(report: RefillReport, tally: RefillStats) -> list[str]:
         )
     if keeps and contact["measured_mm"] and contact["kept_bonded"] < LEAST_SHARE:
         problems.append(
-            f"{1 - contact['kept_bonded']:.0%} less of the doubled lines touch each other than before; give a smaller "
-            "--max-deviation"
+            f"{1 - contact['kept_bonded']:.0%} less of the doubled lines touch each other than before; {less_rounding}"
         )
     return problems
