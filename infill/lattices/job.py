@@ -33,7 +33,7 @@ from infill.lattices.stages import FillStages
 from infill.lattices.surfacing import SHARE, extract_inner_side
 from infill.lattices.task import FillTask
 from infill.lattices.void_meshes import VoidMeshes
-from infill.meshes.flat_triangles import find_flat_triangles, flip_flat_triangles
+from infill.meshes.flat_triangles import flip_flat_triangles
 from infill.meshes.measuring import measure_surface
 from infill.meshes.split_components import concatenate_surfaces
 from infill.reports.common import report_head, surface_keys
@@ -277,10 +277,7 @@ def _assemble(
     drained = drill_drains(task, solid, hollow)
     if drained.pieces:
         hollow = replace(hollow, islands=hollow.islands + drained.pieces)
-    solid = drained.solid
-    if not find_flat_triangles(outer.vertices, outer.faces).any():  # a user's own stay as they are
-        solid = flip_flat_triangles(solid)
-    solid = measure_surface(solid, threads=task.threads)
+    solid = measure_surface(flip_flat_triangles(drained.solid, unless_in=outer), threads=task.threads)
     facts = measure_solid(task, solid, outer, hollow, fields, drained)
     return solid, _fill_report(task.part, solid, hollow, request, facts, drained, project), hollow
 

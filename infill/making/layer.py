@@ -1,4 +1,4 @@
-"""The layer of a block that is drawn once and extruded: stamped, smoothed and judged; and options that would keep its walls."""
+"""The layer of a block that is drawn once and extruded, judged; and options that would keep its walls."""
 
 from __future__ import annotations
 

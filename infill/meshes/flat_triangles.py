@@ -26,7 +26,7 @@ def find_flat_triangles(vertices: NDArray[np.floating], faces: NDArray[np.intege
     return np.asarray(doubled <= FLAT * longest)
 
 
-def flip_flat_triangles(surface: Surface) -> Surface:
+def flip_flat_triangles(surface: Surface, *, unless_in: Surface | None = None) -> Surface:
     """Flip the longest edge of triangles without an area, so that none is left where the mesh allows it.
 
     The middle corner of such a triangle lies on the edge, and so the shape stays as it is. A triangle counts as flat
@@ -36,6 +36,8 @@ def flip_flat_triangles(surface: Surface) -> Surface:
     ----------
     surface : Surface
         Closed, every edge shared by two triangles.
+    unless_in : Surface, optional
+        If this surface, such as a skin that stays as it was, has triangles without an area, nothing is changed.
 
     >>> points = np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0], [1, -1, 0], [1, 0, 1]])
     >>> faces = np.array([[0, 2, 1], [2, 0, 3], [0, 1, 4], [1, 2, 4], [3, 0, 4], [2, 3, 4]])
@@ -44,7 +46,7 @@ def flip_flat_triangles(surface: Surface) -> Surface:
     """
     faces = np.asarray(surface.faces)
     flat = _is_flat(surface.vertices, faces)
-    if not flat.any():
+    if not flat.any() or (unless_in is not None and _is_flat(unless_in.vertices, np.asarray(unless_in.faces)).any()):
         return surface
     for _ in range(MOST_ROUNDS):
         flipped = _flip(surface.vertices, faces, flat)
