@@ -97,12 +97,10 @@ def _changed_blocks(block: Block) -> Iterator[tuple[str, Block]]:
     if block.smoothing.steps > 1:
         steps = block.smoothing.steps // 2
         changes.append((f"--steps {steps}", {"smoothing": replace(block.smoothing, steps=steps)}))
-    cell = parameter_values(block.pattern).get("cell")
-    for factor in LARGER_CELLS if isinstance(cell, (int, float)) else ():
-        larger = float(f"{factor * cell:.2g}")
-        changes.append(
-            (f"--cell {plain_argument(larger)}", {"pattern": with_parameters(block.pattern, {"cell": larger})})
-        )
+    cell = float(parameter_values(block.pattern).get("cell") or 0.0)
+    for larger in [float(f"{factor * cell:.2g}") for factor in LARGER_CELLS] if cell else []:
+        pattern = with_parameters(block.pattern, {"cell": larger})
+        changes.append((f"--cell {plain_argument(larger)}", {"pattern": pattern}))
     for words, change in changes:
         with suppress(ParameterError, PatternError):
             yield words, _replan(block, change)
