@@ -26,7 +26,7 @@ ROWS: tuple[tuple[str, ...], ...] = (
     ("files", "kernels", "reports"),
     ("phasefield",),
     ("meshes", "contours", "paths"),
-    ("isosurfaces", "imaging", "drawings"),
+    ("isosurfaces", "partition", "imaging", "drawings"),
     ("formats", "voxels", "gcode"),
     ("planner", "inspection", "interior"),
     ("pictures", "options", "drains"),

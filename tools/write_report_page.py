@@ -125,6 +125,14 @@ CHAPTERS = (
         known=(smoothing.SolidRequest, smoothing.SmoothReport),
     ),
     Chapter(
+        title="Labels together: walls that neighbours share",
+        word="together",
+        text="`smooth_labels` with `together` returns this report, and `infill smooth --together` prints it. `request` "
+        "has the keys of [the report of one solid](#smooth-a-volume-a-mesh-or-points).",
+        report=smoothing.TogetherReport,
+        known=(smoothing.SolidRequest,),
+    ),
+    Chapter(
         title="Labels: a dry run",
         word="labels --dry-run",
         text="`infill smooth … --dry-run` over labels prints the request, the labels, and the expected costs.",

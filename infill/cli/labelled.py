@@ -7,20 +7,20 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import typer
 
 from infill.cli.console import format_bytes, format_table, print_json, print_log, progress_bar, say
 from infill.cli.foreseeing import format_span
-from infill.plain_numbers import plain_size
+from infill.plain_numbers import count_noun, plain_size
 
 if TYPE_CHECKING:
     from infill.imaging.label_tables import Segment
     from infill.imaging.segmentations import Segmentation
-    from infill.reports.smoothing import LabelsReport
+    from infill.reports.smoothing import TogetherLabel
     from infill.result import Result
-    from infill.smoothing.labels import LabelStages
+    from infill.smoothing.label_stages import LabelStages
     from infill.smoothing.request import SmoothOptions
     from infill.smoothing.settings import SmoothSettings
 
@@ -55,13 +55,16 @@ class SmoothOutput:
         )
 
 
-def wants_every_label(outputs: Sequence[Path], *, each_label: bool, labels: Path | None, keep_going: bool) -> bool:
+def wants_every_label(
+    outputs: Sequence[Path], *, each_label: bool, labels: Path | None, keep_going: bool, together: bool
+) -> bool:
     """Tell whether --each-label is given, or {label} in an output; raise BadParameter for options that need it."""
     from infill.files.file_names import is_template
 
     if each_label or any(is_template(path) for path in outputs):
         return True
-    for name, is_given in (("--labels", labels is not None), ("--keep-going", keep_going)):
+    options = {"--labels": labels is not None, "--keep-going": keep_going, "--together": together}
+    for name, is_given in options.items():
         if is_given:
             raise typer.BadParameter(f"{name} goes with --each-label, or with {{label}} in the name of an output")
     return False
@@ -94,6 +97,8 @@ def smooth_every_label(source: Path, settings: SmoothSettings, output: SmoothOut
     text = next(iter(output.saved), None)
     check_outputs(single, text=text, overwrite=output.force, as_json=output.as_json, dry_run=output.dry_run)
     if output.dry_run:
+        if settings.together:
+            raise typer.BadParameter("a dry run foresees labels one by one; leave --together or --dry-run out")
         _show_label_plan(source, settings, output, options)
         return
     with progress_bar(shown=not output.quiet) as progress, print_log(shown=not output.quiet):
@@ -108,6 +113,7 @@ def smooth_every_label(source: Path, settings: SmoothSettings, output: SmoothOut
             label=settings.label,
             table=segments,
             keep_going=settings.keep_going,
+            together=settings.together,
             **label_options,
         )
         if progress is not None:
@@ -184,9 +190,7 @@ def _scaled_progress(progress: Callable[[str, float], None] | None) -> Callable[
     return lambda stage, share: progress(stage, 0.9 * share)
 
 
-def _parts(
-    result: Result[LabelStages, LabelsReport], written: SmoothOutput
-) -> dict[Path, Callable[[BinaryIO], object]]:
+def _parts(result: Result[LabelStages, Any], written: SmoothOutput) -> dict[Path, Callable[[BinaryIO], object]]:
     """Return a function for each file that writes it."""
     from infill.errors import OutputError
     from infill.files.file_names import fill_template, is_template
@@ -211,11 +215,23 @@ def _parts(
     return parts
 
 
-def _summary(result: Result[LabelStages, LabelsReport], files: Sequence[str], name: str) -> str:
+def _together_text(label: TogetherLabel) -> str:
+    """Return the row of a label that was smoothed together with others."""
+    return (
+        f"{label['triangles']:,} triangles, {plain_size(label['volume'], digits=6, power=3)}, "
+        f"{label['volume_change']:+z.4%} of the data, {count_noun(label['components'], 'component')} "
+        f"({label['components_before']:,} in the data)"
+    )
+
+
+def _summary(result: Result[LabelStages, Any], files: Sequence[str], name: str) -> str:
     """Return the short table for stderr: a row for each label, and failures."""
     report = result.report
     rows = {}
     for label in report["labels"][:MOST_ROWS]:
+        if "report" not in label:
+            rows[f"{label['number']} {label['name']}"] = _together_text(label)
+            continue
         part = label["report"]
         verdict = "; ".join([part["verdict"]["word"], *part["verdict"]["changes"]])
         rows[f"{label['number']} {label['name']}"] = (

@@ -112,7 +112,11 @@ def smooth(
     if not (output or preview or as_json or dry_run):
         _save_config(outputs)
     elif wants_every_label(
-        outputs.outputs, each_label=settings.each_label, labels=settings.labels, keep_going=settings.keep_going
+        outputs.outputs,
+        each_label=settings.each_label,
+        labels=settings.labels,
+        keep_going=settings.keep_going,
+        together=settings.together,
     ):
         refuse_options(settings, outputs)
         smooth_every_label(source, settings, outputs, options)

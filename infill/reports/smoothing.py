@@ -304,6 +304,38 @@ class LabelsReport(SeveralReport):
     seconds: LabelSeconds
 
 
+class TogetherLabel(LabelName):
+    """Labels with a surface, in order; neighbours share their walls."""
+
+    colour: Annotated[str | None, "Colour as `#RRGGBB`, if the table has one"]
+    triangles: Annotated[int, "Number of triangles, those of shared walls included"]
+    closed: Annotated[bool, "Whether every edge is shared by two of its triangles"]
+    data: Annotated[float, "Volume of its cells, mm³"]
+    volume: Annotated[float, "Volume of its surface, mm³"]
+    volume_change: Annotated[float, "Relative difference of both"]
+    components_before: Annotated[int, "Components of its cells"]
+    components: Annotated[int, "Components after smoothing"]
+
+
+class TogetherSeconds(Seconds):
+    """Time of each stage."""
+
+    smooth: Annotated[float, "Fields of all labels, s"]
+    volumes: Annotated[float, "Search for walls with which every label keeps its volume, s"]
+    surface: Annotated[float, "Surfaces of all labels, s"]
+    check: Annotated[float, "Comparison of components, s"]
+
+
+class TogetherReport(SeveralReport):
+    """The report of `infill.smooth_labels` with `together`. `triangles` counts shared walls once."""
+
+    labels: list[TogetherLabel]
+    failed: list[FailedLabel]
+    absent: Annotated[list[str], "Names in the file without a cell"]
+    rounds: Annotated[int, "How often the walls were extracted until the volumes were right"]
+    seconds: TogetherSeconds
+
+
 class ComponentKeys(TypedDict):
     """Components with a surface, by falling volume in the input."""
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from infill.errors import InfillError, ParameterError
+from infill.errors import InfillError, ParameterError, UsageError
 from infill.formats.parts import hex_colour
 from infill.grid import spacing_of
 from infill.imaging.label_tables import Segment
@@ -21,19 +21,17 @@ from infill.kernels.sparse import BRICK
 from infill.reports.common import report_head
 from infill.reports.smoothing import LabelSeconds
 from infill.result import Clock, Result
-from infill.smoothing.attempt import bytes_per_surface_cell
 from infill.smoothing.job import smooth_volume
 from infill.smoothing.kept_reports import keep_report
-from infill.smoothing.label_runs import LabelWork, run_labels
+from infill.smoothing.label_runs import run_labels
+from infill.smoothing.label_stages import LabelPiece, LabelStages
 from infill.smoothing.request import SmoothOptions, SmoothRequest
 from infill.volume import AXES, Volume
 from infill.voxels.cropping import cut_cells
-from infill.voxels.labels import LabelExtent, is_label_map, label_extents
+from infill.voxels.labels import is_label_map, label_extents
 
 if TYPE_CHECKING:
-    from PIL import Image
-
-    from infill.reports.smoothing import LabelName, LabelsReport, SmoothReport
+    from infill.reports.smoothing import LabelsReport, SmoothReport
     from infill.result import Progress
     from infill.surface import Surface
 
@@ -45,54 +43,6 @@ REACH_IN_INTERFACES, REFINING_MARGIN = 6, 8
 MOST_UNNAMED = 64  # values without names that are taken for labels even if they do not fill regions
 MAX_LISTED_LABELS = 12  # labels in a message
 SMALL = 2**20  # cells of a box: one thread does it before others have begun
-FACES_PER_RUN = 6  # of cells: two along each of three axes
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class LabelStages:
-    """The stages of `infill.smooth_labels`.
-
-    Parameters
-    ----------
-    segments : mapping of str to Segment
-        The label that each surface, by its name, was made from.
-    failed : mapping of str to str
-        Why a label has no surface, by its name.
-    """
-
-    segments: Mapping[str, Segment]
-    failed: Mapping[str, str] = field(default_factory=dict)
-
-    def picture(self, surface: Surface, report: Mapping[str, Any]) -> Image.Image:
-        """Return all labels as one picture."""
-        from infill.pictures.sheet import arrange_panels, draw_mesh_panel
-
-        caption = f"{len(report['labels'])} labels, {report['triangles']:,} triangles"
-        return arrange_panels({caption: draw_mesh_panel(surface)}, "")
-
-
-@dataclass(frozen=True, kw_only=True)
-class LabelPiece:
-    """One label to smooth: its name, its segment, and its place."""
-
-    name: str
-    segment: Segment
-    extent: LabelExtent
-
-    @property
-    def triangles(self) -> int:
-        """Triangles of its surface before it is simplified, about: two for each face of a cell."""
-        return 2 * FACES_PER_RUN * self.extent.runs
-
-    @property
-    def place(self) -> LabelName:
-        """Its name, number and layer."""
-        return {"name": self.name, "number": self.segment.value, "layer": self.segment.layer}
-
-    def work(self, request: SmoothRequest) -> LabelWork:
-        """Estimate the work of smoothing it."""
-        cells = FACES_PER_RUN * self.extent.runs
-        return LabelWork(cells=cells, memory=cells * bytes_per_surface_cell(request))
 
 
 @log_compilation("the smoother")
@@ -104,8 +54,9 @@ def smooth_labels(
     label: int | tuple[int, ...] | None = None,
     table: Iterable[Segment] = (),
     keep_going: bool = False,
+    together: bool = False,
     **options: Unpack[SmoothOptions],
-) -> Result[LabelStages, LabelsReport]:
+) -> Result[LabelStages, Any]:
     """Smooth every label of a segmentation; return one surface for each.
 
     Parameters
@@ -121,6 +72,10 @@ def smooth_labels(
         Names and colours, instead of those of the segmentation: see `infill.read_labels`.
     keep_going : bool
         Leave out a label that cannot be smoothed, and say so in the report, instead of raising.
+    together : bool
+        Smooth the labels as one partition: neighbours share their walls, with the same triangles and coordinates, and
+        every label of 8 cells or more keeps its volume. Not simplified; the report is
+        `infill.reports.smoothing.TogetherReport`.
     **options
         See `infill.smooth_volume`.
 
@@ -159,6 +114,12 @@ def smooth_labels(
     with clock.stage("labels", 0.0):
         pieces = find_pieces(segmentation, label, tuple(table))
         absent = _absent_names(segmentation, pieces) if label is None else []
+    if together:
+        if keep_going:
+            raise UsageError.about("keep_going", "does not go with labels together; leave it out")
+        from infill.smoothing.together import smooth_together
+
+        return smooth_together(segmentation.layers[pieces[0].segment.layer], pieces, request, absent)
     surfaces: dict[str, Surface] = {}
     reports: dict[str, SmoothReport] = {}
     failed: dict[str, str] = {}

@@ -39,7 +39,7 @@ class SmoothSettings:
         Options of reading the input: see `infill.smoothing.sources.read_source`.
     resolution, voxel, shell, threshold, between, label, otsu, grey, by_component
         Choice of the solid and of the grid: see `infill.smooth_volume` and its siblings. `between` is ``--range``.
-    each_label, labels, keep_going
+    each_label, labels, keep_going, together
         See `infill.smooth_labels`; `labels` is a file of names and colours.
     steps, fidelity, interface
         As in `infill.Smoothing`; None for its default.
@@ -102,6 +102,16 @@ class SmoothSettings:
             LABELS,
             negatable=True,
             default="write nothing",
+        ),
+    ] = False
+    together: Annotated[
+        bool,
+        Option(
+            "Smooth all labels as one: neighbours share their walls exactly, and each keeps its volume. All triangles "
+            "are written.",
+            LABELS,
+            negatable=True,
+            default="each by itself",
         ),
     ] = False
     resolution: Annotated[

@@ -1,0 +1,476 @@
+"""Loops of `infill.partition`: the winning label of every cell, and the complex of walls between labels, compiled.
+
+The lattice has one point for each cell, at its centre, and one more beyond each end of each axis, on the side of the
+box, with the value of the cell next to it: n + 2 points along an axis of n cells. Cell i has number i + 1, which is
+also its place in the bricks of `infill.phasefield.sparse`.
+
+Rows of the lattice run along the last axis. Of each row only the bases of points are kept (`bases`), with one bit for
+each point that they own (`masks`) and the number of the first (`starts`): so any cube finds its points, including
+those of neighbouring rows, without a table of the grid.
+"""
+# mypy: disable-error-code="no-untyped-def, call-arg, var-annotated"
+# ruff: noqa: ANN001, ANN201
+# Compiled lines are invisible to coverage tools.
+
+from __future__ import annotations
+
+import numpy as np
+
+from infill.kernels.compiling import njit
+from infill.kernels.lanes import count_ones
+from infill.kernels.sparse import B0, B1, B2
+
+INSIDE = -1  # slot of a brick that lies whole inside its label
+NONE = -1  # no label: beyond the lattice
+LEAST_SHARE = 1e-3  # of an edge: points lie no nearer to its ends
+LEAST_WEIGHT = 0.02  # of a corner of a face or a tetrahedron in a point inside it
+ROOTS = 8
+
+
+@njit(nogil=True, cache=True)
+def choose_winners(entries, labels, slots, values, offsets, given, winners, thread, threads):
+    """Write the label with the highest value plus offset of every cell; of equal ones, the given label of the cell.
+
+    Parameters
+    ----------
+    entries : (m0, m1, m2, 2) int64
+        First and last entry, exclusive, of each brick of the lattice in `labels` and `slots`.
+    labels, slots : (e,) int32
+        Label of an entry, and its brick in `values`, or INSIDE.
+    values : (n, CELLS) float32
+    offsets : (labels,) float32
+    given, winners : (n0, n1, n2) uint16
+    """
+    n0, n1, n2 = given.shape
+    for p in range(thread, entries.shape[0], threads):
+        for q in range(entries.shape[1]):
+            for r in range(entries.shape[2]):
+                first, last = entries[p, q, r, 0], entries[p, q, r, 1]
+                for a in range(B0):
+                    i = p * B0 + a - 1
+                    if i < 0 or i >= n0:
+                        continue
+                    for b in range(B1):
+                        j = q * B1 + b - 1
+                        if j < 0 or j >= n1:
+                            continue
+                        for c in range(B2):
+                            k = r * B2 + c - 1
+                            if k < 0 or k >= n2:
+                                continue
+                            own = given[i, j, k]
+                            if last - first == 1:
+                                winners[i, j, k] = labels[first]
+                                continue
+                            best, best_value = own, np.float32(-1e30)
+                            cell = (a * B1 + b) * B2 + c
+                            for entry in range(first, last):
+                                label, slot = labels[entry], slots[entry]
+                                value = np.float32(1.0) if slot == INSIDE else values[slot, cell]
+                                value += offsets[label]
+                                if value > best_value or (value == best_value and label == own):
+                                    best, best_value = label, value
+                            winners[i, j, k] = best
+
+
+@njit(nogil=True, cache=True)
+def count_margins(entries, labels, slots, values, given, bins, thread, threads):
+    """Count by how much the value of every label exceeds the highest other one in its cells.
+
+    `bins` is (threads, labels, n): margins from -2 to 2 fall into n bins.
+    """
+    n0, n1, n2 = given.shape
+    most = bins.shape[2] - 1
+    for p in range(thread, entries.shape[0], threads):
+        for q in range(entries.shape[1]):
+            for r in range(entries.shape[2]):
+                first, last = entries[p, q, r, 0], entries[p, q, r, 1]
+                for a in range(B0):
+                    for b in range(B1):
+                        for c in range(B2):
+                            i, j, k = p * B0 + a - 1, q * B1 + b - 1, r * B2 + c - 1
+                            if i < 0 or j < 0 or k < 0 or i >= n0 or j >= n1 or k >= n2:
+                                continue
+                            own = given[i, j, k]
+                            cell = (a * B1 + b) * B2 + c
+                            own_value = other = np.float32(-1.0)
+                            for entry in range(first, last):
+                                slot = slots[entry]
+                                value = np.float32(1.0) if slot == INSIDE else values[slot, cell]
+                                if labels[entry] == own:
+                                    own_value = value
+                                else:
+                                    other = max(other, value)
+                            place = np.int64((own_value - other + 2.0) / 4.0 * bins.shape[2])
+                            bins[thread, own, min(max(place, 0), most)] += 1
+
+
+@njit(inline="always", cache=True)
+def label_at(winners, i, j, k):
+    """Return the label of a point of the lattice, NONE beyond it."""
+    n0, n1, n2 = winners.shape
+    if i > n0 + 1 or j > n1 + 1 or k > n2 + 1:
+        return NONE
+    i, j, k = min(max(i, 1), n0) - 1, min(max(j, 1), n1) - 1, min(max(k, 1), n2) - 1
+    return np.int64(winners[i, j, k])
+
+
+@njit(inline="always", cache=True)
+def is_side(winners, i, j, k):
+    """Tell whether a point of the lattice lies on a side of the box."""
+    n0, n1, n2 = winners.shape
+    return i == 0 or j == 0 or k == 0 or i == n0 + 1 or j == n1 + 1 or k == n2 + 1
+
+
+@njit(inline="always", cache=True)
+def fill_corners(winners, i, j, k, steps, corner):
+    """Write the labels of the eight corners of a cube; return whether they are not all alike."""
+    differs = False
+    for d in range(8):
+        corner[d] = label_at(winners, i + steps[d, 0], j + steps[d, 1], k + steps[d, 2])
+        differs |= corner[d] != corner[0] and corner[d] != NONE
+    return differs
+
+
+@njit(inline="always", cache=True)
+def owned_points(corner, side, faces, tetrahedra, face_slot, tetrahedron_slot):
+    """Return the points that a base owns, one bit for each."""
+    mask = 0
+    own = corner[0]
+    if side and own != 0:
+        mask |= 1
+    for d in range(1, 8):
+        if corner[d] != NONE and corner[d] != own:
+            mask |= 1 << d
+    for f in range(len(faces)):
+        b, c = corner[faces[f, 0]], corner[faces[f, 1]]
+        if c != NONE and b != own and c != own and b != c:
+            mask |= 1 << (face_slot + f)
+    last = corner[7]
+    if last != NONE and last != own:
+        for t in range(len(tetrahedra)):
+            b, c = corner[tetrahedra[t, 0]], corner[tetrahedra[t, 1]]
+            if b != own and c != own and b != c and b != last and c != last:
+                mask |= 1 << (tetrahedron_slot + t)
+    return mask
+
+
+@njit(inline="always", cache=True)
+def code_of_four(a, b, c, d):
+    """Return the code of which of four labels are alike: see `infill.partition.tetrahedra.pattern_code`."""
+    second = 0 if b == a else 1
+    third = 0 if c == a else second if c == b else second + 1
+    most = max(second, third)
+    fourth = 0 if d == a else second if d == b else third if d == c else most + 1
+    return (second * 3 + third) * 4 + fourth
+
+
+@njit(inline="always", cache=True)
+def code_of_three(a, b, c):
+    """Return the code of which of three labels are alike."""
+    second = 0 if b == a else 1
+    third = 0 if c == a else second if c == b else second + 1
+    return second * 3 + third
+
+
+@njit(nogil=True, cache=True)
+def count_rows(winners, steps, faces, tetrahedra, slots, counts, flat_counts, sizes, thread, threads):
+    """Count the bases, points and triangles of every row of the lattice: sizes (m0, m1, 3) int64."""
+    m0, m1, m2 = winners.shape[0] + 2, winners.shape[1] + 2, winners.shape[2] + 2
+    corner = np.empty(8, dtype=np.int64)
+    for i in range(thread, m0, threads):
+        for j in range(m1):
+            bases = points = triangles = 0
+            for k in range(m2):
+                differs = fill_corners(winners, i, j, k, steps, corner)
+                side = is_side(winners, i, j, k)
+                if not differs and not (side and corner[0] != 0):
+                    continue
+                mask = owned_points(corner, side, faces, tetrahedra, slots[0], slots[1])
+                if mask:
+                    bases += 1
+                    points += count_ones(mask)
+                triangles += count_triangles(corner, i, j, k, (m0, m1, m2), faces, tetrahedra, counts, flat_counts)
+            sizes[i, j, 0], sizes[i, j, 1], sizes[i, j, 2] = bases, points, triangles
+
+
+@njit(inline="always", cache=True)
+def count_triangles(corner, i, j, k, shape, faces, tetrahedra, counts, flat_counts):
+    """Return the number of triangles of a cube, and of the faces on the sides of the box that a base owns."""
+    triangles = 0
+    if corner[7] != NONE:
+        for t in range(len(tetrahedra)):
+            code = code_of_four(corner[0], corner[tetrahedra[t, 0]], corner[tetrahedra[t, 1]], corner[7])
+            triangles += counts[t, code]
+    for f in range(len(faces)):
+        if corner[faces[f, 1]] == NONE or faces[f, 1] == 7:
+            continue
+        if side_of_face(faces[f, 1], i, j, k, shape) == 0:
+            continue
+        a, b, c = corner[0], corner[faces[f, 0]], corner[faces[f, 1]]
+        code = code_of_three(a, b, c)
+        if a != 0 and b != 0 and c != 0:
+            triangles += flat_counts[f, code]
+        else:
+            triangles += count_flat(a, b, c)
+    return triangles
+
+
+@njit(inline="always", cache=True)
+def count_flat(a, b, c):
+    """Return the triangles of the parts of a face without those of label 0: one for a lone corner, two for others."""
+    if a == b and b == c:
+        return 1 if a != 0 else 0
+    if a in (b, c) or b == c:
+        lone = c if a == b else b if a == c else a
+        others = a if a in (b, c) else b
+        return (1 if lone != 0 else 0) + (2 if others != 0 else 0)
+    return 2 * ((1 if a != 0 else 0) + (1 if b != 0 else 0) + (1 if c != 0 else 0))
+
+
+@njit(inline="always", cache=True)
+def side_of_face(step, i, j, k, shape):
+    """Return -1 or 1 if the face of a base with this last step lies on a low or high side of the box, else 0."""
+    at, most = (i, shape[0] - 1) if step == 6 else (j, shape[1] - 1) if step == 5 else (k, shape[2] - 1)
+    return -1 if at == 0 else 1 if at == most else 0
+
+
+@njit(nogil=True, cache=True)
+def fill_rows(winners, steps, faces, tetrahedra, slots, row_starts, bases, masks, starts, thread, threads):
+    """Write the bases of every row, their points as bits, and the number of the first of these.
+
+    Parameters
+    ----------
+    row_starts : (m0, m1, 6) int64
+        Bases, points and triangles before each row, and before the next one.
+    """
+    m0, m1, m2 = winners.shape[0] + 2, winners.shape[1] + 2, winners.shape[2] + 2
+    corner = np.empty(8, dtype=np.int64)
+    for i in range(thread, m0, threads):
+        for j in range(m1):
+            at, point = row_starts[i, j, 0], row_starts[i, j, 1]
+            for k in range(m2):
+                differs = fill_corners(winners, i, j, k, steps, corner)
+                side = is_side(winners, i, j, k)
+                if not differs and not (side and corner[0] != 0):
+                    continue
+                mask = owned_points(corner, side, faces, tetrahedra, slots[0], slots[1])
+                if mask:
+                    bases[at], masks[at], starts[at] = k, mask, point
+                    at += 1
+                    point += count_ones(mask)
+
+
+@njit(inline="always", cache=True)
+def value_of(label, i, j, k, shape, entries, labels, slots, values, offsets):
+    """Return the value plus offset of a label at a point of the lattice."""
+    i, j, k = min(max(i, 1), shape[0]), min(max(j, 1), shape[1]), min(max(k, 1), shape[2])
+    p, q, r = i // B0, j // B1, k // B2
+    value = np.float32(-1.0)
+    for entry in range(entries[p, q, r, 0], entries[p, q, r, 1]):
+        if labels[entry] == label:
+            slot = slots[entry]
+            if slot == INSIDE:
+                value = np.float32(1.0)
+            else:
+                value = values[slot, ((i - p * B0) * B1 + j - q * B1) * B2 + k - r * B2]
+            break
+    return value + offsets[label]
+
+
+@njit(inline="always", cache=True)
+def axis_place(i, count):
+    """Return the place of a point of the lattice along an axis, cells."""
+    return np.float64(0.0) if i == 0 else np.float64(count) if i == count + 1 else i - 0.5
+
+
+@njit(nogil=True, cache=True)
+def place_points(
+    winners, steps, faces, tetrahedra, slots_at, row_starts, bases, masks, starts,
+    entries, labels, slots, values, offsets, points, thread, threads,
+):  # fmt: skip
+    """Write the place of every point, (P, 3), in cells of the grid."""
+    shape = winners.shape
+    m0, m1 = shape[0] + 2, shape[1] + 2
+    corner = np.empty(8, dtype=np.int64)
+    chain, weight = np.empty(4, dtype=np.int64), np.empty(4, dtype=np.float64)
+    matrix = np.empty((4, 4), dtype=np.float64)
+    for i in range(thread, m0, threads):
+        for j in range(m1):
+            for at in range(row_starts[i, j, 0], row_starts[i, j, 3]):
+                k, mask, point = bases[at], masks[at], starts[at]
+                fill_corners(winners, i, j, k, steps, corner)
+                for slot in range(slots_at[1] + len(tetrahedra)):
+                    if not (mask >> slot) & 1:
+                        continue
+                    chain[0] = 0
+                    if slot == 0:
+                        count = 1
+                        weight[0] = 1.0
+                    elif slot < slots_at[0]:
+                        count, chain[1] = 2, slot
+                    elif slot < slots_at[1]:
+                        count = 3
+                        chain[1], chain[2] = faces[slot - slots_at[0], 0], faces[slot - slots_at[0], 1]
+                    else:
+                        count = 4
+                        t = slot - slots_at[1]
+                        chain[1], chain[2], chain[3] = tetrahedra[t, 0], tetrahedra[t, 1], 7
+                    if count > 1:
+                        for corner_at in range(count):
+                            d = chain[corner_at]
+                            ci, cj, ck = i + steps[d, 0], j + steps[d, 1], k + steps[d, 2]
+                            for other in range(count):
+                                matrix[other, corner_at] = value_of(
+                                    corner[chain[other]], ci, cj, ck, shape, entries, labels, slots, values, offsets
+                                )
+                        weigh_corners(matrix, count, weight)
+                    for axis in range(3):
+                        points[point, axis] = 0.0
+                    for corner_at in range(count):
+                        d, share = chain[corner_at], weight[corner_at]
+                        points[point, 0] += share * axis_place(i + steps[d, 0], shape[0])
+                        points[point, 1] += share * axis_place(j + steps[d, 1], shape[1])
+                        points[point, 2] += share * axis_place(k + steps[d, 2], shape[2])
+                    point += 1
+
+
+@njit(cache=True)
+def weigh_corners(matrix, count, weight):
+    """Write the weights of the corners of a simplex at the point at which all labels have the same value.
+
+    Parameters
+    ----------
+    matrix : (4, 4) float64
+        Value of the label of each corner (rows) at each corner (columns); each wins at its own.
+    count : int
+        Corners: 2, 3 or 4.
+    weight : (4,) float64
+        Written; at least `LEAST_SHARE` or `LEAST_WEIGHT` each, and 1 together.
+    """
+    if count == 2:
+        here, there = matrix[0, 0] - matrix[1, 0], matrix[1, 1] - matrix[0, 1]
+        share = 0.5 if here + there <= 0.0 else here / (here + there)
+        share = min(max(share, LEAST_SHARE), 1.0 - LEAST_SHARE)
+        weight[0], weight[1] = 1.0 - share, share
+        return
+    # Solve sum_c w_c (row_r - row_0)[c] = 0 for r > 0, sum w = 1, by elimination with pivots.
+    system = np.zeros((4, 5), dtype=np.float64)
+    for row in range(1, count):
+        for column in range(count):
+            system[row - 1, column] = matrix[row, column] - matrix[0, column]
+    for column in range(count):
+        system[count - 1, column] = 1.0
+    system[count - 1, 4] = 1.0
+    singular = False
+    for column in range(count):
+        pivot = column
+        for row in range(column + 1, count):
+            if abs(system[row, column]) > abs(system[pivot, column]):
+                pivot = row
+        if abs(system[pivot, column]) < 1e-9:
+            singular = True
+            break
+        if pivot != column:
+            for entry in range(5):
+                system[column, entry], system[pivot, entry] = system[pivot, entry], system[column, entry]
+        for row in range(count):
+            if row != column:
+                factor = system[row, column] / system[column, column]
+                for entry in range(5):
+                    system[row, entry] -= factor * system[column, entry]
+    total = 0.0
+    for corner in range(count):
+        share = 1.0 / count if singular else system[corner, 4] / system[corner, corner]
+        weight[corner] = min(max(share, LEAST_WEIGHT), 1.0)
+        total += weight[corner]
+    for corner in range(count):
+        weight[corner] /= total
+
+
+@njit(inline="always", cache=True)
+def point_number(cursor, bases, masks, starts, row, k, slot):
+    """Return the number of a point by its base, at or after the cursor of its row."""
+    at = cursor[row]
+    while bases[at] < k:
+        at += 1
+    return starts[at] + count_ones(masks[at] & ((1 << slot) - 1))
+
+
+@njit(nogil=True, cache=True)
+def write_triangles(
+    winners, steps, faces, tetrahedra, places, counts, table, flat_places, flat_counts, flat_table,
+    row_starts, bases, masks, starts, triangles, sides, thread, threads,
+):  # fmt: skip
+    """Write the triangles of all walls, (T, 3), and the labels behind and before each, (T, 2); NONE outside the box."""
+    m0, m1, m2 = winners.shape[0] + 2, winners.shape[1] + 2, winners.shape[2] + 2
+    corner, four = np.empty(8, dtype=np.int64), np.empty(4, dtype=np.int64)
+    cursor, ends = np.empty(4, dtype=np.int64), np.empty(4, dtype=np.int64)
+    for i in range(thread, m0, threads):
+        for j in range(m1):
+            write = row_starts[i, j, 2]
+            if write == row_starts[i, j, 5]:
+                continue
+            for row in range(4):
+                a, b = min(i + (row & 1), m0 - 1), min(j + (row >> 1), m1 - 1)
+                cursor[row], ends[row] = row_starts[a, b, 0], row_starts[a, b, 3]
+            for k in range(m2):
+                differs = fill_corners(winners, i, j, k, steps, corner)
+                if not differs and not (is_side(winners, i, j, k) and corner[0] != 0):
+                    continue
+                for row in range(4):
+                    while cursor[row] < ends[row] and bases[cursor[row]] < k:
+                        cursor[row] += 1
+                if differs and corner[7] != NONE:
+                    for t in range(len(tetrahedra)):
+                        four[0], four[3] = corner[0], corner[7]
+                        four[1], four[2] = corner[tetrahedra[t, 0]], corner[tetrahedra[t, 1]]
+                        code = code_of_four(four[0], four[1], four[2], four[3])
+                        for n in range(counts[t, code]):
+                            for side in range(3):
+                                step, slot = (
+                                    places[t, table[t, code, n, side], 0],
+                                    places[t, table[t, code, n, side], 1],
+                                )
+                                triangles[write, side] = point_number(
+                                    cursor, bases, masks, starts, step & 3, k + (step >> 2), slot
+                                )
+                            sides[write, 0], sides[write, 1] = four[table[t, code, n, 3]], four[table[t, code, n, 4]]
+                            write += 1
+                for f in range(len(faces)):
+                    if corner[faces[f, 1]] == NONE or faces[f, 1] == 7:
+                        continue
+                    facing = side_of_face(faces[f, 1], i, j, k, (m0, m1, m2))
+                    if facing == 0:
+                        continue
+                    four[0], four[1], four[2] = corner[0], corner[faces[f, 0]], corner[faces[f, 1]]
+                    code = code_of_three(four[0], four[1], four[2])
+                    for n in range(flat_counts[f, code]):
+                        label = four[flat_table[f, code, n, 3]]
+                        if label == 0:
+                            continue
+                        for side in range(3):
+                            # Tables face up; on a low side the order is turned round.
+                            of = flat_table[f, code, n, side if facing > 0 else 2 - side]
+                            step, slot = flat_places[f, of, 0], flat_places[f, of, 1]
+                            triangles[write, side] = point_number(
+                                cursor, bases, masks, starts, step & 3, k + (step >> 2), slot
+                            )
+                        sides[write, 0], sides[write, 1] = label, NONE
+                        write += 1
+
+
+@njit(nogil=True, cache=True)
+def add_volumes(points, triangles, sides, scale, volumes, thread, threads):
+    """Add six times the volume of every label: volumes (threads, labels) float64."""
+    count = len(triangles)
+    for t in range(count * thread // threads, count * (thread + 1) // threads):
+        a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+        ax, ay, az = points[a, 0] * scale[0], points[a, 1] * scale[1], points[a, 2] * scale[2]
+        bx, by, bz = points[b, 0] * scale[0], points[b, 1] * scale[1], points[b, 2] * scale[2]
+        cx, cy, cz = points[c, 0] * scale[0], points[c, 1] * scale[1], points[c, 2] * scale[2]
+        six = ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)
+        behind, before = sides[t, 0], sides[t, 1]
+        volumes[thread, behind] += six
+        if before != NONE:
+            volumes[thread, before] -= six

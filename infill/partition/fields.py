@@ -1,0 +1,140 @@
+"""The phase fields of all labels of a partition, and the label that wins in every cell."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.kernels import partition as kernels
+from infill.kernels.sparse import BRICK, CELLS, SOLID_BRICK
+from infill.kernels.threads import in_order, in_threads, thread_count
+from infill.phasefield.sparse import SparseField
+
+REACH = 20  # cells around a label beyond which its field is void to the last bit: see `infill.smoothing.labels`
+SAMPLED_BRICKS, STEEP = 20_000, 0.9  # where the row crosses the surface about at right angles
+SMALL = 2**20  # cells of a box: one thread smooths it before others have begun
+
+SmoothLabel = Callable[[NDArray[np.bool_], int], SparseField]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PartitionFields:
+    """The fields of all labels, in bricks.
+
+    Parameters
+    ----------
+    numbers : (n0, n1, n2) uint16
+        The given labels, numbered 0, 1 ...; 0 is what has no label.
+    count : int
+        Labels, 0 among them.
+    entries : (m0, m1, m2, 2) int64
+        Of each brick of the lattice, its first and its last entry, exclusive.
+    labels, slots : (e,) int32
+        The label of each entry and the place of its brick in `values`, or `infill.kernels.partition.INSIDE`.
+    values : (b, 1024) float32
+        Cells of bricks, in [-1, 1].
+    """
+
+    numbers: NDArray[np.uint16]
+    count: int
+    entries: NDArray[np.int64]
+    labels: NDArray[np.int32]
+    slots: NDArray[np.int32]
+    values: NDArray[np.float32]
+
+    def slope(self) -> float:
+        """Return the slope of a field at its surface, in units a cell, from the steepest of neighbours on a row."""
+        rows = self.values[:: max(1, len(self.values) // SAMPLED_BRICKS)].reshape(-1, BRICK[-1])
+        low, high = rows[:, :-1], rows[:, 1:]
+        crosses = (low > 0) != (high > 0)
+        return float(np.quantile(np.abs(high - low)[crosses], STEEP)) if crosses.any() else 1.0
+
+    def winners(self, offsets: NDArray[np.floating], *, threads: int | None = None) -> NDArray[np.uint16]:
+        """Return the label with the highest value plus offset in every cell; ties go to the given label."""
+        winners = np.empty_like(self.numbers)
+        in_threads(
+            kernels.choose_winners,
+            self.entries,
+            self.labels,
+            self.slots,
+            self.values,
+            np.asarray(offsets, dtype=np.float32),
+            self.numbers,
+            winners,
+            threads=thread_count(threads),
+        )
+        return winners
+
+
+def smooth_fields(
+    numbers: NDArray[np.uint16],
+    boxes: Sequence[tuple[tuple[int, ...], tuple[int, ...]]],
+    smooth: SmoothLabel,
+    *,
+    threads: int | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> PartitionFields:
+    """Smooth the field of every label by itself, in the part of the grid that it can reach.
+
+    Where only two labels meet, their fields are each other's negative, and so what wins is the result of the binary
+    scheme, to the last bit.
+
+    Parameters
+    ----------
+    numbers : (n0, n1, n2) uint16
+        Labels, numbered 0, 1 ...
+    boxes : sequence of (low, high)
+        The cells that hold each label, 0 first: from `low` up to but without `high`.
+    smooth : callable
+        Returns the field of a mask, with a number of threads.
+    progress : callable, optional
+        Called with the share of labels done.
+    """
+    count = thread_count(threads)
+    lattice = tuple(math.ceil((cells + 2) / size) for cells, size in zip(numbers.shape, BRICK, strict=True))
+
+    def one(label: int) -> tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.float32]]:
+        low, high = _reached_box(boxes[label], numbers.shape)
+        mask = numbers[tuple(map(slice, low, high))] == label
+        field = smooth(mask, 1 if mask.size < SMALL else count)
+        shift = np.array(low) // BRICK
+        inside = np.argwhere(field.slots == SOLID_BRICK)
+        places = np.concatenate([field.where.astype(np.int64), inside]) + shift
+        slots = np.concatenate([np.arange(len(field.where)), np.full(len(inside), kernels.INSIDE)]).astype(np.int32)
+        return np.ravel_multi_index(tuple(places.T), lattice), slots, field.values.reshape(-1, CELLS)
+
+    places, labels, slots, values, start = [], [], [], [], 0
+    for label, (brick, slot, cells) in in_order(one, range(len(boxes)), threads=count):
+        places.append(brick)
+        labels.append(np.full(len(brick), label, dtype=np.int32))
+        slots.append(np.where(slot == kernels.INSIDE, slot, slot + start).astype(np.int32))
+        values.append(cells)
+        start += len(cells)
+        if progress is not None:
+            progress((label + 1) / len(boxes))
+    place = np.concatenate(places)
+    order = np.argsort(place, kind="stable")
+    ends = np.searchsorted(place[order], np.arange(math.prod(lattice) + 1))
+    return PartitionFields(
+        numbers=numbers,
+        count=len(boxes),
+        entries=np.stack([ends[:-1], ends[1:]], axis=-1).reshape(*lattice, 2),
+        labels=np.concatenate(labels)[order],
+        slots=np.concatenate(slots)[order],
+        values=np.concatenate(values) if values else np.empty((0, CELLS), dtype=np.float32),
+    )
+
+
+def _reached_box(
+    box: tuple[tuple[int, ...], tuple[int, ...]], shape: tuple[int, ...]
+) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Return the box that a field can reach, with sides between bricks of the whole grid."""
+    low = tuple(max(0, (at - REACH) // size * size) for at, size in zip(box[0], BRICK, strict=True))
+    high = tuple(
+        min(count, -(-(at + REACH) // size) * size) for at, size, count in zip(box[1], BRICK, shape, strict=True)
+    )
+    return low, high

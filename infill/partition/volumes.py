@@ -1,0 +1,167 @@
+"""Offsets at which every label of a partition keeps its volume: Newton's method on the dual problem.
+
+Raising the value of a label moves its walls outwards, by as much as the difference of values is flat there. With
+A_kl the area of the wall between k and l, and s the slope of the difference, volumes change as
+
+    dV_k = sum_l A_kl (do_k - do_l) / s,
+
+a Laplacian on the graph of neighbours. s is that of two fields with the profile of the interface.
+Source of the problem: Jacobs, Merkurjev and Esedoglu, J. Comput. Phys. 354 (2018), which thresholds instead.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+from scipy.sparse.linalg import spsolve
+
+from infill.kernels import partition as kernels
+from infill.kernels.threads import in_threads, thread_count
+from infill.partition.fields import PartitionFields
+from infill.partition.walls import OUTSIDE, WallGraph, Walls, place_walls, trace_walls
+
+PRECISION = 2e-5  # of a label's volume: rounds end when every label is as near
+FREE_ROUNDS, MOST_ROUNDS = 10, 24  # in the first ones, labels may win and lose cells
+NEAR = 5e-4  # of a label's volume: from there on, the winner of every cell is held
+LARGEST_STEP = 0.3  # of an offset in one round: values lie between -1 and 1
+SAMPLED = 300_000  # triangles from which the areas between pairs are taken
+TURNED = 0.3  # of what was missing a round before: a label that then has as much too much takes half the step
+MARGINS = 128  # bins of the margin by which a label wins or loses, from -2 to 2
+MOST_CELLS = 0.6  # of the cells of a label, in which it wins at first
+SMALLEST = 8  # cells of a label that is measured; smaller ones get what they can
+GONE = 1e-3  # of its volume: a label with less has vanished
+LARGEST_OFFSET = 2.2  # two labels at +1 and -1 change places
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class VolumePartition:
+    """Walls between labels, and the offsets that give each its volume.
+
+    Parameters
+    ----------
+    graph : WallGraph
+    walls : Walls
+    offsets : (labels,) float64
+    rounds : int
+        How often the walls were extracted.
+    """
+
+    graph: WallGraph
+    walls: Walls
+    offsets: NDArray[np.float64]
+    rounds: int
+
+
+def keep_volumes(
+    fields: PartitionFields,
+    volumes: NDArray[np.floating],
+    *,
+    scale: tuple[float, ...] = (1.0, 1.0, 1.0),
+    threads: int | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> VolumePartition:
+    """Find the offsets at which every label has its volume.
+
+    Parameters
+    ----------
+    fields : PartitionFields
+    volumes : (labels,) float
+        Wanted, in cells of `scale`; that of 0 is the rest.
+    scale : (3,) float
+        Sides of a cell; the smallest is 1.
+    progress : callable, optional
+        Called with the share of rounds done.
+    """
+    wanted = np.asarray(volumes, dtype=np.float64)
+    offsets = first_offsets(fields, threads=threads)
+    is_sought = wanted > 0
+    is_sought[0] = False
+    slope = 2 * fields.slope() / scale[2]  # of the difference of two values
+    best: VolumePartition | None = None
+    held: WallGraph | None = None
+    least = np.inf
+    is_measured = is_sought & (wanted >= SMALLEST * np.prod(scale))
+    before, step = np.zeros(fields.count), np.zeros(fields.count)
+    largest = np.full(fields.count, LARGEST_STEP)
+    for number in range(MOST_ROUNDS):
+        if best is not None and held is None and (number >= FREE_ROUNDS or least < NEAR):
+            # With the winners held, volumes change without jumps.
+            offsets, held = best.offsets.copy(), best.graph
+            largest, before = np.full(fields.count, LARGEST_STEP), np.zeros(fields.count)
+        graph = held or trace_walls(fields.winners(offsets, threads=threads), threads=threads)
+        walls = place_walls(graph, fields, offsets, scale=scale, threads=threads)
+        missing = np.where(is_sought, wanted - walls.volumes, 0.0)
+        off = np.abs(missing) / np.maximum(wanted, 1e-300)
+        error = float(off[is_measured].max(initial=0.0))
+        # At first the sum counts, since single labels jump; then the worst label.
+        score = error if held is not None or error < NEAR else 1.0 + float(off[is_measured].sum())
+        if best is None or score < least:
+            least, best = score, VolumePartition(graph=graph, walls=walls, offsets=offsets.copy(), rounds=number + 1)
+        if progress is not None:
+            progress((number + 1) / MOST_ROUNDS)
+        if error <= PRECISION:
+            break
+        turned = (missing * before < 0) & (np.abs(missing) > TURNED * np.abs(before))
+        largest = np.where(turned, np.abs(step) / 2, largest)
+        step = _solve(_neighbour_areas(walls, fields.count, scale), missing, is_sought) * slope
+        gone = is_sought & (walls.volumes < GONE * wanted)
+        step[gone] = LARGEST_STEP  # where nothing is, nothing says how far it is
+        step, before = np.clip(step, -largest, largest), missing
+        offsets = np.clip(offsets + step, -LARGEST_OFFSET, LARGEST_OFFSET)
+    assert best is not None
+    return best
+
+
+def first_offsets(fields: PartitionFields, *, threads: int | None = None) -> NDArray[np.float64]:
+    """Return offsets with which every label wins in most of its given cells, however small it is; 0 for large ones."""
+    count = thread_count(threads)
+    bins = np.zeros((count, fields.count, MARGINS), dtype=np.int64)
+    in_threads(
+        kernels.count_margins,
+        fields.entries,
+        fields.labels,
+        fields.slots,
+        fields.values,
+        fields.numbers,
+        bins,
+        threads=count,
+    )
+    margins = bins.sum(axis=0)
+    sums = margins.cumsum(axis=1)
+    # The margin that is exceeded in most of the cells of a label: below 0, another label wins there.
+    low = (sums < (1 - MOST_CELLS) * sums[:, -1:]).sum(axis=1)
+    margin = (low + 0.5) * 4 / MARGINS - 2
+    offsets: NDArray[np.float64] = np.maximum(-margin, 0.0)
+    offsets[0] = 0.0
+    return offsets
+
+
+def _neighbour_areas(walls: Walls, count: int, scale: tuple[float, ...]) -> sparse.csr_array:
+    """Return the Laplacian of the areas between labels, from a sample of the triangles; each row sums to 0."""
+    stride = max(1, len(walls.triangles) // SAMPLED)
+    sides = walls.sides[::stride]
+    inner = sides[:, 1] != OUTSIDE
+    corners = walls.points[walls.triangles[::stride][inner]] * np.array(scale)
+    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
+    a, b = sides[inner].T
+    graph = sparse.csr_array((areas * stride, (a, b)), shape=(count, count))
+    graph = graph + graph.T
+    return sparse.csr_array(sparse.diags_array(graph.sum(axis=1)) - graph)
+
+
+def _solve(
+    laplacian: sparse.csr_array, missing: NDArray[np.float64], is_sought: NDArray[np.bool_]
+) -> NDArray[np.float64]:
+    """Solve for the offsets of the labels whose volume is sought, those of the others 0."""
+    chosen = np.flatnonzero(is_sought)
+    matrix = laplacian[chosen][:, chosen]
+    diagonal = matrix.diagonal()
+    # Without label 0 beside them, only the differences count: a small share of each area holds them near 0.
+    matrix = matrix + sparse.diags_array(1e-6 * diagonal + (diagonal == 0) + 1e-12)
+    step = np.zeros(len(missing))
+    step[chosen] = spsolve(sparse.csc_array(matrix), missing[chosen])
+    return step

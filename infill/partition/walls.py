@@ -1,0 +1,135 @@
+"""The complex of walls between labels: points, triangles, and the labels on both sides of each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.kernels import partition as kernels
+from infill.kernels.threads import in_threads, thread_count
+from infill.partition.fields import PartitionFields
+from infill.partition.tetrahedra import FACE_SLOT, FACES, STEPS, TETRAHEDRA, TETRAHEDRON_SLOT, make_tables
+
+OUTSIDE = kernels.NONE  # instead of a label: beyond the box
+CUTTING = np.array(STEPS), np.array(FACES), np.array(TETRAHEDRA)
+SLOTS_AT = np.array([FACE_SLOT, TETRAHEDRON_SLOT])
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Walls:
+    """Triangles that part the labels of a grid from each other; each wall is there once, for both its labels.
+
+    Parameters
+    ----------
+    points : (P, 3) float32
+        In cells of the grid, from its lower corner.
+    triangles : (T, 3) int64
+    sides : (T, 2) int32
+        The labels behind and before each triangle, which faces the second; `OUTSIDE` beyond the box.
+    volumes : (labels,) float64
+        Of every label; that of 0 is what the others leave of the box. Cells.
+    """
+
+    points: NDArray[np.float32]
+    triangles: NDArray[np.int64]
+    sides: NDArray[np.int32]
+    volumes: NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class WallGraph:
+    """Which triangles part the labels, as the winners alone decide; their points may still move.
+
+    Parameters
+    ----------
+    winners : (n0, n1, n2) uint16
+        The label of every cell.
+    row_starts : (n0 + 2, n1 + 2, 6) int64
+        Bases, points and triangles before each row of the lattice, and before the next.
+    bases, masks : (b,) int32
+        Bases of points along their rows, and the points that each owns, as bits.
+    starts : (b,) int64
+        The number of the first of these.
+    triangles : (T, 3) int64
+    sides : (T, 2) int32
+    """
+
+    winners: NDArray[np.uint16]
+    row_starts: NDArray[np.int64]
+    bases: NDArray[np.int32]
+    masks: NDArray[np.int32]
+    starts: NDArray[np.int64]
+    triangles: NDArray[np.int64]
+    sides: NDArray[np.int32]
+
+    @property
+    def point_count(self) -> int:
+        """Number of points."""
+        return int(self.row_starts[-1, -1, 4])
+
+
+def trace_walls(winners: NDArray[np.uint16], *, threads: int | None = None) -> WallGraph:
+    """Trace the walls between the labels of cells."""
+    count = thread_count(threads)
+    tables, shape = make_tables(), winners.shape
+    sizes = np.zeros((shape[0] + 2, shape[1] + 2, 3), dtype=np.int64)
+    common = winners, *CUTTING
+    in_threads(kernels.count_rows, *common, SLOTS_AT, tables.counts, tables.flat_counts, sizes, threads=count)
+    ends = sizes.reshape(-1, 3).cumsum(axis=0).reshape(sizes.shape)
+    row_starts = np.concatenate([ends - sizes, ends], axis=-1)
+    base_count, _, triangle_count = (int(end) for end in ends.reshape(-1, 3)[-1])
+    bases, masks = (np.empty(base_count, dtype=np.int32) for _ in range(2))
+    starts = np.empty(base_count, dtype=np.int64)
+    in_threads(kernels.fill_rows, *common, SLOTS_AT, row_starts, bases, masks, starts, threads=count)
+    triangles = np.empty((triangle_count, 3), dtype=np.int64)
+    sides = np.empty((triangle_count, 2), dtype=np.int32)
+    inner, flat = (
+        (tables.places, tables.counts, tables.triangles),
+        (tables.flat_places, tables.flat_counts, tables.flat_triangles),
+    )
+    rows = row_starts, bases, masks, starts
+    in_threads(kernels.write_triangles, *common, *inner, *flat, *rows, triangles, sides, threads=count)
+    return WallGraph(
+        winners=winners,
+        row_starts=row_starts,
+        bases=bases,
+        masks=masks,
+        starts=starts,
+        triangles=triangles,
+        sides=sides,
+    )
+
+
+def place_walls(
+    graph: WallGraph,
+    fields: PartitionFields,
+    offsets: NDArray[np.floating],
+    *,
+    scale: tuple[float, ...] = (1.0, 1.0, 1.0),
+    threads: int | None = None,
+) -> Walls:
+    """Place the points of walls where the values of labels, plus their offsets, are equal.
+
+    Parameters
+    ----------
+    graph : WallGraph
+    fields : PartitionFields
+    offsets : (labels,) float
+        Added to the values of each label.
+    scale : (3,) float
+        Sides of a cell, in which volumes and areas are measured.
+    """
+    count, shape = thread_count(threads), graph.winners.shape
+    points = np.empty((graph.point_count, 3), dtype=np.float32)
+    rows = graph.row_starts, graph.bases, graph.masks, graph.starts
+    added = np.asarray(offsets, dtype=np.float32)
+    values = fields.entries, fields.labels, fields.slots, fields.values, added
+    in_threads(kernels.place_points, graph.winners, *CUTTING, SLOTS_AT, *rows, *values, points, threads=count)
+    volumes = np.zeros((count, fields.count))
+    sides = np.array(scale, dtype=np.float64)
+    in_threads(kernels.add_volumes, points, graph.triangles, graph.sides, sides, volumes, threads=count)
+    volume = volumes.sum(axis=0) / 6
+    volume[0] = np.prod(np.multiply(shape, scale)) - volume[1:].sum()
+    return Walls(points=points, triangles=graph.triangles, sides=graph.sides, volumes=volume)
