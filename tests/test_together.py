@@ -203,6 +203,22 @@ def test_every_label_keeps_its_volume(method: Any, spacing: Any) -> None:
         assert result.surfaces[label["name"]].volume == pytest.approx(volume, rel=1e-4)
 
 
+@pytest.mark.parametrize("method", ["plain", "refine"])
+def test_the_line_where_three_labels_meet_is_smooth(method: Any) -> None:
+    """Three sectors around a slanted line: no point of it lies further than a third of a voxel from it."""
+    x, y, z = (axis - 19.5 for axis in np.indices((40, 40, 40)))
+    turned = np.arctan2(y - 0.23 * z, x - 0.41 * z)
+    labels = (np.floor((turned + np.pi + 0.4) / (2 * np.pi / 3)).astype(np.int64) % 3) + 1
+    result = smooth_labels(labels, together=True, method=method, smoothing=Smoothing(steps=10))
+    corners = [set(map(tuple, surface.vertices.tolist())) for surface in result.surfaces.values()]
+    shared = np.array(sorted(set.intersection(*corners))) - 20
+    inner = shared[np.abs(shared).max(axis=1) < 14]
+    direction = np.array([0.41, 0.23, 1.0]) / np.linalg.norm([0.41, 0.23, 1.0])
+    off = np.linalg.norm(inner - (inner @ direction)[:, None] * direction, axis=1)
+    assert len(inner) > 40
+    assert off.max() < 1 / 3
+
+
 def test_neighbours_have_the_same_triangles_at_their_walls(tmp_path: Path) -> None:
     """In files too: all of them together, merged by equal coordinates, have every wall twice, once from each side."""
     labels = voronoi((30, 30, 30), 6)

@@ -461,6 +461,19 @@ def write_triangles(
 
 
 @njit(nogil=True, cache=True)
+def name_points(masks, starts, names):
+    """Write the slot of every point, (P,) int8."""
+    for base in range(len(masks)):
+        mask, point, slot = masks[base], starts[base], 0
+        while mask:
+            if mask & 1:
+                names[point] = slot
+                point += 1
+            mask >>= 1
+            slot += 1
+
+
+@njit(nogil=True, cache=True)
 def add_volumes(points, triangles, sides, scale, volumes, thread, threads):
     """Add six times the volume of every label: volumes (threads, labels) float64."""
     count = len(triangles)

@@ -12,7 +12,7 @@ Source of the problem: Jacobs, Merkurjev and Esedoglu, J. Comput. Phys. 354 (201
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +22,8 @@ from scipy.sparse.linalg import spsolve
 from infill.kernels import partition as kernels
 from infill.kernels.threads import in_threads, thread_count
 from infill.partition.fields import PartitionFields
-from infill.partition.walls import OUTSIDE, WallGraph, Walls, place_walls, trace_walls
+from infill.partition.junctions import restore_volumes, smooth_junctions
+from infill.partition.walls import OUTSIDE, WallGraph, Walls, measure_volumes, place_walls, trace_walls
 
 PRECISION = 2e-5  # of a label's volume: rounds end when every label is as near
 FREE_ROUNDS, MOST_ROUNDS = 10, 24  # in the first ones, labels may win and lose cells
@@ -113,7 +114,19 @@ def keep_volumes(
         step, before = np.clip(step, -largest, largest), missing
         offsets = np.clip(offsets + step, -LARGEST_OFFSET, LARGEST_OFFSET)
     assert best is not None
-    return best
+    points = smooth_junctions(best.graph, best.walls)
+    if points is best.walls.points:
+        return best
+
+    def measure(moved: NDArray[np.float32]) -> NDArray[np.float64]:
+        return measure_volumes(best.graph, moved, fields.count, scale=scale, threads=threads)
+
+    def solve(walls: Walls, missing: NDArray[np.float64]) -> NDArray[np.float64]:
+        return _solve(_neighbour_areas(walls, fields.count, scale), missing, is_sought)
+
+    smoothed = replace(best.walls, points=points, volumes=measure(points))
+    restored = restore_volumes(best.graph, smoothed, np.where(is_measured, wanted, 0.0), solve, measure, scale)
+    return replace(best, walls=restored)
 
 
 def first_offsets(fields: PartitionFields, *, threads: int | None = None) -> NDArray[np.float64]:

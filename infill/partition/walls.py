@@ -121,15 +121,29 @@ def place_walls(
     scale : (3,) float
         Sides of a cell, in which volumes and areas are measured.
     """
-    count, shape = thread_count(threads), graph.winners.shape
+    count = thread_count(threads)
     points = np.empty((graph.point_count, 3), dtype=np.float32)
     rows = graph.row_starts, graph.bases, graph.masks, graph.starts
     added = np.asarray(offsets, dtype=np.float32)
     values = fields.entries, fields.labels, fields.slots, fields.values, added
     in_threads(kernels.place_points, graph.winners, *CUTTING, SLOTS_AT, *rows, *values, points, threads=count)
-    volumes = np.zeros((count, fields.count))
+    volumes = measure_volumes(graph, points, fields.count, scale=scale, threads=threads)
+    return Walls(points=points, triangles=graph.triangles, sides=graph.sides, volumes=volumes)
+
+
+def measure_volumes(
+    graph: WallGraph,
+    points: NDArray[np.float32],
+    labels: int,
+    *,
+    scale: tuple[float, ...] = (1.0, 1.0, 1.0),
+    threads: int | None = None,
+) -> NDArray[np.float64]:
+    """Measure the volume of every label within points, (labels,) in cells of `scale`; 0 has the rest of the box."""
+    count = thread_count(threads)
+    sums = np.zeros((count, labels))
     sides = np.array(scale, dtype=np.float64)
-    in_threads(kernels.add_volumes, points, graph.triangles, graph.sides, sides, volumes, threads=count)
-    volume = volumes.sum(axis=0) / 6
-    volume[0] = np.prod(np.multiply(shape, scale)) - volume[1:].sum()
-    return Walls(points=points, triangles=graph.triangles, sides=graph.sides, volumes=volume)
+    in_threads(kernels.add_volumes, points, graph.triangles, graph.sides, sides, sums, threads=count)
+    volumes: NDArray[np.float64] = sums.sum(axis=0) / 6
+    volumes[0] = np.prod(np.multiply(graph.winners.shape, scale)) - volumes[1:].sum()
+    return volumes

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,6 +15,7 @@ from infill.formats.parts import hex_colour
 from infill.machine import require_memory
 from infill.partition.fields import PartitionFields, smooth_fields
 from infill.partition.volumes import SMALLEST, VolumePartition, keep_volumes
+from infill.phasefield.profile import PLAIN_PROFILE, REFINED_PROFILE
 from infill.phasefield.refining import refine_bricks
 from infill.phasefield.sparse import SparseField, smooth_bricks
 from infill.plain_numbers import count_noun
@@ -155,11 +157,13 @@ def _smooth_fields(
 ) -> PartitionFields:
     """Smooth the field of every label, and of the space between them."""
     spacing = tuple(volume.cell_size.tolist())
-    refined = request.method != "plain"
+    is_plain = request.method == "plain"
+    smoother, profile = (smooth_bricks, PLAIN_PROFILE) if is_plain else (refine_bricks, REFINED_PROFILE)
 
     def smooth(mask: NDArray[np.bool_], threads: int) -> SparseField:
-        smoother = refine_bricks if refined else smooth_bricks
-        return smoother(mask, request.smoothing, spacing=spacing, threads=threads)
+        field = smoother(mask, request.smoothing, spacing=spacing, threads=threads)
+        # Distances change evenly from cell to cell, as walls between them assume.
+        return replace(field, values=profile.distance(field.values, out=field.values, threads=threads))
 
     boxes = [((0, 0, 0), numbers.shape), *((piece.extent.low, piece.extent.high) for piece in pieces)]
     return smooth_fields(
