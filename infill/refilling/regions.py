@@ -100,6 +100,22 @@ class FreeAreas:
     distance: float
     skin_distance: float
 
+    def keep_apart(self, spacing: float) -> FreeAreas:
+        """Cut the smaller one of two areas that are nearer to each other than lines may be, mm; return the areas."""
+        import shapely
+
+        kept: list[Polygon] = []
+        for polygon in sorted(self.polygons, key=lambda polygon: -polygon.area):
+            near = [other for other in kept if shapely.dwithin(polygon, other, spacing)]
+            if not near:
+                kept.append(polygon)
+                continue
+            rest = shapely.difference(polygon, shapely.buffer(shapely.union_all(near), spacing))
+            parts = shapely.get_parts(rest)
+            kept += parts[(shapely.get_type_id(parts) == POLYGON) & (shapely.area(parts) > LEAST_AREA)].tolist()
+        unchanged = len(kept) == len(self.polygons) and {id(one) for one in kept} == {id(one) for one in self.polygons}
+        return self if unchanged else replace(self, polygons=tuple(kept))
+
     @cached_property
     def outline(self) -> Floats:
         """Points of its outlines, at most `OUTLINE_STEP` apart, (N, 2), mm."""

@@ -299,7 +299,8 @@ def draw_sections(
     commanded = layers.acceleration(acceleration)
     new: list[NewSection] = []
     # Regions do not depend on the drawing: another thread searches the next one meanwhile.
-    for layer, (region, beads) in in_order(_region_finder(memory.region), layers, threads=1):
+    spacing = plan.family.least_spacing * plan.line_width
+    for layer, (region, beads) in in_order(_region_finder(memory.region, spacing), layers, threads=1):
         layer_plan = plan.at(layer.z)
         memory.enter(region, beads.all, layer_plan)
         groups = group_sections(layer, region)
@@ -326,13 +327,17 @@ def draw_sections(
     return sorted(new, key=lambda section: section.body.first), {**kept, NO_REGION: layers.section}
 
 
-def _region_finder(initial: FreeAreas | None) -> Callable[[Layer], tuple[FreeAreas, LayerBeads]]:
-    """Return a function that finds the region of a layer and its other beads, one layer after another."""
+def _region_finder(initial: FreeAreas | None, spacing: float) -> Callable[[Layer], tuple[FreeAreas, LayerBeads]]:
+    """Return a function that finds the region of a layer and its other beads, one layer after another.
+
+    Areas of a region lie as far from one another as lines, `spacing` mm.
+    """
     region = initial
 
     def find_next(layer: Layer) -> tuple[FreeAreas, LayerBeads]:
         nonlocal region
-        region = layer.find_region(region)
+        found = layer.find_region(region)
+        region = found if found is region else found.keep_apart(spacing)
         return region, layer.beads
 
     return find_next
