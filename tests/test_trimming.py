@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
+from typing import Any
+
 import numpy as np
 import pytest
 import shapely
+from gradient_judge import crossing_paths, read_sparse
+from handmade_prints import PER_MM, Dialect, written
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from lines import least_spacing
 from shapely import affinity
 
+from infill import refill
 from infill.paths.covering import cover
 from infill.paths.families.catalogue import FAMILIES
 from infill.paths.trimming import trim_ends
@@ -74,6 +81,36 @@ def test_areas_that_nearly_touch_are_cut_apart() -> None:
     assert sum(part.area for part in parts) > large.area + far.area + 0.85 * small.area
     assert region.polygons == (small, large, far)
     assert apart.keep_apart(SPACING - 0.01) is apart
+
+
+def test_areas_keep_off_lines_that_stay() -> None:
+    area, own = shapely.box(0, 0, 20, 20), shapely.box(30, 0, 40, 10)
+    region = FreeAreas(polygons=(area, own), distance=0.4, skin_distance=0.4)
+    across, inside = line((-5, 10), (25, 10)), line((32, 5), (38, 5))
+    cut = region.keep_off([across, inside], SPACING, own=[1])
+    assert len(cut.polygons) == 3
+    assert cut.polygons[-1] is own
+    assert min(shapely.distance(shapely.linestrings(across), part) for part in cut.polygons[:2]) > SPACING - 1e-9
+    assert region.keep_off([line((25, 0), (25, 9))], SPACING) is region
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("graded", [{}, {"density": (0.35, 0.15), "by": "x"}])
+def test_new_lines_keep_off_a_section_that_stays(tmp_path: Path, graded: dict[str, Any]) -> None:
+    """A line that runs out of the region through the walls, of which hardly any lies in the area beside it."""
+    text = written(Dialect(size=30.0, cell=4.0, layers=7))
+    tag = b";TYPE:Internal infill\n"
+    begin = [found.start() for found in re.finditer(tag, text)][2]
+    end = text.index(b";LAYER_CHANGE", begin)
+    stray = b";TYPE:Custom\n" + tag + b"G1 X128 Y114.9 F7800\nG1 F1800\nG1 X130.2 Y115.1 E%.5f\n" % (2.21 * PER_MM)
+    sliced, output = tmp_path / "old.gcode", tmp_path / "new.gcode"
+    sliced.write_bytes(text[:end] + stray + text[end:])
+    report = refill(sliced, output=output, pattern="honeycomb", **graded).report
+    assert report["sections"]["kept"] == {"no sure region": 1}
+    assert report["sections"]["replaced"] == report["sections"]["all"] - 1
+    layers = read_sparse(output.read_text())
+    assert sum(map(crossing_paths, layers)) == 0
+    assert min(least_spacing(layer.paths, near=4 * WIDTH, most=0.6) for layer in layers) > 0.84 * WIDTH
 
 
 def test_areas_that_are_apart_stay_as_they_are() -> None:
