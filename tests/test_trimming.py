@@ -96,13 +96,16 @@ def test_areas_keep_off_lines_that_stay() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("graded", [{}, {"density": (0.35, 0.15), "by": "x"}])
-def test_new_lines_keep_off_a_section_that_stays(tmp_path: Path, graded: dict[str, Any]) -> None:
-    """A line that runs out of the region through the walls, of which hardly any lies in the area beside it."""
+@pytest.mark.parametrize("x", [128.0, 114.0])
+def test_new_lines_keep_off_a_section_that_stays(tmp_path: Path, graded: dict[str, Any], x: float) -> None:
+    """A line that runs out of the region through the walls, or next to nothing in an area of another section."""
     text = written(Dialect(size=30.0, cell=4.0, layers=7))
     tag = b";TYPE:Internal infill\n"
     begin = [found.start() for found in re.finditer(tag, text)][2]
     end = text.index(b";LAYER_CHANGE", begin)
-    stray = b";TYPE:Custom\n" + tag + b"G1 X128 Y114.9 F7800\nG1 F1800\nG1 X130.2 Y115.1 E%.5f\n" % (2.21 * PER_MM)
+    stray = (
+        b";TYPE:Custom\n" + tag + b"G1 X%g Y114.9 F7800\nG1 F1800\nG1 X%g Y115.1 E%.5f\n" % (x, x + 2.2, 2.21 * PER_MM)
+    )
     sliced, output = tmp_path / "old.gcode", tmp_path / "new.gcode"
     sliced.write_bytes(text[:end] + stray + text[end:])
     report = refill(sliced, output=output, pattern="honeycomb", **graded).report

@@ -115,7 +115,7 @@ class FreeAreas:
         return self if unchanged else replace(self, polygons=tuple(kept))
 
     def keep_off(self, lines: Sequence[Floats], spacing: float, own: Collection[int] = ()) -> FreeAreas:
-        """Cut areas along lines (N, 2), mm, that stay in the layer, but for the areas `own`; return the areas."""
+        """Cut areas along lines (N, 2), mm, that stay in the layer, except the areas `own`; return the areas."""
         import shapely
 
         taken = shapely.union_all([shapely.linestrings(line) for line in lines])

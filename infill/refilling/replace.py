@@ -308,7 +308,11 @@ def draw_sections(
         layer_bodies = {body.section: body for body in bodies if body.layer == layer.number}
         memory.found = region
         groups = group_sections(layer, region)
-        refused = [group for group in groups if group.refusal_reason(_members(group, layer_bodies))]
+        refused = [
+            group
+            for group in groups
+            if not any(group.areas.values()) or group.refusal_reason(_members(group, layer_bodies))
+        ]
         if refused:
             own = {area for group in refused for areas in group.areas.values() for area in areas}
             kept_lines = layer.paths_of([section for group in refused for section in group.areas])
