@@ -216,6 +216,15 @@ class Move:
     retracted: bool  # by the firmware
 
     length: float
+    turn: float  # radians of an arc; 0 of a straight move
+
+    @property
+    def rounding(self) -> float:
+        """By how much the length may be wrong because places, and the centre of an arc, are rounded, in mm.
+
+        A centre that lies off by d changes the radius by d at most, and the angle by d over the radius at either end.
+        """
+        return NEAR * (4 + self.turn if self.turn else 2)
 
     @property
     def extrudes(self) -> bool:
@@ -348,8 +357,12 @@ class Machine:
         self.depth[self.tool] = max(0.0, depth - pushed)
         end = (self.at["X"], self.at["Y"], self.at["Z"])
         points = (start[:2], end[:2])
+        way, turn = math.dist(*points), 0.0
         if line.name in (b"G2", b"G3"):
-            points = arc(start[:2], end[:2], given, clockwise=line.name == b"G2")
+            clockwise = line.name == b"G2"
+            points = arc(start[:2], end[:2], given, clockwise=clockwise)
+            middle, turn = circle(start[:2], end[:2], given, clockwise=clockwise)
+            way = turn * (math.dist(start[:2], middle) + math.dist(end[:2], middle)) / 2
         elif start[:2] == end[:2]:
             points = (start[:2],)
         if points == (start[:2],) and start == end and not pushed:
@@ -370,7 +383,8 @@ class Machine:
             wiping=self.wiping,
             logical=self.at["E"] - self.zero["E"],
             retracted=self.retracted.get(self.tool, False),
-            length=math.hypot(sum(map(math.dist, points[:-1], points[1:])), end[2] - start[2]),
+            length=math.hypot(way, end[2] - start[2]),
+            turn=turn,
         )
 
 
@@ -382,8 +396,8 @@ def words(command: bytes) -> list[tuple[str, float | None]]:
     ]
 
 
-def arc(start, end, given, *, clockwise: bool) -> tuple[tuple[float, float], ...]:
-    """Cut an arc into chords that leave it by less than a micrometre or so."""
+def circle(start, end, given, *, clockwise: bool) -> tuple[tuple[float, float], float]:
+    """Return the centre of an arc, and by how much it turns."""
     if "R" in given:
         half = math.dist(start, end) / 2
         rise = math.sqrt(max(given["R"] ** 2 - half**2, 0.0)) * (-1 if (given["R"] > 0) == clockwise else 1)
@@ -394,12 +408,16 @@ def arc(start, end, given, *, clockwise: bool) -> tuple[tuple[float, float], ...
         )
     else:
         middle = (start[0] + given.get("I", 0.0), start[1] + given.get("J", 0.0))
+    first, last = (math.atan2(y - middle[1], x - middle[0]) for x, y in (start, end))
+    turn = (first - last if clockwise else last - first) % (2 * math.pi)
+    return middle, turn if turn > 1e-9 else 2 * math.pi
+
+
+def arc(start, end, given, *, clockwise: bool) -> tuple[tuple[float, float], ...]:
+    """Cut an arc into chords that leave it by less than a micrometre or so."""
+    middle, turn = circle(start, end, given, clockwise=clockwise)
     radius = math.dist(start, middle)
     first = math.atan2(start[1] - middle[1], start[0] - middle[0])
-    last = math.atan2(end[1] - middle[1], end[0] - middle[0])
-    turn = (first - last if clockwise else last - first) % (2 * math.pi) or 2 * math.pi
-    if turn < 1e-9:
-        turn = 2 * math.pi
     pieces = max(2, math.ceil(turn * math.sqrt(max(radius, 1e-6) / 0.008)))
     sign = -1 if clockwise else 1
     inner = [
@@ -833,7 +851,7 @@ def _moves(was: Replay, now: Replay, habit: Habits) -> Iterator[str]:
             if (m.depth > 2 * DEPTH or m.retracted) and not late:
                 yield f"extrusion while retracted: {at}"
             low, high = doses.get((m.width, m.height), doses[0, 0])
-            slack = (2 * PUSHED + m.per_mm * 2 * NEAR) / m.length
+            slack = (2 * PUSHED + m.per_mm * m.rounding) / m.length
             if not low - slack <= m.per_mm <= high + slack:
                 yield f"E per mm: {at} is {m.per_mm:.5f}, not {low:.5f} to {high:.5f}"
             if m.length > 0.5 and m.per_mm * m.speed > flow * (1 + WIDER) + slack * m.speed:

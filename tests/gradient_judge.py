@@ -14,10 +14,11 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 from gap_judge import SPARSE
+from gcode_judge import arc
 
 FILAMENT = math.pi / 4 * 1.75**2  # mm²
 _TAG = re.compile(r"(?:;TYPE:|; FEATURE: )(.*)")
-_WORD = re.compile(r"([XYZEF])(-?[\d.]+)")
+_WORD = re.compile(r"([XYZEFIJ])(-?[\d.]+)")
 
 
 @dataclass
@@ -64,7 +65,7 @@ def read_sparse(text: str) -> list[SparseLayer]:
             role = tag[1].strip()
         elif line.startswith(";HEIGHT:"):
             height = float(line[8:])
-        elif line.startswith(("G0 ", "G1 ")):
+        elif line.startswith(("G0 ", "G1 ", "G2 ", "G3 ")):
             words = {name: float(value) for name, value in _WORD.findall(line.split(";")[0])}
             if words.get("Z", z) != z:
                 close()
@@ -73,8 +74,9 @@ def read_sparse(text: str) -> list[SparseLayer]:
             if words.get("E", 0.0) > 0 and to != (x, y) and role in SPARSE:
                 if not path:
                     path.append((x, y))
-                path.append(to)
-                amounts.append(words["E"])
+                points = arc((x, y), to, words, clockwise=line[1] == "2")[1:] if line[1] in "23" else (to,)
+                path += points
+                amounts += [words["E"] / len(points)] * len(points)
             elif to != (x, y):
                 close()
             x, y = to

@@ -17,8 +17,9 @@ from infill.gcode.arcs import find_arcs, path_steps
 from infill.gcode.machine_state import MachineState
 from infill.gcode.path_moves import ARC_DEVIATION, plan_moves
 from infill.gcode.table import read_table
+from tests.gcode_judge import Machine, changed, infilled, judge, pushed, words
 from tests.gcode_judge import arc as judge_arc
-from tests.gcode_judge import changed, infilled, judge, pushed, words
+from tests.gcode_judge import read as read_line
 from tests.gcode_structure import supported
 from tests.handmade_prints import Dialect, written
 
@@ -230,6 +231,22 @@ def test_arcs_are_written_where_they_are_asked_for(data: Path, tmp_path: Path) -
     assert 3 * counts[path.name, "auto"][1] < counts[path.name, "off"][1]  # of a gyroid, a third of the lines and fewer
     with pytest.raises(UsageError, match="arcs is 'yes'; give auto, on or off"):
         refill(path, arcs="yes", dry_run=True)
+
+
+def test_the_judge_measures_arcs_along_their_circle() -> None:
+    """Of 0.3 mm, more than half a circle: by chords, and to a centre of three decimals, filament seemed 0.4 % too much."""
+    machine = Machine()
+    moves = [machine.run(read_line(1, line)) for line in (b"G1 X62.548 Y109.662 Z.2 F4800", b"M83")]
+    move = machine.run(read_line(2, b"G2 X62.548 Y110.247 I-.053 J.292 E.03808"))
+    assert moves[1] is None
+    assert move is not None
+    assert move.turn == pytest.approx(3.5001, abs=1e-4)
+    assert move.length == pytest.approx(1.0404, abs=2e-4)
+    lengths = []
+    for rise in (0.0525, 0.0535):  # of the centre over the middle of the chord, which is rounded to 0.053
+        radius = math.hypot(rise, 0.2925)
+        lengths.append(radius * (math.pi + 2 * math.atan2(rise, 0.2925)))
+    assert max(abs(length - move.length) for length in lengths) < move.rounding < 0.005
 
 
 @pytest.mark.longest

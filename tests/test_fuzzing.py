@@ -21,7 +21,16 @@ from tests.fuzzing.mutations import mutate
 from tests.fuzzing.targets import TARGETS
 from tests.fuzzing.worker import make_case, run_case, seeds_of
 
-CASES = {"meshes": 600, "volumes": 150, "points": 60, "drawings": 60, "prints": 150, "printers": 120, "settings": 60}
+CASES = {
+    "meshes": 600,
+    "volumes": 150,
+    "points": 60,
+    "drawings": 60,
+    "prints": 150,
+    "fields": 100,
+    "printers": 120,
+    "settings": 60,
+}
 
 
 @pytest.mark.longest

@@ -18,6 +18,7 @@ from PIL import Image
 from test_command_line import run
 from test_label_tables import FIELDS, seg_nrrd
 from test_scans import write_series
+from test_simulation_fields import bricks, frd
 
 ROOT = Path(__file__).resolve().parents[1]
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -42,6 +43,7 @@ GIVEN = {
     "labels.seg.nrrd",
     "dicom-folder",
     "part.stl",
+    "part.frd",
     "cloud.xyz",
     "leaf.svg",
     "loads.png",
@@ -110,6 +112,8 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         f'<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="20mm" viewBox="0 0 20 20">{leaf}</svg>'
     )
     Image.fromarray(np.tile(np.arange(0, 240, 4, dtype=np.uint8), (60, 1))).save("loads.png")
+    stressed = bricks((12.0, 12.0, 1.0), (4, 4, 1)).points
+    Path("part.frd").write_text(frd(stressed, {"STRESS": {"SXX": stressed[:, 0]}}))
     for name in ("print.gcode", "before.gcode", "after.gcode"):
         Path(name).write_bytes(written(Dialect(layers=5)))
     Path("printer.cfg").write_text("[printer]\nkinematics: corexy\nmax_velocity: 300\nmax_accel: 3000\n")

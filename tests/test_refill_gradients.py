@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
+from gcode_judge import judge
 from gradient_judge import FILAMENT, SparseLayer, crossing_paths, local_densities, read_sparse
 from handmade_prints import SPACING, Dialect, written
 from hypothesis import given, settings
@@ -127,6 +128,27 @@ def test_lines_that_follow_a_field_obey_its_laws(sliced: Path, tmp_path: Path, p
     assert spacing_of(layers) > (0.92 if pattern == "cubic" else 0.95)  # one layer of cubic: docs/refill.md says so
     plain = refill(sliced, pattern=pattern, density=(DENSE + SPARSE) / 2, dry_run=True).report
     assert graded["time"]["print_after_s"] < 1.15 * plain["time"]["print_after_s"]
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("pattern", ["honeycomb", "grid", "gyroid"])
+def test_lines_that_follow_a_field_obey_its_laws_as_arcs(tmp_path: Path, pattern: str) -> None:
+    """As straight moves do, in fewer lines: gyroids, whose lines never touch, would allow fewer still."""
+    texts, sliced = {}, tmp_path / "box.gcode"
+    sliced.write_bytes(written(Dialect(size=60.0, cell=5.0, layers=8, arcs=True)))
+    for arcs in ("on", "off"):
+        refill(sliced, output=tmp_path / arcs, pattern=pattern, density=(DENSE, SPARSE), by="x", arcs=arcs)
+        texts[arcs] = (tmp_path / arcs).read_text()
+    assert judge(sliced.read_bytes(), texts["on"].encode(), filament=(0.0, 9.0)) == []
+    layers = read_sparse(texts["on"])
+    assert np.abs(density_errors(layers, pattern)).max() < 0.03
+    wanted = along_x(layers)
+    errors = filament_errors(layers, lambda points, _: wanted(points))
+    assert np.abs(errors).max() < 0.01
+    assert sum(map(crossing_paths, layers)) == 0
+    assert spacing_of(layers) > 0.95
+    most = 0.65 if pattern == "gyroid" else 0.5
+    assert len(texts["on"].splitlines()) < most * len(texts["off"].splitlines())
 
 
 @pytest.mark.slow

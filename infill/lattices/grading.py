@@ -15,7 +15,7 @@ from infill.interior.conformal_map import fit_conformal_map, spline_slopes
 from infill.interior.interior import Interior
 from infill.lattices.field_place import LEAST_SHARE, InteriorPlace
 from infill.lattices.region_nodes import SHIFTS, RegionNodes
-from infill.options.density_fields import Field
+from infill.options.density_fields import Field, SimulatedField, describe_box
 from infill.plain_numbers import plain_argument
 from infill.surface import Surface
 from infill.voxels.scanlines import fill_rows, intersect_rows
@@ -132,6 +132,13 @@ class Grading:
         points = np.stack(np.meshgrid(*nodes, indexing="ij"), axis=-1).reshape(-1, 3)
         places = space.origin + space.size * points
         part = InteriorPlace(space=space)
+        if isinstance(self.by, SimulatedField) and not self.by.covers(*part.bounds):
+            lie = describe_box(self.by.points.min(axis=0), self.by.points.max(axis=0))
+            raise GeometryError.about(
+                "by",
+                f"is {self.name}, whose points lie at {lie}, and the part at {describe_box(*part.bounds)}; "
+                "give results of this part, in its place and in mm",
+            )
         values = np.concatenate(
             [self.by.at(places[low : low + AT_ONCE], part) for low in range(0, len(places), AT_ONCE)]
         )

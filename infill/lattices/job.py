@@ -97,8 +97,9 @@ def fill(
         project, a diameter of 2.7 mm). Two densities hold where `by` is lowest and where it is highest.
     by : str, Path, array or callable, optional
         The field that the density follows: "x", "y", "z" (the default) or "skin", the depth below the walls; a .csv of
-        x, y, z and a value; a .npy of three axes, or a picture seen from above, over the box around the part;
-        "module.py:name"; or such an array, or a function of points (N, 3), mm, that returns (N,).
+        x, y, z and a value; results of a simulation (.vtu or .frd, and one of their arrays as in "part.frd:SXX"); a
+        .npy of three axes, or a picture seen from above, over the box around the part; "module.py:name"; or such an
+        array, or a function of points (N, 3), mm, that returns (N,).
     grade : {"width", "cell"}, optional
         How the density rises: by wider walls in cells of one size, the default; or by smaller cells with walls of one
         width, for walls along a surface. Cells are whole everywhere, flatter or longer where they must be; where they

@@ -117,7 +117,8 @@ class FillOptions:
         str | None,
         Option(
             "Direction in which the density changes from its first value to its second: x, y, z, or skin (from the "
-            "skin inwards); or a field: a .csv of x, y, z, value, a .npy, a picture from above, or module.py:name.",
+            "skin inwards); or a field: a .csv of x, y, z, value, results of a simulation, .vtu or .frd, a .npy, a "
+            "picture from above, or module.py:name.",
             PATTERN,
             unit="FIELD",
             default="z",

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
-from typing import Any, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,16 +14,22 @@ from numpy.typing import NDArray
 from infill.arrays import Floats
 from infill.drawings.bitmaps import read_grey
 from infill.errors import FormatError, ParameterError, UsageError
+from infill.files.array_names import SIMULATIONS, split_array_name
 from infill.files.broken import error_text, require_readable, wrap_reader_errors
 from infill.files.excerpts import excerpt
+from infill.formats.simulations import read_simulation
 from infill.options.modules import load_object, names_code
-from infill.plain_numbers import count_noun
+from infill.plain_numbers import count_noun, plain_argument
+
+if TYPE_CHECKING:
+    from scipy.spatial import cKDTree
 
 AXES = ("x", "y", "z")
 SKIN, ROOFS = "skin", "roofs"
 PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff")
 TABLES, ARRAYS = (".csv", ".txt"), (".npy",)
 COLUMNS = 4  # x, y, z and a value
+BEYOND = 0.1  # of the side of a box: how far it may reach beyond the points of a field, whose nearest one counts
 
 
 class FieldPlace(Protocol):
@@ -98,17 +105,42 @@ class ScatteredField:
     points: Floats
     values: Floats
 
+    def covers(self, low: Floats, high: Floats) -> bool:
+        """Tell whether the points lie all over a box, or nearly; points in a plane hold for all heights."""
+        first, last = self.points.min(axis=0), self.points.max(axis=0)
+        most = BEYOND * (high - low)
+        most[2] = most[2] if last[2] > first[2] else np.inf
+        return not ((first - low > most) | (high - last > most)).any()
+
+    @cached_property
+    def _tree(self) -> cKDTree:
+        from scipy.spatial import cKDTree
+
+        return cKDTree(self.points)
+
+    @cached_property
+    def _interpolate(self) -> Callable[[Floats], Floats] | None:
+        """The linear interpolation, or None without tetrahedra between the points."""
+        from scipy.interpolate import LinearNDInterpolator
+        from scipy.spatial import QhullError
+
+        try:
+            interpolate: Callable[[Floats], Floats] = LinearNDInterpolator(self.points, self.values, rescale=True)
+        except QhullError:  # fewer than four, or all in a plane
+            return None
+        return interpolate
+
     def at(self, points: Floats, place: FieldPlace) -> Floats:  # noqa: ARG002 - of the protocol
         """Interpolate the values at points (N, 3), mm; beyond them, the nearest value counts: (N,)."""
-        from scipy.interpolate import LinearNDInterpolator
-        from scipy.spatial import QhullError, cKDTree
+        interpolated = np.full(len(points), np.nan) if self._interpolate is None else self._interpolate(points)
+        beyond = ~np.isfinite(interpolated)
+        interpolated[beyond] = self.values[self._tree.query(points[beyond])[1]]
+        return interpolated
 
-        nearest: Floats = self.values[cKDTree(self.points).query(points)[1]]
-        try:
-            interpolated: Floats = LinearNDInterpolator(self.points, self.values, rescale=True)(points)
-        except QhullError:  # fewer than four, or all in a plane
-            return nearest
-        return np.where(np.isfinite(interpolated), interpolated, nearest)
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class SimulatedField(ScatteredField):
+    """Numbers at points of a whole part, which may lie elsewhere than the part does on a bed."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -158,8 +190,9 @@ def resolve_field(by: object, *, roofs: bool = False) -> tuple[Field, str]:
     Parameters
     ----------
     by : str, Path, array or callable
-        "x", "y", "z" or "skin"; a file: a .csv of x, y, z and a value, a .npy of three axes, or a picture seen from
-        above, over the box around the part; "module.py:name"; such an array; or a function of points (N, 3), mm.
+        "x", "y", "z" or "skin"; a file: a .csv of x, y, z and a value, results of a simulation, .vtu or .frd, a .npy of
+        three axes, or a picture seen from above, over the box around the part; "module.py:name"; such an array; or a
+        function of points (N, 3), mm. "results.vtu:name" is one of the arrays of results.
     roofs : bool
         Take "roofs" too: the place knows them.
 
@@ -195,12 +228,17 @@ def resolve_field(by: object, *, roofs: bool = False) -> tuple[Field, str]:
     if suffix in PICTURES:
         grey = read_grey(require_readable(path, PICTURES, "a picture"))
         return BoxedField(values=grey[::-1].T[:, :, None].astype(np.float64)), text
+    results, array = split_array_name(text)
+    if results.suffix.lower() in SIMULATIONS:
+        simulated = read_simulation(results, array)
+        return SimulatedField(points=simulated.points, values=simulated.values), text
     if suffix in (*TABLES, *ARRAYS):
         source = require_readable(path, (*TABLES, *ARRAYS), "a field")
         with wrap_reader_errors(source, "holds something other than numbers", "write rows of x, y, z and a value"):
             values = np.load(source, allow_pickle=False) if suffix in ARRAYS else _read_table(source)
         return _field_of_array(values, text), text
-    raise UsageError.about("by", f"is {text!r}; give {words}, a .csv, a .npy, a picture, or module.py:name")
+    files = ", ".join(f"a {known}" for known in (TABLES[0], *ARRAYS, *SIMULATIONS))
+    raise UsageError.about("by", f"is {text!r}; give {words}, {files}, a picture, or module.py:name")
 
 
 def _field_of_array(values: NDArray[Any], name: str) -> Field:
@@ -234,3 +272,11 @@ def _read_table(path: Path) -> Floats:
             complaint = f"has {count_noun(len(row), 'number')}"
         raise FormatError(f"line {number} of {path} {complaint}; write x, y, z and a value, four numbers in each row")
     return np.array(rows)
+
+
+def describe_box(low: Floats, high: Floats) -> str:
+    """Describe a box in words: the ranges of x, y and z."""
+    return ", ".join(
+        f"{axis} {plain_argument(round(float(a), 1))} to {plain_argument(round(float(b), 1))}"
+        for axis, a, b in zip(AXES, low, high, strict=True)
+    )

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from infill.errors import FormatError
+from infill.files.array_names import split_array_name
 from infill.files.excerpts import excerpt
 from infill.options.modules import names_code
 
@@ -49,7 +50,7 @@ def check_trusted(options: Mapping[str, Any], source: Path, *, trust: bool = Fal
                 f"{source} asks to run code: {word} = '{excerpt(text)}'; look at that code, then give --trust, or "
                 f"type --{word} yourself"
             )
-        if name in FILES and _leads_elsewhere(text, source):
+        if name in FILES and _leads_elsewhere(str(split_array_name(text)[0]), source):
             raise FormatError(
                 f"{source} asks to read a file from elsewhere: {word} = '{excerpt(text)}'; give --trust, or type "
                 f"--{word} yourself"

@@ -19,7 +19,9 @@ from infill.paths.gaps import Gaps, find_gaps
 from infill.paths.layer_below import LayerBelow
 from infill.paths.outlines import Outline
 from infill.paths.pairing import choose_gaps
+from infill.paths.trimming import trim_ends
 
+SLACK = 0.005  # line widths by which ends may come nearer than other lines, for rounding
 SHORTEST = 2.0  # line widths; a path shorter than this is a dot
 
 
@@ -54,7 +56,8 @@ def join(
     Returns
     -------
     list of (N, 2) float64, mm
-        Joining closes a path only where its ends would overlap. Paths shorter than two line widths are dropped.
+        Joining closes a path only where its ends would overlap. Free ends that come nearer to other lines are
+        shortened. Paths shorter than two line widths are dropped.
     """
     clear = least_spacing * line_width
     gaps = find_gaps(pieces, outline, line_width, clear)
@@ -72,7 +75,15 @@ def join(
     free = [end for chain in long_chains for end in (chain[0], chain[-1] ^ 1) if end not in link]
     heading = {end: _heading(pieces.paths[end // 2], end) for end in free}
     anchors = _anchors(heading, gaps, walked, outline, anchor, apart, ground)
-    return [_assemble_path(chain, pieces.paths, link, anchors) for chain in long_chains]
+    paths = [_assemble_path(chain, pieces.paths, link, anchors) for chain in long_chains]
+    on_outline = pieces.ring.ravel() >= 0
+    may_trim = [tuple(end not in link and bool(on_outline[end]) for end in (c[0], c[-1] ^ 1)) for c in long_chains]
+    trimmed = trim_ends(paths, may_trim, (least_spacing - SLACK) * line_width, line_width)
+    return [
+        path
+        for path, whole in zip(trimmed, paths, strict=True)
+        if path is whole or np.hypot(*np.diff(path, axis=0).T).sum() >= SHORTEST * line_width
+    ]
 
 
 def _supported_gaps(gaps: Gaps, outline: Outline, ground: LayerBelow) -> NDArray[np.bool_]:

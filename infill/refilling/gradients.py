@@ -14,7 +14,7 @@ from infill.arrays import Floats
 from infill.errors import GeometryError, ParameterError, UsageError
 from infill.interior.conformal_map import spline_slopes
 from infill.interior.plane_map import fit_plane_map
-from infill.options.density_fields import BoxedField, Field, ScatteredField, resolve_field
+from infill.options.density_fields import BoxedField, Field, ScatteredField, SimulatedField, describe_box, resolve_field
 from infill.paths.families.family import Bounds, Family, NominalStrand, PathSpec
 from infill.paths.plane_splines import PlaneMap, PlaneSpline, invert_map, pattern_bounds
 from infill.paths.stretching import (
@@ -47,7 +47,9 @@ TABLE = 9  # scales for which lengths are measured
 WIDER_SCALES = 1.3  # factor by which their range is wider than that of densities
 DIRECTIONS = 8  # of lines
 AREA_POINTS, AREA_STEP = 4000, 0.5  # points in an area at which a density is averaged, about, and mm between them
-BEYOND = 0.1  # of the side of the infill: how far it may reach beyond the points of a field, whose nearest one counts
+MOST_SHELL = (
+    10.0  # mm by which a part is larger than its infill along an axis, for a simulation of it to be moved there
+)
 SLIGHT = 1e-9
 
 
@@ -168,20 +170,21 @@ def measure_gradient(gradient: Gradient, place: PrintPlace) -> GradedDensity:
         If the field is not finite everywhere there, is the same everywhere, or does not cover the infill.
     """
     low, high = place.bounds
-    if isinstance(gradient.by, ScatteredField):
-        first, last = gradient.by.points.min(axis=0), gradient.by.points.max(axis=0)
-        most = np.where(last > first, BEYOND * (high - low), math.inf)  # points in a plane hold for all heights
-        most[:2] = BEYOND * (high - low)[:2]
-        if ((first - low > most) | (high - last > most)).any():
-            raise GeometryError.about(
-                "by",
-                f"is {gradient.name}, whose points lie at {_span(first, last)}, and the infill at {_span(low, high)}; "
-                "give points all over it, x, y and z on the bed as the G-code has them",
-            )
+    if isinstance(gradient.by, SimulatedField) and not gradient.by.covers(low, high):
+        gradient = replace(gradient, by=_move_to_infill(gradient.by, low, high))
+    if isinstance(gradient.by, ScatteredField) and not gradient.by.covers(low, high):
+        of_part = ", or, of one part alone, as large as it is" if isinstance(gradient.by, SimulatedField) else ""
+        lie = describe_box(gradient.by.points.min(axis=0), gradient.by.points.max(axis=0))
+        raise GeometryError.about(
+            "by",
+            f"is {gradient.name}, whose points lie at {lie}, and the infill at {describe_box(low, high)}; "
+            f"give points all over it, x, y and z on the bed as the G-code has them{of_part}",
+        )
     values = gradient.by.at(place.points, place)
     if not np.isfinite(values).all():
         raise GeometryError.about(
-            "by", f"is {gradient.name}, which is not finite everywhere in the infill; it lies at {_span(low, high)}"
+            "by",
+            f"is {gradient.name}, which is not finite everywhere in the infill; it lies at {describe_box(low, high)}",
         )
     lowest, highest = float(values.min()), float(values.max())
     if highest - lowest <= SLIGHT * max(abs(lowest), abs(highest), SLIGHT):
@@ -193,12 +196,18 @@ def measure_gradient(gradient: Gradient, place: PrintPlace) -> GradedDensity:
     return GradedDensity(gradient=gradient, place=place, low=lowest, high=highest)
 
 
-def _span(low: Floats, high: Floats) -> str:
-    """Describe a box in words: the ranges of x, y and z."""
-    return ", ".join(
-        f"{axis} {plain_argument(round(float(a), 1))} to {plain_argument(round(float(b), 1))}"
-        for axis, a, b in zip("xyz", low, high, strict=True)
-    )
+def _move_to_infill(field: SimulatedField, low: Floats, high: Floats) -> SimulatedField:
+    """Move the points of a part onto the bed, about the middle of its infill; leave points of another size.
+
+    Walls are as thick on one side as on the other, so the middle of the infill is that of the part.
+    """
+    first, last = field.points.min(axis=0), field.points.max(axis=0)
+    shell = (last - first) - (high - low)
+    if (shell < -SLIGHT).any() or (shell > MOST_SHELL).any():
+        return field
+    shift = (low + high - first - last) / 2
+    shift[2] = -first[2]
+    return replace(field, points=field.points + shift)
 
 
 def find_steps(graded: GradedDensity) -> list[tuple[float, float]]:

@@ -137,8 +137,9 @@ def refill(
     by : str, Path, array or callable, optional
         What a density of two numbers follows, from the first where it is lowest to the second where it is highest: "x",
         "y" or "z", along the infill; "skin", the distance from walls, roofs and floors; "roofs", that from the roof
-        above; a file: a .csv of x, y, z on the bed and a value, a .npy of three axes over the box around the infill, or
-        a picture of it seen from above; "module.py:name"; such an array; or a function of points (N, 3), mm on the bed.
+        above; a file: a .csv of x, y, z on the bed and a value, results of a simulation (.vtu or .frd, and one of their
+        arrays as in "part.frd:SXX"), a .npy of three axes over the box around the infill, or a picture of it seen from
+        above; "module.py:name"; such an array; or a function of points (N, 3), mm on the bed.
     smooth_radius : "auto" or float
         Largest radius of a corner, mm. "auto": as large as support and contact allow. 0 leaves corners.
     max_deviation : float, optional

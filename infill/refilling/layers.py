@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import BinaryIO
@@ -18,7 +18,7 @@ from infill.gcode.survey import Survey
 from infill.gcode.table import GcodeTable
 from infill.paths.contact import STEP, Samples, sample_paths
 from infill.paths.neighbours import BeadIndex, index_beads
-from infill.ragged import select_rows
+from infill.ragged import select_rows, split_rows
 from infill.refilling.regions import BEAD_STEP, INFILL_STEP, FreeAreas, LayerBeads, find_region
 
 LINE_WIDTH = 0.45  # mm, where no tag gives it
@@ -203,6 +203,12 @@ class Layer:
     def paths(self) -> tuple[Floats, Places]:
         """Its infill: the points of all paths, and where each begins."""
         return self.layers.paths.of(self.number)
+
+    def paths_of(self, sections: Sequence[int]) -> list[Floats]:
+        """Return the paths of some of its sections, (N, 2) each, mm."""
+        infill = self.layers.infill
+        places, first = select_rows(infill.first, self.strokes[np.isin(self.layers.section[self.strokes], sections)])
+        return [path for path in split_rows(infill.points[places], first) if len(path) > 1]
 
     @property
     def length(self) -> float:

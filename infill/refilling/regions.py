@@ -10,7 +10,7 @@ A layer whose beads agree with the region of the layer before it has that region
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING
@@ -99,6 +99,34 @@ class FreeAreas:
     polygons: tuple[Polygon, ...]
     distance: float
     skin_distance: float
+
+    def keep_apart(self, spacing: float) -> FreeAreas:
+        """Cut the smaller one of two areas that are nearer to each other than lines may be, mm; return the areas."""
+        import shapely
+
+        kept: list[Polygon] = []
+        for polygon in sorted(self.polygons, key=lambda polygon: -polygon.area):
+            near = [other for other in kept if shapely.dwithin(polygon, other, spacing)]
+            if not near:
+                kept.append(polygon)
+                continue
+            kept += _large_parts(shapely.difference(polygon, shapely.buffer(shapely.union_all(near), spacing)))
+        unchanged = len(kept) == len(self.polygons) and {id(one) for one in kept} == {id(one) for one in self.polygons}
+        return self if unchanged else replace(self, polygons=tuple(kept))
+
+    def keep_off(self, lines: Sequence[Floats], spacing: float, own: Collection[int] = ()) -> FreeAreas:
+        """Cut areas along lines (N, 2), mm, that stay in the layer, except the areas `own`; return the areas."""
+        import shapely
+
+        taken = shapely.union_all([shapely.linestrings(line) for line in lines])
+        polygons: list[Polygon] = []
+        for number, polygon in enumerate(self.polygons):
+            if number in own or not shapely.dwithin(polygon, taken, spacing):
+                polygons.append(polygon)
+            else:
+                polygons += _large_parts(shapely.difference(polygon, shapely.buffer(taken, spacing)))
+        unchanged = [id(polygon) for polygon in polygons] == [id(polygon) for polygon in self.polygons]
+        return self if unchanged else replace(self, polygons=tuple(polygons))
 
     @cached_property
     def outline(self) -> Floats:
@@ -239,10 +267,18 @@ def _parts_with_infill(free: Polygon | MultiPolygon, infill: Floats) -> tuple[Po
     """Keep the parts of a free area that hold some of the infill."""
     import shapely
 
-    parts = shapely.get_parts(free)
-    parts = parts[(shapely.get_type_id(parts) == POLYGON) & (shapely.area(parts) > LEAST_AREA)]
+    parts = _large_parts(free)
     shapely.prepare(parts)
     return tuple(part for part in parts if shapely.contains_xy(part, infill[:, 0], infill[:, 1]).sum() >= LEAST_INFILL)
+
+
+def _large_parts(area: Polygon | MultiPolygon) -> list[Polygon]:
+    """Return the polygons of an area that are large enough for a line."""
+    import shapely
+
+    parts = shapely.get_parts(area)
+    large: list[Polygon] = parts[(shapely.get_type_id(parts) == POLYGON) & (shapely.area(parts) > LEAST_AREA)].tolist()
+    return large
 
 
 def _fill_dents(area: Polygon | MultiPolygon) -> Polygon | MultiPolygon:

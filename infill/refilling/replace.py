@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -55,6 +55,8 @@ class LayerMemory:
     ----------
     ways : TravelSettings
     region : FreeAreas, optional
+    found : FreeAreas, optional
+        The region without regard to paths that stay; the next one is found by it.
     drawn : dict of (area, layer) to FittedPaths
         Of the areas of the region; for a pattern that repeats in every layer, the layer is 0.
     columns : list of Column
@@ -73,6 +75,7 @@ class LayerMemory:
 
     ways: TravelSettings = field(default_factory=TravelSettings)
     region: FreeAreas | None = None
+    found: FreeAreas | None = None
     drawn: dict[tuple[int, int], FittedPaths] = field(default_factory=dict)
     columns: list[Column] = field(default_factory=list)
     ground: LayerBelow | None = None
@@ -299,11 +302,23 @@ def draw_sections(
     commanded = layers.acceleration(acceleration)
     new: list[NewSection] = []
     # Regions do not depend on the drawing: another thread searches the next one meanwhile.
-    for layer, (region, beads) in in_order(_region_finder(memory.region), layers, threads=1):
+    spacing = plan.family.least_spacing * plan.line_width
+    for layer, (region, beads) in in_order(_region_finder(memory.found, spacing), layers, threads=1):
         layer_plan = plan.at(layer.z)
-        memory.enter(region, beads.all, layer_plan)
-        groups = group_sections(layer, region)
         layer_bodies = {body.section: body for body in bodies if body.layer == layer.number}
+        memory.found = region
+        groups = group_sections(layer, region)
+        refused = [
+            group
+            for group in groups
+            if not any(group.areas.values()) or group.refusal_reason(_members(group, layer_bodies))
+        ]
+        if refused:
+            own = {area for group in refused for areas in group.areas.values() for area in areas}
+            kept_lines = layer.paths_of([section for group in refused for section in group.areas])
+            region = region.keep_off(kept_lines, spacing, own)
+            groups = groups if region is memory.found else group_sections(layer, region)
+        memory.enter(region, beads.all, layer_plan)
         lengths: dict[int, float] = {}  # mm of the slicer's infill, by area
         for group in groups:
             for area, length in group.lengths.items():
@@ -314,7 +329,7 @@ def draw_sections(
         ]
         memory.settle_debt(layer.number, sum(body.filament for body in layer_bodies.values()))
         for group in groups:
-            members = [layer_bodies[member] for member in group.areas if member in layer_bodies]
+            members = _members(group, layer_bodies)
             reason = group.refusal_reason(members)
             if not reason:
                 filled = _fill_group(group, members, region, layer_plan, memory, commanded)
@@ -326,13 +341,22 @@ def draw_sections(
     return sorted(new, key=lambda section: section.body.first), {**kept, NO_REGION: layers.section}
 
 
-def _region_finder(initial: FreeAreas | None) -> Callable[[Layer], tuple[FreeAreas, LayerBeads]]:
-    """Return a function that finds the region of a layer and its other beads, one layer after another."""
+def _members(group: SectionGroup, bodies: Mapping[int, InfillSection]) -> list[InfillSection]:
+    """Return the sections of a group that can be redrawn."""
+    return [bodies[member] for member in group.areas if member in bodies]
+
+
+def _region_finder(initial: FreeAreas | None, spacing: float) -> Callable[[Layer], tuple[FreeAreas, LayerBeads]]:
+    """Return a function that finds the region of a layer and its other beads, one layer after another.
+
+    Areas of a region lie as far from one another as lines, `spacing` mm.
+    """
     region = initial
 
     def find_next(layer: Layer) -> tuple[FreeAreas, LayerBeads]:
         nonlocal region
-        region = layer.find_region(region)
+        found = layer.find_region(region)
+        region = found if found is region else found.keep_apart(spacing)
         return region, layer.beads
 
     return find_next

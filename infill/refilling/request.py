@@ -193,7 +193,7 @@ class Request:
         Option(
             "What a density of two numbers follows, from its first to its second: x, y or z, along the infill; skin, "
             "from walls, roofs and floors inwards; roofs, from these downwards; or a field: a .csv of x, y, z, value, "
-            "a .npy, a picture from above, or module.py:name.",
+            "results of a simulation, .vtu or .frd, a .npy, a picture from above, or module.py:name.",
             PATHS,
             unit="FIELD",
         ),

@@ -149,6 +149,24 @@ def print_seeds() -> dict[str, bytes]:
     return {f"{name}.gcode": written(dialect) for name, dialect in dialects.items()}
 
 
+def field_seeds() -> dict[str, bytes]:
+    """Fields over the box of `print_seeds`, 9 mm wide: a table, and results of a simulation in two formats."""
+    points = np.stack(np.meshgrid([0.0, 4.5, 9.0], [0.0, 9.0], [0.0, 0.8], indexing="ij"), axis=-1).reshape(-1, 3)
+    values, bed = points[:, 0] + 0.5 * points[:, 1], np.array([100.0, 100.0, 0.0])
+    rows = [",".join(map(str, [*(point + bed), value])) for point, value in zip(points, values, strict=True)]
+    nodes = "\n".join(f" -1{n:10d}" + "".join(f"{x:12.5E}" for x in point) for n, point in enumerate(points, 1))
+    stresses = "\n".join(f" -1{n:10d}{value:12.5E}{0:12.5E}" for n, value in enumerate(values, 1))
+    return {
+        "table.csv": ("x,y,z,value\n" + "\n".join(rows)).encode(),
+        "results.frd": (
+            f"    1C\n    2C{len(points):30d}{1:38d}\n{nodes}\n -3\n  100CL  101 1.000000000{len(points):12d}{0:21d}{1:5d}"
+            f"{1:12d}\n -4  STRESS      3    1\n -5  SXX         1    4    1    1\n -5  SYY         1    4    2    2\n"
+            f" -5  ALL         1    2    0    0    1ALL\n{stresses}\n -3\n 9999\n"
+        ).encode(),
+        "mesh.vtu": _vtu(points, values),
+    }
+
+
 def printer_seeds() -> dict[str, bytes]:
     """Limits of printers: Klipper's configuration, Moonraker's answer, and Marlin's to M503."""
     klipper = (
@@ -290,6 +308,31 @@ def _vti(cells: np.ndarray) -> bytes:
         f'<ImageData WholeExtent="{extent}" Origin="-10 5 100" Spacing="1 0.5 3"><Piece Extent="{extent}"><PointData Scalars="a">'
         f'<DataArray type="Int16" Name="a" format="binary">{data}</DataArray></PointData></Piece></ImageData></VTKFile>'
     ).encode()
+
+
+def _vtu(points: np.ndarray, values: np.ndarray) -> bytes:
+    """Write two cells of points along x: their places packed and appended, values at points in base64, cells as text."""
+    import base64
+
+    raw = points.astype("<f8").tobytes()
+    packed = zlib.compress(raw)
+    places = np.array([1, len(raw), 0, len(packed)], "<u4").tobytes() + packed
+    raw = values.astype("<f4").tobytes()
+    packed = zlib.compress(raw)
+    load = base64.b64encode(np.array([1, len(raw), 0, len(packed)], "<u4").tobytes()) + base64.b64encode(packed)
+    corners = " ".join(map(str, [*range(8), *range(4, 12)]))
+    return (
+        (
+            '<?xml version="1.0"?><VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian" '
+            'compressor="vtkZLibDataCompressor"><UnstructuredGrid><Piece NumberOfPoints="12" NumberOfCells="2"><PointData>'
+            f'<DataArray type="Float32" Name="load" format="binary">{load.decode()}</DataArray></PointData><Points>'
+            '<DataArray type="Float64" Name="Points" NumberOfComponents="3" format="appended" offset="0"/></Points><Cells>'
+            f'<DataArray type="Int64" Name="connectivity" format="ascii">{corners}</DataArray><DataArray type="Int64" '
+            'Name="offsets" format="ascii">8 16</DataArray></Cells></Piece></UnstructuredGrid><AppendedData encoding="raw">_'
+        ).encode()
+        + places
+        + b"</AppendedData></VTKFile>"
+    )
 
 
 def _dicom(cells: np.ndarray) -> bytes:

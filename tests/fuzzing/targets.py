@@ -140,6 +140,16 @@ def _is_unambiguous(path: Path, answer: Answer) -> bool:
     return unread == 0 and all(map(PROGRESS.fullmatch, progress)) and one_ending
 
 
+def judge_field(path: Path, folder: Path, rng: Random) -> Iterator[str]:
+    """Refill a small print with a density that follows a field."""
+    sliced = folder.parent / "plain.gcode"
+    if not sliced.exists():
+        sliced.write_bytes(seeds.print_seeds()["prusa.gcode"])
+    yield from _made(
+        folder, "refill", sliced, "--pattern", "grid", "--density", "20%:40%", "--by", path, "-o", "OUT.gcode"
+    )
+
+
 def judge_printer(path: Path, folder: Path, rng: Random) -> Iterator[str]:
     """Plan a print within the limits of a printer, and write its time into it."""
     sliced = folder.parent / "timed.gcode"
@@ -198,6 +208,7 @@ TARGETS: dict[str, Target] = {
     "points": Target(make_seeds=seeds.point_seeds, judge=judge_points),
     "drawings": Target(make_seeds=seeds.drawing_seeds, judge=judge_drawing, corpus=(".png",)),
     "prints": Target(make_seeds=seeds.print_seeds, judge=judge_print),
+    "fields": Target(make_seeds=seeds.field_seeds, judge=judge_field),
     "printers": Target(make_seeds=seeds.printer_seeds, judge=judge_printer),
     "settings": Target(make_seeds=seeds.settings_seeds, judge=judge_settings),
 }
