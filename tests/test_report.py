@@ -159,6 +159,19 @@ def labels_reports(folder: Path, results: Results) -> dict[str, Any]:
     }
 
 
+def together_reports(folder: Path, results: Results) -> dict[str, Any]:
+    named = (Segment(value=3, name="ball", colour=(1.0, 0.0, 0.0)), Segment(value=9, name="none"))
+    specks = LABELS.copy()
+    specks[0, 0, 0], specks[2, 20, 2] = 5, 6
+    np.save(folder / "labels.npy", LABELS)
+    words = ["--spacing", 1, "--each-label", "--together", "-o", folder / "a.3mf"]
+    return {
+        "absent": smooth_labels(Segmentation(layers=(Volume(values=LABELS),), segments=named), together=True).report,
+        "failed": smooth_labels(specks, together=True, method="plain").report,
+        "command": printed("smooth", folder / "labels.npy", *words),
+    }
+
+
 def labels_plans(folder: Path, results: Results) -> dict[str, Any]:
     np.save(folder / "labels.npy", LABELS)
     words = ["--spacing", 1, "--each-label", "-o", folder / "a.3mf", "--dry-run"]
@@ -311,6 +324,7 @@ REPORTS: dict[str, Callable[[Path, Results], dict[str, Any]]] = {
     "smooth": smooth_reports,
     "smooth --dry-run": smooth_plans,
     "labels": labels_reports,
+    "together": together_reports,
     "labels --dry-run": labels_plans,
     "components": components_reports,
     "fill": fill_reports,
