@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import os
 import subprocess
 import sys
@@ -23,6 +24,7 @@ from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.sparse import smooth_bricks
 from infill.surface import Surface
 
+KERNELS = Path(compiling.__file__).parent
 MODULE = """
 from infill.kernels.compiling import njit, log_compilation
 
@@ -98,23 +100,113 @@ def test_the_second_process_compiles_for_the_number_types_of_smoothing() -> None
 
 
 LISTENING = """
+import trimesh
 from numba.core import event
+from infill import smooth_mesh
+from infill.kernels import components, distances, flips, measures, rays
 from infill.meshes.compile_simplification import make_ring
 from infill.meshes.edge_collapse import collapse_edges
 
 with event.install_recorder("numba:compile") as recorder:
     collapse_edges(make_ring(), tolerance=0.02)
-print(len(recorder.buffer))
+assert not recorder.buffer
+with event.install_recorder("numba:compile") as recorder:
+    smooth_mesh(trimesh.creation.icosphere(radius=10), voxel=0.5).report["distance"]
+ahead = {
+    components: ["label_cells", "meet_or_spread", "mark_runs", "join_beyond"],
+    flips: ["flip_simple", "count_lonely"],
+    measures: ["sum_up", "begin_edges", "match_sides", "measure_areas", "find_first_corners", "spread_points"],
+    rays: ["sample_rays"],
+    distances: ["interleave_bits", "box_leaves", "nearest_triangles"],
+}
+kernels = {getattr(module, name) for module, names in ahead.items() for name in names}
+compiled = {found.data["dispatcher"] for _, found in recorder.buffer}
+assert compiled, "the earlier stages compile"
+print([kernel.__name__ for kernel in kernels & compiled])
 """
 
 
 @pytest.mark.longest
 def test_what_the_second_process_compiled_is_not_compiled_again(tmp_path: Path) -> None:
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
-    module = [sys.executable, "-m", "infill.meshes.compile_simplification"]
+    module = [sys.executable, "-m", "infill.smoothing.compile_ahead"]
     subprocess.run(module, env=environment, check=True)
-    ran = subprocess.run([sys.executable, "-c", LISTENING], env=environment, check=True, capture_output=True)
-    assert int(ran.stdout) == 0
+    ran = subprocess.run([sys.executable, "-c", LISTENING], env=environment, check=True, capture_output=True, text=True)
+    assert ran.stdout == "[]\n"
+
+
+def test_a_function_that_only_kernels_call_has_no_entry_for_python() -> None:
+    inner = njit(from_python=False)(lambda x: x + 1)
+    outer = njit()(lambda x: inner(x) + 1)
+    assert outer(1) == 3
+    assert inner.targetoptions["no_cpython_wrapper"]
+    assert not outer.targetoptions["no_cpython_wrapper"]
+
+
+def _kernel_functions() -> dict[tuple[str, str], bool]:
+    """Return whether Python may call each compiled function, by module and name."""
+    entries = {}
+    for path in KERNELS.glob("*.py"):
+        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+            if isinstance(node, ast.FunctionDef) and (options := _njit_options(node)) is not None:
+                entries[path.stem, node.name] = "from_python" not in options
+    return entries
+
+
+def _njit_options(node: ast.FunctionDef) -> list[str | None] | None:
+    """Return the names of the options with which a function is compiled, None if it is not."""
+    for decorator in node.decorator_list:
+        if isinstance(decorator, ast.Call) and getattr(decorator.func, "id", "") == "njit":
+            return [keyword.arg for keyword in decorator.keywords]
+    return None
+
+
+def _python_calls(path: Path, entries: dict[tuple[str, str], bool]) -> set[tuple[str, str]]:
+    """Return the compiled functions, by module and name, that uncompiled code of a file names."""
+    tree, names, own = ast.parse(path.read_text(encoding="utf-8")), {}, path.parent == KERNELS
+    nodes = [
+        node
+        for part in tree.body
+        if not (own and isinstance(part, (ast.FunctionDef, ast.ImportFrom)) and _is_for_kernels(part))
+        for node in ast.walk(part)
+    ]
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("infill.kernels."):
+            names.update({alias.asname or alias.name: (str(node.module)[15:], alias.name) for alias in node.names})
+    if own:
+        names.update({name: (module, name) for module, name in entries if module == path.stem})
+    found = {names[node.id] for node in nodes if isinstance(node, ast.Name) and node.id in names}
+    found |= {
+        (node.value.id, node.attr)
+        for node in nodes
+        if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name)
+    }
+    return found & set(entries)
+
+
+def _is_for_kernels(part: ast.FunctionDef | ast.ImportFrom) -> bool:
+    return isinstance(part, ast.ImportFrom) or _njit_options(part) is not None
+
+
+def test_python_calls_no_function_without_an_entry() -> None:
+    entries = _kernel_functions()
+    root = KERNELS.parents[1]
+    assert not entries["rows", "copy_row"]
+    assert not entries["collapsing", "_keep_volume"]
+    assert entries["collapsing", "collapse"]
+    assert ("collapsing", "collapse") in _python_calls(root / "infill" / "meshes" / "edge_collapse.py", entries)
+    for folder in ("infill", "tests", "benchmarks", "tools", "examples"):
+        for path in (root / folder).rglob("*.py"):
+            wrong = [called for called in _python_calls(path, entries) if not entries[called]]
+            assert not wrong, f"{path} calls {wrong}, which have no entry for Python: calling them ends the process"
+
+
+def test_a_kernel_is_compiled_for_the_types_of_examples() -> None:
+    kernel = njit()(lambda x, n: x[0] + n)
+    compiling.compile_for(kernel, np.zeros(1), 1)
+    assert len(kernel.signatures) == 1
+    assert kernel(np.ones(3), 2) == 3
+    assert len(kernel.signatures) == 1
 
 
 @pytest.mark.parametrize(("cores", "uncached", "started"), [(2, False, True), (1, False, False), (2, True, False)])

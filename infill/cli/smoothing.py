@@ -163,7 +163,7 @@ def _smooth_source(source: Path, settings: SmoothSettings, options: SmoothOption
     from infill.imaging.volume_files import field_writer
     from infill.kernels.second_compiler import compile_beside
 
-    compile_beside("infill.meshes.compile_simplification")
+    compile_beside("infill.smoothing.compile_ahead")
     with progress_bar(shown=not output.quiet) as progress:
         from infill.smoothing.sources import name_labels, read_source, smooth_source
 

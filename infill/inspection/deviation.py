@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from infill.arrays import Floats
 from infill.meshes.distance import TriangleTree, morton_order
-from infill.meshes.measuring import face_areas
+from infill.meshes.measuring import face_areas, faces_for_kernels
 from infill.plain_numbers import UNITS, choose_unit, plain_place, plain_share, plain_size
 from infill.surface import Surface
 
@@ -298,7 +298,7 @@ def sample_surface(surface: Surface, pitch: float) -> tuple[Floats, NDArray[np.i
     """
     from infill.kernels.measures import find_first_corners, spread_points
 
-    vertices, faces = np.ascontiguousarray(surface.vertices, dtype=np.float64), surface.faces
+    vertices, faces = np.ascontiguousarray(surface.vertices, dtype=np.float64), faces_for_kernels(surface)
     areas = face_areas(surface)
     total = float(areas.sum())
     count = int(min(MOST_SAMPLES, max(1.0, np.ceil(total / pitch**2)))) if total > 0 else 0

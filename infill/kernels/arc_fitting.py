@@ -17,7 +17,7 @@ LARGEST_STEP = 1.1  # radians that one segment may turn
 SMALLEST_RADIUS, LARGEST_RADIUS = 0.25, 500.0  # mm
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _fit_arc(points, first, last, deviation):
     """Return the centre and the turn of the arc from one point of a path to another; a turn of 0 if there is none.
 

@@ -41,7 +41,7 @@ LEVEL_PLANES, LEVEL_FACES = 0.97, 0.94
 RETRY_SHARE = 0.005  # of the triangles: while at least this share is removed, edges that stayed are tried again
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _enqueue(c, bucket, queue, ends):
     """Put an edge at the end of a bucket: `queue` holds the next edge, the previous one and the bucket."""
     tail = ends[bucket, 1]
@@ -53,7 +53,7 @@ def _enqueue(c, bucket, queue, ends):
     ends[bucket, 1] = c
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _dequeue(c, queue, ends):
     """Remove an edge from its bucket, if it is in one."""
     bucket = queue[c, 2]
@@ -71,7 +71,7 @@ def _dequeue(c, queue, ends):
     queue[c, 2] = NO_CORNER
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _update_bucket(c, vertices, start, twin, fixed, quadric, bound, edge, queue, ends, s, place):
     """Put an edge into the bucket of its cost, or into none if it must not be collapsed; return the bucket."""
     c = min(c, twin[c])
@@ -91,7 +91,7 @@ def _update_bucket(c, vertices, start, twin, fixed, quadric, bound, edge, queue,
     return bucket
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _keep_volume(c, vertices, start, twin, ring, ring_size, end_ring, end_ring_size, s, place):
     """Move the place of the collapsed vertex along the quadric's valley so that the volume stays constant.
 
@@ -130,7 +130,7 @@ def _keep_volume(c, vertices, start, twin, ring, ring_size, end_ring, end_ring_s
         place[0], place[1], place[2] = place[0] + by * dx, place[1] + by * dy, place[2] + by * dz
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _propose_faces(c, vertices, start, twin, ring, ring_size, end_ring, end_ring_size, place, moved, chosen):
     """Write the faces that a collapse would leave to `moved`; return their number, -1 if one turns or is a sliver."""
     worst, sx, sy, sz = 1.0, 0.0, 0.0, 0.0
@@ -165,7 +165,7 @@ def _propose_faces(c, vertices, start, twin, ring, ring_size, end_ring, end_ring
     return changed
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _are_level(moved, changed, s):
     """Return True if `changed` faces (N, 3, 3) and the planes of a quadric all face nearly the same way."""
     mx, my, mz = 0.0, 0.0, 0.0
@@ -187,7 +187,7 @@ def _are_level(moved, changed, s):
     return True
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _find_shortest_edge(v, vertices, start, fixed, swept, ring, ring_size, sweep):
     """Return the corner whose edge leads from a vertex to its nearest free neighbour; -1 if there is none."""
     best, nearest = math.inf, NO_CORNER
@@ -201,7 +201,7 @@ def _find_shortest_edge(v, vertices, start, fixed, swept, ring, ring_size, sweep
     return nearest
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _sweep_once(mesh, fixed, quadric, bound, into, swept, marked, space, sweep, step):
     """Collapse the shortest edge of vertex after vertex, nowhere twice; return the vertices gone, and the last step."""
     vertices, start, twin, leaving, name = mesh
@@ -216,7 +216,7 @@ def _sweep_once(mesh, fixed, quadric, bound, into, swept, marked, space, sweep, 
         c = _find_shortest_edge(u, vertices, start, fixed, swept, ring, ring_size, sweep)
         if c == NO_CORNER:
             continue
-        v = start[next_corner(c)]
+        v = np.int64(start[next_corner(c)])
         if best_place(vertices[u], vertices[v], quadric[u], quadric[v], s, place) > bound * s[10]:
             continue
         end_ring_size = corners_of(v, twin, leaving, end_ring)
@@ -240,7 +240,7 @@ def _sweep_once(mesh, fixed, quadric, bound, into, swept, marked, space, sweep, 
     return removed, step
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _work_space():
     """Make the arrays for one collapse: a quadric, a place, the corners at both ends, and faces with their numbers."""
     return (
@@ -264,7 +264,7 @@ def sweep_short_edges(vertices, start, twin, leaving, name, fixed, quadric, boun
     swept = np.full(len(vertices), NO_CORNER, dtype=np.int32)
     marked = np.full(name.max() + 1, NO_CORNER, dtype=np.int32)
     space = _work_space()
-    step, total = 0, 0
+    step, total = np.int64(0), 0
     for sweep in range(MOST_SWEEPS):
         removed, step = _sweep_once(mesh, fixed, quadric, bound, into, swept, marked, space, sweep, step)
         total += removed
@@ -273,7 +273,7 @@ def sweep_short_edges(vertices, start, twin, leaving, name, fixed, quadric, boun
     return total
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _collapse_in_order(
     mesh, fixed, quadric, held, was, tolerance, bound, sizes, queue, ends, marked, failed, changed_in, space, into
 ):
@@ -283,9 +283,9 @@ def _collapse_in_order(
     remaining, fewest, edge, sample_step = sizes
     s, place, ring, end_ring, moved, chosen, goes, goes_to = space
     bounded = len(points) > 0
-    for c in range(len(start)):
-        if c < twin[c] and start[c] != NO_CORNER:
-            _update_bucket(c, vertices, start, twin, fixed, quadric, bound, edge, queue, ends, s, place)
+    for n in range(len(start)):
+        if n < twin[n] and start[n] != NO_CORNER:
+            _update_bucket(n, vertices, start, twin, fixed, quadric, bound, edge, queue, ends, s, place)
     before, lowest, step = remaining, 0, 0
     while remaining > fewest:
         while lowest < BUCKETS and ends[lowest, 0] == NO_CORNER:
@@ -294,17 +294,17 @@ def _collapse_in_order(
             if before - remaining < RETRY_SHARE * remaining:
                 break
             before = remaining
-            for e in range(len(start)):
-                if start[e] != NO_CORNER and e < twin[e]:
+            for n in range(len(start)):
+                if start[n] != NO_CORNER and n < twin[n]:
                     bucket = _update_bucket(
-                        e, vertices, start, twin, fixed, quadric, bound, edge, queue, ends, s, place
+                        n, vertices, start, twin, fixed, quadric, bound, edge, queue, ends, s, place
                     )
                     lowest = min(lowest, bucket)
             continue
-        c = ends[lowest, 0]
+        c = np.int64(ends[lowest, 0])  # of the type of a count: what it calls is compiled once
         _dequeue(c, queue, ends)
         step += 1
-        u, v, d = start[c], start[next_corner(c)], twin[c]
+        u, v, d = np.int64(start[c]), np.int64(start[next_corner(c)]), twin[c]
         if failed[c] > max(changed_in[u], changed_in[v]):  # all that its collapse depends on is as it was
             continue
         failed[c] = step
@@ -343,9 +343,9 @@ def _collapse_in_order(
                 p, f = goes[n], goes_to[n]
                 next_point[p], first_point[f] = first_point[f], p
         for n in range(ring_size):
-            _dequeue(min(ring[n], twin[ring[n]]), queue, ends)
+            _dequeue(np.int64(min(ring[n], twin[ring[n]])), queue, ends)
         for n in range(end_ring_size):
-            _dequeue(min(end_ring[n], twin[end_ring[n]]), queue, ends)
+            _dequeue(np.int64(min(end_ring[n], twin[end_ring[n]])), queue, ends)
         collapse_edge(c, start, twin, leaving, end_ring, end_ring_size)
         copy_row(quadric[u], s)
         copy_row(vertices[u], place)
@@ -354,7 +354,8 @@ def _collapse_in_order(
         changed_in[u] = step
         for n in range(corners_of(u, twin, leaving, ring)):
             changed_in[start[next_corner(ring[n])]] = step
-            bucket = _update_bucket(ring[n], vertices, start, twin, fixed, quadric, bound, edge, queue, ends, s, place)
+            e = np.int64(ring[n])
+            bucket = _update_bucket(e, vertices, start, twin, fixed, quadric, bound, edge, queue, ends, s, place)
             lowest = min(lowest, bucket)
     return remaining
 

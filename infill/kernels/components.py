@@ -60,17 +60,17 @@ def number_runs(bits, bricks, starts):
     return count
 
 
-@njit(cache=True)
+@njit(from_python=False, cache=True)
 def run_at(bits, bricks, starts, s, row, k):
     """Return the number of the run that contains cell `k` of a row."""
     upto = np.uint16((2 << k) - 1)
     return bricks[s] + starts[s, row] + count_ones(beginnings(bits[s, row]) & upto) - 1
 
 
-@njit(cache=True)
+@njit(from_python=False, cache=True)
 def node_at(alone, slots, p, q, r, row, k, bits, bricks, starts):
     """Return the node of cell `k` of a row of the brick (p, q, r), or -1 if it is not of the kind to label."""
-    slot = slots[p, q, r]
+    slot = np.int64(slots[p, q, r])
     if slot < 0:
         return np.int64(alone[p, q, r])
     if not (bits[slot, row] >> np.uint16(k)) & np.uint16(1):
@@ -102,7 +102,7 @@ def is_mixed(slots, full, p, q, r):
     return slot >= 0 and not full[slot]
 
 
-@njit(nogil=True, cache=True)
+@njit(from_python=False, nogil=True, cache=True)
 def join_full(slots, where, bricks, alone, parent, full):
     """Join the runs of fully set bricks, and those bricks with one another and with bricks of one value."""
     for s in range(len(where)):
@@ -131,7 +131,7 @@ def join_runs(slots, where, bits, bricks, starts, alone, parent, diagonal):
         full[s] = is_full(bits[s])
     join_full(slots, where, bricks, alone, parent, full)
     for s in range(len(where)):
-        p, q, r = where[s]
+        p, q, r = np.int64(where[s, 0]), np.int64(where[s, 1]), np.int64(where[s, 2])
         settled = full[s] and not diagonal
         open_k = is_mixed(slots, full, p, q, r - 1) or is_mixed(slots, full, p, q, r + 1)
         open_i, open_j = is_mixed(slots, full, p + 1, q, r), is_mixed(slots, full, p, q + 1, r)
@@ -162,7 +162,7 @@ def join_runs(slots, where, bits, bricks, starts, alone, parent, diagonal):
                         b, y = b + dj, y - dj * B1
                     if a < 0 or b < 0 or a >= m0 or b >= m1:
                         continue
-                    slot = slots[a, b, r]
+                    slot = np.int64(slots[a, b, r])
                     if slot < 0:
                         if alone[a, b, r] >= 0:
                             remaining = np.int64(beginnings(row_bits))
@@ -172,7 +172,7 @@ def join_runs(slots, where, bits, bricks, starts, alone, parent, diagonal):
                                 join(parent, run_at(bits, bricks, starts, s, row, k), np.int64(alone[a, b, r]))
                     elif ahead:  # the other brick never looks back at this one
                         theirs = bits[slot, x * B1 + y]
-                        remaining = np.int64(beginnings(row_bits & theirs))
+                        remaining = np.int64(beginnings(np.uint16(row_bits & theirs)))
                         while remaining:
                             k = lowest_bit(remaining)
                             remaining &= remaining - 1
@@ -285,7 +285,7 @@ def overlaps(bits, bricks, starts, names, other_bits, other_bricks, other_starts
     return stretches
 
 
-@njit(nogil=True, cache=True)
+@njit(from_python=False, nogil=True, cache=True)
 def nearest_component(slots, x, y, z, bits, bricks, starts, alone, names, reach):
     """Return the component of a cell of the lattice, else the nearest along the axes within `reach` cells, else -1."""
     node = node_at(alone, slots, x // B0, y // B1, z // B2, (x % B0) * B1 + y % B1, z % B2, bits, bricks, starts)

@@ -23,7 +23,7 @@ def next_corner(corner):
     return corner - 2 if corner % 3 == 2 else corner + 1
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def previous_corner(corner):
     """Return the previous corner of the same face."""
     return corner + 2 if corner % 3 == 0 else corner - 1
@@ -98,7 +98,7 @@ def split_fans(start, twin, count, name):
     return total
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def corners_of(vertex, twin, leaving, ring):
     """Set the corners of a vertex; return their number, or -1 if there are too many."""
     at, count = leaving[vertex], 0
@@ -112,7 +112,7 @@ def corners_of(vertex, twin, leaving, ring):
             return count
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _has_three(vertex, twin, leaving):
     """Return True if a vertex has exactly three faces."""
     at = leaving[vertex]
@@ -121,7 +121,7 @@ def _has_three(vertex, twin, leaving):
     return at == leaving[vertex]
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def can_collapse(c, start, twin, leaving, name, ring, ring_size, end_ring, end_ring_size, marked, step):
     """Return True if the ends of an edge share only the corners opposite to it as neighbours, and have more faces."""
     for n in range(ring_size):
@@ -135,7 +135,7 @@ def can_collapse(c, start, twin, leaving, name, ring, ring_size, end_ring, end_r
     return not _has_three(opposite, twin, leaving) and not _has_three(beyond, twin, leaving)
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def collapse_edge(c, start, twin, leaving, end_ring, end_ring_size):
     """Collapse an edge in the table: its end becomes its start, two faces go, and their other edges become twins."""
     u, d = start[c], twin[c]

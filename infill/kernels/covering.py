@@ -29,7 +29,7 @@ HALVINGS = 4  # of a side of a piece, to find the place on it where the nearest 
 LEVEL_COSINE = 0.866  # cosine of the angle, 30 degrees, up to which neighbouring triangles count as level
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _is_covered_by_one(piece, owners, corners, tolerance):
     """Return True if all corners of a piece are near the same triangle, one of their nearest triangles."""
     for k in range(3):
@@ -43,13 +43,13 @@ def _is_covered_by_one(piece, owners, corners, tolerance):
     return False
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _is_near(x, y, z, at, corners, tolerance):
     """Return True if a place is near a triangle."""
     return squared_distance(x, y, z, corners[at, 0], corners[at, 1], corners[at, 2]) <= tolerance
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _is_side_shared(p, q, near_p, near_q, corners, tolerance):
     """Return True if a place between p and q is near both a triangle that p is near and one that q is near."""
     low, high = 0.0, 1.0
@@ -66,7 +66,7 @@ def _is_side_shared(p, q, near_p, near_q, corners, tolerance):
     return False
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _is_covered_by_two(piece, owners, corners, tolerance):
     """Return True if one of their nearest triangles is near two corners of a piece, and another the rest of it.
 
@@ -87,7 +87,7 @@ def _is_covered_by_two(piece, owners, corners, tolerance):
     return False
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _is_covered(piece, owners, squared, corners, tolerance):
     """Return True if all of a piece is near one or two of the triangles nearest to its corners."""
     if squared[0] > tolerance or squared[1] > tolerance or squared[2] > tolerance:
@@ -96,7 +96,7 @@ def _is_covered(piece, owners, squared, corners, tolerance):
     return one or _is_covered_by_two(piece, owners, corners, tolerance)
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _is_over_a_fold(owners, farthest, corners, tolerance, length):
     """Return True if the nearest triangles of a piece's corners fold so little that all of the piece is near them.
 
@@ -121,7 +121,7 @@ def _is_over_a_fold(owners, farthest, corners, tolerance, length):
     return least >= LEVEL_COSINE and FOLD * length * math.sqrt(max(0.0, 1 - least * least)) <= room
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _are_separated(triangle, second_triangle, normal, reach):
     """Return True if a triangle lies `reach` beyond the plane of another, or beyond a plane upright on a side of it.
 
@@ -153,7 +153,7 @@ def _are_separated(triangle, second_triangle, normal, reach):
     return False
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _is_level(triangle, normal, corners, normals, low, high, leaf, reach, cosine, stack):
     """Return True if all triangles of a mesh within `reach` of a triangle face the same way, up to a cosine."""
     first_leaf = (len(low) - 1) // 2
@@ -181,7 +181,7 @@ def _is_level(triangle, normal, corners, normals, low, high, leaf, reach, cosine
     return True
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _is_level_piece(piece, own, leaf, reach, normal, stack):
     """Return True if a piece of a mesh has nothing but level triangles of it around; `own` may be without triangles."""
     if not len(own[0]):
@@ -194,7 +194,7 @@ def _is_level_piece(piece, own, leaf, reach, normal, stack):
     return _is_level(piece, normal, own[0], own[1], own[2], own[3], leaf, reach, PIECE_COSINE, stack)
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _sample_in_order(
     surface,
     nearest,

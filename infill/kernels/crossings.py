@@ -16,7 +16,7 @@ from infill.kernels.rows import copy_row
 ROUNDING = 1e-9  # of lengths and areas: places nearer to a plane or an edge than this touch it
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _turn(p, q, x, y, z, normal):
     """Return how far a place lies to the left of the line from p to q, times its length and that of the normal."""
     ex, ey, ez = q[0] - p[0], q[1] - p[1], q[2] - p[2]
@@ -24,7 +24,7 @@ def _turn(p, q, x, y, z, normal):
     return (ey * pz - ez * py) * normal[0] + (ez * px - ex * pz) * normal[1] + (ex * py - ey * px) * normal[2]
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _does_edge_pierce(triangle, target, normal, side):
     """Return True if an edge of a triangle (3, 3) crosses the interior of another; `normal`, `side` are work space."""
     a, b, c = target[0], target[1], target[2]
@@ -56,7 +56,7 @@ def _does_edge_pierce(triangle, target, normal, side):
     return False
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _share_vertex(faces, f, g):
     """Return True if two faces share a vertex."""
     shared = False
@@ -66,7 +66,7 @@ def _share_vertex(faces, f, g):
     return shared
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _is_outside(triangle, lower, upper):
     """Return True if all corners of a triangle lie beyond the same side of a box."""
     for axis in range(3):

@@ -83,7 +83,7 @@ def lower_to_triangles(corners, reach, squared, thread, threads):
                         _lower_row(x, y, begin_z, end_z, a, edges, scale, upright, normal, flat, squared)
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _lower_row(x, y, begin, end, a, edges, scale, upright, normal, flat, squared):
     """Lower the squared distances of a range of cells in a row to that of a triangle, without a branch.
 
@@ -146,7 +146,7 @@ def _lower_row(x, y, begin, end, a, edges, scale, upright, normal, flat, squared
         row[n] = nearest if nearest < row[n] else row[n]
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _y_range(a, b, c, low, high):
     """Return the lowest and the highest y of the part of a triangle between two values of x."""
     lowest, highest = math.inf, -math.inf
@@ -208,7 +208,7 @@ def squared_distance(x, y, z, a, b, c):
     return qx * qx + qy * qy + qz * qz
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _squared_distance_to_box(x, y, z, low, high):
     """Return the squared distance of a point from a box."""
     dx = max(low[0] - x, x - high[0], 0.0)
@@ -217,7 +217,7 @@ def _squared_distance_to_box(x, y, z, low, high):
     return dx * dx + dy * dy + dz * dz
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _push_children(x, y, z, box, low, high, best, stack, box_distance, count):
     """Push the children of a box that are nearer than `best`, a squared distance; return the height of the stack."""
     last, next_box = 2 * box + 1, 2 * box + 2
@@ -232,7 +232,7 @@ def _push_children(x, y, z, box, low, high, best, stack, box_distance, count):
     return count
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def nearest_triangle(x, y, z, guess, corners, low, high, leaf, enough, stack, box_distance):
     """Find the triangle nearest to a point; return its squared distance and its index.
 
@@ -407,7 +407,7 @@ def count_windings(points, corners, sign, windings, thread, threads):
         windings[n] = total
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _axis_crossing(px, py, qx, qy):
     """Return +1 or -1 where an edge passes the positive x axis, upwards or downwards, else 0."""
     if (py > 0) == (qy > 0):

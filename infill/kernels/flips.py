@@ -28,7 +28,7 @@ def is_set(slots, bits, x, y, z):
     return (bits[slot, (x % B0) * B1 + y % B1] >> np.uint16(z % B2)) & np.uint16(1) != 0
 
 
-@njit(cache=True)
+@njit(from_python=False, cache=True)
 def steps_apart(cell_a, cell_b):
     """Count the axes along which two of the 27 cells differ by one; return 4 if they differ by more."""
     steps = 0
@@ -40,12 +40,12 @@ def steps_apart(cell_a, cell_b):
     return steps
 
 
-@njit(cache=True)
+@njit(from_python=False, cache=True)
 def parts_beside(cells, max_steps):
     """Count the parts of the set cells, of 27, that touch the middle; cells touch if at most `max_steps` apart."""
     seen, stack, count = np.zeros(AROUND, dtype=np.bool_), np.empty(AROUND, dtype=np.int64), 0
     for seed in range(AROUND):
-        if not cells[seed] or seen[seed] or seed == MIDDLE or steps_apart(seed, MIDDLE) > max_steps:
+        if not cells[seed] or seen[seed] or seed == MIDDLE or steps_apart(seed, np.int64(MIDDLE)) > max_steps:
             continue
         count += 1
         stack[0], depth = seed, 1
@@ -67,7 +67,7 @@ def simple(cells):
 
     Solid touches by faces, void by faces and edges.
     """
-    return parts_beside(cells, 1) == 1 and parts_beside(~cells, 2) == 1
+    return parts_beside(cells, np.int64(1)) == 1 and parts_beside(~cells, np.int64(2)) == 1
 
 
 @njit(nogil=True, cache=True)

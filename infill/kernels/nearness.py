@@ -60,7 +60,7 @@ def edge_points(vertices, start, twin, height, apart, max_points, points, owner)
     return count
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def reassign_points(first_point, next_point, points, tolerance, moved, chosen, changed, goes, goes_to):
     """Find for each point of some faces, two of which will go, one of the others: the nearest, or one that is near.
 
@@ -109,7 +109,7 @@ def reassign_points(first_point, next_point, points, tolerance, moved, chosen, c
     return count
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _find_near_corner_at(x, y, z, point, bound, corner, was):
     """Return a corner at a point whose original face is near a place; -1 if there is none."""
     original_corners, twin, leaving = was
@@ -125,7 +125,7 @@ def _find_near_corner_at(x, y, z, point, bound, corner, was):
             return NO_CORNER
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _find_near_corner(x, y, z, points, tolerance, goes, count, corner, was):
     """Return a corner, at one of some points, whose original face is near a place; -1 if there is none.
 
@@ -145,7 +145,7 @@ def _find_near_corner(x, y, z, points, tolerance, goes, count, corner, was):
     return at
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def are_edges_near(place, moved, changed, apart, points, tolerance, goes, count, corner, was):
     """Return True if the new edges are near the original surface, sampled every `apart`, a squared length.
 

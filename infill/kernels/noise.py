@@ -13,7 +13,7 @@ VOTERS = 27  # a cell and its neighbours
 OVERLAP_LAYERS = 2  # layers at either end of a slab without known neighbours
 
 
-@njit(nogil=True, cache=True)
+@njit(from_python=False, nogil=True, cache=True)
 def count_votes(solid, rows, planes, counts):
     """Count the set cells among the 27 around each of `solid`, 0 or 1; cells beyond the edge repeat those at it.
 

@@ -17,13 +17,13 @@ from infill.kernels.rows import copy_row
 PULL = 1e-5  # of the trace of a quadric: pull towards a point, where planes leave the place undetermined
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def squared_length(a, b):
     """Return the squared distance of two points."""
     return (a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2 + (a[2] - b[2]) ** 2
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def normal_and_shape(a, b, c):
     """Return the normal of a triangle, twice its area long, and its shape: 1 for equal sides, 0 for a line."""
     ux, uy, uz = b[0] - a[0], b[1] - a[1], b[2] - a[2]
@@ -76,7 +76,7 @@ def value_of(q, x, y, z):
     return max(0.0, value + 2 * (q[6] * x + q[7] * y + q[8] * z) + q[9])
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def solve_quadric(s, mx, my, mz, rx, ry, rz):
     """Solve (A + pull) p = r, with A the matrix of a quadric; return the solution, and True if there is one.
 

@@ -163,7 +163,7 @@ def blur(sums, slots, where, out, thread, threads):
     outer_tap, inner_tap, centre_tap = np.float32(TAPS[0]), np.float32(TAPS[1]), np.float32(TAPS[2])
     block = np.empty((SUMS, n0 + 4, n1 + 4, n2 + 4), dtype=np.float32)
     for s in range(thread, len(sums), threads):
-        fetch(sums, slots, where[s], 2, block)
+        fetch(sums, slots, where[s], np.int64(2), block)
         for m in range(SUMS):
             u = block[m]
             for i in range(n0):  # in place: what is written is not read again
@@ -207,7 +207,7 @@ def blend(low, high, sums, slots, where, shape, signed, unsigned, tiny, thread, 
         ends[k], parts[k] = coarse_cell_before(k, size)
     bias, spread = signed**4, unsigned**8
     for s in range(thread, len(low), threads):
-        fetch(sums, slots, where[s], 1, block)
+        fetch(sums, slots, where[s], np.int64(1), block)
         low_brick, high_brick = low[s], high[s]
         for i in range(B0):
             at, part = coarse_cell_before(i, size)

@@ -11,7 +11,7 @@ from __future__ import annotations
 from infill.kernels.compiling import njit
 
 
-@njit(nogil=True, cache=True, error_model="numpy")
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def copy_row(target, source):
     """Copy a row of numbers to another of the same length."""
     for k in range(len(source)):

@@ -83,7 +83,7 @@ def bit(row):
     return np.uint64(1) << np.uint64(row)
 
 
-@njit(cache=True)
+@njit(from_python=False, cache=True)
 def note_rows(brick, moving, rows):
     """Find the rows in `movable_rows` that are +1 or -1 throughout."""
     plus, minus = rows[0] & ~moving, rows[1] & ~moving
@@ -152,7 +152,7 @@ def update_all_faces(bricks, data, copied, faces, flat, rows, next_rows, still, 
         note_rows(data[s], ALL, still[s])
 
 
-@njit(cache=True)
+@njit(from_python=False, cache=True)
 def place_beside(place, side):
     """Return the place of the brick at a side of another; sides 0 to 5 are low and high along i, j, k."""
     a, b, c = place[0], place[1], place[2]
@@ -221,7 +221,7 @@ def rows_beside(neighbour, rows, column):
     return ALL if (neighbour == SOLID_BRICK) == (column % 2 == 0) else NONE
 
 
-@njit(cache=True)
+@njit(from_python=False, cache=True)
 def movable_rows(s, rows, still, beside):
     """Return the rows of a brick that may change: all except still rows of one value among cells of that value."""
     movable = ALL
@@ -307,7 +307,7 @@ def step(
             update_faces(brick, next_faces[s], next_flat[s], next_rows[s], changing)
 
 
-@njit(cache=True)
+@njit(from_python=False, cache=True)
 def copy_surroundings(brick, faces, flat, beside, wide):
     """Copy a brick to `wide`, with its neighbours' faces: +-1 for bricks that are not kept, its own beyond the grid."""
     for i in range(B0):
@@ -359,7 +359,7 @@ def value_beyond(neighbour, face_value):
     return np.float32(1) if neighbour == SOLID_BRICK else np.float32(-1)
 
 
-@njit(cache=True, error_model="numpy")
+@njit(from_python=False, cache=True, error_model="numpy")
 def step_masked(brick, data, wide, domain, where, numbers):
     """Do one step of the cells in the domain; a neighbour outside it has the cell's own value."""
     n0, n1, n2 = domain.shape

@@ -71,7 +71,7 @@ def slot_at(slots, p, q, r):
     return slots[p, q, r]
 
 
-@njit(cache=True)
+@njit(from_python=False, cache=True)
 def rows_around(slots, p, q, r, bits, shape, rows):
     """Set the rows of a brick and the first ones after it, 17 cells each, (9, 9); return True if any two cells differ.
 
@@ -156,7 +156,7 @@ def count_output(slots, places, bits, shape, triangles, masks, starts, counts, t
         counts[n, 0], counts[n, 1], counts[n, 2] = vertices, faces, undecided
 
 
-@njit(cache=True)
+@njit(from_python=False, cache=True)
 def values_around(slots, p, q, r, values, shape, numbers, around):
     """Set the values minus the level for a brick and the first cells after it: (9, 9, 17)."""
     level, clearance, tie = numbers
@@ -195,7 +195,7 @@ def keep_clear_of_zero(value, clearance, tie):
     return above_it if value > 0 else below_it
 
 
-@njit(cache=True)
+@njit(from_python=False, cache=True)
 def set_numbers_around(slots, index, p, q, r, masks, starts, offsets, begin, behind, crossing):
     """Set the first vertex numbers of the rows of a brick and of the first rows after it.
 

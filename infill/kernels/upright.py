@@ -13,14 +13,14 @@ import math
 from infill.kernels.compiling import njit
 
 
-@njit(nogil=True, cache=True)
+@njit(from_python=False, nogil=True, cache=True)
 def _node_range(nodes, face, axis, node_count):
     """Return the first and last node of a lattice between the corners of a triangle, along an axis."""
     a, b, c = nodes[face[0], axis], nodes[face[1], axis], nodes[face[2], axis]
     return max(math.ceil(min(a, b, c)), 0), min(math.floor(max(a, b, c)), node_count - 1)
 
 
-@njit(nogil=True, cache=True)
+@njit(from_python=False, nogil=True, cache=True)
 def _side_areas(nodes, face, i, j):
     """Return twice the signed areas of the triangles between a node and the three sides, and their sum."""
     ax, ay = nodes[face[0], 0] - i, nodes[face[0], 1] - j
@@ -30,7 +30,7 @@ def _side_areas(nodes, face, i, j):
     return area_a, second, third, area_a + second + third
 
 
-@njit(nogil=True, cache=True)
+@njit(from_python=False, nogil=True, cache=True)
 def _is_inside(area_a, area_b, area_c, area):
     """Return True if a node lies within a triangle with an area, or on its rim."""
     if area > 0:

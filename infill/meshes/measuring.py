@@ -60,7 +60,7 @@ def face_areas(surface: Surface) -> NDArray[np.float64]:
     from infill.kernels.measures import measure_areas
 
     areas = np.empty(len(surface.faces))
-    measure_areas(np.ascontiguousarray(surface.vertices, dtype=np.float64), surface.faces, areas)
+    measure_areas(np.ascontiguousarray(surface.vertices, dtype=np.float64), faces_for_kernels(surface), areas)
     return areas
 
 
