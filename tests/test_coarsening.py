@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
-from infill import ParameterError, Volume, smooth_volume
+from infill import GeometryError, ParameterError, Volume, smooth_volume
 from infill.voxels.coarsening import coarsen
 
 
@@ -52,3 +55,35 @@ def test_a_mask_keeps_its_volume_in_larger_voxels() -> None:
 def test_sizes_that_make_no_sense(voxel: float, says: str) -> None:
     with pytest.raises(ParameterError, match=says):
         coarsen(Volume(values=np.zeros((26, 9, 9))), voxel)
+
+
+def crossing_sheets() -> NDArray[np.uint8]:
+    """Two sheets of two cells, 40 x 40 cells each, that cross: 3,120 cells."""
+    cells = np.zeros((60, 60, 60), dtype=np.uint8)
+    cells[29:31, 10:50, 10:50] = 1
+    cells[10:50, 29:31, 10:50] = 1
+    return cells
+
+
+@pytest.mark.parametrize("voxel", [1.2, 2.0, 3.0])
+def test_larger_voxels_that_change_the_solid_are_refused_at_once_with_a_size_that_keeps_it(voxel: float) -> None:
+    """The volume is compared with that of the cells that were given, and not with that of the larger ones."""
+    sheets = crossing_sheets()
+    with pytest.raises(GeometryError, match=r"the larger voxels hold \d+% (more|less) than the 6,240 mm³") as caught:
+        smooth_volume(sheets, voxel=voxel)
+    fitting = re.search(r"--voxel ([\d.]+) keeps it", str(caught.value))
+    if fitting:
+        assert smooth_volume(sheets, voxel=float(fitting[1])).surface.volume == pytest.approx(6240, rel=0.05)
+    else:
+        assert "leave --voxel out" in str(caught.value)
+    broken = smooth_volume(sheets, voxel=voxel, allow_broken=True).report
+    assert broken["verdict"]["word"] == "lost"
+    assert broken["input"]["coarsened"]["volume_before"] == 6240
+
+
+def test_larger_voxels_that_keep_the_solid_say_nothing_of_it() -> None:
+    x, y, z = np.indices((40, 40, 40)) - 19.5
+    ball = (x**2 + y**2 + z**2 < 17**2).astype(np.uint8)
+    report = smooth_volume(ball, voxel=2.0).report
+    assert abs(report["input"]["coarsened"]["change"]) < 0.05
+    assert not any("larger voxels hold" in text for text in report["verdict"]["changes"])

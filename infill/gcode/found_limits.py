@@ -145,7 +145,12 @@ class FileLimits:
         }
         if limits == self.limits and sources == self.sources:
             return self
-        return replace(self, limits=limits, sources=sources)
+        changed = replace(self, limits=limits, sources=sources)
+        for name in named:
+            if self.sources.get(name) == "limits" and getattr(limits, name, None) != getattr(self.limits, name, None):
+                note = f"was given with --limits, and {code} in the file sets another"
+                changed = changed.with_note(LimitNote(name=name, note=note))
+        return changed
 
     def after_macro(self, name: str) -> FileLimits:
         """Return the limits in force after a call of one of `macros`."""

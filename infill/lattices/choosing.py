@@ -31,6 +31,31 @@ from patterns.protocol import Pattern
 from patterns.unit_cells import Cellular, Network, Planes
 
 SEED = "seed"
+# Arguments of `fill`, which a misspelt parameter may mean.
+OPTIONS = (
+    "density",
+    "regions",
+    "cell",
+    "line_width",
+    "wall",
+    "align",
+    "angle",
+    "phase",
+    "drain",
+    "vent",
+    "drain_at",
+    "ties",
+    "smooth_radius",
+    "overlap",
+    "tolerance",
+    "max_triangles",
+    "resolution",
+    "voxel",
+    "shell",
+    "meshing",
+    "threads",
+    "max_memory",
+)
 HELD = ("cell", "angle", "phase", "frame")  # parameters of patterns that `fill` has arguments for, or does not use
 
 
@@ -97,7 +122,7 @@ def configure_cellular(kind: Cells, request: FillSpec) -> Cells:
     for name in request.parameters:
         names = [declared for declared in parameters(kind) if declared not in HELD]
         if name not in names:
-            hint = suggest_name(name, names) if names else "it has none but cell and line width"
+            hint = suggest_name(name, names, others=OPTIONS)
             raise ParameterError(f"{request.pattern} has no parameter {name!r}; {hint}")
     lowest = request.lowest or 1.0
     if isinstance(kind, Network) and lowest < kind.thinnest:
@@ -115,7 +140,9 @@ def configure_lines(kind: Pattern | type[Pattern], request: FillSpec) -> Pattern
     settable = [name for name in declared if name not in HELD]
     for name in request.parameters:
         if name not in settable:
-            raise ParameterError(f"{request.pattern} has no parameter {name!r}; {suggest_name(name, settable)}")
+            raise ParameterError(
+                f"{request.pattern} has no parameter {name!r}; {suggest_name(name, settable, others=OPTIONS)}"
+            )
     if request.angle and "angle" not in declared:
         raise ParameterError.about(
             "angle",

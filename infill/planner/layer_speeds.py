@@ -113,7 +113,7 @@ def _speed_at(plan: MotionPlan, distance: Floats, move: NDArray[np.intp], share:
     entry, peak, leaving = plan.entry[move], plan.peak[move], plan.exit[move]
     length, seconds = distance[move], plan.seconds[move]
     ramps = ((peak - entry) ** 2 + (peak - leaving) ** 2) / (2 * peak)
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):  # a ramp without a length is infinite
         acceleration = np.nan_to_num(ramps / np.maximum(seconds - length / peak, 0), nan=np.inf)
         rising = entry**2 + 2 * acceleration * share * length
         falling = leaving**2 + 2 * acceleration * (1 - share) * length

@@ -153,6 +153,11 @@ def _finite(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
+def _is_untold(reason: str) -> bool:
+    """Tell whether no other problem names the sections that stay for a reason."""
+    return reason not in WHY_KEPT and not reason.startswith("a check failed")
+
+
 def _problems(report: RefillReport, tally: RefillStats) -> list[str]:
     keeps = report["request"]["pattern"] == KEEP
     problems = []
@@ -167,6 +172,10 @@ def _problems(report: RefillReport, tally: RefillStats) -> list[str]:
         for reason, words in WHY_KEPT.items()
         if tally.kept.get(reason, 0) >= MANY_KEPT * max(tally.sections, 1)
     ]
+    others = {reason: number for reason, number in sorted(tally.kept.items()) if _is_untold(reason)}
+    if not keeps and tally.replaced and sum(others.values()) >= MANY_KEPT * tally.sections:
+        reasons = ", ".join(f"{reason} ({number})" for reason, number in others.items())
+        problems.append(f"{sum(others.values())} of {tally.sections} sections stay as {stay}: {reasons}")
     before, after = report["time"]["infill_before_s"], report["time"]["infill_after_s"]
     earlier = "that of the last refill" if report["print"]["refilled_before"] else "the slicer's"
     # More infill than before, where a density asks for it, may take as much longer.
@@ -176,7 +185,7 @@ def _problems(report: RefillReport, tally: RefillStats) -> list[str]:
         amount = f", {denser - 1:+z.0%} filament" if denser > 1 + TIME_TOLERANCE else ""
         problems.append(
             f"the new infill is slower than {earlier}: it takes {after / before - 1:+z.0%} printing time{amount}; "
-            "for less, take another pattern, or keep, which is never slower"
+            "for less, take another pattern, or keep"
         )
     failed = sum(number for reason, number in tally.kept.items() if reason.startswith("a check failed"))
     if failed:

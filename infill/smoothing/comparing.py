@@ -13,7 +13,7 @@ from infill.inspection.facets import WALL_PER_RADIUS, find_flat_facets
 from infill.inspection.thickness import FARTHEST
 from infill.isosurfaces.components import data_bits, look_up_cells, open_by_blocks
 from infill.meshes.distance import distances
-from infill.plain_numbers import count_noun, plain_share, plain_size
+from infill.plain_numbers import count_noun, plain_argument, plain_share, plain_size
 from infill.smoothing.stages import raw_surface
 from infill.surface import Surface
 from infill.voxels.noise import NOISY
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from infill.inspection.bricks import TopologyCheck
     from infill.inspection.uncertain_places import UncertainPlaces
     from infill.reports.common import Spread
-    from infill.reports.smoothing import Distance, FacetKeys
+    from infill.reports.smoothing import CoarseChange, Distance, FacetKeys
     from infill.smoothing.levelling import SurfaceAtLevel
     from infill.smoothing.request import SmoothedInput, SmoothInput
 
@@ -32,6 +32,7 @@ SLIT_WIDTH = 1.0  # cells: a slit as narrow as this may close
 THICK, THICK_IN_NOISE = 2, 4
 MIN_CAP_SHARE = 0.001  # of the area: caps smaller than this are not mentioned
 VOLUME_TOLERANCE = 0.01  # of the volume: tolerated error, because of specks that are gone
+COARSE_LOSS = 0.05  # of the volume: larger voxels that change the solid by more are a problem
 LOST_VOLUME = 0.1  # of the volume: a solid that is off by more is not the one that was given
 LOST_HOLES = 10  # holes that broke through, at least as many as there were before: a wall that became a sieve
 MAX_SAMPLES = 5_000  # vertices whose distance is measured
@@ -228,7 +229,9 @@ def find_differences(
             )
     fewer = _describe_counts(topology) if smooth_input.mesh_volumes is None else []
     remarks.extend(fewer)
-    if smooth_input.facts.get("coarse"):
+    if coarsened := smooth_input.facts.get("coarsened"):
+        if phrase := describe_coarsening(coarsened):
+            (losses if abs(coarsened["change"]) >= LOST_VOLUME else problems).append(phrase)
         remarks.append("what is smaller than the voxels that were asked for was not compared")
     repairs = smooth_input.facts.get("repairs", {})
     if (share := repairs.get("hole_share", 0.0)) > MIN_CAP_SHARE:
@@ -238,6 +241,18 @@ def find_differences(
     word: Word = "lost" if losses else "changed a little" if problems or remarks else "kept"
     return Differences(
         word=word, losses=tuple(losses), problems=tuple(problems), remarks=tuple(remarks), fewer=tuple(fewer)
+    )
+
+
+def describe_coarsening(coarsened: CoarseChange) -> str:
+    """Describe what larger voxels alone take from a solid or add to it, with voxels that do not; "" if it is little."""
+    change, fitting = coarsened["change"], coarsened["fitting"]
+    if abs(change) < COARSE_LOSS:
+        return ""
+    advice = "leave --voxel out" if fitting is None else f"--voxel {plain_argument(fitting)} keeps it"
+    return (
+        f"the larger voxels hold {abs(change):.0%} {'more' if change > 0 else 'less'} than the "
+        f"{plain_size(coarsened['volume_before'], digits=4, power=3)} of the scan; {advice}"
     )
 
 

@@ -24,8 +24,9 @@ LOG = logging.getLogger("infill")
 BYTES_PER_CELL = 22  # a measured peak: the mask of cells inside, their distances, and the field made from these
 MARGIN = 8  # cells of void around a mesh or points, so that the edge of the grid has no effect
 FINER = (1.5, 2.0, 3.0)  # times as many voxels along each side, tried in turn where something would be lost
+SMALLER = (1.5, 2.0, 3.0, 5.0)  # times as small a radius, tried before it is recommended
 COST_POWER = 2.5  # of these: the surface grows with the square, the volume with the cube
-DENSE = 2  # voxels: a mesh whose edges are longer in the mean has no detail to keep
+DENSE = 1  # voxels: a mesh whose edges are longer in the mean has no detail that voxels lose
 
 
 def mesh_ways(
@@ -70,7 +71,24 @@ def mesh_ways(
             if is_free
             else Way(name=option, data=data, request=chosen, cost=cost, option=option)
         )
-    return ways
+    return [*ways, *_smaller_radii(ways[0])]
+
+
+def _smaller_radii(first: Way) -> list[Way]:
+    """Return ways with smaller radii than the one that is requested, to recommend."""
+    radius = first.request.radius
+    if radius is None:
+        return []
+    smaller = [float(plain_argument(radius / times, 2)) for times in SMALLER]
+    return [
+        replace(
+            first,
+            name=f"--smooth-radius {plain_argument(size)}",
+            request=replace(first.request, radius=size),
+            option=f"--smooth-radius {plain_argument(size)}",
+        )
+        for size in smaller
+    ]
 
 
 def voxelise_input(mesh: MeshOnGrid, request: SmoothRequest) -> SmoothInput:
@@ -132,7 +150,7 @@ def _mesh_topology(voxelised: VoxelisedMesh) -> ConnectionCounts | None:
 def _hint_at_filters(surface: Surface, voxelised: VoxelisedMesh) -> None:
     """Log a hint if a filter of the mesh itself may stay nearer to it than voxels.
 
-    That is so for a closed mesh of one component, without overlaps, whose edges are shorter than two voxels in the
+    That is so for a closed mesh of one component, without overlaps, whose edges are shorter than a voxel in the
     mean: filters move the corners of such a mesh, while voxels take its noise for its shape.
     """
     corners = np.asarray(surface.vertices, dtype=np.float64)[surface.faces]

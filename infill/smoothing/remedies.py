@@ -81,7 +81,7 @@ def first_sound(ways: Iterable[Way], request: SmoothRequest) -> Result[SmoothSta
         if best is not None and (best.is_sound or (best.differences.word != "lost" and len(tried) > 1)):
             break  # a difference in topology is worth one more run, a loss all of them
     remedies = [] if request.strict else [way for way in all_ways if way.option is not None]
-    work_left = MAX_WORK - total_cost * first_work
+    work_left = max(MAX_WORK - total_cost * first_work, first_work)  # as much as was asked for, at least
     if best is None:
         assert failed is not None
         remedy = STRICT_ADVICE if request.strict and len(all_ways) > 1 else _find_remedy(remedies, work_left)

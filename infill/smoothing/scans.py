@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.errors import ParameterError, UsageError
+from infill.errors import GeometryError, ParameterError, UsageError
 from infill.phasefield.schedule import MIN_STEPS
 from infill.plain_numbers import plain_argument, plain_number
+from infill.smoothing.comparing import COARSE_LOSS, LOST_VOLUME, describe_coarsening
 from infill.smoothing.request import AUTO, SmoothInput, SmoothRequest, Way
 from infill.smoothing.stages import surface_of_data
 from infill.volume import Volume
@@ -21,13 +22,14 @@ from infill.voxels.segmentation import count_solid_cells, scale_grey_values, seg
 from infill.voxels.slices import interpolate_slices, plan_sublayers
 
 if TYPE_CHECKING:
-    from infill.reports.smoothing import InputKeys
+    from infill.reports.smoothing import CoarseChange, InputKeys
 
 Threshold = float | tuple[float | None, float | None] | Literal["otsu"] | None
 
 SAMPLED_LAYERS = 16  # sampled for grey values
 SPECK_CELLS = 27  # cells: specks up to this size are taken out of noisy data
 DESPECKLE_CELLS = (SPECK_CELLS, 125)  # cells: sizes of specks to take out that are tried before one is recommended
+SMALLER = 1.25, 1.5, 2.0, 3.0, 4.0  # times smaller voxels, tried before they are recommended
 LARGER = 2.0  # times the size of voxels, tried before it is recommended
 HELD = 1.0  # a fidelity at which the data hold, tried before it is recommended
 
@@ -53,15 +55,15 @@ def volume_ways(
     given, (low, high) = scan, threshold_range(threshold)
     solid, used = segment_volume(scan, low=low, high=high, label=label, otsu=isinstance(threshold, str))
     phase = used["method"] == "phase"
+    change: CoarseChange | None = None
     if voxel is not None:
-        if phase or used["method"] in ("range", "otsu"):
-            scan = coarsen(scan, voxel)
-            solid, _ = segment_volume(scan, low=used["low"], high=used.get("high"))
-        else:  # a mask: the solid share of a larger voxel gives the place of the surface in it
-            scan = coarsen(replace(solid, values=np.asarray(solid.values) > 0), voxel)
-            scan, phase = replace(scan, values=2 * np.asarray(scan.values) - 1), True
-            solid = replace(scan, values=np.asarray(scan.values) > 0)
-        if not np.asarray(solid.values).any():
+        fine_scan, fine_solid = scan, solid
+        scan, solid, phase = _coarsen_solid(fine_scan, fine_solid, used, voxel)
+        if np.asarray(solid.values).any():
+            change = _measure_coarsening(fine_scan, fine_solid, solid, used, voxel)
+            if abs(change["change"]) >= LOST_VOLUME and not request.allow_broken:
+                raise GeometryError(f"{describe_coarsening(change)}; give --allow-broken to have it anyway")
+        else:
             raise ParameterError.about(
                 "voxel", f"is {plain_argument(voxel)} mm, and nothing of the solid fills half of one; give less"
             )
@@ -69,6 +71,7 @@ def volume_ways(
         "source": "volume",
         "segmentation": used,
         "coarse": voxel is not None,
+        **({} if change is None else {"coarsened": change}),
         "warnings": list(scan.warnings),
     }
     ways = scan_ways(scan, solid, used, facts, request, grey=grey, phase=phase)
@@ -83,6 +86,40 @@ def volume_ways(
 
         ways.append(replace(ways[0], name=option, option=option, later=coarsen_scan))
     return ways
+
+
+def _coarsen_solid(scan: Volume, solid: Volume, used: Mapping[str, Any], voxel: float) -> tuple[Volume, Volume, bool]:
+    """Return values and solid cells in larger voxels, mm, and whether the values are a phase field."""
+    phase = used["method"] == "phase"
+    if phase or used["method"] in ("range", "otsu"):
+        coarse = coarsen(scan, voxel)
+        return coarse, segment_volume(coarse, low=used["low"], high=used.get("high"))[0], phase
+    # A mask: the solid share of a larger voxel gives the place of the surface in it.
+    shares = coarsen(replace(solid, values=np.asarray(solid.values) > 0), voxel)
+    coarse = replace(shares, values=2 * np.asarray(shares.values) - 1)
+    return coarse, replace(coarse, values=np.asarray(coarse.values) > 0), True
+
+
+def _measure_coarsening(
+    scan: Volume, fine: Volume, coarse: Volume, used: Mapping[str, Any], voxel: float
+) -> CoarseChange:
+    """Measure what larger voxels, mm, do to the volume of a solid, and find some that keep it where they do not."""
+
+    def change_of(solid: Volume) -> float:
+        cells = int(np.count_nonzero(np.asarray(solid.values) > 0))
+        return cells * solid.cell_volume / before - 1
+
+    before = int(np.count_nonzero(np.asarray(fine.values) > 0)) * fine.cell_volume
+    change, fitting = change_of(coarse), None
+    if abs(change) >= COARSE_LOSS:
+        smallest = float(scan.cell_size.min())
+        for smaller in (float(plain_argument(voxel / by, 2)) for by in SMALLER):
+            if smaller < smallest:
+                break
+            if abs(change_of(_coarsen_solid(scan, fine, used, smaller)[1])) < COARSE_LOSS:
+                fitting = smaller
+                break
+    return {"volume_before": before, "change": change, "fitting": fitting}
 
 
 def threshold_range(threshold: Threshold) -> tuple[float | None, float | None]:
