@@ -436,6 +436,12 @@ def test_the_sources_of_limits(tmp_path: Path) -> None:
     assert (alone.limits["model"], alone.sources["feedrate"], alone.sources["jerk"]) == ("jerk", "limits", "limits")
 
 
+def test_a_limit_that_a_command_of_the_file_replaces_is_told(tmp_path: Path) -> None:
+    path = gcode(tmp_path, "M204 P1000 T1000\nG1 X100 F6000\n", SETTINGS)
+    (note,) = motion(path, limits={"acceleration": 50}).notes
+    assert (note.name, note.note) == ("acceleration", "was given with --limits, and M204 in the file sets another")
+
+
 def test_commands_change_limits_by_name_and_not_those_for_the_entire_file(tmp_path: Path) -> None:
     path = gcode(tmp_path, "SET_VELOCITY_LIMIT ACCEL=250\nG1 X100 F6000\n")
     assert motion(path, printer=config(tmp_path), limits="accel=500").limits["acceleration"] == 250

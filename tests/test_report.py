@@ -61,6 +61,7 @@ def every_result() -> Iterator[tuple[str, Result[Any, Any]]]:
     yield "mask", smooth_volume(BALL, tolerance=None)
     yield "phase", smooth_volume(np.where(BALL, 1.0, -1.0), tolerance=None)
     yield "labels", smooth_volume(LABELS, label=(3, 4), allow_broken=True, tolerance=None)
+    yield "larger voxels", smooth_volume(FIN, voxel=2.0, allow_broken=True, tolerance=None)
     yield "threshold", smooth_volume(GREY, threshold=300.0, tolerance=None)
     yield "grey", smooth_volume(GREY, threshold=300.0, grey=True, level=0, tolerance=None)
     yield "range", smooth_volume(GREY, threshold=(300.0, 900.0), allow_broken=True, tolerance=None)
