@@ -71,9 +71,10 @@ def volume_ways(
         "source": "volume",
         "segmentation": used,
         "coarse": voxel is not None,
-        **({} if change is None else {"coarsened": change}),
         "warnings": list(scan.warnings),
     }
+    if change is not None:
+        facts["coarsened"] = change
     ways = scan_ways(scan, solid, used, facts, request, grey=grey, phase=phase)
     if voxel is None:
         larger = plain_argument(LARGER * float(given.cell_size.max()), 3)
