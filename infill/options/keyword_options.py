@@ -39,7 +39,7 @@ def parse_share(name: str, value: object, advice: str = "give a share such as 20
     else:
         share = to_share(parse_number(name, value))
     if not 0 < share <= 1:
-        raise ParameterError.about(name, f"is {quote_value(value)}; {advice}, up to 100%")
+        raise ParameterError.about(name, f"is {quote_value(value)}; {advice}")
     return float(share)
 
 
