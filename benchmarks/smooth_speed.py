@@ -290,6 +290,7 @@ def labels(size: int, runs: int) -> None:
         others = {
             "infill smooth, all labels in a 3MF": [*smooth, str(folder / "all.3mf"), "--each-label"],
             "infill smooth, every triangle": [*base, "--tolerance", "0"],
+            "infill smooth --together, every triangle, walls shared": [*base, "--together"],
             "smooth_labels and save, a 3MF": _script(folder, "function", source, "function.3mf"),
             "VTK surface nets: one mesh, no verdict, not simplified": _script(folder, "nets", source, "nets.stl"),
             "serra-mesh, 8 x Taubin: no verdict, not simplified": _script(folder, "serra", source, "serra"),

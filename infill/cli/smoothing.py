@@ -222,9 +222,9 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
         rows["sealed voids"] = f"{result['cavities']}, in which resin and powder stay"
     if verbose or not (isinstance(report, Sections) and report.pending("distance")):
         distance = report["distance"]
-        near, far, back, far_back = (
-            plain_size(distance[side][key]) for side in ("result", "input") for key in ("p95", "max")
-        )
+        distances = [distance[side][key] for side in ("result", "input") for key in ("p95", "max")]
+        unit = choose_unit(*distances)
+        near, far, back, far_back = (plain_size(value, unit=unit) for value in distances)
         rows["distance"] = f"{near} (95 %), {far} at most, from the {distance['from']}; back {back}, {far_back}"
     if simplified := report["mesh"].get("simplified"):
         shells = count_noun(simplified["shells"], "shell")

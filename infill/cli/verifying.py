@@ -77,7 +77,7 @@ def _summary(report: VerifyReport, name: str) -> str:
         "compared": f"{compared['beads_mm'] / 1000:.2f} m of beads, {share:.1%} in the same place",
     }
     if "material" in report["by_kind"]:
-        rows["if it was meant"] = "--allow material, or --material-limit 100%, takes other amounts of filament"
+        rows["if it was meant"] = "--allow material takes other amounts of filament, --material-limit up to a share"
     if report["allowed"]:
         rows["ALLOWED"] = ", ".join(f"{count} of {kind}" for kind, count in report["allowed"].items())
     if compared["not_compared"]:
