@@ -17,12 +17,14 @@ from test_command_line import refused, run
 import infill
 from infill import Smoothing, UsageError, read_mesh, smooth_labels
 from infill.kernels.partition import code_of_four, code_of_three, weigh_corners
+from infill.kernels.sparse import BRICK
 from infill.meshes.intersections import intersecting_pairs
 from infill.meshes.solids import FINE, manifold_status
 from infill.partition.fields import PartitionFields, smooth_fields
 from infill.partition.tetrahedra import STEPS, TETRAHEDRA, make_tables, pattern_code
 from infill.partition.walls import OUTSIDE, Walls, place_walls, trace_walls
 from infill.phasefield.sparse import smooth_bricks
+from infill.smoothing.label_stages import field_reach
 from infill.surface import Surface
 
 
@@ -121,6 +123,31 @@ def test_two_labels_are_the_binary_scheme_to_the_last_bit() -> None:
     assert np.array_equal(smooth_bricks(labels == 2, Smoothing(steps=10)).to_dense(), -field)
     winners = fields.winners(np.zeros(fields.count))
     assert np.array_equal(winners == 1, (field > 0) | ((field == 0) & (labels == 1)))
+
+
+@pytest.mark.parametrize("interface", [1.0, 4.0])
+def test_fields_are_those_of_the_whole_grid(interface: float) -> None:
+    """Also with a wide interface, which reaches further: labels are smoothed in their part of the grid."""
+    labels = np.zeros((90, 40, 40), dtype=np.uint16)
+    labels[4:12, 10:30, 10:30], labels[70:84, 10:30, 10:30] = 1, 2
+    smoothing = Smoothing(steps=40, interface=interface)
+    boxes = [((0, 0, 0), labels.shape), ((4, 10, 10), (12, 30, 30)), ((70, 10, 10), (84, 30, 30))]
+    fields = smooth_fields(
+        labels,
+        boxes,
+        lambda mask, threads: smooth_bricks(mask, smoothing, threads=threads),
+        reach=field_reach(interface),
+    )
+    for label in (1, 2):
+        whole = smooth_bricks(labels == label, smoothing).to_dense()
+        beside = np.full(labels.shape, -1, dtype=np.float32)
+        for entry in np.flatnonzero((fields.labels == label) & (fields.slots >= 0)):
+            brick = np.argwhere((fields.entries[..., 0] <= entry) & (entry < fields.entries[..., 1]))[0] * BRICK - 1
+            cells = fields.values[fields.slots[entry]].reshape(BRICK)
+            low, high = np.maximum(brick, 0), np.minimum(brick + BRICK, labels.shape)
+            inner = tuple(slice(a - at, b - at) for a, b, at in zip(low, high, brick, strict=True))
+            beside[tuple(map(slice, low, high))] = cells[inner]
+        assert np.array_equal(beside, whole)
 
 
 @settings(max_examples=10, deadline=None)

@@ -24,7 +24,6 @@ INSIDE = -1  # slot of a brick that lies whole inside its label
 NONE = -1  # no label: beyond the lattice
 LEAST_SHARE = 1e-3  # of an edge: points lie no nearer to its ends
 LEAST_WEIGHT = 0.02  # of a corner of a face or a tetrahedron in a point inside it
-ROOTS = 8
 
 
 @njit(nogil=True, cache=True)

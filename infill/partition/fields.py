@@ -14,7 +14,6 @@ from infill.kernels.sparse import BRICK, CELLS, SOLID_BRICK
 from infill.kernels.threads import in_order, in_threads, thread_count
 from infill.phasefield.sparse import SparseField
 
-REACH = 20  # cells around a label beyond which its field is void to the last bit: see `infill.smoothing.labels`
 SAMPLED_BRICKS, STEEP = 20_000, 0.9  # where the row crosses the surface about at right angles
 SMALL = 2**20  # cells of a box: one thread smooths it before others have begun
 
@@ -75,6 +74,7 @@ def smooth_fields(
     boxes: Sequence[tuple[tuple[int, ...], tuple[int, ...]]],
     smooth: SmoothLabel,
     *,
+    reach: int = 20,
     threads: int | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> PartitionFields:
@@ -91,6 +91,8 @@ def smooth_fields(
         The cells that hold each label, 0 first: from `low` up to but without `high`.
     smooth : callable
         Returns the field of a mask, with a number of threads.
+    reach : int
+        Cells around a label beyond which its field is void to the last bit; 20 is enough for an interface of 2 cells.
     progress : callable, optional
         Called with the share of labels done.
     """
@@ -98,7 +100,7 @@ def smooth_fields(
     lattice = tuple(math.ceil((cells + 2) / size) for cells, size in zip(numbers.shape, BRICK, strict=True))
 
     def one(label: int) -> tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.float32]]:
-        low, high = _reached_box(boxes[label], numbers.shape)
+        low, high = _reached_box(boxes[label], numbers.shape, reach)
         mask = numbers[tuple(map(slice, low, high))] == label
         field = smooth(mask, 1 if mask.size < SMALL else count)
         shift = np.array(low) // BRICK
@@ -130,11 +132,11 @@ def smooth_fields(
 
 
 def _reached_box(
-    box: tuple[tuple[int, ...], tuple[int, ...]], shape: tuple[int, ...]
+    box: tuple[tuple[int, ...], tuple[int, ...]], shape: tuple[int, ...], reach: int
 ) -> tuple[tuple[int, ...], tuple[int, ...]]:
     """Return the box that a field can reach, with sides between bricks of the whole grid."""
-    low = tuple(max(0, (at - REACH) // size * size) for at, size in zip(box[0], BRICK, strict=True))
+    low = tuple(max(0, (at - reach) // size * size) for at, size in zip(box[0], BRICK, strict=True))
     high = tuple(
-        min(count, -(-(at + REACH) // size) * size) for at, size, count in zip(box[1], BRICK, shape, strict=True)
+        min(count, -(-(at + reach) // size) * size) for at, size, count in zip(box[1], BRICK, shape, strict=True)
     )
     return low, high

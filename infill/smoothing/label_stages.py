@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
     from infill.reports.smoothing import LabelName
     from infill.surface import Surface
 
+# Cells around a label in which phi is not yet void to the last bit: 12 with the usual interface of 2 cells, that is 6
+# interfaces; and 8 more, for the averages of refining.
+REACH_IN_INTERFACES, REFINING_MARGIN = 6, 8
 FACES_PER_RUN = 6  # of cells: two along each of three axes
 
 
@@ -66,3 +70,8 @@ class LabelPiece:
         """Estimate the work of smoothing it."""
         cells = FACES_PER_RUN * self.extent.runs
         return LabelWork(cells=cells, memory=cells * bytes_per_surface_cell(request))
+
+
+def field_reach(interface: float) -> int:
+    """Return the distance from a label beyond which its field is void to the last bit, cells, for an interface."""
+    return math.ceil(REACH_IN_INTERFACES * interface) + REFINING_MARGIN

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
@@ -24,7 +23,7 @@ from infill.result import Clock, Result
 from infill.smoothing.job import smooth_volume
 from infill.smoothing.kept_reports import keep_report
 from infill.smoothing.label_runs import run_labels
-from infill.smoothing.label_stages import LabelPiece, LabelStages
+from infill.smoothing.label_stages import LabelPiece, LabelStages, field_reach
 from infill.smoothing.request import SmoothOptions, SmoothRequest
 from infill.volume import AXES, Volume
 from infill.voxels.cropping import cut_cells
@@ -37,9 +36,6 @@ if TYPE_CHECKING:
 
     _Outcome = tuple[Surface, SmoothReport]
 
-# Cells around a label in which phi is not yet void to the last bit: 12 with the usual interface of 2 cells, that is 6
-# interfaces; and 8 more, for the averages of refining.
-REACH_IN_INTERFACES, REFINING_MARGIN = 6, 8
 MOST_UNNAMED = 64  # values without names that are taken for labels even if they do not fill regions
 MAX_LISTED_LABELS = 12  # labels in a message
 SMALL = 2**20  # cells of a box: one thread does it before others have begun
@@ -247,7 +243,7 @@ def _smooth_pieces(
 
 def _smooth_piece(volume: Volume, piece: LabelPiece, request: SmoothRequest, options: SmoothOptions) -> _Outcome:
     """Smooth one label in its part of the volume, whose sides lie between bricks of the whole volume."""
-    margin = math.ceil(REACH_IN_INTERFACES * request.smoothing.interface) + REFINING_MARGIN
+    margin = field_reach(request.smoothing.interface)
     low = tuple(max(0, (at - margin) // size * size) for at, size in zip(piece.extent.low, BRICK, strict=True))
     high = tuple(
         min(count, -(-(at + margin) // size) * size)

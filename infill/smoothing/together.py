@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -22,7 +22,7 @@ from infill.plain_numbers import count_noun
 from infill.reports.common import report_head
 from infill.reports.smoothing import TogetherSeconds
 from infill.result import Clock, Result
-from infill.smoothing.label_stages import LabelPiece, LabelStages
+from infill.smoothing.label_stages import LabelPiece, LabelStages, field_reach
 from infill.smoothing.request import AUTO
 from infill.surface import Surface
 
@@ -170,6 +170,7 @@ def _smooth_fields(
         numbers,
         boxes,
         smooth,
+        reach=field_reach(request.smoothing.interface),
         threads=request.threads,
         progress=lambda share: clock.tell("smooth", 0.5 * share),
     )
@@ -224,9 +225,8 @@ def _label_keys(piece: LabelPiece, surface: Surface, data: float, before: int, a
     }
 
 
-def _problems(label: Mapping[str, object] | TogetherLabel, volume: Volume) -> list[str]:
+def _problems(keys: TogetherLabel, volume: Volume) -> list[str]:
     """Return the problems of a label, one phrase each."""
-    keys: TogetherLabel = label  # type: ignore[assignment]
     problems = []
     if keys["data"] >= SMALLEST * volume.cell_volume and abs(keys["volume_change"]) > PRECISION:
         problems.append(f"{keys['name']}: its volume changes by {keys['volume_change']:+z.2%}")
