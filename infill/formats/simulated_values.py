@@ -30,7 +30,7 @@ class SimulatedValues:
     values: Floats
 
 
-def choose_array(path: Path, names: Sequence[str], wanted: str | None) -> int:
+def choose_array(path: Path, names: Sequence[str], requested: str | None) -> int:
     """Return the index of the named array, or of the only one.
 
     Raises
@@ -39,12 +39,12 @@ def choose_array(path: Path, names: Sequence[str], wanted: str | None) -> int:
         If there is none, none of this name, or several and no name.
     """
     choices = ", ".join(repr(excerpt(name)) for name in dict.fromkeys(names))
-    if wanted is not None and wanted in names:
-        return len(names) - 1 - names[::-1].index(wanted)  # the last step of several
+    if requested is not None and requested in names:
+        return len(names) - 1 - names[::-1].index(requested)  # the last step of several
     if not names:
         raise FormatError(f"{path} holds no array of numbers at its points or in its cells; save it with its results")
-    if wanted is not None:
-        raise FormatError(f"{path} holds no array {excerpt(wanted)!r}; choose from {choices}")
+    if requested is not None:
+        raise FormatError(f"{path} holds no array {excerpt(requested)!r}; choose from {choices}")
     if len(set(names)) > 1:
         raise FormatError(f"{path} holds several arrays: {choices}; choose one, such as {path}:{excerpt(names[0])}")
     return len(names) - 1

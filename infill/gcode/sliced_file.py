@@ -197,8 +197,10 @@ def open_sliced(source: Path) -> Iterator[SlicedFile]:
         raise FormatError(f"{source}: {error}") from error
 
 
-def check_output_name(output: Path, sliced: SlicedFile) -> None:
+def check_output_name(output: Path | None, sliced: SlicedFile) -> None:
     """Raise OutputError for a name that promises another form of file than that of the print, which is kept."""
+    if output is None:
+        return
     suffix = output.suffix.lower()
     own, words = FORMS[sliced.form]
     if suffix in {*MESHES, *PRINTS} - set(own):

@@ -55,7 +55,7 @@ def read_vtk_xml(path: Path, kind: str, what: str) -> tuple[ElementTree.Element,
     kind : str
         Name of the element.
     what : str
-        What to save instead, if the file holds something else.
+        The remedy, if the file holds something else.
     """
     require_memory(2 * path.stat().st_size, None, SMALLER_VOLUME_ADVICE)
     content = path.read_bytes()

@@ -44,7 +44,7 @@ def choose_winners(entries, labels, slots, values, offsets, given, winners, thre
     for p in range(thread, entries.shape[0], threads):
         for q in range(entries.shape[1]):
             for r in range(entries.shape[2]):
-                first, last = entries[p, q, r, 0], entries[p, q, r, 1]
+                begin, end = entries[p, q, r, 0], entries[p, q, r, 1]
                 for a in range(B0):
                     i = p * B0 + a - 1
                     if i < 0 or i >= n0:
@@ -57,17 +57,17 @@ def choose_winners(entries, labels, slots, values, offsets, given, winners, thre
                             k = r * B2 + c - 1
                             if k < 0 or k >= n2:
                                 continue
-                            own = given[i, j, k]
-                            if last - first == 1:
-                                winners[i, j, k] = labels[first]
+                            label_of_base = given[i, j, k]
+                            if end - begin == 1:
+                                winners[i, j, k] = labels[begin]
                                 continue
-                            best, best_value = own, np.float32(-1e30)
+                            best, best_value = label_of_base, np.float32(-1e30)
                             cell = (a * B1 + b) * B2 + c
-                            for entry in range(first, last):
+                            for entry in range(begin, end):
                                 label, slot = labels[entry], slots[entry]
                                 value = np.float32(1.0) if slot == INSIDE else values[slot, cell]
                                 value += offsets[label]
-                                if value > best_value or (value == best_value and label == own):
+                                if value > best_value or (value == best_value and label == label_of_base):
                                     best, best_value = label, value
                             winners[i, j, k] = best
 
@@ -79,29 +79,29 @@ def count_margins(entries, labels, slots, values, given, bins, thread, threads):
     `bins` is (threads, labels, n): margins from -2 to 2 fall into n bins.
     """
     n0, n1, n2 = given.shape
-    most = bins.shape[2] - 1
+    largest = bins.shape[2] - 1
     for p in range(thread, entries.shape[0], threads):
         for q in range(entries.shape[1]):
             for r in range(entries.shape[2]):
-                first, last = entries[p, q, r, 0], entries[p, q, r, 1]
+                begin, end = entries[p, q, r, 0], entries[p, q, r, 1]
                 for a in range(B0):
                     for b in range(B1):
                         for c in range(B2):
                             i, j, k = p * B0 + a - 1, q * B1 + b - 1, r * B2 + c - 1
                             if i < 0 or j < 0 or k < 0 or i >= n0 or j >= n1 or k >= n2:
                                 continue
-                            own = given[i, j, k]
+                            label_of_base = given[i, j, k]
                             cell = (a * B1 + b) * B2 + c
-                            own_value = other = np.float32(-1.0)
-                            for entry in range(first, last):
+                            label_value = rival = np.float32(-1.0)
+                            for entry in range(begin, end):
                                 slot = slots[entry]
                                 value = np.float32(1.0) if slot == INSIDE else values[slot, cell]
-                                if labels[entry] == own:
-                                    own_value = value
+                                if labels[entry] == label_of_base:
+                                    label_value = value
                                 else:
-                                    other = max(other, value)
-                            place = np.int64((own_value - other + 2.0) / 4.0 * bins.shape[2])
-                            bins[thread, own, min(max(place, 0), most)] += 1
+                                    rival = max(rival, value)
+                            place = np.int64((label_value - rival + 2.0) / 4.0 * bins.shape[2])
+                            bins[thread, label_of_base, min(max(place, 0), largest)] += 1
 
 
 @njit(inline="always", cache=True)
@@ -135,21 +135,21 @@ def fill_corners(winners, i, j, k, steps, corner):
 def owned_points(corner, side, faces, tetrahedra, face_slot, tetrahedron_slot):
     """Return the points that a base owns, one bit for each."""
     mask = 0
-    own = corner[0]
-    if side and own != 0:
+    label_of_base = corner[0]
+    if side and label_of_base != 0:
         mask |= 1
     for d in range(1, 8):
-        if corner[d] != NONE and corner[d] != own:
+        if corner[d] != NONE and corner[d] != label_of_base:
             mask |= 1 << d
     for f in range(len(faces)):
         b, c = corner[faces[f, 0]], corner[faces[f, 1]]
-        if c != NONE and b != own and c != own and b != c:
+        if c != NONE and b != label_of_base and c != label_of_base and b != c:
             mask |= 1 << (face_slot + f)
-    last = corner[7]
-    if last != NONE and last != own:
+    end = corner[7]
+    if end != NONE and end != label_of_base:
         for t in range(len(tetrahedra)):
             b, c = corner[tetrahedra[t, 0]], corner[tetrahedra[t, 1]]
-            if b != own and c != own and b != c and b != last and c != last:
+            if b != label_of_base and c != label_of_base and b != c and b != end and c != end:
                 mask |= 1 << (tetrahedron_slot + t)
     return mask
 
@@ -159,8 +159,8 @@ def code_of_four(a, b, c, d):
     """Return the code of which of four labels are alike: see `infill.partition.tetrahedra.pattern_code`."""
     second = 0 if b == a else 1
     third = 0 if c == a else second if c == b else second + 1
-    most = max(second, third)
-    fourth = 0 if d == a else second if d == b else third if d == c else most + 1
+    largest = max(second, third)
+    fourth = 0 if d == a else second if d == b else third if d == c else largest + 1
     return (second * 3 + third) * 4 + fourth
 
 
@@ -221,17 +221,17 @@ def count_flat(a, b, c):
     if a == b and b == c:
         return 1 if a != 0 else 0
     if a in (b, c) or b == c:
-        lone = c if a == b else b if a == c else a
-        others = a if a in (b, c) else b
-        return (1 if lone != 0 else 0) + (2 if others != 0 else 0)
+        single = c if a == b else b if a == c else a
+        pair_label = a if a in (b, c) else b
+        return (1 if single != 0 else 0) + (2 if pair_label != 0 else 0)
     return 2 * ((1 if a != 0 else 0) + (1 if b != 0 else 0) + (1 if c != 0 else 0))
 
 
 @njit(inline="always", cache=True)
 def side_of_face(step, i, j, k, shape):
     """Return -1 or 1 if the face of a base with this last step lies on a low or high side of the box, else 0."""
-    at, most = (i, shape[0] - 1) if step == 6 else (j, shape[1] - 1) if step == 5 else (k, shape[2] - 1)
-    return -1 if at == 0 else 1 if at == most else 0
+    at, largest = (i, shape[0] - 1) if step == 6 else (j, shape[1] - 1) if step == 5 else (k, shape[2] - 1)
+    return -1 if at == 0 else 1 if at == largest else 0
 
 
 @njit(nogil=True, cache=True)
@@ -319,9 +319,9 @@ def place_points(
                         for corner_at in range(count):
                             d = chain[corner_at]
                             ci, cj, ck = i + steps[d, 0], j + steps[d, 1], k + steps[d, 2]
-                            for other in range(count):
-                                matrix[other, corner_at] = value_of(
-                                    corner[chain[other]], ci, cj, ck, shape, entries, labels, slots, values, offsets
+                            for rival in range(count):
+                                matrix[rival, corner_at] = value_of(
+                                    corner[chain[rival]], ci, cj, ck, shape, entries, labels, slots, values, offsets
                                 )
                         weigh_corners(matrix, count, weight)
                     for axis in range(3):
@@ -348,8 +348,8 @@ def weigh_corners(matrix, count, weight):
         Written; at least `LEAST_SHARE` or `LEAST_WEIGHT` each, and 1 together.
     """
     if count == 2:
-        here, there = matrix[0, 0] - matrix[1, 0], matrix[1, 1] - matrix[0, 1]
-        share = 0.5 if here + there <= 0.0 else here / (here + there)
+        gain_at_start, gain_at_end = matrix[0, 0] - matrix[1, 0], matrix[1, 1] - matrix[0, 1]
+        share = 0.5 if gain_at_start + gain_at_end <= 0.0 else gain_at_start / (gain_at_start + gain_at_end)
         share = min(max(share, LEAST_SHARE), 1.0 - LEAST_SHARE)
         weight[0], weight[1] = 1.0 - share, share
         return

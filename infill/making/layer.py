@@ -35,7 +35,7 @@ LARGER_CELLS = 1.5, 2.0, 3.0  # times as large, as remedies
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class JudgedLayer:
-    """What smoothing did to the layer of a block.
+    """The verdict on the layer of a block.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ class JudgedLayer:
     width : WallWidth
         Of the smoothed walls, mm.
     problems : list of str
-        What a print would miss, one phrase each.
+        Losses of a print, one phrase each.
     """
 
     inspection: LayerInspection

@@ -88,8 +88,8 @@ def _flip(
     new_edge = np.minimum(c, d) * count + np.maximum(c, d)
     old_edges = np.minimum(starts, ends) * count + np.maximum(starts, ends)
     possible = (keys[at] == b * count + a) & ~np.isin(new_edge, old_edges) & (c != d)
-    first, second = np.stack([a, d, c], axis=1), np.stack([d, b, c], axis=1)
-    possible &= ~(_is_flat(vertices, first) | _is_flat(vertices, second))
+    flipped_a, flipped_b = np.stack([a, d, c], axis=1), np.stack([d, b, c], axis=1)
+    possible &= ~(_is_flat(vertices, flipped_a) | _is_flat(vertices, flipped_b))
     taken: set[int] = set()
     for index in np.flatnonzero(possible).tolist():
         used = {int(number[index]), int(neighbour[index]), -1 - int(new_edge[index])}
@@ -99,6 +99,6 @@ def _flip(
     if not possible.any():
         return None
     flipped = faces.copy()
-    flipped[number[possible]] = first[possible]
-    flipped[neighbour[possible]] = second[possible]
+    flipped[number[possible]] = flipped_a[possible]
+    flipped[neighbour[possible]] = flipped_b[possible]
     return flipped

@@ -27,7 +27,7 @@ class PartitionFields:
     Parameters
     ----------
     numbers : (n0, n1, n2) uint16
-        The given labels, numbered 0, 1 ...; 0 is what has no label.
+        The given labels, numbered 0, 1 ...; 0 stands for no label.
     count : int
         Labels, 0 among them.
     entries : (m0, m1, m2, 2) int64
@@ -80,7 +80,7 @@ def smooth_fields(
 ) -> PartitionFields:
     """Smooth the field of every label by itself, in the part of the grid that it can reach.
 
-    Where only two labels meet, their fields are each other's negative, and so what wins is the result of the binary
+    Where only two labels meet, their fields are each other's negative, and the winners are those of the binary
     scheme, to the last bit.
 
     Parameters

@@ -2,7 +2,7 @@
 
 Where three labels meet, a label may win inside a tetrahedron and at none of its corners: such pieces are left out, and
 lines become jagged by a part of a cell. So their points are moved towards the middle of their neighbours on the
-line, and the points beside them towards the middle of theirs. What this takes from a label its walls give back: each
+line, and the points beside them towards the middle of theirs. Volumes that change by this are restored: each
 wall between k and l moves along its normal by m_k - m_l, and the moves m solve the same Laplacian as the offsets of
 `infill.partition.volumes`.
 """
@@ -64,7 +64,7 @@ def smooth_junctions(graph: WallGraph, walls: Walls) -> NDArray[np.float32]:
 def restore_volumes(
     graph: WallGraph,
     walls: Walls,
-    wanted: NDArray[np.float64],
+    targets: NDArray[np.float64],
     solve: Restore,
     measure: Callable[[NDArray[np.float32]], NDArray[np.float64]],
     scale: tuple[float, ...],
@@ -74,7 +74,7 @@ def restore_volumes(
     Parameters
     ----------
     graph, walls : WallGraph, Walls
-    wanted : (labels,) float64
+    targets : (labels,) float64
         Volumes, 0 for labels whose volume is not sought.
     solve : callable
         Returns how far the walls of each label move outwards, for walls and missing volumes.
@@ -85,13 +85,13 @@ def restore_volumes(
     """
     sides = np.array(scale)
     fixed = _on_side(walls.points, graph.winners.shape)
-    sought = wanted > 0
-    best, least = walls, np.inf
+    sought = targets > 0
+    best, smallest_error = walls, np.inf
     for _ in range(RESTORING_ROUNDS):
-        missing = np.where(sought, wanted - walls.volumes, 0.0)
-        error = float(np.max(np.abs(missing[sought]) / wanted[sought], initial=0.0))
-        if error < least:
-            best, least = walls, error
+        missing = np.where(sought, targets - walls.volumes, 0.0)
+        error = float(np.max(np.abs(missing[sought]) / targets[sought], initial=0.0))
+        if error < smallest_error:
+            best, smallest_error = walls, error
         if error <= PRECISION:
             break
         moves = np.append(solve(walls, missing), 0.0)  # nothing moves towards the outside

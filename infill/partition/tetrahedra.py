@@ -27,8 +27,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 STEPS = tuple(np.array([[d & 1, d >> 1 & 1, d >> 2 & 1] for d in range(8)]))
-FACES = tuple((first, second) for second in range(1, 8) for first in range(1, second) if first & second == first)
-TETRAHEDRA = tuple((first, first | second) for first in (1, 2, 4) for second in (1, 2, 4) if first != second)
+FACES = tuple((step_a, step_b) for step_b in range(1, 8) for step_a in range(1, step_b) if step_a & step_b == step_a)
+TETRAHEDRA = tuple((step_a, step_a | step_b) for step_a in (1, 2, 4) for step_b in (1, 2, 4) if step_a != step_b)
 # Slots of the points that a base owns: itself, edges by their step, faces, tetrahedra.
 EDGE_SLOT, FACE_SLOT, TETRAHEDRON_SLOT, SLOTS = 0, 8, 20, 26
 LOCAL_EDGES = tuple(combinations(range(4), 2))
@@ -91,8 +91,8 @@ def make_tables() -> Tables:
     corners = np.zeros((6, 4), dtype=np.int64)
     counts = np.zeros((6, PATTERNS), dtype=np.int64)
     triangles = np.zeros((6, PATTERNS, MOST_TRIANGLES, 5), dtype=np.int64)
-    for number, (first, second) in enumerate(TETRAHEDRA):
-        chain = (0, first, second, 7)
+    for number, (step_a, step_b) in enumerate(TETRAHEDRA):
+        chain = (0, step_a, step_b, 7)
         corners[number] = chain
         for edge, (a, b) in enumerate(LOCAL_EDGES):
             places[number, edge] = chain[a], EDGE_SLOT + (chain[a] ^ chain[b])
@@ -118,18 +118,18 @@ def _flat_tables() -> dict[str, NDArray[np.int64]]:
     places = np.zeros((12, 7, 2), dtype=np.int64)
     counts = np.zeros((12, FLAT_PATTERNS), dtype=np.int64)
     triangles = np.zeros((12, FLAT_PATTERNS, MOST_FLAT, 4), dtype=np.int64)
-    for number, (first, second) in enumerate(FACES):
-        chain = (0, first, second)
+    for number, (step_a, step_b) in enumerate(FACES):
+        chain = (0, step_a, step_b)
         for corner in range(3):
             places[number, corner] = chain[corner], 0
         for edge, (a, b) in enumerate(((0, 1), (0, 2), (1, 2)), 3):
             places[number, edge] = chain[a], EDGE_SLOT + (chain[a] ^ chain[b])
         places[number, 6] = 0, FACE_SLOT + number
-        if second == 7:  # a diagonal face, which lies on no side
+        if step_b == 7:  # a diagonal face, which lies on no side
             continue
         a, b, c = (STEPS[step].astype(float) for step in chain)
         positions = np.array([a, b, c, (a + b) / 2, (a + c) / 2, (b + c) / 2, (a + b + c) / 3])
-        across = (1 - STEPS[second]).astype(float)
+        across = (1 - STEPS[step_b]).astype(float)
         for labels in _growth_strings(3):
             code = pattern_code(labels)
             for polygon, corner in _divide_face(labels):
@@ -169,8 +169,8 @@ def _divide_tetrahedron(labels: tuple[int, ...]) -> list[tuple[tuple[int, ...], 
     if len(parts) == 1:
         return []
     if len(parts) == 2 and len(parts[0]) == 1:
-        lone, others = parts[0][0], parts[1]
-        return [(tuple(_edge(lone, other) for other in others), lone, others[0])]
+        single, rest = parts[0][0], parts[1]
+        return [(tuple(_edge(single, corner_b) for corner_b in rest), single, rest[0])]
     if len(parts) == 2:
         (a, b), (c, d) = parts
         return [((_edge(a, c), _edge(a, d), _edge(b, d), _edge(b, c)), a, c)]
@@ -199,12 +199,12 @@ def _divide_face(labels: tuple[int, ...]) -> list[tuple[tuple[int, ...], int]]:
     if len(set(labels)) == 1:
         return [((0, 1, 2), 0)]
     if len(set(labels)) == 2:
-        lone = next(corner for corner in range(3) if labels.count(labels[corner]) == 1)
-        a, b = (corner for corner in range(3) if corner != lone)
-        return [((lone, edge(lone, a), edge(lone, b)), lone), ((edge(lone, a), a, b, edge(lone, b)), a)]
+        single = next(corner for corner in range(3) if labels.count(labels[corner]) == 1)
+        a, b = (corner for corner in range(3) if corner != single)
+        return [((single, edge(single, a), edge(single, b)), single), ((edge(single, a), a, b, edge(single, b)), a)]
     parts: list[tuple[tuple[int, ...], int]] = []
     for corner in range(3):
-        a, b = (other for other in range(3) if other != corner)
+        a, b = (corner_b for corner_b in range(3) if corner_b != corner)
         parts.append(((corner, edge(corner, a), 6, edge(corner, b)), corner))
     return parts
 

@@ -77,31 +77,34 @@ def keep_volumes(
     progress : callable, optional
         Called with the share of rounds done.
     """
-    wanted = np.asarray(volumes, dtype=np.float64)
+    targets = np.asarray(volumes, dtype=np.float64)
     offsets = first_offsets(fields, threads=threads)
-    is_sought = wanted > 0
+    is_sought = targets > 0
     is_sought[0] = False
     slope = 2 * fields.slope() / scale[2]  # of the difference of two values
     best: VolumePartition | None = None
-    held: WallGraph | None = None
-    least = np.inf
-    is_measured = is_sought & (wanted >= SMALLEST * np.prod(scale))
+    frozen: WallGraph | None = None
+    best_score = np.inf
+    is_measured = is_sought & (targets >= SMALLEST * np.prod(scale))
     before, step = np.zeros(fields.count), np.zeros(fields.count)
     largest = np.full(fields.count, LARGEST_STEP)
     for number in range(MOST_ROUNDS):
-        if best is not None and held is None and (number >= FREE_ROUNDS or least < NEAR):
+        if best is not None and frozen is None and (number >= FREE_ROUNDS or best_score < NEAR):
             # With the winners held, volumes change without jumps.
-            offsets, held = best.offsets.copy(), best.graph
+            offsets, frozen = best.offsets.copy(), best.graph
             largest, before = np.full(fields.count, LARGEST_STEP), np.zeros(fields.count)
-        graph = held or trace_walls(fields.winners(offsets, threads=threads), threads=threads)
+        graph = frozen or trace_walls(fields.winners(offsets, threads=threads), threads=threads)
         walls = place_walls(graph, fields, offsets, scale=scale, threads=threads)
-        missing = np.where(is_sought, wanted - walls.volumes, 0.0)
-        off = np.abs(missing) / np.maximum(wanted, 1e-300)
+        missing = np.where(is_sought, targets - walls.volumes, 0.0)
+        off = np.abs(missing) / np.maximum(targets, 1e-300)
         error = float(off[is_measured].max(initial=0.0))
         # At first the sum counts, since single labels jump; then the worst label.
-        score = error if held is not None or error < NEAR else 1.0 + float(off[is_measured].sum())
-        if best is None or score < least:
-            least, best = score, VolumePartition(graph=graph, walls=walls, offsets=offsets.copy(), rounds=number + 1)
+        score = error if frozen is not None or error < NEAR else 1.0 + float(off[is_measured].sum())
+        if best is None or score < best_score:
+            best_score, best = (
+                score,
+                VolumePartition(graph=graph, walls=walls, offsets=offsets.copy(), rounds=number + 1),
+            )
         if progress is not None:
             progress((number + 1) / MOST_ROUNDS)
         if error <= PRECISION:
@@ -109,7 +112,7 @@ def keep_volumes(
         turned = (missing * before < 0) & (np.abs(missing) > TURNED * np.abs(before))
         largest = np.where(turned, np.abs(step) / 2, largest)
         step = _solve(_neighbour_areas(walls, fields.count, scale), missing, is_sought) * slope
-        gone = is_sought & (walls.volumes < GONE * wanted)
+        gone = is_sought & (walls.volumes < GONE * targets)
         step[gone] = LARGEST_STEP  # where nothing is, nothing says how far it is
         step, before = np.clip(step, -largest, largest), missing
         offsets = np.clip(offsets + step, -LARGEST_OFFSET, LARGEST_OFFSET)
@@ -125,7 +128,7 @@ def keep_volumes(
         return _solve(_neighbour_areas(walls, fields.count, scale), missing, is_sought)
 
     smoothed = replace(best.walls, points=points, volumes=measure(points))
-    restored = restore_volumes(best.graph, smoothed, np.where(is_measured, wanted, 0.0), solve, measure, scale)
+    restored = restore_volumes(best.graph, smoothed, np.where(is_measured, targets, 0.0), solve, measure, scale)
     return replace(best, walls=restored)
 
 

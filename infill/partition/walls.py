@@ -29,7 +29,7 @@ class Walls:
     sides : (T, 2) int32
         The labels behind and before each triangle, which faces the second; `OUTSIDE` beyond the box.
     volumes : (labels,) float64
-        Of every label; that of 0 is what the others leave of the box. Cells.
+        Of every label; that of 0 is the rest of the box. Cells.
     """
 
     points: NDArray[np.float32]

@@ -50,17 +50,17 @@ def _trim_begin(path: Path, number: int, paths: Sequence[Path], spacing: float, 
     points = np.stack([np.interp(places, passed, path[:, axis]) for axis in (0, 1)], axis=-1)
     low, high = points.min(axis=0) - spacing, points.max(axis=0) + spacing
     near = np.zeros(len(places), dtype=bool)
-    for other_number, other in enumerate(paths):
-        if (other.max(axis=0) < low).any() or (other.min(axis=0) > high).any():
+    for neighbour_number, neighbour in enumerate(paths):
+        if (neighbour.max(axis=0) < low).any() or (neighbour.min(axis=0) > high).any():
             continue
-        begin, finish = other[:-1], other[1:]
-        if other_number == number:
+        begin, finish = neighbour[:-1], neighbour[1:]
+        if neighbour_number == number:
             begin, finish = path[:-1], path[1:]
         inside = (np.maximum(begin, finish) >= low).all(axis=1) & (np.minimum(begin, finish) <= high).all(axis=1)
         if not inside.any():
             continue
         distance, along = _measure_distances(points, begin[inside], finish[inside])
-        if other_number == number:
+        if neighbour_number == number:
             along += passed[:-1][inside]
             distance[np.abs(along - places[:, None]) < EXEMPT * line_width] = np.inf
         near |= (distance < spacing).any(axis=1)

@@ -215,8 +215,7 @@ def refill(
         check_target(target, overwrite=overwrite or output is None)
     folder = None if dry_run else target.parent
     with open_sliced(source) as sliced, contextlib.ExitStack() as drafts:
-        if output is not None:
-            check_output_name(target, sliced)
+        check_output_name(None if output is None else target, sliced)
         drafted: dict[int | None, _Draft] = {}
         for number, plate in enumerate(sliced.parts):
             scratch = drafts.enter_context(scratch_file(folder))

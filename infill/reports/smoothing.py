@@ -62,7 +62,7 @@ class RepairKeys(TypedDict):
 
 
 class CoarseChange(TypedDict):
-    """What larger voxels do to the solid, by its cells before and after."""
+    """Change of the solid by larger voxels, from its cells before and after."""
 
     volume_before: Annotated[float, "Volume of the voxels of the file, mm³"]
     change: Annotated[float, "Relative change of the volume by larger voxels"]
@@ -76,7 +76,7 @@ class KnownInput(TypedDict):
     noise: NotRequired[Annotated[float, "Volumes and points: share of surface cells that their neighbours overrule"]]
     slices: NotRequired[Annotated[int, "Volumes and points: number of cells that each thick slice became"]]
     coarse: NotRequired[Annotated[bool, "Volumes: whether larger voxels were requested"]]
-    coarsened: NotRequired[Annotated[CoarseChange, "Volumes: what larger voxels do to the solid, if requested"]]
+    coarsened: NotRequired[Annotated[CoarseChange, "Volumes: change of the solid by larger voxels, if requested"]]
     warnings: NotRequired[Annotated[list[str], "Volumes: assumptions and warnings of the reader"]]
     grey: NotRequired[Annotated[bool, "Volumes and points: whether grey values around the threshold were kept"]]
     segmentation: NotRequired[SegmentationKeys]

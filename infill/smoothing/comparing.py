@@ -245,7 +245,7 @@ def find_differences(
 
 
 def describe_coarsening(coarsened: CoarseChange) -> str:
-    """Describe what larger voxels alone take from a solid or add to it, with voxels that do not; "" if it is little."""
+    """Describe the change of a solid by larger voxels alone, and voxels without it; "" if it is small."""
     change, fitting = coarsened["change"], coarsened["fitting"]
     if abs(change) < COARSE_LOSS:
         return ""

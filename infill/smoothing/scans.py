@@ -104,7 +104,7 @@ def _coarsen_solid(scan: Volume, solid: Volume, used: Mapping[str, Any], voxel: 
 def _measure_coarsening(
     scan: Volume, fine: Volume, coarse: Volume, used: Mapping[str, Any], voxel: float
 ) -> CoarseChange:
-    """Measure what larger voxels, mm, do to the volume of a solid, and find some that keep it where they do not."""
+    """Measure the change of a solid's volume by larger voxels, mm, and find smaller ones if it is large."""
 
     def change_of(solid: Volume) -> float:
         cells = int(np.count_nonzero(np.asarray(solid.values) > 0))

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from infill.smoothing.request import SmoothRequest
     from infill.volume import Volume
 
-# What does not apply to all labels at once, by the names of options.
+# Options that do not apply to all labels at once.
 UNFIT = ("level", "despeckle", "crumbs", "max_triangles", "allow_broken", "strict")
 BYTES_PER_CELL, BYTES_PER_FACE = 6, 500  # of the grid, and for each face between labels; a measured peak
 # Cells are neighbours along every edge of the tetrahedra that they are cut into.
@@ -185,11 +185,11 @@ def cut_surfaces(partition: VolumePartition, volume: Volume, pieces: Sequence[La
     starts = [np.searchsorted(walls.sides[order, side], labels) for side, order in enumerate((behind, before))]
     surfaces = {}
     for number, piece in enumerate(pieces):
-        first, second = (
+        faces_behind, faces_before = (
             walls.triangles[order[start[number] : start[number + 1]]]
             for order, start in zip((behind, before), starts, strict=True)
         )
-        faces = np.concatenate([first, second[:, ::-1]])
+        faces = np.concatenate([faces_behind, faces_before[:, ::-1]])
         if not len(faces):
             continue
         used, corners = np.unique(faces, return_inverse=True)
@@ -201,7 +201,7 @@ def cut_surfaces(partition: VolumePartition, volume: Volume, pieces: Sequence[La
 
 
 def count_components(numbers: NDArray[np.uint16], pieces: Sequence[LabelPiece]) -> list[int]:
-    """Count the components of every label, 0 for what has none; cells are neighbours as tetrahedra join them."""
+    """Count the components of every label, 0 for the space between; cells are neighbours as tetrahedra join them."""
     boxes = ndimage.find_objects(numbers.astype(np.int32), max_label=len(pieces))
     return [0] + [
         0 if box is None else int(ndimage.label(numbers[box] == number, structure=NEIGHBOURS)[1])
@@ -210,7 +210,7 @@ def count_components(numbers: NDArray[np.uint16], pieces: Sequence[LabelPiece]) 
 
 
 def _label_keys(piece: LabelPiece, surface: Surface, data: float, before: int, after: int) -> TogetherLabel:
-    """Return what the report says of a label."""
+    """Return the keys of a label in the report."""
     colour = piece.segment.colour
     return {
         **piece.place,
