@@ -130,11 +130,13 @@ def smooth_reports(folder: Path, results: Results) -> dict[str, Any]:
 def smooth_plans(folder: Path, results: Results) -> dict[str, Any]:
     np.save(folder / "grey.npy", GREY)
     np.save(folder / "labels.npy", LABELS)
+    np.save(folder / "fin.npy", FIN)
     np.savetxt(folder / "cloud.xyz", CLOUD)
     SPHERE.export(folder / "ball.stl")
     words = {
         "grey.npy": ["--spacing", 1, "--range", "300,900"],
         "labels.npy": ["--spacing", 1, "--label", 3],
+        "fin.npy": ["--spacing", 1, "--voxel", 2, "--allow-broken"],
         "cloud.xyz": ["--voxel", 1],
         "ball.stl": ["--resolution", 24],
     }

@@ -37,7 +37,6 @@ SLACK = 1.01
 FIFTH = 0.2
 ROUNDED_UP = 1.06  # so that a least length of two digits is not less than it
 FEWEST, FEWEST_BARE, MOST, MOST_IN_SLABS = 1e6, 3e5, 25e6, 1e8  # cells of the grid in all; bare: without a shell
-LARGEST_CELL = 2.0  # of the longest side of a part: cells that follow from a line width are no larger
 COARSEST_LINES = 0.3  # mm: corners between lines are rounded on cells no larger than this
 
 
@@ -51,8 +50,8 @@ def choose_sizes(task: FillTask) -> tuple[float, float]:
         without_wall = replace(task, request=replace(request, wall=math.inf, regions=()))
         times = SLACK * _finest_voxel(task) / coarsest_voxel(without_wall, cell, width)
         return enlarge(request, (cell, width), times)
-    longest = float(task.extents.max())
-    if request.cell is None and request.line_width is not None and cell > LARGEST_CELL * longest:
+    shortest, longest = float(task.extents.min()), float(task.extents.max())
+    if request.cell is None and request.line_width is not None and width > shortest / 2 and cell > longest:
         raise GeometryError.about(
             "line_width",
             f"is {plain_argument(width)} mm, for which cells are {plain_argument(cell, 3)} mm wide, and the part is "
