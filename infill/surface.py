@@ -105,6 +105,10 @@ class Surface:
     notes: tuple[str, ...] = ()
     modifiers: tuple[Modifier, ...] = ()
 
+    def __repr__(self) -> str:
+        """Return the counts, without the arrays."""
+        return f"Surface({len(self.vertices):,} vertices, {len(self.faces):,} triangles)"
+
     @cached_property
     def closed(self) -> bool:
         """True if every edge has two faces that run along it in opposite directions."""

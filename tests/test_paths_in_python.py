@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -147,3 +148,9 @@ def test_the_command_and_the_function_have_the_same_defaults(name: str, folder: 
     assert done.exit_code == 0, done.stderr
     call().save("function.3mf")
     assert Path("command.3mf").read_bytes() == Path("function.3mf").read_bytes()
+
+
+def test_meshes_and_inspections_are_shown_on_one_short_line() -> None:
+    solid = make("honeycomb", size=20, height=3)
+    assert re.fullmatch(r"Surface\([\d,]+ vertices, [\d,]+ triangles\)", repr(solid.surface))
+    assert re.fullmatch(r"Inspection\(printable; [\d,]+ triangles, 20 x 20 x 3 mm\)", repr(check(solid)))

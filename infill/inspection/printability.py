@@ -19,7 +19,7 @@ from infill.meshes.intersections import count_self_intersections
 from infill.meshes.merging import WholeMesh, merge_unless_closed, merge_vertices, surface_of
 from infill.meshes.sealed_voids import count_sealed_voids
 from infill.meshes.shells import vertex_components
-from infill.plain_numbers import count_noun
+from infill.plain_numbers import count_noun, plain_size
 from infill.reports.checking import CheckReport
 from infill.reports.common import declare
 from infill.surface import Edges, Surface
@@ -54,6 +54,12 @@ class Inspection:
     extents: list[float]
     bounds: list[list[float]]
     unit_guess: str
+
+    def __repr__(self) -> str:
+        """Return the verdict with its reasons and the size."""
+        reasons = "; ".join((*self.problems, *self.warnings))
+        verdict = f"{'printable' if self.printable else 'not printable'}{': ' if reasons else ''}{reasons}"
+        return f"Inspection({verdict}; {self.triangles:,} triangles, {plain_size(*self.extents, digits=4)})"
 
     def to_dict(self) -> CheckReport:
         """Return plain numbers and strings, as ``--json`` prints them."""
