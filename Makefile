@@ -53,7 +53,7 @@ $(DEMO)/%.stl $(DEMO)/%.png: .venv/demo $(SOURCES)
 
 # Without the longest cases (see tests/conftest.py).
 test: .venv/test
-	@$(BIN)/python -m pytest -q -n 2 -m "not left_out" -p no:cov
+	@$(BIN)/python -m pytest -q -n 2 --dist worksteal -m "not left_out" -p no:cov
 
 longest: .venv/test
 	@$(BIN)/python -m pytest -q -n 2 --dist worksteal -m "left_out" -p no:cov
