@@ -90,7 +90,11 @@ def smooth_together(
         **report_head("together"),
         "triangles": len(partition.walls.triangles),
         "closed": all(surface.closed for surface in surfaces.values()),
-        "problems": [*(problem for keys in labels for problem in _problems(keys, volume)), *map(_gone_text, gone)],
+        "problems": [
+            *(problem for keys in labels for problem in _problems(keys, volume)),
+            *(f"{piece.name}: nothing of it is left" for piece in gone),
+            *_crossing_problems(partition.crossings),
+        ],
         "request": request.facts(),
         "labels": labels,
         "failed": [{**piece.place, "error": "nothing is left of it"} for piece in gone],
@@ -239,6 +243,6 @@ def _problems(keys: TogetherLabel, volume: Volume) -> list[str]:
     return problems
 
 
-def _gone_text(piece: LabelPiece) -> str:
-    """Return the problem of a label of which nothing is left."""
-    return f"{piece.name}: nothing of it is left"
+def _crossing_problems(count: int) -> list[str]:
+    """Return the problem of triangles that pass through each other, if any do."""
+    return [f"all labels: {count_noun(count, 'pair')} of triangles pass through each other"] if count else []
