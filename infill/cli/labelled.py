@@ -108,12 +108,12 @@ def smooth_every_label(source: Path, settings: SmoothSettings, output: SmoothOut
             progress("read", 0.0)
         segmentation, segments = _read_labels(source, settings)
         label_options: SmoothOptions = {**options, "progress": _scaled_progress(progress)}
+        choice: dict[str, Any] = {"keep_going": settings.keep_going, "together": settings.together}
         result = smooth_labels(
             segmentation,
             label=settings.label,
             table=segments,
-            keep_going=settings.keep_going,
-            together=settings.together,
+            **choice,
             **label_options,
         )
         if progress is not None:

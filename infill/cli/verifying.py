@@ -77,7 +77,9 @@ def _summary(report: VerifyReport, name: str) -> str:
         "compared": f"{compared['beads_mm'] / 1000:.2f} m of beads, {share:.1%} in the same place",
     }
     if "material" in report["by_kind"]:
-        rows["if it was meant"] = "--allow material takes other amounts of filament, --material-limit up to a share"
+        rows["if it was meant"] = (
+            "--allow material takes all amounts of filament; --material-limit 30% those up to 30 % away"
+        )
     if report["allowed"]:
         rows["ALLOWED"] = ", ".join(f"{count} of {kind}" for kind, count in report["allowed"].items())
     if compared["not_compared"]:

@@ -1,4 +1,4 @@
-"""Loops of `infill.partition`: the winning label of every cell, and the complex of walls between labels, compiled.
+"""Loops of `infill.partition.walls`, compiled: the complex of walls between labels.
 
 The lattice has one point for each cell, at its centre, and one more beyond each end of each axis, on the side of the
 box, with the value of the cell next to it: n + 2 points along an axis of n cells. Cell i has number i + 1, which is
@@ -19,89 +19,11 @@ import numpy as np
 from infill.kernels.compiling import njit
 from infill.kernels.lanes import count_ones
 from infill.kernels.sparse import B0, B1, B2
+from infill.kernels.winners import INSIDE
 
-INSIDE = -1  # slot of a brick that lies whole inside its label
 NONE = -1  # no label: beyond the lattice
 LEAST_SHARE = 1e-3  # of an edge: points lie no nearer to its ends
 LEAST_WEIGHT = 0.02  # of a corner of a face or a tetrahedron in a point inside it
-
-
-@njit(nogil=True, cache=True)
-def choose_winners(entries, labels, slots, values, offsets, given, winners, thread, threads):
-    """Write the label with the highest value plus offset of every cell; of equal ones, the given label of the cell.
-
-    Parameters
-    ----------
-    entries : (m0, m1, m2, 2) int64
-        First and last entry, exclusive, of each brick of the lattice in `labels` and `slots`.
-    labels, slots : (e,) int32
-        Label of an entry, and its brick in `values`, or INSIDE.
-    values : (n, CELLS) float32
-    offsets : (labels,) float32
-    given, winners : (n0, n1, n2) uint16
-    """
-    n0, n1, n2 = given.shape
-    for p in range(thread, entries.shape[0], threads):
-        for q in range(entries.shape[1]):
-            for r in range(entries.shape[2]):
-                begin, end = entries[p, q, r, 0], entries[p, q, r, 1]
-                for a in range(B0):
-                    i = p * B0 + a - 1
-                    if i < 0 or i >= n0:
-                        continue
-                    for b in range(B1):
-                        j = q * B1 + b - 1
-                        if j < 0 or j >= n1:
-                            continue
-                        for c in range(B2):
-                            k = r * B2 + c - 1
-                            if k < 0 or k >= n2:
-                                continue
-                            label_of_base = given[i, j, k]
-                            if end - begin == 1:
-                                winners[i, j, k] = labels[begin]
-                                continue
-                            best, best_value = label_of_base, np.float32(-1e30)
-                            cell = (a * B1 + b) * B2 + c
-                            for entry in range(begin, end):
-                                label, slot = labels[entry], slots[entry]
-                                value = np.float32(1.0) if slot == INSIDE else values[slot, cell]
-                                value += offsets[label]
-                                if value > best_value or (value == best_value and label == label_of_base):
-                                    best, best_value = label, value
-                            winners[i, j, k] = best
-
-
-@njit(nogil=True, cache=True)
-def count_margins(entries, labels, slots, values, given, bins, thread, threads):
-    """Count by how much the value of every label exceeds the highest other one in its cells.
-
-    `bins` is (threads, labels, n): margins from -2 to 2 fall into n bins.
-    """
-    n0, n1, n2 = given.shape
-    largest = bins.shape[2] - 1
-    for p in range(thread, entries.shape[0], threads):
-        for q in range(entries.shape[1]):
-            for r in range(entries.shape[2]):
-                begin, end = entries[p, q, r, 0], entries[p, q, r, 1]
-                for a in range(B0):
-                    for b in range(B1):
-                        for c in range(B2):
-                            i, j, k = p * B0 + a - 1, q * B1 + b - 1, r * B2 + c - 1
-                            if i < 0 or j < 0 or k < 0 or i >= n0 or j >= n1 or k >= n2:
-                                continue
-                            label_of_base = given[i, j, k]
-                            cell = (a * B1 + b) * B2 + c
-                            label_value = rival = np.float32(-1.0)
-                            for entry in range(begin, end):
-                                slot = slots[entry]
-                                value = np.float32(1.0) if slot == INSIDE else values[slot, cell]
-                                if labels[entry] == label_of_base:
-                                    label_value = value
-                                else:
-                                    rival = max(rival, value)
-                            place = np.int64((label_value - rival + 2.0) / 4.0 * bins.shape[2])
-                            bins[thread, label_of_base, min(max(place, 0), largest)] += 1
 
 
 @njit(inline="always", cache=True)
@@ -132,25 +54,26 @@ def fill_corners(winners, i, j, k, steps, corner):
 
 
 @njit(inline="always", cache=True)
-def owned_points(corner, side, faces, tetrahedra, face_slot, tetrahedron_slot):
-    """Return the points that a base owns, one bit for each."""
-    mask = 0
+def owned_points(winners, i, j, k, steps, faces, tetrahedra, slots, corner):
+    """Write the labels of the corners of a cube; return the points that its base owns, one bit for each."""
+    differs = fill_corners(winners, i, j, k, steps, corner)
     label_of_base = corner[0]
-    if side and label_of_base != 0:
-        mask |= 1
+    mask = 1 if label_of_base != 0 and is_side(winners, i, j, k) else 0
+    if not differs:
+        return mask
     for d in range(1, 8):
         if corner[d] != NONE and corner[d] != label_of_base:
             mask |= 1 << d
     for f in range(len(faces)):
         b, c = corner[faces[f, 0]], corner[faces[f, 1]]
         if c != NONE and b != label_of_base and c != label_of_base and b != c:
-            mask |= 1 << (face_slot + f)
+            mask |= 1 << (slots[0] + f)
     end = corner[7]
     if end != NONE and end != label_of_base:
         for t in range(len(tetrahedra)):
             b, c = corner[tetrahedra[t, 0]], corner[tetrahedra[t, 1]]
             if b != label_of_base and c != label_of_base and b != c and b != end and c != end:
-                mask |= 1 << (tetrahedron_slot + t)
+                mask |= 1 << (slots[1] + t)
     return mask
 
 
@@ -173,7 +96,7 @@ def code_of_three(a, b, c):
 
 
 @njit(nogil=True, cache=True)
-def count_rows(winners, steps, faces, tetrahedra, slots, counts, flat_counts, sizes, thread, threads):
+def count_rows(winners, steps, faces, tetrahedra, slots, counts, flat_counts, flat_table, sizes, thread, threads):
     """Count the bases, points and triangles of every row of the lattice: sizes (m0, m1, 3) int64."""
     m0, m1, m2 = winners.shape[0] + 2, winners.shape[1] + 2, winners.shape[2] + 2
     corner = np.empty(8, dtype=np.int64)
@@ -181,20 +104,18 @@ def count_rows(winners, steps, faces, tetrahedra, slots, counts, flat_counts, si
         for j in range(m1):
             bases = points = triangles = 0
             for k in range(m2):
-                differs = fill_corners(winners, i, j, k, steps, corner)
-                side = is_side(winners, i, j, k)
-                if not differs and not (side and corner[0] != 0):
-                    continue
-                mask = owned_points(corner, side, faces, tetrahedra, slots[0], slots[1])
+                mask = owned_points(winners, i, j, k, steps, faces, tetrahedra, slots, corner)
                 if mask:
                     bases += 1
                     points += count_ones(mask)
-                triangles += count_triangles(corner, i, j, k, (m0, m1, m2), faces, tetrahedra, counts, flat_counts)
+                    triangles += count_triangles(
+                        corner, i, j, k, (m0, m1, m2), faces, tetrahedra, counts, flat_counts, flat_table
+                    )
             sizes[i, j, 0], sizes[i, j, 1], sizes[i, j, 2] = bases, points, triangles
 
 
 @njit(inline="always", cache=True)
-def count_triangles(corner, i, j, k, shape, faces, tetrahedra, counts, flat_counts):
+def count_triangles(corner, i, j, k, shape, faces, tetrahedra, counts, flat_counts, flat_table):
     """Return the number of triangles of a cube, and of the faces on the sides of the box that a base owns."""
     triangles = 0
     if corner[7] != NONE:
@@ -206,25 +127,12 @@ def count_triangles(corner, i, j, k, shape, faces, tetrahedra, counts, flat_coun
             continue
         if side_of_face(faces[f, 1], i, j, k, shape) == 0:
             continue
-        a, b, c = corner[0], corner[faces[f, 0]], corner[faces[f, 1]]
-        code = code_of_three(a, b, c)
-        if a != 0 and b != 0 and c != 0:
-            triangles += flat_counts[f, code]
-        else:
-            triangles += count_flat(a, b, c)
+        code = code_of_three(corner[0], corner[faces[f, 0]], corner[faces[f, 1]])
+        for n in range(flat_counts[f, code]):
+            at = flat_table[f, code, n, 3]
+            label = corner[0] if at == 0 else corner[faces[f, at - 1]]
+            triangles += label != 0
     return triangles
-
-
-@njit(inline="always", cache=True)
-def count_flat(a, b, c):
-    """Return the triangles of the parts of a face without those of label 0: one for a lone corner, two for others."""
-    if a == b and b == c:
-        return 1 if a != 0 else 0
-    if a in (b, c) or b == c:
-        single = c if a == b else b if a == c else a
-        pair_label = a if a in (b, c) else b
-        return (1 if single != 0 else 0) + (2 if pair_label != 0 else 0)
-    return 2 * ((1 if a != 0 else 0) + (1 if b != 0 else 0) + (1 if c != 0 else 0))
 
 
 @njit(inline="always", cache=True)
@@ -249,11 +157,7 @@ def fill_rows(winners, steps, faces, tetrahedra, slots, row_starts, bases, masks
         for j in range(m1):
             at, point = row_starts[i, j, 0], row_starts[i, j, 1]
             for k in range(m2):
-                differs = fill_corners(winners, i, j, k, steps, corner)
-                side = is_side(winners, i, j, k)
-                if not differs and not (side and corner[0] != 0):
-                    continue
-                mask = owned_points(corner, side, faces, tetrahedra, slots[0], slots[1])
+                mask = owned_points(winners, i, j, k, steps, faces, tetrahedra, slots, corner)
                 if mask:
                     bases[at], masks[at], starts[at] = k, mask, point
                     at += 1

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.kernels import partition as kernels
 from infill.kernels.sparse import BRICK, CELLS, SOLID_BRICK
 from infill.kernels.threads import in_order, in_threads, thread_count
+from infill.kernels.winners import INSIDE, choose_winners, count_margins
 from infill.phasefield.sparse import SparseField
 
 SAMPLED_BRICKS, STEEP = 20_000, 0.9  # where the row crosses the surface about at right angles
@@ -33,7 +33,7 @@ class PartitionFields:
     entries : (m0, m1, m2, 2) int64
         Of each brick of the lattice, its first and its last entry, exclusive.
     labels, slots : (e,) int32
-        The label of each entry and the place of its brick in `values`, or `infill.kernels.partition.INSIDE`.
+        The label of each entry and the place of its brick in `values`, or `infill.kernels.winners.INSIDE`.
     values : (b, 1024) float32
         Cells of bricks, in [-1, 1].
     """
@@ -52,11 +52,19 @@ class PartitionFields:
         crosses = (low > 0) != (high > 0)
         return float(np.quantile(np.abs(high - low)[crosses], STEEP)) if crosses.any() else 1.0
 
+    def margins(self, bins: int, *, threads: int | None = None) -> NDArray[np.int64]:
+        """Count the cells of every label by how much it exceeds the highest other one: (labels, bins) from -2 to 2."""
+        count = thread_count(threads)
+        sums = np.zeros((count, self.count, bins), dtype=np.int64)
+        fields = self.entries, self.labels, self.slots, self.values, self.numbers
+        in_threads(count_margins, *fields, sums, threads=count)
+        return np.asarray(sums.sum(axis=0))
+
     def winners(self, offsets: NDArray[np.floating], *, threads: int | None = None) -> NDArray[np.uint16]:
         """Return the label with the highest value plus offset in every cell; ties go to the given label."""
         winners = np.empty_like(self.numbers)
         in_threads(
-            kernels.choose_winners,
+            choose_winners,
             self.entries,
             self.labels,
             self.slots,
@@ -106,14 +114,14 @@ def smooth_fields(
         shift = np.array(low) // BRICK
         inside = np.argwhere(field.slots == SOLID_BRICK)
         places = np.concatenate([field.where.astype(np.int64), inside]) + shift
-        slots = np.concatenate([np.arange(len(field.where)), np.full(len(inside), kernels.INSIDE)]).astype(np.int32)
+        slots = np.concatenate([np.arange(len(field.where)), np.full(len(inside), INSIDE)]).astype(np.int32)
         return np.ravel_multi_index(tuple(places.T), lattice), slots, field.values.reshape(-1, CELLS)
 
     places, labels, slots, values, start = [], [], [], [], 0
     for label, (brick, slot, cells) in in_order(one, range(len(boxes)), threads=count):
         places.append(brick)
         labels.append(np.full(len(brick), label, dtype=np.int32))
-        slots.append(np.where(slot == kernels.INSIDE, slot, slot + start).astype(np.int32))
+        slots.append(np.where(slot == INSIDE, slot, slot + start).astype(np.int32))
         values.append(cells)
         start += len(cells)
         if progress is not None:

@@ -20,8 +20,6 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
-from infill.kernels import partition as kernels
-from infill.kernels.threads import in_threads, thread_count
 from infill.partition.fields import PartitionFields
 from infill.partition.junctions import on_side, smooth_junctions, take_back_crossings
 from infill.partition.walls import OUTSIDE, WallGraph, Walls, measure_volumes, place_walls, trace_walls
@@ -123,18 +121,24 @@ def keep_volumes(
         step, before = np.clip(step, -largest, largest), missing
         offsets = np.clip(offsets + step, -LARGEST_OFFSET, LARGEST_OFFSET)
     assert best is not None
-    points = smooth_junctions(best.graph, best.walls)
-    if points is best.walls.points:
-        return best
-    volumes_within = partial(measure_volumes, best.graph, labels=fields.count, scale=scale, threads=threads)
-    walls, crossings = replace(best.walls, points=points, volumes=volumes_within(points)), 0
-    for _ in range(SMOOTHING_ROUNDS):
-        walls = _restore_volumes(best.graph, walls, np.where(is_measured, targets, 0.0), volumes_within, scale)
-        points, crossings = take_back_crossings(best.walls, walls.points, scale, threads=threads)
+    return _smooth_lines(best, np.where(is_measured, targets, 0.0), scale, threads)
+
+
+def _smooth_lines(
+    partition: VolumePartition, targets: NDArray[np.float64], scale: tuple[float, ...], threads: int | None
+) -> VolumePartition:
+    """Make the lines smooth on which three labels meet, without crossings and with every volume (0: not sought)."""
+    graph, jagged = partition.graph, partition.walls
+    points, crossings = smooth_junctions(graph, jagged), 0
+    volumes_within = partial(measure_volumes, graph, labels=len(targets), scale=scale, threads=threads)
+    walls = replace(jagged, points=points, volumes=volumes_within(points))
+    for _ in range(SMOOTHING_ROUNDS if points is not jagged.points else 0):
+        walls = _restore_volumes(graph, walls, targets, volumes_within, scale)
+        points, crossings = take_back_crossings(jagged, walls.points, scale, threads=threads)
         if np.array_equal(points, walls.points):
             break
         walls = replace(walls, points=points, volumes=volumes_within(points))
-    return replace(best, walls=walls, crossings=crossings)
+    return replace(partition, walls=walls, crossings=crossings)
 
 
 def _restore_volumes(
@@ -185,19 +189,7 @@ def _restore_volumes(
 
 def first_offsets(fields: PartitionFields, *, threads: int | None = None) -> NDArray[np.float64]:
     """Return offsets with which every label wins in most of its given cells, however small it is; 0 for large ones."""
-    count = thread_count(threads)
-    bins = np.zeros((count, fields.count, MARGINS), dtype=np.int64)
-    in_threads(
-        kernels.count_margins,
-        fields.entries,
-        fields.labels,
-        fields.slots,
-        fields.values,
-        fields.numbers,
-        bins,
-        threads=count,
-    )
-    margins = bins.sum(axis=0)
+    margins = fields.margins(MARGINS, threads=threads)
     sums = margins.cumsum(axis=1)
     # The margin that is exceeded in most of the cells of a label: below 0, another label wins there.
     low = (sums < (1 - MOST_CELLS) * sums[:, -1:]).sum(axis=1)

@@ -76,7 +76,16 @@ def trace_walls(winners: NDArray[np.uint16], *, threads: int | None = None) -> W
     tables, shape = make_tables(), winners.shape
     sizes = np.zeros((shape[0] + 2, shape[1] + 2, 3), dtype=np.int64)
     common = winners, *CUTTING
-    in_threads(kernels.count_rows, *common, SLOTS_AT, tables.counts, tables.flat_counts, sizes, threads=count)
+    in_threads(
+        kernels.count_rows,
+        *common,
+        SLOTS_AT,
+        tables.counts,
+        tables.flat_counts,
+        tables.flat_triangles,
+        sizes,
+        threads=count,
+    )
     ends = sizes.reshape(-1, 3).cumsum(axis=0).reshape(sizes.shape)
     row_starts = np.concatenate([ends - sizes, ends], axis=-1)
     base_count, _, triangle_count = (int(end) for end in ends.reshape(-1, 3)[-1])

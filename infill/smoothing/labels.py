@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import TYPE_CHECKING, Literal, Unpack, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -30,7 +30,7 @@ from infill.voxels.cropping import cut_cells
 from infill.voxels.labels import is_label_map, label_extents
 
 if TYPE_CHECKING:
-    from infill.reports.smoothing import LabelsReport, SmoothReport
+    from infill.reports.smoothing import LabelsReport, SmoothReport, TogetherReport
     from infill.result import Progress
     from infill.surface import Surface
 
@@ -41,6 +41,30 @@ MAX_LISTED_LABELS = 12  # labels in a message
 SMALL = 2**20  # cells of a box: one thread does it before others have begun
 
 
+@overload
+def smooth_labels(
+    volume: ArrayLike | Volume | Segmentation | str | os.PathLike[str],
+    *,
+    spacing: float | tuple[float, ...] | None = None,
+    origin: tuple[float, ...] = (0.0, 0.0, 0.0),
+    label: int | tuple[int, ...] | None = None,
+    table: Iterable[Segment] = (),
+    keep_going: bool = False,
+    together: Literal[False] = False,
+    **options: Unpack[SmoothOptions],
+) -> Result[LabelStages, LabelsReport]: ...
+@overload
+def smooth_labels(
+    volume: ArrayLike | Volume | Segmentation | str | os.PathLike[str],
+    *,
+    spacing: float | tuple[float, ...] | None = None,
+    origin: tuple[float, ...] = (0.0, 0.0, 0.0),
+    label: int | tuple[int, ...] | None = None,
+    table: Iterable[Segment] = (),
+    keep_going: bool = False,
+    together: Literal[True],
+    **options: Unpack[SmoothOptions],
+) -> Result[LabelStages, TogetherReport]: ...
 @log_compilation("the smoother")
 def smooth_labels(
     volume: ArrayLike | Volume | Segmentation | str | os.PathLike[str],
@@ -52,7 +76,7 @@ def smooth_labels(
     keep_going: bool = False,
     together: bool = False,
     **options: Unpack[SmoothOptions],
-) -> Result[LabelStages, Any]:
+) -> Result[LabelStages, LabelsReport] | Result[LabelStages, TogetherReport]:
     """Smooth every label of a segmentation; return one surface for each.
 
     Parameters

@@ -22,7 +22,7 @@ from infill.plain_numbers import count_noun
 from infill.reports.common import report_head
 from infill.reports.smoothing import TogetherSeconds
 from infill.result import Clock, Result
-from infill.smoothing.label_stages import LabelPiece, LabelStages, field_reach
+from infill.smoothing.label_stages import FACES_PER_RUN, LabelPiece, LabelStages, field_reach
 from infill.smoothing.request import AUTO
 from infill.surface import Surface
 
@@ -33,11 +33,13 @@ if TYPE_CHECKING:
 
 # Options that do not apply to all labels at once.
 UNFIT = ("level", "despeckle", "crumbs", "max_triangles", "allow_broken", "strict")
-BYTES_PER_CELL, BYTES_PER_FACE = 6, 500  # of the grid, and for each face between labels; a measured peak
+# Of the grid, and for each face of a label's cells, estimated from its runs: peaks were 600 to 1,850 bytes a face.
+BYTES_PER_CELL, BYTES_PER_FACE = 6, 2000
 # Cells are neighbours along every edge of the tetrahedra that they are cut into.
 NEIGHBOURS = np.array(
     [[[1, 1, 0], [1, 1, 0], [0, 0, 0]], [[1, 1, 0], [1, 1, 1], [0, 1, 1]], [[0, 0, 0], [0, 1, 1], [0, 1, 1]]]
 )
+NOTHING_LEFT = "nothing of it is left"
 PRECISION = 1e-4  # of a label's volume that counts as kept
 
 
@@ -57,8 +59,8 @@ def smooth_together(
     refuse_unfit(request)
     request = request.at(float(volume.cell_size.min()))
     clock = Clock(request.progress)
+    _require_memory(volume.values.size, pieces, request)
     numbers = number_labels(volume, pieces)
-    _require_memory(numbers, request)
     scale = tuple((volume.cell_size / volume.cell_size.min()).tolist())
     with clock.stage("smooth", 0.0):
         fields = _smooth_fields(numbers, volume, pieces, request, clock)
@@ -85,36 +87,29 @@ def smooth_together(
         for number, piece in enumerate(pieces, 1)
         if piece.name in surfaces
     ]
-    gone = [piece for piece in pieces if piece.name not in surfaces]
+    left, gone = ([piece for piece in pieces if (piece.name in surfaces) is kept] for kept in (True, False))
     report: TogetherReport = {
         **report_head("together"),
         "triangles": len(partition.walls.triangles),
         "closed": all(surface.closed for surface in surfaces.values()),
         "problems": [
             *(problem for keys in labels for problem in _problems(keys, volume)),
-            *(f"{piece.name}: nothing of it is left" for piece in gone),
+            *(f"{piece.name}: {NOTHING_LEFT}" for piece in gone),
             *_crossing_problems(partition.crossings),
         ],
         "request": request.facts(),
         "labels": labels,
-        "failed": [{**piece.place, "error": "nothing is left of it"} for piece in gone],
+        "failed": [{**piece.place, "error": NOTHING_LEFT} for piece in gone],
         "absent": list(absent),
         "rounds": partition.rounds,
         "seconds": clock.timings(TogetherSeconds),
     }
-    return Result(
-        surfaces=surfaces,
-        report=report,
-        stages=LabelStages(
-            segments={piece.name: piece.segment for piece in pieces},
-            failed={piece.name: "nothing is left of it" for piece in gone},
-        ),
-        colours={
-            piece.name: piece.segment.colour
-            for piece in pieces
-            if piece.name in surfaces and piece.segment.colour is not None
-        },
+    stages = LabelStages(
+        segments={piece.name: piece.segment for piece in pieces},
+        failed={piece.name: NOTHING_LEFT for piece in gone},
     )
+    colours = {piece.name: piece.segment.colour for piece in left if piece.segment.colour is not None}
+    return Result(surfaces=surfaces, report=report, stages=stages, colours=colours)
 
 
 def refuse_unfit(request: SmoothRequest) -> None:
@@ -146,11 +141,11 @@ def number_labels(volume: Volume, pieces: Sequence[LabelPiece]) -> NDArray[np.ui
     return numbers
 
 
-def _require_memory(numbers: NDArray[np.uint16], request: SmoothRequest) -> None:
+def _require_memory(cells: int, pieces: Sequence[LabelPiece], request: SmoothRequest) -> None:
     """Raise MemoryLimitError if fields and walls do not fit into memory."""
-    faces = sum(int(np.count_nonzero(np.diff(numbers, axis=axis))) for axis in range(3))
+    faces = sum(FACES_PER_RUN * piece.extent.runs for piece in pieces)
     require_memory(
-        numbers.size * BYTES_PER_CELL + faces * BYTES_PER_FACE,
+        cells * BYTES_PER_CELL + faces * BYTES_PER_FACE,
         request.max_memory,
         "give --voxel for larger voxels, or --roi for a part of it",
     )
@@ -206,7 +201,7 @@ def cut_surfaces(partition: VolumePartition, volume: Volume, pieces: Sequence[La
 
 def count_components(numbers: NDArray[np.uint16], pieces: Sequence[LabelPiece]) -> list[int]:
     """Count the components of every label, 0 for the space between; cells are neighbours as tetrahedra join them."""
-    boxes = ndimage.find_objects(numbers.astype(np.int32), max_label=len(pieces))
+    boxes = ndimage.find_objects(numbers, max_label=len(pieces))
     return [0] + [
         0 if box is None else int(ndimage.label(numbers[box] == number, structure=NEIGHBOURS)[1])
         for number, box in enumerate(boxes, 1)

@@ -1,0 +1,91 @@
+"""Loops of `infill.partition.fields`, compiled: the winning label of every cell, and by how much labels win or lose."""
+# mypy: disable-error-code="no-untyped-def, call-arg, var-annotated"
+# ruff: noqa: ANN001, ANN201
+# Compiled lines are invisible to coverage tools.
+
+from __future__ import annotations
+
+import numpy as np
+
+from infill.kernels.compiling import njit
+from infill.kernels.sparse import B0, B1, B2
+
+INSIDE = -1  # slot of a brick that lies whole inside its label
+
+
+@njit(nogil=True, cache=True)
+def choose_winners(entries, labels, slots, values, offsets, given, winners, thread, threads):
+    """Write the label with the highest value plus offset of every cell; of equal ones, the given label of the cell.
+
+    Parameters
+    ----------
+    entries : (m0, m1, m2, 2) int64
+        First and last entry, exclusive, of each brick of the lattice in `labels` and `slots`.
+    labels, slots : (e,) int32
+        Label of an entry, and its brick in `values`, or INSIDE.
+    values : (n, CELLS) float32
+    offsets : (labels,) float32
+    given, winners : (n0, n1, n2) uint16
+    """
+    n0, n1, n2 = given.shape
+    for p in range(thread, entries.shape[0], threads):
+        for q in range(entries.shape[1]):
+            for r in range(entries.shape[2]):
+                begin, end = entries[p, q, r, 0], entries[p, q, r, 1]
+                for a in range(B0):
+                    i = p * B0 + a - 1
+                    if i < 0 or i >= n0:
+                        continue
+                    for b in range(B1):
+                        j = q * B1 + b - 1
+                        if j < 0 or j >= n1:
+                            continue
+                        for c in range(B2):
+                            k = r * B2 + c - 1
+                            if k < 0 or k >= n2:
+                                continue
+                            own_label = given[i, j, k]
+                            if end - begin == 1:
+                                winners[i, j, k] = labels[begin]
+                                continue
+                            best, best_value = own_label, np.float32(-1e30)
+                            cell = (a * B1 + b) * B2 + c
+                            for entry in range(begin, end):
+                                label, slot = labels[entry], slots[entry]
+                                value = np.float32(1.0) if slot == INSIDE else values[slot, cell]
+                                value += offsets[label]
+                                if value > best_value or (value == best_value and label == own_label):
+                                    best, best_value = label, value
+                            winners[i, j, k] = best
+
+
+@njit(nogil=True, cache=True)
+def count_margins(entries, labels, slots, values, given, bins, thread, threads):
+    """Count by how much the value of every label exceeds the highest other one in its cells.
+
+    `bins` is (threads, labels, n): margins from -2 to 2 fall into n bins.
+    """
+    n0, n1, n2 = given.shape
+    largest = bins.shape[2] - 1
+    for p in range(thread, entries.shape[0], threads):
+        for q in range(entries.shape[1]):
+            for r in range(entries.shape[2]):
+                begin, end = entries[p, q, r, 0], entries[p, q, r, 1]
+                for a in range(B0):
+                    for b in range(B1):
+                        for c in range(B2):
+                            i, j, k = p * B0 + a - 1, q * B1 + b - 1, r * B2 + c - 1
+                            if i < 0 or j < 0 or k < 0 or i >= n0 or j >= n1 or k >= n2:
+                                continue
+                            own_label = given[i, j, k]
+                            cell = (a * B1 + b) * B2 + c
+                            label_value = rival = np.float32(-1.0)
+                            for entry in range(begin, end):
+                                slot = slots[entry]
+                                value = np.float32(1.0) if slot == INSIDE else values[slot, cell]
+                                if labels[entry] == own_label:
+                                    label_value = value
+                                else:
+                                    rival = max(rival, value)
+                            place = np.int64((label_value - rival + 2.0) / 4.0 * bins.shape[2])
+                            bins[thread, own_label, min(max(place, 0), largest)] += 1
