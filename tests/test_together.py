@@ -240,7 +240,7 @@ def test_the_line_where_three_labels_meet_is_smooth(method: Any) -> None:
     x, y, z = (axis - 19.5 for axis in np.indices((40, 40, 40)))
     turned = np.arctan2(y - 0.23 * z, x - 0.41 * z)
     labels = (np.floor((turned + np.pi + 0.4) / (2 * np.pi / 3)).astype(np.int64) % 3) + 1
-    result = smooth_labels(labels, together=True, method=method, smoothing=Smoothing(steps=10))
+    result = smooth_labels(labels, together=True, method=method, smoothing=Smoothing(steps=10), tolerance=None)
     corners = [set(map(tuple, surface.vertices.tolist())) for surface in result.surfaces.values()]
     shared = np.array(sorted(set.intersection(*corners))) - 20
     inner = shared[np.abs(shared).max(axis=1) < 14]
@@ -289,7 +289,6 @@ def test_negative_labels_and_a_choice_of_labels(tmp_path: Path) -> None:
     ("options", "says"),
     [
         ({"level": 0.1}, "^level does not go with labels together; leave it out$"),
-        ({"tolerance": 0.2}, "^tolerance does not go"),
         ({"despeckle": 3.0}, "^despeckle does not go"),
         ({"method": "grey"}, "^method is grey, and labels have no grey values"),
         ({"keep_going": True}, "^keep_going does not go"),

@@ -133,7 +133,7 @@ def _smooth_lines(
     volumes_within = partial(measure_volumes, graph, labels=len(targets), scale=scale, threads=threads)
     walls = replace(jagged, points=points, volumes=volumes_within(points))
     for _ in range(SMOOTHING_ROUNDS if points is not jagged.points else 0):
-        walls = _restore_volumes(graph, walls, targets, volumes_within, scale)
+        walls = restore_volumes(graph, walls, targets, scale=scale, threads=threads)
         points, crossings = take_back_crossings(jagged, walls.points, scale, threads=threads)
         if np.array_equal(points, walls.points):
             break
@@ -141,12 +141,13 @@ def _smooth_lines(
     return replace(partition, walls=walls, crossings=crossings)
 
 
-def _restore_volumes(
+def restore_volumes(
     graph: WallGraph,
     walls: Walls,
     targets: NDArray[np.float64],
-    volumes_within: Callable[[NDArray[np.float32]], NDArray[np.float64]],
+    *,
     scale: tuple[float, ...],
+    threads: int | None = None,
 ) -> Walls:
     """Move walls along their normals until every label has its volume.
 
@@ -157,11 +158,11 @@ def _restore_volumes(
     graph, walls : WallGraph, Walls
     targets : (labels,) float64
         Volumes, 0 for labels whose volume is not sought.
-    volumes_within : callable
-        Returns the volumes of all labels within points.
     scale : (3,) float
         Sides of a cell.
     """
+    volumes_within = partial(measure_volumes, graph, labels=len(targets), scale=scale, threads=threads)
+    walls = replace(walls, volumes=volumes_within(walls.points))
     sides, is_sought = np.array(scale), targets > 0
     fixed, inner = on_side(walls.points, graph.winners.shape), walls.sides[:, 1] != OUTSIDE
     triangles, (behind, before) = walls.triangles[inner], walls.sides[inner].T

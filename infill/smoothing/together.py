@@ -14,6 +14,7 @@ from infill.errors import GeometryError, UsageError
 from infill.formats.parts import hex_colour
 from infill.machine import require_memory
 from infill.partition.fields import PartitionFields, smooth_fields
+from infill.partition.simplifying import simplify_partition
 from infill.partition.volumes import SMALLEST, VolumePartition, keep_volumes
 from infill.phasefield.profile import PLAIN_PROFILE, REFINED_PROFILE
 from infill.phasefield.refining import refine_bricks
@@ -23,7 +24,6 @@ from infill.reports.common import report_head
 from infill.reports.smoothing import TogetherSeconds
 from infill.result import Clock, Result
 from infill.smoothing.label_stages import FACES_PER_RUN, LabelPiece, LabelStages, field_reach
-from infill.smoothing.request import AUTO
 from infill.surface import Surface
 
 if TYPE_CHECKING:
@@ -71,10 +71,12 @@ def smooth_together(
             counts * float(np.prod(scale)),
             scale=scale,
             threads=request.threads,
-            progress=lambda share: clock.tell("volumes", 0.5 + 0.3 * share),
+            progress=lambda share: clock.tell("volumes", 0.5 + 0.2 * share),
         )
-    with clock.stage("surface", 0.8):
-        surfaces = cut_surfaces(partition, volume, pieces)
+    with clock.stage("simplify", 0.7):
+        simple = simplify(partition, request.tolerance, volume, threads=request.threads)
+    with clock.stage("surface", 0.85):
+        surfaces = cut_surfaces(simple, volume, pieces)
     with clock.stage("check", 0.9):
         before = count_components(numbers, pieces)
         after = count_components(partition.graph.winners, pieces)
@@ -90,12 +92,12 @@ def smooth_together(
     left, gone = ([piece for piece in pieces if (piece.name in surfaces) is kept] for kept in (True, False))
     report: TogetherReport = {
         **report_head("together"),
-        "triangles": len(partition.walls.triangles),
+        "triangles": len(simple.walls.triangles),
         "closed": all(surface.closed for surface in surfaces.values()),
         "problems": [
             *(problem for keys in labels for problem in _problems(keys, volume)),
             *(f"{piece.name}: {NOTHING_LEFT}" for piece in gone),
-            *_crossing_problems(partition.crossings),
+            *_crossing_problems(simple.crossings),
         ],
         "request": request.facts(),
         "labels": labels,
@@ -118,8 +120,6 @@ def refuse_unfit(request: SmoothRequest) -> None:
     for name in UNFIT:
         if getattr(request, name) != getattr(plain, name):
             raise UsageError.about(name, "does not go with labels together; leave it out")
-    if request.tolerance not in (AUTO, None):
-        raise UsageError.about("tolerance", "does not go with labels together, which keep all triangles; leave it out")
     if request.method == "grey":
         raise UsageError.about("method", "is grey, and labels have no grey values; give plain or refine")
 
@@ -173,6 +173,17 @@ def _smooth_fields(
         threads=request.threads,
         progress=lambda share: clock.tell("smooth", 0.5 * share),
     )
+
+
+def simplify(
+    partition: VolumePartition, tolerance: float | str | None, volume: Volume, *, threads: int | None
+) -> VolumePartition:
+    """Simplify the walls of a partition within a tolerance, mm; None keeps all triangles."""
+    if tolerance is None or isinstance(tolerance, str):
+        return partition
+    cell = float(volume.cell_size.min())
+    scale = tuple((volume.cell_size / cell).tolist())
+    return simplify_partition(partition, tolerance / cell, scale=scale, threads=threads)
 
 
 def cut_surfaces(partition: VolumePartition, volume: Volume, pieces: Sequence[LabelPiece]) -> dict[str, Surface]:

@@ -1,0 +1,565 @@
+"""Edges collapsed in walls between labels, where more than two triangles may share an edge.
+
+Points have an order: inside a wall (0), on a line where walls meet (1), or where lines meet (2). A point is collapsed
+along an edge into one of its own order or a higher one; points of a line, along the line alone. An edge is collapsed
+only if the walls stay what they are to each other: both ends share no neighbours but those of the triangles at the
+edge, and no triangle twice (the link condition; Dey, Edelsbrunner, Guha and Nekhayev 1999).
+
+Triangles lie in slabs, one thread for each; those that reach into two slabs stay.
+"""
+# mypy: disable-error-code="no-untyped-def"
+# ruff: noqa: ANN001, ANN201, ANN202
+# Compiled lines are invisible to coverage tools.
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from infill.kernels.compiling import njit
+from infill.kernels.crossings import does_edge_pierce
+from infill.kernels.distances import squared_distance
+from infill.kernels.quadrics import best_place, normal_and_shape, solve_quadric, squared_length, value_of
+from infill.kernels.rows import copy_row
+
+NONE = -1
+WALL, LINE, FIXED = 0, 1, 2
+MOST_FACES = 64  # at a point
+MOST_AROUND = 16  # faces at a point after a collapse
+ATTEMPTS = 3  # neighbours that are tried for each point in a sweep
+SLENDER = 0.02  # shape, 1 for equal sides and 0 for a line: triangles stay better than this or than the worst before
+THIN = 0.005  # shape of a triangle whose own normal is unreliable
+TURNED = 0.2  # cosine of the angle by which a triangle may turn
+LEVEL = 0.985  # cosine of the angle, 10 degrees, up to which the triangles of a wall count as level
+LEVEL_SPACING = 8.0  # there, places at which the distance is measured are further apart
+NARROW = 1e-6  # of squared lengths: a ring whose faces cancel out has no side on which volume is gained
+MAX_HELD_POINTS = 1 << 14  # points on the faces around an edge: where there are more, it stays
+KEEP_SHARE = 0.25  # of a squared tolerance: a point within this of a triangle needs no nearer one
+MOST_SAMPLES = 32  # on an edge
+
+
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
+def _faces_of(v, triangles, first, after, faces):
+    """Write the triangles at a point, and forget those that are gone; return their number, -1 if there are too many."""
+    count, before, c = 0, NONE, first[v]
+    while c != NONE:
+        following = after[c]
+        if triangles[c // 3, 0] == NONE:
+            if before == NONE:
+                first[v] = following
+            else:
+                after[before] = following
+        else:
+            if count == len(faces):
+                return NONE
+            faces[count] = c // 3
+            count += 1
+            before = c
+        c = following
+    return count
+
+
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
+def _neighbours_of(v, triangles, pair, faces, count, ring, uses):
+    """Write the neighbours of a point, and how often each is used, negative on a line; return their number."""
+    size = 0
+    for n in range(count):
+        t = faces[n]
+        for k in range(3):
+            w = triangles[t, k]
+            if w == v:
+                continue
+            at = 0
+            while at < size and ring[at, 0] != w:
+                at += 1
+            if at == size:
+                ring[at, 0], ring[at, 1], uses[at] = w, pair[t], 1
+                size += 1
+            else:
+                uses[at] += 1
+                if ring[at, 1] != pair[t]:
+                    ring[at, 1] = NONE
+    for at in range(size):
+        if uses[at] != 2 or ring[at, 1] == NONE:
+            uses[at] = -uses[at]
+    return size
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def order_points(triangles, pair, first, after, order):
+    """Set the order of every point: 0 inside a wall, 1 on a line, 2 where lines meet or walls touch.
+
+    Parameters
+    ----------
+    triangles : (T, 3) int32
+    pair : (T,) int32
+        A number for the two labels of each triangle.
+    first, after : (P,) int32, (3 T,) int32
+        The corners at each point, as a chain.
+    order : (P,) int8
+    """
+    faces, ring, uses = np.empty(MOST_FACES, np.int32), np.empty((2 * MOST_FACES, 2), np.int32), np.empty(128, np.int32)
+    root = np.empty(2 * MOST_FACES, np.int32)
+    for v in range(len(first)):
+        count = _faces_of(v, triangles, first, after, faces)
+        order[v] = FIXED
+        if count <= 0:
+            continue
+        size = _neighbours_of(v, triangles, pair, faces, count, ring, uses)
+        lines = 0
+        for at in range(size):
+            root[at] = at
+            lines += uses[at] < 0
+        parts = size
+        for n in range(count):
+            a, b = NONE, NONE
+            for at in range(size):
+                for k in range(3):
+                    if triangles[faces[n], k] == ring[at, 0]:
+                        a, b = at, a
+            while root[a] != a:
+                a = root[a]
+            while root[b] != b:
+                b = root[b]
+            if a != b:
+                root[a] = b
+                parts -= 1
+        if parts == 1 and lines == 0:
+            order[v] = WALL
+        elif parts == 1 and lines == 2:
+            order[v] = LINE
+
+
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
+def _has(triangles, t, w):
+    """Return True if a triangle has a corner."""
+    return triangles[t, 0] == w or triangles[t, 1] == w or triangles[t, 2] == w
+
+
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
+def _is_link_whole(u, v, triangles, order, near_u, near_v, shared):
+    """Return True if the edge u-v may go: see the module. `near_u` are the faces, ring, uses and their numbers."""
+    _, ring_u, uses_u, count_u, size_u = near_u
+    faces_v, ring_v, uses_v, count_v, size_v = near_v
+    common = 0
+    for n in range(size_u):
+        w = ring_u[n, 0]
+        if w == v:
+            continue
+        for m in range(size_v):
+            if ring_v[m, 0] == w:
+                common += 1
+                if order[u] >= LINE and uses_u[n] < 0 and uses_v[m] < 0:
+                    return False
+    if common != shared:
+        return False
+    faces_u = near_u[0]
+    for m in range(count_v):
+        t = faces_v[m]
+        if _has(triangles, t, u):
+            continue
+        for n in range(count_u):
+            other, same = faces_u[n], 0
+            for k in range(3):
+                w = triangles[t, k]
+                same += w != v and _has(triangles, other, w)
+            if same == 2:
+                return False
+    return True
+
+
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
+def _side_place(flags, lower, upper, place):
+    """Move a place onto the sides of the box that are flagged, two bits an axis."""
+    for axis in range(3):
+        if flags >> (2 * axis) & 1:
+            place[axis] = lower[axis]
+        elif flags >> (2 * axis + 1) & 1:
+            place[axis] = upper[axis]
+
+
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
+def _place_of(u, v, points, order, flags, quadric, box, s, place):
+    """Set the place to which an edge u-v would collapse; return the quadric's value there, inf if it must not."""
+    low, high = flags[u] & flags[v], flags[u] | flags[v]
+    if order[v] > order[u] or order[v] == FIXED:
+        if high != flags[v]:
+            return math.inf
+        for k in range(11):
+            s[k] = quadric[u, k] + quadric[v, k]
+        copy_row(place, points[v])
+        return value_of(s, place[0], place[1], place[2])
+    if high not in (flags[u], flags[v]):
+        return math.inf
+    cost = best_place(points[u], points[v], quadric[u], quadric[v], s, place)
+    if high:
+        if low != high:
+            copy_row(place, points[u] if high == flags[u] else points[v])
+        _side_place(high, box[0], box[1], place)
+        cost = value_of(s, place[0], place[1], place[2])
+    return cost
+
+
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
+def _keep_volume(u, v, points, triangles, near_u, near_v, s, place):
+    """Move a place along the quadric's valley so that both sides of the wall keep their volume (Lindstrom, Turk)."""
+    origin = points[u]
+    gx, gy, gz, target = 0.0, 0.0, 0.0, 0.0
+    for side in range(2):
+        faces, count, centre = (near_u[0], near_u[3], u) if side == 0 else (near_v[0], near_v[3], v)
+        for n in range(count):
+            t = faces[n]
+            shared = _has(triangles, t, v if side == 0 else u)
+            if shared and side == 1:
+                continue
+            k = 0 if triangles[t, 0] == centre else 1 if triangles[t, 1] == centre else 2
+            a, b = points[triangles[t, (k + 1) % 3]], points[triangles[t, (k + 2) % 3]]
+            ax, ay, az = a[0] - origin[0], a[1] - origin[1], a[2] - origin[2]
+            bx, by, bz = b[0] - origin[0], b[1] - origin[1], b[2] - origin[2]
+            nx, ny, nz = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
+            o = points[centre]
+            target += (o[0] - origin[0]) * nx + (o[1] - origin[1]) * ny + (o[2] - origin[2]) * nz
+            if not shared:
+                gx, gy, gz = gx + nx, gy + ny, gz + nz
+    off = target - (gx * (place[0] - origin[0]) + gy * (place[1] - origin[1]) + gz * (place[2] - origin[2]))
+    dx, dy, dz, is_solved = solve_quadric(s, 0.0, 0.0, 0.0, gx, gy, gz)
+    if not is_solved:
+        return
+    rise, length = gx * dx + gy * dy + gz * dz, squared_length(points[u], points[v])
+    if not rise > 0 or gx * gx + gy * gy + gz * gz < NARROW * length * length:
+        return
+    by = off / rise
+    if by * by * (dx * dx + dy * dy + dz * dz) <= length:
+        place[0], place[1], place[2] = place[0] + by * dx, place[1] + by * dy, place[2] + by * dz
+
+
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
+def _propose_faces(u, v, points, triangles, near_u, near_v, place, moved, chosen):
+    """Write the faces that a collapse would leave, the place first; return their number, -1 if one turns or is thin."""
+    worst = 1.0
+    for side in range(2):
+        faces, count = (near_u[0], near_u[3]) if side == 0 else (near_v[0], near_v[3])
+        for n in range(count):
+            t = faces[n]
+            _, _, _, shape = normal_and_shape(points[triangles[t, 0]], points[triangles[t, 1]], points[triangles[t, 2]])
+            worst = min(worst, shape)
+    changed = 0
+    for side in range(2):
+        faces, count, centre, other = (near_u[0], near_u[3], u, v) if side == 0 else (near_v[0], near_v[3], v, u)
+        for n in range(count):
+            t = faces[n]
+            if _has(triangles, t, other):
+                continue
+            k = 0 if triangles[t, 0] == centre else 1 if triangles[t, 1] == centre else 2
+            a, b = points[triangles[t, (k + 1) % 3]], points[triangles[t, (k + 2) % 3]]
+            ox, oy, oz, shape = normal_and_shape(points[centre], a, b)
+            nx, ny, nz, new_shape = normal_and_shape(place, a, b)
+            if new_shape < min(SLENDER, worst):
+                return NONE
+            if shape >= THIN:
+                same = nx * ox + ny * oy + nz * oz
+                squares = (nx * nx + ny * ny + nz * nz) * (ox * ox + oy * oy + oz * oz)
+                if not same > 0 or same * same < TURNED**2 * squares:
+                    return NONE
+            copy_row(moved[changed, 0], place)
+            copy_row(moved[changed, 1], a)
+            copy_row(moved[changed, 2], b)
+            chosen[changed] = t
+            changed += 1
+    return changed
+
+
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
+def _is_clear(u, v, mesh, near_u, near_v, moved, changed, chosen, around, corners, bounds, normal, height):
+    """Return True if no face that a collapse would leave passes through a face at one of the neighbours.
+
+    `around`, `corners`, `bounds`, `normal` and `height` are work space.
+    """
+    points, triangles, _, first, after, _, _, _, _, _ = mesh
+    for m in range(changed):
+        for axis in range(3):
+            bounds[m, 0, axis] = min(moved[m, 0, axis], moved[m, 1, axis], moved[m, 2, axis])
+            bounds[m, 1, axis] = max(moved[m, 0, axis], moved[m, 1, axis], moved[m, 2, axis])
+    for side in range(2):
+        ring, size = (near_u[1], near_u[4]) if side == 0 else (near_v[1], near_v[4])
+        for at in range(size):
+            w = np.int64(ring[at, 0])
+            if w in (u, v):
+                continue
+            for n in range(_faces_of(w, triangles, first, after, around)):
+                t = around[n]
+                if _has(triangles, t, u) or _has(triangles, t, v):
+                    continue
+                for k in range(3):
+                    copy_row(corners[k], points[triangles[t, k]])
+                for m in range(changed):
+                    apart = False
+                    for axis in range(3):
+                        low, high = bounds[m, 0, axis], bounds[m, 1, axis]
+                        a, b, c = corners[0, axis], corners[1, axis], corners[2, axis]
+                        apart = apart or (a > high and b > high and c > high) or (a < low and b < low and c < low)
+                    if apart:
+                        continue
+                    shares = False
+                    for k in range(3):
+                        x = triangles[chosen[m], k]
+                        shares = shares or (x != u and x != v and _has(triangles, t, x))
+                    if shares:
+                        continue
+                    if does_edge_pierce(moved[m], corners, normal, height):
+                        return False
+                    if does_edge_pierce(corners, moved[m], normal, height):
+                        return False
+    return True
+
+
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
+def _reassign_held(u, triangles, pair, near_v, held, tolerance, moved, chosen, changed, goes, goes_to):
+    """Find for each held point of the faces at an edge the nearest face of its wall; return their number, or -1.
+
+    -1 stands for a point that would be too far from its wall, or too many points.
+    """
+    places, first_held, next_held = held[0], held[1], held[2]
+    gone = 0
+    for n in range(near_v[3]):
+        if _has(triangles, near_v[0][n], u):
+            chosen[changed + gone] = near_v[0][n]
+            gone += 1
+    count = 0
+    for face in range(changed + gone):
+        p, of = first_held[chosen[face]], pair[chosen[face]]
+        while p != NONE:
+            x, y, z = places[p, 0], places[p, 1], places[p, 2]
+            best, nearest = math.inf, NONE
+            if face < changed:
+                best, nearest = squared_distance(x, y, z, moved[face, 0], moved[face, 1], moved[face, 2]), face
+            for m in range(changed):
+                if best <= KEEP_SHARE * tolerance:
+                    break
+                if m != face and pair[chosen[m]] == of:
+                    squared = squared_distance(x, y, z, moved[m, 0], moved[m, 1], moved[m, 2])
+                    if squared < best:
+                        best, nearest = squared, m
+            if best > tolerance or count == len(goes):
+                return NONE
+            goes[count], goes_to[count] = p, nearest
+            count += 1
+            p = next_held[p]
+    return count
+
+
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
+def _is_near_star(x, y, z, p, of, held, tolerance):
+    """Return True if a place is near a given face of a wall at a held point."""
+    point, original, star_start, star, was_pair = held[3], held[4], held[5], held[6], held[7]
+    v = point[p]
+    for n in range(star_start[v], star_start[v + 1]):
+        t = star[n]
+        if was_pair[t] != of:
+            continue
+        if squared_distance(x, y, z, original[t, 0], original[t, 1], original[t, 2]) <= tolerance:
+            return True
+    return False
+
+
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
+def _near_point(x, y, z, last, of, held, tolerance, pair, chosen, goes, goes_to, taken):
+    """Return a held point with a face of the given wall near a place; -1 if there is none. `last` is tried first."""
+    if last != NONE and _is_near_star(x, y, z, last, of, held, tolerance):
+        return last
+    places = held[0]
+    best, nearest = math.inf, NONE
+    for n in range(taken):
+        if pair[chosen[goes_to[n]]] != of:
+            continue
+        p = goes[n]
+        squared = (places[p, 0] - x) ** 2 + (places[p, 1] - y) ** 2 + (places[p, 2] - z) ** 2
+        if squared < best:
+            best, nearest = squared, p
+    if nearest == NONE or best <= tolerance or _is_near_star(x, y, z, nearest, of, held, tolerance):
+        return nearest
+    for n in range(taken):
+        if pair[chosen[goes_to[n]]] == of and _is_near_star(x, y, z, goes[n], of, held, tolerance):
+            return goes[n]
+    return NONE
+
+
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
+def _are_faces_near(place, moved, changed, pair, chosen, held, tolerance, spacing, goes, goes_to, taken):
+    """Return True if a place, the edges from it and the middles of its faces are near the walls that were given."""
+    for m in range(changed):
+        of = pair[chosen[m]]
+        mx, my, mz, _ = normal_and_shape(moved[m, 0], moved[m, 1], moved[m, 2])
+        level, is_first = True, True
+        for n in range(changed):
+            if pair[chosen[n]] == of:
+                is_first = is_first and n >= m
+                nx, ny, nz, _ = normal_and_shape(moved[n, 0], moved[n, 1], moved[n, 2])
+                same = nx * mx + ny * my + nz * mz
+                squares = (nx * nx + ny * ny + nz * nz) * (mx * mx + my * my + mz * mz)
+                level = level and same > 0 and same * same >= LEVEL**2 * squares
+        a, b = moved[m, 1], moved[m, 2]
+        apart, last = spacing * LEVEL_SPACING if level else spacing, NONE
+        parts = max(2, min(MOST_SAMPLES, math.ceil(math.sqrt(squared_length(place, a)) / apart)))
+        for part in range(0 if is_first else 1, parts + 1):
+            share = part / parts
+            x = place[0] + share * (a[0] - place[0])
+            y = place[1] + share * (a[1] - place[1])
+            z = place[2] + share * (a[2] - place[2])
+            if part == parts:
+                x, y, z = (place[0] + a[0] + b[0]) / 3, (place[1] + a[1] + b[1]) / 3, (place[2] + a[2] + b[2]) / 3
+            last = _near_point(x, y, z, last, of, held, tolerance, pair, chosen, goes, goes_to, taken)
+            if last == NONE:
+                return False
+    return True
+
+
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
+def _choose_neighbour(u, mesh, near_u, bound, swept, failed, sweep, tried, s, place):
+    """Return the nearest neighbour into which a point may be collapsed, of those not tried; -1 if there is none."""
+    points, _, _, _, _, order, flags, _, quadric, box = mesh
+    _, ring, uses, _, size = near_u
+    best, nearest = math.inf, NONE
+    for n in range(size):
+        v = ring[n, 0]
+        if tried[n] or order[v] < order[u] or (order[u] == LINE and uses[n] > 0):
+            continue
+        if swept[v] == sweep:
+            failed[u] = NONE
+            continue
+        squared = squared_length(points[u], points[v])
+        if squared >= best:
+            continue
+        if _place_of(u, v, points, order, flags, quadric, box, s, place) > bound * s[10]:
+            tried[n] = True
+            continue
+        best, nearest = squared, n
+    return nearest
+
+
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
+def _is_in_slab(faces, count, triangles, slab, number):
+    """Return True if all corners of triangles lie in a slab."""
+    for n in range(count):
+        for k in range(3):
+            if slab[triangles[faces[n], k]] != number:
+                return False
+    return True
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def sweep_walls(
+    mesh, held, members, starts, bound, tolerance, spacing, into, swept, failed, sweep, removed, thread, threads
+):
+    """Collapse one edge for each point of each slab, and nowhere twice; count the points gone.
+
+    Parameters
+    ----------
+    mesh : tuple
+        points (P, 3) float64, triangles (T, 3) int32, pair (T,) int32, first (P,) int32, after (3 T,) int32, order
+        (P,) int8, flags (P,) int8 (the sides of the box on which a point lies), slab (P,) int32, quadric (P, 11)
+        float64, and the box (2, 3) float64. Changed in place: triangles that are gone have corners -1.
+    held : tuple
+        What must stay near: places (H, 3) float64, first_held (T,) int32, next_held (H,) int32, point (H,) int32,
+        original corners (T, 3, 3) float64, star_start (P + 1,) int32, star (3 T,) int32 and the pairs (T,) of the
+        original. Without places, nothing is held.
+    members, starts : (P,) int32, (slabs + 1,) int64
+        The points of each slab.
+    bound : float
+        Largest mean squared distance of a collapse from the planes it replaces.
+    tolerance, spacing : float
+        The square of the largest distance, and the distance between the places where it is measured.
+    into, swept, failed : (P,) int32
+        The point that each was collapsed into; the last sweeps that changed a point, and that found no way for it.
+    removed : (slabs,) int64
+    """
+    points, triangles, pair, first, after, order, flags, slab, quadric, box = mesh
+    s, place, sides = np.empty(11), np.empty(3), 2 * MOST_FACES
+    faces_u, faces_v = np.empty(MOST_FACES, np.int32), np.empty(MOST_FACES, np.int32)
+    ring_u, ring_v = np.empty((sides, 2), np.int32), np.empty((sides, 2), np.int32)
+    uses_u, uses_v = np.empty(sides, np.int32), np.empty(sides, np.int32)
+    tried, moved, chosen = np.empty(sides, np.bool_), np.empty((sides, 3, 3)), np.empty(2 * sides, np.int32)
+    goes, goes_to = np.empty(MAX_HELD_POINTS, np.int32), np.empty(MAX_HELD_POINTS, np.int32)
+    around, crossing_space = np.empty(MOST_FACES, np.int32), (
+        np.empty((3, 3)), np.empty((sides, 2, 3)), np.empty(3), np.empty(3)
+    )  # fmt: skip
+    for number in range(thread, len(starts) - 1, threads):
+        for member in range(starts[number], starts[number + 1]):
+            u = np.int64(members[member])
+            if into[u] != u or order[u] == FIXED or swept[u] == sweep or failed[u] > swept[u]:
+                continue
+            count_u = _faces_of(u, triangles, first, after, faces_u)
+            if count_u <= 0 or not _is_in_slab(faces_u, count_u, triangles, slab, number):
+                continue
+            size_u = _neighbours_of(u, triangles, pair, faces_u, count_u, ring_u, uses_u)
+            near_u = faces_u, ring_u, uses_u, count_u, size_u
+            tried[:size_u] = False
+            failed[u] = sweep
+            for _ in range(ATTEMPTS):
+                n = _choose_neighbour(u, mesh, near_u, bound, swept, failed, sweep, tried, s, place)
+                if n == NONE:
+                    break
+                tried[n] = True
+                v, shared = np.int64(ring_u[n, 0]), abs(uses_u[n])
+                count_v = _faces_of(v, triangles, first, after, faces_v)
+                if count_v <= 0 or not 3 <= count_u + count_v - 2 * shared <= MOST_AROUND:
+                    continue
+                if not _is_in_slab(faces_v, count_v, triangles, slab, number):
+                    failed[u] = NONE
+                    continue
+                size_v = _neighbours_of(v, triangles, pair, faces_v, count_v, ring_v, uses_v)
+                near_v = faces_v, ring_v, uses_v, count_v, size_v
+                if not _is_link_whole(u, v, triangles, order, near_u, near_v, shared):
+                    continue
+                _place_of(u, v, points, order, flags, quadric, box, s, place)
+                if order[u] == WALL and order[v] == WALL and flags[u] == 0 and flags[v] == 0:
+                    _keep_volume(u, v, points, triangles, near_u, near_v, s, place)
+                changed = _propose_faces(u, v, points, triangles, near_u, near_v, place, moved, chosen)
+                if changed == NONE:
+                    continue
+                taken = 0
+                if len(held[0]):
+                    taken = _reassign_held(
+                        u, triangles, pair, near_v, held, tolerance, moved, chosen, changed, goes, goes_to
+                    )
+                    if taken == NONE or not _are_faces_near(
+                        place, moved, changed, pair, chosen, held, tolerance, spacing, goes, goes_to, taken
+                    ):
+                        continue
+                    if not _is_clear(u, v, mesh, near_u, near_v, moved, changed, chosen, around, *crossing_space):
+                        continue
+                    first_held, next_held = held[1], held[2]
+                    for m in range(changed):
+                        first_held[chosen[m]] = NONE
+                    for m in range(taken):
+                        p, t = goes[m], chosen[goes_to[m]]
+                        next_held[p], first_held[t] = first_held[t], p
+                _collapse(u, v, triangles, first, after, faces_u, count_u)
+                copy_row(quadric[v], s)
+                copy_row(points[v], place)
+                flags[v] |= flags[u]
+                into[u] = v
+                removed[number] += 1
+                count_v = _faces_of(v, triangles, first, after, faces_v)
+                for m in range(count_v):
+                    for k in range(3):
+                        swept[triangles[faces_v[m], k]] = sweep
+                break
+
+
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
+def _collapse(u, v, triangles, first, after, faces_u, count_u):
+    """Give the triangles of point u to v; those with both are gone."""
+    for n in range(count_u):
+        t = faces_u[n]
+        if _has(triangles, t, v):
+            triangles[t, 0], triangles[t, 1], triangles[t, 2] = NONE, NONE, NONE
+        else:
+            for k in range(3):
+                if triangles[t, k] == u:
+                    triangles[t, k] = v
+    last = first[u]
+    while after[last] != NONE:
+        last = after[last]
+    after[last], first[v], first[u] = first[v], first[u], NONE

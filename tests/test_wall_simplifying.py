@@ -1,0 +1,201 @@
+"""Walls between labels with fewer triangles: near the given ones, whole, with every volume."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from infill import smooth_labels
+from infill.kernels import wall_collapsing as kernels
+from infill.meshes.distance import distances
+from infill.meshes.intersections import intersecting_pairs
+from infill.partition.simplifying import find_crossings, find_far, simplify_partition
+from infill.partition.volumes import VolumePartition
+from infill.partition.wall_mesh import WallMesh
+from infill.partition.walls import OUTSIDE, Walls
+from infill.smoothing import together
+from infill.surface import Surface
+
+CUBIC = (1.0, 1.0, 1.0)
+
+
+def make_cells(shape: tuple[int, ...], count: int, seed: int, scale: tuple[float, ...] = CUBIC) -> NDArray[np.uint16]:
+    """Number the cells of a grid by the nearest of some random points, from 1 on."""
+    rng = np.random.default_rng(seed)
+    places = (np.indices(shape).reshape(3, -1).T + 0.5) * scale
+    seeds = rng.uniform(0, np.multiply(shape, scale), (count, 3))
+    return (cKDTree(seeds).query(places)[1] + 1).reshape(shape).astype(np.uint16)
+
+
+def partition_of(labels: NDArray[Any], monkeypatch: pytest.MonkeyPatch, **options: Any) -> VolumePartition:
+    """Smooth labels together; return their walls with all triangles."""
+    kept: list[VolumePartition] = []
+
+    def keep(*arguments: Any, **keywords: Any) -> VolumePartition:
+        kept.append(original(*arguments, **keywords))
+        return kept[-1]
+
+    original = together.keep_volumes
+    with monkeypatch.context() as patched:
+        patched.setattr(together, "keep_volumes", keep)
+        smooth_labels(labels, together=True, tolerance=None, **options)
+    return kept[0]
+
+
+def key_of(walls: Walls) -> NDArray[np.int64]:
+    """Number the walls by the labels on both sides, whichever is before."""
+    low = np.where(walls.sides[:, 1] == OUTSIDE, walls.sides[:, 0], walls.sides.min(axis=1)).astype(np.int64)
+    high = np.where(walls.sides[:, 1] == OUTSIDE, 1 << 20, walls.sides.max(axis=1))
+    return low << 32 | high
+
+
+def wall_as_surface(walls: Walls, key: int, scale: tuple[float, ...]) -> Surface:
+    """Return one wall."""
+    return Surface(vertices=walls.points.astype(float) * scale, faces=walls.triangles[key_of(walls) == key])
+
+
+def spread_places(surface: Surface, count: int, rng: np.random.Generator) -> NDArray[np.float64]:
+    """Spread random places over triangles, as many for each area, and add their corners."""
+    corners = surface.vertices[surface.faces]
+    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    chosen = rng.choice(len(corners), count, p=area / area.sum())
+    places = np.einsum("ij,ijk->ik", rng.dirichlet((1, 1, 1), count), corners[chosen])
+    return np.concatenate([places, corners.reshape(-1, 3)])
+
+
+def label_faces(walls: Walls, label: int) -> NDArray[np.int64]:
+    """Return the triangles of a label, facing outwards."""
+    return np.concatenate(
+        [walls.triangles[walls.sides[:, 0] == label], walls.triangles[walls.sides[:, 1] == label][:, ::-1]]
+    )
+
+
+def euler_number(triangles: NDArray[np.integer]) -> int:
+    """Return the points less the edges plus the triangles."""
+    edges = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+    return len(np.unique(triangles)) - len(np.unique(edges, axis=0)) + len(triangles)
+
+
+def check_whole(given_walls: Walls, fewer: Walls) -> None:
+    """Check that every label is closed, a manifold, and of the same kind as before."""
+    for label in np.unique(given_walls.sides[given_walls.sides > 0]):
+        faces = label_faces(fewer, int(label))
+        edges = Counter(map(tuple, np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).tolist()))
+        assert max(edges.values()) == 1
+        assert all((b, a) in edges for a, b in edges)
+        assert euler_number(faces) == euler_number(label_faces(given_walls, int(label)))
+
+
+@settings(max_examples=6, deadline=None)
+@given(
+    seed=st.integers(0, 999),
+    count=st.integers(2, 9),
+    tolerance=st.sampled_from([0.05, 0.1, 0.3]),
+    tall=st.sampled_from([1.0, 3.0]),
+)
+def test_each_wall_stays_within_the_tolerance_of_itself_both_ways(
+    seed: int, count: int, tolerance: float, tall: float
+) -> None:
+    scale = (1.0, 1.0, tall)
+    labels = make_cells((22, 20, 18), count, seed, scale)
+    labels[labels == 2] = 0
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        partition = partition_of(labels, monkeypatch, spacing=scale)
+    simple = simplify_partition(partition, tolerance, scale=scale)
+    before, after = partition.walls, simple.walls
+    assert len(after.triangles) < 0.5 * len(before.triangles)
+    assert set(key_of(after).tolist()) == set(key_of(before).tolist())
+    rng = np.random.default_rng(seed)
+    for key in np.unique(key_of(before)).tolist():
+        one, other = (wall_as_surface(walls, key, scale) for walls in (before, after))
+        assert distances(spread_places(one, 2000, rng), other).max() <= tolerance
+        assert distances(spread_places(other, 2000, rng), one).max() <= tolerance
+    check_whole(before, after)
+    assert not len(intersecting_pairs(Surface(vertices=after.points * np.array(scale), faces=after.triangles)))
+    kept = before.volumes[1:] > 0
+    assert np.abs(after.volumes[1:][kept] / before.volumes[1:][kept] - 1).max() < 5e-5
+    assert after.volumes.sum() == pytest.approx(np.prod(np.multiply(labels.shape, scale)))
+
+
+def test_flat_walls_take_few_triangles_and_end_at_the_sides_of_the_box(monkeypatch: pytest.MonkeyPatch) -> None:
+    labels = np.ones((20, 20, 20), dtype=np.uint8)
+    labels[:, 10:] = 2
+    partition = partition_of(labels, monkeypatch)
+    simple = simplify_partition(partition, 0.1, scale=CUBIC)
+    assert len(partition.walls.triangles) > 3000
+    assert len(simple.walls.triangles) <= 2 + 4 * 5 + 2 + 24  # a rectangle and two boxes, hardly more
+    outside = simple.walls.triangles[simple.walls.sides[:, 1] == OUTSIDE]
+    corners = simple.walls.points[outside]
+    on_side = ((corners == 0) | (corners == 20)).all(axis=1).any(axis=1)
+    assert on_side.all()
+    assert sorted(np.unique(corners[..., 0]).tolist())[:: len(np.unique(corners[..., 0])) - 1] == [0, 20]
+
+
+def test_the_result_is_the_same_with_any_number_of_threads(monkeypatch: pytest.MonkeyPatch) -> None:
+    partition = partition_of(make_cells((70, 20, 20), 8, 3), monkeypatch)
+    one, two, three = (simplify_partition(partition, 0.1, scale=CUBIC, threads=threads) for threads in (1, 2, 3))
+    assert one.walls.points.tobytes() == two.walls.points.tobytes() == three.walls.points.tobytes()
+    assert one.walls.triangles.tobytes() == two.walls.triangles.tobytes() == three.walls.triangles.tobytes()
+
+
+def test_nothing_changes_its_input(monkeypatch: pytest.MonkeyPatch) -> None:
+    partition = partition_of(make_cells((16, 16, 16), 4, 0), monkeypatch)
+    walls = partition.walls
+    before = [part.tobytes() for part in (walls.points, walls.triangles, walls.sides, walls.volumes)]
+    simplify_partition(partition, 0.2, scale=CUBIC)
+    assert before == [part.tobytes() for part in (walls.points, walls.triangles, walls.sides, walls.volumes)]
+
+
+def test_the_order_of_points_is_that_of_the_specification(monkeypatch: pytest.MonkeyPatch) -> None:
+    partition = partition_of(make_cells((16, 16, 16), 9, 5), monkeypatch)
+    mesh = WallMesh.of(partition.walls, CUBIC, (16, 16, 16))
+    faces_at: dict[int, list[int]] = {}
+    for number, triangle in enumerate(mesh.triangles.tolist()):
+        for corner in triangle:
+            faces_at.setdefault(corner, []).append(number)
+    for point in range(0, len(mesh.points), 7):
+        uses: dict[int, list[int]] = {}
+        for number in faces_at[point]:
+            for corner in mesh.triangles[number].tolist():
+                if corner != point:
+                    uses.setdefault(corner, []).append(int(mesh.pair[number]))
+        lines = [corner for corner, pairs in uses.items() if len(pairs) != 2 or len(set(pairs)) > 1]
+        assert mesh.order[point] == {0: kernels.WALL, 2: kernels.LINE}.get(len(lines), kernels.FIXED)
+
+
+def test_a_wall_that_is_moved_is_found_and_its_points_can_be_fixed(monkeypatch: pytest.MonkeyPatch) -> None:
+    partition = partition_of(make_cells((20, 20, 20), 4, 1), monkeypatch)
+    whole = WallMesh.of(partition.walls, CUBIC, (20, 20, 20))
+    fewer = whole.collapsed(0.006**2, None, 1).collapsed(0.08**2, 0.08, 1)
+    assert not len(find_far(whole, fewer, 0.1, CUBIC, 1))
+    inner = np.flatnonzero((fewer.order == kernels.WALL) & (fewer.flags == 0))
+    points = fewer.points.copy()
+    points[inner[0]] += 0.5
+    moved = replace(fewer, points=points)
+    far = find_far(whole, moved, 0.1, CUBIC, 1)
+    assert len(far)
+    assert np.linalg.norm(far - points[inner[0]], axis=1).min() < 1.0
+    kept = whole.fixed_near(far, 1.5).collapsed(0.08**2, 0.08, 1)
+    assert not len(find_far(whole, kept, 0.1, CUBIC, 1))
+    near = np.linalg.norm(whole.points - points[inner[0]], axis=1) < 1.0
+    held = set(map(tuple, kept.points.tolist()))
+    assert near.any()
+    assert all(place in held for place in map(tuple, whole.points[near].tolist()))
+
+
+def test_crossing_triangles_are_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    partition = partition_of(make_cells((16, 16, 16), 4, 1), monkeypatch)
+    mesh = WallMesh.of(partition.walls, CUBIC, (16, 16, 16))
+    assert not len(find_crossings(mesh, 1))
+    points = mesh.points.copy()
+    inner = np.flatnonzero((mesh.order == kernels.WALL) & (mesh.flags == 0))
+    points[inner[0]] += [6.0, 5.0, 4.0]
+    assert len(find_crossings(replace(mesh, points=points), 1))
