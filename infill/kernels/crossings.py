@@ -25,7 +25,7 @@ def _turn(p, q, x, y, z, normal):
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _does_edge_pierce(triangle, target, normal, side):
+def does_edge_pierce(triangle, target, normal, side):
     """Return True if an edge of a triangle (3, 3) crosses the interior of another; `normal`, `side` are work space."""
     a, b, c = target[0], target[1], target[2]
     ux, uy, uz = b[0] - a[0], b[1] - a[1], b[2] - a[2]
@@ -57,7 +57,7 @@ def _does_edge_pierce(triangle, target, normal, side):
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _share_vertex(faces, f, g):
+def share_vertex(faces, f, g):
     """Return True if two faces share a vertex."""
     shared = False
     for k in range(3):
@@ -113,11 +113,11 @@ def crossing_pairs(corners, faces, low, high, leaf, pairs, thread, threads):
                 continue
             begin = (box - first_leaf) * leaf
             for g in range(max(begin, f + 1), min(begin + leaf, len(corners))):
-                if _is_outside(corners[g], lower, upper) or _share_vertex(faces, f, g):
+                if _is_outside(corners[g], lower, upper) or share_vertex(faces, f, g):
                     continue
                 if not (
-                    _does_edge_pierce(corners[f], corners[g], normal, side)
-                    or _does_edge_pierce(corners[g], corners[f], normal, side)
+                    does_edge_pierce(corners[f], corners[g], normal, side)
+                    or does_edge_pierce(corners[g], corners[f], normal, side)
                 ):
                     continue
                 if count < pairs.shape[1]:
