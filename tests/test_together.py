@@ -20,7 +20,9 @@ from infill.kernels.partition import code_of_four, code_of_three, weigh_corners
 from infill.kernels.sparse import BRICK
 from infill.meshes.intersections import intersecting_pairs
 from infill.meshes.solids import FINE, manifold_status
+from infill.partition.cutting import cut_labels
 from infill.partition.fields import PartitionFields, smooth_fields
+from infill.partition.junctions import find_crossings
 from infill.partition.tetrahedra import STEPS, TETRAHEDRA, make_tables, pattern_code
 from infill.partition.walls import OUTSIDE, Walls, place_walls, trace_walls
 from infill.phasefield.sparse import smooth_bricks
@@ -306,3 +308,51 @@ def test_the_command_writes_a_file_for_each_label(tmp_path: Path) -> None:
     assert len(re.findall(r"[+-]0\.00\d\d% of the data, 1 component", result.stderr)) == 3
     assert sorted(path.name for path in tmp_path.glob("*.stl")) == ["label_1.stl", "label_2.stl", "label_3.stl"]
     refused(run("smooth", tmp_path / "labels.npy", "--together", "-o", tmp_path / "a.stl"), "--together goes with")
+
+
+# --- parts of it -------------------------------------------------------------------------------------------
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.integers(0, 10**6), st.floats(0.0, 0.4))
+def test_crossings_are_those_of_the_search_in_a_tree(seed: int, shift: float) -> None:
+    """Whatever points are moved, and with cells that are not cubes."""
+    walls, _ = walls_of(voronoi((14, 12, 16), 8, seed % 50), 3)
+    rng = np.random.default_rng(seed)
+    points = np.maximum(walls.points + shift * rng.standard_normal(walls.points.shape), 0).astype(np.float32)
+    chosen = np.flatnonzero(rng.random(len(walls.triangles)) < 0.8)
+    scale = (1.0, 1.0, 2.5)
+    surface = Surface(vertices=points * np.array(scale), faces=walls.triangles[chosen])
+    expected = chosen[intersecting_pairs(surface)]
+    assert np.array_equal(find_crossings(points, walls.triangles, chosen, scale), np.unique(expected, axis=0))
+
+
+def test_labels_cut_out_of_the_complex_are_their_triangles() -> None:
+    walls, _ = walls_of(voronoi((20, 18, 16), 7))
+    cuts = list(cut_labels(walls, 8))
+    assert [cut.label for cut in cuts] == list(range(1, 8))
+    for cut in cuts:
+        behind, before = (walls.triangles[walls.sides[:, side] == cut.label] for side in range(2))
+        assert np.array_equal(cut.points[cut.faces], np.concatenate([behind, before[:, ::-1]]))
+        assert np.array_equal(cut.points, np.unique(cut.points[cut.faces]))
+
+
+def test_volumes_by_shares_of_cells_are_about_those_within_walls() -> None:
+    """They begin the search for offsets, and change with these as they say."""
+    fields = fields_of(voronoi((48, 48, 48), 6))
+    ramp, offsets = 2 * fields.slope(), np.zeros(fields.count)
+    volumes, changes = fields.shares(offsets, ramp)
+    assert volumes.sum() == pytest.approx(48**3, rel=1e-9)
+    walls = place_walls(trace_walls(fields.winners(offsets)), fields, offsets)
+    np.testing.assert_allclose(volumes[1:], walls.volumes[1:], rtol=0.01)
+    offsets[2] = 0.05
+    gain = fields.shares(offsets, ramp)[0] - volumes
+    assert gain[2] == pytest.approx(0.05 * changes[[2]].sum(), rel=0.1)
+    np.testing.assert_allclose(
+        -gain[[1, 3, 4, 5, 6]], 0.05 * changes[[2]].toarray()[0][[1, 3, 4, 5, 6]], atol=0.1 * gain[2]
+    )
+
+
+def test_bricks_that_hold_one_value_are_not_kept() -> None:
+    fields = fields_of(voronoi((60, 60, 60), 3))
+    assert not ((fields.values == fields.values[:, :1]).all(axis=1) & (np.abs(fields.values[:, 0]) == 1)).any()

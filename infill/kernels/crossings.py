@@ -57,7 +57,7 @@ def does_edge_pierce(triangle, target, normal, side):
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _share_vertex(faces, f, g):
+def share_vertex(faces, f, g):
     """Return True if two faces share a vertex."""
     shared = False
     for k in range(3):
@@ -113,7 +113,7 @@ def crossing_pairs(corners, faces, low, high, leaf, pairs, thread, threads):
                 continue
             begin = (box - first_leaf) * leaf
             for g in range(max(begin, f + 1), min(begin + leaf, len(corners))):
-                if _is_outside(corners[g], lower, upper) or _share_vertex(faces, f, g):
+                if _is_outside(corners[g], lower, upper) or share_vertex(faces, f, g):
                     continue
                 if not (
                     does_edge_pierce(corners[f], corners[g], normal, side)

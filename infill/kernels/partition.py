@@ -18,10 +18,12 @@ import numpy as np
 
 from infill.kernels.compiling import njit
 from infill.kernels.lanes import count_ones
+from infill.kernels.rows import copy_row
 from infill.kernels.sparse import B0, B1, B2
 from infill.kernels.winners import INSIDE
 
 NONE = -1  # no label: beyond the lattice
+ABSENT = -2  # slot of a label that is void throughout a brick
 LEAST_SHARE = 1e-3  # of an edge: points lie no nearer to its ends
 LEAST_WEIGHT = 0.02  # of a corner of a face or a tetrahedron in a point inside it
 
@@ -53,26 +55,87 @@ def fill_corners(winners, i, j, k, steps, corner):
     return differs
 
 
+@njit(nogil=True, cache=True)
+def fill_row(winners, i, j, row):
+    """Write the labels of a row of the lattice and one NONE after it; NONE alone if it lies beyond the lattice."""
+    n0, n1, n2 = winners.shape
+    if i > n0 + 1 or j > n1 + 1:
+        for k in range(len(row)):
+            row[k] = NONE
+        return
+    source = winners[min(max(i, 1), n0) - 1, min(max(j, 1), n1) - 1]
+    row[0] = source[0]
+    for k in range(n2):
+        row[k + 1] = source[k]
+    row[n2 + 1], row[n2 + 2] = source[n2 - 1], NONE
+
+
+@njit(nogil=True, cache=True)
+def mark_bases(rows, on_side, marks):
+    """Mark the cubes of a row that may own points: where corners differ, or that lie on a side of the box."""
+    row_0, row_1, row_2, row_3 = rows[0], rows[1], rows[2], rows[3]
+    count = len(marks)
+    for k in range(count if not on_side else 0):
+        label = row_0[k]
+        marks[k] = (
+            (row_1[k] != label)
+            | (row_2[k] != label)
+            | (row_3[k] != label)
+            | (row_0[k + 1] != label)
+            | (row_1[k + 1] != label)
+            | (row_2[k + 1] != label)
+            | (row_3[k + 1] != label)
+        )
+    for k in range(count if on_side else 0):
+        marks[k] = 1
+    marks[0] = marks[count - 1] = 1
+
+
+@njit(nogil=True, cache=True)
+def mark_next_row(winners, i, j, rows, marks):
+    """Write the four rows of the cubes of a row of the lattice, from those of the row before; mark possible bases."""
+    if j == 0:
+        fill_row(winners, i, j, rows[0])
+        fill_row(winners, i + 1, j, rows[1])
+    else:
+        copy_row(rows[0], rows[2])
+        copy_row(rows[1], rows[3])
+    fill_row(winners, i, j + 1, rows[2])
+    fill_row(winners, i + 1, j + 1, rows[3])
+    mark_bases(rows, is_side(winners, i, j, 1), marks)
+
+
 @njit(inline="always", cache=True)
-def owned_points(winners, i, j, k, steps, faces, tetrahedra, slots, corner):
-    """Write the labels of the corners of a cube; return the points that its base owns, one bit for each."""
-    differs = fill_corners(winners, i, j, k, steps, corner)
-    label_of_base = corner[0]
-    mask = 1 if label_of_base != 0 and is_side(winners, i, j, k) else 0
-    if not differs:
-        return mask
+def owned_points(rows, k, on_side, faces, tetrahedra, slots, corner):
+    """Write the labels of the corners of a cube; return the points that its base owns, one bit for each.
+
+    Parameters
+    ----------
+    rows : (4, m2 + 1) int32
+        Of the lattice: step d from the base leads to `rows[d & 3, k + (d >> 2)]`.
+    """
+    label = np.int64(rows[0, k])
+    corner[0] = label
+    rival, several = label, False
+    mask = 1 if label != 0 and on_side else 0
     for d in range(1, 8):
-        if corner[d] != NONE and corner[d] != label_of_base:
+        at = np.int64(rows[d & 3, k + (d >> 2)])
+        corner[d] = at
+        if at != NONE and at != label:
             mask |= 1 << d
+            several |= rival != label and at != rival
+            rival = at
+    if not several:
+        return mask
     for f in range(len(faces)):
         b, c = corner[faces[f, 0]], corner[faces[f, 1]]
-        if c != NONE and b != label_of_base and c != label_of_base and b != c:
+        if c != NONE and b != label and c != label and b != c:
             mask |= 1 << (slots[0] + f)
     end = corner[7]
-    if end != NONE and end != label_of_base:
+    if end != NONE and end != label:
         for t in range(len(tetrahedra)):
             b, c = corner[tetrahedra[t, 0]], corner[tetrahedra[t, 1]]
-            if b != label_of_base and c != label_of_base and b != c and b != end and c != end:
+            if b != label and c != label and b != c and b != end and c != end:
                 mask |= 1 << (slots[1] + t)
     return mask
 
@@ -96,32 +159,39 @@ def code_of_three(a, b, c):
 
 
 @njit(nogil=True, cache=True)
-def count_rows(winners, steps, faces, tetrahedra, slots, counts, flat_counts, flat_table, sizes, thread, threads):
+def count_rows(winners, faces, tetrahedra, slots, counts, flat_counts, flat_table, sizes, thread, threads):
     """Count the bases, points and triangles of every row of the lattice: sizes (m0, m1, 3) int64."""
     m0, m1, m2 = winners.shape[0] + 2, winners.shape[1] + 2, winners.shape[2] + 2
     corner = np.empty(8, dtype=np.int64)
+    rows, marks = np.empty((4, m2 + 1), dtype=np.int32), np.empty(m2, dtype=np.uint8)
     for i in range(thread, m0, threads):
         for j in range(m1):
+            mark_next_row(winners, i, j, rows, marks)
             bases = points = triangles = 0
             for k in range(m2):
-                mask = owned_points(winners, i, j, k, steps, faces, tetrahedra, slots, corner)
+                if not marks[k]:
+                    continue
+                on_side = is_side(winners, i, j, k)
+                mask = owned_points(rows, k, on_side, faces, tetrahedra, slots, corner)
                 if mask:
                     bases += 1
                     points += count_ones(mask)
                     triangles += count_triangles(
-                        corner, i, j, k, (m0, m1, m2), faces, tetrahedra, counts, flat_counts, flat_table
+                        corner, i, j, k, (m0, m1, m2), on_side, faces, tetrahedra, counts, flat_counts, flat_table
                     )
             sizes[i, j, 0], sizes[i, j, 1], sizes[i, j, 2] = bases, points, triangles
 
 
 @njit(inline="always", cache=True)
-def count_triangles(corner, i, j, k, shape, faces, tetrahedra, counts, flat_counts, flat_table):
+def count_triangles(corner, i, j, k, shape, on_side, faces, tetrahedra, counts, flat_counts, flat_table):
     """Return the number of triangles of a cube, and of the faces on the sides of the box that a base owns."""
     triangles = 0
     if corner[7] != NONE:
         for t in range(len(tetrahedra)):
             code = code_of_four(corner[0], corner[tetrahedra[t, 0]], corner[tetrahedra[t, 1]], corner[7])
             triangles += counts[t, code]
+    if not on_side:
+        return triangles
     for f in range(len(faces)):
         if corner[faces[f, 1]] == NONE or faces[f, 1] == 7:
             continue
@@ -143,7 +213,7 @@ def side_of_face(step, i, j, k, shape):
 
 
 @njit(nogil=True, cache=True)
-def fill_rows(winners, steps, faces, tetrahedra, slots, row_starts, bases, masks, starts, thread, threads):
+def fill_rows(winners, faces, tetrahedra, slots, row_starts, bases, masks, starts, thread, threads):
     """Write the bases of every row, their points as bits, and the number of the first of these.
 
     Parameters
@@ -153,11 +223,15 @@ def fill_rows(winners, steps, faces, tetrahedra, slots, row_starts, bases, masks
     """
     m0, m1, m2 = winners.shape[0] + 2, winners.shape[1] + 2, winners.shape[2] + 2
     corner = np.empty(8, dtype=np.int64)
+    rows, marks = np.empty((4, m2 + 1), dtype=np.int32), np.empty(m2, dtype=np.uint8)
     for i in range(thread, m0, threads):
         for j in range(m1):
+            mark_next_row(winners, i, j, rows, marks)
             at, point = row_starts[i, j, 0], row_starts[i, j, 1]
             for k in range(m2):
-                mask = owned_points(winners, i, j, k, steps, faces, tetrahedra, slots, corner)
+                if not marks[k]:
+                    continue
+                mask = owned_points(rows, k, is_side(winners, i, j, k), faces, tetrahedra, slots, corner)
                 if mask:
                     bases[at], masks[at], starts[at] = k, mask, point
                     at += 1
@@ -165,20 +239,35 @@ def fill_rows(winners, steps, faces, tetrahedra, slots, row_starts, bases, masks
 
 
 @njit(inline="always", cache=True)
+def nearest_cell(i, count):
+    """Return the point of the lattice along an axis that has a cell, 1 to `count`, nearest to another."""
+    return min(max(i, 1), count)
+
+
+@njit(inline="always", cache=True)
+def find_slot(label, begin, end, labels, slots):
+    """Return the slot of a label among the entries of a brick, `ABSENT` if it is not there."""
+    for entry in range(begin, end):
+        if labels[entry] == label:
+            return np.int64(slots[entry])
+    return np.int64(ABSENT)
+
+
+@njit(inline="always", cache=True)
+def value_in_brick(slot, cell, values):
+    """Return the value of a cell of a brick."""
+    if slot >= 0:
+        return values[slot, cell]
+    return np.float32(1.0) if slot == INSIDE else np.float32(-1.0)
+
+
+@njit(inline="always", cache=True)
 def value_of(label, i, j, k, shape, entries, labels, slots, values, offsets):
     """Return the value plus offset of a label at a point of the lattice."""
-    i, j, k = min(max(i, 1), shape[0]), min(max(j, 1), shape[1]), min(max(k, 1), shape[2])
+    i, j, k = nearest_cell(i, shape[0]), nearest_cell(j, shape[1]), nearest_cell(k, shape[2])
     p, q, r = i // B0, j // B1, k // B2
-    value = np.float32(-1.0)
-    for entry in range(entries[p, q, r, 0], entries[p, q, r, 1]):
-        if labels[entry] == label:
-            slot = slots[entry]
-            if slot == INSIDE:
-                value = np.float32(1.0)
-            else:
-                value = values[slot, ((i - p * B0) * B1 + j - q * B1) * B2 + k - r * B2]
-            break
-    return value + offsets[label]
+    slot = find_slot(label, entries[p, q, r, 0], entries[p, q, r, 1], labels, slots)
+    return value_in_brick(slot, ((i - p * B0) * B1 + j - q * B1) * B2 + k - r * B2, values) + offsets[label]
 
 
 @njit(inline="always", cache=True)
@@ -200,42 +289,81 @@ def place_points(
     matrix = np.empty((4, 4), dtype=np.float64)
     for i in range(thread, m0, threads):
         for j in range(m1):
+            # Along both axes across, the points of the cubes of a row, and whether they lie in the same bricks.
+            i0, i1 = nearest_cell(i, shape[0]), nearest_cell(i + 1, shape[0])
+            j0, j1 = nearest_cell(j, shape[1]), nearest_cell(j + 1, shape[1])
+            p, q = i0 // B0, j0 // B1
+            is_row_in_brick = i1 // B0 == p and j1 // B1 == q
+            step_i, step_j = (i1 - i0) * B1 * B2, (j1 - j0) * B2
             for at in range(row_starts[i, j, 0], row_starts[i, j, 3]):
-                k, mask, point = bases[at], masks[at], starts[at]
+                k, mask, point = np.int64(bases[at]), np.int64(masks[at]), starts[at]
                 fill_corners(winners, i, j, k, steps, corner)
+                k0, k1 = nearest_cell(k, shape[2]), nearest_cell(k + 1, shape[2])
+                r = k0 // B2
+                in_brick = is_row_in_brick and k1 // B2 == r
+                label, rival = corner[0], np.int64(NONE)
+                slot_of_base = slot_of_rival = begin = end = first = np.int64(0)
+                if in_brick:
+                    begin, end = entries[p, q, r, 0], entries[p, q, r, 1]
+                    slot_of_base = find_slot(label, begin, end, labels, slots)
+                    first = ((i0 - p * B0) * B1 + j0 - q * B1) * B2 + k0 - r * B2
                 for slot in range(slots_at[1] + len(tetrahedra)):
                     if not (mask >> slot) & 1:
                         continue
-                    chain[0] = 0
                     if slot == 0:
                         count = 1
-                        weight[0] = 1.0
+                        chain[0], weight[0] = 0, 1.0
                     elif slot < slots_at[0]:
-                        count, chain[1] = 2, slot
+                        count = 2
+                        chain[0], chain[1] = 0, slot
                     elif slot < slots_at[1]:
                         count = 3
+                        chain[0] = 0
                         chain[1], chain[2] = faces[slot - slots_at[0], 0], faces[slot - slots_at[0], 1]
                     else:
                         count = 4
                         t = slot - slots_at[1]
-                        chain[1], chain[2], chain[3] = tetrahedra[t, 0], tetrahedra[t, 1], 7
-                    if count > 1:
+                        chain[0], chain[1], chain[2], chain[3] = 0, tetrahedra[t, 0], tetrahedra[t, 1], 7
+                    if count == 2 and in_brick:
+                        # The usual case: both labels are looked up once for all points between them.
+                        if corner[slot] != rival:
+                            rival = corner[slot]
+                            slot_of_rival = find_slot(rival, begin, end, labels, slots)
+                        cell = first + steps[slot, 0] * step_i + steps[slot, 1] * step_j + steps[slot, 2] * (k1 - k0)
+                        matrix[0, 0] = value_in_brick(slot_of_base, first, values) + offsets[label]
+                        matrix[1, 0] = value_in_brick(slot_of_rival, first, values) + offsets[rival]
+                        matrix[0, 1] = value_in_brick(slot_of_base, cell, values) + offsets[label]
+                        matrix[1, 1] = value_in_brick(slot_of_rival, cell, values) + offsets[rival]
+                        weigh_ends(matrix, weight)
+                    elif count > 1:
                         for corner_at in range(count):
                             d = chain[corner_at]
                             ci, cj, ck = i + steps[d, 0], j + steps[d, 1], k + steps[d, 2]
-                            for rival in range(count):
-                                matrix[rival, corner_at] = value_of(
-                                    corner[chain[rival]], ci, cj, ck, shape, entries, labels, slots, values, offsets
+                            for other in range(count):
+                                matrix[other, corner_at] = value_of(
+                                    corner[chain[other]], ci, cj, ck, shape, entries, labels, slots, values, offsets
                                 )
                         weigh_corners(matrix, count, weight)
                     for axis in range(3):
-                        points[point, axis] = 0.0
-                    for corner_at in range(count):
-                        d, share = chain[corner_at], weight[corner_at]
-                        points[point, 0] += share * axis_place(i + steps[d, 0], shape[0])
-                        points[point, 1] += share * axis_place(j + steps[d, 1], shape[1])
-                        points[point, 2] += share * axis_place(k + steps[d, 2], shape[2])
+                        at_base = (i, j, k)[axis]
+                        total = 0.0
+                        low = high = axis_place(at_base, shape[axis])
+                        for corner_at in range(count):
+                            place = axis_place(at_base + steps[chain[corner_at], axis], shape[axis])
+                            total += weight[corner_at] * place
+                            low, high = min(low, place), max(high, place)
+                        # Rounding must not move a point off the side of the box.
+                        points[point, axis] = min(max(total, low), high)
                     point += 1
+
+
+@njit(inline="always", cache=True)
+def weigh_ends(matrix, weight):
+    """Write the weights of the ends of an edge: see `weigh_corners`."""
+    gain_at_start, gain_at_end = matrix[0, 0] - matrix[1, 0], matrix[1, 1] - matrix[0, 1]
+    share = 0.5 if gain_at_start + gain_at_end <= 0.0 else gain_at_start / (gain_at_start + gain_at_end)
+    share = min(max(share, LEAST_SHARE), 1.0 - LEAST_SHARE)
+    weight[0], weight[1] = 1.0 - share, share
 
 
 @njit(cache=True)
@@ -252,10 +380,7 @@ def weigh_corners(matrix, count, weight):
         Written; at least `LEAST_SHARE` or `LEAST_WEIGHT` each, and 1 together.
     """
     if count == 2:
-        gain_at_start, gain_at_end = matrix[0, 0] - matrix[1, 0], matrix[1, 1] - matrix[0, 1]
-        share = 0.5 if gain_at_start + gain_at_end <= 0.0 else gain_at_start / (gain_at_start + gain_at_end)
-        share = min(max(share, LEAST_SHARE), 1.0 - LEAST_SHARE)
-        weight[0], weight[1] = 1.0 - share, share
+        weigh_ends(matrix, weight)
         return
     # Solve sum_c w_c (row_r - row_0)[c] = 0 for r > 0, sum w = 1, by elimination with pivots.
     system = np.zeros((4, 5), dtype=np.float64)
@@ -317,10 +442,9 @@ def write_triangles(
             for row in range(4):
                 a, b = min(i + (row & 1), m0 - 1), min(j + (row >> 1), m1 - 1)
                 cursor[row], ends[row] = row_starts[a, b, 0], row_starts[a, b, 3]
-            for k in range(m2):
+            for base in range(row_starts[i, j, 0], row_starts[i, j, 3]):
+                k = np.int64(bases[base])
                 differs = fill_corners(winners, i, j, k, steps, corner)
-                if not differs and not (is_side(winners, i, j, k) and corner[0] != 0):
-                    continue
                 for row in range(4):
                     while cursor[row] < ends[row] and bases[cursor[row]] < k:
                         cursor[row] += 1
@@ -340,6 +464,8 @@ def write_triangles(
                                 )
                             sides[write, 0], sides[write, 1] = four[table[t, code, n, 3]], four[table[t, code, n, 4]]
                             write += 1
+                if not is_side(winners, i, j, k):
+                    continue
                 for f in range(len(faces)):
                     if corner[faces[f, 1]] == NONE or faces[f, 1] == 7:
                         continue

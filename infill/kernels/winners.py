@@ -89,3 +89,74 @@ def count_margins(entries, labels, slots, values, given, bins, thread, threads):
                                     rival = max(rival, value)
                             place = np.int64((label_value - rival + 2.0) / 4.0 * bins.shape[2])
                             bins[thread, own_label, min(max(place, 0), largest)] += 1
+
+
+@njit(nogil=True, cache=True)
+def share_cells(entries, labels, slots, values, offsets, given, ramp, stride, shares, pairs, thread, threads):
+    """Share every cell between the two labels with the highest values; return how many cells both have a part of.
+
+    A cell is the winner's from a lead of `ramp` on, and half its own without a lead: summed along a wall, shares are
+    the volume behind it, and they change without jumps.
+
+    Parameters
+    ----------
+    entries, labels, slots, values, offsets, given
+        As for `choose_winners`.
+    ramp : float
+    stride : int
+        Of the shared cells, every `stride`-th is a sample.
+    shares : (threads, labels) float64
+        Added to.
+    pairs : (threads, K) uint32
+        The two labels of samples, winner first: the first has the higher 16 bits.
+    """
+    n0, n1, n2 = given.shape
+    shared = 0
+    for p in range(thread, entries.shape[0], threads):
+        for q in range(entries.shape[1]):
+            for r in range(entries.shape[2]):
+                begin, end = entries[p, q, r, 0], entries[p, q, r, 1]
+                i0, i1 = max(p * B0 - 1, 0), min(p * B0 + B0 - 1, n0)
+                j0, j1 = max(q * B1 - 1, 0), min(q * B1 + B1 - 1, n1)
+                k0, k1 = max(r * B2 - 1, 0), min(r * B2 + B2 - 1, n2)
+                if end - begin == 1:
+                    shares[thread, labels[begin]] += max(i1 - i0, 0) * max(j1 - j0, 0) * max(k1 - k0, 0)
+                    continue
+                for i in range(i0, i1):
+                    for j in range(j0, j1):
+                        for k in range(k0, k1):
+                            cell = ((i + 1 - p * B0) * B1 + j + 1 - q * B1) * B2 + k + 1 - r * B2
+                            best = second = np.int64(given[i, j, k])
+                            best_value = second_value = np.float32(-1e30)
+                            for entry in range(begin, end):
+                                label, slot = np.int64(labels[entry]), slots[entry]
+                                value = np.float32(1.0) if slot == INSIDE else values[slot, cell]
+                                value += offsets[label]
+                                if value > best_value:
+                                    second, second_value = best, best_value
+                                    best, best_value = label, value
+                                elif value > second_value:
+                                    second, second_value = label, value
+                            lead = best_value - second_value
+                            if lead >= ramp:
+                                shares[thread, best] += 1.0
+                                continue
+                            share = 0.5 + 0.5 * lead / ramp
+                            shares[thread, best] += share
+                            shares[thread, second] += 1.0 - share
+                            if shared % stride == 0 and shared // stride < pairs.shape[1]:
+                                pairs[thread, shared // stride] = (np.uint32(best) << 16) | np.uint32(second)
+                            shared += 1
+    return shared
+
+
+@njit(nogil=True, cache=True)
+def find_uniform(bricks, uniform):
+    """Write 1 or -1 for each brick (n, CELLS) that holds that value throughout, else 0: uniform (n,) int8."""
+    for n in range(len(bricks)):
+        first = bricks[n, 0]
+        uniform[n] = np.int8(first) if abs(first) == 1 else 0
+        for cell in range(bricks.shape[1]):
+            if bricks[n, cell] != first:
+                uniform[n] = 0
+                break

@@ -11,84 +11,148 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.kernels import junctions as line_kernels
 from infill.kernels import partition as kernels
-from infill.meshes.intersections import intersecting_pairs
+from infill.kernels.threads import in_threads, thread_count
 from infill.partition.tetrahedra import FACE_SLOT
-from infill.partition.walls import WallGraph, Walls
-from infill.surface import Surface
+from infill.partition.walls import Shifts, WallGraph, Walls
 
 ROUNDS = 10  # of moving towards the middle of neighbours
 SHARE = 0.5  # of the way, in each
 RINGS = 2  # of points beside a line that are moved with it
 TAKEN_BACK_ROUNDS = 5  # of taking back moves, each with a ring of points more
+ROOM = 1 << 10  # pairs of each thread, at first
 
 
-def smooth_junctions(graph: WallGraph, walls: Walls) -> NDArray[np.float32]:
-    """Return the points of walls with the lines where labels meet, and the points beside them, made smooth.
+def smooth_junctions(graph: WallGraph, walls: Walls, *, threads: int | None = None) -> Shifts:
+    """Return shifts of points by which the lines where labels meet, and what lies beside them, become smooth.
 
     Points on the sides of the box stay where they are.
     """
+    count, triangles = thread_count(threads), walls.triangles
     is_junction = _find_junctions(graph)
-    if not is_junction.any():
-        return walls.points
     near = is_junction
     for _ in range(RINGS):
-        near = _add_ring(near, walls.triangles)
-    triangles = walls.triangles[near[walls.triangles].any(axis=1)]
-    used, corners = np.unique(triangles, return_inverse=True)
-    corners = corners.reshape(-1, 3)
-    junction, moved = is_junction[used], near[used]
-    start, end = (np.roll(corners, -step, axis=1).ravel() for step in range(2))
-    # A point on a line has neighbours on the line alone, others have all.
-    counts = [junction[b] | ~junction[a] for a, b in ((start, end), (end, start))]
-    source = np.concatenate([end[counts[0]], start[counts[1]]])
-    target = np.concatenate([start[counts[0]], end[counts[1]]])
-    number = np.bincount(target, minlength=len(used))
-    points = walls.points[used].astype(np.float64)
-    moved &= (number > 0) & ~on_side(points, graph.winners.shape).any(axis=1)
+        near = _add_ring(near, triangles, count)
+    moved = np.flatnonzero(near)
+    moved = moved[~on_side(walls.points[moved], graph.winners.shape).any(axis=1)]
+    place = np.full(len(near), -1, dtype=np.int32)
+    place[moved] = np.arange(len(moved))
+    chosen = _touched(place >= 0, triangles, count)
+    counts = np.zeros(len(moved), dtype=np.int64)
+    line_kernels.count_neighbours(triangles, chosen, is_junction, place, counts)
+    starts = np.concatenate([[0], counts.cumsum()])
+    neighbours = np.empty(starts[-1], dtype=np.int32)
+    line_kernels.list_neighbours(triangles, chosen, is_junction, place, starts[:-1].copy(), neighbours)
+    before = walls.points[moved].astype(np.float64)
+    after = np.empty_like(before)
     for _ in range(ROUNDS):
-        middles = np.stack([np.bincount(target, points[source, axis], len(used)) for axis in range(3)], axis=1)
-        points[moved] += SHARE * (middles[moved] / number[moved, None] - points[moved])
-    smoothed = walls.points.copy()
-    smoothed[used[moved]] = points[moved]
-    return smoothed
+        in_threads(line_kernels.move_to_middles, walls.points, starts, neighbours, SHARE, before, after, threads=count)
+        before, after = after, before
+    return Shifts(points=moved, vectors=(before - walls.points[moved]).astype(np.float32))
 
 
 def take_back_crossings(
-    walls: Walls, moved: NDArray[np.float32], scale: tuple[float, ...], *, threads: int | None = None
-) -> tuple[NDArray[np.float32], int]:
-    """Take back moves of points whose triangles pass through others; return the points, and how many pairs still do.
+    walls: Walls, shifts: Shifts, scale: tuple[float, ...], *, threads: int | None = None
+) -> tuple[Shifts, int]:
+    """Take back shifts of points whose triangles pass through others; return the rest, and how many pairs still do.
+
+    The same shifts are returned if there was nothing to take back.
 
     Parameters
     ----------
     walls : Walls
-        With the points before they were moved.
-    moved : (P, 3) float32
-        The points after it.
+        Shifted.
+    shifts : Shifts
     scale : (3,) float
         Sides of a cell.
     """
-    points, sides = moved.copy(), np.array(scale)
-    is_moved = (moved != walls.points).any(axis=1)
-    close = _add_ring(is_moved, walls.triangles)  # what a moved triangle may run into lies beside it
-    triangles = walls.triangles[close[walls.triangles].any(axis=1)]
-    for _ in range(TAKEN_BACK_ROUNDS):
-        surface = Surface(vertices=points * sides, faces=triangles)
-        pairs = intersecting_pairs(surface, threads=threads)
-        if not len(pairs):
-            return points, 0
+    count, triangles, points = thread_count(threads), walls.triangles, walls.points
+    changed = shifts.points
+    for number in range(TAKEN_BACK_ROUNDS + 1):
+        pairs = _find_crossings_beside(points, triangles, changed, scale, count)
+        if not len(pairs) or number == TAKEN_BACK_ROUNDS:
+            break
         crossing = np.zeros(len(points), dtype=bool)
         crossing[triangles[np.unique(pairs)]] = True
-        crossing = _add_ring(crossing, triangles)
-        points[crossing] = walls.points[crossing]
-    return points, len(intersecting_pairs(Surface(vertices=points * sides, faces=triangles), threads=threads))
+        is_taken = _add_ring(crossing, triangles, count)[shifts.points]
+        changed = shifts.points[is_taken]
+        points = points.copy()
+        points[changed] -= shifts.vectors[is_taken]
+        shifts = Shifts(points=shifts.points[~is_taken], vectors=shifts.vectors[~is_taken])
+    return shifts, len(pairs)
 
 
-def _add_ring(marked: NDArray[np.bool_], triangles: NDArray[np.int64]) -> NDArray[np.bool_]:
+def _find_crossings_beside(
+    points: NDArray[np.float32],
+    triangles: NDArray[np.integer],
+    moved: NDArray[np.int64],
+    scale: tuple[float, ...],
+    threads: int,
+) -> NDArray[np.int64]:
+    """Return the pairs of triangles that may pass through each other after points were moved."""
+    is_moved = np.zeros(len(points), dtype=bool)
+    is_moved[moved] = True
+    # What a moved triangle may run into lies beside it.
+    chosen = _touched(_add_ring(is_moved, triangles, threads), triangles, threads)
+    return find_crossings(points, triangles, chosen, scale, threads=threads)
+
+
+def find_crossings(
+    points: NDArray[np.float32],
+    triangles: NDArray[np.integer],
+    chosen: NDArray[np.int64],
+    scale: tuple[float, ...],
+    *,
+    threads: int | None = None,
+) -> NDArray[np.int64]:
+    """Return the pairs of chosen triangles that pass through each other, (N, 2), in order, the lower number first.
+
+    As `infill.meshes.intersections.intersecting_pairs` does; triangles are found by the cells in which they lie, which
+    is faster for triangles that are all about as large as a cell.
+
+    Parameters
+    ----------
+    points : (P, 3) float32
+        In cells, within a box that begins at 0.
+    triangles : (T, 3) int
+    chosen : (N,) int64
+        Numbers of triangles.
+    scale : (3,) float
+        Sides of a cell.
+    """
+    if not len(chosen):
+        return np.empty((0, 2), dtype=np.int64)
+    count = thread_count(threads)
+    boxes, widest = np.empty((len(chosen), 2, 3), dtype=np.float32), np.zeros((count, 3), dtype=np.int64)
+    in_threads(line_kernels.box_triangles, points, triangles, chosen, boxes, widest, threads=count)
+    cells = boxes[:, 0].max(axis=0).astype(np.int64) + 1
+    # One more plane: where rows begin is counted two places further on.
+    starts, order = np.zeros((cells[0] + 1, max(cells[1], 2)), dtype=np.int64), np.empty(len(chosen), dtype=np.int64)
+    line_kernels.sort_by_rows(boxes, starts, order)
+    in_threads(line_kernels.sort_rows, boxes, starts, cells[2], order, threads=count)
+    within = points, triangles, chosen, np.array(scale, dtype=np.float64), boxes, starts, order, widest.max(axis=0)
+    room = ROOM
+    while True:
+        pairs = np.empty((count, room, 2), dtype=np.int64)
+        numbers = in_threads(line_kernels.cross_rows, *within, pairs, threads=count)
+        if max(numbers) <= room:
+            return np.unique(np.concatenate([pairs[at, :number] for at, number in enumerate(numbers)]), axis=0)
+        room = max(numbers)
+
+
+def _add_ring(marked: NDArray[np.bool_], triangles: NDArray[np.integer], threads: int) -> NDArray[np.bool_]:
     """Mark the points (P,) of all triangles with a marked point."""
     wider = marked.copy()
-    wider[triangles[marked[triangles].any(axis=1)]] = True
+    line_kernels.mark_corners(triangles, _touched(marked, triangles, threads), wider)
     return wider
+
+
+def _touched(marked: NDArray[np.bool_], triangles: NDArray[np.integer], threads: int) -> NDArray[np.int64]:
+    """Return the numbers of the triangles with a marked point."""
+    is_touched = np.empty(len(triangles), dtype=bool)
+    in_threads(line_kernels.mark_triangles, triangles, marked, is_touched, threads=threads)
+    return np.flatnonzero(is_touched)
 
 
 def _find_junctions(graph: WallGraph) -> NDArray[np.bool_]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,14 +11,17 @@ from numpy.typing import NDArray
 from infill.kernels.threads import thread_count
 from infill.meshes.distance import TriangleTree
 from infill.meshes.intersections import intersecting_pairs
-from infill.partition.volumes import VolumePartition, restore_volumes
+from infill.partition.junctions import on_side
+from infill.partition.volumes import PRECISION, VolumePartition, neighbour_areas, solve_steps
 from infill.partition.wall_mesh import WallMesh
+from infill.partition.walls import OUTSIDE, WallGraph, Walls, measure_volumes
 from infill.surface import Surface
 
 BLIND_SHARE = 0.05  # of the tolerance, as a mean: edges collapse up to here without any distance being measured
 SAMPLED_SHARE = 0.8  # of the tolerance: where samples may lie, so that places between them lie within the tolerance
 NEAR_SIDES = 1.5  # sides of cells: around a place that fails, points this near are fixed
 ATTEMPTS, LESS = 8, 0.9  # with points fixed around places that failed before, and a smaller share of the tolerance
+RESTORING_ROUNDS = 6  # of moving walls; each leaves about a tenth
 PRECISE = 5e-5  # of the volume of every label
 SIDES_APART = 0.35  # sides of cells: between places at which the distance of triangles is measured
 SURE = 0.99  # of the tolerance: places between those that are measured may lie further away
@@ -54,7 +58,7 @@ def simplify_partition(
         graph, walls = fewer.as_walls(partition.graph, scale)
         walls = restore_volumes(graph, walls, targets, scale=scale, threads=count)
         fewer = replace(fewer, points=walls.points.astype(np.float64) * np.array(scale))
-        places = np.concatenate([find_crossings(fewer, count), find_far(given, fewer, tolerance, scale, count)])
+        places = np.concatenate([find_crossing_corners(fewer, count), find_far(given, fewer, tolerance, scale, count)])
         is_kept = np.abs(walls.volumes - targets)[targets > 0] <= PRECISE * targets[targets > 0]
         if not len(places) and is_kept.all():
             return replace(partition, graph=graph, walls=walls)
@@ -63,7 +67,54 @@ def simplify_partition(
     return partition
 
 
-def find_crossings(mesh: WallMesh, threads: int) -> NDArray[np.float64]:
+def restore_volumes(
+    graph: WallGraph,
+    walls: Walls,
+    targets: NDArray[np.float64],
+    *,
+    scale: tuple[float, ...],
+    threads: int | None = None,
+) -> Walls:
+    """Move walls along their normals until every label has its volume.
+
+    The wall between k and l moves by m_k - m_l, and the moves m solve the same equation as offsets do.
+
+    Parameters
+    ----------
+    graph, walls : WallGraph, Walls
+    targets : (labels,) float64
+        Volumes, 0 for labels whose volume is not sought.
+    scale : (3,) float
+        Sides of a cell.
+    """
+    volumes_within = partial(measure_volumes, graph, labels=len(targets), scale=scale, threads=threads)
+    walls = replace(walls, volumes=volumes_within(walls.points))
+    sides, is_sought = np.array(scale), targets > 0
+    fixed, inner = on_side(walls.points, graph.winners.shape), walls.sides[:, 1] != OUTSIDE
+    triangles, (behind, before) = walls.triangles[inner], walls.sides[inner].T
+    best, best_error = walls, np.inf
+    for _ in range(RESTORING_ROUNDS):
+        missing = np.where(is_sought, targets - walls.volumes, 0.0)
+        error = float(np.max(np.abs(missing[is_sought]) / targets[is_sought], initial=0.0))
+        if error < best_error:
+            best, best_error = walls, error
+        if error <= PRECISION:
+            break
+        moves = solve_steps(neighbour_areas(walls, len(targets), scale), missing, is_sought)
+        corners = (walls.points * sides)[triangles]
+        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        area, along = np.linalg.norm(normals, axis=1), normals * (moves[behind] - moves[before])[:, None]
+        total, shift = np.zeros(len(fixed)), np.zeros(fixed.shape)
+        for corner in triangles.T:
+            total += np.bincount(corner, area, len(fixed))
+            shift += np.stack([np.bincount(corner, part, len(fixed)) for part in along.T], axis=1)
+        shift /= np.maximum(total, 1e-300)[:, None] * sides
+        points = walls.points + np.where(fixed, 0.0, shift).astype(np.float32)
+        walls = replace(walls, points=points, volumes=volumes_within(points))
+    return best
+
+
+def find_crossing_corners(mesh: WallMesh, threads: int) -> NDArray[np.float64]:
     """Return the corners (N, 3) of triangles that pass through each other."""
     surface = Surface(vertices=mesh.points, faces=mesh.triangles)
     crossing = np.unique(intersecting_pairs(surface, threads=threads))

@@ -12,30 +12,34 @@ Source of the problem: Jacobs, Merkurjev and Esedoglu, J. Comput. Phys. 354 (201
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
+from scipy.sparse import csgraph
 from scipy.sparse.linalg import spsolve
 
 from infill.partition.fields import PartitionFields
-from infill.partition.junctions import on_side, smooth_junctions, take_back_crossings
-from infill.partition.walls import OUTSIDE, WallGraph, Walls, measure_volumes, place_walls, trace_walls
+from infill.partition.junctions import smooth_junctions, take_back_crossings
+from infill.partition.walls import OUTSIDE, Shifts, WallGraph, Walls, place_walls, trace_walls
 
 PRECISION = 2e-5  # of a label's volume: rounds end when every label is as near
-FREE_ROUNDS, MOST_ROUNDS = 10, 24  # in the first ones, labels may win and lose cells
+SHARING_ROUNDS = 5  # with volumes by shares of cells
+FREE_ROUNDS, HELD_ROUNDS = 10, 14  # with labels that win and lose cells, and with the winner of every cell held
+ROUGH = 3e-3  # of a label's volume: about what volumes by shares of cells are off
 NEAR = 5e-4  # of a label's volume: from there on, the winner of every cell is held
 LARGEST_STEP = 0.3  # of an offset in one round: values lie between -1 and 1
 SAMPLED = 300_000  # triangles from which the areas between pairs are taken
-TURNED = 0.3  # of what was missing a round before: a label that then has as much too much takes half the step
+# Of what was missing a round before: a label that then has as much too much takes half the step; with jumps, sooner.
+TURNED, JUMPED = 0.7, 0.3
 MARGINS = 128  # bins of the margin by which a label wins or loses, from -2 to 2
 MOST_CELLS = 0.6  # of the cells of a label, in which it wins at first
 SMALLEST = 8  # cells of a label that is measured; smaller ones get what they can
-SMOOTHING_ROUNDS = 4  # of restoring volumes, and taking back moves by which triangles cross
-RESTORING_ROUNDS = 6  # of moving walls; each leaves about a tenth
+SMOOTHING_ROUNDS = 4  # of finding volumes with smooth lines, and taking back shifts by which triangles cross
 GONE = 1e-3  # of its volume: a label with less has vanished
+HELD_SHARE, ROUNDING = 1e-6, 1e-9  # of areas: holds what is free, and is as good as none
 LARGEST_OFFSET = 2.2  # two labels at +1 and -1 change places
 
 
@@ -61,6 +65,135 @@ class VolumePartition:
     crossings: int = 0
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Round:
+    """Volumes with offsets.
+
+    Parameters
+    ----------
+    walls : WallGraph and Walls, or None
+        If they were extracted.
+    volumes : (labels,) float64
+    changes : (labels, labels) sparse float64
+        What the label of a row wins from that of a column for a unit of its offset.
+    """
+
+    walls: tuple[WallGraph, Walls] | None
+    volumes: NDArray[np.float64]
+    changes: sparse.csr_array
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Search:
+    """The search for the offsets at which every label has its volume.
+
+    Parameters
+    ----------
+    fields : PartitionFields
+    targets : (labels,) float64
+        Wanted volumes, in cells of `scale`; 0 where none is sought.
+    is_measured : (labels,) bool
+        Labels whose volume must be right.
+    slope : float
+        Of the difference of two values at a wall, for a unit of `scale`.
+    scale : (3,) float
+        Sides of a cell.
+    threads : int, optional
+    tell_round : callable
+        Called after each round.
+    """
+
+    fields: PartitionFields
+    targets: NDArray[np.float64]
+    is_measured: NDArray[np.bool_]
+    slope: float
+    scale: tuple[float, ...]
+    threads: int | None
+    tell_round: Callable[[], None]
+
+    def share(self, offsets: NDArray[np.float64]) -> _Round:
+        """Measure volumes by shares of cells, which is fast and needs no walls."""
+        # Wide enough that every wall has cells on its ramp, whatever its direction.
+        ramp = self.slope * max(self.scale)
+        volumes, changes = self.fields.shares(offsets, ramp, threads=self.threads)
+        size = float(np.prod(self.scale))
+        return _Round(walls=None, volumes=volumes * size, changes=sparse.csr_array(changes * size))
+
+    def extract(
+        self, offsets: NDArray[np.float64], *, held: WallGraph | None = None, shifts: Shifts | None = None
+    ) -> tuple[WallGraph, Walls]:
+        """Extract the walls between labels.
+
+        Parameters
+        ----------
+        offsets : (labels,) float64
+        held : WallGraph, optional
+            The walls of held winners, with which volumes change without jumps.
+        shifts : Shifts, optional
+            Which make lines smooth.
+        """
+        graph = held or trace_walls(self.fields.winners(offsets, threads=self.threads), threads=self.threads)
+        walls = place_walls(graph, self.fields, offsets, shifts=shifts, scale=self.scale, threads=self.threads)
+        return graph, walls
+
+    def measure(
+        self, offsets: NDArray[np.float64], *, held: WallGraph | None = None, shifts: Shifts | None = None
+    ) -> _Round:
+        """Measure the volumes within walls; see `extract`."""
+        graph, walls = self.extract(offsets, held=held, shifts=shifts)
+        changes = neighbour_areas(walls, self.fields.count, self.scale) / self.slope
+        return _Round(walls=(graph, walls), volumes=walls.volumes, changes=sparse.csr_array(changes))
+
+    def run(
+        self,
+        measure: Callable[[NDArray[np.float64]], _Round],
+        offsets: NDArray[np.float64],
+        *,
+        rounds: int,
+        enough: float,
+        jumps: bool = False,
+    ) -> tuple[NDArray[np.float64], tuple[WallGraph, Walls] | None]:
+        """Return the best offsets found by Newton's method, and their walls, unless others came after them.
+
+        Parameters
+        ----------
+        measure : callable
+            Measures the volumes of labels with offsets.
+        offsets : (labels,) float64
+            To begin with.
+        rounds : int
+            At most.
+        enough : float
+            The error, as a share of the volume of a label, at which rounds end.
+        jumps : bool
+            Whether the volumes of single labels may jump: then the sum of errors counts, until the worst is small.
+        """
+        best, best_score, count = offsets, np.inf, self.fields.count
+        walls: tuple[WallGraph, Walls] | None = None
+        measured: _Round | None = None
+        before, step, largest = np.zeros(count), np.zeros(count), np.full(count, LARGEST_STEP)
+        is_sought = self.targets > 0
+        for _ in range(rounds):
+            walls = measured = None  # free what was measured before: walls are large
+            measured = measure(offsets)
+            missing = np.where(is_sought, self.targets - measured.volumes, 0.0)
+            off = np.abs(missing[self.is_measured]) / self.targets[self.is_measured]
+            error = float(off.max(initial=0.0))
+            score = 1.0 + float(off.sum()) if jumps and error >= enough else error
+            if score < best_score:
+                best_score, best, walls = score, offsets, measured.walls
+            self.tell_round()
+            if error <= enough:
+                break
+            turned = (missing * before < 0) & (np.abs(missing) > (JUMPED if jumps else TURNED) * np.abs(before))
+            largest = np.where(turned, np.abs(step) / 2, np.minimum(2 * largest, LARGEST_STEP))
+            step = solve_steps(measured.changes, missing, is_sought)
+            step[is_sought & (measured.volumes < GONE * self.targets)] = LARGEST_STEP  # nothing says how far it is
+            step, before = np.clip(step, -largest, largest), missing
+            offsets = np.clip(offsets + step, -LARGEST_OFFSET, LARGEST_OFFSET)
+        return best, walls
+
+
 def keep_volumes(
     fields: PartitionFields,
     volumes: NDArray[np.floating],
@@ -69,7 +202,7 @@ def keep_volumes(
     threads: int | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> VolumePartition:
-    """Find the offsets at which every label has its volume.
+    """Find the offsets at which every label has its volume, with smooth lines where three labels meet.
 
     Parameters
     ----------
@@ -81,111 +214,43 @@ def keep_volumes(
     progress : callable, optional
         Called with the share of rounds done.
     """
-    targets = np.asarray(volumes, dtype=np.float64)
-    offsets = first_offsets(fields, threads=threads)
-    is_sought = targets > 0
-    is_sought[0] = False
-    slope = 2 * fields.slope() / scale[2]  # of the difference of two values
-    best: VolumePartition | None = None
-    frozen: WallGraph | None = None
-    best_score = np.inf
-    is_measured = is_sought & (targets >= SMALLEST * np.prod(scale))
-    before, step = np.zeros(fields.count), np.zeros(fields.count)
-    largest = np.full(fields.count, LARGEST_STEP)
-    for number in range(MOST_ROUNDS):
-        if best is not None and frozen is None and (number >= FREE_ROUNDS or best_score < NEAR):
-            # With the winners held, volumes change without jumps.
-            offsets, frozen = best.offsets.copy(), best.graph
-            largest, before = np.full(fields.count, LARGEST_STEP), np.zeros(fields.count)
-        graph = frozen or trace_walls(fields.winners(offsets, threads=threads), threads=threads)
-        walls = place_walls(graph, fields, offsets, scale=scale, threads=threads)
-        missing = np.where(is_sought, targets - walls.volumes, 0.0)
-        off = np.abs(missing) / np.maximum(targets, 1e-300)
-        error = float(off[is_measured].max(initial=0.0))
-        # At first the sum counts, since single labels jump; then the worst label.
-        score = error if frozen is not None or error < NEAR else 1.0 + float(off[is_measured].sum())
-        if best is None or score < best_score:
-            best_score, best = (
-                score,
-                VolumePartition(graph=graph, walls=walls, offsets=offsets.copy(), rounds=number + 1),
-            )
+    targets = np.array(volumes, dtype=np.float64)
+    targets[0] = 0.0
+    rounds = 0
+
+    def tell_round() -> None:
+        nonlocal rounds
+        rounds += 1
         if progress is not None:
-            progress((number + 1) / MOST_ROUNDS)
-        if error <= PRECISION:
+            progress(min(1.0, rounds / (SHARING_ROUNDS + FREE_ROUNDS + HELD_ROUNDS)))
+
+    search = _Search(
+        fields=fields,
+        targets=targets,
+        is_measured=targets >= SMALLEST * np.prod(scale),
+        slope=2 * fields.slope() / scale[2],
+        scale=scale,
+        threads=threads,
+        tell_round=tell_round,
+    )
+    offsets, _ = search.run(search.share, first_offsets(fields, threads=threads), rounds=SHARING_ROUNDS, enough=ROUGH)
+    offsets, traced = search.run(search.measure, offsets, rounds=FREE_ROUNDS, enough=NEAR, jumps=True)
+    graph, walls = traced or search.extract(offsets)
+    del traced
+    shifts, crossings = smooth_junctions(graph, walls, threads=threads), 0
+    for _ in range(SMOOTHING_ROUNDS):
+        del walls
+        measure = partial(search.measure, held=graph, shifts=shifts)
+        offsets, placed = search.run(measure, offsets, rounds=HELD_ROUNDS, enough=PRECISION)
+        _, walls = placed or search.extract(offsets, held=graph, shifts=shifts)
+        del placed
+        remaining, crossings = take_back_crossings(walls, shifts, scale, threads=threads)
+        if remaining is shifts:
             break
-        turned = (missing * before < 0) & (np.abs(missing) > TURNED * np.abs(before))
-        largest = np.where(turned, np.abs(step) / 2, largest)
-        step = _solve(_neighbour_areas(walls, fields.count, scale), missing, is_sought) * slope
-        gone = is_sought & (walls.volumes < GONE * targets)
-        step[gone] = LARGEST_STEP  # where nothing is, nothing says how far it is
-        step, before = np.clip(step, -largest, largest), missing
-        offsets = np.clip(offsets + step, -LARGEST_OFFSET, LARGEST_OFFSET)
-    assert best is not None
-    return _smooth_lines(best, np.where(is_measured, targets, 0.0), scale, threads)
-
-
-def _smooth_lines(
-    partition: VolumePartition, targets: NDArray[np.float64], scale: tuple[float, ...], threads: int | None
-) -> VolumePartition:
-    """Make the lines smooth on which three labels meet, without crossings and with every volume (0: not sought)."""
-    graph, jagged = partition.graph, partition.walls
-    points, crossings = smooth_junctions(graph, jagged), 0
-    volumes_within = partial(measure_volumes, graph, labels=len(targets), scale=scale, threads=threads)
-    walls = replace(jagged, points=points, volumes=volumes_within(points))
-    for _ in range(SMOOTHING_ROUNDS if points is not jagged.points else 0):
-        walls = restore_volumes(graph, walls, targets, scale=scale, threads=threads)
-        points, crossings = take_back_crossings(jagged, walls.points, scale, threads=threads)
-        if np.array_equal(points, walls.points):
-            break
-        walls = replace(walls, points=points, volumes=volumes_within(points))
-    return replace(partition, walls=walls, crossings=crossings)
-
-
-def restore_volumes(
-    graph: WallGraph,
-    walls: Walls,
-    targets: NDArray[np.float64],
-    *,
-    scale: tuple[float, ...],
-    threads: int | None = None,
-) -> Walls:
-    """Move walls along their normals until every label has its volume.
-
-    The wall between k and l moves by m_k - m_l, and the moves m solve the same equation as offsets do.
-
-    Parameters
-    ----------
-    graph, walls : WallGraph, Walls
-    targets : (labels,) float64
-        Volumes, 0 for labels whose volume is not sought.
-    scale : (3,) float
-        Sides of a cell.
-    """
-    volumes_within = partial(measure_volumes, graph, labels=len(targets), scale=scale, threads=threads)
-    walls = replace(walls, volumes=volumes_within(walls.points))
-    sides, is_sought = np.array(scale), targets > 0
-    fixed, inner = on_side(walls.points, graph.winners.shape), walls.sides[:, 1] != OUTSIDE
-    triangles, (behind, before) = walls.triangles[inner], walls.sides[inner].T
-    best, best_error = walls, np.inf
-    for _ in range(RESTORING_ROUNDS):
-        missing = np.where(is_sought, targets - walls.volumes, 0.0)
-        error = float(np.max(np.abs(missing[is_sought]) / targets[is_sought], initial=0.0))
-        if error < best_error:
-            best, best_error = walls, error
-        if error <= PRECISION:
-            break
-        moves = _solve(_neighbour_areas(walls, len(targets), scale), missing, is_sought)
-        corners = (walls.points * sides)[triangles]
-        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        area, along = np.linalg.norm(normals, axis=1), normals * (moves[behind] - moves[before])[:, None]
-        total, shift = np.zeros(len(fixed)), np.zeros(fixed.shape)
-        for corner in triangles.T:
-            total += np.bincount(corner, area, len(fixed))
-            shift += np.stack([np.bincount(corner, part, len(fixed)) for part in along.T], axis=1)
-        shift /= np.maximum(total, 1e-300)[:, None] * sides
-        points = walls.points + np.where(fixed, 0.0, shift).astype(np.float32)
-        walls = replace(walls, points=points, volumes=volumes_within(points))
-    return best
+        shifts = remaining
+    else:
+        _, walls = search.extract(offsets, held=graph, shifts=shifts)
+    return VolumePartition(graph=graph, walls=walls, offsets=offsets, rounds=rounds, crossings=crossings)
 
 
 def first_offsets(fields: PartitionFields, *, threads: int | None = None) -> NDArray[np.float64]:
@@ -200,8 +265,8 @@ def first_offsets(fields: PartitionFields, *, threads: int | None = None) -> NDA
     return offsets
 
 
-def _neighbour_areas(walls: Walls, count: int, scale: tuple[float, ...]) -> sparse.csr_array:
-    """Return the Laplacian of the areas between labels, from a sample of the triangles; each row sums to 0."""
+def neighbour_areas(walls: Walls, count: int, scale: tuple[float, ...]) -> sparse.csr_array:
+    """Return the areas between labels, from a sample of the triangles."""
     stride = max(1, len(walls.triangles) // SAMPLED)
     sides = walls.sides[::stride]
     inner = sides[:, 1] != OUTSIDE
@@ -209,19 +274,22 @@ def _neighbour_areas(walls: Walls, count: int, scale: tuple[float, ...]) -> spar
     areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
     a, b = sides[inner].T
     graph = sparse.csr_array((areas * stride, (a, b)), shape=(count, count))
-    graph = graph + graph.T
-    return sparse.csr_array(sparse.diags_array(graph.sum(axis=1)) - graph)
+    return sparse.csr_array(graph + graph.T)
 
 
-def _solve(
-    laplacian: sparse.csr_array, missing: NDArray[np.float64], is_sought: NDArray[np.bool_]
+def solve_steps(
+    changes: sparse.csr_array, missing: NDArray[np.float64], is_sought: NDArray[np.bool_]
 ) -> NDArray[np.float64]:
-    """Solve for the offsets of the labels whose volume is sought, those of the others 0."""
+    """Solve for the steps of the labels whose volume is sought; those of the others are 0."""
+    laplacian = sparse.csr_array(sparse.diags_array(changes.sum(axis=1)) - changes)
     chosen = np.flatnonzero(is_sought)
     matrix = laplacian[chosen][:, chosen]
     diagonal = matrix.diagonal()
-    # Without label 0 beside them, only the differences count: a small share of each area holds them near 0.
-    matrix = matrix + sparse.diags_array(1e-6 * diagonal + (diagonal == 0) + 1e-12)
+    # Without walls to labels whose offset is 0, only the differences count: their mean is held.
+    _, component = csgraph.connected_components(matrix, directed=False)
+    is_free = np.bincount(component, matrix.sum(axis=1)) <= ROUNDING * np.bincount(component, diagonal)
+    mean = np.bincount(component, missing[chosen]) / np.bincount(component)
+    matrix = matrix + sparse.diags_array(HELD_SHARE * diagonal + (diagonal == 0) + 1e-12)
     step = np.zeros(len(missing))
-    step[chosen] = spsolve(sparse.csc_array(matrix), missing[chosen])
+    step[chosen] = spsolve(sparse.csc_array(matrix), missing[chosen] - np.where(is_free, mean, 0.0)[component])
     return step

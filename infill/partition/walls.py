@@ -25,7 +25,7 @@ class Walls:
     ----------
     points : (P, 3) float32
         In cells of the grid, from its lower corner.
-    triangles : (T, 3) int64
+    triangles : (T, 3) int32, int64 from 2³¹ points on
     sides : (T, 2) int32
         The labels behind and before each triangle, which faces the second; `OUTSIDE` beyond the box.
     volumes : (labels,) float64
@@ -33,7 +33,7 @@ class Walls:
     """
 
     points: NDArray[np.float32]
-    triangles: NDArray[np.int64]
+    triangles: NDArray[np.integer]
     sides: NDArray[np.int32]
     volumes: NDArray[np.float64]
 
@@ -52,7 +52,7 @@ class WallGraph:
         Bases of points along their rows, and the points that each owns, as bits.
     starts : (b,) int64
         The number of the first of these.
-    triangles : (T, 3) int64
+    triangles : (T, 3) int32, int64 from 2³¹ points on
     sides : (T, 2) int32
     """
 
@@ -61,13 +61,29 @@ class WallGraph:
     bases: NDArray[np.int32]
     masks: NDArray[np.int32]
     starts: NDArray[np.int64]
-    triangles: NDArray[np.int64]
+    triangles: NDArray[np.integer]
     sides: NDArray[np.int32]
 
     @property
     def point_count(self) -> int:
         """Number of points."""
         return int(self.row_starts[-1, -1, 4])
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Shifts:
+    """Points that do not lie where the values of labels are equal, and by how much.
+
+    Parameters
+    ----------
+    points : (M,) int64
+        Their numbers.
+    vectors : (M, 3) float32
+        Cells.
+    """
+
+    points: NDArray[np.int64]
+    vectors: NDArray[np.float32]
 
 
 def trace_walls(winners: NDArray[np.uint16], *, threads: int | None = None) -> WallGraph:
@@ -78,7 +94,8 @@ def trace_walls(winners: NDArray[np.uint16], *, threads: int | None = None) -> W
     common = winners, *CUTTING
     in_threads(
         kernels.count_rows,
-        *common,
+        winners,
+        *CUTTING[1:],
         SLOTS_AT,
         tables.counts,
         tables.flat_counts,
@@ -88,11 +105,11 @@ def trace_walls(winners: NDArray[np.uint16], *, threads: int | None = None) -> W
     )
     ends = sizes.reshape(-1, 3).cumsum(axis=0).reshape(sizes.shape)
     row_starts = np.concatenate([ends - sizes, ends], axis=-1)
-    base_count, _, triangle_count = (int(end) for end in ends.reshape(-1, 3)[-1])
+    base_count, point_count, triangle_count = (int(end) for end in ends.reshape(-1, 3)[-1])
     bases, masks = (np.empty(base_count, dtype=np.int32) for _ in range(2))
     starts = np.empty(base_count, dtype=np.int64)
-    in_threads(kernels.fill_rows, *common, SLOTS_AT, row_starts, bases, masks, starts, threads=count)
-    triangles = np.empty((triangle_count, 3), dtype=np.int64)
+    in_threads(kernels.fill_rows, winners, *CUTTING[1:], SLOTS_AT, row_starts, bases, masks, starts, threads=count)
+    triangles = np.empty((triangle_count, 3), dtype=np.int32 if point_count < 2**31 else np.int64)
     sides = np.empty((triangle_count, 2), dtype=np.int32)
     inner, flat = (
         (tables.places, tables.counts, tables.triangles),
@@ -116,6 +133,7 @@ def place_walls(
     fields: PartitionFields,
     offsets: NDArray[np.floating],
     *,
+    shifts: Shifts | None = None,
     scale: tuple[float, ...] = (1.0, 1.0, 1.0),
     threads: int | None = None,
 ) -> Walls:
@@ -127,6 +145,8 @@ def place_walls(
     fields : PartitionFields
     offsets : (labels,) float
         Added to the values of each label.
+    shifts : Shifts, optional
+        Added to the places of points.
     scale : (3,) float
         Sides of a cell, in which volumes and areas are measured.
     """
@@ -136,6 +156,8 @@ def place_walls(
     added = np.asarray(offsets, dtype=np.float32)
     values = fields.entries, fields.labels, fields.slots, fields.values, added
     in_threads(kernels.place_points, graph.winners, *CUTTING, SLOTS_AT, *rows, *values, points, threads=count)
+    if shifts is not None:
+        points[shifts.points] += shifts.vectors
     volumes = measure_volumes(graph, points, fields.count, scale=scale, threads=threads)
     return Walls(points=points, triangles=graph.triangles, sides=graph.sides, volumes=volumes)
 

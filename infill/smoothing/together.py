@@ -13,6 +13,7 @@ from scipy import ndimage
 from infill.errors import GeometryError, UsageError
 from infill.formats.parts import hex_colour
 from infill.machine import require_memory
+from infill.partition.cutting import cut_labels
 from infill.partition.fields import PartitionFields, smooth_fields
 from infill.partition.simplifying import simplify_partition
 from infill.partition.volumes import SMALLEST, VolumePartition, keep_volumes
@@ -73,10 +74,11 @@ def smooth_together(
             threads=request.threads,
             progress=lambda share: clock.tell("volumes", 0.5 + 0.2 * share),
         )
+    del fields  # larger than anything that follows
     with clock.stage("simplify", 0.7):
         simple = simplify(partition, request.tolerance, volume, threads=request.threads)
     with clock.stage("surface", 0.85):
-        surfaces = cut_surfaces(simple, volume, pieces)
+        surfaces = cut_surfaces(simple, volume, pieces, threads=request.threads)
     with clock.stage("check", 0.9):
         before = count_components(numbers, pieces)
         after = count_components(partition.graph.winners, pieces)
@@ -186,27 +188,17 @@ def simplify(
     return simplify_partition(partition, tolerance / cell, scale=scale, threads=threads)
 
 
-def cut_surfaces(partition: VolumePartition, volume: Volume, pieces: Sequence[LabelPiece]) -> dict[str, Surface]:
+def cut_surfaces(
+    partition: VolumePartition, volume: Volume, pieces: Sequence[LabelPiece], *, threads: int | None = None
+) -> dict[str, Surface]:
     """Return the surface of every label that is left, by its name; neighbours have the same coordinates at walls."""
-    walls = partition.walls
-    points = volume.place(walls.points.astype(np.float64) * volume.cell_size)
-    behind, before = (np.argsort(walls.sides[:, side], kind="stable") for side in range(2))
-    labels = np.arange(1, len(pieces) + 2)
-    starts = [np.searchsorted(walls.sides[order, side], labels) for side, order in enumerate((behind, before))]
+    points = volume.place(partition.walls.points.astype(np.float64) * volume.cell_size)
     surfaces = {}
-    for number, piece in enumerate(pieces):
-        faces_behind, faces_before = (
-            walls.triangles[order[start[number] : start[number + 1]]]
-            for order, start in zip((behind, before), starts, strict=True)
-        )
-        faces = np.concatenate([faces_behind, faces_before[:, ::-1]])
-        if not len(faces):
-            continue
-        used, corners = np.unique(faces, return_inverse=True)
-        faces = corners.reshape(-1, 3)
-        surface = Surface(vertices=points[used], faces=faces[:, ::-1] if volume.mirrored else faces, space=volume.space)
+    for cut in cut_labels(partition.walls, len(pieces) + 1, threads=threads):
+        faces = cut.faces[:, ::-1] if volume.mirrored else cut.faces
+        surface = Surface(vertices=points[cut.points], faces=faces, space=volume.space)
         if surface.volume > 0:
-            surfaces[piece.name] = surface
+            surfaces[pieces[cut.label - 1].name] = surface
     return surfaces
 
 
