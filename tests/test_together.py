@@ -306,4 +306,6 @@ def test_the_command_writes_a_file_for_each_label(tmp_path: Path) -> None:
     assert result.exit_code == 0, result.stderr
     assert len(re.findall(r"[+-]0\.00\d\d% of the data, 1 component", result.stderr)) == 3
     assert sorted(path.name for path in tmp_path.glob("*.stl")) == ["label_1.stl", "label_2.stl", "label_3.stl"]
-    refused(run("smooth", tmp_path / "labels.npy", "--together", "-o", tmp_path / "a.stl"), "--together goes with")
+    refused(
+        run("smooth", tmp_path / "labels.npy", "--together", "-o", tmp_path / "a.stl"), "use .3mf, .glb, .ply or .vtp"
+    )

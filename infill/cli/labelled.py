@@ -58,12 +58,12 @@ class SmoothOutput:
 def wants_every_label(
     outputs: Sequence[Path], *, each_label: bool, labels: Path | None, keep_going: bool, together: bool
 ) -> bool:
-    """Tell whether --each-label is given, or {label} in an output; raise BadParameter for options that need it."""
+    """Tell whether all labels are asked for, as --together does too; raise BadParameter for options that need it."""
     from infill.files.file_names import is_template
 
-    if each_label or any(is_template(path) for path in outputs):
+    if each_label or together or any(is_template(path) for path in outputs):
         return True
-    options = {"--labels": labels is not None, "--keep-going": keep_going, "--together": together}
+    options = {"--labels": labels is not None, "--keep-going": keep_going}
     for name, is_given in options.items():
         if is_given:
             raise typer.BadParameter(f"{name} goes with --each-label, or with {{label}} in the name of an output")
@@ -80,20 +80,24 @@ def refuse_options(settings: SmoothSettings, output: SmoothOutput) -> None:
     given += ["grey"] * (settings.method == "grey")
     if given:
         option = given[0].replace("_", "-")
-        raise typer.BadParameter(f"--{option} does not go with --each-label or {{label}}; leave one of them out")
+        labels = "--together" if settings.together else "--each-label or {label}"
+        raise typer.BadParameter(f"--{option} does not go with {labels}; leave one of them out")
 
 
 def smooth_every_label(source: Path, settings: SmoothSettings, output: SmoothOutput, options: SmoothOptions) -> None:
     """Smooth every label, write the files and print a summary."""
     from infill.cli.piping import check_outputs, deliver_all
     from infill.files.file_names import is_template
-    from infill.formats.mesh_files import mesh_writer, parts_writer
+    from infill.formats.mesh_files import WALL_WRITERS, mesh_writer, parts_writer
 
     single = [path for path in output.outputs if not is_template(path)]
+    more = tuple(WALL_WRITERS) if settings.together else ()
     for path in output.outputs:
-        mesh_writer(path, ascii=output.ascii_stl)
+        if path in single and path.suffix.lower() in more:
+            continue
+        mesh_writer(path, ascii=output.ascii_stl, more=more if path in single else ())
         if path in single:
-            parts_writer(path)
+            parts_writer(path, more=more)
     text = next(iter(output.saved), None)
     check_outputs(single, text=text, overwrite=output.force, as_json=output.as_json, dry_run=output.dry_run)
     if output.dry_run:
@@ -203,7 +207,8 @@ def _parts(result: Result[LabelStages, Any], written: SmoothOutput) -> dict[Path
     parts: dict[Path, Callable[[BinaryIO], object]] = {}
     for output in written.outputs:
         if not is_template(output):
-            parts[output] = partial(parts_writer(output), parts_of(result))
+            whole = result.writers.get(output.suffix.lower())
+            parts[output] = partial(parts_writer(output), parts_of(result)) if whole is None else whole
             continue
         write = mesh_writer(output, ascii=written.ascii_stl)
         for name, path in zip(names, fill_template(output, names, numbers), strict=True):

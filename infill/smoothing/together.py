@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,6 +12,8 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from infill.errors import GeometryError, UsageError
+from infill.formats.label_walls import LabelWalls
+from infill.formats.mesh_files import WALL_WRITERS
 from infill.formats.parts import hex_colour
 from infill.machine import require_memory
 from infill.partition.fields import PartitionFields, smooth_fields
@@ -39,6 +42,7 @@ BYTES_PER_CELL, BYTES_PER_FACE = 6, 2000
 NEIGHBOURS = np.array(
     [[[1, 1, 0], [1, 1, 0], [0, 0, 0]], [[1, 1, 0], [1, 1, 1], [0, 1, 1]], [[0, 0, 0], [0, 1, 1], [0, 1, 1]]]
 )
+MOST_LABELS = 2**16 - 1  # numbers of cells have 16 bits
 NOTHING_LEFT = "nothing of it is left"
 PRECISION = 1e-4  # of a label's volume that counts as kept
 
@@ -75,6 +79,7 @@ def smooth_together(
         )
     with clock.stage("surface", 0.8):
         surfaces = cut_surfaces(partition, volume, pieces)
+        walls = place_label_walls(partition, volume, pieces)
     with clock.stage("check", 0.9):
         before = count_components(numbers, pieces)
         after = count_components(partition.graph.winners, pieces)
@@ -109,7 +114,8 @@ def smooth_together(
         failed={piece.name: NOTHING_LEFT for piece in gone},
     )
     colours = {piece.name: piece.segment.colour for piece in left if piece.segment.colour is not None}
-    return Result(surfaces=surfaces, report=report, stages=stages, colours=colours)
+    writers = {suffix: partial(write, walls) for suffix, write in WALL_WRITERS.items()}
+    return Result(surfaces=surfaces, report=report, stages=stages, colours=colours, writers=writers)
 
 
 def refuse_unfit(request: SmoothRequest) -> None:
@@ -130,10 +136,15 @@ def number_labels(volume: Volume, pieces: Sequence[LabelPiece]) -> NDArray[np.ui
     Raises
     ------
     UsageError
-        If labels lie in several layers, which may overlap.
+        If labels lie in several layers, which may overlap, or if there are too many.
     """
     if len({piece.segment.layer for piece in pieces}) > 1:
         raise UsageError.about("together", "is given, and the labels lie in layers that may overlap; leave it out")
+    if len(pieces) > MOST_LABELS:
+        raise UsageError.about(
+            "together",
+            f"is given, and there are {len(pieces):,} labels; the limit is {MOST_LABELS:,}; choose some by label",
+        )
     numbers = np.zeros(volume.values.shape, dtype=np.uint16)
     for number, piece in enumerate(pieces, 1):
         box = tuple(map(slice, piece.extent.low, piece.extent.high))
@@ -197,6 +208,18 @@ def cut_surfaces(partition: VolumePartition, volume: Volume, pieces: Sequence[La
         if surface.volume > 0:
             surfaces[piece.name] = surface
     return surfaces
+
+
+def place_label_walls(partition: VolumePartition, volume: Volume, pieces: Sequence[LabelPiece]) -> LabelWalls:
+    """Return the walls of all labels in their place, with the values of the labels on both sides."""
+    walls = partition.walls
+    values = np.array([0, *(piece.segment.value for piece in pieces), 0])  # the last is beyond the box
+    labels = values[walls.sides]
+    is_turned = walls.sides[:, 0] == 0  # so that triangles at the outside face outwards
+    labels[is_turned] = labels[is_turned, ::-1]
+    triangles = np.where((is_turned != volume.mirrored)[:, None], walls.triangles[:, ::-1], walls.triangles)
+    points = volume.place(walls.points.astype(np.float64) * volume.cell_size)
+    return LabelWalls(points=points, triangles=triangles, labels=labels)
 
 
 def count_components(numbers: NDArray[np.uint16], pieces: Sequence[LabelPiece]) -> list[int]:
