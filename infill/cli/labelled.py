@@ -13,12 +13,12 @@ import typer
 
 from infill.cli.console import format_bytes, format_table, print_json, print_log, progress_bar, say
 from infill.cli.foreseeing import format_span
-from infill.plain_numbers import count_noun, plain_size
+from infill.plain_numbers import count_noun, plain_number, plain_size
 
 if TYPE_CHECKING:
     from infill.imaging.label_tables import Segment
     from infill.imaging.segmentations import Segmentation
-    from infill.reports.smoothing import TogetherLabel
+    from infill.reports.smoothing import TetrahedraKeys, TogetherLabel
     from infill.result import Result
     from infill.smoothing.label_stages import LabelStages
     from infill.smoothing.request import SmoothOptions
@@ -88,10 +88,10 @@ def smooth_every_label(source: Path, settings: SmoothSettings, output: SmoothOut
     """Smooth every label, write the files and print a summary."""
     from infill.cli.piping import check_outputs, deliver_all
     from infill.files.file_names import is_template
-    from infill.formats.mesh_files import WALL_WRITERS, mesh_writer, parts_writer
+    from infill.formats.mesh_files import TETRAHEDRA, WALL_WRITERS, mesh_writer, parts_writer
 
     single = [path for path in output.outputs if not is_template(path)]
-    more = tuple(WALL_WRITERS) if settings.together else ()
+    more = (*WALL_WRITERS, TETRAHEDRA) if settings.together else ()
     for path in output.outputs:
         if path in single and path.suffix.lower() in more:
             continue
@@ -122,13 +122,14 @@ def smooth_every_label(source: Path, settings: SmoothSettings, output: SmoothOut
         )
         if progress is not None:
             progress("write", 0.9)
+        report = {**result.report, **_tetrahedra_section(result, single)}
         parts = _parts(result, output)
         check_outputs(parts, text=text, overwrite=output.force, as_json=output.as_json)
         files = deliver_all(parts | dict(output.saved))
     if not output.quiet:
-        say(_summary(result, files, str(source)))
+        say(_summary(report, files, str(source)))
     if output.as_json:
-        print_json({**result.report, "files": files})
+        print_json({**report, "files": files})
     failed = result.report["failed"]
     if failed:
         say(f"error: {len(failed)} of {len(failed) + len(result.surfaces)} labels failed; the others were written")
@@ -229,9 +230,24 @@ def _together_text(label: TogetherLabel) -> str:
     )
 
 
-def _summary(result: Result[LabelStages, Any], files: Sequence[str], name: str) -> str:
+def _tetrahedra_section(result: Result[Any, Any], outputs: Sequence[Path]) -> dict[str, Any]:
+    """Return the section of the report on tetrahedra, if they are to be written."""
+    from infill.formats.mesh_files import TETRAHEDRA
+
+    is_wanted = any(path.suffix.lower() == TETRAHEDRA for path in outputs)
+    return {"tetrahedra": result.stages.tetrahedra_facts} if is_wanted else {}
+
+
+def _tetrahedra_text(facts: TetrahedraKeys) -> str:
+    """Return the row of the tetrahedra."""
+    return (
+        f"{facts['tetrahedra']:,}, smallest angle {plain_number(facts['smallest_angle'], 2)} degrees, "
+        f"{facts['slivers']:.1%} with a radius ratio below 0.1"
+    )
+
+
+def _summary(report: Mapping[str, Any], files: Sequence[str], name: str) -> str:
     """Return the short table for stderr: a row for each label, and failures."""
-    report = result.report
     rows = {}
     for label in report["labels"][:MOST_ROWS]:
         if "report" not in label:
@@ -249,6 +265,8 @@ def _summary(result: Result[LabelStages, Any], files: Sequence[str], name: str) 
         rows[f"FAILED {failure['number']} {failure['name']}"] = failure["error"]
     if report["absent"]:
         rows["without a cell"] = ", ".join(report["absent"])
+    if report.get("tetrahedra"):
+        rows["tetrahedra"] = _tetrahedra_text(report["tetrahedra"])
     if report["problems"]:
         rows["PROBLEMS"] = "; ".join(report["problems"])
     sizes = [Path(file).stat().st_size for file in files if Path(file).is_file()]

@@ -1,4 +1,4 @@
-"""The walls between labels as files hold them: every wall once, with the labels on both sides."""
+"""Labels as files hold them: walls, each once with the labels on both sides, and tetrahedra that fill the labels."""
 
 from __future__ import annotations
 
@@ -26,6 +26,23 @@ class LabelWalls:
 
     points: NDArray[np.float64]
     triangles: NDArray[np.int64]
+    labels: NDArray[np.int64]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class LabelTetrahedra:
+    """Tetrahedra of labels, face to face.
+
+    Parameters
+    ----------
+    points : (P, 3) float64, mm
+    tetrahedra : (T, 4) int64
+        Their volume is positive: the first three corners run anticlockwise, seen from the fourth.
+    labels : (T,) int64
+    """
+
+    points: NDArray[np.float64]
+    tetrahedra: NDArray[np.int64]
     labels: NDArray[np.int64]
 
 

@@ -193,6 +193,7 @@ WALL_WRITERS: dict[str, Callable[[LabelWalls, BinaryIO], None]] = {
     ".ply": write_ply_walls,
     ".vtp": write_vtp,
 }
+TETRAHEDRA = ".vtu"  # the suffix of labels as tetrahedra
 READERS: dict[str, Callable[[Path], MeshArrays]] = {
     ".stl": read_stl,
     ".3mf": _read_3mf,

@@ -12,17 +12,18 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.formats.label_walls import LabelWalls, label_type
+from infill.formats.label_walls import LabelTetrahedra, LabelWalls, label_type
 from infill.version import __version__
 
 TYPES = {"i": "Int", "u": "UInt", "f": "Float"}
-CORNERS = 3  # of a triangle
+TOPOLOGY = ("Polys", "Cells")  # sections of cells, whose arrays are lists of numbers
+TETRAHEDRON = 10  # VTK's number of this type of cell
 Arrays = Mapping[str, NDArray[Any]]
 
 
 def write_vtp(walls: LabelWalls, file: BinaryIO) -> None:
     """Write walls as PolyData; the labels are the array BoundaryLabels of the cells, as vtkSurfaceNets3D calls it."""
-    count = len(walls.triangles)
+    count, corners = walls.triangles.shape
     write_vtk_xml(
         file,
         "PolyData",
@@ -31,9 +32,28 @@ def write_vtp(walls: LabelWalls, file: BinaryIO) -> None:
             "Points": {"Points": walls.points.astype(np.float32)},
             "Polys": {
                 "connectivity": walls.triangles.astype(np.int64),
-                "offsets": np.arange(1, count + 1, dtype=np.int64) * CORNERS,
+                "offsets": np.arange(1, count + 1, dtype=np.int64) * corners,
             },
             "CellData": {"BoundaryLabels": walls.labels.astype(label_type(walls.labels))},
+        },
+    )
+
+
+def write_vtu(mesh: LabelTetrahedra, file: BinaryIO) -> None:
+    """Write tetrahedra as an UnstructuredGrid; the label of each is the array Label of the cells."""
+    count, corners = mesh.tetrahedra.shape
+    write_vtk_xml(
+        file,
+        "UnstructuredGrid",
+        {"NumberOfPoints": len(mesh.points), "NumberOfCells": count},
+        {
+            "Points": {"Points": mesh.points},
+            "Cells": {
+                "connectivity": mesh.tetrahedra.astype(np.int64),
+                "offsets": np.arange(1, count + 1, dtype=np.int64) * corners,
+                "types": np.full(count, TETRAHEDRON, dtype=np.uint8),
+            },
+            "CellData": {"Label": mesh.labels.astype(label_type(mesh.labels))},
         },
     )
 
@@ -56,10 +76,10 @@ def write_vtk_xml(file: BinaryIO, kind: str, counts: Mapping[str, int], sections
         elements.append(f"<{section}>")
         for name, array in arrays.items():
             code = TYPES[array.dtype.kind]
-            components = array.shape[1] if array.ndim > 1 and section not in ("Polys", "Cells") else 1
+            components = f'NumberOfComponents="{array.shape[1]}" ' if section not in TOPOLOGY and array.ndim > 1 else ""
             elements.append(
                 f'<DataArray type="{code}{8 * array.dtype.itemsize}" Name={quoteattr(name)} '
-                f'NumberOfComponents="{components}" format="appended" offset="{at}"/>'
+                f'{components}format="appended" offset="{at}"/>'
             )
             data = np.ascontiguousarray(array, dtype=array.dtype.newbyteorder("<"))
             blocks.append(data)
@@ -76,4 +96,4 @@ def write_vtk_xml(file: BinaryIO, kind: str, counts: Mapping[str, int], sections
     for data in blocks:
         file.write(np.array(data.nbytes, dtype="<u8").tobytes())
         file.write(data.tobytes())
-    file.write(b"</AppendedData></VTKFile>\n")
+    file.write(b"\n</AppendedData>\n</VTKFile>\n")

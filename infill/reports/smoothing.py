@@ -335,6 +335,17 @@ class TogetherSeconds(Seconds):
     check: Annotated[float, "Comparison of components, s"]
 
 
+class TetrahedraKeys(TypedDict):
+    """Tetrahedra that fill the labels, face to face; null unless the command writes a .vtu."""
+
+    tetrahedra: Annotated[int, "Number of tetrahedra"]
+    points: Annotated[int, "Number of their points"]
+    smallest_angle: Annotated[float, "Smallest angle between two faces of a tetrahedron, degrees"]
+    slivers: Annotated[float, "Share of tetrahedra whose radius ratio is below 0.1; it is 1 in a regular one"]
+    mean_radius_ratio: Annotated[float, "Mean of the radius ratios: 3 times that of the inner over the outer sphere"]
+    moved: Annotated[int, "Number of points of walls that moved, so that no tetrahedron is inside out"]
+
+
 class TogetherReport(SeveralReport):
     """The report of `infill.smooth_labels` with `together`. `triangles` counts shared walls once."""
 
@@ -343,6 +354,7 @@ class TogetherReport(SeveralReport):
     absent: Annotated[list[str], "Names in the file without a cell"]
     rounds: Annotated[int, "How often the walls were extracted until the volumes were right"]
     seconds: TogetherSeconds
+    tetrahedra: TetrahedraKeys | None
 
 
 class ComponentKeys(TypedDict):

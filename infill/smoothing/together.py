@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +13,7 @@ from scipy import ndimage
 
 from infill.errors import GeometryError, UsageError
 from infill.formats.label_walls import LabelWalls
-from infill.formats.mesh_files import WALL_WRITERS
+from infill.formats.mesh_files import TETRAHEDRA, WALL_WRITERS
 from infill.formats.parts import hex_colour
 from infill.machine import require_memory
 from infill.partition.fields import PartitionFields, smooth_fields
@@ -25,8 +25,9 @@ from infill.plain_numbers import count_noun
 from infill.reports.common import report_head
 from infill.reports.smoothing import TogetherSeconds
 from infill.result import Clock, Result
-from infill.smoothing.label_stages import FACES_PER_RUN, LabelPiece, LabelStages, field_reach
+from infill.smoothing.label_stages import FACES_PER_RUN, LabelPiece, field_reach
 from infill.smoothing.request import AUTO
+from infill.smoothing.together_stages import TogetherStages
 from infill.surface import Surface
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ PRECISION = 1e-4  # of a label's volume that counts as kept
 
 def smooth_together(
     volume: Volume, pieces: Sequence[LabelPiece], request: SmoothRequest, absent: Sequence[str]
-) -> Result[LabelStages, TogetherReport]:
+) -> Result[TogetherStages, TogetherReport]:
     """Smooth labels of one volume together; the other values are the space between them.
 
     Raises
@@ -107,14 +108,22 @@ def smooth_together(
         "failed": [{**piece.place, "error": NOTHING_LEFT} for piece in gone],
         "absent": list(absent),
         "rounds": partition.rounds,
+        "tetrahedra": None,
         "seconds": clock.timings(TogetherSeconds),
     }
-    stages = LabelStages(
+    stages = TogetherStages(
         segments={piece.name: piece.segment for piece in pieces},
         failed={piece.name: NOTHING_LEFT for piece in gone},
+        partition=partition,
+        volume=volume,
+        values=(0, *(piece.segment.value for piece in pieces)),
+        max_memory=request.max_memory,
     )
     colours = {piece.name: piece.segment.colour for piece in left if piece.segment.colour is not None}
-    writers = {suffix: partial(write, walls) for suffix, write in WALL_WRITERS.items()}
+    writers: dict[str, Callable[[BinaryIO], None]] = {
+        **{suffix: partial(write, walls) for suffix, write in WALL_WRITERS.items()},
+        TETRAHEDRA: stages.write_tetrahedra,
+    }
     return Result(surfaces=surfaces, report=report, stages=stages, colours=colours, writers=writers)
 
 
@@ -158,7 +167,7 @@ def _require_memory(cells: int, pieces: Sequence[LabelPiece], request: SmoothReq
     require_memory(
         cells * BYTES_PER_CELL + faces * BYTES_PER_FACE,
         request.max_memory,
-        "give --voxel for larger voxels, or --roi for a part of it",
+        "give --roi for a part of it, or a volume of larger voxels",
     )
 
 
