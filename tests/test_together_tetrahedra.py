@@ -15,7 +15,8 @@ from test_command_line import refused, run
 from test_together import NASTY, fields_of, voronoi
 
 from infill import Smoothing, Volume, smooth_labels
-from infill.partition.tetrahedral_mesh import TetrahedralMesh, cut_tetrahedra, middle_points
+from infill.partition.simplices import middle_points
+from infill.partition.tetrahedral_mesh import TetrahedralMesh, cut_tetrahedra
 from infill.partition.tetrahedral_quality import LEAST, improve_tetrahedra, mean_ratios, measure_quality
 from infill.partition.volumes import keep_volumes
 from infill.partition.walls import WallGraph, Walls, place_walls, trace_walls

@@ -13,7 +13,7 @@ import typer
 
 from infill.cli.console import format_bytes, format_table, print_json, print_log, progress_bar, say
 from infill.cli.foreseeing import format_span
-from infill.plain_numbers import count_noun, plain_number, plain_size
+from infill.plain_numbers import plain_number, plain_size
 
 if TYPE_CHECKING:
     from infill.imaging.label_tables import Segment
@@ -223,10 +223,10 @@ def _parts(result: Result[LabelStages, Any], written: SmoothOutput) -> dict[Path
 
 def _together_text(label: TogetherLabel) -> str:
     """Return the row of a label that was smoothed together with others."""
+    verdict = label["verdict"]
     return (
         f"{label['triangles']:,} triangles, {plain_size(label['volume'], digits=6, power=3)}, "
-        f"{label['volume_change']:+z.4%} of the data, {count_noun(label['components'], 'component')} "
-        f"({label['components_before']:,} in the data)"
+        f"{label['volume_change']:+z.4%} of the data; {'; '.join([verdict['word'], *verdict['changes']])}"
     )
 
 
@@ -265,6 +265,8 @@ def _summary(report: Mapping[str, Any], files: Sequence[str], name: str) -> str:
         rows[f"FAILED {failure['number']} {failure['name']}"] = failure["error"]
     if report["absent"]:
         rows["without a cell"] = ", ".join(report["absent"])
+    if "verdict" in report:
+        rows["verdict"] = report["verdict"]["summary"]
     if report.get("tetrahedra"):
         rows["tetrahedra"] = _tetrahedra_text(report["tetrahedra"])
     if report["problems"]:

@@ -20,16 +20,11 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.kernels import partition as kernels
+from infill.partition.simplices import axis_places, base_numbers, count_bits
 from infill.partition.tetrahedra import (
-    EDGE_SLOT,
-    FACE_SLOT,
-    FACES,
     LOCAL_EDGES,
-    SLOTS,
     STEPS,
     TETRAHEDRA,
-    TETRAHEDRON_SLOT,
     divide_face,
     divide_tetrahedron,
     growth_strings,
@@ -40,7 +35,6 @@ from infill.partition.tetrahedra import (
 from infill.partition.walls import WallGraph
 
 CORNERS, LOCAL_POINTS = 4, 15  # of a tetrahedron: itself; with its edges, faces and its inside
-BITS = np.array([bin(number).count("1") for number in range(2**13)], dtype=np.int8)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -115,38 +109,13 @@ def cut_tetrahedra(graph: WallGraph, points: NDArray[np.floating]) -> Tetrahedra
             tetrahedra.append(corners)
             owners.append(owner)
     places = np.stack(np.unravel_index(lattice, labels.shape), axis=1)
-    shape = np.array(graph.winners.shape)
     return TetrahedralMesh(
-        points=np.concatenate([points.astype(np.float64), _axis_places(places, shape)]),
+        points=np.concatenate([points.astype(np.float64), axis_places(places, graph.winners.shape)]),
         tetrahedra=np.concatenate(tetrahedra),
         labels=np.concatenate(owners).astype(np.int32),
         wall_points=graph.point_count,
         lattice=lattice,
     )
-
-
-def middle_points(graph: WallGraph) -> NDArray[np.float64]:
-    """Return the middles of the edges, faces and tetrahedra in which the points of walls lie, (P, 3), in cells.
-
-    With these, no tetrahedron is inside out.
-    """
-    slots = np.empty(graph.point_count, dtype=np.int8)
-    kernels.name_points(graph.masks, graph.starts, slots)
-    lattice = tuple(count + 2 for count in graph.winners.shape)
-    bases = np.stack(np.unravel_index(_base_numbers(graph), lattice), axis=1)
-    bases = np.repeat(bases, _count_bits(graph.masks), axis=0)
-    middles = np.empty((graph.point_count, 3))
-    shape = np.array(graph.winners.shape)
-    for slot in range(SLOTS):
-        chosen = np.flatnonzero(slots == slot)
-        if slot < FACE_SLOT:
-            chain: tuple[int, ...] = (0, slot - EDGE_SLOT) if slot else (0,)
-        elif slot < TETRAHEDRON_SLOT:
-            chain = (0, *FACES[slot - FACE_SLOT])
-        else:
-            chain = (0, *TETRAHEDRA[slot - TETRAHEDRON_SLOT], 7)
-        middles[chosen] = np.mean([_axis_places(bases[chosen] + STEPS[step], shape) for step in chain], axis=0)
-    return middles
 
 
 def _cut_slab(
@@ -188,7 +157,7 @@ def _cut_slab(
             for point in used:
                 step, slot = tables.places[number, point - CORNERS]
                 bases_of = base_at.ravel()[bases[chosen] + int(STEPS[step] @ strides)]
-                before = _count_bits(graph.masks[bases_of] & ((1 << slot) - 1))
+                before = count_bits(graph.masks[bases_of] & ((1 << slot) - 1))
                 local[:, point] = graph.starts[bases_of] + before
             for part, corner in parts:
                 owner = beside[corner][chosen]
@@ -223,17 +192,10 @@ def _pattern_codes(labels: list[NDArray[np.uint16]]) -> NDArray[np.int64]:
     return np.asarray((second * 3 + third) * 4 + fourth)
 
 
-def _base_numbers(graph: WallGraph) -> NDArray[np.int64]:
-    """Return the numbers of all bases in the lattice, (b,)."""
-    columns = graph.winners.shape[2] + 2
-    counts = (graph.row_starts[..., 3] - graph.row_starts[..., 0]).ravel()
-    return np.asarray(np.repeat(np.arange(len(counts)), counts) * columns + graph.bases)
-
-
 def _base_lattice(graph: WallGraph) -> NDArray[np.int32]:
     """Return the lattice with the number of the base at each point; -1 where there is none."""
     lattice = np.full(tuple(count + 2 for count in graph.winners.shape), -1, dtype=np.int32)
-    lattice.ravel()[_base_numbers(graph)] = np.arange(len(graph.bases))
+    lattice.ravel()[base_numbers(graph)] = np.arange(len(graph.bases))
     return lattice
 
 
@@ -252,13 +214,3 @@ def _number_corners(
     on_side = (labels != 0) & ~inner
     numbers[on_side] = graph.starts[base_at[on_side]]
     return numbers, lattice
-
-
-def _axis_places(places: NDArray[np.integer], shape: NDArray[np.integer]) -> NDArray[np.float64]:
-    """Return points of the lattice in cells of the grid."""
-    return np.asarray(np.clip(places - 0.5, 0, shape))
-
-
-def _count_bits(masks: NDArray[np.integer]) -> NDArray[np.int64]:
-    """Count the bits of numbers below 2**26."""
-    return np.asarray(BITS[masks & 8191].astype(np.int64) + BITS[masks >> 13])

@@ -15,8 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.arrays import Floats
+from infill.partition.simplices import middle_points
 from infill.partition.tetrahedra import LOCAL_EDGES
-from infill.partition.tetrahedral_mesh import TetrahedralMesh, middle_points
+from infill.partition.tetrahedral_mesh import TetrahedralMesh
 from infill.partition.walls import WallGraph
 
 POOR = 0.3  # mean ratio: tetrahedra below it have their points moved
