@@ -308,5 +308,6 @@ def test_the_command_writes_a_file_for_each_label(tmp_path: Path) -> None:
     assert re.search(r"verdict +1 changed a little \(label_3\), 2 kept", result.stderr)
     assert sorted(path.name for path in tmp_path.glob("*.stl")) == ["label_1.stl", "label_2.stl", "label_3.stl"]
     refused(
-        run("smooth", tmp_path / "labels.npy", "--together", "-o", tmp_path / "a.stl"), "use .3mf, .glb, .ply or .vtp"
+        run("smooth", tmp_path / "labels.npy", "--together", "-o", tmp_path / "a.stl"),
+        "use .3mf, .glb, .ply, .vtp or .vtu",
     )

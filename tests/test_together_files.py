@@ -148,3 +148,24 @@ def test_the_command_writes_one_file_of_all_walls(tmp_path: Path) -> None:
         run("smooth", source, "--together", "-o", tmp_path / "b.off"), "use one of .stl, .3mf, .obj, .ply, .glb, .vtp"
     )
     refused(run("smooth", source, "--together", "--voxel", "2", "-o", single), "--voxel does not go with --together")
+
+
+def test_a_dry_run_names_labels_files_and_costs(tmp_path: Path) -> None:
+    """Triangles are right to a factor of two; nothing is written."""
+    source = tmp_path / "labels.npy"
+    np.save(source, voronoi((40, 40, 40), 8))
+    words = ["smooth", source, "--together", "-o", tmp_path / "{label}.stl", "-o", tmp_path / "mesh.vtu"]
+    plan = json.loads(run(*words, "--dry-run", "--json").stdout)
+    assert list(tmp_path.iterdir()) == [source]
+    report = json.loads(run(*words, "--json").stdout)
+    assert plan["files"] == report["files"]
+    assert plan["request"] == report["request"]
+    for expected, label in zip(plan["labels"], report["labels"], strict=True):
+        assert (expected["name"], expected["data"]) == (label["name"], label["data"])
+        assert 0.5 < expected["triangles_before"] / label["triangles"] < 2
+    assert plan["memory"] > 40**3 * 4000  # with tetrahedra
+    assert plan["seconds"]["total"] > 0
+    refused(run(*words, "--level", "0.2", "--dry-run"), "level does not go with labels together")
+    text = run(*words, "--dry-run", "--force").stdout
+    assert "8 label_8" in text
+    assert "for the largest" not in text

@@ -101,8 +101,6 @@ def smooth_every_label(source: Path, settings: SmoothSettings, output: SmoothOut
     text = next(iter(output.saved), None)
     check_outputs(single, text=text, overwrite=output.force, as_json=output.as_json, dry_run=output.dry_run)
     if output.dry_run:
-        if settings.together:
-            raise typer.BadParameter("a dry run foresees labels one by one; leave --together or --dry-run out")
         _show_label_plan(source, settings, output, options)
         return
     with progress_bar(shown=not output.quiet) as progress, print_log(shown=not output.quiet):
@@ -148,12 +146,19 @@ def _read_labels(source: Path, settings: SmoothSettings) -> tuple[Segmentation, 
 
 def _show_label_plan(source: Path, settings: SmoothSettings, output: SmoothOutput, options: SmoothOptions) -> None:
     """Print the labels that would be smoothed, and the files that would be written."""
+    from infill.formats.mesh_files import TETRAHEDRA
     from infill.smoothing.plan import plan_labels
+    from infill.smoothing.together_plan import plan_together
 
     begin = time.perf_counter()
     with print_log(shown=not output.quiet):
         segmentation, segments = _read_labels(source, settings)
-        plan = plan_labels(segmentation, begin=begin, label=settings.label, table=segments, **options)
+        choice: dict[str, Any] = {"begin": begin, "label": settings.label, "table": segments}
+        if settings.together:
+            wants_tetrahedra = any(path.suffix.lower() == TETRAHEDRA for path in output.outputs)
+            plan = plan_together(segmentation, tetrahedra=wants_tetrahedra, **choice, **options)
+        else:
+            plan = plan_labels(segmentation, **choice, **options)
     labels = plan["labels"]
     files = [
         str(path)
@@ -170,7 +175,7 @@ def _show_label_plan(source: Path, settings: SmoothSettings, output: SmoothOutpu
     }
     if len(labels) > MOST_ROWS:
         rows["…"] = f"and {len(labels) - MOST_ROWS} more"
-    rows["memory"] = f"about {format_bytes(plan['memory'])} for the largest"
+    rows["memory"] = f"about {format_bytes(plan['memory'])}" + ("" if settings.together else " for the largest")
     rows["time"] = f"about {format_span(plan['seconds']['total'])} on this machine, as busy as it is"
     if files:
         rows["would write"] = ", ".join(files)

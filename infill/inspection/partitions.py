@@ -17,8 +17,8 @@ from scipy import ndimage
 from infill.arrays import Floats
 from infill.inspection.bricks import TopologyCheck
 from infill.inspection.changes import ConnectionCounts, TopologyChanges
-from infill.inspection.deviation import COUNTS, KEPT, PITCH, THIN, Deviation, measure_deviation, sample_surface
-from infill.meshes.distance import TriangleTree
+from infill.inspection.deviation import COUNTS, KEPT, LOST, PITCH, THIN, Deviation, measure_deviation, sample_surface
+from infill.meshes.distance import TriangleTree, morton_order
 from infill.partition.simplices import cells_at, middle_points, simplices
 from infill.partition.walls import OUTSIDE, WallGraph, trace_walls
 from infill.surface import Surface
@@ -28,8 +28,8 @@ from infill.volume import Volume
 NEIGHBOURS = np.array(
     [[[1, 1, 0], [1, 1, 0], [0, 0, 0]], [[1, 1, 0], [1, 1, 1], [0, 1, 1]], [[0, 0, 0], [0, 1, 1], [0, 1, 1]]]
 )
-NEAR = 2  # cells around changed ones: points there are measured
-AROUND = 4  # cells around changed ones: the walls to which others are measured first; if none is near, to all
+# In units of distance around changed cells: where points are measured, and the walls to which they are measured first.
+NEAR, AROUND = 2, 4
 OPENED = np.ones((2, 2, 2), dtype=bool)  # thicker than one cell: this fits in
 
 
@@ -59,14 +59,17 @@ class LabelPoints:
         """The labels in these orders."""
         return tuple(side[order] for side, order in zip(self.sides.T, self._orders, strict=True))
 
-    def surface(self, number: int) -> Surface:
-        """Return the triangles of a label, which face away from it."""
+    def faces(self, number: int) -> NDArray[np.int64]:
+        """Return the triangles of a label, which face away from it, (F, 3)."""
         behind, before = (
             order[slice(*np.searchsorted(labels, [number, number + 1]))]
             for order, labels in zip(self._orders, self._sorted, strict=True)
         )
-        faces = np.concatenate([self.triangles[behind], self.triangles[before][:, ::-1]])
-        used, corners = np.unique(faces, return_inverse=True)
+        return np.concatenate([self.triangles[behind], self.triangles[before][:, ::-1]])
+
+    def surface(self, number: int) -> Surface:
+        """Return the surface of a label, with its own points alone."""
+        used, corners = np.unique(self.faces(number), return_inverse=True)
         return Surface(vertices=self.points[used], faces=corners.reshape(-1, 3))
 
     def within(self, chosen: NDArray[np.bool_]) -> LabelPoints:
@@ -166,8 +169,11 @@ class PartitionCheck:
         deviations: list[Deviation | None] = [None] * self.count
         if not self.changed.any():
             return deviations
-        is_around = dilate_cells(self.changed, AROUND)
-        places = _Places(cells=dilate_cells(self.changed, NEAR), volume=self.volume)
+        reach = self.cell / self.volume.cell_size  # of a unit, along each axis, in cells
+        is_around, is_near = (
+            dilate_cells(self.changed, tuple(np.ceil(cells * reach).astype(int).tolist())) for cells in (AROUND, NEAR)
+        )
+        places = _Places(cells=is_near, volume=self.volume)
         sides = (self.given, self._given_graph, self._given_points), (self.result, self.graph, self.points)
         around = [walls.within(_look_up(is_around, points)) for walls, _, points in sides]
         unsettled = [walls.within(find_unsettled(graph, self.changed)) for walls, graph, _ in sides]
@@ -175,19 +181,25 @@ class PartitionCheck:
         for number in numbers[numbers > 0].tolist():
             if self._are_near(number, unsettled[0], around[1]) and self._are_near(number, unsettled[1], around[0]):
                 continue
-            surfaces = self.given.surface(number), self.result.surface(number)
-            if all(len(surface.faces) for surface in surfaces):  # else it is gone
-                deviations[number] = self._measure(number, *surfaces, places)
+            for given, result in (around, (self.given, self.result)):
+                surfaces = given.surface(number), result.surface(number)
+                if not all(len(surface.faces) for surface in surfaces):
+                    deviations[number] = None  # it is gone, or only its surroundings are
+                    continue
+                deviations[number] = deviation = self._measure(number, *surfaces, places)
+                if max(deviation.there.max, deviation.back.max) <= LOST * self.cell:
+                    break  # exact: what is further away would be further than that
         return deviations
 
     def _are_near(self, number: int, walls: LabelPoints, others: LabelPoints) -> bool:
         """Tell whether the walls of a label are sure to be near other ones."""
-        surface, other = walls.surface(number), others.surface(number)
-        if not (len(surface.faces) and len(other.faces)):
+        surface, faces = walls.surface(number), others.faces(number)
+        if not (len(surface.faces) and len(faces)):
             return not len(surface.faces)
         points, _, _ = sample_surface(surface, PITCH * self.cell)
         enough = KEPT * self.cell
-        distance, _ = TriangleTree.of(other).nearest(points, enough=enough, threads=self.threads)
+        tree = TriangleTree.of(Surface(vertices=others.points, faces=faces))
+        distance, _ = tree.nearest(points[morton_order(points)], enough=enough, threads=self.threads)
         return bool(distance.max() <= enough)
 
     def exact_deviation(self, number: int) -> Deviation:
@@ -259,17 +271,17 @@ def _look_up(cells: NDArray[np.bool_], points: NDArray[np.floating]) -> NDArray[
     return np.asarray(cells[tuple(np.clip(at[:, axis], 0, cells.shape[axis] - 1) for axis in range(3))])
 
 
-def dilate_cells(cells: NDArray[np.bool_], reach: int) -> NDArray[np.bool_]:
+def dilate_cells(cells: NDArray[np.bool_], reach: tuple[int, ...]) -> NDArray[np.bool_]:
     """Mark all cells up to `reach` from marked ones along each axis.
 
-    >>> dilate_cells(np.array([[[False, False, True, False, False, False]]]), 2).astype(int).tolist()
+    >>> dilate_cells(np.array([[[False, False, True, False, False, False]]]), (2, 2, 2)).astype(int).tolist()
     [[[1, 1, 1, 1, 1, 0]]]
     """
     wider = cells
-    for axis in range(cells.ndim):
+    for axis, steps in enumerate(reach):
         at = np.nonzero(wider)
         wider = wider.copy()
-        for step in range(-reach, reach + 1):
+        for step in range(-steps, steps + 1):
             moved = list(at)
             moved[axis] = np.clip(at[axis] + step, 0, cells.shape[axis] - 1)
             wider[tuple(moved)] = True

@@ -465,6 +465,6 @@ class LabelsForecast(TypedDict):
 
     request: SolidRequest
     labels: list[PlannedLabel]
-    memory: Annotated[int, "Expected memory of the largest label, bytes"]
+    memory: Annotated[int, "Expected memory of the largest label, or of all together, bytes"]
     seconds: PlannedSeconds
     files: NotRequired[Annotated[list[str], "Names of the files that a run would write; from the command line only"]]

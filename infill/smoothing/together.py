@@ -69,7 +69,8 @@ def smooth_together(
     refuse_unfit(request)
     request = request.at(float(volume.cell_size.min()))
     clock = Clock(request.progress)
-    _require_memory(volume.values.size, pieces, request)
+    needed = needed_memory(volume.values.size, pieces)
+    require_memory(needed, request.max_memory, "give --roi for a part of it, or a volume of larger voxels")
     numbers = number_labels(volume, pieces)
     scale = tuple((volume.cell_size / volume.cell_size.min()).tolist())
     with clock.stage("smooth", 0.0):
@@ -161,6 +162,17 @@ def refuse_unfit(request: SmoothRequest) -> None:
         raise UsageError.about("method", "is grey, and labels have no grey values; give plain or refine")
 
 
+def refuse_layers(pieces: Sequence[LabelPiece]) -> None:
+    """Raise UsageError if labels lie in several layers, which may overlap, or if there are too many."""
+    if len({piece.segment.layer for piece in pieces}) > 1:
+        raise UsageError.about("together", "is given, and the labels lie in layers that may overlap; leave it out")
+    if len(pieces) > MOST_LABELS:
+        raise UsageError.about(
+            "together",
+            f"is given, and there are {len(pieces):,} labels; the limit is {MOST_LABELS:,}; choose some by label",
+        )
+
+
 def number_labels(volume: Volume, pieces: Sequence[LabelPiece]) -> NDArray[np.uint16]:
     """Return the cells of labels numbered 1, 2 ... in the order of the pieces, and 0 elsewhere.
 
@@ -169,13 +181,7 @@ def number_labels(volume: Volume, pieces: Sequence[LabelPiece]) -> NDArray[np.ui
     UsageError
         If labels lie in several layers, which may overlap, or if there are too many.
     """
-    if len({piece.segment.layer for piece in pieces}) > 1:
-        raise UsageError.about("together", "is given, and the labels lie in layers that may overlap; leave it out")
-    if len(pieces) > MOST_LABELS:
-        raise UsageError.about(
-            "together",
-            f"is given, and there are {len(pieces):,} labels; the limit is {MOST_LABELS:,}; choose some by label",
-        )
+    refuse_layers(pieces)
     numbers = np.zeros(volume.values.shape, dtype=np.uint16)
     for number, piece in enumerate(pieces, 1):
         box = tuple(map(slice, piece.extent.low, piece.extent.high))
@@ -183,14 +189,10 @@ def number_labels(volume: Volume, pieces: Sequence[LabelPiece]) -> NDArray[np.ui
     return numbers
 
 
-def _require_memory(cells: int, pieces: Sequence[LabelPiece], request: SmoothRequest) -> None:
-    """Raise MemoryLimitError if fields and walls do not fit into memory."""
+def needed_memory(cells: int, pieces: Sequence[LabelPiece]) -> int:
+    """Return the memory that fields and walls take, bytes."""
     faces = sum(FACES_PER_RUN * piece.extent.runs for piece in pieces)
-    require_memory(
-        cells * BYTES_PER_CELL + faces * BYTES_PER_FACE,
-        request.max_memory,
-        "give --roi for a part of it, or a volume of larger voxels",
-    )
+    return cells * BYTES_PER_CELL + faces * BYTES_PER_FACE
 
 
 def _smooth_fields(
