@@ -165,7 +165,7 @@ def test_a_dry_run_names_labels_files_and_costs(tmp_path: Path) -> None:
         assert 0.5 < expected["triangles_before"] / label["triangles"] < 2
     assert plan["memory"] > 40**3 * 4000  # with tetrahedra
     assert plan["seconds"]["total"] > 0
-    refused(run(*words, "--level", "0.2", "--dry-run"), "level does not go with labels together")
+    refused(run(*words, "--level", "0.2", "--dry-run", "--force"), "level does not go with labels together")
     text = run(*words, "--dry-run", "--force").stdout
     assert "8 label_8" in text
     assert "for the largest" not in text

@@ -49,7 +49,6 @@ if TYPE_CHECKING:
 UNFIT = ("level", "despeckle", "crumbs", "max_triangles", "allow_broken", "strict")
 # Of the grid, and for each face of a label's cells, estimated from its runs: peaks were 600 to 1,850 bytes a face.
 BYTES_PER_CELL, BYTES_PER_FACE = 6, 2000
-MOST_LABELS = 2**16 - 1  # numbers of cells have 16 bits
 NOTHING_LEFT = "nothing of it is left"
 
 
@@ -163,14 +162,9 @@ def refuse_unfit(request: SmoothRequest) -> None:
 
 
 def refuse_layers(pieces: Sequence[LabelPiece]) -> None:
-    """Raise UsageError if labels lie in several layers, which may overlap, or if there are too many."""
+    """Raise UsageError if labels lie in several layers, which may overlap."""
     if len({piece.segment.layer for piece in pieces}) > 1:
         raise UsageError.about("together", "is given, and the labels lie in layers that may overlap; leave it out")
-    if len(pieces) > MOST_LABELS:
-        raise UsageError.about(
-            "together",
-            f"is given, and there are {len(pieces):,} labels; the limit is {MOST_LABELS:,}; choose some by label",
-        )
 
 
 def number_labels(volume: Volume, pieces: Sequence[LabelPiece]) -> NDArray[np.uint16]:
@@ -179,7 +173,7 @@ def number_labels(volume: Volume, pieces: Sequence[LabelPiece]) -> NDArray[np.ui
     Raises
     ------
     UsageError
-        If labels lie in several layers, which may overlap, or if there are too many.
+        If labels lie in several layers, which may overlap.
     """
     refuse_layers(pieces)
     numbers = np.zeros(volume.values.shape, dtype=np.uint16)
