@@ -11,13 +11,18 @@ import numpy as np
 import trimesh
 from PIL import Image
 
-from infill import fill, make, refill, smooth_volume
+from infill import Smoothing, fill, make, refill, smooth_labels, smooth_volume
+from infill.meshes.distance import TriangleTree
+from infill.meshes.split_components import concatenate_surfaces
 from infill.pictures.render import render
 from infill.pictures.speeds import write_speeds
 from infill.planner.layer_speeds import layer_speeds
 
 ROOT = Path(__file__).resolve().parents[1]
 FOLDER = Path(__file__).parent / "pictures"
+PANEL = 320  # pixels along the sides of a picture of labels
+LABEL_COLOURS = ((240, 160, 60), (90, 140, 220))
+VIEW = (2.2, 0.6)  # azimuth and elevation, radians
 sys.path.insert(0, str(ROOT))
 
 from tests import made_shapes, prints, slicers  # noqa: E402 - the folder beside this one
@@ -37,6 +42,7 @@ def main() -> None:
         both.paste(Image.fromarray(render(block.surface, width=480, height=400)), (left, 0))
     both.save(FOLDER / "stamps.png", optimize=True)
     smooth_volume(gyroid(), spacing=0.5, tolerance=None).save(FOLDER / "smooth.png")
+    save_labels(FOLDER / "labels-together.png")
     fill(bracket(), density=0.2).save(FOLDER / "fill.png")
     if not slicers.missing_prusa():
         save_refill(prints.prusa_print, {"fill_pattern": "honeycomb"}, FOLDER / "refill.png")
@@ -45,6 +51,30 @@ def main() -> None:
         save_refill(
             prints.cura_print, {"infill_pattern": "cross", "zig_zaggify_infill": "true"}, FOLDER / "refill-cura.png"
         )
+
+
+def save_labels(path: Path) -> None:
+    """Draw two of three labels at the line where they meet: their voxels, each by itself, and all together."""
+    x, y, z = (axis - 15.5 for axis in np.indices((32, 32, 32)))
+    angle = np.arctan2(y - 0.23 * z, x - 0.41 * z) + np.pi + 0.4
+    labels = np.floor(angle / (2 * np.pi / 3)).astype(int) % 3 + 1
+    labels[(x**2 + y**2 + z**2) > 12**2] = 0
+    plain = smooth_labels(labels, together=True, method="plain", smoothing=Smoothing(steps=0))
+    apart = smooth_labels(labels, method="plain", tolerance=None)
+    together = smooth_labels(labels, together=True, method="plain")
+    sheet = Image.new("RGB", (3 * PANEL, PANEL), "white")
+    for number, result in enumerate((plain, apart, together)):
+        shown = [result.surfaces[f"label_{label}"] for label in (1, 2)]
+        trees = [TriangleTree.of(surface) for surface in shown]
+
+        def paint(points: np.ndarray, trees: list[TriangleTree] = trees) -> np.ndarray:
+            nearest = np.argmin([tree.nearest(points)[0] for tree in trees], axis=0)
+            return np.array(LABEL_COLOURS)[nearest]
+
+        whole = concatenate_surfaces(shown)
+        view = render(whole, width=PANEL, height=PANEL, azimuth=VIEW[0], elevation=VIEW[1], paint=paint)
+        sheet.paste(Image.fromarray(view), (number * PANEL, 0))
+    sheet.quantize(64).save(path, optimize=True)
 
 
 def save_gradients(path: Path) -> None:

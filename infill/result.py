@@ -65,6 +65,8 @@ class Result(Picturable, Generic[Stages, Told]):
         Of surfaces that have one, from 0 to 1, sRGB.
     joins : bool
         Whether several surfaces may be concatenated into a file that holds a single mesh.
+    writers : mapping of str to callable
+        Functions that write what this result alone has, by the suffix of the file, such as walls that labels share.
     """
 
     surfaces: Mapping[str, Surface]
@@ -72,6 +74,7 @@ class Result(Picturable, Generic[Stages, Told]):
     stages: Stages = field(repr=False)
     colours: Mapping[str, Colour] = field(default_factory=dict)
     joins: bool = False
+    writers: Mapping[str, Callable[[BinaryIO], None]] = field(default_factory=dict, repr=False)
 
     def __repr__(self) -> str:
         """Return the names of the surfaces, with their triangles and sizes."""
@@ -103,12 +106,14 @@ class Result(Picturable, Generic[Stages, Told]):
     def save(self, path: str | os.PathLike[str], *, overwrite: bool = True) -> Path:
         """Write the mesh, or a picture of the stages, in the format of the suffix; return the path.
 
-        Several surfaces go into one .3mf or .glb, each by its name; the components of a mesh into any format.
+        Several surfaces go into one .3mf or .glb, each by its name; the components of a mesh into any format; labels
+        that share their walls also into one .ply or .vtp, which holds every wall once, with the labels on both sides.
 
         Parameters
         ----------
         path : str or Path
-            .stl, .3mf, .obj, .ply or .glb for the mesh, in mm; .png for `picture`.
+            .stl, .3mf, .obj, .ply or .glb for the mesh, in mm; .vtp for labels that share their walls; .png for
+            `picture`.
         overwrite : bool
             Whether an existing file is replaced, once the new one is complete. By default it is, as by `numpy.save`,
             `Image.save` and `Trimesh.export`: a script or a notebook cell that is run again should not fail. The
@@ -133,6 +138,8 @@ class Result(Picturable, Generic[Stages, Told]):
         """Return the function that writes the format of a path."""
         if is_picture(target):
             return self.write_picture
+        if target.suffix.lower() in self.writers:
+            return self.writers[target.suffix.lower()]
         write_one = mesh_writer(target, more=PICTURES)  # raises for an unknown suffix
         holds_names = target.suffix.lower() in PART_WRITERS
         named = not UNNAMED.issuperset(self.surfaces)

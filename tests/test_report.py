@@ -167,7 +167,7 @@ def together_reports(folder: Path, results: Results) -> dict[str, Any]:
     specks = LABELS.copy()
     specks[0, 0, 0], specks[2, 20, 2] = 5, 6
     np.save(folder / "labels.npy", LABELS)
-    words = ["--spacing", 1, "--each-label", "--together", "-o", folder / "a.3mf"]
+    words = ["--spacing", 1, "--together", "-o", folder / "a.3mf", "-o", folder / "a.vtu"]
     return {
         "absent": smooth_labels(Segmentation(layers=(Volume(values=LABELS),), segments=named), together=True).report,
         "failed": smooth_labels(specks, together=True, method="plain").report,

@@ -127,10 +127,11 @@ CHAPTERS = (
     Chapter(
         title="Labels together: walls that neighbours share",
         word="together",
-        text="`smooth_labels` with `together` returns this report, and `infill smooth --together` prints it. `request` "
-        "has the keys of [the report of one solid](#smooth-a-volume-a-mesh-or-points).",
+        text="`smooth_labels` with `together` returns this report, and `infill smooth --together` prints it. "
+        "`request`, `labels[].topology`, `labels[].distance` and the places of `labels[].verdict` have the keys of "
+        "[the report of one solid](#smooth-a-volume-a-mesh-or-points).",
         report=smoothing.TogetherReport,
-        known=(smoothing.SolidRequest,),
+        known=(smoothing.SolidRequest, smoothing.Topology, smoothing.Distance, smoothing.Place),
     ),
     Chapter(
         title="Labels: a dry run",

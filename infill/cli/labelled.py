@@ -13,12 +13,12 @@ import typer
 
 from infill.cli.console import format_bytes, format_table, print_json, print_log, progress_bar, say
 from infill.cli.foreseeing import format_span
-from infill.plain_numbers import count_noun, plain_size
+from infill.plain_numbers import plain_number, plain_size
 
 if TYPE_CHECKING:
     from infill.imaging.label_tables import Segment
     from infill.imaging.segmentations import Segmentation
-    from infill.reports.smoothing import TogetherLabel
+    from infill.reports.smoothing import TetrahedraKeys, TogetherLabel
     from infill.result import Result
     from infill.smoothing.label_stages import LabelStages
     from infill.smoothing.request import SmoothOptions
@@ -58,12 +58,12 @@ class SmoothOutput:
 def wants_every_label(
     outputs: Sequence[Path], *, each_label: bool, labels: Path | None, keep_going: bool, together: bool
 ) -> bool:
-    """Tell whether --each-label is given, or {label} in an output; raise BadParameter for options that need it."""
+    """Tell whether all labels are asked for, as --together does too; raise BadParameter for options that need it."""
     from infill.files.file_names import is_template
 
-    if each_label or any(is_template(path) for path in outputs):
+    if each_label or together or any(is_template(path) for path in outputs):
         return True
-    options = {"--labels": labels is not None, "--keep-going": keep_going, "--together": together}
+    options = {"--labels": labels is not None, "--keep-going": keep_going}
     for name, is_given in options.items():
         if is_given:
             raise typer.BadParameter(f"{name} goes with --each-label, or with {{label}} in the name of an output")
@@ -80,25 +80,27 @@ def refuse_options(settings: SmoothSettings, output: SmoothOutput) -> None:
     given += ["grey"] * (settings.method == "grey")
     if given:
         option = given[0].replace("_", "-")
-        raise typer.BadParameter(f"--{option} does not go with --each-label or {{label}}; leave one of them out")
+        labels = "--together" if settings.together else "--each-label or {label}"
+        raise typer.BadParameter(f"--{option} does not go with {labels}; leave one of them out")
 
 
 def smooth_every_label(source: Path, settings: SmoothSettings, output: SmoothOutput, options: SmoothOptions) -> None:
     """Smooth every label, write the files and print a summary."""
     from infill.cli.piping import check_outputs, deliver_all
     from infill.files.file_names import is_template
-    from infill.formats.mesh_files import mesh_writer, parts_writer
+    from infill.formats.mesh_files import TETRAHEDRA, WALL_WRITERS, mesh_writer, parts_writer
 
     single = [path for path in output.outputs if not is_template(path)]
+    more = (*WALL_WRITERS, TETRAHEDRA) if settings.together else ()
     for path in output.outputs:
-        mesh_writer(path, ascii=output.ascii_stl)
+        if path in single and path.suffix.lower() in more:
+            continue
+        mesh_writer(path, ascii=output.ascii_stl, more=more if path in single else ())
         if path in single:
-            parts_writer(path)
+            parts_writer(path, more=more)
     text = next(iter(output.saved), None)
     check_outputs(single, text=text, overwrite=output.force, as_json=output.as_json, dry_run=output.dry_run)
     if output.dry_run:
-        if settings.together:
-            raise typer.BadParameter("a dry run foresees labels one by one; leave --together or --dry-run out")
         _show_label_plan(source, settings, output, options)
         return
     with progress_bar(shown=not output.quiet) as progress, print_log(shown=not output.quiet):
@@ -118,13 +120,14 @@ def smooth_every_label(source: Path, settings: SmoothSettings, output: SmoothOut
         )
         if progress is not None:
             progress("write", 0.9)
+        report = {**result.report, **_tetrahedra_section(result, single)}
         parts = _parts(result, output)
         check_outputs(parts, text=text, overwrite=output.force, as_json=output.as_json)
         files = deliver_all(parts | dict(output.saved))
     if not output.quiet:
-        say(_summary(result, files, str(source)))
+        say(_summary(report, files, str(source)))
     if output.as_json:
-        print_json({**result.report, "files": files})
+        print_json({**report, "files": files})
     failed = result.report["failed"]
     if failed:
         say(f"error: {len(failed)} of {len(failed) + len(result.surfaces)} labels failed; the others were written")
@@ -143,12 +146,19 @@ def _read_labels(source: Path, settings: SmoothSettings) -> tuple[Segmentation, 
 
 def _show_label_plan(source: Path, settings: SmoothSettings, output: SmoothOutput, options: SmoothOptions) -> None:
     """Print the labels that would be smoothed, and the files that would be written."""
+    from infill.formats.mesh_files import TETRAHEDRA
     from infill.smoothing.plan import plan_labels
+    from infill.smoothing.together_plan import plan_together
 
     begin = time.perf_counter()
     with print_log(shown=not output.quiet):
         segmentation, segments = _read_labels(source, settings)
-        plan = plan_labels(segmentation, begin=begin, label=settings.label, table=segments, **options)
+        choice: dict[str, Any] = {"begin": begin, "label": settings.label, "table": segments}
+        if settings.together:
+            wants_tetrahedra = any(path.suffix.lower() == TETRAHEDRA for path in output.outputs)
+            plan = plan_together(segmentation, tetrahedra=wants_tetrahedra, **choice, **options)
+        else:
+            plan = plan_labels(segmentation, **choice, **options)
     labels = plan["labels"]
     files = [
         str(path)
@@ -165,7 +175,7 @@ def _show_label_plan(source: Path, settings: SmoothSettings, output: SmoothOutpu
     }
     if len(labels) > MOST_ROWS:
         rows["…"] = f"and {len(labels) - MOST_ROWS} more"
-    rows["memory"] = f"about {format_bytes(plan['memory'])} for the largest"
+    rows["memory"] = f"about {format_bytes(plan['memory'])}" + ("" if settings.together else " for the largest")
     rows["time"] = f"about {format_span(plan['seconds']['total'])} on this machine, as busy as it is"
     if files:
         rows["would write"] = ", ".join(files)
@@ -203,7 +213,8 @@ def _parts(result: Result[LabelStages, Any], written: SmoothOutput) -> dict[Path
     parts: dict[Path, Callable[[BinaryIO], object]] = {}
     for output in written.outputs:
         if not is_template(output):
-            parts[output] = partial(parts_writer(output), parts_of(result))
+            whole = result.writers.get(output.suffix.lower())
+            parts[output] = partial(parts_writer(output), parts_of(result)) if whole is None else whole
             continue
         write = mesh_writer(output, ascii=written.ascii_stl)
         for name, path in zip(names, fill_template(output, names, numbers), strict=True):
@@ -217,16 +228,31 @@ def _parts(result: Result[LabelStages, Any], written: SmoothOutput) -> dict[Path
 
 def _together_text(label: TogetherLabel) -> str:
     """Return the row of a label that was smoothed together with others."""
+    verdict = label["verdict"]
     return (
         f"{label['triangles']:,} triangles, {plain_size(label['volume'], digits=6, power=3)}, "
-        f"{label['volume_change']:+z.4%} of the data, {count_noun(label['components'], 'component')} "
-        f"({label['components_before']:,} in the data)"
+        f"{label['volume_change']:+z.4%} of the data; {'; '.join([verdict['word'], *verdict['changes']])}"
     )
 
 
-def _summary(result: Result[LabelStages, Any], files: Sequence[str], name: str) -> str:
+def _tetrahedra_section(result: Result[Any, Any], outputs: Sequence[Path]) -> dict[str, Any]:
+    """Return the section of the report on tetrahedra, if they are to be written."""
+    from infill.formats.mesh_files import TETRAHEDRA
+
+    is_wanted = any(path.suffix.lower() == TETRAHEDRA for path in outputs)
+    return {"tetrahedra": result.stages.tetrahedra_facts} if is_wanted else {}
+
+
+def _tetrahedra_text(facts: TetrahedraKeys) -> str:
+    """Return the row of the tetrahedra."""
+    return (
+        f"{facts['tetrahedra']:,}, smallest angle {plain_number(facts['smallest_angle'], 2)} degrees, "
+        f"{facts['slivers']:.1%} with a radius ratio below 0.1"
+    )
+
+
+def _summary(report: Mapping[str, Any], files: Sequence[str], name: str) -> str:
     """Return the short table for stderr: a row for each label, and failures."""
-    report = result.report
     rows = {}
     for label in report["labels"][:MOST_ROWS]:
         if "report" not in label:
@@ -244,6 +270,10 @@ def _summary(result: Result[LabelStages, Any], files: Sequence[str], name: str) 
         rows[f"FAILED {failure['number']} {failure['name']}"] = failure["error"]
     if report["absent"]:
         rows["without a cell"] = ", ".join(report["absent"])
+    if "verdict" in report:
+        rows["verdict"] = report["verdict"]["summary"]
+    if report.get("tetrahedra"):
+        rows["tetrahedra"] = _tetrahedra_text(report["tetrahedra"])
     if report["problems"]:
         rows["PROBLEMS"] = "; ".join(report["problems"])
     sizes = [Path(file).stat().st_size for file in files if Path(file).is_file()]

@@ -17,12 +17,14 @@ from infill.files.broken import require_readable, wrap_reader_errors
 from infill.files.suffixes import PRINTS
 from infill.files.whole_files import atomic_file
 from infill.formats.gltf import write_glb, write_glb_parts
+from infill.formats.label_walls import LabelWalls
 from infill.formats.obj import read_obj, write_obj
 from infill.formats.off import read_off
 from infill.formats.parts import Part
-from infill.formats.ply import read_ply, write_ply
+from infill.formats.ply import read_ply, write_ply, write_ply_walls
 from infill.formats.stl import read_stl, write_stl, write_stl_ascii
 from infill.formats.threemf import write_3mf, write_3mf_parts
+from infill.formats.vtk_writing import write_vtp
 from infill.meshes.merging import merge_unless_closed, surface_of
 from infill.plain_numbers import plain_size
 from infill.surface import Modifier, Surface
@@ -72,19 +74,24 @@ def mesh_writer(path: Path, *, ascii: bool = False, more: tuple[str, ...] = ()) 
     suffix = path.suffix.lower()
     if suffix not in WRITERS:
         description = f"the suffix {path.suffix!r}" if suffix else f"{path.name!r}, which has no suffix"
-        raise FormatError(f"cannot tell a mesh format from {description}; use one of {', '.join((*WRITERS, *more))}")
+        suffixes = ", ".join(dict.fromkeys((*WRITERS, *more)))
+        raise FormatError(f"cannot tell a mesh format from {description}; use one of {suffixes}")
     if ascii and suffix != ".stl":
         raise FormatError(f"only .stl can be written as text by choice, not {suffix}; leave ascii out")
     return write_stl_ascii if ascii else WRITERS[suffix]
 
 
-def parts_writer(path: Path) -> Callable[[Sequence[Part], BinaryIO], None]:
-    """Return the function that writes several meshes into one file; raise FormatError if the format holds one."""
+def parts_writer(path: Path, *, more: tuple[str, ...] = ()) -> Callable[[Sequence[Part], BinaryIO], None]:
+    """Return the function that writes several meshes into one file; raise FormatError if the format holds one.
+
+    The message lists `more` suffixes too.
+    """
     suffix = path.suffix.lower()
     if suffix not in PART_WRITERS:
-        mesh_writer(path)
+        mesh_writer(path, more=more)
+        *first, last = (*PART_WRITERS, *more)
         raise FormatError(
-            f"{path} can hold one mesh and there may be several; use {' or '.join(PART_WRITERS)}, "
+            f"{path} can hold one mesh and there may be several; use {', '.join(first)} or {last}, "
             "or {label} in the name for a file each"
         )
     return PART_WRITERS[suffix]
@@ -181,6 +188,12 @@ PART_WRITERS: dict[str, Callable[[Sequence[Part], BinaryIO], None]] = {
     ".3mf": write_3mf_parts,
     ".glb": write_glb_parts,
 }
+# Of labels that share their walls.
+WALL_WRITERS: dict[str, Callable[[LabelWalls, BinaryIO], None]] = {
+    ".ply": write_ply_walls,
+    ".vtp": write_vtp,
+}
+TETRAHEDRA = ".vtu"  # the suffix of labels as tetrahedra
 READERS: dict[str, Callable[[Path], MeshArrays]] = {
     ".stl": read_stl,
     ".3mf": _read_3mf,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -10,12 +11,15 @@ from numpy.typing import NDArray
 
 from infill.errors import FormatError
 from infill.files.excerpts import quote_word
+from infill.formats.label_walls import LabelWalls, label_type
 from infill.formats.ply_rows import MOST_ROWS, Columns, Element, Property, read_binary_rows, read_text_rows
 from infill.meshes.polygons import split_polygons, split_strips
 from infill.surface import Surface
 from infill.version import __version__
 
-FACE = np.dtype([("count", "u1"), ("corners", "<i4", 3)])
+CORNERS = 3  # of a triangle
+FACE: tuple[tuple[Any, ...], ...] = (("count", "u1"), ("corners", "<i4", CORNERS))
+NAMES = {"i4": "int", "u4": "uint", "f8": "double"}  # of the numbers that are written
 TYPES = {
     "char": "i1",
     "uchar": "u1",
@@ -156,14 +160,32 @@ def _to_integers(path: Path, values: NDArray[Any]) -> NDArray[np.int64]:
 
 def write_ply(surface: Surface, file: BinaryIO) -> None:
     """Write binary PLY."""
+    _write_rows(surface.vertices, surface.faces, {}, file)
+
+
+def write_ply_walls(walls: LabelWalls, file: BinaryIO) -> None:
+    """Write binary PLY whose faces have two more numbers, the labels behind and in front of each; 0 is outside."""
+    labels = walls.labels.astype(label_type(walls.labels))
+    _write_rows(walls.points, walls.triangles, {"label_back": labels[:, 0], "label_front": labels[:, 1]}, file)
+
+
+def _write_rows(
+    vertices: NDArray[np.floating],
+    triangles: NDArray[np.integer],
+    numbers: Mapping[str, NDArray[np.generic]],
+    file: BinaryIO,
+) -> None:
+    """Write the header, the vertices, and the triangles, each with its numbers by name."""
+    faces = np.empty(len(triangles), dtype=[*FACE, *((name, column.dtype) for name, column in numbers.items())])
+    faces["count"], faces["corners"] = CORNERS, triangles
+    for name, column in numbers.items():
+        faces[name] = column
+    properties = "".join(f"property {NAMES[column.dtype.str[1:]]} {name}\n" for name, column in numbers.items())
     file.write(
         "ply\nformat binary_little_endian 1.0\n"
         f"comment phasefill {__version__}, millimetres\n"
-        f"element vertex {len(surface.vertices)}\nproperty float x\nproperty float y\nproperty float z\n"
-        f"element face {len(surface.faces)}\nproperty list uchar int vertex_indices\nend_header\n".encode()
+        f"element vertex {len(vertices)}\nproperty float x\nproperty float y\nproperty float z\n"
+        f"element face {len(triangles)}\nproperty list uchar int vertex_indices\n{properties}end_header\n".encode()
     )
-    file.write(surface.vertices.astype("<f4").tobytes())
-    faces = np.empty(len(surface.faces), dtype=FACE)
-    faces["count"] = 3
-    faces["corners"] = surface.faces
+    file.write(vertices.astype("<f4").tobytes())
     file.write(faces.tobytes())

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +21,6 @@ from infill.plain_numbers import UNITS, choose_unit, plain_place, plain_share, p
 from infill.surface import Surface
 
 if TYPE_CHECKING:
-    from infill.inspection.uncertain_places import UncertainPlaces
     from infill.reports.smoothing import Distances, Place
 
 Word = Literal["kept", "changed a little", "lost"]
@@ -39,6 +38,14 @@ PITCH = 0.7  # cells between points
 MOST_SAMPLES = 80_000  # points on a surface, beside as many vertices
 FINEST = 250  # boxes along a side, which group points into places
 GOLDEN = (0.7548776662466927, 0.5698402909980532)  # 1 / p and 1 / p², p³ = p + 1: fills a square evenly
+
+
+class Places(Protocol):
+    """Places that alone may be far apart, such as `infill.inspection.uncertain_places.UncertainPlaces`."""
+
+    def hold(self, points: Floats, *, threads: int | None = None) -> NDArray[np.bool_]:
+        """Tell for points (N, 3), mm, whether they lie in such a place."""
+        ...
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -204,7 +211,7 @@ def measure_deviation(
     closed: Surface | None = None,
     kinds: Kinds = all_points_count,
     exact: bool = True,
-    uncertain: UncertainPlaces | None = None,
+    uncertain: Places | None = None,
     threads: int | None = None,
 ) -> Deviation:
     """Compare a result with the given surface.
@@ -222,7 +229,7 @@ def measure_deviation(
     exact : bool
         Whether to measure near distances: leaving them out is several times faster, and the word, the phrases and the
         places are the same.
-    uncertain : UncertainPlaces, optional
+    uncertain : Places, optional
         The places that alone may be further than `KEPT` from the other surface; all others count as near. Only if not
         `exact`, and without holes.
     threads : int, optional
@@ -265,7 +272,7 @@ def measure_deviation(
 
 
 def _distances(
-    points: Floats, surface: Surface, enough: float, uncertain: UncertainPlaces | None, threads: int | None
+    points: Floats, surface: Surface, enough: float, uncertain: Places | None, threads: int | None
 ) -> Floats:
     """Return the distance of each point from a surface, (N,), mm; one below `enough` may be too great.
 

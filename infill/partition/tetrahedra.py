@@ -101,11 +101,11 @@ def make_tables() -> Tables:
             places[number, 6 + left_out] = a, FACE_SLOT + FACES.index((a ^ b, a ^ c))
         places[number, 10] = 0, TETRAHEDRON_SLOT + number
         positions = _positions([STEPS[step] for step in chain])
-        for labels in _growth_strings(4):
+        for labels in growth_strings(4):
             code = pattern_code(labels)
-            walls = _divide_tetrahedron(labels)
+            walls = divide_tetrahedron(labels)
             for polygon, behind, before in walls:
-                for triangle in _fan(polygon):
+                for triangle in split_fan(polygon):
                     across = STEPS[chain[before]] - STEPS[chain[behind]]
                     oriented = _orient(triangle, positions, across)
                     triangles[number, code, counts[number, code]] = (*oriented, behind, before)
@@ -130,17 +130,17 @@ def _flat_tables() -> dict[str, NDArray[np.int64]]:
         a, b, c = (STEPS[step].astype(float) for step in chain)
         positions = np.array([a, b, c, (a + b) / 2, (a + c) / 2, (b + c) / 2, (a + b + c) / 3])
         across = (1 - STEPS[step_b]).astype(float)
-        for labels in _growth_strings(3):
+        for labels in growth_strings(3):
             code = pattern_code(labels)
-            for polygon, corner in _divide_face(labels):
-                for triangle in _fan(polygon):
+            for polygon, corner in divide_face(labels):
+                for triangle in split_fan(polygon):
                     oriented = _orient(triangle, positions, across)
                     triangles[number, code, counts[number, code]] = (*oriented, corner)
                     counts[number, code] += 1
     return {"flat_places": places, "flat_counts": counts, "flat_triangles": triangles}
 
 
-def _growth_strings(count: int) -> list[tuple[int, ...]]:
+def growth_strings(count: int) -> list[tuple[int, ...]]:
     """Return all ways in which labels of corners can be alike, each label numbered where it occurs first."""
     strings: list[tuple[int, ...]] = [(0,)]
     for _ in range(count - 1):
@@ -160,7 +160,7 @@ def _edge(a: int, b: int) -> int:
     return LOCAL_EDGES.index((min(a, b), max(a, b)))
 
 
-def _divide_tetrahedron(labels: tuple[int, ...]) -> list[tuple[tuple[int, ...], int, int]]:
+def divide_tetrahedron(labels: tuple[int, ...]) -> list[tuple[tuple[int, ...], int, int]]:
     """Return the walls in a tetrahedron: a polygon of points, and a corner on each side."""
     groups: dict[int, list[int]] = {}
     for corner, label in enumerate(labels):
@@ -189,8 +189,8 @@ def _divide_tetrahedron(labels: tuple[int, ...]) -> list[tuple[tuple[int, ...], 
     return walls
 
 
-def _divide_face(labels: tuple[int, ...]) -> list[tuple[tuple[int, ...], int]]:
-    """Return the parts of a face: a polygon of points, and a corner with its label."""
+def divide_face(labels: tuple[int, ...]) -> list[tuple[tuple[int, ...], int]]:
+    """Return the parts of a face: a polygon of points that begins at its lowest corner, and a corner with its label."""
     between = {(0, 1): 3, (0, 2): 4, (1, 2): 5}
 
     def edge(a: int, b: int) -> int:
@@ -201,7 +201,7 @@ def _divide_face(labels: tuple[int, ...]) -> list[tuple[tuple[int, ...], int]]:
     if len(set(labels)) == 2:
         single = next(corner for corner in range(3) if labels.count(labels[corner]) == 1)
         a, b = (corner for corner in range(3) if corner != single)
-        return [((single, edge(single, a), edge(single, b)), single), ((edge(single, a), a, b, edge(single, b)), a)]
+        return [((single, edge(single, a), edge(single, b)), single), ((a, b, edge(single, b), edge(single, a)), a)]
     parts: list[tuple[tuple[int, ...], int]] = []
     for corner in range(3):
         a, b = (corner_b for corner_b in range(3) if corner_b != corner)
@@ -209,8 +209,8 @@ def _divide_face(labels: tuple[int, ...]) -> list[tuple[tuple[int, ...], int]]:
     return parts
 
 
-def _fan(polygon: tuple[int, ...]) -> list[tuple[int, int, int]]:
-    """Return the triangles of a polygon."""
+def split_fan(polygon: tuple[int, ...]) -> list[tuple[int, int, int]]:
+    """Return the triangles of a polygon, all from its first point."""
     return [(polygon[0], polygon[at], polygon[at + 1]) for at in range(1, len(polygon) - 1)]
 
 

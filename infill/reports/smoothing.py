@@ -15,6 +15,7 @@ from infill.reports.common import (
     SmoothSeconds,
     Solid,
     Spread,
+    Topology,
     Triple,
 )
 
@@ -166,7 +167,7 @@ class ReplacedSmoothing(TypedDict):
     radius: Annotated[float | None, "Radius, mm; null if steps were asked for"]
 
 
-class Judgement(TypedDict):
+class DifferenceKeys(TypedDict):
     """Verdict on the result, compared with the input."""
 
     word: Annotated[str, "`kept`, `changed a little` or `lost`"]
@@ -177,6 +178,11 @@ class Judgement(TypedDict):
     missing: Annotated[float, "Area of the input that is missing, mm²"]
     thin: Annotated[float, "Area of the input that is gone but was too thin to count, mm²: walls or slits of one voxel"]
     new: Annotated[float, "Area of the result that is new, mm²"]
+
+
+class Judgement(DifferenceKeys):
+    """Verdict on the result, compared with the input."""
+
     crumbs: CrumbKeys
 
 
@@ -313,6 +319,10 @@ class LabelsReport(SeveralReport):
     seconds: LabelSeconds
 
 
+class TogetherVerdict(DifferenceKeys):
+    """Verdict on the label, compared with its voxels."""
+
+
 class TogetherLabel(LabelName):
     """Labels with a surface, in order; neighbours share their walls."""
 
@@ -324,6 +334,16 @@ class TogetherLabel(LabelName):
     volume_change: Annotated[float, "Relative difference of both"]
     components_before: Annotated[int, "Components of its cells"]
     components: Annotated[int, "Components after smoothing"]
+    topology: Topology
+    verdict: TogetherVerdict
+    distance: Annotated[Distance, "Distance between the surface and that of its voxels, measured when it is first read"]
+
+
+class Verdicts(TypedDict):
+    """Verdicts on all labels."""
+
+    word: Annotated[str, "The worst: `kept`, `changed a little` or `lost`"]
+    summary: Annotated[str, "How many labels have each verdict, and the names of some, the worst first"]
 
 
 class TogetherSeconds(Seconds):
@@ -333,7 +353,18 @@ class TogetherSeconds(Seconds):
     volumes: Annotated[float, "Search for walls with which every label keeps its volume, s"]
     simplify: Annotated[float, "Fewer triangles in all walls, s"]
     surface: Annotated[float, "Surfaces of all labels, s"]
-    check: Annotated[float, "Comparison of components, s"]
+    check: Annotated[float, "Comparison with the voxels, s"]
+
+
+class TetrahedraKeys(TypedDict):
+    """Tetrahedra that fill the labels, face to face; null unless the command writes a .vtu."""
+
+    tetrahedra: Annotated[int, "Number of tetrahedra"]
+    points: Annotated[int, "Number of their points"]
+    smallest_angle: Annotated[float, "Smallest angle between two faces of a tetrahedron, degrees"]
+    slivers: Annotated[float, "Share of tetrahedra whose radius ratio is below 0.1; it is 1 in a regular one"]
+    mean_radius_ratio: Annotated[float, "Mean of the radius ratios: 3 times that of the inner over the outer sphere"]
+    moved: Annotated[int, "Number of points of walls that moved, so that no tetrahedron is inside out"]
 
 
 class TogetherReport(SeveralReport):
@@ -342,8 +373,10 @@ class TogetherReport(SeveralReport):
     labels: list[TogetherLabel]
     failed: list[FailedLabel]
     absent: Annotated[list[str], "Names in the file without a cell"]
+    verdict: Verdicts
     rounds: Annotated[int, "How often the walls were extracted until the volumes were right"]
     seconds: TogetherSeconds
+    tetrahedra: TetrahedraKeys | None
 
 
 class ComponentKeys(TypedDict):
@@ -433,6 +466,6 @@ class LabelsForecast(TypedDict):
 
     request: SolidRequest
     labels: list[PlannedLabel]
-    memory: Annotated[int, "Expected memory of the largest label, bytes"]
+    memory: Annotated[int, "Expected memory of the largest label, or of all together, bytes"]
     seconds: PlannedSeconds
     files: NotRequired[Annotated[list[str], "Names of the files that a run would write; from the command line only"]]

@@ -215,7 +215,7 @@ def find_differences(
         specks = "1 speck or flake" if thin_count == 1 else f"{thin_count:,} specks or flakes"
         remarks.append(f"{specks} one voxel thick {'is' if thin_count == 1 else 'are'} gone")
     if deviation and deviation.thin_distance:
-        phrase, is_lost = _describe_thin(deviation, smooth_input)
+        phrase, is_lost = describe_thin(deviation, *_thin_words(smooth_input), counts=_thin_counts(smooth_input))
         (losses if is_lost else remarks).append(phrase)
     if deviation and deviation.sheet:
         remarks.append(f"{plain_size(deviation.sheet, power=2)} of faces that bound no solid are left out")
@@ -227,7 +227,7 @@ def find_differences(
                 f"the mesh has {mesh_parts} components, some of which overlap or touch, and the result {result_parts}; "
                 "--by-component keeps them apart",
             )
-    fewer = _describe_counts(topology) if smooth_input.mesh_volumes is None else []
+    fewer = describe_counts(topology) if smooth_input.mesh_volumes is None else []
     remarks.extend(fewer)
     if coarsened := smooth_input.facts.get("coarsened"):
         if phrase := describe_coarsening(coarsened):
@@ -261,24 +261,40 @@ def _is_noisy(smooth_input: SmoothInput) -> bool:
     return smooth_input.facts.get("noise", 0.0) > NOISY
 
 
-def _describe_thin(deviation: Deviation, smooth_input: SmoothInput) -> tuple[str, bool]:
-    """Describe what is gone and was too thin to count; return the phrase, and whether it is so much that it is lost."""
-    area = deviation.thin_area
+def _thin_words(smooth_input: SmoothInput) -> tuple[str, str]:
+    """Return the words for what is too thin to count, and for its loss."""
     if smooth_input.mesh_volumes is not None:
-        feature, change = "slits narrower than a voxel", "are closed"
-    elif _is_noisy(smooth_input):
-        feature, change = f"noise, up to {THICK_IN_NOISE - 1} voxels thick,", "is gone"
-    else:
-        feature, change = "walls or gaps one voxel thick", "are gone"
+        return "slits narrower than a voxel", "are closed"
+    if _is_noisy(smooth_input):
+        return f"noise, up to {THICK_IN_NOISE - 1} voxels thick,", "is gone"
+    return "walls or gaps one voxel thick", "are gone"
+
+
+def _thin_counts(smooth_input: SmoothInput) -> bool:
+    """Tell whether much that is too thin to count is a loss all the same."""
+    return smooth_input.mesh_volumes is None and not _is_noisy(smooth_input)
+
+
+def describe_thin(deviation: Deviation, feature: str, change: str, *, counts: bool) -> tuple[str, bool]:
+    """Describe what is gone and was too thin to count; return the phrase, and whether it is so much that it is lost.
+
+    Parameters
+    ----------
+    deviation : Deviation
+    feature, change : str
+        Words for what is too thin, and for its loss.
+    counts : bool
+        Whether much of it is a loss.
+    """
+    area = deviation.thin_area
     if not area:
         return f"{feature} moved by up to {plain_size(deviation.thin_distance)}", False
     share = plain_share(area / deviation.given_area)
-    is_scan = smooth_input.mesh_volumes is None and not _is_noisy(smooth_input)
-    is_lost = is_scan and deviation.is_large(area, deviation.given_area)
+    is_lost = counts and deviation.is_large(area, deviation.given_area)
     return f"{feature} {change}, {plain_size(area, power=2)} ({share}) of the surface of the input", is_lost
 
 
-def _describe_counts(topology: TopologyCheck) -> list[str]:
+def describe_counts(topology: TopologyCheck) -> list[str]:
     """Describe components, cavities and tunnels of a scan that are fewer in the result, or components that are more."""
     before, after, changes = topology.data, topology.result, topology.changes
     phrases = []

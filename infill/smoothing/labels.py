@@ -32,6 +32,7 @@ from infill.voxels.labels import is_label_map, label_extents
 if TYPE_CHECKING:
     from infill.reports.smoothing import LabelsReport, SmoothReport, TogetherReport
     from infill.result import Progress
+    from infill.smoothing.together_stages import TogetherStages
     from infill.surface import Surface
 
     _Outcome = tuple[Surface, SmoothReport]
@@ -64,7 +65,7 @@ def smooth_labels(
     keep_going: bool = False,
     together: Literal[True],
     **options: Unpack[SmoothOptions],
-) -> Result[LabelStages, TogetherReport]: ...
+) -> Result[TogetherStages, TogetherReport]: ...
 @log_compilation("the smoother")
 def smooth_labels(
     volume: ArrayLike | Volume | Segmentation | str | os.PathLike[str],
@@ -76,7 +77,7 @@ def smooth_labels(
     keep_going: bool = False,
     together: bool = False,
     **options: Unpack[SmoothOptions],
-) -> Result[LabelStages, LabelsReport] | Result[LabelStages, TogetherReport]:
+) -> Result[LabelStages, LabelsReport] | Result[TogetherStages, TogetherReport]:
     """Smooth every label of a segmentation; return one surface for each.
 
     Parameters

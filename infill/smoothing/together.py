@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from functools import partial
+from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from infill.errors import GeometryError, UsageError
+from infill.formats.label_walls import LabelWalls
+from infill.formats.mesh_files import TETRAHEDRA, WALL_WRITERS
 from infill.formats.parts import hex_colour
+from infill.inspection.partitions import PartitionCheck
 from infill.machine import require_memory
 from infill.partition.cutting import cut_labels
 from infill.partition.fields import PartitionFields, smooth_fields
@@ -21,14 +24,25 @@ from infill.phasefield.profile import PLAIN_PROFILE, REFINED_PROFILE
 from infill.phasefield.refining import refine_bricks
 from infill.phasefield.sparse import SparseField, smooth_bricks
 from infill.plain_numbers import count_noun
-from infill.reports.common import report_head
-from infill.reports.smoothing import TogetherSeconds
+from infill.reports.common import declare, report_head
+from infill.reports.sections import with_late_sections
+from infill.reports.smoothing import Distance, TogetherSeconds
 from infill.result import Clock, Result
-from infill.smoothing.label_stages import FACES_PER_RUN, LabelPiece, LabelStages, field_reach
+from infill.smoothing.label_stages import FACES_PER_RUN, LabelPiece, field_reach
+from infill.smoothing.together_checks import (
+    WORDS,
+    find_label_differences,
+    label_distance,
+    label_topology,
+    label_verdict,
+    summarise_verdicts,
+)
+from infill.smoothing.together_stages import TogetherStages
 from infill.surface import Surface
 
 if TYPE_CHECKING:
-    from infill.reports.smoothing import TogetherLabel, TogetherReport
+    from infill.inspection.bricks import TopologyCheck
+    from infill.reports.smoothing import TogetherLabel, TogetherReport, TogetherVerdict
     from infill.smoothing.request import SmoothRequest
     from infill.volume import Volume
 
@@ -36,17 +50,12 @@ if TYPE_CHECKING:
 UNFIT = ("level", "despeckle", "crumbs", "max_triangles", "allow_broken", "strict")
 # Of the grid, and for each face of a label's cells, estimated from its runs: peaks were 600 to 1,850 bytes a face.
 BYTES_PER_CELL, BYTES_PER_FACE = 6, 2000
-# Cells are neighbours along every edge of the tetrahedra that they are cut into.
-NEIGHBOURS = np.array(
-    [[[1, 1, 0], [1, 1, 0], [0, 0, 0]], [[1, 1, 0], [1, 1, 1], [0, 1, 1]], [[0, 0, 0], [0, 1, 1], [0, 1, 1]]]
-)
 NOTHING_LEFT = "nothing of it is left"
-PRECISION = 1e-4  # of a label's volume that counts as kept
 
 
 def smooth_together(
     volume: Volume, pieces: Sequence[LabelPiece], request: SmoothRequest, absent: Sequence[str]
-) -> Result[LabelStages, TogetherReport]:
+) -> Result[TogetherStages, TogetherReport]:
     """Smooth labels of one volume together; the other values are the space between them.
 
     Raises
@@ -60,7 +69,8 @@ def smooth_together(
     refuse_unfit(request)
     request = request.at(float(volume.cell_size.min()))
     clock = Clock(request.progress)
-    _require_memory(volume.values.size, pieces, request)
+    needed = needed_memory(volume.values.size, pieces)
+    require_memory(needed, request.max_memory, "give --roi for a part of it, or a volume of larger voxels")
     numbers = number_labels(volume, pieces)
     scale = tuple((volume.cell_size / volume.cell_size.min()).tolist())
     with clock.stage("smooth", 0.0):
@@ -79,25 +89,39 @@ def smooth_together(
         simple = simplify(partition, request.tolerance, volume, threads=request.threads)
     with clock.stage("surface", 0.85):
         surfaces = cut_surfaces(simple, volume, pieces, threads=request.threads)
+        walls = place_label_walls(simple, volume, pieces)
     with clock.stage("check", 0.9):
-        before = count_components(numbers, pieces)
-        after = count_components(partition.graph.winners, pieces)
-    if not surfaces:
-        raise GeometryError("no label is left after smoothing; give fewer steps")
-    labels = [
-        _label_keys(
-            piece, surfaces[piece.name], int(counts[number]) * volume.cell_volume, before[number], after[number]
+        if not surfaces:
+            raise GeometryError("no label is left after smoothing; give fewer steps")
+        check = PartitionCheck(
+            numbers=numbers,
+            graph=partition.graph,
+            points=partition.walls.points,
+            volume=volume,
+            count=len(pieces) + 1,
+            threads=request.threads,
         )
-        for number, piece in enumerate(pieces, 1)
-        if piece.name in surfaces
-    ]
+        topologies, deviations = check.topology(), check.deviations()
+        labels, problems = [], []
+        for number, piece in enumerate(pieces, 1):
+            if piece.name in surfaces:
+                cells, surface = int(counts[number]), surfaces[piece.name]
+                change = surface.volume / (cells * volume.cell_volume) - 1
+                differences = find_label_differences(
+                    topologies[number], deviations[number], change if cells >= SMALLEST else None
+                )
+                verdict = label_verdict(differences, deviations[number], check.cell)
+                keys = _label_keys(piece, surface, cells * volume.cell_volume, topologies[number], verdict)
+                labels.append(with_late_sections(keys, distance=partial(label_distance, check, number)))
+                problems += [f"{piece.name}: {problem}" for problem in (*differences.losses, *differences.problems)]
     left, gone = ([piece for piece in pieces if (piece.name in surfaces) is kept] for kept in (True, False))
     report: TogetherReport = {
         **report_head("together"),
         "triangles": len(simple.walls.triangles),
         "closed": all(surface.closed for surface in surfaces.values()),
         "problems": [
-            *(problem for keys in labels for problem in _problems(keys, volume)),
+            *problems,
+            *(f"{keys['name']}: its surface is not closed" for keys in labels if not keys["closed"]),
             *(f"{piece.name}: {NOTHING_LEFT}" for piece in gone),
             *_crossing_problems(simple.crossings),
         ],
@@ -105,15 +129,28 @@ def smooth_together(
         "labels": labels,
         "failed": [{**piece.place, "error": NOTHING_LEFT} for piece in gone],
         "absent": list(absent),
+        "verdict": {
+            "word": "lost" if gone else max((keys["verdict"]["word"] for keys in labels), key=WORDS.index),
+            "summary": summarise_verdicts(labels, [piece.name for piece in gone]),
+        },
         "rounds": partition.rounds,
+        "tetrahedra": None,
         "seconds": clock.timings(TogetherSeconds),
     }
-    stages = LabelStages(
+    stages = TogetherStages(
         segments={piece.name: piece.segment for piece in pieces},
         failed={piece.name: NOTHING_LEFT for piece in gone},
+        partition=partition,
+        volume=volume,
+        values=(0, *(piece.segment.value for piece in pieces)),
+        max_memory=request.max_memory,
     )
     colours = {piece.name: piece.segment.colour for piece in left if piece.segment.colour is not None}
-    return Result(surfaces=surfaces, report=report, stages=stages, colours=colours)
+    writers: dict[str, Callable[[BinaryIO], None]] = {
+        **{suffix: partial(write, walls) for suffix, write in WALL_WRITERS.items()},
+        TETRAHEDRA: stages.write_tetrahedra,
+    }
+    return Result(surfaces=surfaces, report=report, stages=stages, colours=colours, writers=writers)
 
 
 def refuse_unfit(request: SmoothRequest) -> None:
@@ -126,6 +163,12 @@ def refuse_unfit(request: SmoothRequest) -> None:
         raise UsageError.about("method", "is grey, and labels have no grey values; give plain or refine")
 
 
+def refuse_layers(pieces: Sequence[LabelPiece]) -> None:
+    """Raise UsageError if labels lie in several layers, which may overlap."""
+    if len({piece.segment.layer for piece in pieces}) > 1:
+        raise UsageError.about("together", "is given, and the labels lie in layers that may overlap; leave it out")
+
+
 def number_labels(volume: Volume, pieces: Sequence[LabelPiece]) -> NDArray[np.uint16]:
     """Return the cells of labels numbered 1, 2 ... in the order of the pieces, and 0 elsewhere.
 
@@ -134,8 +177,7 @@ def number_labels(volume: Volume, pieces: Sequence[LabelPiece]) -> NDArray[np.ui
     UsageError
         If labels lie in several layers, which may overlap.
     """
-    if len({piece.segment.layer for piece in pieces}) > 1:
-        raise UsageError.about("together", "is given, and the labels lie in layers that may overlap; leave it out")
+    refuse_layers(pieces)
     numbers = np.zeros(volume.values.shape, dtype=np.uint16)
     for number, piece in enumerate(pieces, 1):
         box = tuple(map(slice, piece.extent.low, piece.extent.high))
@@ -143,14 +185,10 @@ def number_labels(volume: Volume, pieces: Sequence[LabelPiece]) -> NDArray[np.ui
     return numbers
 
 
-def _require_memory(cells: int, pieces: Sequence[LabelPiece], request: SmoothRequest) -> None:
-    """Raise MemoryLimitError if fields and walls do not fit into memory."""
+def needed_memory(cells: int, pieces: Sequence[LabelPiece]) -> int:
+    """Return the memory that fields and walls take, bytes."""
     faces = sum(FACES_PER_RUN * piece.extent.runs for piece in pieces)
-    require_memory(
-        cells * BYTES_PER_CELL + faces * BYTES_PER_FACE,
-        request.max_memory,
-        "give --voxel for larger voxels, or --roi for a part of it",
-    )
+    return cells * BYTES_PER_CELL + faces * BYTES_PER_FACE
 
 
 def _smooth_fields(
@@ -202,17 +240,22 @@ def cut_surfaces(
     return surfaces
 
 
-def count_components(numbers: NDArray[np.uint16], pieces: Sequence[LabelPiece]) -> list[int]:
-    """Count the components of every label, 0 for the space between; cells are neighbours as tetrahedra join them."""
-    boxes = ndimage.find_objects(numbers, max_label=len(pieces))
-    return [0] + [
-        0 if box is None else int(ndimage.label(numbers[box] == number, structure=NEIGHBOURS)[1])
-        for number, box in enumerate(boxes, 1)
-    ]
+def place_label_walls(partition: VolumePartition, volume: Volume, pieces: Sequence[LabelPiece]) -> LabelWalls:
+    """Return the walls of all labels in their place, with the values of the labels on both sides."""
+    walls = partition.walls
+    values = np.array([0, *(piece.segment.value for piece in pieces), 0])  # the last is beyond the box
+    labels = values[walls.sides]
+    is_turned = walls.sides[:, 0] == 0  # so that triangles at the outside face outwards
+    labels[is_turned] = labels[is_turned, ::-1]
+    triangles = np.where((is_turned != volume.mirrored)[:, None], walls.triangles[:, ::-1], walls.triangles)
+    points = volume.place(walls.points.astype(np.float64) * volume.cell_size)
+    return LabelWalls(points=points, triangles=triangles, labels=labels)
 
 
-def _label_keys(piece: LabelPiece, surface: Surface, data: float, before: int, after: int) -> TogetherLabel:
-    """Return the keys of a label in the report."""
+def _label_keys(
+    piece: LabelPiece, surface: Surface, data: float, topology: TopologyCheck, verdict: TogetherVerdict
+) -> TogetherLabel:
+    """Return the keys of a label in the report; its distances are measured when they are first read."""
     colour = piece.segment.colour
     return {
         **piece.place,
@@ -222,23 +265,12 @@ def _label_keys(piece: LabelPiece, surface: Surface, data: float, before: int, a
         "data": data,
         "volume": surface.volume,
         "volume_change": surface.volume / data - 1,
-        "components_before": before,
-        "components": after,
+        "components_before": topology.data.components,
+        "components": topology.result.components,
+        "topology": label_topology(topology),
+        "verdict": verdict,
+        "distance": declare(Distance, {}),
     }
-
-
-def _problems(keys: TogetherLabel, volume: Volume) -> list[str]:
-    """Return the problems of a label, one phrase each."""
-    problems = []
-    if keys["data"] >= SMALLEST * volume.cell_volume and abs(keys["volume_change"]) > PRECISION:
-        problems.append(f"{keys['name']}: its volume changes by {keys['volume_change']:+z.2%}")
-    if keys["components"] != keys["components_before"]:
-        problems.append(
-            f"{keys['name']}: {count_noun(keys['components_before'], 'component')} became {keys['components']}"
-        )
-    if not keys["closed"]:
-        problems.append(f"{keys['name']}: its surface is not closed")
-    return problems
 
 
 def _crossing_problems(count: int) -> list[str]:

@@ -1,0 +1,322 @@
+"""Compare the labels of a partition before and after smoothing: connections, and the places where walls are far apart.
+
+Before smoothing, walls are cut between the given labels in the same way, through the middles of edges, faces and
+tetrahedra. Where no corner of a tetrahedron has changed its label, both walls have the same triangles in it, and no
+point of one is further from the other than their corners are: so only the triangles at other places are measured.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from infill.arrays import Floats
+from infill.inspection.bricks import TopologyCheck
+from infill.inspection.changes import ConnectionCounts, TopologyChanges
+from infill.inspection.deviation import COUNTS, KEPT, LOST, PITCH, THIN, Deviation, measure_deviation, sample_surface
+from infill.meshes.distance import TriangleTree, morton_order
+from infill.partition.simplices import cells_at, middle_points, simplices
+from infill.partition.walls import OUTSIDE, WallGraph, trace_walls
+from infill.surface import Surface
+from infill.volume import Volume
+
+# Cells are neighbours along every edge of the tetrahedra that they are cut into, those of a label and those beside it.
+NEIGHBOURS = np.array(
+    [[[1, 1, 0], [1, 1, 0], [0, 0, 0]], [[1, 1, 0], [1, 1, 1], [0, 1, 1]], [[0, 0, 0], [0, 1, 1], [0, 1, 1]]]
+)
+# In units of distance around changed cells: where points are measured, and the walls to which they are measured first.
+NEAR, AROUND = 2, 4
+OPENED = np.ones((2, 2, 2), dtype=bool)  # thicker than one cell: this fits in
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class LabelPoints:
+    """The points of a partition's walls in space, and its triangles, grouped by label.
+
+    Parameters
+    ----------
+    points : (P, 3) float64, mm
+    triangles : (T, 3) int64
+    sides : (T, 2) int32
+        Numbers of the labels behind and before each triangle.
+    """
+
+    points: Floats
+    triangles: NDArray[np.int64]
+    sides: NDArray[np.int32]
+
+    @cached_property
+    def _orders(self) -> tuple[NDArray[np.int64], ...]:
+        """The triangles by the label behind them, and by that before them."""
+        return tuple(np.argsort(side, kind="stable") for side in self.sides.T)
+
+    @cached_property
+    def _sorted(self) -> tuple[NDArray[np.int32], ...]:
+        """The labels in these orders."""
+        return tuple(side[order] for side, order in zip(self.sides.T, self._orders, strict=True))
+
+    def faces(self, number: int) -> NDArray[np.int64]:
+        """Return the triangles of a label, which face away from it, (F, 3)."""
+        behind, before = (
+            order[slice(*np.searchsorted(labels, [number, number + 1]))]
+            for order, labels in zip(self._orders, self._sorted, strict=True)
+        )
+        return np.concatenate([self.triangles[behind], self.triangles[before][:, ::-1]])
+
+    def surface(self, number: int) -> Surface:
+        """Return the surface of a label, with its own points alone."""
+        used, corners = np.unique(self.faces(number), return_inverse=True)
+        return Surface(vertices=self.points[used], faces=corners.reshape(-1, 3))
+
+    def within(self, chosen: NDArray[np.bool_]) -> LabelPoints:
+        """Return the triangles of those points alone."""
+        kept = chosen[self.triangles].any(axis=1)
+        return LabelPoints(points=self.points, triangles=self.triangles[kept], sides=self.sides[kept])
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PartitionCheck:
+    """Labels of a partition before and after smoothing.
+
+    Parameters
+    ----------
+    numbers : (n0, n1, n2) uint16
+        Given labels, numbered 1, 2 ...; 0 elsewhere.
+    graph : WallGraph
+        The walls after smoothing.
+    points : (P, 3) float32
+        Their points, in cells.
+    volume : Volume
+        The place of the cells in space.
+    count : int
+        Labels, 0 among them.
+    threads : int, optional
+        See `infill.kernels.threads.thread_count`.
+    """
+
+    numbers: NDArray[np.uint16]
+    graph: WallGraph
+    points: NDArray[np.float32]
+    volume: Volume
+    count: int
+    threads: int | None = None
+
+    @property
+    def cell(self) -> float:
+        """Unit in which distances are judged, mm, as for a single label."""
+        return float(self.volume.cell_size.max())
+
+    @cached_property
+    def given(self) -> LabelPoints:
+        """The walls between the given labels."""
+        return self._place(self._given_graph, self._given_points)
+
+    @cached_property
+    def _given_points(self) -> Floats:
+        """The points of these walls, in cells."""
+        return middle_points(self._given_graph)
+
+    @cached_property
+    def result(self) -> LabelPoints:
+        """The walls after smoothing."""
+        return self._place(self.graph, self.points)
+
+    @cached_property
+    def _given_graph(self) -> WallGraph:
+        """The walls between the given labels, as they are numbered."""
+        return trace_walls(self.numbers, threads=self.threads)
+
+    def _place(self, graph: WallGraph, points: NDArray[np.floating]) -> LabelPoints:
+        """Place the walls in space."""
+        triangles = graph.triangles[:, ::-1] if self.volume.mirrored else graph.triangles
+        places = self.volume.place(points.astype(np.float64) * self.volume.cell_size)
+        return LabelPoints(points=places, triangles=triangles, sides=graph.sides)
+
+    @cached_property
+    def changed(self) -> NDArray[np.bool_]:
+        """Cells whose label has changed, or beside which a point of a wall lies far from the middle."""
+        changed = np.asarray(self.graph.winners != self.numbers)
+        shift = (self.points - middle_points(self.graph)) * self.volume.cell_size
+        far = np.linalg.norm(shift, axis=1) > KEPT * self.cell
+        if far.any():
+            last = np.array(changed.shape) - 1
+            for chosen, corners in simplices(self.graph):
+                for corner in corners:
+                    changed[tuple(np.clip(corner[far[chosen]] - 1, 0, last).T)] = True
+        return changed
+
+    def topology(self) -> list[TopologyCheck]:
+        """Compare the connections of every label, 0 first; that of 0 counts nothing."""
+        before, after = (count_connections(graph, self.count) for graph in (self._given_graph, self.graph))
+        return [
+            TopologyCheck(
+                data=data,
+                result=result,
+                changes=TopologyChanges(
+                    walls_pierced=max(0, result.tunnels - data.tunnels), walls_lost=0, vanished_thin=0
+                ),
+                lost=(),
+            )
+            for data, result in zip(before, after, strict=True)
+        ]
+
+    def deviations(self) -> list[Deviation | None]:
+        """Measure for every label, 0 first, where its walls are far apart; None if they are sure to be near."""
+        deviations: list[Deviation | None] = [None] * self.count
+        if not self.changed.any():
+            return deviations
+        reach = self.cell / self.volume.cell_size  # of a unit, along each axis, in cells
+        is_around, is_near = (
+            dilate_cells(self.changed, tuple(np.ceil(cells * reach).astype(int).tolist())) for cells in (AROUND, NEAR)
+        )
+        places = _Places(cells=is_near, volume=self.volume)
+        sides = (self.given, self._given_graph, self._given_points), (self.result, self.graph, self.points)
+        around = [walls.within(_look_up(is_around, points)) for walls, _, points in sides]
+        unsettled = [walls.within(find_unsettled(graph, self.changed)) for walls, graph, _ in sides]
+        numbers = np.unique(np.concatenate([walls.sides.ravel() for walls in unsettled]))
+        for number in numbers[numbers > 0].tolist():
+            if self._are_near(number, unsettled[0], around[1]) and self._are_near(number, unsettled[1], around[0]):
+                continue
+            for given, result in (around, (self.given, self.result)):
+                surfaces = given.surface(number), result.surface(number)
+                if not all(len(surface.faces) for surface in surfaces):
+                    deviations[number] = None  # it is gone, or only its surroundings are
+                    continue
+                deviations[number] = deviation = self._measure(number, *surfaces, places)
+                if max(deviation.there.max, deviation.back.max) <= LOST * self.cell:
+                    break  # exact: what is further away would be further than that
+        return deviations
+
+    def _are_near(self, number: int, walls: LabelPoints, others: LabelPoints) -> bool:
+        """Tell whether the walls of a label are sure to be near other ones."""
+        surface, faces = walls.surface(number), others.faces(number)
+        if not (len(surface.faces) and len(faces)):
+            return not len(surface.faces)
+        points, _, _ = sample_surface(surface, PITCH * self.cell)
+        enough = KEPT * self.cell
+        tree = TriangleTree.of(Surface(vertices=others.points, faces=faces))
+        distance, _ = tree.nearest(points[morton_order(points)], enough=enough, threads=self.threads)
+        return bool(distance.max() <= enough)
+
+    def exact_deviation(self, number: int) -> Deviation:
+        """Measure the distances between both surfaces of a label everywhere."""
+        surfaces = self.given.surface(number), self.result.surface(number)
+        return measure_deviation(
+            *surfaces, cell=self.cell, kinds=_ThicknessOf(number=number, check=self), threads=self.threads
+        )
+
+    def _measure(self, number: int, given: Surface, result: Surface, places: _Places) -> Deviation:
+        """Measure the distances between both surfaces of a label where they may be large."""
+        return measure_deviation(
+            given,
+            result,
+            cell=self.cell,
+            kinds=_ThicknessOf(number=number, check=self),
+            exact=False,
+            uncertain=places,
+            threads=self.threads,
+        )
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Places:
+    """Cells at which points may be far from the other surface."""
+
+    cells: NDArray[np.bool_]
+    volume: Volume
+
+    def hold(self, points: Floats, *, threads: int | None = None) -> NDArray[np.bool_]:  # noqa: ARG002 - as others
+        """Tell for points (N, 3), mm, whether they lie in the cells."""
+        return _look_up(self.cells, _to_cells(points, self.volume))
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _ThicknessOf:
+    """Classifies places of a label: those between solid and void more than one cell thick count."""
+
+    number: int
+    check: PartitionCheck
+
+    def __call__(self, points: Floats, faces: NDArray[np.integer]) -> NDArray[np.integer]:  # noqa: ARG002 - a `Kinds`
+        """Return the kind of points (N, 3), mm: `COUNTS` or `THIN`."""
+        places = _to_cells(points, self.check.volume)
+        low, high = (
+            np.clip(end, 0, self.check.numbers.shape) for end in (places.min(axis=0) - 3, places.max(axis=0) + 4)
+        )
+        box = tuple(slice(int(a), int(b)) for a, b in zip(low, high, strict=True))
+        solid = np.pad(self.check.numbers[box] == self.number, 2, mode="edge")
+        position = places - low.astype(np.int64) + 2
+        thick = [ndimage.binary_opening(side, OPENED) for side in (solid, ~solid)]
+        beside = np.zeros((2, len(points)), dtype=bool)
+        for step in np.ndindex(2, 2, 2):
+            cell = np.floor(position - 0.5).astype(np.int64) + step
+            cell = np.clip(cell, 0, np.array(solid.shape) - 1)
+            for side in range(2):
+                beside[side] |= thick[side][tuple(cell.T)]
+        return np.where(beside.all(axis=0), COUNTS, THIN)
+
+
+def _to_cells(points: Floats, volume: Volume) -> Floats:
+    """Convert points in space, mm, to cells of a grid."""
+    return np.asarray((points - np.array(volume.origin)) @ np.asarray(volume.direction) / volume.cell_size)
+
+
+def _look_up(cells: NDArray[np.bool_], points: NDArray[np.floating]) -> NDArray[np.bool_]:
+    """Return the values of the cells that hold points (N, 3), in cells; points outside are in the nearest one."""
+    at = points.astype(np.int32)  # towards 0: the nearest cell is the first, there
+    return np.asarray(cells[tuple(np.clip(at[:, axis], 0, cells.shape[axis] - 1) for axis in range(3))])
+
+
+def dilate_cells(cells: NDArray[np.bool_], reach: tuple[int, ...]) -> NDArray[np.bool_]:
+    """Mark all cells up to `reach` from marked ones along each axis.
+
+    >>> dilate_cells(np.array([[[False, False, True, False, False, False]]]), (2, 2, 2)).astype(int).tolist()
+    [[[1, 1, 1, 1, 1, 0]]]
+    """
+    wider = cells
+    for axis, steps in enumerate(reach):
+        at = np.nonzero(wider)
+        wider = wider.copy()
+        for step in range(-steps, steps + 1):
+            moved = list(at)
+            moved[axis] = np.clip(at[axis] + step, 0, cells.shape[axis] - 1)
+            wider[tuple(moved)] = True
+    return wider
+
+
+def find_unsettled(graph: WallGraph, changed: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Mark the points of walls (P,) whose edge, face or tetrahedron has a corner in a changed cell."""
+    unsettled = np.zeros(graph.point_count, dtype=bool)
+    for chosen, corners in simplices(graph):
+        unsettled[chosen] = np.any([cells_at(changed, corner) for corner in corners], axis=0)
+    return unsettled
+
+
+def count_connections(graph: WallGraph, count: int) -> list[ConnectionCounts]:
+    """Count the connections of every label, 0 first; that of 0 counts nothing.
+
+    Components and cavities are those of cells; tunnels follow from them and the Euler number of the surface, which is
+    its number of points less half the number of its triangles.
+    """
+    corners = np.zeros(count, dtype=np.int64)
+    for _, places in simplices(graph):
+        for place in places:
+            corners += np.bincount(cells_at(graph.winners, place), minlength=count)
+    inner = graph.sides[:, 1] != OUTSIDE
+    faces = np.bincount(graph.sides[:, 0], minlength=count) + np.bincount(graph.sides[inner, 1], minlength=count)
+    euler = corners - faces // 2
+    counts = [ConnectionCounts.of(components=0, cavities=0, tunnels=0)]
+    for number, box in enumerate(ndimage.find_objects(graph.winners, max_label=count - 1), 1):
+        if box is None:
+            counts.append(counts[0])
+            continue
+        solid = graph.winners[box] == number
+        components = int(ndimage.label(solid, structure=NEIGHBOURS)[1])
+        cavities = int(ndimage.label(np.pad(~solid, 1, constant_values=True), structure=NEIGHBOURS)[1]) - 1
+        tunnels = components + cavities - int(euler[number]) // 2
+        counts.append(ConnectionCounts.of(components=components, cavities=cavities, tunnels=tunnels))
+    return counts

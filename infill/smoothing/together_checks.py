@@ -1,0 +1,113 @@
+"""Judge labels that were smoothed together: connections and distances both ways, in the words of a single scan."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict
+from typing import TYPE_CHECKING
+
+from infill.inspection.deviation import LOST, Deviation, Word, total_area
+from infill.plain_numbers import count_noun
+from infill.reports.common import Topology, declare
+from infill.reports.smoothing import Distance
+from infill.smoothing.attempt import MAX_LISTED_PLACES
+from infill.smoothing.comparing import LOST_HOLES, LOST_VOLUME, Differences, describe_counts, describe_thin
+
+if TYPE_CHECKING:
+    from infill.inspection.bricks import TopologyCheck
+    from infill.inspection.partitions import PartitionCheck
+    from infill.reports.smoothing import TogetherLabel, TogetherVerdict
+
+WORDS: tuple[Word, ...] = ("kept", "changed a little", "lost")  # from the best to the worst
+PRECISION = 1e-4  # of a label's volume that counts as kept
+MOST_NAMED = 3  # labels in the line of the summary
+
+
+def find_label_differences(topology: TopologyCheck, deviation: Deviation | None, change: float | None) -> Differences:
+    """Judge a label: return the verdict with its losses, problems and remarks.
+
+    Parameters
+    ----------
+    topology : TopologyCheck
+    deviation : Deviation or None
+        None if both surfaces are sure to be near everywhere.
+    change : float or None
+        Relative change of its volume; None for a label too small to be measured.
+    """
+    losses: list[str] = []
+    remarks: list[str] = []
+    if deviation:
+        (losses if deviation.word == "lost" else remarks).extend(deviation.phrases)
+        if deviation.thin_distance:
+            phrase, is_lost = describe_thin(deviation, "walls or gaps one voxel thick", "are gone", counts=True)
+            (losses if is_lost else remarks).append(phrase)
+    new_holes = topology.changes.walls_pierced
+    problems: list[str] = []
+    if new_holes >= max(LOST_HOLES, topology.data.tunnels):
+        losses.append(f"{new_holes:,} pinholes broke through walls")
+    else:
+        problems += topology.problems
+    if change is not None and abs(change) > PRECISION:
+        (losses if abs(change) >= LOST_VOLUME else problems).append(f"its volume changes by {change:+z.2%}")
+    fewer = describe_counts(topology)
+    are_counts_off = topology.data.components != topology.result.components
+    problems += fewer[:are_counts_off]  # the first is about components
+    remarks += fewer[are_counts_off:]
+    if (new := topology.result.cavities - topology.data.cavities) > 0:
+        remarks.append(f"{count_noun(new, 'cavity is', 'cavities are')} new")
+    word: Word = "lost" if losses else "changed a little" if problems or remarks else "kept"
+    return Differences(word=word, losses=tuple(losses), problems=tuple(problems), remarks=tuple(remarks))
+
+
+def label_verdict(differences: Differences, deviation: Deviation | None, cell: float) -> TogetherVerdict:
+    """Return the verdict on a label with its places and areas, for the report; `cell` is in mm."""
+    return {
+        "word": differences.word,
+        "changes": [*differences.losses, *differences.problems, *differences.remarks],
+        "lost": [patch.facts() for patch in deviation.lost[:MAX_LISTED_PLACES]] if deviation else [],
+        "added": [patch.facts() for patch in deviation.added[:MAX_LISTED_PLACES]] if deviation else [],
+        "far": LOST * cell,
+        "missing": total_area(deviation.lost if deviation else ()),
+        "thin": total_area(deviation.thin if deviation else ()),
+        "new": total_area(deviation.added if deviation else ()),
+    }
+
+
+def label_distance(check: PartitionCheck, number: int) -> Distance:
+    """Measure the distances between both surfaces of a label, both ways, for the report."""
+    deviation = check.exact_deviation(number)
+    return {
+        "from": "voxels",
+        "result": deviation.there.facts(),
+        "input": deviation.back.facts(),
+        "thin": deviation.thin_area,
+        "sheet": 0.0,
+        "hidden": 0.0,
+    }
+
+
+def label_topology(topology: TopologyCheck) -> Topology:
+    """Return the connections of a label, for the report."""
+    return declare(Topology, {"data": asdict(topology.data), "result": asdict(topology.result)})
+
+
+def summarise_verdicts(labels: Sequence[TogetherLabel], gone: Sequence[str]) -> str:
+    """Say in one line how many labels are kept, and name the others, the worst first.
+
+    Parameters
+    ----------
+    labels : sequence of TogetherLabel
+    gone : sequence of str
+        Names of the labels of which nothing is left.
+    """
+    names: dict[str, list[str]] = {word: [] for word in WORDS}
+    names["lost"] += gone
+    for label in labels:
+        names[label["verdict"]["word"]].append(label["name"])
+    phrases = []
+    for word in reversed(WORDS):
+        if not names[word]:
+            continue
+        listed = ", ".join(names[word][:MOST_NAMED]) + (", …" if len(names[word]) > MOST_NAMED else "")
+        phrases.append(f"{len(names[word]):,} {word}" + ("" if word == "kept" else f" ({listed})"))
+    return ", ".join(phrases)

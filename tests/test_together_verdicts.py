@@ -1,0 +1,183 @@
+"""Verdicts on labels smoothed together: what is lost, closed or torn is found, in the words of a single scan."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from test_together import NASTY, voronoi
+
+from infill import Smoothing, Volume, smooth_labels, smooth_volume
+from infill.inspection.deviation import KEPT, measure_deviation
+from infill.inspection.partitions import LabelPoints, PartitionCheck, count_connections
+from infill.isosurfaces.components import shell_names
+from infill.meshes.shells import shell_volumes
+from infill.partition.simplices import middle_points
+from infill.partition.walls import WallGraph, trace_walls
+
+
+def labels_of(result: Any) -> dict[int, Any]:
+    return {label["number"]: label for label in result.report["labels"]}
+
+
+def check_of(labels: NDArray[np.int64], after: NDArray[np.int64], **place: Any) -> PartitionCheck:
+    """A partition whose cells have changed their labels; its walls are in the middle."""
+    graph = trace_walls(after.astype(np.uint16))
+    return PartitionCheck(
+        numbers=labels.astype(np.uint16),
+        graph=graph,
+        points=middle_points(graph).astype(np.float32),
+        volume=Volume(values=labels, **place),
+        count=int(max(labels.max(), after.max())) + 1,
+    )
+
+
+def points_of(graph: WallGraph) -> LabelPoints:
+    return LabelPoints(points=middle_points(graph), triangles=graph.triangles, sides=graph.sides)
+
+
+# --- planted losses ------------------------------------------------------------------------------------------
+
+
+def test_a_thin_plate_that_vanishes_is_lost() -> None:
+    """It hangs on a block of the same label, which takes its volume; a plate that is a label of its own is kept."""
+    labels = np.ones((30, 30, 30), dtype=np.int64)
+    labels[14, 4:26, 4:26] = 2  # one voxel thick
+    options: Any = {"together": True, "method": "plain", "smoothing": Smoothing(steps=20)}
+    assert labels_of(smooth_labels(labels, **options))[2]["verdict"]["word"] != "lost"
+    labels[20:26, 4:26, 4:26] = 2
+    labels[14:22, 14:16, 14:16] = 2
+    result = smooth_labels(labels, **options)
+    verdict = labels_of(result)[2]["verdict"]
+    assert verdict["word"] == "lost"
+    assert verdict["thin"] > 0.9 * 2 * 22**2  # both sides of the plate
+    assert result.report["verdict"] == {"word": "lost", "summary": "2 lost (label_1, label_2)"}
+    assert any(
+        problem.startswith("label_2: walls or gaps one voxel thick are gone") for problem in result.report["problems"]
+    )
+
+
+def test_a_label_of_which_nothing_is_left_is_lost() -> None:
+    labels = np.zeros((24, 24, 24), dtype=np.int64)
+    labels[6:18, 6:18, 6:18], labels[2, 20, 2] = 1, 6
+    result = smooth_labels(labels, together=True, method="plain")
+    assert [label["name"] for label in result.report["failed"]] == ["label_6"]
+    assert result.report["verdict"]["word"] == "lost"
+    assert result.report["verdict"]["summary"].startswith("1 lost (label_6), 1 ")
+    assert "label_6: nothing of it is left" in result.report["problems"]
+
+
+def test_a_hole_that_closes_is_told_for_both_labels() -> None:
+    """Of the plate, a tunnel is gone; the rod through it has fallen apart."""
+    labels = np.ones((30, 30, 30), dtype=np.int64)
+    labels[13:17, 4:26, 4:26] = 2
+    labels[13:17, 14:16, 14:16] = 3
+    after = labels.copy()
+    after[13:17, 14:16, 14:16] = 2
+    labels[labels == 3] = 1
+    check = check_of(labels, after)
+    one, plate = check.topology()[1:3]
+    assert (plate.data.tunnels, plate.result.tunnels) == (1, 0)
+    assert (one.data.tunnels, one.result.tunnels) == (1, 0)
+    assert (one.result.components, one.result.cavities) == (1, 1)
+    assert check.deviations()[2] is not None
+
+    result = smooth_labels(labels, together=True, method="plain", smoothing=Smoothing(steps=30))
+    verdict = labels_of(result)[2]["verdict"]
+    assert "1 of 1 tunnel is gone" in verdict["changes"]
+    assert verdict["word"] in ("changed a little", "lost")
+    assert "label_2" in result.report["verdict"]["summary"]
+
+
+def test_a_part_that_moves_to_another_label_is_missing_from_one_and_new_in_the_other() -> None:
+    labels = np.ones((24, 24, 24), dtype=np.int64)
+    labels[12:] = 2
+    after = labels.copy()
+    after[12:20, 8:16, 8:16] = 1
+    deviations = check_of(labels, after, spacing=0.5, origin=(10.0, 20.0, 30.0)).deviations()
+    for number, cells in ((1, 8), (2, 6)):  # the side of the box is part of label 2, and nearer
+        deviation = deviations[number]
+        assert deviation is not None
+        assert deviation.word == "lost"
+        assert len(deviation.added) == 1
+        assert deviation.added[0].distance == pytest.approx(0.5 * cells, abs=0.1)
+        assert deviation.added[0].at[0] == pytest.approx(10 + 0.5 * (12 + cells), abs=0.3)
+        assert deviation.added[0].at[1:] == pytest.approx((26.0, 36.0), abs=2.1)
+
+
+def test_verdicts_are_those_of_a_single_scan() -> None:
+    """A block with a plate that vanishes, alone in its volume."""
+    labels = np.zeros((40, 30, 30), dtype=np.int64)
+    labels[4:16, 6:24, 6:24] = 1
+    labels[16:36, 14, 6:24] = 1
+    options: Any = {"method": "plain", "smoothing": Smoothing(steps=20)}
+    alone = smooth_volume(labels, label=1, allow_broken=True, crumbs=0.0, tolerance=None, **options).report["verdict"]
+    together = labels_of(smooth_labels(labels, together=True, **options))[1]["verdict"]
+    assert alone["word"] == together["word"] == "lost"
+    assert together["thin"] == pytest.approx(alone["thin"], rel=0.25)
+    assert together["far"] == alone["far"]
+
+
+# --- laws ------------------------------------------------------------------------------------------------
+
+
+@settings(max_examples=12, deadline=None)
+@given(st.tuples(*[st.integers(2, 9)] * 3), st.integers(1, 5), st.integers(0, 10**6))
+def test_connections_are_those_of_the_surface(shape: tuple[int, int, int], count: int, seed: int) -> None:
+    labels = np.random.default_rng(seed).integers(0, count + 1, shape)
+    graph = trace_walls(labels.astype(np.uint16))
+    walls = points_of(graph)
+    for number, counts in enumerate(count_connections(graph, count + 1)[1:], 1):
+        surface = walls.surface(number)
+        assert counts.euler_number == len(surface.vertices) - len(surface.faces) // 2
+        if not len(surface.faces):
+            assert counts.components == 0
+            continue
+        volumes = shell_volumes(surface, *shell_names(surface))
+        assert (counts.components, counts.cavities) == ((volumes > 0).sum(), (volumes < 0).sum())
+        assert counts.tunnels >= 0
+
+
+@settings(max_examples=10, deadline=None)
+@given(st.integers(2, 12), st.integers(0, 10**6), st.integers(0, 12), st.sampled_from([1.0, (0.5, 0.5, 1.7)]))
+def test_labels_that_are_not_measured_are_near(count: int, seed: int, steps: int, spacing: Any) -> None:
+    labels = voronoi((16, 15, 14), count, seed)
+    result = smooth_labels(labels, together=True, spacing=spacing, method="plain", smoothing=Smoothing(steps=steps))
+    for label in result.report["labels"]:
+        distance, word = label["distance"], label["verdict"]["word"]
+        if word == "kept":
+            assert max(distance["result"]["max"], distance["input"]["max"]) <= 1.001 * KEPT * np.max(spacing)
+
+
+@settings(max_examples=10, deadline=None)
+@given(st.integers(2, 6), st.integers(0, 10**6), st.integers(0, 40))
+def test_what_is_measured_near_changes_is_what_all_of_it_gives(count: int, seed: int, changes: int) -> None:
+    labels = voronoi((14, 13, 12), count, seed)
+    after, rng = labels.copy(), np.random.default_rng(seed)
+    for place in rng.integers(0, 10, (changes, 3)):
+        after[tuple(map(slice, place, place + rng.integers(1, 4, 3)))] = rng.integers(1, count + 1)
+    check = check_of(labels, after)
+    deviations = check.deviations()
+    for number in range(1, count + 1):
+        surfaces = check.given.surface(number), check.result.surface(number)
+        if not all(len(surface.faces) for surface in surfaces):
+            assert deviations[number] is None
+            continue
+        whole, local = check.exact_deviation(number), deviations[number]
+        assert whole.word == (local.word if local else "kept")
+        assert measure_deviation(*surfaces, cell=1.0).there.max == whole.there.max
+        if local:
+            assert [patch.area for patch in local.lost] == [patch.area for patch in whole.lost]
+            assert local.thin_area == whole.thin_area
+
+
+@pytest.mark.parametrize("name", NASTY)
+def test_nothing_changes_where_nothing_is_smoothed(name: str) -> None:
+    labels = np.asarray(NASTY[name]()).astype(np.int64)
+    check = check_of(labels, labels)
+    assert not any(check.deviations())
+    assert all(topology.data == topology.result for topology in check.topology())
