@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -296,6 +297,23 @@ def find_unsettled(graph: WallGraph, changed: NDArray[np.bool_]) -> NDArray[np.b
     return unsettled
 
 
+def _find_box_of_rest(winners: NDArray[np.uint16]) -> tuple[slice, ...] | None:
+    """Return the whole grid if it has cells of label 0, else None."""
+    return None if winners.all() else tuple(slice(0, count) for count in winners.shape)
+
+
+def _find_regions(winners: NDArray[np.uint16], boxes: list[Any], number: int) -> NDArray[np.int64]:
+    """Return the boxes of the components of a label, (n, 2, 3): from low to high, exclusive."""
+    box = boxes[number]
+    if box is None:
+        return np.empty((0, 2, 3), dtype=np.int64)
+    components, found = ndimage.label(winners[box] == number, structure=NEIGHBOURS)
+    places = [box] if found == 1 else ndimage.find_objects(components)
+    corner = np.array([[axis.start for axis in box]]) if found > 1 else np.zeros((1, 3), dtype=np.int64)
+    ends = [[[axis.start for axis in place], [axis.stop for axis in place]] for place in places]
+    return np.asarray(np.array(ends) + corner)
+
+
 def count_connections(graph: WallGraph, count: int) -> list[ConnectionCounts]:
     """Count the connections of every label, 0 first; that of 0 counts nothing.
 
@@ -309,14 +327,19 @@ def count_connections(graph: WallGraph, count: int) -> list[ConnectionCounts]:
     inner = graph.sides[:, 1] != OUTSIDE
     faces = np.bincount(graph.sides[:, 0], minlength=count) + np.bincount(graph.sides[inner, 1], minlength=count)
     euler = corners - faces // 2
+    places: list[Any] = [_find_box_of_rest(graph.winners), *ndimage.find_objects(graph.winners, max_label=count - 1)]
+    regions = [_find_regions(graph.winners, places, number) for number in range(count)]
+    owners = np.repeat(np.arange(count), [len(region) for region in regions])
+    boxes = np.concatenate(regions)
     counts = [ConnectionCounts.of(components=0, cavities=0, tunnels=0)]
-    for number, box in enumerate(ndimage.find_objects(graph.winners, max_label=count - 1), 1):
-        if box is None:
-            counts.append(counts[0])
-            continue
-        solid = graph.winners[box] == number
-        components = int(ndimage.label(solid, structure=NEIGHBOURS)[1])
-        cavities = int(ndimage.label(np.pad(~solid, 1, constant_values=True), structure=NEIGHBOURS)[1]) - 1
-        tunnels = components + cavities - int(euler[number]) // 2
-        counts.append(ConnectionCounts.of(components=components, cavities=cavities, tunnels=tunnels))
+    for number, region in enumerate(regions[1:], 1):
+        cavities = 0
+        if len(region):
+            low, high = region[:, 0].min(axis=0), region[:, 1].max(axis=0)
+            inside = (boxes[:, 0] > low).all(axis=1) & (boxes[:, 1] < high).all(axis=1)
+            if (owners[inside] != number).any():  # else nothing can be enclosed
+                solid = graph.winners[tuple(map(slice, low, high))] == number
+                cavities = ndimage.label(np.pad(~solid, 1, constant_values=True), structure=NEIGHBOURS)[1] - 1
+        tunnels = len(region) + cavities - int(euler[number]) // 2
+        counts.append(ConnectionCounts.of(components=len(region), cavities=cavities, tunnels=tunnels))
     return counts
