@@ -107,13 +107,14 @@ class Result(Picturable, Generic[Stages, Told]):
         """Write the mesh, or a picture of the stages, in the format of the suffix; return the path.
 
         Several surfaces go into one .3mf or .glb, each by its name; the components of a mesh into any format; labels
-        that share their walls also into one .ply or .vtp, which holds every wall once, with the labels on both sides.
+        that share their walls also into one .ply or .vtp, which holds every wall once, with the labels on both sides,
+        and as tetrahedra into a .vtu.
 
         Parameters
         ----------
         path : str or Path
-            .stl, .3mf, .obj, .ply or .glb for the mesh, in mm; .vtp for labels that share their walls; .png for
-            `picture`.
+            .stl, .3mf, .obj, .ply or .glb for the mesh, in mm; .vtp or .vtu for labels that share their walls; .png
+            for `picture`.
         overwrite : bool
             Whether an existing file is replaced, once the new one is complete. By default it is, as by `numpy.save`,
             `Image.save` and `Trimesh.export`: a script or a notebook cell that is run again should not fail. The

@@ -13,7 +13,8 @@ from test_together import NASTY, voronoi
 
 from infill import Smoothing, Volume, smooth_labels, smooth_volume
 from infill.inspection.deviation import KEPT, measure_deviation
-from infill.inspection.partitions import LabelPoints, PartitionCheck, count_connections
+from infill.inspection.label_connections import count_connections
+from infill.inspection.partitions import LabelPoints, PartitionCheck
 from infill.isosurfaces.components import shell_names
 from infill.meshes.shells import shell_volumes
 from infill.partition.simplices import middle_points

@@ -1,4 +1,4 @@
-"""Compare the labels of a partition before and after smoothing: connections, and the places where walls are far apart.
+"""Compare the labels of a partition before and after smoothing: connections, and places where walls are far apart.
 
 Before smoothing, walls are cut between the given labels in the same way, through the middles of edges, faces and
 tetrahedra. Where no corner of a tetrahedron has changed its label, both walls have the same triangles in it, and no
@@ -16,18 +16,15 @@ from scipy import ndimage
 
 from infill.arrays import Floats
 from infill.inspection.bricks import TopologyCheck
-from infill.inspection.changes import ConnectionCounts, TopologyChanges
+from infill.inspection.changes import TopologyChanges
 from infill.inspection.deviation import COUNTS, KEPT, LOST, PITCH, THIN, Deviation, measure_deviation, sample_surface
+from infill.inspection.label_connections import count_connections
 from infill.meshes.distance import TriangleTree, morton_order
 from infill.partition.simplices import cells_at, middle_points, simplices
-from infill.partition.walls import OUTSIDE, WallGraph, trace_walls
+from infill.partition.walls import WallGraph, trace_walls
 from infill.surface import Surface
 from infill.volume import Volume
 
-# Cells are neighbours along every edge of the tetrahedra that they are cut into, those of a label and those beside it.
-NEIGHBOURS = np.array(
-    [[[1, 1, 0], [1, 1, 0], [0, 0, 0]], [[1, 1, 0], [1, 1, 1], [0, 1, 1]], [[0, 0, 0], [0, 1, 1], [0, 1, 1]]]
-)
 # In units of distance around changed cells: where points are measured, and the walls to which they are measured first.
 NEAR, AROUND = 2, 4
 OPENED = np.ones((2, 2, 2), dtype=bool)  # thicker than one cell: this fits in
@@ -294,29 +291,3 @@ def find_unsettled(graph: WallGraph, changed: NDArray[np.bool_]) -> NDArray[np.b
     for chosen, corners in simplices(graph):
         unsettled[chosen] = np.any([cells_at(changed, corner) for corner in corners], axis=0)
     return unsettled
-
-
-def count_connections(graph: WallGraph, count: int) -> list[ConnectionCounts]:
-    """Count the connections of every label, 0 first; that of 0 counts nothing.
-
-    Components and cavities are those of cells; tunnels follow from them and the Euler number of the surface, which is
-    its number of points less half the number of its triangles.
-    """
-    corners = np.zeros(count, dtype=np.int64)
-    for _, places in simplices(graph):
-        for place in places:
-            corners += np.bincount(cells_at(graph.winners, place), minlength=count)
-    inner = graph.sides[:, 1] != OUTSIDE
-    faces = np.bincount(graph.sides[:, 0], minlength=count) + np.bincount(graph.sides[inner, 1], minlength=count)
-    euler = corners - faces // 2
-    counts = [ConnectionCounts.of(components=0, cavities=0, tunnels=0)]
-    for number, box in enumerate(ndimage.find_objects(graph.winners, max_label=count - 1), 1):
-        if box is None:
-            counts.append(counts[0])
-            continue
-        solid = graph.winners[box] == number
-        components = int(ndimage.label(solid, structure=NEIGHBOURS)[1])
-        cavities = int(ndimage.label(np.pad(~solid, 1, constant_values=True), structure=NEIGHBOURS)[1]) - 1
-        tunnels = components + cavities - int(euler[number]) // 2
-        counts.append(ConnectionCounts.of(components=components, cavities=cavities, tunnels=tunnels))
-    return counts

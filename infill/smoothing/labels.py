@@ -104,7 +104,8 @@ def smooth_labels(
     -------
     Result
         A surface for each label, by its name, in the order of layers and numbers; `label_7` where it has no name.
-        `save` writes all of them into one .3mf or .glb. docs/report.md lists the keys of the report.
+        `save` writes all of them into one .3mf or .glb; labels together also into one .ply or .vtp, with every wall
+        once, and as tetrahedra into a .vtu. docs/report.md lists the keys of the report.
 
     Raises
     ------
