@@ -65,7 +65,7 @@ def test_a_thin_plate_that_vanishes_is_lost() -> None:
 def test_a_label_of_which_nothing_is_left_is_lost() -> None:
     labels = np.zeros((24, 24, 24), dtype=np.int64)
     labels[6:18, 6:18, 6:18], labels[2, 20, 2] = 1, 6
-    result = smooth_labels(labels, together=True, method="plain")
+    result = smooth_labels(labels, together=True, method="refine", smoothing=Smoothing(steps=30))
     assert [label["name"] for label in result.report["failed"]] == ["label_6"]
     assert result.report["verdict"]["word"] == "lost"
     assert result.report["verdict"]["summary"].startswith("1 lost (label_6), 1 ")

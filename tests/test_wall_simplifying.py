@@ -174,7 +174,7 @@ def test_the_order_of_points_is_that_of_the_specification(monkeypatch: pytest.Mo
 def test_a_wall_that_is_moved_is_found_and_its_points_can_be_fixed(monkeypatch: pytest.MonkeyPatch) -> None:
     partition = partition_of(make_cells((20, 20, 20), 4, 1), monkeypatch)
     whole = WallMesh.of(partition.walls, CUBIC, (20, 20, 20))
-    fewer = whole.collapsed(0.006**2, None, 1).collapsed(0.08**2, 0.08, 1)
+    fewer = WallMesh.of(simplify_partition(partition, 0.1, scale=CUBIC).walls, CUBIC, (20, 20, 20))
     assert not len(find_far(whole, fewer, 0.1, CUBIC, 1))
     inner = np.flatnonzero((fewer.order == kernels.WALL) & (fewer.flags == 0))
     points = fewer.points.copy()

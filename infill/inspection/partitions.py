@@ -43,7 +43,7 @@ class LabelPoints:
     """
 
     points: Floats
-    triangles: NDArray[np.int64]
+    triangles: NDArray[np.integer]
     sides: NDArray[np.int32]
 
     @cached_property

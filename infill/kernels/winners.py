@@ -11,6 +11,16 @@ from infill.kernels.compiling import njit
 from infill.kernels.sparse import B0, B1, B2
 
 INSIDE = -1  # slot of a brick that lies whole inside its label
+# Value beyond the interface of a label, where it never wins, whatever its offset: a small label with a large offset
+# would else come back at the walls of others.
+BEYOND, NEVER = np.float32(-0.999), np.float32(-8.0)
+
+
+@njit(from_python=False, nogil=True, cache=True)
+def raise_value(values, slot, cell, offset):
+    """Return the value of a brick's cell, raised by the offset of its label."""
+    value = np.float32(1.0) if slot == INSIDE else values[slot, cell]
+    return value + (NEVER if value <= BEYOND else offset)
 
 
 @njit(nogil=True, cache=True)
@@ -52,8 +62,7 @@ def choose_winners(entries, labels, slots, values, offsets, given, winners, thre
                             cell = (a * B1 + b) * B2 + c
                             for entry in range(begin, end):
                                 label, slot = labels[entry], slots[entry]
-                                value = np.float32(1.0) if slot == INSIDE else values[slot, cell]
-                                value += offsets[label]
+                                value = raise_value(values, slot, cell, offsets[label])
                                 if value > best_value or (value == best_value and label == own_label):
                                     best, best_value = label, value
                             winners[i, j, k] = best
@@ -130,8 +139,7 @@ def share_cells(entries, labels, slots, values, offsets, given, ramp, stride, sh
                             best_value = second_value = np.float32(-1e30)
                             for entry in range(begin, end):
                                 label, slot = np.int64(labels[entry]), slots[entry]
-                                value = np.float32(1.0) if slot == INSIDE else values[slot, cell]
-                                value += offsets[label]
+                                value = raise_value(values, slot, cell, offsets[label])
                                 if value > best_value:
                                     second, second_value = best, best_value
                                     best, best_value = label, value

@@ -45,6 +45,8 @@ def simplify_partition(
     Where a wall goes too far, or triangles pass through each other, the points around the place are fixed, and all is
     done again. Where that does not help, the walls stay as they were.
     """
+    if not len(partition.walls.triangles):
+        return partition
     count = thread_count(threads)
     shape, volumes = partition.graph.winners.shape, partition.walls.volumes
     is_cut = np.isin(np.arange(len(volumes)), partition.walls.sides)

@@ -34,6 +34,7 @@ LARGEST_STEP = 0.3  # of an offset in one round: values lie between -1 and 1
 SAMPLED = 300_000  # triangles from which the areas between pairs are taken
 # Of what was missing a round before: a label that then has as much too much takes half the step; with jumps, sooner.
 TURNED, JUMPED = 0.7, 0.3
+MOST_GAIN = 10.0  # of a volume, as a multiple of what was foreseen
 MARGINS = 128  # bins of the margin by which a label wins or loses, from -2 to 2
 MOST_CELLS = 0.6  # of the cells of a label, in which it wins at first
 SMALLEST = 8  # cells of a label that is measured; smaller ones get what they can
@@ -172,6 +173,7 @@ class _Search:
         walls: tuple[WallGraph, Walls] | None = None
         measured: _Round | None = None
         before, step, largest = np.zeros(count), np.zeros(count), np.full(count, LARGEST_STEP)
+        foreseen, gain = np.zeros(count), np.ones(count)
         is_sought = self.targets > 0
         for _ in range(rounds):
             walls = measured = None  # free what was measured before: walls are large
@@ -185,11 +187,16 @@ class _Search:
             self.tell_round()
             if error <= enough:
                 break
+            # Where fields are flatter than the profile, volumes change by more than foreseen.
+            is_moved = np.abs(foreseen) > PRECISION * self.targets
+            ratio = np.divide(before - missing, foreseen, out=gain.copy(), where=is_moved)
+            gain = np.clip(ratio, 1.0, MOST_GAIN)
             turned = (missing * before < 0) & (np.abs(missing) > (JUMPED if jumps else TURNED) * np.abs(before))
             largest = np.where(turned, np.abs(step) / 2, np.minimum(2 * largest, LARGEST_STEP))
-            step = solve_steps(measured.changes, missing, is_sought)
+            step = solve_steps(measured.changes, missing, is_sought) / gain
             step[is_sought & (measured.volumes < GONE * self.targets)] = LARGEST_STEP  # nothing says how far it is
             step, before = np.clip(step, -largest, largest), missing
+            foreseen = measured.changes.sum(axis=1) * step - measured.changes @ step
             offsets = np.clip(offsets + step, -LARGEST_OFFSET, LARGEST_OFFSET)
         return best, walls
 

@@ -141,6 +141,7 @@ def smooth_together(
         segments={piece.name: piece.segment for piece in pieces},
         failed={piece.name: NOTHING_LEFT for piece in gone},
         partition=partition,
+        walls=walls,
         volume=volume,
         values=(0, *(piece.segment.value for piece in pieces)),
         max_memory=request.max_memory,

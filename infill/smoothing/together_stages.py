@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, BinaryIO
 import numpy as np
 
 from infill.errors import GeometryError
-from infill.formats.label_walls import LabelTetrahedra
+from infill.formats.label_walls import LabelTetrahedra, LabelWalls
 from infill.formats.vtk_writing import write_vtu
 from infill.machine import require_memory
 from infill.partition.tetrahedral_mesh import cut_tetrahedra
@@ -33,6 +33,8 @@ class TogetherStages(LabelStages):
     ----------
     partition : VolumePartition
         The walls with all triangles, in cells.
+    walls : LabelWalls
+        The walls as they are written, mm.
     volume : Volume
         The labels.
     values : tuple of int
@@ -41,6 +43,7 @@ class TogetherStages(LabelStages):
     """
 
     partition: VolumePartition
+    walls: LabelWalls
     volume: Volume
     values: tuple[int, ...]
     max_memory: int | None = None
