@@ -13,6 +13,7 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from made_shapes import box
+from shapes import one_of_each_kind
 from test_3mf_parts import BAMBU, COLUMN, PART, PRUSA, component, group, model, packed, prusa_config, thing, volume
 from test_command_line import run
 
@@ -130,8 +131,8 @@ def test_a_region_of_lightning_and_one_within_it() -> None:
 
 
 @pytest.mark.longest
-@pytest.mark.parametrize("name", [name for name in PATTERNS if name != "gyroid"])
-def test_every_pattern_can_be_that_of_a_region(name: str) -> None:
+@pytest.mark.parametrize("name", one_of_each_kind(name for name in PATTERNS.built_in if name != "gyroid"))
+def test_every_kind_of_pattern_can_be_that_of_a_region(name: str) -> None:
     """In a part of a few cells, whose region ends beside its middle."""
     result = fill(
         box(14, 12, 12), density=0.2, wall=1, voxel=0.4, regions=[f"box=-20,-20,-20,1,2,20:pattern={name},density=30%"]
