@@ -44,7 +44,7 @@ from patterns.planes import LateralLattice
 from patterns.polyhedra import Polyhedra
 from patterns.unit_cells import Bars, Network, Planes, Surfaces
 
-pytestmark = pytest.mark.usefixtures("compiled")
+pytestmark = pytest.mark.usefixtures("compiled", "coarse_grids")
 
 KINDS = one_of_each_kind([*IN_SPACE, *(name for name, kind in PATTERNS.items() if kind.prismatic)])
 BAR = "octet"

@@ -17,7 +17,7 @@ from infill import GeometryError, InfillError, UsageError, fill
 from infill.errors import FormatError
 from infill.meshes.solids import to_manifold
 
-pytestmark = pytest.mark.usefixtures("compiled")
+pytestmark = pytest.mark.usefixtures("compiled", "coarse_grids")
 
 WALL, CELL = 1.2, 7.0
 SIDE = 2 * CELL

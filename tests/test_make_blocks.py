@@ -23,6 +23,8 @@ from infill.meshes.winding import winding_numbers
 from infill.surface import Surface
 from patterns import PATTERNS, Cells, Gyroid, Honeycomb
 
+pytestmark = pytest.mark.usefixtures("coarse_grids")
+
 SIDES = (16.0, 13.0, 11.0)
 UNIT = ["--size", "16x13x11", "--density", "20"]
 TILE = '<svg xmlns="http://www.w3.org/2000/svg" width="6mm" height="6mm" viewBox="0 0 6 6"><path d="{}" stroke="#000"/></svg>'

@@ -20,6 +20,8 @@ from test_label_tables import FIELDS, seg_nrrd
 from test_scans import write_series
 from test_simulation_fields import bricks, frd
 
+pytestmark = pytest.mark.usefixtures("coarse_grids")
+
 ROOT = Path(__file__).resolve().parents[1]
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 # The pages whose blocks run: README and the tutorials, which bring all they need, and the pages that say how.

@@ -34,7 +34,7 @@ from infill.volume import Volume
 from patterns import PATTERNS
 from patterns.errors import PatternError
 
-pytestmark = pytest.mark.usefixtures("compiled")
+pytestmark = pytest.mark.usefixtures("compiled", "coarse_grids")
 
 HALF_A_POINT = 0.005
 COARSE: dict[str, Any] = {"wall": 1, "cell": 4.0, "voxel": 0.4}

@@ -42,7 +42,7 @@ from infill.meshes.solids import FINE, manifold_status, simplify_open_piece
 from patterns import Pattern
 from patterns.shared import cell_parameter
 
-pytestmark = pytest.mark.usefixtures("compiled")
+pytestmark = pytest.mark.usefixtures("compiled", "coarse_grids")
 
 THICK = 11  # layers: some slabs in a small part
 SIZES = {"cell": 5.0, "width": 0.6}  # mm
