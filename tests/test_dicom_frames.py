@@ -18,6 +18,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as npst
 from pydicom.dataset import FileMetaDataset
 from pydicom.uid import RLELossless
+from test_command_line import run
 
 from infill import Volume, read_volume
 from infill.errors import FormatError, InfillError, ParameterError

@@ -251,7 +251,7 @@ def test_fillets_have_at_least_the_radius_asked_for(name: str) -> None:
 
 @pytest.mark.longest
 def test_a_fillet_that_is_too_sharp_is_found() -> None:
-    result = fill(box(24, 24, 24), "grid", smooth_radius=0.8 * RADIUS, voxel=0.2, tolerance=0, density=0.25)
+    result = fill(box(17, 17, 17), "grid", smooth_radius=0.8 * RADIUS, voxel=0.2, tolerance=0, density=0.25)
     assert np.quantile(fillets(result.stages.voids, result.stages.part), 0.05) < 0.95 * RADIUS
 
 
