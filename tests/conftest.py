@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import os
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +14,7 @@ from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 
 from infill import smooth_volume
+from infill.lattices import sizing
 from tests.cpu_times import is_first_case
 
 settings.register_profile(
@@ -89,6 +90,18 @@ def compiled() -> None:
     ball = np.sum((np.indices((20, 20, 20)) - 9.5) ** 2, axis=0) < 40
     for refine in (False, True):
         smooth_volume(ball, refine=refine, tolerance=None)
+
+
+@pytest.fixture(scope="module")
+def coarse_grids() -> Iterator[None]:
+    """Let grids that `fill` chooses for small parts have 150 thousand cells at least, not a million.
+
+    Only for speed: laws hold on grids of any size, and tests/test_fill.py runs some on the grids of users.
+    """
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(sizing, "FEWEST", 1.5e5)
+        patch.setattr(sizing, "FEWEST_BARE", 8e4)
+        yield
 
 
 @pytest.fixture

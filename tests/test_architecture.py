@@ -9,9 +9,8 @@ import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from pathlib import Path
 from types import ModuleType
 
@@ -96,14 +95,16 @@ class Module:
     name: str
     nodes: tuple[ast.AST, ...]
 
-    @property
-    def imports(self) -> Iterator[Import]:
+    @cached_property
+    def imports(self) -> tuple[Import, ...]:
+        found = []
         for node in self.nodes:
             if isinstance(node, ast.Import):
-                yield from (Import(module=alias.name) for alias in node.names)
+                found += [Import(module=alias.name) for alias in node.names]
             elif isinstance(node, ast.ImportFrom):
                 module = "." * node.level + (node.module or "")
-                yield from (Import(module=module, name=alias.name) for alias in node.names)
+                found += [Import(module=module, name=alias.name) for alias in node.names]
+        return tuple(found)
 
 
 @cache
@@ -111,8 +112,13 @@ def nodes_of(text: str) -> tuple[ast.AST, ...]:
     return tuple(ast.walk(ast.parse(text)))
 
 
+@cache
+def module_of(name: str, text: str) -> Module:
+    return Module(name=name, nodes=nodes_of(text))
+
+
 def read(path: Path, name: str) -> Module:
-    return Module(name=name, nodes=nodes_of(path.read_text(encoding="utf-8")))
+    return module_of(name, path.read_text(encoding="utf-8"))
 
 
 def modules(root: Path) -> dict[str, Module]:

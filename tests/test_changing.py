@@ -21,7 +21,7 @@ from infill.meshes.winding import winding_numbers
 from patterns import Cross, Pattern, cell_parameter
 from patterns.cross import Cross3D
 
-pytestmark = pytest.mark.usefixtures("compiled")
+pytestmark = pytest.mark.usefixtures("compiled", "coarse_grids")
 
 REGION = shapely.box(-21, -17, 20, 23)
 GIVEN: dict[str, Any] = {"line_width": 0.8, "wall": 1.0, "tolerance": 0, "smooth_radius": 0.0}

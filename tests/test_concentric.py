@@ -22,7 +22,7 @@ from infill.meshes.distance import TriangleTree
 from infill.meshes.solids import FINE, manifold_status, to_manifold
 from infill.meshes.winding import winding_numbers
 
-pytestmark = pytest.mark.usefixtures("compiled")
+pytestmark = pytest.mark.usefixtures("compiled", "coarse_grids")
 
 WALL, CELL, WIDTH = 1.2, 2.5, 0.5
 EXACT: dict[str, Any] = {"wall": WALL, "cell": CELL, "line_width": WIDTH, "voxel": 0.25, "tolerance": 0}

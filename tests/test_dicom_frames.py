@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import logging
-import subprocess
 import sys
 import tempfile
 from collections.abc import Mapping, Sequence
@@ -19,6 +18,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as npst
 from pydicom.dataset import FileMetaDataset
 from pydicom.uid import RLELossless
+from test_command_line import run
 
 from infill import Volume, read_volume
 from infill.errors import FormatError, InfillError, ParameterError
@@ -718,13 +718,12 @@ def test_a_broken_frame_is_told(packing: str, part: float, tmp_path: Path, capfd
 
 
 @pytest.mark.longest
-def test_warnings_reach_the_report(tmp_path: Path, compiled: None) -> None:
+def test_warnings_reach_the_report(tmp_path: Path) -> None:
     made = base(CAPTURE, body())
     made.PixelSpacing, made.SpacingBetweenSlices = ["0.5", "1"], "3"
     path = save(made, tmp_path / "a.dcm")
-    words = [sys.executable, "-m", "infill", "smooth", str(path), "--threshold", "500", "--json"]
-    done = subprocess.run(words, capture_output=True, encoding="utf-8", check=False)
-    assert done.returncode == 0, done.stderr
+    done = run("smooth", path, "--threshold", "500", "--json")
+    assert done.exit_code == 0, done.stderr
     told = json.loads(done.stdout)["input"]["warnings"]
     assert len(told) == 1
     assert told[0] in done.stderr.splitlines()

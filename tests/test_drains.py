@@ -31,7 +31,7 @@ from infill.isosurfaces.components import shell_names
 from infill.lattices.drain_holes import DrainedSolid, find_closed_voids
 from infill.meshes.distance import TriangleTree
 
-pytestmark = pytest.mark.usefixtures("compiled")
+pytestmark = pytest.mark.usefixtures("compiled", "coarse_grids")
 
 QUICK = {"voxel": 0.5, "density": 0.3}
 WALL = 1.2

@@ -19,6 +19,8 @@ from infill.formats.threemf_reading import FileObject, read_objects
 from infill.lattices.objects import divide_by_objects
 from infill.meshes.merging import surface_of
 
+pytestmark = pytest.mark.usefixtures("coarse_grids")
+
 RED, BLUE = (1.0, 0.0, 0.0), (0.0, 0.2, 1.0)
 Place = tuple[float, float, float]
 

@@ -22,7 +22,7 @@ from infill.options.resolve_pattern import resolve_pattern
 from patterns import Honeycomb, Pattern, PatternError, parameter
 from patterns.linework import clip
 
-pytestmark = pytest.mark.usefixtures("compiled")
+pytestmark = pytest.mark.usefixtures("compiled", "coarse_grids")
 
 GIVEN: dict[str, Any] = {"density": 0.3, "voxel": 0.5, "wall": 1.0}
 PART = box(16, 14, 12)

@@ -29,9 +29,9 @@ from infill.smoothing.stages import place_surface, raw_surface
 from infill.voxels.from_mesh import voxelise
 from infill.voxels.segmentation import segment_volume
 
-FIELDS = 200
+FIELDS = 60
 TOP = 32  # the last layer that is left of the knob
-COARSE = 40  # voxels along the longest side of real files
+COARSE = 32  # voxels along the longest side of real files
 
 
 def random_field(seed: int) -> tuple[Volume, Smoothing, float | str]:
@@ -124,8 +124,8 @@ def test_both_forms_agree_on_random_fields() -> None:
             continue
     assert len(decided) > 0.9 * FIELDS
     # Each way is taken often enough to mean something.
-    assert 20 < sum(alike for alike, _ in decided) < len(decided)
-    assert 20 < sum(near for _, near in decided) < len(decided)
+    assert 6 < sum(alike for alike, _ in decided) < len(decided)
+    assert 6 < sum(near for _, near in decided) < len(decided)
 
 
 def is_simple(cells: NDArray[np.bool_]) -> bool:

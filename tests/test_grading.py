@@ -17,7 +17,7 @@ from infill import GeometryError, InfillError, UsageError, fill
 from infill.errors import FormatError
 from infill.meshes.solids import to_manifold
 
-pytestmark = pytest.mark.usefixtures("compiled")
+pytestmark = pytest.mark.usefixtures("compiled", "coarse_grids")
 
 WALL, CELL = 1.2, 7.0
 SIDE = 2 * CELL
@@ -132,7 +132,7 @@ def test_other_forms_are_graded_too(form: str) -> None:
 )
 def test_the_thinnest_walls_are_about_as_wide_as_walls_are_otherwise(given: dict[str, Any], width: float) -> None:
     """As drawn: fillets add to them."""
-    infill = fill(box(40, 40, 30), density=(0.15, 0.4), voxel=0.5, **given).report["infill"]
+    infill = fill(box(30, 30, 24), density=(0.15, 0.4), voxel=0.5, **given).report["infill"]
     assert infill["widths"][0] == pytest.approx(width, rel=0.2)
     assert infill["widths"][1] > 2 * infill["widths"][0]
 

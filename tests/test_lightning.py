@@ -23,7 +23,7 @@ from infill.lattices.request import check_request
 from infill.meshes.merging import surface_of
 from patterns.errors import PatternError
 
-pytestmark = pytest.mark.usefixtures("compiled")
+pytestmark = pytest.mark.usefixtures("compiled", "coarse_grids")
 
 CELL = 4.0
 PARTS = {

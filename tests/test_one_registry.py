@@ -34,6 +34,8 @@ from patterns.declared import given_parameters
 from tests.gcode_judge import judge
 from tests.handmade_prints import Dialect, written
 
+pytestmark = pytest.mark.usefixtures("coarse_grids")
+
 MODULE = '''
 """A pattern of a user's: one file."""
 from dataclasses import dataclass

@@ -17,7 +17,7 @@ from infill.interior.narrow import drop_narrow, estimate_narrow
 from infill.meshes.solids import coincident_vertices, manifold_status, to_manifold
 from infill.result import Result
 
-pytestmark = pytest.mark.usefixtures("compiled")
+pytestmark = pytest.mark.usefixtures("compiled", "coarse_grids")
 
 Size = tuple[float, float, float]
 WALL, LINE, LEAST = 0.9, 0.45, 0.6  # mm

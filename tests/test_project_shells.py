@@ -20,7 +20,7 @@ from infill import fill, save_project
 from infill.projects import cura as cura_project
 from infill.projects import prusaslicer
 
-pytestmark = pytest.mark.usefixtures("compiled")
+pytestmark = pytest.mark.usefixtures("compiled", "coarse_grids")
 
 prusa = pytest.mark.skipif(bool(slicers.missing_prusa()), reason=slicers.missing_prusa() or "there")
 cura = pytest.mark.skipif(bool(slicers.missing_cura()), reason=slicers.missing_cura() or "there")

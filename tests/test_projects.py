@@ -30,7 +30,7 @@ from infill.projects.saving import writer_for
 from infill.reports.filling import FillReport
 from infill.result import Result
 
-pytestmark = pytest.mark.usefixtures("compiled")
+pytestmark = pytest.mark.usefixtures("compiled", "coarse_grids")
 
 OTHER = {"prusaslicer": "cura", "orcaslicer": "prusaslicer", "bambustudio": "prusaslicer", "cura": "bambustudio"}
 PRUSA, BAMBU, MODEL = "Metadata/Slic3r_PE_model.config", "Metadata/model_settings.config", "3D/3dmodel.model"

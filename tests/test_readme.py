@@ -20,6 +20,10 @@ from test_label_tables import FIELDS, seg_nrrd
 from test_scans import write_series
 from test_simulation_fields import bricks, frd
 
+from infill.lattices import sizing
+
+pytestmark = pytest.mark.usefixtures("coarse_grids", "coarse_lines")
+
 ROOT = Path(__file__).resolve().parents[1]
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 # The pages whose blocks run: README and the tutorials, which bring all they need, and the pages that say how.
@@ -85,6 +89,12 @@ def without_numbers(name: str) -> str:
     'honeycomb, N x N x N mm'
     """
     return re.sub(r"\d[\d.,]*\d|\d", "N", name)
+
+
+@pytest.fixture
+def coarse_lines(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let `fill` take the coarsest grids that still resolve a pattern: what runs is tested, not how fine it is."""
+    monkeypatch.setattr(sizing, "FINE", sizing.LEAST_FINE._replace(across=sizing.FINE.across))
 
 
 @pytest.fixture

@@ -36,9 +36,9 @@ Floats = np.ndarray
 
 @pytest.fixture(scope="session")
 def sliced(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A box of 60 mm, 8 layers high."""
+    """A box of 60 mm, 4 layers high."""
     path = tmp_path_factory.mktemp("gradients") / "box.gcode"
-    path.write_bytes(written(Dialect(size=60.0, cell=5.0, layers=8)))
+    path.write_bytes(written(Dialect(size=60.0, cell=5.0, layers=4)))
     return path
 
 
@@ -135,7 +135,7 @@ def test_lines_that_follow_a_field_obey_its_laws(sliced: Path, tmp_path: Path, p
 def test_lines_that_follow_a_field_obey_its_laws_as_arcs(tmp_path: Path, pattern: str) -> None:
     """As straight moves do, in fewer lines: gyroids, whose lines never touch, would allow fewer still."""
     texts, sliced = {}, tmp_path / "box.gcode"
-    sliced.write_bytes(written(Dialect(size=60.0, cell=5.0, layers=8, arcs=True)))
+    sliced.write_bytes(written(Dialect(size=60.0, cell=5.0, layers=4, arcs=True)))
     for arcs in ("on", "off"):
         refill(sliced, output=tmp_path / arcs, pattern=pattern, density=(DENSE, SPARSE), by="x", arcs=arcs)
         texts[arcs] = (tmp_path / arcs).read_text()

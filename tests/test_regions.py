@@ -36,10 +36,10 @@ from infill.meshes.solids import to_manifold
 from infill.smoothing.sources import read_source
 from infill.voxels.scanlines import fill_rows, intersect_rows
 
-pytestmark = pytest.mark.usefixtures("compiled")
+pytestmark = pytest.mark.usefixtures("compiled", "coarse_grids")
 
 HALF_A_POINT = 0.005
-COARSE: dict[str, Any] = {"wall": 1, "cell": 4.0, "voxel": 0.4}
+COARSE: dict[str, Any] = {"wall": 1, "cell": 4.0, "voxel": 0.5}
 
 
 def share_in(result: Any, low: tuple[float, ...], high: tuple[float, ...]) -> float:

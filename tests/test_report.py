@@ -41,7 +41,7 @@ from tests.handmade_prints import Dialect, written
 from tools import write_report_page
 from tools.write_report_page import CHAPTERS, PAGE, Chapter, Key, is_union, read_key, read_keys, write_page
 
-pytestmark = pytest.mark.usefixtures("compiled")
+pytestmark = pytest.mark.usefixtures("compiled", "coarse_grids")
 
 BALL = np.sum((np.indices((24, 24, 24)) - 11.5) ** 2, axis=0) < 64
 GREY = 100.0 * (11 - np.sqrt(np.sum((np.indices((24, 24, 24)) - 11.5) ** 2, axis=0)))

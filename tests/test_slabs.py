@@ -42,7 +42,7 @@ from infill.meshes.solids import FINE, manifold_status, simplify_open_piece
 from patterns import Pattern
 from patterns.shared import cell_parameter
 
-pytestmark = pytest.mark.usefixtures("compiled")
+pytestmark = pytest.mark.usefixtures("compiled", "coarse_grids")
 
 THICK = 11  # layers: some slabs in a small part
 SIZES = {"cell": 5.0, "width": 0.6}  # mm
@@ -174,8 +174,17 @@ def test_a_large_part_is_measured_slab_by_slab(monkeypatch: pytest.MonkeyPatch) 
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("radius", [0.0, 0.25, 1.5])
-@pytest.mark.parametrize("pattern", ["honeycomb", "rectilinear", "concentric-heart", "concentric"])
+@pytest.mark.parametrize(
+    ("pattern", "radius"),
+    [
+        ("honeycomb", 0.0),
+        ("honeycomb", 0.25),
+        ("honeycomb", 1.5),
+        ("rectilinear", 0.0),
+        ("concentric-heart", 0.25),
+        ("concentric", 1.5),
+    ],
+)
 def test_slabs_make_the_surfaces_of_the_whole(pattern: str, radius: float, space: Interior) -> None:
     """Triangle by triangle; with a radius of 1.5 mm, more layers are needed beside a slab than it has."""
     phase = (0.0, 0.0) if pattern == "concentric" else (0.3, 0.1)

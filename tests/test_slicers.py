@@ -16,6 +16,8 @@ import trimesh
 
 from infill import Result, make, smooth_volume
 
+pytestmark = pytest.mark.usefixtures("coarse_grids")
+
 DESIGNS = ["honeycomb", "zigzag", "concentric-heart"]
 READ = 1e-3  # PrusaSlicer adds up the tetrahedra of all triangles in float32
 # Walls of one line are printed only roughly: PrusaSlicer draws one line of 0.45 mm along walls of 0.51 to 0.58 mm,

@@ -24,7 +24,7 @@ from infill.lattices.voids import NODES
 from infill.meshes.solids import to_manifold
 from patterns import Gyroid
 
-pytestmark = pytest.mark.usefixtures("compiled")
+pytestmark = pytest.mark.usefixtures("compiled", "coarse_grids")
 
 Floats = NDArray[np.float64]
 WALL, CELL = 1.2, 7.0

@@ -26,7 +26,7 @@ from infill.voxels.scanlines import fill_rows, intersect_rows
 from patterns.errors import PatternError
 from patterns.octree import cube_levels
 
-pytestmark = pytest.mark.usefixtures("compiled")
+pytestmark = pytest.mark.usefixtures("compiled", "coarse_grids")
 
 NAMES = ["adaptive-cubic", "support-cubic"]
 GIVEN: dict[str, Any] = {

@@ -194,10 +194,11 @@ def test_a_change_of_the_text_alone_is_no_violation(
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("pattern", ["keep", "honeycomb", "gyroid"])
+@pytest.mark.parametrize("pattern", ["keep", "gyroid"])
 def test_a_refill_is_no_violation(pattern: str, prints_of_all_kinds: Mapping[str, Path], tmp_path: Path) -> None:
+    """Gyroids in every fifth print; test_refill_changes_nothing_else.py has honeycombs in others."""
     new, free = tmp_path / "new.gcode", 0
-    for name, entry in CORPUS.items():
+    for name, entry in list(CORPUS.items())[:: 1 if pattern == "keep" else 5]:
         if entry.missing() or name == "orca-numbered":  # which refill refuses
             continue
         old = prints_of_all_kinds[name]
@@ -205,7 +206,7 @@ def test_a_refill_is_no_violation(pattern: str, prints_of_all_kinds: Mapping[str
         result = verify(old, new)
         assert list(map(str, result.violations)) == [], name
         free += result.report["compared"]["free_mm"] > 0
-    assert free >= 10
+    assert free >= (10 if pattern == "keep" else 3)
 
 
 @pytest.mark.parametrize("pattern", ["honeycomb", "gyroid"])

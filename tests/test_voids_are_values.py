@@ -18,7 +18,7 @@ from infill.lattices.task import FillTask
 from infill.lattices.voids import Layout
 from infill.meshes.merging import surface_of
 
-pytestmark = pytest.mark.usefixtures("compiled")
+pytestmark = pytest.mark.usefixtures("compiled", "coarse_grids")
 
 BALL = trimesh.creation.icosphere(3, 1.0)
 BALL.apply_scale(np.array([16, 14, 12]) / np.ptp(BALL.bounds, axis=0))
