@@ -439,6 +439,16 @@ def _choose_neighbour(u, mesh, near_u, bound, swept, failed, sweep, tried, s, pl
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
+def _hand_over(first_held, next_held, chosen, changed, goes, goes_to, taken):
+    """Give the held points to their new faces."""
+    for m in range(changed):
+        first_held[chosen[m]] = NONE
+    for m in range(taken):
+        p, t = goes[m], chosen[goes_to[m]]
+        next_held[p], first_held[t] = first_held[t], p
+
+
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _is_in_slab(faces, count, triangles, slab, number):
     """Return True if all corners of triangles lie in a slab."""
     for n in range(count):
@@ -529,28 +539,18 @@ def sweep_walls(
                         continue
                     if not _is_clear(u, v, mesh, near_u, near_v, moved, changed, chosen, around, *crossing_space):
                         continue
-                    first_held, next_held = held[1], held[2]
-                    for m in range(changed):
-                        first_held[chosen[m]] = NONE
-                    for m in range(taken):
-                        p, t = goes[m], chosen[goes_to[m]]
-                        next_held[p], first_held[t] = first_held[t], p
-                _collapse(u, v, triangles, first, after, faces_u, count_u)
+                    _hand_over(held[1], held[2], chosen, changed, goes, goes_to, taken)
                 copy_row(quadric[v], s)
                 copy_row(points[v], place)
-                flags[v] |= flags[u]
-                into[u] = v
+                _collapse(u, v, mesh, faces_u, count_u, faces_v, into, swept, sweep)
                 removed[number] += 1
-                count_v = _faces_of(v, triangles, first, after, faces_v)
-                for m in range(count_v):
-                    for k in range(3):
-                        swept[triangles[faces_v[m], k]] = sweep
                 break
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _collapse(u, v, triangles, first, after, faces_u, count_u):
-    """Give the triangles of point u to v; those with both are gone."""
+def _collapse(u, v, mesh, faces_u, count_u, faces_v, into, swept, sweep):
+    """Give the triangles of point u to v, and drop those with both; `faces_v` is work space."""
+    _, triangles, _, first, after, _, flags, _, _, _ = mesh
     for n in range(count_u):
         t = faces_u[n]
         if _has(triangles, t, v):
@@ -563,3 +563,8 @@ def _collapse(u, v, triangles, first, after, faces_u, count_u):
     while after[last] != NONE:
         last = after[last]
     after[last], first[v], first[u] = first[v], first[u], NONE
+    flags[v] |= flags[u]
+    into[u] = v
+    for m in range(_faces_of(v, triangles, first, after, faces_v)):
+        for k in range(3):
+            swept[triangles[faces_v[m], k]] = sweep

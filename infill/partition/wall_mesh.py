@@ -151,7 +151,7 @@ class WallMesh:
         return slab, members[order], starts
 
     def _held(self, tolerance: float | None) -> Held:
-        """Return what must stay near: every point, once for each wall at it. See `wall_collapsing.sweep_walls`."""
+        """Collect the points that must stay near, once for each wall at them. See `wall_collapsing.sweep_walls`."""
         if tolerance is None:
             none = np.empty(0, dtype=np.int32)
             return np.empty((0, 3)), none, none, none, np.empty((0, 3, 3)), none, none, none

@@ -93,27 +93,7 @@ def smooth_together(
     with clock.stage("check", 0.9):
         if not surfaces:
             raise GeometryError("no label is left after smoothing; give fewer steps")
-        check = PartitionCheck(
-            numbers=numbers,
-            graph=partition.graph,
-            points=partition.walls.points,
-            volume=volume,
-            count=len(pieces) + 1,
-            threads=request.threads,
-        )
-        topologies, deviations = check.topology(), check.deviations()
-        labels, problems = [], []
-        for number, piece in enumerate(pieces, 1):
-            if piece.name in surfaces:
-                cells, surface = int(counts[number]), surfaces[piece.name]
-                change = surface.volume / (cells * volume.cell_volume) - 1
-                differences = find_label_differences(
-                    topologies[number], deviations[number], change if cells >= SMALLEST else None
-                )
-                verdict = label_verdict(differences, deviations[number], check.cell)
-                keys = _label_keys(piece, surface, cells * volume.cell_volume, topologies[number], verdict)
-                labels.append(with_late_sections(keys, distance=partial(label_distance, check, number)))
-                problems += [f"{piece.name}: {problem}" for problem in (*differences.losses, *differences.problems)]
+        labels, problems = _judge_labels(numbers, counts, partition, surfaces, volume, pieces, request.threads)
     left, gone = ([piece for piece in pieces if (piece.name in surfaces) is kept] for kept in (True, False))
     report: TogetherReport = {
         **report_head("together"),
@@ -251,6 +231,50 @@ def place_label_walls(partition: VolumePartition, volume: Volume, pieces: Sequen
     triangles = np.where((is_turned != volume.mirrored)[:, None], walls.triangles[:, ::-1], walls.triangles)
     points = volume.place(walls.points.astype(np.float64) * volume.cell_size)
     return LabelWalls(points=points, triangles=triangles, labels=labels)
+
+
+def _judge_labels(
+    numbers: NDArray[np.uint16],
+    counts: NDArray[np.int64],
+    partition: VolumePartition,
+    surfaces: dict[str, Surface],
+    volume: Volume,
+    pieces: Sequence[LabelPiece],
+    threads: int | None,
+) -> tuple[list[TogetherLabel], list[str]]:
+    """Compare every label that is left with its voxels; return the rows of the report, and the problems.
+
+    Parameters
+    ----------
+    numbers : (n0, n1, n2) uint16
+        The label of every cell, from `number_labels`.
+    counts : (labels,) int64
+        Cells of each.
+    """
+    check = PartitionCheck(
+        numbers=numbers,
+        graph=partition.graph,
+        points=partition.walls.points,
+        volume=volume,
+        count=len(pieces) + 1,
+        threads=threads,
+    )
+    topologies, deviations = check.topology(), check.deviations()
+    labels: list[TogetherLabel] = []
+    problems: list[str] = []
+    for number, piece in enumerate(pieces, 1):
+        if piece.name not in surfaces:
+            continue
+        cells, surface = int(counts[number]), surfaces[piece.name]
+        change = surface.volume / (cells * volume.cell_volume) - 1
+        differences = find_label_differences(
+            topologies[number], deviations[number], change if cells >= SMALLEST else None
+        )
+        verdict = label_verdict(differences, deviations[number], check.cell)
+        keys = _label_keys(piece, surface, cells * volume.cell_volume, topologies[number], verdict)
+        labels.append(with_late_sections(keys, distance=partial(label_distance, check, number)))
+        problems += [f"{piece.name}: {problem}" for problem in (*differences.losses, *differences.problems)]
+    return labels, problems
 
 
 def _label_keys(
