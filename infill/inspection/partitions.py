@@ -179,7 +179,7 @@ class PartitionCheck:
             near = [Surface(vertices=walls.points, faces=walls.faces(number)) for walls in around]
             if all(len(surface.faces) for surface in (*parts, *near)):
                 deviation = self._measure(number, *near, sampled=(parts[0], parts[1]))
-                far = max(deviation.there.max, deviation.back.max)
+                far = max(deviation.there.max, deviation.back.max, deviation.thin_distance)
                 if far <= LOST * self.cell:  # exact: what is further away would be further than that
                     deviations[number] = deviation if far > KEPT * self.cell else None
                     continue
