@@ -170,6 +170,7 @@ def test_what_is_measured_near_changes_is_what_all_of_it_gives(count: int, seed:
             continue
         whole, local = check.exact_deviation(number), deviations[number]
         assert whole.word == (local.word if local else "kept")
+        assert whole.thin_distance == pytest.approx(local.thin_distance if local else 0.0, abs=1e-9)
         assert measure_deviation(*surfaces, cell=1.0).there.max == whole.there.max
         if local:
             assert [patch.area for patch in local.lost] == [patch.area for patch in whole.lost]

@@ -212,6 +212,7 @@ def measure_deviation(
     kinds: Kinds = all_points_count,
     exact: bool = True,
     uncertain: Places | None = None,
+    sampled: tuple[Surface, Surface] | None = None,
     threads: int | None = None,
 ) -> Deviation:
     """Compare a result with the given surface.
@@ -232,16 +233,19 @@ def measure_deviation(
     uncertain : Places, optional
         The places that alone may be further than `KEPT` from the other surface; all others count as near. Only if not
         `exact`, and without holes.
+    sampled : (Surface, Surface), optional
+        The parts of the given surface and of the result that are measured; by default, all of both.
     threads : int, optional
         See `infill.kernels.threads.thread_count`.
     """
     places = None if exact or closed is not None else uncertain
     enough = 0.0 if exact else KEPT * cell
-    points, _, area = sample_surface(result, PITCH * cell)
+    given_part, result_part = (given, result) if sampled is None else sampled
+    points, _, area = sample_surface(result_part, PITCH * cell)
     distance = _distances(points, given if closed is None else closed, enough, places, threads)
     there, added = _gap(points, distance, area, exact=exact), _patches(points, distance, area, cell)
     result_area = float(area.sum())
-    points, faces, area = sample_surface(given, PITCH * cell)
+    points, faces, area = sample_surface(given_part, PITCH * cell)
     distance = _distances(points, result, enough, places, threads)
     distant = np.flatnonzero(distance > KEPT * cell)
     kind = kinds(points[distant], faces[distant]) if len(distant) else np.empty(0, dtype=np.int64)

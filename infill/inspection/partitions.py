@@ -17,9 +17,8 @@ from scipy import ndimage
 from infill.arrays import Floats
 from infill.inspection.bricks import TopologyCheck
 from infill.inspection.changes import TopologyChanges
-from infill.inspection.deviation import COUNTS, KEPT, LOST, PITCH, THIN, Deviation, measure_deviation, sample_surface
+from infill.inspection.deviation import COUNTS, KEPT, LOST, THIN, Deviation, measure_deviation
 from infill.inspection.label_connections import count_connections
-from infill.meshes.distance import TriangleTree, morton_order
 from infill.partition.simplices import cells_at, middle_points, simplices
 from infill.partition.walls import WallGraph, trace_walls
 from infill.surface import Surface
@@ -176,28 +175,18 @@ class PartitionCheck:
         unsettled = [walls.within(find_unsettled(graph, self.changed)) for walls, graph, _ in sides]
         numbers = np.unique(np.concatenate([walls.sides.ravel() for walls in unsettled]))
         for number in numbers[numbers > 0].tolist():
-            if self._are_near(number, unsettled[0], around[1]) and self._are_near(number, unsettled[1], around[0]):
-                continue
-            for given, result in (around, (self.given, self.result)):
-                surfaces = given.surface(number), result.surface(number)
-                if not all(len(surface.faces) for surface in surfaces):
-                    deviations[number] = None  # it is gone, or only its surroundings are
+            parts = [walls.surface(number) for walls in unsettled]
+            near = [Surface(vertices=walls.points, faces=walls.faces(number)) for walls in around]
+            if all(len(surface.faces) for surface in (*parts, *near)):
+                deviation = self._measure(number, *near, sampled=(parts[0], parts[1]))
+                far = max(deviation.there.max, deviation.back.max, deviation.thin_distance)
+                if far <= LOST * self.cell:  # exact: what is further away would be further than that
+                    deviations[number] = deviation if far > KEPT * self.cell else None
                     continue
-                deviations[number] = deviation = self._measure(number, *surfaces, places)
-                if max(deviation.there.max, deviation.back.max) <= LOST * self.cell:
-                    break  # exact: what is further away would be further than that
+            surfaces = self.given.surface(number), self.result.surface(number)
+            if all(len(surface.faces) for surface in surfaces):  # else it is gone
+                deviations[number] = self._measure(number, *surfaces, uncertain=places)
         return deviations
-
-    def _are_near(self, number: int, walls: LabelPoints, others: LabelPoints) -> bool:
-        """Tell whether the walls of a label are sure to be near other ones."""
-        surface, faces = walls.surface(number), others.faces(number)
-        if not (len(surface.faces) and len(faces)):
-            return not len(surface.faces)
-        points, _, _ = sample_surface(surface, PITCH * self.cell)
-        enough = KEPT * self.cell
-        tree = TriangleTree.of(Surface(vertices=others.points, faces=faces))
-        distance, _ = tree.nearest(points[morton_order(points)], enough=enough, threads=self.threads)
-        return bool(distance.max() <= enough)
 
     def exact_deviation(self, number: int) -> Deviation:
         """Measure the distances between both surfaces of a label everywhere."""
@@ -206,7 +195,15 @@ class PartitionCheck:
             *surfaces, cell=self.cell, kinds=_ThicknessOf(number=number, check=self), threads=self.threads
         )
 
-    def _measure(self, number: int, given: Surface, result: Surface, places: _Places) -> Deviation:
+    def _measure(
+        self,
+        number: int,
+        given: Surface,
+        result: Surface,
+        *,
+        uncertain: _Places | None = None,
+        sampled: tuple[Surface, Surface] | None = None,
+    ) -> Deviation:
         """Measure the distances between both surfaces of a label where they may be large."""
         return measure_deviation(
             given,
@@ -214,7 +211,8 @@ class PartitionCheck:
             cell=self.cell,
             kinds=_ThicknessOf(number=number, check=self),
             exact=False,
-            uncertain=places,
+            uncertain=uncertain,
+            sampled=sampled,
             threads=self.threads,
         )
 
