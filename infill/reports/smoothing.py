@@ -341,7 +341,7 @@ class TogetherReport(SeveralReport):
     labels: list[TogetherLabel]
     failed: list[FailedLabel]
     absent: Annotated[list[str], "Names in the file without a cell"]
-    rounds: Annotated[int, "How often the walls were extracted until the volumes were right"]
+    rounds: Annotated[int, "How often volumes were measured until they were right"]
     seconds: TogetherSeconds
 
 
