@@ -51,7 +51,7 @@ def list_points(triangles, behind, before, table, points):
     triangles : (T, 3) int
     behind, before : (N,), (M,) int
         Numbers of triangles.
-    table : (P,) int32
+    table : (P,) int
         Of -1; written.
     points : (K,) int64
         Written.

@@ -22,13 +22,13 @@ class LabelWalls:
     label : int
     points : (V,) int64
         Numbers of points in the complex, in order.
-    faces : (F, 3) int64
+    faces : (F, 3) int32, int64 from 2³¹ points on
         Places in `points`.
     """
 
     label: int
     points: NDArray[np.int64]
-    faces: NDArray[np.int64]
+    faces: NDArray[np.integer]
 
 
 def cut_labels(walls: Walls, labels: int, *, threads: int | None = None) -> Iterator[LabelWalls]:
@@ -39,11 +39,11 @@ def cut_labels(walls: Walls, labels: int, *, threads: int | None = None) -> Iter
     kind = np.int32 if len(walls.triangles) < np.iinfo(np.int32).max else np.int64
     orders = [np.empty(starts[-1, side], dtype=kind) for side in range(2)]
     kernels.sort_sides(walls.sides, starts[:-1].copy(), *orders)
-    tables = [np.full(len(walls.points), -1, dtype=np.int32) for _ in range(count)]
+    tables = [np.full(len(walls.points), -1, dtype=walls.triangles.dtype) for _ in range(count)]
 
     def cut(label: int) -> LabelWalls:
         behind, before = (order[starts[label, side] : starts[label + 1, side]] for side, order in enumerate(orders))
-        faces = np.empty((len(behind) + len(before), 3), dtype=np.int64)
+        faces = np.empty((len(behind) + len(before), 3), dtype=walls.triangles.dtype)
         points = np.empty(3 * len(faces), dtype=np.int64)
         table = tables.pop()  # each thread has one
         points = np.sort(points[: kernels.list_points(walls.triangles, behind, before, table, points)])

@@ -17,6 +17,7 @@ from infill.phasefield.sparse import SparseField
 
 SAMPLED_BRICKS, STEEP = 20_000, 0.9  # where the row crosses the surface about at right angles
 SAMPLES = 2**21  # of cells that two labels share, at most, of each thread
+GROWTH = 1.5  # of the room for bricks
 SMALL = 2**20  # cells of a box: one thread smooths it before others have begun
 
 SmoothLabel = Callable[[NDArray[np.bool_], int], SparseField]
@@ -83,7 +84,7 @@ class PartitionFields:
             Cells that the label of a row wins from that of a column for a unit of its offset.
         """
         count = thread_count(threads)
-        stride = max(1, self.numbers.size // SAMPLES)
+        stride = -(-self.numbers.size // SAMPLES)
         sums, pairs = np.zeros((count, self.count)), np.empty((count, SAMPLES), dtype=np.uint32)
         fields = self.entries, self.labels, self.slots, self.values, np.asarray(offsets, dtype=np.float32)
         shared = in_threads(share_cells, *fields, self.numbers, ramp, stride, sums, pairs, threads=count)
@@ -156,12 +157,18 @@ def smooth_fields(
         slots = np.concatenate([np.arange(len(kept)), np.full(len(inside), INSIDE)]).astype(np.int32)
         return np.ravel_multi_index(tuple(places.T), lattice), slots, kept
 
-    places, labels, slots, values, start = [], [], [], [], 0
+    places, labels, slots, start = [], [], [], 0
+    values = np.empty((0, CELLS), dtype=np.float32)
     for label, (brick, slot, cells) in in_order(one, range(len(boxes)), threads=count):
         places.append(brick)
         labels.append(np.full(len(brick), label, dtype=np.int32))
         slots.append(np.where(slot == INSIDE, slot, slot + start).astype(np.int32))
-        values.append(cells)
+        if start + len(cells) > len(values):
+            # Parts that are joined at the end would be there twice.
+            larger = np.empty((math.ceil(GROWTH * (start + len(cells))), CELLS), dtype=np.float32)
+            larger[:start] = values[:start]
+            values = larger
+        values[start : start + len(cells)] = cells
         start += len(cells)
         if progress is not None:
             progress((label + 1) / len(boxes))
@@ -174,20 +181,8 @@ def smooth_fields(
         entries=np.stack([ends[:-1], ends[1:]], axis=-1).reshape(*lattice, 2),
         labels=np.concatenate(labels)[order],
         slots=np.concatenate(slots)[order],
-        values=_join_freeing(values, start),
+        values=values[:start],
     )
-
-
-def _join_freeing(parts: list[NDArray[np.float32]], count: int) -> NDArray[np.float32]:
-    """Join bricks to one array, and free each part once it is copied, so that they are never there twice."""
-    joined = np.empty((count, CELLS), dtype=np.float32)
-    parts.reverse()
-    at = 0
-    while parts:
-        part = parts.pop()
-        joined[at : at + len(part)] = part
-        at += len(part)
-    return joined
 
 
 def _reached_box(

@@ -54,7 +54,7 @@ class VolumePartition:
     walls : Walls
     offsets : (labels,) float64
     rounds : int
-        How often the walls were extracted.
+        How often volumes were measured.
     crossings : int
         Pairs of triangles that pass through each other.
     """

@@ -374,7 +374,7 @@ class TogetherReport(SeveralReport):
     failed: list[FailedLabel]
     absent: Annotated[list[str], "Names in the file without a cell"]
     verdict: Verdicts
-    rounds: Annotated[int, "How often the walls were extracted until the volumes were right"]
+    rounds: Annotated[int, "How often volumes were measured until they were right"]
     seconds: TogetherSeconds
     tetrahedra: TetrahedraKeys | None
 

@@ -48,8 +48,9 @@ if TYPE_CHECKING:
 
 # Options that do not apply to all labels at once.
 UNFIT = ("level", "despeckle", "crumbs", "max_triangles", "allow_broken", "strict")
-# Of the grid, and for each face of a label's cells, estimated from its runs: peaks were 600 to 1,850 bytes a face.
-BYTES_PER_CELL, BYTES_PER_FACE = 6, 2000
+# Of the grid, and for each face of a label's cells, estimated from its runs: peaks were 210 to 550 bytes a face, the
+# surfaces of all labels among them, and 950 for noise.
+BYTES_PER_CELL, BYTES_PER_FACE = 10, 600
 NOTHING_LEFT = "nothing of it is left"
 
 
@@ -211,11 +212,14 @@ def cut_surfaces(
     partition: VolumePartition, volume: Volume, pieces: Sequence[LabelPiece], *, threads: int | None = None
 ) -> dict[str, Surface]:
     """Return the surface of every label that is left, by its name; neighbours have the same coordinates at walls."""
-    points = volume.place(partition.walls.points.astype(np.float64) * volume.cell_size)
+    points, sides = partition.walls.points, volume.cell_size
+    # A turn is done for all points at once: then neighbours have the same coordinates to the last bit.
+    placed = None if (np.asarray(volume.direction) == np.eye(3)).all() else volume.place(points * sides)
     surfaces = {}
     for cut in cut_labels(partition.walls, len(pieces) + 1, threads=threads):
         faces = cut.faces[:, ::-1] if volume.mirrored else cut.faces
-        surface = Surface(vertices=points[cut.points], faces=faces, space=volume.space)
+        vertices = volume.place(points[cut.points] * sides) if placed is None else placed[cut.points]
+        surface = Surface(vertices=vertices, faces=faces, space=volume.space)
         if surface.volume > 0:
             surfaces[pieces[cut.label - 1].name] = surface
     return surfaces
