@@ -170,7 +170,7 @@ def together_reports(folder: Path, results: Results) -> dict[str, Any]:
     words = ["--spacing", 1, "--together", "-o", folder / "a.3mf", "-o", folder / "a.vtu"]
     return {
         "absent": smooth_labels(Segmentation(layers=(Volume(values=LABELS),), segments=named), together=True).report,
-        "failed": smooth_labels(specks, together=True, method="plain").report,
+        "failed": smooth_labels(specks, together=True, method="refine", smoothing=Smoothing(steps=30)).report,
         "command": printed("smooth", folder / "labels.npy", *words),
     }
 

@@ -20,11 +20,10 @@ from infill.kernels.partition import code_of_four, code_of_three, weigh_corners
 from infill.kernels.sparse import BRICK
 from infill.meshes.intersections import intersecting_pairs
 from infill.meshes.solids import FINE, manifold_status
-from infill.partition.cutting import cut_labels
 from infill.partition.fields import PartitionFields, smooth_fields
 from infill.partition.junctions import find_crossings
 from infill.partition.tetrahedra import STEPS, TETRAHEDRA, make_tables, pattern_code
-from infill.partition.walls import OUTSIDE, Walls, place_walls, trace_walls
+from infill.partition.walls import OUTSIDE, Walls, cut_labels, place_walls, trace_walls
 from infill.phasefield.sparse import smooth_bricks
 from infill.smoothing.label_stages import field_reach
 from infill.surface import Surface

@@ -164,7 +164,7 @@ def test_what_is_measured_near_changes_is_what_all_of_it_gives(count: int, seed:
     check = check_of(labels, after)
     deviations = check.deviations()
     for number in range(1, count + 1):
-        surfaces = check.given.surface(number), check.result.surface(number)
+        surfaces = check.original.surface(number), check.result.surface(number)
         if not all(len(surface.faces) for surface in surfaces):
             assert deviations[number] is None
             continue

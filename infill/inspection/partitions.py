@@ -107,14 +107,14 @@ class PartitionCheck:
         return float(self.volume.cell_size.max())
 
     @cached_property
-    def given(self) -> LabelPoints:
+    def original(self) -> LabelPoints:
         """The walls between the given labels."""
-        return self._place(self._given_graph, self._given_points)
+        return self._place(self._original_graph, self._original_points)
 
     @cached_property
-    def _given_points(self) -> Floats:
+    def _original_points(self) -> Floats:
         """The points of these walls, in cells."""
-        return middle_points(self._given_graph)
+        return middle_points(self._original_graph)
 
     @cached_property
     def result(self) -> LabelPoints:
@@ -122,7 +122,7 @@ class PartitionCheck:
         return self._place(self.graph, self.points)
 
     @cached_property
-    def _given_graph(self) -> WallGraph:
+    def _original_graph(self) -> WallGraph:
         """The walls between the given labels, as they are numbered."""
         return trace_walls(self.numbers, threads=self.threads)
 
@@ -147,7 +147,7 @@ class PartitionCheck:
 
     def topology(self) -> list[TopologyCheck]:
         """Compare the connections of every label, 0 first; that of 0 counts nothing."""
-        before, after = (count_connections(graph, self.count) for graph in (self._given_graph, self.graph))
+        before, after = (count_connections(graph, self.count) for graph in (self._original_graph, self.graph))
         return [
             TopologyCheck(
                 data=data,
@@ -170,7 +170,7 @@ class PartitionCheck:
             dilate_cells(self.changed, tuple(np.ceil(cells * reach).astype(int).tolist())) for cells in (AROUND, NEAR)
         )
         places = _Places(cells=is_near, volume=self.volume)
-        sides = (self.given, self._given_graph, self._given_points), (self.result, self.graph, self.points)
+        sides = (self.original, self._original_graph, self._original_points), (self.result, self.graph, self.points)
         around = [walls.within(_look_up(is_around, points)) for walls, _, points in sides]
         unsettled = [walls.within(find_unsettled(graph, self.changed)) for walls, graph, _ in sides]
         numbers = np.unique(np.concatenate([walls.sides.ravel() for walls in unsettled]))
@@ -183,14 +183,14 @@ class PartitionCheck:
                 if far <= LOST * self.cell:  # exact: what is further away would be further than that
                     deviations[number] = deviation if far > KEPT * self.cell else None
                     continue
-            surfaces = self.given.surface(number), self.result.surface(number)
+            surfaces = self.original.surface(number), self.result.surface(number)
             if all(len(surface.faces) for surface in surfaces):  # else it is gone
                 deviations[number] = self._measure(number, *surfaces, uncertain=places)
         return deviations
 
     def exact_deviation(self, number: int) -> Deviation:
         """Measure the distances between both surfaces of a label everywhere."""
-        surfaces = self.given.surface(number), self.result.surface(number)
+        surfaces = self.original.surface(number), self.result.surface(number)
         return measure_deviation(
             *surfaces, cell=self.cell, kinds=_ThicknessOf(number=number, check=self), threads=self.threads
         )
@@ -198,7 +198,7 @@ class PartitionCheck:
     def _measure(
         self,
         number: int,
-        given: Surface,
+        original: Surface,
         result: Surface,
         *,
         uncertain: _Places | None = None,
@@ -206,7 +206,7 @@ class PartitionCheck:
     ) -> Deviation:
         """Measure the distances between both surfaces of a label where they may be large."""
         return measure_deviation(
-            given,
+            original,
             result,
             cell=self.cell,
             kinds=_ThicknessOf(number=number, check=self),

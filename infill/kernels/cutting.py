@@ -1,4 +1,4 @@
-"""Loops of `infill.partition.cutting`, compiled: the triangles and points of each label."""
+"""Loops of `infill.partition.walls`, compiled: the triangles and points of each label."""
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201
 # Compiled lines are invisible to coverage tools.

@@ -276,6 +276,23 @@ def axis_place(i, count):
     return np.float64(0.0) if i == 0 else np.float64(count) if i == count + 1 else i - 0.5
 
 
+@njit(from_python=False, nogil=True, cache=True)
+def chain_of_slot(slot, slots_at, faces, tetrahedra, chain):
+    """Write the corners of a cube between which a point lies, and return their number: an end, edge, face or inside."""
+    chain[0] = 0
+    if slot == 0:
+        return 1
+    if slot < slots_at[0]:
+        chain[1] = slot
+        return 2
+    if slot < slots_at[1]:
+        chain[1], chain[2] = faces[slot - slots_at[0], 0], faces[slot - slots_at[0], 1]
+        return 3
+    t = slot - slots_at[1]
+    chain[1], chain[2], chain[3] = tetrahedra[t, 0], tetrahedra[t, 1], 7
+    return 4
+
+
 @njit(nogil=True, cache=True)
 def place_points(
     winners, steps, faces, tetrahedra, slots_at, row_starts, bases, masks, starts,
@@ -310,20 +327,7 @@ def place_points(
                 for slot in range(slots_at[1] + len(tetrahedra)):
                     if not (mask >> slot) & 1:
                         continue
-                    if slot == 0:
-                        count = 1
-                        chain[0], weight[0] = 0, 1.0
-                    elif slot < slots_at[0]:
-                        count = 2
-                        chain[0], chain[1] = 0, slot
-                    elif slot < slots_at[1]:
-                        count = 3
-                        chain[0] = 0
-                        chain[1], chain[2] = faces[slot - slots_at[0], 0], faces[slot - slots_at[0], 1]
-                    else:
-                        count = 4
-                        t = slot - slots_at[1]
-                        chain[0], chain[1], chain[2], chain[3] = 0, tetrahedra[t, 0], tetrahedra[t, 1], 7
+                    count = chain_of_slot(slot, slots_at, faces, tetrahedra, chain)
                     if count == 2 and in_brick:
                         # The usual case: both labels are looked up once for all points between them.
                         if corner[slot] != rival:

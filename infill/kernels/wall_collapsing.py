@@ -34,20 +34,20 @@ TURNED = 0.2  # cosine of the angle by which a triangle may turn
 LEVEL = 0.985  # cosine of the angle, 10 degrees, up to which the triangles of a wall count as level
 LEVEL_SPACING = 8.0  # there, places at which the distance is measured are further apart
 NARROW = 1e-6  # of squared lengths: a ring whose faces cancel out has no side on which volume is gained
-MAX_HELD_POINTS = 1 << 14  # points on the faces around an edge: where there are more, it stays
+MAX_WATCHED = 1 << 14  # points on the faces around an edge: where there are more, it stays
 KEEP_SHARE = 0.25  # of a squared tolerance: a point within this of a triangle needs no nearer one
 MOST_SAMPLES = 32  # on an edge
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _faces_of(v, triangles, first, after, faces):
+def _faces_of(v, triangles, heads, after, faces):
     """Write the triangles at a point, and forget those that are gone; return their number, -1 if there are too many."""
-    count, before, c = 0, NONE, first[v]
+    count, before, c = 0, NONE, heads[v]
     while c != NONE:
         following = after[c]
         if triangles[c // 3, 0] == NONE:
             if before == NONE:
-                first[v] = following
+                heads[v] = following
             else:
                 after[before] = following
         else:
@@ -87,7 +87,7 @@ def _neighbours_of(v, triangles, pair, faces, count, ring, uses):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def order_points(triangles, pair, first, after, order):
+def order_points(triangles, pair, heads, after, order):
     """Set the order of every point: 0 inside a wall, 1 on a line, 2 where lines meet or walls touch.
 
     Parameters
@@ -95,14 +95,14 @@ def order_points(triangles, pair, first, after, order):
     triangles : (T, 3) int32
     pair : (T,) int32
         A number for the two labels of each triangle.
-    first, after : (P,) int32, (3 T,) int32
+    heads, after : (P,) int32, (3 T,) int32
         The corners at each point, as a chain.
     order : (P,) int8
     """
     faces, ring, uses = np.empty(MOST_FACES, np.int32), np.empty((2 * MOST_FACES, 2), np.int32), np.empty(128, np.int32)
     root = np.empty(2 * MOST_FACES, np.int32)
-    for v in range(len(first)):
-        count = _faces_of(v, triangles, first, after, faces)
+    for v in range(len(heads)):
+        count = _faces_of(v, triangles, heads, after, faces)
         order[v] = FIXED
         if count <= 0:
             continue
@@ -235,8 +235,17 @@ def _keep_volume(u, v, points, triangles, near_u, near_v, s, place):
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
+def _choose_place(u, v, mesh, near_u, near_v, s, place):
+    """Set the place to which an edge collapses: inside a wall, both its sides keep their volume."""
+    points, triangles, _, _, _, order, flags, _, quadric, box = mesh
+    _place_of(u, v, points, order, flags, quadric, box, s, place)
+    if order[u] == WALL and order[v] == WALL and flags[u] == 0 and flags[v] == 0:
+        _keep_volume(u, v, points, triangles, near_u, near_v, s, place)
+
+
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _propose_faces(u, v, points, triangles, near_u, near_v, place, moved, chosen):
-    """Write the faces that a collapse would leave, the place first; return their number, -1 if one turns or is thin."""
+    """Write the faces that a collapse leaves, from the place on; return their number, -1 if one turns or is thin."""
     worst = 1.0
     for side in range(2):
         faces, count = (near_u[0], near_u[3]) if side == 0 else (near_v[0], near_v[3])
@@ -276,7 +285,7 @@ def _is_clear(u, v, mesh, near_u, near_v, moved, changed, chosen, around, corner
 
     `around`, `corners`, `bounds`, `normal` and `height` are work space.
     """
-    points, triangles, _, first, after, _, _, _, _, _ = mesh
+    points, triangles, _, heads, after, _, _, _, _, _ = mesh
     for m in range(changed):
         for axis in range(3):
             bounds[m, 0, axis] = min(moved[m, 0, axis], moved[m, 1, axis], moved[m, 2, axis])
@@ -287,7 +296,7 @@ def _is_clear(u, v, mesh, near_u, near_v, moved, changed, chosen, around, corner
             w = np.int64(ring[at, 0])
             if w in (u, v):
                 continue
-            for n in range(_faces_of(w, triangles, first, after, around)):
+            for n in range(_faces_of(w, triangles, heads, after, around)):
                 t = around[n]
                 if _has(triangles, t, u) or _has(triangles, t, v):
                     continue
@@ -315,12 +324,12 @@ def _is_clear(u, v, mesh, near_u, near_v, moved, changed, chosen, around, corner
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _reassign_held(u, triangles, pair, near_v, held, tolerance, moved, chosen, changed, goes, goes_to):
-    """Find for each held point of the faces at an edge the nearest face of its wall; return their number, or -1.
+def _reassign_watched(u, triangles, pair, near_v, watched, tolerance, moved, chosen, changed, goes, goes_to):
+    """Find for each watched point of the faces at an edge the nearest face of its wall; return their number, or -1.
 
     -1 stands for a point that would be too far from its wall, or too many points.
     """
-    places, first_held, next_held = held[0], held[1], held[2]
+    places, watched_heads, next_watched = watched[0], watched[1], watched[2]
     gone = 0
     for n in range(near_v[3]):
         if _has(triangles, near_v[0][n], u):
@@ -328,7 +337,7 @@ def _reassign_held(u, triangles, pair, near_v, held, tolerance, moved, chosen, c
             gone += 1
     count = 0
     for face in range(changed + gone):
-        p, of = first_held[chosen[face]], pair[chosen[face]]
+        p, of = watched_heads[chosen[face]], pair[chosen[face]]
         while p != NONE:
             x, y, z = places[p, 0], places[p, 1], places[p, 2]
             best, nearest = math.inf, NONE
@@ -345,14 +354,14 @@ def _reassign_held(u, triangles, pair, near_v, held, tolerance, moved, chosen, c
                 return NONE
             goes[count], goes_to[count] = p, nearest
             count += 1
-            p = next_held[p]
+            p = next_watched[p]
     return count
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _is_near_star(x, y, z, p, of, held, tolerance):
-    """Return True if a place is near a given face of a wall at a held point."""
-    point, original, star_start, star, was_pair = held[3], held[4], held[5], held[6], held[7]
+def _is_near_star(x, y, z, p, of, watched, tolerance):
+    """Return True if a place is near a given face of a wall at a watched point."""
+    point, original, star_start, star, was_pair = watched[3], watched[4], watched[5], watched[6], watched[7]
     v = point[p]
     for n in range(star_start[v], star_start[v + 1]):
         t = star[n]
@@ -364,11 +373,11 @@ def _is_near_star(x, y, z, p, of, held, tolerance):
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _near_point(x, y, z, last, of, held, tolerance, pair, chosen, goes, goes_to, taken):
-    """Return a held point with a face of the given wall near a place; -1 if there is none. `last` is tried first."""
-    if last != NONE and _is_near_star(x, y, z, last, of, held, tolerance):
+def _near_point(x, y, z, last, of, watched, tolerance, pair, chosen, goes, goes_to, taken):
+    """Return a watched point with a face of its wall near a place, `last` if it has one; -1 if there is none."""
+    if last != NONE and _is_near_star(x, y, z, last, of, watched, tolerance):
         return last
-    places = held[0]
+    places = watched[0]
     best, nearest = math.inf, NONE
     for n in range(taken):
         if pair[chosen[goes_to[n]]] != of:
@@ -377,16 +386,16 @@ def _near_point(x, y, z, last, of, held, tolerance, pair, chosen, goes, goes_to,
         squared = (places[p, 0] - x) ** 2 + (places[p, 1] - y) ** 2 + (places[p, 2] - z) ** 2
         if squared < best:
             best, nearest = squared, p
-    if nearest == NONE or best <= tolerance or _is_near_star(x, y, z, nearest, of, held, tolerance):
+    if nearest == NONE or best <= tolerance or _is_near_star(x, y, z, nearest, of, watched, tolerance):
         return nearest
     for n in range(taken):
-        if pair[chosen[goes_to[n]]] == of and _is_near_star(x, y, z, goes[n], of, held, tolerance):
+        if pair[chosen[goes_to[n]]] == of and _is_near_star(x, y, z, goes[n], of, watched, tolerance):
             return goes[n]
     return NONE
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _are_faces_near(place, moved, changed, pair, chosen, held, tolerance, spacing, goes, goes_to, taken):
+def _are_faces_near(place, moved, changed, pair, chosen, watched, tolerance, spacing, goes, goes_to, taken):
     """Return True if a place, the edges from it and the middles of its faces are near the walls that were given."""
     for m in range(changed):
         of = pair[chosen[m]]
@@ -409,7 +418,7 @@ def _are_faces_near(place, moved, changed, pair, chosen, held, tolerance, spacin
             z = place[2] + share * (a[2] - place[2])
             if part == parts:
                 x, y, z = (place[0] + a[0] + b[0]) / 3, (place[1] + a[1] + b[1]) / 3, (place[2] + a[2] + b[2]) / 3
-            last = _near_point(x, y, z, last, of, held, tolerance, pair, chosen, goes, goes_to, taken)
+            last = _near_point(x, y, z, last, of, watched, tolerance, pair, chosen, goes, goes_to, taken)
             if last == NONE:
                 return False
     return True
@@ -439,13 +448,13 @@ def _choose_neighbour(u, mesh, near_u, bound, swept, failed, sweep, tried, s, pl
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _hand_over(first_held, next_held, chosen, changed, goes, goes_to, taken):
-    """Give the held points to their new faces."""
+def _hand_over(watched_heads, next_watched, chosen, changed, goes, goes_to, taken):
+    """Give the watched points to their new faces."""
     for m in range(changed):
-        first_held[chosen[m]] = NONE
+        watched_heads[chosen[m]] = NONE
     for m in range(taken):
         p, t = goes[m], chosen[goes_to[m]]
-        next_held[p], first_held[t] = first_held[t], p
+        next_watched[p], watched_heads[t] = watched_heads[t], p
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
@@ -460,20 +469,20 @@ def _is_in_slab(faces, count, triangles, slab, number):
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def sweep_walls(
-    mesh, held, members, starts, bound, tolerance, spacing, into, swept, failed, sweep, removed, thread, threads
+    mesh, watched, members, starts, bound, tolerance, spacing, into, swept, failed, sweep, removed, thread, threads
 ):
     """Collapse one edge for each point of each slab, and nowhere twice; count the points gone.
 
     Parameters
     ----------
     mesh : tuple
-        points (P, 3) float64, triangles (T, 3) int32, pair (T,) int32, first (P,) int32, after (3 T,) int32, order
+        points (P, 3) float64, triangles (T, 3) int32, pair (T,) int32, heads (P,) int32, after (3 T,) int32, order
         (P,) int8, flags (P,) int8 (the sides of the box on which a point lies), slab (P,) int32, quadric (P, 11)
         float64, and the box (2, 3) float64. Changed in place: triangles that are gone have corners -1.
-    held : tuple
-        What must stay near: places (H, 3) float64, first_held (T,) int32, next_held (H,) int32, point (H,) int32,
+    watched : tuple
+        What must stay near: places (H, 3) float64, watched_heads (T,) int32, next_watched (H,) int32, point (H,) int32,
         original corners (T, 3, 3) float64, star_start (P + 1,) int32, star (3 T,) int32 and the pairs (T,) of the
-        original. Without places, nothing is held.
+        original. Without places, nothing is watched.
     members, starts : (P,) int32, (slabs + 1,) int64
         The points of each slab.
     bound : float
@@ -484,13 +493,13 @@ def sweep_walls(
         The point that each was collapsed into; the last sweeps that changed a point, and that found no way for it.
     removed : (slabs,) int64
     """
-    points, triangles, pair, first, after, order, flags, slab, quadric, box = mesh
+    points, triangles, pair, heads, after, order, _, slab, quadric, _ = mesh
     s, place, sides = np.empty(11), np.empty(3), 2 * MOST_FACES
     faces_u, faces_v = np.empty(MOST_FACES, np.int32), np.empty(MOST_FACES, np.int32)
     ring_u, ring_v = np.empty((sides, 2), np.int32), np.empty((sides, 2), np.int32)
     uses_u, uses_v = np.empty(sides, np.int32), np.empty(sides, np.int32)
     tried, moved, chosen = np.empty(sides, np.bool_), np.empty((sides, 3, 3)), np.empty(2 * sides, np.int32)
-    goes, goes_to = np.empty(MAX_HELD_POINTS, np.int32), np.empty(MAX_HELD_POINTS, np.int32)
+    goes, goes_to = np.empty(MAX_WATCHED, np.int32), np.empty(MAX_WATCHED, np.int32)
     around, crossing_space = np.empty(MOST_FACES, np.int32), (
         np.empty((3, 3)), np.empty((sides, 2, 3)), np.empty(3), np.empty(3)
     )  # fmt: skip
@@ -499,7 +508,7 @@ def sweep_walls(
             u = np.int64(members[member])
             if into[u] != u or order[u] == FIXED or swept[u] == sweep or failed[u] > swept[u]:
                 continue
-            count_u = _faces_of(u, triangles, first, after, faces_u)
+            count_u = _faces_of(u, triangles, heads, after, faces_u)
             if count_u <= 0 or not _is_in_slab(faces_u, count_u, triangles, slab, number):
                 continue
             size_u = _neighbours_of(u, triangles, pair, faces_u, count_u, ring_u, uses_u)
@@ -512,7 +521,7 @@ def sweep_walls(
                     break
                 tried[n] = True
                 v, shared = np.int64(ring_u[n, 0]), abs(uses_u[n])
-                count_v = _faces_of(v, triangles, first, after, faces_v)
+                count_v = _faces_of(v, triangles, heads, after, faces_v)
                 if count_v <= 0 or not 3 <= count_u + count_v - 2 * shared <= MOST_AROUND:
                     continue
                 if not _is_in_slab(faces_v, count_v, triangles, slab, number):
@@ -522,24 +531,22 @@ def sweep_walls(
                 near_v = faces_v, ring_v, uses_v, count_v, size_v
                 if not _is_link_whole(u, v, triangles, order, near_u, near_v, shared):
                     continue
-                _place_of(u, v, points, order, flags, quadric, box, s, place)
-                if order[u] == WALL and order[v] == WALL and flags[u] == 0 and flags[v] == 0:
-                    _keep_volume(u, v, points, triangles, near_u, near_v, s, place)
+                _choose_place(u, v, mesh, near_u, near_v, s, place)
                 changed = _propose_faces(u, v, points, triangles, near_u, near_v, place, moved, chosen)
                 if changed == NONE:
                     continue
                 taken = 0
-                if len(held[0]):
-                    taken = _reassign_held(
-                        u, triangles, pair, near_v, held, tolerance, moved, chosen, changed, goes, goes_to
+                if len(watched[0]):
+                    taken = _reassign_watched(
+                        u, triangles, pair, near_v, watched, tolerance, moved, chosen, changed, goes, goes_to
                     )
                     if taken == NONE or not _are_faces_near(
-                        place, moved, changed, pair, chosen, held, tolerance, spacing, goes, goes_to, taken
+                        place, moved, changed, pair, chosen, watched, tolerance, spacing, goes, goes_to, taken
                     ):
                         continue
                     if not _is_clear(u, v, mesh, near_u, near_v, moved, changed, chosen, around, *crossing_space):
                         continue
-                    _hand_over(held[1], held[2], chosen, changed, goes, goes_to, taken)
+                    _hand_over(watched[1], watched[2], chosen, changed, goes, goes_to, taken)
                 copy_row(quadric[v], s)
                 copy_row(points[v], place)
                 _collapse(u, v, mesh, faces_u, count_u, faces_v, into, swept, sweep)
@@ -550,7 +557,7 @@ def sweep_walls(
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _collapse(u, v, mesh, faces_u, count_u, faces_v, into, swept, sweep):
     """Give the triangles of point u to v, and drop those with both; `faces_v` is work space."""
-    _, triangles, _, first, after, _, flags, _, _, _ = mesh
+    _, triangles, _, heads, after, _, flags, _, _, _ = mesh
     for n in range(count_u):
         t = faces_u[n]
         if _has(triangles, t, v):
@@ -559,12 +566,12 @@ def _collapse(u, v, mesh, faces_u, count_u, faces_v, into, swept, sweep):
             for k in range(3):
                 if triangles[t, k] == u:
                     triangles[t, k] = v
-    last = first[u]
+    last = heads[u]
     while after[last] != NONE:
         last = after[last]
-    after[last], first[v], first[u] = first[v], first[u], NONE
+    after[last], heads[v], heads[u] = heads[v], heads[u], NONE
     flags[v] |= flags[u]
     into[u] = v
-    for m in range(_faces_of(v, triangles, first, after, faces_v)):
+    for m in range(_faces_of(v, triangles, heads, after, faces_v)):
         for k in range(3):
             swept[triangles[faces_v[m], k]] = sweep

@@ -24,7 +24,7 @@ def raise_value(values, slot, cell, offset):
 
 
 @njit(nogil=True, cache=True)
-def choose_winners(entries, labels, slots, values, offsets, given, winners, thread, threads):
+def choose_winners(entries, labels, slots, values, offsets, numbers, winners, thread, threads):
     """Write the label with the highest value plus offset of every cell; of equal ones, the given label of the cell.
 
     Parameters
@@ -35,9 +35,9 @@ def choose_winners(entries, labels, slots, values, offsets, given, winners, thre
         Label of an entry, and its brick in `values`, or INSIDE.
     values : (n, CELLS) float32
     offsets : (labels,) float32
-    given, winners : (n0, n1, n2) uint16
+    numbers, winners : (n0, n1, n2) uint16
     """
-    n0, n1, n2 = given.shape
+    n0, n1, n2 = numbers.shape
     for p in range(thread, entries.shape[0], threads):
         for q in range(entries.shape[1]):
             for r in range(entries.shape[2]):
@@ -54,7 +54,7 @@ def choose_winners(entries, labels, slots, values, offsets, given, winners, thre
                             k = r * B2 + c - 1
                             if k < 0 or k >= n2:
                                 continue
-                            own_label = given[i, j, k]
+                            own_label = numbers[i, j, k]
                             if end - begin == 1:
                                 winners[i, j, k] = labels[begin]
                                 continue
@@ -69,12 +69,12 @@ def choose_winners(entries, labels, slots, values, offsets, given, winners, thre
 
 
 @njit(nogil=True, cache=True)
-def count_margins(entries, labels, slots, values, given, bins, thread, threads):
+def count_margins(entries, labels, slots, values, numbers, bins, thread, threads):
     """Count by how much the value of every label exceeds the highest other one in its cells.
 
     `bins` is (threads, labels, n): margins from -2 to 2 fall into n bins.
     """
-    n0, n1, n2 = given.shape
+    n0, n1, n2 = numbers.shape
     largest = bins.shape[2] - 1
     for p in range(thread, entries.shape[0], threads):
         for q in range(entries.shape[1]):
@@ -86,7 +86,7 @@ def count_margins(entries, labels, slots, values, given, bins, thread, threads):
                             i, j, k = p * B0 + a - 1, q * B1 + b - 1, r * B2 + c - 1
                             if i < 0 or j < 0 or k < 0 or i >= n0 or j >= n1 or k >= n2:
                                 continue
-                            own_label = given[i, j, k]
+                            own_label = numbers[i, j, k]
                             cell = (a * B1 + b) * B2 + c
                             label_value = rival = np.float32(-1.0)
                             for entry in range(begin, end):
@@ -101,7 +101,7 @@ def count_margins(entries, labels, slots, values, given, bins, thread, threads):
 
 
 @njit(nogil=True, cache=True)
-def share_cells(entries, labels, slots, values, offsets, given, ramp, stride, shares, pairs, thread, threads):
+def share_cells(entries, labels, slots, values, offsets, numbers, ramp, stride, shares, pairs, thread, threads):
     """Share every cell between the two labels with the highest values; return how many cells both have a part of.
 
     A cell is the winner's from a lead of `ramp` on, and half its own without a lead: summed along a wall, shares are
@@ -109,7 +109,7 @@ def share_cells(entries, labels, slots, values, offsets, given, ramp, stride, sh
 
     Parameters
     ----------
-    entries, labels, slots, values, offsets, given
+    entries, labels, slots, values, offsets, numbers
         As for `choose_winners`.
     ramp : float
     stride : int
@@ -119,7 +119,7 @@ def share_cells(entries, labels, slots, values, offsets, given, ramp, stride, sh
     pairs : (threads, K) uint32
         The two labels of samples, winner first: the first has the higher 16 bits.
     """
-    n0, n1, n2 = given.shape
+    n0, n1, n2 = numbers.shape
     shared = 0
     for p in range(thread, entries.shape[0], threads):
         for q in range(entries.shape[1]):
@@ -135,7 +135,7 @@ def share_cells(entries, labels, slots, values, offsets, given, ramp, stride, sh
                     for j in range(j0, j1):
                         for k in range(k0, k1):
                             cell = ((i + 1 - p * B0) * B1 + j + 1 - q * B1) * B2 + k + 1 - r * B2
-                            best = second = np.int64(given[i, j, k])
+                            best = second = np.int64(numbers[i, j, k])
                             best_value = second_value = np.float32(-1e30)
                             for entry in range(begin, end):
                                 label, slot = np.int64(labels[entry]), slots[entry]

@@ -51,8 +51,8 @@ def simplify_partition(
     shape, volumes = partition.graph.winners.shape, partition.walls.volumes
     is_cut = np.isin(np.arange(len(volumes)), partition.walls.sides)
     targets = np.where(is_cut & (np.arange(len(volumes)) > 0), volumes, 0.0)
-    given = WallMesh.of(partition.walls, scale, shape)
-    free = given
+    original = WallMesh.of(partition.walls, scale, shape)
+    free = original
     for attempt in range(ATTEMPTS):
         share = SAMPLED_SHARE * LESS**attempt
         fewer = free.collapsed((BLIND_SHARE * tolerance) ** 2, None, count)
@@ -60,7 +60,9 @@ def simplify_partition(
         graph, walls = fewer.as_walls(partition.graph, scale)
         walls = restore_volumes(graph, walls, targets, scale=scale, threads=count)
         fewer = replace(fewer, points=walls.points.astype(np.float64) * np.array(scale))
-        places = np.concatenate([find_crossing_corners(fewer, count), find_far(given, fewer, tolerance, scale, count)])
+        places = np.concatenate(
+            [find_crossing_corners(fewer, count), find_far(original, fewer, tolerance, scale, count)]
+        )
         is_kept = np.abs(walls.volumes - targets)[targets > 0] <= PRECISE * targets[targets > 0]
         if not len(places) and is_kept.all():
             return replace(partition, graph=graph, walls=walls)
@@ -124,18 +126,18 @@ def find_crossing_corners(mesh: WallMesh, threads: int) -> NDArray[np.float64]:
 
 
 def find_far(
-    given: WallMesh, fewer: WallMesh, tolerance: float, scale: tuple[float, ...], threads: int
+    original: WallMesh, fewer: WallMesh, tolerance: float, scale: tuple[float, ...], threads: int
 ) -> NDArray[np.float64]:
     """Return places (N, 3) on walls that lie too far from the same wall of the other mesh."""
-    across = int(np.ceil(np.cbrt(given.pair.max(initial=0) + 1)))
-    step = 2 * float(given.box[1].max())
+    across = int(np.ceil(np.cbrt(original.pair.max(initial=0) + 1)))
+    step = 2 * float(original.box[1].max())
 
     def spread(places: NDArray[np.float64], pair: NDArray[np.int32]) -> NDArray[np.float64]:
         """Move every wall to a place of its own, so that the nearest triangle is one of the same wall."""
         return places + step * np.stack([pair % across, pair // across % across, pair // across**2], axis=-1)
 
     far = []
-    for mesh, other in ((given, fewer), (fewer, given)):
+    for mesh, other in ((original, fewer), (fewer, original)):
         corners = spread(other.points[other.triangles], other.pair[:, None])
         faces = np.arange(3 * len(corners)).reshape(-1, 3)
         tree = TriangleTree.of(Surface(vertices=corners.reshape(-1, 3), faces=faces))

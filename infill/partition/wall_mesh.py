@@ -19,12 +19,12 @@ MOST_SLABS, WAYS = 8, 3  # of cutting slabs: two ways of many slabs, and one sla
 MOST_SAMPLED = 100_000  # triangles of which the distance is measured afterwards
 MOST_PLACES = 300_000  # on them, about
 MOST_PARTS = 64  # of a side of a triangle, between places at which its distance is measured
-RIDGE_HEIGHT = 0.25  # of the tolerance: edges that rise higher above their neighbours are held in between
-EDGE_SPACING, MOST_ON_EDGE = 4.0, 8  # tolerances between the points held on an edge, and most of them
+RIDGE_HEIGHT = 0.25  # of the tolerance: edges that rise higher above their neighbours are watched in between
+EDGE_SPACING, MOST_ON_EDGE = 4.0, 8  # tolerances between the points watched on an edge, and most of them
 MOST_SWEEPS, LEAST_SWEPT = 12, 0.1  # with one bound, and the share of points that one takes
 
 
-Held = tuple[
+Watched = tuple[
     NDArray[np.float64],
     NDArray[np.int32],
     NDArray[np.int32],
@@ -104,14 +104,14 @@ class WallMesh:
             Largest distance of each wall from itself, both ways. If left out, distances are not measured.
         threads : int
         """
-        first, after = chain_corners(self.triangles, len(self.points))
+        heads, after = chain_corners(self.triangles, len(self.points))
         points, triangles, flags, quadric = (
             self.points.copy(),
             self.triangles.copy(),
             self.flags.copy(),
             self.quadric.copy(),
         )
-        into, held = np.arange(len(points), dtype=np.int32), self._held(tolerance)
+        into, watched = np.arange(len(points), dtype=np.int32), self._watched(tolerance)
         swept = np.full(len(into), -1, dtype=np.int32)
         number, squared, spacing = 0, (tolerance or 0.0) ** 2, SPACING * (tolerance or 1.0)
         for share in BOUNDS:
@@ -119,10 +119,10 @@ class WallMesh:
             for _ in range(MOST_SWEEPS):
                 slab, members, starts = self._cut_slabs(points, into, number)
                 removed = np.zeros(len(starts) - 1, dtype=np.int64)
-                mesh = points, triangles, self.pair, first, after, self.order, flags, slab, quadric, self.box
+                mesh = points, triangles, self.pair, heads, after, self.order, flags, slab, quadric, self.box
                 limits = share * bound, squared, spacing
                 counts = into, swept, failed, number, removed
-                in_threads(kernels.sweep_walls, mesh, held, members, starts, *limits, *counts, threads=threads)
+                in_threads(kernels.sweep_walls, mesh, watched, members, starts, *limits, *counts, threads=threads)
                 number += 1
                 if removed.sum() < LEAST_SWEPT * len(members) and number % WAYS == 0:
                     break
@@ -150,7 +150,7 @@ class WallMesh:
         starts = np.searchsorted(slab[members][order], np.arange(count + 2))
         return slab, members[order], starts
 
-    def _held(self, tolerance: float | None) -> Held:
+    def _watched(self, tolerance: float | None) -> Watched:
         """Collect the points that must stay near, once for each wall at them. See `wall_collapsing.sweep_walls`."""
         if tolerance is None:
             none = np.empty(0, dtype=np.int32)
@@ -165,8 +165,8 @@ class WallMesh:
         point = np.concatenate([corners[order][one_of_each], on_edges])
         face = np.concatenate([star[one_of_each], edge_faces])
         places = np.concatenate([self.points[point[: len(one_of_each)]], places])
-        first, after = chain(face, len(self.triangles))
-        return places, first, after, point, self.points[self.triangles], star_start, star, self.pair.copy()
+        heads, after = chain(face, len(self.triangles))
+        return places, heads, after, point, self.points[self.triangles], star_start, star, self.pair.copy()
 
     def _points_on_edges(self, tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]:
         """Set points along the edges at which a wall bends or ends; return them, a point and a face of each edge."""
@@ -180,9 +180,9 @@ class WallMesh:
         cosine = (normals[face[first]] * normals[face[second]]).sum(axis=1)
         rise = np.sqrt(np.maximum(0.0, 0.5 - 0.5 * cosine)) * np.minimum(twice[face[first]], twice[face[second]])
         length = np.linalg.norm(self.points[starts] - self.points[ends], axis=1)
-        held = np.concatenate([first[rise > RIDGE_HEIGHT * tolerance * length[first]], single])
-        count = np.clip((length[held] / (EDGE_SPACING * tolerance)).astype(np.int64), 1, MOST_ON_EDGE)
-        owner = np.repeat(held, count)
+        watched = np.concatenate([first[rise > RIDGE_HEIGHT * tolerance * length[first]], single])
+        count = np.clip((length[watched] / (EDGE_SPACING * tolerance)).astype(np.int64), 1, MOST_ON_EDGE)
+        owner = np.repeat(watched, count)
         share = (np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count) + 1) / (np.repeat(count, count) + 1)
         at, to = self.points[starts[owner]], self.points[ends[owner]]
         return at + share[:, None] * (to - at), starts[owner], face[owner]
@@ -294,12 +294,12 @@ def chain(owner: NDArray[np.integer], count: int) -> tuple[NDArray[np.int32], ND
     """
     order = np.argsort(owner, kind="stable").astype(np.int32)
     ranked = owner[order]
-    first, after = np.full(count, -1, dtype=np.int32), np.full(len(owner), -1, dtype=np.int32)
+    heads, after = np.full(count, -1, dtype=np.int32), np.full(len(owner), -1, dtype=np.int32)
     same = ranked[1:] == ranked[:-1]
     after[order[:-1][same]] = order[1:][same]
     is_first = np.concatenate([np.ones(min(1, len(ranked)), dtype=bool), ~same])
-    first[ranked[is_first]] = order[is_first]
-    return first, after
+    heads[ranked[is_first]] = order[is_first]
+    return heads, after
 
 
 def chain_corners(triangles: NDArray[np.int32], points: int) -> tuple[NDArray[np.int32], NDArray[np.int32]]:

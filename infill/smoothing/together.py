@@ -16,10 +16,10 @@ from infill.formats.mesh_files import TETRAHEDRA, WALL_WRITERS
 from infill.formats.parts import hex_colour
 from infill.inspection.partitions import PartitionCheck
 from infill.machine import require_memory
-from infill.partition.cutting import cut_labels
 from infill.partition.fields import PartitionFields, smooth_fields
 from infill.partition.simplifying import simplify_partition
 from infill.partition.volumes import SMALLEST, VolumePartition, keep_volumes
+from infill.partition.walls import cut_labels
 from infill.phasefield.profile import PLAIN_PROFILE, REFINED_PROFILE
 from infill.phasefield.refining import refine_bricks
 from infill.phasefield.sparse import SparseField, smooth_bricks
@@ -73,15 +73,14 @@ def smooth_together(
     needed = needed_memory(volume.values.size, pieces)
     require_memory(needed, request.max_memory, "give --roi for a part of it, or a volume of larger voxels")
     numbers = number_labels(volume, pieces)
-    scale = tuple((volume.cell_size / volume.cell_size.min()).tolist())
     with clock.stage("smooth", 0.0):
         fields = _smooth_fields(numbers, volume, pieces, request, clock)
     counts = np.bincount(numbers.ravel(), minlength=len(pieces) + 1)
     with clock.stage("volumes", 0.5):
         partition = keep_volumes(
             fields,
-            counts * float(np.prod(scale)),
-            scale=scale,
+            counts * float(np.prod(scale_of(volume))),
+            scale=scale_of(volume),
             threads=request.threads,
             progress=lambda share: clock.tell("volumes", 0.5 + 0.2 * share),
         )
@@ -100,12 +99,7 @@ def smooth_together(
         **report_head("together"),
         "triangles": len(simple.walls.triangles),
         "closed": all(surface.closed for surface in surfaces.values()),
-        "problems": [
-            *problems,
-            *(f"{keys['name']}: its surface is not closed" for keys in labels if not keys["closed"]),
-            *(f"{piece.name}: {NOTHING_LEFT}" for piece in gone),
-            *_crossing_problems(simple.crossings),
-        ],
+        "problems": [*problems, *_problems_of_all(labels, gone, simple.crossings)],
         "request": request.facts(),
         "labels": labels,
         "failed": [{**piece.place, "error": NOTHING_LEFT} for piece in gone],
@@ -204,8 +198,12 @@ def simplify(
     if tolerance is None or isinstance(tolerance, str):
         return partition
     cell = float(volume.cell_size.min())
-    scale = tuple((volume.cell_size / cell).tolist())
-    return simplify_partition(partition, tolerance / cell, scale=scale, threads=threads)
+    return simplify_partition(partition, tolerance / cell, scale=scale_of(volume), threads=threads)
+
+
+def scale_of(volume: Volume) -> tuple[float, ...]:
+    """Return the sides of a cell; the smallest is 1."""
+    return tuple((volume.cell_size / volume.cell_size.min()).tolist())
 
 
 def cut_surfaces(
@@ -302,6 +300,10 @@ def _label_keys(
     }
 
 
-def _crossing_problems(count: int) -> list[str]:
-    """Return the problem of triangles that pass through each other, if any do."""
-    return [f"all labels: {count_noun(count, 'pair')} of triangles pass through each other"] if count else []
+def _problems_of_all(labels: Sequence[TogetherLabel], gone: Sequence[LabelPiece], crossings: int) -> list[str]:
+    """Return the problems that no comparison shows, one phrase each: open surfaces, labels gone, and crossings."""
+    problems = [f"{keys['name']}: its surface is not closed" for keys in labels if not keys["closed"]]
+    problems += [f"{piece.name}: {NOTHING_LEFT}" for piece in gone]
+    if crossings:
+        problems.append(f"all labels: {count_noun(crossings, 'pair')} of triangles pass through each other")
+    return problems
