@@ -96,7 +96,7 @@ def compiled() -> None:
 def coarse_grids() -> Iterator[None]:
     """Let grids that `fill` chooses for small parts have 150 thousand cells at least, not a million.
 
-    Only for speed: laws hold on grids of any size, and tests/test_fill.py runs some on the grids of users.
+    Only for speed: laws hold on grids of any size, and tests/test_fill.py fills real parts on those of users.
     """
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(sizing, "FEWEST", 1.5e5)

@@ -1,4 +1,4 @@
-"""What every filled part keeps: its skin, its density and its walls, measured on the mesh (see test_shapes.py)."""
+"""What every filled part keeps: its skin, its density and its walls, measured on the mesh; test_fill.py has what it finds."""
 
 from __future__ import annotations
 

@@ -169,8 +169,7 @@ def test_walls_stand_upright_from_skin_to_skin(name: str) -> None:
 
 
 @pytest.mark.longest
-@pytest.mark.parametrize("density", [0.15, 0.3])
-@pytest.mark.parametrize("name", PARTS)
+@pytest.mark.parametrize(("name", "density"), list(zip(PARTS, (0.15, 0.3, 0.3, 0.15, 0.3), strict=True)))
 def test_a_part_is_one_solid_of_the_density_asked_for(name: str, density: float) -> None:
     result = fill(PARTS[name], "concentric", density=density)
     report, solid = result.report, result.surface

@@ -24,6 +24,7 @@ from infill import GeometryError, MemoryLimitError, ParameterError, Surface, Usa
 from infill.cli.filled_words import summary
 from infill.interior.opening import Opening
 from infill.lattices import quality_checks as telling
+from infill.lattices import sizing
 from infill.lattices.forecast import plan_fill
 from infill.lattices.grading import UNIFORM_WIDTH
 from infill.lattices.hollowing import make_void_meshes
@@ -49,6 +50,7 @@ pytestmark = pytest.mark.usefixtures("compiled", "coarse_grids")
 KINDS = one_of_each_kind([*IN_SPACE, *(name for name, kind in PATTERNS.items() if kind.prismatic)])
 BAR = "octet"
 FEW = {"voxel": 0.5, "wall": 1.5, "density": 0.3}  # quick
+FEWEST = sizing.FEWEST  # before any test changes it
 
 
 def surface(mesh: Any) -> Surface:
@@ -74,6 +76,15 @@ def test_a_filled_part_is_the_part_without_voids_that_keep_their_distance(patter
     report = result.report
     assert len(result.surface.faces) == report["triangles"]
     assert report["voids"]["count"] == len(report["voids"]["closed"])  # all of which are closed, as there is no drain
+
+
+def test_promises_that_are_broken_are_found() -> None:
+    block = box(20, 20, 20)
+    result = fill(block, "gyroid", **FEW)
+    assert_filled(result, block, wall=1.5, density=0.3)
+    for wall, density, other in ((1.5, 0.4, block), (2.5, 0.3, block), (1.5, 0.3, box(20, 20, 21))):
+        with pytest.raises(AssertionError):
+            assert_filled(result, other, wall=wall, density=density)
 
 
 @pytest.mark.longest
@@ -1113,7 +1124,9 @@ def test_prusaslicer_slices_it_without_repairs(tmp_path: Path, part: trimesh.Tri
         ("spur_gear.stl", "adaptive-cubic", 0.3),
     ],
 )
-def test_real_parts(name: str, pattern: str, density: float, data: Path) -> None:
+def test_real_parts(name: str, pattern: str, density: float, data: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """On the grids that users have, which are finer than those of the other tests."""
+    monkeypatch.setattr(sizing, "FEWEST", FEWEST)
     given = read_mesh(data / "printable" / name)
     result = fill(given, pattern, density=density)
     assert result.report["problems"] == []

@@ -39,7 +39,7 @@ from infill.voxels.scanlines import fill_rows, intersect_rows
 pytestmark = pytest.mark.usefixtures("compiled", "coarse_grids")
 
 HALF_A_POINT = 0.005
-COARSE: dict[str, Any] = {"wall": 1, "cell": 4.0, "voxel": 0.5}
+COARSE: dict[str, Any] = {"wall": 1, "cell": 4.0, "voxel": 0.4}
 
 
 def share_in(result: Any, low: tuple[float, ...], high: tuple[float, ...]) -> float:
