@@ -327,7 +327,7 @@ def place_points(
                 for slot in range(slots_at[1] + len(tetrahedra)):
                     if not (mask >> slot) & 1:
                         continue
-                    count = chain_of_slot(slot, slots_at, faces, tetrahedra, chain)
+                    count, weight[0] = chain_of_slot(slot, slots_at, faces, tetrahedra, chain), 1.0
                     if count == 2 and in_brick:
                         # The usual case: both labels are looked up once for all points between them.
                         if corner[slot] != rival:
