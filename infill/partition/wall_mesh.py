@@ -15,9 +15,15 @@ from infill.partition.walls import OUTSIDE, WallGraph, Walls
 BOUNDS = (1 / 16, 1.0)  # of a bound: edges of low cost go first
 SPACING = 1.5  # of the tolerance: between places at which the distance is measured
 SLAB = 32  # cells: the least width of a slab
-MOST_SLABS, WAYS = 8, 3  # of cutting slabs: two ways of many slabs, and one slab
-MOST_SAMPLED = 100_000  # triangles of which the distance is measured afterwards
-MOST_PLACES = 300_000  # on them, about
+MOST_SLABS = 8
+AXES_AND_SHIFTS = (
+    (0, 0.0),
+    (0, 0.5),
+    (1, 0.25),
+)  # of slabs; what lies between two of them lies within one the next time
+WAYS = len(AXES_AND_SHIFTS)
+MOST_SAMPLED = 60_000  # triangles of which the distance is measured afterwards
+MOST_PLACES = 150_000  # on them, about
 MOST_PARTS = 64  # of a side of a triangle, between places at which its distance is measured
 RIDGE_HEIGHT = 0.25  # of the tolerance: edges that rise higher above their neighbours are watched in between
 EDGE_SPACING, MOST_ON_EDGE = 4.0, 8  # tolerances between the points watched on an edge, and most of them
@@ -131,7 +137,7 @@ class WallMesh:
     def _cut_slabs(
         self, points: NDArray[np.float64], into: NDArray[np.int32], number: int
     ) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int64]]:
-        """Cut the points that are left into slabs across the first axis: two ways in turn, and then into one.
+        """Cut the points that are left into slabs, in turn two ways across the first axis and one across the second.
 
         Returns
         -------
@@ -140,12 +146,12 @@ class WallMesh:
             The points of each slab.
         """
         members = np.flatnonzero(into == np.arange(len(into))).astype(np.int32)
-        length = float(self.box[1, 0])
-        count = int(np.clip(length // SLAB, 1, MOST_SLABS)) if number % WAYS < 2 else 1
-        slab = (points[:, 0] * (count / length) + 0.5 * (number % WAYS == 1)).astype(np.int32)
-        slab = np.clip(slab, 0, count)
-        if count == 1:
-            slab[:] = 0
+        axis, shift = AXES_AND_SHIFTS[number % WAYS]
+        length = float(self.box[1, axis])
+        count = int(np.clip(length // SLAB, 1, MOST_SLABS))
+        slab = np.zeros(len(points), dtype=np.int32)
+        if count > 1:
+            slab = np.clip(points[:, axis] * (count / length) + shift, 0, count).astype(np.int32)
         order = np.argsort(slab[members], kind="stable")
         starts = np.searchsorted(slab[members][order], np.arange(count + 2))
         return slab, members[order], starts

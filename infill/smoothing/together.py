@@ -49,8 +49,8 @@ if TYPE_CHECKING:
 # Options that do not apply to all labels at once.
 UNFIT = ("level", "despeckle", "crumbs", "max_triangles", "allow_broken", "strict")
 # Of the grid, and for each face of a label's cells, estimated from its runs: peaks were 210 to 550 bytes a face, the
-# surfaces of all labels among them, and 950 for noise.
-BYTES_PER_CELL, BYTES_PER_FACE = 10, 600
+# surfaces of all labels among them, and 950 for noise; 1,700 where walls are simplified.
+BYTES_PER_CELL, BYTES_PER_FACE, BYTES_SIMPLIFIED = 10, 600, 1800
 NOTHING_LEFT = "nothing of it is left"
 
 
@@ -70,7 +70,7 @@ def smooth_together(
     refuse_unfit(request)
     request = request.at(float(volume.cell_size.min()))
     clock = Clock(request.progress)
-    needed = needed_memory(volume.values.size, pieces)
+    needed = needed_memory(volume.values.size, pieces, request)
     require_memory(needed, request.max_memory, "give --roi for a part of it, or a volume of larger voxels")
     numbers = number_labels(volume, pieces)
     with clock.stage("smooth", 0.0):
@@ -161,10 +161,10 @@ def number_labels(volume: Volume, pieces: Sequence[LabelPiece]) -> NDArray[np.ui
     return numbers
 
 
-def needed_memory(cells: int, pieces: Sequence[LabelPiece]) -> int:
+def needed_memory(cells: int, pieces: Sequence[LabelPiece], request: SmoothRequest) -> int:
     """Return the memory that fields and walls take, bytes."""
     faces = sum(FACES_PER_RUN * piece.extent.runs for piece in pieces)
-    return cells * BYTES_PER_CELL + faces * BYTES_PER_FACE
+    return cells * BYTES_PER_CELL + faces * (BYTES_PER_FACE if request.tolerance is None else BYTES_SIMPLIFIED)
 
 
 def _smooth_fields(

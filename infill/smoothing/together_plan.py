@@ -72,7 +72,7 @@ def plan_together(
     cells, faces = volume.values.size, count_faces(pieces)
     loaded = time.perf_counter()
     seconds = _expected_seconds(cells, faces, volume, request, tetrahedra=tetrahedra)
-    memory = needed_memory(cells, pieces)
+    memory = needed_memory(cells, pieces, request)
     return {
         "request": request.at(float(volume.cell_size.min())).facts(),
         "labels": [
