@@ -147,6 +147,7 @@ def test_clocks_are_read_only_where_time_is_told() -> None:
         "making/duration.py",
         "result.py",
         "smoothing/plan.py",
+        "smoothing/together_plan.py",
     }
 
 
