@@ -17,7 +17,7 @@ from infill import smooth_labels
 from infill.kernels import wall_collapsing as kernels
 from infill.meshes.distance import distances
 from infill.meshes.intersections import intersecting_pairs
-from infill.partition.simplifying import find_crossing_corners, find_far, simplify_partition
+from infill.partition.simplifying import find_crossings, find_far, simplify_partition
 from infill.partition.volumes import VolumePartition
 from infill.partition.wall_mesh import WallMesh
 from infill.partition.walls import OUTSIDE, Walls
@@ -194,8 +194,22 @@ def test_a_wall_that_is_moved_is_found_and_its_points_can_be_fixed(monkeypatch: 
 def test_crossing_triangles_are_found(monkeypatch: pytest.MonkeyPatch) -> None:
     partition = partition_of(make_cells((16, 16, 16), 4, 1), monkeypatch)
     mesh = WallMesh.of(partition.walls, CUBIC, (16, 16, 16))
-    assert not len(find_crossing_corners(mesh, 1))
+    assert not len(find_crossings(mesh, 1))
     points = mesh.points.copy()
     inner = np.flatnonzero((mesh.order == kernels.WALL) & (mesh.flags == 0))
     points[inner[0]] += [6.0, 5.0, 4.0]
-    assert len(find_crossing_corners(replace(mesh, points=points), 1))
+    assert len(find_crossings(replace(mesh, points=points), 1))
+
+
+def test_walls_that_came_in_with_crossings_are_simplified_all_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    partition = partition_of(make_cells((16, 16, 16), 4, 1), monkeypatch)
+    mesh = WallMesh.of(partition.walls, CUBIC, (16, 16, 16))
+    inner = np.flatnonzero((mesh.order == kernels.WALL) & (mesh.flags == 0))
+    points = partition.walls.points.copy()
+    points[inner[0]] += np.array([6.0, 5.0, 4.0], dtype=np.float32)
+    crossed = replace(partition.walls, points=points)
+    pairs = len(intersecting_pairs(Surface(vertices=points.astype(float), faces=crossed.triangles)))
+    simple = simplify_partition(replace(partition, walls=crossed, crossings=pairs), 0.1, scale=CUBIC)
+    assert len(simple.walls.triangles) < 0.6 * len(crossed.triangles)
+    surface = Surface(vertices=simple.walls.points.astype(float), faces=simple.walls.triangles)
+    assert 0 < len(intersecting_pairs(surface)) == simple.crossings <= pairs

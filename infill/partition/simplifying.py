@@ -60,12 +60,12 @@ def simplify_partition(
         graph, walls = fewer.as_walls(partition.graph, scale)
         walls = restore_volumes(graph, walls, targets, scale=scale, threads=count)
         fewer = replace(fewer, points=walls.points.astype(np.float64) * np.array(scale))
-        places = np.concatenate(
-            [find_crossing_corners(fewer, count), find_far(original, fewer, tolerance, scale, count)]
-        )
+        far, crossing = find_far(original, fewer, tolerance, scale, count), find_crossings(fewer, count)
         is_kept = np.abs(walls.volumes - targets)[targets > 0] <= PRECISE * targets[targets > 0]
-        if not len(places) and is_kept.all():
-            return replace(partition, graph=graph, walls=walls)
+        # Crossings of the walls that came in cannot be fixed here.
+        if not len(far) and is_kept.all() and len(crossing) <= partition.crossings:
+            return replace(partition, graph=graph, walls=walls, crossings=len(crossing))
+        places = np.concatenate([far, fewer.points[fewer.triangles[np.unique(crossing)]].reshape(-1, 3)])
         if len(places):
             free = free.fixed_near(places, NEAR_SIDES * float(np.mean(scale)))
     return partition
@@ -118,11 +118,9 @@ def restore_volumes(
     return best
 
 
-def find_crossing_corners(mesh: WallMesh, threads: int) -> NDArray[np.float64]:
-    """Return the corners (N, 3) of triangles that pass through each other."""
-    surface = Surface(vertices=mesh.points, faces=mesh.triangles)
-    crossing = np.unique(intersecting_pairs(surface, threads=threads))
-    return mesh.points[mesh.triangles[crossing]].reshape(-1, 3)
+def find_crossings(mesh: WallMesh, threads: int) -> NDArray[np.int64]:
+    """Return the pairs (N, 2) of triangles that pass through each other."""
+    return intersecting_pairs(Surface(vertices=mesh.points, faces=mesh.triangles), threads=threads)
 
 
 def find_far(
