@@ -48,9 +48,9 @@ if TYPE_CHECKING:
 
 # Options that do not apply to all labels at once.
 UNFIT = ("level", "despeckle", "crumbs", "max_triangles", "allow_broken", "strict")
-# Of the grid, and for each face of a label's cells, estimated from its runs: peaks were 210 to 550 bytes a face, the
-# surfaces of all labels among them, and 950 for noise; 1,700 where walls are simplified.
-BYTES_PER_CELL, BYTES_PER_FACE, BYTES_SIMPLIFIED = 10, 600, 1800
+# Of the grid, and for each face of a label's cells, estimated from its runs: peaks were 1,400 bytes a face, and 1,700
+# where walls are simplified.
+BYTES_PER_CELL, BYTES_PER_FACE, BYTES_SIMPLIFIED = 10, 1500, 1800
 NOTHING_LEFT = "nothing of it is left"
 
 
