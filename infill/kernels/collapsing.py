@@ -20,7 +20,7 @@ from infill.kernels.corners import (
     previous_corner,
 )
 from infill.kernels.nearness import are_edges_near, reassign_points
-from infill.kernels.quadrics import best_place, normal_and_shape, solve_quadric, squared_length
+from infill.kernels.quadrics import best_place, move_into_plane, normal_and_shape, squared_length
 from infill.kernels.rows import copy_row
 
 BUCKETS = 96  # of costs, two for each factor of two
@@ -29,7 +29,6 @@ SLENDER = 0.02  # shape, 1 for equal sides and 0 for a line: triangles stay bett
 THIN = 0.005  # shape of a triangle whose own normal is unreliable
 TURNED = 0.2  # cosine of the angle by which a triangle may turn
 SHORT = 1e-3  # of squared tolerance and squared length: among collapses of no cost, short edges go first
-NARROW = 1e-6  # of squared lengths: a ring whose faces cancel out has no side on which volume is gained
 # Distance between the sample points of new edges: squared mean edges and squared tolerances.
 SAMPLE_SPACING, WIDE = 0.05, 4.0
 MAX_HELD_POINTS = 1 << 16  # points on the faces around an edge: where there are more, it stays
@@ -119,15 +118,7 @@ def _keep_volume(c, vertices, start, twin, ring, ring_size, end_ring, end_ring_s
             if not shared:
                 gx, gy, gz = gx + nx, gy + ny, gz + nz
     off = target - (gx * (place[0] - u[0]) + gy * (place[1] - u[1]) + gz * (place[2] - u[2]))
-    dx, dy, dz, is_solved = solve_quadric(s, 0.0, 0.0, 0.0, gx, gy, gz)
-    if not is_solved:
-        return
-    rise, length = gx * dx + gy * dy + gz * dz, squared_length(u, v)
-    if not rise > 0 or gx * gx + gy * gy + gz * gz < NARROW * length * length:
-        return
-    by = off / rise
-    if by * by * (dx * dx + dy * dy + dz * dz) <= length:
-        place[0], place[1], place[2] = place[0] + by * dx, place[1] + by * dy, place[2] + by * dz
+    move_into_plane(s, gx, gy, gz, off, squared_length(u, v), place)
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")

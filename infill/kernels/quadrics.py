@@ -14,6 +14,7 @@ import math
 from infill.kernels.compiling import njit
 from infill.kernels.rows import copy_row
 
+NARROW = 1e-6  # of squared lengths: a ring whose faces cancel out has no side on which volume is gained
 PULL = 1e-5  # of the trace of a quadric: pull towards a point, where planes leave the place undetermined
 
 
@@ -95,6 +96,23 @@ def solve_quadric(s, mx, my, mz, rx, ry, rz):
     y = (xy * rx + yy * ry + yz * rz) / determinant
     z = (xz * rx + yz * ry + zz * rz) / determinant
     return x, y, z, True
+
+
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
+def move_into_plane(s, gx, gy, gz, off, farthest, place):
+    """Move a place along the valley of a quadric until it has moved by `off` along (gx, gy, gz), times its length.
+
+    Where the quadric has no valley, or the place would move further than `farthest`, a squared length, it stays.
+    """
+    dx, dy, dz, is_solved = solve_quadric(s, 0.0, 0.0, 0.0, gx, gy, gz)
+    if not is_solved:
+        return
+    rise = gx * dx + gy * dy + gz * dz
+    if not rise > 0 or gx * gx + gy * gy + gz * gz < NARROW * farthest * farthest:
+        return
+    by = off / rise
+    if by * by * (dx * dx + dy * dy + dz * dz) <= farthest:
+        place[0], place[1], place[2] = place[0] + by * dx, place[1] + by * dy, place[2] + by * dz
 
 
 @njit(nogil=True, cache=True, error_model="numpy")

@@ -20,7 +20,7 @@ import numpy as np
 from infill.kernels.compiling import njit
 from infill.kernels.crossings import does_edge_pierce
 from infill.kernels.distances import squared_distance
-from infill.kernels.quadrics import best_place, normal_and_shape, solve_quadric, squared_length, value_of
+from infill.kernels.quadrics import best_place, move_into_plane, normal_and_shape, squared_length, value_of
 from infill.kernels.rows import copy_row
 
 NONE = -1
@@ -33,7 +33,6 @@ THIN = 0.005  # shape of a triangle whose own normal is unreliable
 TURNED = 0.2  # cosine of the angle by which a triangle may turn
 LEVEL = 0.985  # cosine of the angle, 10 degrees, up to which the triangles of a wall count as level
 LEVEL_SPACING = 8.0  # there, places at which the distance is measured are further apart
-NARROW = 1e-6  # of squared lengths: a ring whose faces cancel out has no side on which volume is gained
 MAX_WATCHED = 1 << 14  # points on the faces around an edge: where there are more, it stays
 KEEP_SHARE = 0.25  # of a squared tolerance: a point within this of a triangle needs no nearer one
 MOST_SAMPLES = 32  # on an edge
@@ -223,15 +222,7 @@ def _keep_volume(u, v, points, triangles, near_u, near_v, s, place):
             if not shared:
                 gx, gy, gz = gx + nx, gy + ny, gz + nz
     off = target - (gx * (place[0] - origin[0]) + gy * (place[1] - origin[1]) + gz * (place[2] - origin[2]))
-    dx, dy, dz, is_solved = solve_quadric(s, 0.0, 0.0, 0.0, gx, gy, gz)
-    if not is_solved:
-        return
-    rise, length = gx * dx + gy * dy + gz * dz, squared_length(points[u], points[v])
-    if not rise > 0 or gx * gx + gy * gy + gz * gz < NARROW * length * length:
-        return
-    by = off / rise
-    if by * by * (dx * dx + dy * dy + dz * dz) <= length:
-        place[0], place[1], place[2] = place[0] + by * dx, place[1] + by * dy, place[2] + by * dz
+    move_into_plane(s, gx, gy, gz, off, squared_length(points[u], points[v]), place)
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
