@@ -183,3 +183,24 @@ def test_nothing_changes_where_nothing_is_smoothed(name: str) -> None:
     check = check_of(labels, labels)
     assert not any(check.deviations())
     assert all(topology.data == topology.result for topology in check.topology())
+
+
+def test_the_verdict_is_on_the_triangles_that_are_written() -> None:
+    """A large tolerance moves walls as smoothing does, and is told in the same words and distances."""
+    places = np.indices((40, 40, 40)) + 0.5 - 20
+    labels = np.ones((40, 40, 40), dtype=np.int64)
+    labels[(places**2).sum(axis=0) < 12**2] = 2
+    labels[18:22, 18:22, 2:38] = 3
+    fine, coarse = (smooth_labels(labels, together=True, tolerance=tolerance) for tolerance in (None, 3.0))
+    assert len(coarse.surfaces["label_2"].faces) < 0.1 * len(fine.surfaces["label_2"].faces)
+    check = check_of(labels, labels)
+    words = set()
+    for number, label in labels_of(coarse).items():
+        deviation = measure_deviation(check.original.surface(number), coarse.surfaces[f"label_{number}"], cell=1.0)
+        farthest = max(deviation.there.max, deviation.back.max)
+        distance = label["distance"]
+        assert max(distance["result"]["max"], distance["input"]["max"]) == pytest.approx(farthest, abs=1e-6)
+        assert (label["verdict"]["word"] == "kept") == (farthest <= KEPT)
+        words.add(label["verdict"]["word"])
+    assert len(words) > 1
+    assert {label["verdict"]["word"] for label in fine.report["labels"]} == {"kept"}

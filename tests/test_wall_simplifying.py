@@ -17,7 +17,7 @@ from infill import smooth_labels
 from infill.kernels import wall_collapsing as kernels
 from infill.meshes.distance import distances
 from infill.meshes.intersections import intersecting_pairs
-from infill.partition.simplifying import find_crossings, find_far, simplify_partition
+from infill.partition.simplifying import find_far, simplify_partition
 from infill.partition.volumes import VolumePartition
 from infill.partition.wall_mesh import WallMesh
 from infill.partition.walls import OUTSIDE, Walls
@@ -189,16 +189,6 @@ def test_a_wall_that_is_moved_is_found_and_its_points_can_be_fixed(monkeypatch: 
     held = set(map(tuple, kept.points.tolist()))
     assert near.any()
     assert all(place in held for place in map(tuple, whole.points[near].tolist()))
-
-
-def test_crossing_triangles_are_found(monkeypatch: pytest.MonkeyPatch) -> None:
-    partition = partition_of(make_cells((16, 16, 16), 4, 1), monkeypatch)
-    mesh = WallMesh.of(partition.walls, CUBIC, (16, 16, 16))
-    assert not len(find_crossings(mesh, 1))
-    points = mesh.points.copy()
-    inner = np.flatnonzero((mesh.order == kernels.WALL) & (mesh.flags == 0))
-    points[inner[0]] += [6.0, 5.0, 4.0]
-    assert len(find_crossings(replace(mesh, points=points), 1))
 
 
 def test_walls_that_came_in_with_crossings_are_simplified_all_the_same(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -7,7 +7,8 @@ point of one is further from the other than their corners are: so only the trian
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -90,6 +91,10 @@ class PartitionCheck:
         The place of the cells in space.
     count : int
         Labels, 0 among them.
+    written : mapping of int to Surface
+        The surfaces that are written, by the number of the label, where they have fewer triangles than these walls.
+    leeway : float, mm
+        How far they may lie from these walls.
     threads : int, optional
         See `infill.kernels.threads.thread_count`.
     """
@@ -99,6 +104,8 @@ class PartitionCheck:
     points: NDArray[np.float32]
     volume: Volume
     count: int
+    written: Mapping[int, Surface] = field(default_factory=dict)
+    leeway: float = 0.0
     threads: int | None = None
 
     @property
@@ -137,7 +144,7 @@ class PartitionCheck:
         """Cells whose label has changed, or beside which a point of a wall lies far from the middle."""
         changed = np.asarray(self.graph.winners != self.numbers)
         shift = (self.points - middle_points(self.graph)) * self.volume.cell_size
-        far = np.linalg.norm(shift, axis=1) > KEPT * self.cell
+        far = np.linalg.norm(shift, axis=1) > KEPT * self.cell - self.leeway
         if far.any():
             last = np.array(changed.shape) - 1
             for chosen, corners in simplices(self.graph):
@@ -177,20 +184,28 @@ class PartitionCheck:
         for number in numbers[numbers > 0].tolist():
             parts = [walls.surface(number) for walls in unsettled]
             near = [Surface(vertices=walls.points, faces=walls.faces(number)) for walls in around]
+            limits: _Places | None = None
+            if number in self.written:  # its triangles are not those of the walls, so places decide what is measured
+                parts[1] = near[1] = self.written[number]
+                limits = places
             if all(len(surface.faces) for surface in (*parts, *near)):
-                deviation = self._measure(number, *near, sampled=(parts[0], parts[1]))
+                deviation = self._measure(number, *near, uncertain=limits, sampled=(parts[0], parts[1]))
                 far = max(deviation.there.max, deviation.back.max, deviation.thin_distance)
                 if far <= LOST * self.cell:  # exact: what is further away would be further than that
                     deviations[number] = deviation if far > KEPT * self.cell else None
                     continue
-            surfaces = self.original.surface(number), self.result.surface(number)
+            surfaces = self.original.surface(number), self.surface(number)
             if all(len(surface.faces) for surface in surfaces):  # else it is gone
                 deviations[number] = self._measure(number, *surfaces, uncertain=places)
         return deviations
 
+    def surface(self, number: int) -> Surface:
+        """Return the surface of a label after smoothing, as it is written."""
+        return self.written[number] if number in self.written else self.result.surface(number)
+
     def exact_deviation(self, number: int) -> Deviation:
         """Measure the distances between both surfaces of a label everywhere."""
-        surfaces = self.original.surface(number), self.result.surface(number)
+        surfaces = self.original.surface(number), self.surface(number)
         return measure_deviation(
             *surfaces, cell=self.cell, kinds=_ThicknessOf(number=number, check=self), threads=self.threads
         )

@@ -20,7 +20,8 @@ from infill.surface import Surface
 BLIND_SHARE = 0.05  # of the tolerance, as a mean: edges collapse up to here without any distance being measured
 SAMPLED_SHARE = 0.8  # of the tolerance: where samples may lie, so that places between them lie within the tolerance
 NEAR_SIDES = 1.5  # sides of cells: around a place that fails, points this near are fixed
-ATTEMPTS, LESS = 8, 0.9  # with points fixed around places that failed before, and a smaller share of the tolerance
+# With points fixed around places that failed before, and a smaller share of the tolerance: a large one may be too much.
+ATTEMPTS, LESS = 10, 0.8
 RESTORING_ROUNDS = 6  # of moving walls; each leaves about a tenth
 PRECISE = 5e-5  # of the volume of every label
 SIDES_APART = 0.35  # sides of cells: between places at which the distance of triangles is measured
@@ -54,13 +55,14 @@ def simplify_partition(
     original = WallMesh.of(partition.walls, scale, shape)
     free = original
     for attempt in range(ATTEMPTS):
-        share = SAMPLED_SHARE * LESS**attempt
-        fewer = free.collapsed((BLIND_SHARE * tolerance) ** 2, None, count)
-        fewer = fewer.collapsed((share * tolerance) ** 2, share * tolerance, count)
+        leeway = tolerance * LESS**attempt
+        fewer = free.collapsed((BLIND_SHARE * leeway) ** 2, None, count)
+        fewer = fewer.collapsed((SAMPLED_SHARE * leeway) ** 2, SAMPLED_SHARE * leeway, count)
         graph, walls = fewer.as_walls(partition.graph, scale)
         walls = restore_volumes(graph, walls, targets, scale=scale, threads=count)
         fewer = replace(fewer, points=walls.points.astype(np.float64) * np.array(scale))
-        far, crossing = find_far(original, fewer, tolerance, scale, count), find_crossings(fewer, count)
+        far = find_far(original, fewer, tolerance, scale, count)
+        crossing = intersecting_pairs(Surface(vertices=fewer.points, faces=fewer.triangles), threads=count)
         is_kept = np.abs(walls.volumes - targets)[targets > 0] <= PRECISE * targets[targets > 0]
         # Crossings of the walls that came in cannot be fixed here.
         if not len(far) and is_kept.all() and len(crossing) <= partition.crossings:
@@ -116,11 +118,6 @@ def restore_volumes(
         points = walls.points + np.where(fixed, 0.0, shift).astype(np.float32)
         walls = replace(walls, points=points, volumes=volumes_within(points))
     return best
-
-
-def find_crossings(mesh: WallMesh, threads: int) -> NDArray[np.int64]:
-    """Return the pairs (N, 2) of triangles that pass through each other."""
-    return intersecting_pairs(Surface(vertices=mesh.points, faces=mesh.triangles), threads=threads)
 
 
 def find_far(

@@ -93,7 +93,7 @@ def smooth_together(
     with clock.stage("check", 0.9):
         if not surfaces:
             raise GeometryError("no label is left after smoothing; give fewer steps")
-        labels, problems = _judge_labels(numbers, counts, partition, surfaces, volume, pieces, request.threads)
+        labels, problems = _judge_labels(numbers, counts, partition, simple, surfaces, volume, pieces, request)
     left, gone = ([piece for piece in pieces if (piece.name in surfaces) is kept] for kept in (True, False))
     report: TogetherReport = {
         **report_head("together"),
@@ -239,10 +239,11 @@ def _judge_labels(
     numbers: NDArray[np.uint16],
     counts: NDArray[np.int64],
     partition: VolumePartition,
+    simple: VolumePartition,
     surfaces: dict[str, Surface],
     volume: Volume,
     pieces: Sequence[LabelPiece],
-    threads: int | None,
+    request: SmoothRequest,
 ) -> tuple[list[TogetherLabel], list[str]]:
     """Compare every label that is left with its voxels; return the rows of the report, and the problems.
 
@@ -252,14 +253,20 @@ def _judge_labels(
         The label of every cell, from `number_labels`.
     counts : (labels,) int64
         Cells of each.
+    partition, simple : VolumePartition
+        With all triangles, and as it is written.
     """
+    is_simple = simple is not partition
+    numbered = enumerate(pieces, 1)
     check = PartitionCheck(
         numbers=numbers,
         graph=partition.graph,
         points=partition.walls.points,
         volume=volume,
         count=len(pieces) + 1,
-        threads=threads,
+        written={number: surfaces[piece.name] for number, piece in numbered if is_simple and piece.name in surfaces},
+        leeway=float(request.tolerance) if is_simple and request.tolerance else 0.0,
+        threads=request.threads,
     )
     topologies, deviations = check.topology(), check.deviations()
     labels: list[TogetherLabel] = []
