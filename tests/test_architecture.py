@@ -18,6 +18,7 @@ import numpy as np
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
+LARGEST = 2**20  # bytes of a tracked file
 
 # From the ground up. A module imports from lower rows and from its own room; rooms of one row never meet.
 ROWS: tuple[tuple[str, ...], ...] = (
@@ -314,6 +315,25 @@ def test_the_house_is_low(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 @pytest.mark.longest
+def large_files(root: Path) -> list[str]:
+    """Name the tracked files of a repository that are larger than `LARGEST`."""
+    names = subprocess.run(["git", "ls-files", "-z"], cwd=root, capture_output=True, check=True, text=True).stdout
+    paths = [root / name for name in names.split("\0") if name]
+    assert paths
+    return [path.name for path in paths if path.is_file() and path.stat().st_size > LARGEST]
+
+
+def test_no_large_file_is_tracked(tmp_path: Path) -> None:
+    """Results of a run, such as arrays, are no sources; what is planted is found."""
+    if not (ROOT / ".git").exists():
+        pytest.skip("this is no clone")
+    assert large_files(ROOT) == []
+    subprocess.run(["git", "init", "-q"], cwd=tmp_path, check=True)
+    (tmp_path / "result.npz").write_bytes(bytes(LARGEST + 1))
+    subprocess.run(["git", "add", "."], cwd=tmp_path, check=True)
+    assert large_files(tmp_path) == ["result.npz"]
+
+
 @pytest.mark.parametrize("folder", ["tests", "benchmarks", "examples"])
 def test_no_private_name_comes_into_a_test(folder: str) -> None:
     paths = sorted((ROOT / folder).rglob("*.py"))

@@ -19,11 +19,10 @@ import numpy as np
 
 from infill.kernels.compiling import njit
 from infill.kernels.crossings import does_edge_pierce
-from infill.kernels.distances import squared_distance
 from infill.kernels.quadrics import best_place, move_into_plane, normal_and_shape, squared_length, value_of
 from infill.kernels.rows import copy_row
+from infill.kernels.wall_nearness import MAX_WATCHED, NONE, are_faces_near, hand_over, has_corner, reassign_watched
 
-NONE = -1
 WALL, LINE, FIXED = 0, 1, 2
 MOST_FACES = 64  # at a point
 MOST_AROUND = 16  # faces at a point after a collapse
@@ -31,11 +30,6 @@ ATTEMPTS = 3  # neighbours that are tried for each point in a sweep
 SLENDER = 0.02  # shape, 1 for equal sides and 0 for a line: triangles stay better than this or than the worst before
 THIN = 0.005  # shape of a triangle whose own normal is unreliable
 TURNED = 0.2  # cosine of the angle by which a triangle may turn
-LEVEL = 0.985  # cosine of the angle, 10 degrees, up to which the triangles of a wall count as level
-LEVEL_SPACING = 8.0  # there, places at which the distance is measured are further apart
-MAX_WATCHED = 1 << 14  # points on the faces around an edge: where there are more, it stays
-KEEP_SHARE = 0.25  # of a squared tolerance: a point within this of a triangle needs no nearer one
-MOST_SAMPLES = 32  # on an edge
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
@@ -131,12 +125,6 @@ def order_points(triangles, pair, heads, after, order):
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _has(triangles, t, w):
-    """Return True if a triangle has a corner."""
-    return triangles[t, 0] == w or triangles[t, 1] == w or triangles[t, 2] == w
-
-
-@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _is_link_whole(u, v, triangles, order, near_u, near_v, shared):
     """Return True if the edge u-v may go: see the module. `near_u` are the faces, ring, uses and their numbers."""
     _, ring_u, uses_u, count_u, size_u = near_u
@@ -156,13 +144,13 @@ def _is_link_whole(u, v, triangles, order, near_u, near_v, shared):
     faces_u = near_u[0]
     for m in range(count_v):
         t = faces_v[m]
-        if _has(triangles, t, u):
+        if has_corner(triangles, t, u):
             continue
         for n in range(count_u):
             other, same = faces_u[n], 0
             for k in range(3):
                 w = triangles[t, k]
-                same += w != v and _has(triangles, other, w)
+                same += w != v and has_corner(triangles, other, w)
             if same == 2:
                 return False
     return True
@@ -209,7 +197,7 @@ def _keep_volume(u, v, points, triangles, near_u, near_v, s, place):
         faces, count, centre = (near_u[0], near_u[3], u) if side == 0 else (near_v[0], near_v[3], v)
         for n in range(count):
             t = faces[n]
-            shared = _has(triangles, t, v if side == 0 else u)
+            shared = has_corner(triangles, t, v if side == 0 else u)
             if shared and side == 1:
                 continue
             k = 0 if triangles[t, 0] == centre else 1 if triangles[t, 1] == centre else 2
@@ -249,7 +237,7 @@ def _propose_faces(u, v, points, triangles, near_u, near_v, place, moved, chosen
         faces, count, centre, other = (near_u[0], near_u[3], u, v) if side == 0 else (near_v[0], near_v[3], v, u)
         for n in range(count):
             t = faces[n]
-            if _has(triangles, t, other):
+            if has_corner(triangles, t, other):
                 continue
             k = 0 if triangles[t, 0] == centre else 1 if triangles[t, 1] == centre else 2
             a, b = points[triangles[t, (k + 1) % 3]], points[triangles[t, (k + 2) % 3]]
@@ -289,7 +277,7 @@ def _is_clear(u, v, mesh, near_u, near_v, moved, changed, chosen, around, corner
                 continue
             for n in range(_faces_of(w, triangles, heads, after, around)):
                 t = around[n]
-                if _has(triangles, t, u) or _has(triangles, t, v):
+                if has_corner(triangles, t, u) or has_corner(triangles, t, v):
                     continue
                 for k in range(3):
                     copy_row(corners[k], points[triangles[t, k]])
@@ -304,114 +292,13 @@ def _is_clear(u, v, mesh, near_u, near_v, moved, changed, chosen, around, corner
                     shares = False
                     for k in range(3):
                         x = triangles[chosen[m], k]
-                        shares = shares or (x != u and x != v and _has(triangles, t, x))
+                        shares = shares or (x != u and x != v and has_corner(triangles, t, x))
                     if shares:
                         continue
                     if does_edge_pierce(moved[m], corners, normal, height):
                         return False
                     if does_edge_pierce(corners, moved[m], normal, height):
                         return False
-    return True
-
-
-@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _reassign_watched(u, triangles, pair, near_v, watched, tolerance, moved, chosen, changed, goes, goes_to):
-    """Find for each watched point of the faces at an edge the nearest face of its wall; return their number, or -1.
-
-    -1 stands for a point that would be too far from its wall, or too many points.
-    """
-    places, watched_heads, next_watched = watched[0], watched[1], watched[2]
-    gone = 0
-    for n in range(near_v[3]):
-        if _has(triangles, near_v[0][n], u):
-            chosen[changed + gone] = near_v[0][n]
-            gone += 1
-    count = 0
-    for face in range(changed + gone):
-        p, of = watched_heads[chosen[face]], pair[chosen[face]]
-        while p != NONE:
-            x, y, z = places[p, 0], places[p, 1], places[p, 2]
-            best, nearest = math.inf, NONE
-            if face < changed:
-                best, nearest = squared_distance(x, y, z, moved[face, 0], moved[face, 1], moved[face, 2]), face
-            for m in range(changed):
-                if best <= KEEP_SHARE * tolerance:
-                    break
-                if m != face and pair[chosen[m]] == of:
-                    squared = squared_distance(x, y, z, moved[m, 0], moved[m, 1], moved[m, 2])
-                    if squared < best:
-                        best, nearest = squared, m
-            if best > tolerance or count == len(goes):
-                return NONE
-            goes[count], goes_to[count] = p, nearest
-            count += 1
-            p = next_watched[p]
-    return count
-
-
-@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _is_near_star(x, y, z, p, of, watched, tolerance):
-    """Return True if a place is near a given face of a wall at a watched point."""
-    point, original, star_start, star, was_pair = watched[3], watched[4], watched[5], watched[6], watched[7]
-    v = point[p]
-    for n in range(star_start[v], star_start[v + 1]):
-        t = star[n]
-        if was_pair[t] != of:
-            continue
-        if squared_distance(x, y, z, original[t, 0], original[t, 1], original[t, 2]) <= tolerance:
-            return True
-    return False
-
-
-@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _near_point(x, y, z, last, of, watched, tolerance, pair, chosen, goes, goes_to, taken):
-    """Return a watched point with a face of its wall near a place, `last` if it has one; -1 if there is none."""
-    if last != NONE and _is_near_star(x, y, z, last, of, watched, tolerance):
-        return last
-    places = watched[0]
-    best, nearest = math.inf, NONE
-    for n in range(taken):
-        if pair[chosen[goes_to[n]]] != of:
-            continue
-        p = goes[n]
-        squared = (places[p, 0] - x) ** 2 + (places[p, 1] - y) ** 2 + (places[p, 2] - z) ** 2
-        if squared < best:
-            best, nearest = squared, p
-    if nearest == NONE or best <= tolerance or _is_near_star(x, y, z, nearest, of, watched, tolerance):
-        return nearest
-    for n in range(taken):
-        if pair[chosen[goes_to[n]]] == of and _is_near_star(x, y, z, goes[n], of, watched, tolerance):
-            return goes[n]
-    return NONE
-
-
-@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _are_faces_near(place, moved, changed, pair, chosen, watched, tolerance, spacing, goes, goes_to, taken):
-    """Return True if a place, the edges from it and the middles of its faces are near the walls that were given."""
-    for m in range(changed):
-        of = pair[chosen[m]]
-        mx, my, mz, _ = normal_and_shape(moved[m, 0], moved[m, 1], moved[m, 2])
-        level, is_first = True, True
-        for n in range(changed):
-            if pair[chosen[n]] == of:
-                is_first = is_first and n >= m
-                nx, ny, nz, _ = normal_and_shape(moved[n, 0], moved[n, 1], moved[n, 2])
-                same = nx * mx + ny * my + nz * mz
-                squares = (nx * nx + ny * ny + nz * nz) * (mx * mx + my * my + mz * mz)
-                level = level and same > 0 and same * same >= LEVEL**2 * squares
-        a, b = moved[m, 1], moved[m, 2]
-        apart, last = spacing * LEVEL_SPACING if level else spacing, NONE
-        parts = max(2, min(MOST_SAMPLES, math.ceil(math.sqrt(squared_length(place, a)) / apart)))
-        for part in range(0 if is_first else 1, parts + 1):
-            share = part / parts
-            x = place[0] + share * (a[0] - place[0])
-            y = place[1] + share * (a[1] - place[1])
-            z = place[2] + share * (a[2] - place[2])
-            if part == parts:
-                x, y, z = (place[0] + a[0] + b[0]) / 3, (place[1] + a[1] + b[1]) / 3, (place[2] + a[2] + b[2]) / 3
-            last = _near_point(x, y, z, last, of, watched, tolerance, pair, chosen, goes, goes_to, taken)
-            if last == NONE:
-                return False
     return True
 
 
@@ -436,16 +323,6 @@ def _choose_neighbour(u, mesh, near_u, bound, swept, failed, sweep, tried, s, pl
             continue
         best, nearest = squared, n
     return nearest
-
-
-@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _hand_over(watched_heads, next_watched, chosen, changed, goes, goes_to, taken):
-    """Give the watched points to their new faces."""
-    for m in range(changed):
-        watched_heads[chosen[m]] = NONE
-    for m in range(taken):
-        p, t = goes[m], chosen[goes_to[m]]
-        next_watched[p], watched_heads[t] = watched_heads[t], p
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
@@ -528,16 +405,16 @@ def sweep_walls(
                     continue
                 taken = 0
                 if len(watched[0]):
-                    taken = _reassign_watched(
+                    taken = reassign_watched(
                         u, triangles, pair, near_v, watched, tolerance, moved, chosen, changed, goes, goes_to
                     )
-                    if taken == NONE or not _are_faces_near(
+                    if taken == NONE or not are_faces_near(
                         place, moved, changed, pair, chosen, watched, tolerance, spacing, goes, goes_to, taken
                     ):
                         continue
                     if not _is_clear(u, v, mesh, near_u, near_v, moved, changed, chosen, around, *crossing_space):
                         continue
-                    _hand_over(watched[1], watched[2], chosen, changed, goes, goes_to, taken)
+                    hand_over(watched[1], watched[2], chosen, changed, goes, goes_to, taken)
                 copy_row(quadric[v], s)
                 copy_row(points[v], place)
                 _collapse(u, v, mesh, faces_u, count_u, faces_v, into, swept, sweep)
@@ -551,7 +428,7 @@ def _collapse(u, v, mesh, faces_u, count_u, faces_v, into, swept, sweep):
     _, triangles, _, heads, after, _, flags, _, _, _ = mesh
     for n in range(count_u):
         t = faces_u[n]
-        if _has(triangles, t, v):
+        if has_corner(triangles, t, v):
             triangles[t, 0], triangles[t, 1], triangles[t, 2] = NONE, NONE, NONE
         else:
             for k in range(3):
