@@ -125,10 +125,10 @@ def order_points(triangles, pair, heads, after, order):
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _is_link_whole(u, v, triangles, order, near_u, near_v, shared):
-    """Return True if the edge u-v may go: see the module. `near_u` are the faces, ring, uses and their numbers."""
-    _, ring_u, uses_u, count_u, size_u = near_u
-    faces_v, ring_v, uses_v, count_v, size_v = near_v
+def _is_link_whole(u, v, triangles, order, fan_u, fan_v, shared):
+    """Return True if the edge u-v may go: see the module. `fan_u` are the faces, ring, uses and their numbers."""
+    _, ring_u, uses_u, count_u, size_u = fan_u
+    faces_v, ring_v, uses_v, count_v, size_v = fan_v
     common = 0
     for n in range(size_u):
         w = ring_u[n, 0]
@@ -141,7 +141,7 @@ def _is_link_whole(u, v, triangles, order, near_u, near_v, shared):
                     return False
     if common != shared:
         return False
-    faces_u = near_u[0]
+    faces_u = fan_u[0]
     for m in range(count_v):
         t = faces_v[m]
         if has_corner(triangles, t, u):
@@ -189,12 +189,12 @@ def _place_of(u, v, points, order, flags, quadric, box, s, place):
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _keep_volume(u, v, points, triangles, near_u, near_v, s, place):
+def _keep_volume(u, v, points, triangles, fan_u, fan_v, s, place):
     """Move a place along the quadric's valley so that both sides of the wall keep their volume (Lindstrom, Turk)."""
     origin = points[u]
     gx, gy, gz, target = 0.0, 0.0, 0.0, 0.0
     for side in range(2):
-        faces, count, centre = (near_u[0], near_u[3], u) if side == 0 else (near_v[0], near_v[3], v)
+        faces, count, centre = (fan_u[0], fan_u[3], u) if side == 0 else (fan_v[0], fan_v[3], v)
         for n in range(count):
             t = faces[n]
             shared = has_corner(triangles, t, v if side == 0 else u)
@@ -214,27 +214,27 @@ def _keep_volume(u, v, points, triangles, near_u, near_v, s, place):
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _choose_place(u, v, mesh, near_u, near_v, s, place):
+def _choose_place(u, v, mesh, fan_u, fan_v, s, place):
     """Set the place to which an edge collapses: inside a wall, both its sides keep their volume."""
     points, triangles, _, _, _, order, flags, _, quadric, box = mesh
     _place_of(u, v, points, order, flags, quadric, box, s, place)
     if order[u] == WALL and order[v] == WALL and flags[u] == 0 and flags[v] == 0:
-        _keep_volume(u, v, points, triangles, near_u, near_v, s, place)
+        _keep_volume(u, v, points, triangles, fan_u, fan_v, s, place)
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _propose_faces(u, v, points, triangles, near_u, near_v, place, moved, chosen):
+def _propose_faces(u, v, points, triangles, fan_u, fan_v, place, moved, chosen):
     """Write the faces that a collapse leaves, from the place on; return their number, -1 if one turns or is thin."""
     worst = 1.0
     for side in range(2):
-        faces, count = (near_u[0], near_u[3]) if side == 0 else (near_v[0], near_v[3])
+        faces, count = (fan_u[0], fan_u[3]) if side == 0 else (fan_v[0], fan_v[3])
         for n in range(count):
             t = faces[n]
             _, _, _, shape = normal_and_shape(points[triangles[t, 0]], points[triangles[t, 1]], points[triangles[t, 2]])
             worst = min(worst, shape)
     changed = 0
     for side in range(2):
-        faces, count, centre, other = (near_u[0], near_u[3], u, v) if side == 0 else (near_v[0], near_v[3], v, u)
+        faces, count, centre, other = (fan_u[0], fan_u[3], u, v) if side == 0 else (fan_v[0], fan_v[3], v, u)
         for n in range(count):
             t = faces[n]
             if has_corner(triangles, t, other):
@@ -259,7 +259,7 @@ def _propose_faces(u, v, points, triangles, near_u, near_v, place, moved, chosen
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _is_clear(u, v, mesh, near_u, near_v, moved, changed, chosen, around, corners, bounds, normal, height):
+def _is_clear(u, v, mesh, fan_u, fan_v, moved, changed, chosen, around, corners, bounds, normal, height):
     """Return True if no face that a collapse would leave passes through a face at one of the neighbours.
 
     `around`, `corners`, `bounds`, `normal` and `height` are work space.
@@ -270,7 +270,7 @@ def _is_clear(u, v, mesh, near_u, near_v, moved, changed, chosen, around, corner
             bounds[m, 0, axis] = min(moved[m, 0, axis], moved[m, 1, axis], moved[m, 2, axis])
             bounds[m, 1, axis] = max(moved[m, 0, axis], moved[m, 1, axis], moved[m, 2, axis])
     for side in range(2):
-        ring, size = (near_u[1], near_u[4]) if side == 0 else (near_v[1], near_v[4])
+        ring, size = (fan_u[1], fan_u[4]) if side == 0 else (fan_v[1], fan_v[4])
         for at in range(size):
             w = np.int64(ring[at, 0])
             if w in (u, v):
@@ -303,10 +303,10 @@ def _is_clear(u, v, mesh, near_u, near_v, moved, changed, chosen, around, corner
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _choose_neighbour(u, mesh, near_u, bound, swept, failed, sweep, tried, s, place):
+def _choose_neighbour(u, mesh, fan_u, bound, swept, failed, sweep, tried, s, place):
     """Return the nearest neighbour into which a point may be collapsed, of those not tried; -1 if there is none."""
     points, _, _, _, _, order, flags, _, quadric, box = mesh
-    _, ring, uses, _, size = near_u
+    _, ring, uses, _, size = fan_u
     best, nearest = math.inf, NONE
     for n in range(size):
         v = ring[n, 0]
@@ -380,11 +380,11 @@ def sweep_walls(
             if count_u <= 0 or not _is_in_slab(faces_u, count_u, triangles, slab, number):
                 continue
             size_u = _neighbours_of(u, triangles, pair, faces_u, count_u, ring_u, uses_u)
-            near_u = faces_u, ring_u, uses_u, count_u, size_u
+            fan_u = faces_u, ring_u, uses_u, count_u, size_u
             tried[:size_u] = False
             failed[u] = sweep
             for _ in range(ATTEMPTS):
-                n = _choose_neighbour(u, mesh, near_u, bound, swept, failed, sweep, tried, s, place)
+                n = _choose_neighbour(u, mesh, fan_u, bound, swept, failed, sweep, tried, s, place)
                 if n == NONE:
                     break
                 tried[n] = True
@@ -396,23 +396,23 @@ def sweep_walls(
                     failed[u] = NONE
                     continue
                 size_v = _neighbours_of(v, triangles, pair, faces_v, count_v, ring_v, uses_v)
-                near_v = faces_v, ring_v, uses_v, count_v, size_v
-                if not _is_link_whole(u, v, triangles, order, near_u, near_v, shared):
+                fan_v = faces_v, ring_v, uses_v, count_v, size_v
+                if not _is_link_whole(u, v, triangles, order, fan_u, fan_v, shared):
                     continue
-                _choose_place(u, v, mesh, near_u, near_v, s, place)
-                changed = _propose_faces(u, v, points, triangles, near_u, near_v, place, moved, chosen)
+                _choose_place(u, v, mesh, fan_u, fan_v, s, place)
+                changed = _propose_faces(u, v, points, triangles, fan_u, fan_v, place, moved, chosen)
                 if changed == NONE:
                     continue
                 taken = 0
                 if len(watched[0]):
                     taken = reassign_watched(
-                        u, triangles, pair, near_v, watched, tolerance, moved, chosen, changed, goes, goes_to
+                        u, triangles, pair, fan_v, watched, tolerance, moved, chosen, changed, goes, goes_to
                     )
                     if taken == NONE or not are_faces_near(
                         place, moved, changed, pair, chosen, watched, tolerance, spacing, goes, goes_to, taken
                     ):
                         continue
-                    if not _is_clear(u, v, mesh, near_u, near_v, moved, changed, chosen, around, *crossing_space):
+                    if not _is_clear(u, v, mesh, fan_u, fan_v, moved, changed, chosen, around, *crossing_space):
                         continue
                     hand_over(watched[1], watched[2], chosen, changed, goes, goes_to, taken)
                 copy_row(quadric[v], s)

@@ -29,16 +29,16 @@ def has_corner(triangles, t, w):
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def reassign_watched(u, triangles, pair, near_v, watched, tolerance, moved, chosen, changed, goes, goes_to):
+def reassign_watched(u, triangles, pair, fan_v, watched, tolerance, moved, chosen, changed, goes, goes_to):
     """Find for each watched point of the faces at an edge the nearest face of its wall; return their number, or -1.
 
     -1 stands for a point that would be too far from its wall, or too many points.
     """
     places, watched_heads, next_watched = watched[0], watched[1], watched[2]
     gone = 0
-    for n in range(near_v[3]):
-        if has_corner(triangles, near_v[0][n], u):
-            chosen[changed + gone] = near_v[0][n]
+    for n in range(fan_v[3]):
+        if has_corner(triangles, fan_v[0][n], u):
+            chosen[changed + gone] = fan_v[0][n]
             gone += 1
     count = 0
     for face in range(changed + gone):
