@@ -209,7 +209,7 @@ def cross_rows(points, triangles, chosen, scale, boxes, starts, order, widest, p
         Written, as far as there is room.
     """
     flat, n0, n1 = starts.reshape(-1), starts.shape[0] - 1, starts.shape[1]
-    one, other = np.empty((3, 3)), np.empty((3, 3))
+    triangle, target = np.empty((3, 3)), np.empty((3, 3))
     normal, side = np.empty(3), np.empty(3)
     rows = (widest[0] + 1) * (2 * widest[1] + 1)
     cursor, ends = np.empty(rows, dtype=np.int64), np.empty(rows, dtype=np.int64)
@@ -247,17 +247,16 @@ def cross_rows(points, triangles, chosen, scale, boxes, starts, order, widest, p
                             continue
                         for corner in range(3):
                             for axis in range(3):
-                                other[corner, axis] = points[triangles[chosen[g], corner], axis] * scale[axis]
+                                target[corner, axis] = points[triangles[chosen[g], corner], axis] * scale[axis]
                         if not is_loaded:
                             for corner in range(3):
                                 for axis in range(3):
-                                    one[corner, axis] = points[triangles[chosen[f], corner], axis] * scale[axis]
+                                    triangle[corner, axis] = points[triangles[chosen[f], corner], axis] * scale[axis]
                             is_loaded = True
-                        if not is_on_both_sides(one, other):
+                        if not is_on_both_sides(triangle, target):
                             continue
-                        if not (
-                            does_edge_pierce(one, other, normal, side) or does_edge_pierce(other, one, normal, side)
-                        ):
+                        does_pierce = does_edge_pierce(triangle, target, normal, side)
+                        if not (does_pierce or does_edge_pierce(target, triangle, normal, side)):
                             continue
                         if count < pairs.shape[1]:
                             pairs[thread, count, 0] = min(chosen[f], chosen[g])
@@ -267,17 +266,17 @@ def cross_rows(points, triangles, chosen, scale, boxes, starts, order, widest, p
 
 
 @njit(inline="always", cache=True)
-def is_on_both_sides(one, other):
+def is_on_both_sides(triangle, target):
     """Tell whether the corners of a triangle lie on both sides of the plane of another."""
-    ux, uy, uz = one[1, 0] - one[0, 0], one[1, 1] - one[0, 1], one[1, 2] - one[0, 2]
-    vx, vy, vz = one[2, 0] - one[0, 0], one[2, 1] - one[0, 1], one[2, 2] - one[0, 2]
+    ux, uy, uz = triangle[1, 0] - triangle[0, 0], triangle[1, 1] - triangle[0, 1], triangle[1, 2] - triangle[0, 2]
+    vx, vy, vz = triangle[2, 0] - triangle[0, 0], triangle[2, 1] - triangle[0, 1], triangle[2, 2] - triangle[0, 2]
     nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
     low = high = 0.0
     for corner in range(3):
         side = (
-            (other[corner, 0] - one[0, 0]) * nx
-            + (other[corner, 1] - one[0, 1]) * ny
-            + (other[corner, 2] - one[0, 2]) * nz
+            (target[corner, 0] - triangle[0, 0]) * nx
+            + (target[corner, 1] - triangle[0, 1]) * ny
+            + (target[corner, 2] - triangle[0, 2]) * nz
         )
         low, high = min(low, side), max(high, side)
     return low < 0.0 < high
