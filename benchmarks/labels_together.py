@@ -38,6 +38,7 @@ Meshes = dict[int, Surface]
 SCENES = ("10-128", "100-128", "1000-128", "100-128-4", "100-256", "1000-256", "organs-256", "1000-512")
 JUDGED, SAMPLES, APART, LINES = 40, 2000, 0.1, 3.0
 BESIDE = 1.5  # voxels: a place with another label as near lies at a wall to it
+MOST_MEMORY = 2**40  # bytes: what is expected may be more than there is
 PAD = 1  # cells of void around the labels of peers
 
 
@@ -61,8 +62,11 @@ def make_scene(name: str) -> tuple[NDArray[np.uint16], tuple[float, float, float
 
 def together(method: Any) -> Callable[..., Callable[[], Meshes]]:
     def run(labels: NDArray[np.uint16], spacing: tuple[float, ...]) -> Callable[[], Meshes]:
-        found = smooth_labels(labels, together=True, method=method, spacing=spacing)
+        options: Any = {"spacing": spacing, "tolerance": None, "max_memory": MOST_MEMORY}
+        found = smooth_labels(labels, together=True, method=method, **options)
         numbers = {label["name"]: label["number"] for label in found.report["labels"]}
+        for surface in found.surfaces.values():  # made one by one, as for files
+            assert len(surface.faces)
         return lambda: {numbers[name]: surface for name, surface in found.surfaces.items()}
 
     return run

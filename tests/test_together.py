@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import weakref
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,7 @@ from scipy.spatial import cKDTree
 from test_command_line import refused, run
 
 import infill
-from infill import Smoothing, UsageError, read_mesh, smooth_labels
+from infill import Smoothing, UsageError, Volume, read_mesh, smooth_labels
 from infill.kernels.partition import code_of_four, code_of_three, weigh_corners
 from infill.kernels.sparse import BRICK
 from infill.meshes.intersections import intersecting_pairs
@@ -338,6 +339,34 @@ def test_labels_cut_out_of_the_complex_are_their_triangles() -> None:
         behind, before = (walls.triangles[walls.sides[:, side] == cut.label] for side in range(2))
         assert np.array_equal(cut.points[cut.faces], np.concatenate([behind, before[:, ::-1]]))
         assert np.array_equal(cut.points, np.unique(cut.points[cut.faces]))
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_surfaces_of_labels_are_made_when_they_are_asked_for(*, turned: bool) -> None:
+    labels = voronoi((20, 18, 16), 5)
+    turn = np.linalg.qr(np.random.default_rng(1).normal(size=(3, 3)))[0] if turned else np.eye(3)
+    turn[:, 0] *= np.linalg.det(turn)
+    volume = Volume(values=labels, spacing=(0.5, 0.5, 1.5), origin=(3.0, 4.0, 5.0), direction=turn)
+    result = smooth_labels(volume, together=True, smoothing=Smoothing(steps=10), tolerance=None)
+    surfaces = result.surfaces
+    assert list(surfaces) == [label["name"] for label in result.report["labels"]]
+    assert len(surfaces) == 5
+    assert "label_9" not in surfaces
+    corners: list[set[tuple[float, ...]]] = []
+    for label in result.report["labels"]:
+        surface = surfaces[label["name"]]
+        assert surface is surfaces[label["name"]]  # while it is in use
+        fresh = Surface(vertices=surface.vertices, faces=surface.faces)
+        assert (len(fresh.faces), fresh.closed) == (label["triangles"], label["closed"]) == (len(surface.faces), True)
+        assert fresh.volume == pytest.approx(label["volume"], rel=1e-12)
+        assert fresh.area == pytest.approx(surface.area, rel=1e-12)
+        place = weakref.ref(surface)
+        corners.append(set(map(tuple, surface.vertices.tolist())))
+        del surface, fresh
+        assert place() is None
+    # Neighbours have the same coordinates to the last bit.
+    walls = set(map(tuple, result.stages.walls.points.tolist()))
+    assert set().union(*corners) == walls
 
 
 def test_volumes_by_shares_of_cells_are_about_those_within_walls() -> None:

@@ -11,14 +11,16 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from test_together import NASTY, voronoi
 
-from infill import Smoothing, Volume, smooth_labels, smooth_volume
+from infill import Smoothing, Surface, Volume, smooth_labels, smooth_volume
+from infill.inspection import partitions
 from infill.inspection.deviation import KEPT, measure_deviation
 from infill.inspection.label_connections import count_connections
-from infill.inspection.partitions import LabelPoints, PartitionCheck
+from infill.inspection.partitions import PartitionCheck
 from infill.isosurfaces.components import shell_names
 from infill.meshes.shells import shell_volumes
-from infill.partition.simplices import middle_points
-from infill.partition.walls import WallGraph, trace_walls
+from infill.partition.simplices import cells_at, middle_points, simplices
+from infill.partition.wall_points import mark_beside, mark_far, mark_labels, place_middles
+from infill.partition.walls import OUTSIDE, LabelCutter, WallGraph, count_parts, trace_walls
 
 
 def labels_of(result: Any) -> dict[int, Any]:
@@ -37,8 +39,9 @@ def check_of(labels: NDArray[np.int64], after: NDArray[np.int64], **place: Any) 
     )
 
 
-def points_of(graph: WallGraph) -> LabelPoints:
-    return LabelPoints(points=middle_points(graph), triangles=graph.triangles, sides=graph.sides)
+def surface_of(graph: WallGraph, number: int) -> Surface:
+    cut = LabelCutter.of(graph.triangles, graph.sides, number + 1 + int(graph.winners.max())).cut(number)
+    return Surface(vertices=middle_points(graph)[cut.points], faces=cut.faces)
 
 
 # --- planted losses ------------------------------------------------------------------------------------------
@@ -131,9 +134,8 @@ def test_verdicts_are_those_of_a_single_scan() -> None:
 def test_connections_are_those_of_the_surface(shape: tuple[int, int, int], count: int, seed: int) -> None:
     labels = np.random.default_rng(seed).integers(0, count + 1, shape)
     graph = trace_walls(labels.astype(np.uint16))
-    walls = points_of(graph)
-    for number, counts in enumerate(count_connections(graph, count + 1)[1:], 1):
-        surface = walls.surface(number)
+    for number, counts in enumerate(count_connections(labels.astype(np.uint16), count + 1)[1:], 1):
+        surface = surface_of(graph, number)
         assert counts.euler_number == len(surface.vertices) - len(surface.faces) // 2
         if not len(surface.faces):
             assert counts.components == 0
@@ -164,7 +166,7 @@ def test_what_is_measured_near_changes_is_what_all_of_it_gives(count: int, seed:
     check = check_of(labels, after)
     deviations = check.deviations()
     for number in range(1, count + 1):
-        surfaces = check.original.surface(number), check.result.surface(number)
+        surfaces = check.given(number).surface, check.surface(number)
         if not all(len(surface.faces) for surface in surfaces):
             assert deviations[number] is None
             continue
@@ -175,6 +177,65 @@ def test_what_is_measured_near_changes_is_what_all_of_it_gives(count: int, seed:
         if local:
             assert [patch.area for patch in local.lost] == [patch.area for patch in whole.lost]
             assert local.thin_area == whole.thin_area
+
+
+@settings(max_examples=8, deadline=None)
+@given(st.tuples(*[st.integers(2, 9)] * 3), st.integers(0, 4), st.integers(0, 10**6))
+def test_marks_of_points_are_those_of_the_corners_between_which_they_lie(
+    shape: tuple[int, int, int], count: int, seed: int
+) -> None:
+    rng = np.random.default_rng(seed)
+    graph = trace_walls(rng.integers(0, count + 1, shape).astype(np.uint16))
+    middles = middle_points(graph)
+    assert (place_middles(graph, corner=(0, 0, 0), shape=shape) == middles).all()
+    cells = rng.random(shape) < 0.2
+    beside, far, limit = np.zeros(len(middles), dtype=bool), np.zeros(shape, dtype=bool), 0.4
+    points, cell_size = (middles + rng.uniform(-0.5, 0.5, middles.shape)).astype(np.float32), np.array([1.0, 0.5, 2.0])
+    is_far = np.linalg.norm((points - middles) * cell_size, axis=1) > limit
+    for chosen, corners in simplices(graph):
+        beside[chosen] = np.any([cells_at(cells, corner) for corner in corners], axis=0)
+        for corner in corners:
+            far[tuple(np.clip(corner[is_far[chosen]] - 1, 0, np.array(shape) - 1).T)] = True
+    marked = np.zeros(shape, dtype=bool)
+    mark_far(graph, points, cell_size, limit, marked)
+    assert (marked == far).all()
+    assert (mark_beside(graph, cells) == beside).all()
+    sides = graph.sides[beside[graph.triangles].any(axis=1)]
+    labels = mark_labels(graph, beside, count + 1)
+    assert np.flatnonzero(labels).tolist() == np.unique(sides[sides != OUTSIDE]).tolist()
+
+
+@settings(max_examples=8, deadline=None)
+@given(st.tuples(*[st.integers(2, 9)] * 3), st.integers(0, 5), st.integers(0, 10**6))
+def test_points_and_triangles_are_counted_without_walls(shape: tuple[int, int, int], count: int, seed: int) -> None:
+    labels = np.random.default_rng(seed).integers(0, count + 1, shape).astype(np.uint16)
+    graph = trace_walls(labels)
+    points, triangles = count_parts(labels, count + 1)
+    for number in range(1, count + 1):
+        assert triangles[number] == (graph.sides == number).sum()
+        assert points[number] == sum(
+            (cells_at(labels, corner) == number).sum() for _, corners in simplices(graph) for corner in corners
+        )
+
+
+@pytest.mark.parametrize("spacing", [1.0, (0.5, 0.5, 1.7)])
+def test_walls_traced_in_the_box_of_a_label_are_those_of_all(spacing: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    labels = voronoi((18, 16, 14), 7, 3)
+    after = labels.copy()
+    after[2:7, 3:9, 4:8] = labels[12, 4, 5]
+    checks = []
+    for most in (partitions.MOST_BOXES, 0):
+        monkeypatch.setattr(partitions, "MOST_BOXES", most)
+        check = check_of(labels, after, spacing=spacing)
+        checks.append((check.deviations(), [check.given(number) for number in range(1, 8)]))
+        assert (check._whole is None) == bool(most)
+    (deviations, parts), (all_deviations, all_parts) = checks
+    assert deviations == all_deviations
+    assert any(deviations)
+    for part, of_all in zip(parts, all_parts, strict=True):
+        assert (part.surface.faces == of_all.surface.faces).all()
+        assert (part.surface.vertices == of_all.surface.vertices).all()
+        assert (part.unsettled == of_all.unsettled).all()
 
 
 @pytest.mark.parametrize("name", NASTY)
@@ -196,7 +257,7 @@ def test_the_verdict_is_on_the_triangles_that_are_written() -> None:
     check = check_of(labels, labels)
     words = set()
     for number, label in labels_of(coarse).items():
-        deviation = measure_deviation(check.original.surface(number), coarse.surfaces[f"label_{number}"], cell=1.0)
+        deviation = measure_deviation(check.given(number).surface, coarse.surfaces[f"label_{number}"], cell=1.0)
         farthest = max(deviation.there.max, deviation.back.max)
         distance = label["distance"]
         assert max(distance["result"]["max"], distance["input"]["max"]) == pytest.approx(farthest, abs=1e-6)

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from infill.smoothing.label_stages import LabelStages
     from infill.smoothing.request import SmoothOptions
     from infill.smoothing.settings import SmoothSettings
+    from infill.surface import Surface
 
 MOST_ROWS = 60  # labels in the summary
 UNFIT = ("units", "resolution", "voxel", "shell", "threshold", "range", "otsu", "grey", "by_component")
@@ -222,8 +223,15 @@ def _parts(result: Result[LabelStages, Any], written: SmoothOutput) -> dict[Path
                 continue
             if path in parts:
                 raise OutputError(f"{path} would be written for several labels; put {{label}} in the name")
-            parts[path] = partial(write, result.surfaces[name])
+            parts[path] = partial(_write_surface, result.surfaces, name, write)
     return parts
+
+
+def _write_surface(
+    surfaces: Mapping[str, Surface], name: str, write: Callable[[Surface, BinaryIO], object], file: BinaryIO
+) -> None:
+    """Write one of several surfaces, which may be made when it is asked for."""
+    write(surfaces[name], file)
 
 
 def _together_text(label: TogetherLabel) -> str:

@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from infill.inspection.changes import ConnectionCounts
-from infill.partition.simplices import cells_at, simplices
-from infill.partition.walls import OUTSIDE, WallGraph
+from infill.partition.walls import count_parts
 
 # Cells are neighbours along every edge of the tetrahedra that they are cut into, those of a label and those beside it.
 NEIGHBOURS = np.array(
@@ -18,21 +17,23 @@ NEIGHBOURS = np.array(
 )
 
 
-def count_connections(graph: WallGraph, count: int) -> list[ConnectionCounts]:
+def count_connections(winners: NDArray[np.uint16], count: int, *, threads: int | None = None) -> list[ConnectionCounts]:
     """Count the connections of every label, 0 first; that of 0 counts nothing.
 
     Components and cavities are those of cells; tunnels follow from them and the Euler number of the surface, which is
     its number of points less half the number of its triangles.
+
+    Parameters
+    ----------
+    winners : (n0, n1, n2) uint16
+        The label of every cell.
+    count : int
+        Labels, 0 among them.
     """
-    corners = np.zeros(count, dtype=np.int64)
-    for _, places in simplices(graph):
-        for place in places:
-            corners += np.bincount(cells_at(graph.winners, place), minlength=count)
-    inner = graph.sides[:, 1] != OUTSIDE
-    faces = np.bincount(graph.sides[:, 0], minlength=count) + np.bincount(graph.sides[inner, 1], minlength=count)
-    euler = corners - faces // 2
-    grids: list[Any] = [_find_box_of_rest(graph.winners), *ndimage.find_objects(graph.winners, max_label=count - 1)]
-    regions = [_find_regions(graph.winners, box, number) for number, box in enumerate(grids)]
+    points, triangles = count_parts(winners, count, threads=threads)
+    euler = points - triangles // 2
+    grids: list[Any] = [_find_box_of_rest(winners), *ndimage.find_objects(winners, max_label=count - 1)]
+    regions = [_find_regions(winners, box, number) for number, box in enumerate(grids)]
     owners = np.repeat(np.arange(count), [len(region) for region in regions])
     boxes = np.concatenate(regions)
     counts = [ConnectionCounts.of(components=0, cavities=0, tunnels=0)]
@@ -42,7 +43,7 @@ def count_connections(graph: WallGraph, count: int) -> list[ConnectionCounts]:
             low, high = region[:, 0].min(axis=0), region[:, 1].max(axis=0)
             inside = (boxes[:, 0] > low).all(axis=1) & (boxes[:, 1] < high).all(axis=1)
             if (owners[inside] != number).any():  # else nothing can be enclosed
-                solid = graph.winners[tuple(map(slice, low, high))] == number
+                solid = winners[tuple(map(slice, low, high))] == number
                 cavities = ndimage.label(np.pad(~solid, 1, constant_values=True), structure=NEIGHBOURS)[1] - 1
         tunnels = len(region) + cavities - int(euler[number]) // 2
         counts.append(ConnectionCounts.of(components=len(region), cavities=cavities, tunnels=tunnels))

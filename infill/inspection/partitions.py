@@ -20,59 +20,44 @@ from infill.inspection.bricks import TopologyCheck
 from infill.inspection.changes import TopologyChanges
 from infill.inspection.deviation import COUNTS, KEPT, LOST, THIN, Deviation, measure_deviation
 from infill.inspection.label_connections import count_connections
-from infill.partition.simplices import cells_at, middle_points, simplices
-from infill.partition.walls import WallGraph, trace_walls
+from infill.kernels.threads import in_order, thread_count
+from infill.partition.wall_points import mark_beside, mark_far, mark_labels, place_middles
+from infill.partition.walls import LabelCutter, WallGraph, cut_triangles, trace_walls
 from infill.surface import Surface
 from infill.volume import Volume
 
 # In units of distance around changed cells: where points are measured, and the walls to which they are measured first.
 NEAR, AROUND = 2, 4
+MOST_BOXES = 8  # of the grid: cells in the boxes of all labels, up to which walls are traced in each
+LARGE = 2**20  # triangles of a label: it alone is measured by several threads
 OPENED = np.ones((2, 2, 2), dtype=bool)  # thicker than one cell: this fits in
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class LabelPoints:
-    """The points of a partition's walls in space, and its triangles, grouped by label.
+class LabelPart:
+    """The surface of a label, or parts of it, and where its points lie.
 
     Parameters
     ----------
-    points : (P, 3) float64, mm
-    triangles : (T, 3) int64
-    sides : (T, 2) int32
-        Numbers of the labels behind and before each triangle.
+    surface : Surface, mm
+    cells : (V, 3) float
+        Its points, in cells.
+    unsettled : (V,) bool
+        Points whose edge, face or tetrahedron has a corner in a changed cell.
     """
 
-    points: Floats
-    triangles: NDArray[np.integer]
-    sides: NDArray[np.int32]
+    surface: Surface
+    cells: NDArray[np.floating]
+    unsettled: NDArray[np.bool_]
 
-    @cached_property
-    def _orders(self) -> tuple[NDArray[np.int64], ...]:
-        """The triangles by the label behind them, and by that before them."""
-        return tuple(np.argsort(side, kind="stable") for side in self.sides.T)
-
-    @cached_property
-    def _sorted(self) -> tuple[NDArray[np.int32], ...]:
-        """The labels in these orders."""
-        return tuple(side[order] for side, order in zip(self.sides.T, self._orders, strict=True))
-
-    def faces(self, number: int) -> NDArray[np.int64]:
-        """Return the triangles of a label, which face away from it, (F, 3)."""
-        behind, before = (
-            order[slice(*np.searchsorted(labels, [number, number + 1]))]
-            for order, labels in zip(self._orders, self._sorted, strict=True)
-        )
-        return np.concatenate([self.triangles[behind], self.triangles[before][:, ::-1]])
-
-    def surface(self, number: int) -> Surface:
-        """Return the surface of a label, with its own points alone."""
-        used, corners = np.unique(self.faces(number), return_inverse=True)
-        return Surface(vertices=self.points[used], faces=corners.reshape(-1, 3))
-
-    def within(self, chosen: NDArray[np.bool_]) -> LabelPoints:
-        """Return the triangles of those points alone."""
-        kept = chosen[self.triangles].any(axis=1)
-        return LabelPoints(points=self.points, triangles=self.triangles[kept], sides=self.sides[kept])
+    def within(self, chosen: NDArray[np.bool_]) -> Surface:
+        """Return the triangles with chosen points (V,), and their points alone."""
+        faces = self.surface.faces
+        kept = faces[mark_faces(faces, chosen)]
+        used = np.zeros(len(chosen), dtype=bool)
+        used[kept] = True
+        rank = np.cumsum(used, dtype=kept.dtype) - 1
+        return Surface(vertices=self.surface.vertices[used], faces=rank[kept])
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -91,6 +76,8 @@ class PartitionCheck:
         The place of the cells in space.
     count : int
         Labels, 0 among them.
+    cutter : LabelCutter, optional
+        Of these walls, if there is one already.
     written : mapping of int to Surface
         The surfaces that are written, by the number of the label, where they have fewer triangles than these walls.
     leeway : float, mm
@@ -104,6 +91,7 @@ class PartitionCheck:
     points: NDArray[np.float32]
     volume: Volume
     count: int
+    cutter: LabelCutter | None = None
     written: Mapping[int, Surface] = field(default_factory=dict)
     leeway: float = 0.0
     threads: int | None = None
@@ -114,47 +102,85 @@ class PartitionCheck:
         return float(self.volume.cell_size.max())
 
     @cached_property
-    def original(self) -> LabelPoints:
-        """The walls between the given labels."""
-        return self._place(self._original_graph, self._original_points)
+    def _cutter(self) -> LabelCutter:
+        """Cuts the surfaces of labels after smoothing out of all walls."""
+        return self.cutter or LabelCutter.of(self.graph.triangles, self.graph.sides, self.count)
 
     @cached_property
-    def _original_points(self) -> Floats:
-        """The points of these walls, in cells."""
-        return middle_points(self._original_graph)
+    def _boxes(self) -> list[tuple[slice, ...] | None]:
+        """The cells that hold each label before smoothing and one around them, that of 1 first."""
+        boxes = ndimage.find_objects(self.numbers, max_label=self.count - 1)
+        return [box and tuple(slice(max(0, side.start - 1), side.stop + 1) for side in box) for box in boxes]
 
     @cached_property
-    def result(self) -> LabelPoints:
-        """The walls after smoothing."""
-        return self._place(self.graph, self.points)
+    def _whole(self) -> tuple[WallGraph, LabelCutter] | None:
+        """The walls between all given labels, where tracing them in the box of every label would take longer."""
+        shape = self.numbers.shape
+        cells = sum(
+            np.prod([len(range(*side.indices(n))) for side, n in zip(box, shape, strict=True)])
+            for box in self._boxes
+            if box
+        )
+        if cells <= MOST_BOXES * self.numbers.size:
+            return None
+        graph = trace_walls(self.numbers, threads=self.threads)
+        return graph, LabelCutter.of(graph.triangles, graph.sides, self.count)
 
-    @cached_property
-    def _original_graph(self) -> WallGraph:
-        """The walls between the given labels, as they are numbered."""
-        return trace_walls(self.numbers, threads=self.threads)
+    def given(self, number: int) -> LabelPart:
+        """Return the surface of a label before smoothing."""
+        box = self._boxes[number - 1]
+        if box is None:
+            return LabelPart(
+                surface=Surface(vertices=np.empty((0, 3)), faces=np.empty((0, 3), dtype=np.int32)),
+                cells=np.empty((0, 3)),
+                unsettled=np.empty(0, dtype=bool),
+            )
+        if self._whole is not None:
+            graph, cutter = self._whole
+            cut, corner, changed = cutter.cut(number), (0, 0, 0), self.changed
+        else:
+            graph = trace_walls(np.ascontiguousarray(self.numbers[box]), threads=1)
+            behind, before = (np.flatnonzero(side == number) for side in graph.sides.T)
+            cut, corner = cut_triangles(graph.triangles, behind, before, number), tuple(side.start for side in box)
+            changed = np.ascontiguousarray(self.changed[box])
+        cells = place_middles(graph, corner=corner, shape=self.numbers.shape)[cut.points]
+        unsettled = mark_beside(graph, changed, threads=1)[cut.points]
+        return LabelPart(surface=self._place(cells, cut.faces), cells=cells, unsettled=unsettled)
 
-    def _place(self, graph: WallGraph, points: NDArray[np.floating]) -> LabelPoints:
-        """Place the walls in space."""
-        triangles = graph.triangles[:, ::-1] if self.volume.mirrored else graph.triangles
-        places = self.volume.place(points.astype(np.float64) * self.volume.cell_size)
-        return LabelPoints(points=places, triangles=triangles, sides=graph.sides)
+    def result(self, number: int) -> LabelPart:
+        """Return the surface of a label after smoothing, with all triangles."""
+        cut = self._cutter.cut(number)
+        cells = self.points[cut.points]
+        return LabelPart(surface=self._place(cells, cut.faces), cells=cells, unsettled=self._unsettled[cut.points])
+
+    def surface(self, number: int) -> Surface:
+        """Return the surface of a label after smoothing, as it is written."""
+        return self.written[number] if number in self.written else self.result(number).surface
+
+    def _place(self, cells: NDArray[np.floating], faces: NDArray[np.integer]) -> Surface:
+        """Place a surface in space."""
+        vertices = self.volume.place(cells.astype(np.float64) * self.volume.cell_size)
+        return Surface(vertices=vertices, faces=faces[:, ::-1] if self.volume.mirrored else faces)
 
     @cached_property
     def changed(self) -> NDArray[np.bool_]:
         """Cells whose label has changed, or beside which a point of a wall lies far from the middle."""
         changed = np.asarray(self.graph.winners != self.numbers)
-        shift = (self.points - middle_points(self.graph)) * self.volume.cell_size
-        far = np.linalg.norm(shift, axis=1) > KEPT * self.cell - self.leeway
-        if far.any():
-            last = np.array(changed.shape) - 1
-            for chosen, corners in simplices(self.graph):
-                for corner in corners:
-                    changed[tuple(np.clip(corner[far[chosen]] - 1, 0, last).T)] = True
+        limit = KEPT * self.cell - self.leeway
+        mark_far(self.graph, self.points, self.volume.cell_size, limit, changed, threads=self.threads)
         return changed
+
+    @cached_property
+    def _unsettled(self) -> NDArray[np.bool_]:
+        """The points of walls after smoothing (P,) whose edge, face or tetrahedron has a corner in a changed cell."""
+        return mark_beside(self.graph, self.changed, threads=self.threads)
 
     def topology(self) -> list[TopologyCheck]:
         """Compare the connections of every label, 0 first; that of 0 counts nothing."""
-        before, after = (count_connections(graph, self.count) for graph in (self._original_graph, self.graph))
+        before, after = (
+            count_connections(winners, self.count, threads=self.threads)
+            for winners in (self.numbers, self.graph.winners)
+        )
         return [
             TopologyCheck(
                 data=data,
@@ -172,40 +198,63 @@ class PartitionCheck:
         deviations: list[Deviation | None] = [None] * self.count
         if not self.changed.any():
             return deviations
+        is_unsettled = mark_labels(self.graph, self._unsettled, self.count, threads=self.threads)
         reach = self.cell / self.volume.cell_size  # of a unit, along each axis, in cells
-        is_around, is_near = (
+        around, near = (
             dilate_cells(self.changed, tuple(np.ceil(cells * reach).astype(int).tolist())) for cells in (AROUND, NEAR)
         )
-        places = _Places(cells=is_near, volume=self.volume)
-        sides = (self.original, self._original_graph, self._original_points), (self.result, self.graph, self.points)
-        around = [walls.within(_look_up(is_around, points)) for walls, _, points in sides]
-        unsettled = [walls.within(find_unsettled(graph, self.changed)) for walls, graph, _ in sides]
-        numbers = np.unique(np.concatenate([walls.sides.ravel() for walls in unsettled]))
-        for number in numbers[numbers > 0].tolist():
-            parts = [walls.surface(number) for walls in unsettled]
-            near = [Surface(vertices=walls.points, faces=walls.faces(number)) for walls in around]
-            limits: _Places | None = None
-            if number in self.written:  # its triangles are not those of the walls, so places decide what is measured
-                parts[1] = near[1] = self.written[number]
-                limits = places
-            if all(len(surface.faces) for surface in (*parts, *near)):
-                deviation = self._measure(number, *near, uncertain=limits, sampled=(parts[0], parts[1]))
-                far = max(deviation.there.max, deviation.back.max, deviation.thin_distance)
-                if far <= LOST * self.cell:  # exact: what is further away would be further than that
-                    deviations[number] = deviation if far > KEPT * self.cell else None
-                    continue
-            surfaces = self.original.surface(number), self.surface(number)
-            if all(len(surface.faces) for surface in surfaces):  # else it is gone
-                deviations[number] = self._measure(number, *surfaces, uncertain=places)
+        _ = self._whole, self._cutter, self._boxes  # made before threads ask for them
+
+        def compare(number: int) -> Deviation | None:
+            return self._compare(number, around, near, is_unsettled=bool(is_unsettled[number]))
+
+        for number, deviation in in_order(compare, range(1, self.count), threads=thread_count(self.threads)):
+            deviations[number] = deviation
         return deviations
 
-    def surface(self, number: int) -> Surface:
-        """Return the surface of a label after smoothing, as it is written."""
-        return self.written[number] if number in self.written else self.result.surface(number)
+    def _compare(
+        self, number: int, around: NDArray[np.bool_], near: NDArray[np.bool_], *, is_unsettled: bool
+    ) -> Deviation | None:
+        """Measure where the walls of a label are far apart; None if they are sure to be near.
+
+        Parameters
+        ----------
+        number : int
+        around, near : (n0, n1, n2) bool
+            Cells beside changed ones: see `AROUND`.
+        is_unsettled : bool
+            Whether its walls after smoothing have unsettled points.
+        """
+        box = self._boxes[number - 1]
+        if not is_unsettled and (box is None or not self.changed[box].any()):
+            return None
+        given = self.given(number)
+        if not is_unsettled and not given.unsettled.any():
+            return None
+        parts, beside = [given.within(given.unsettled)], [given.within(look_up(around, given.cells))]
+        places, limits = _Places(cells=near, volume=self.volume), None
+        if number in self.written:  # its triangles are not those of the walls, so places decide what is measured
+            written = self.written[number]
+            parts.append(written)
+            beside.append(written)
+            limits = places
+        else:
+            result = self.result(number)
+            written = result.surface
+            parts.append(result.within(result.unsettled))
+            beside.append(result.within(look_up(around, result.cells)))
+        if all(len(surface.faces) for surface in (*parts, *beside)):
+            deviation = self._measure(number, *beside, uncertain=limits, sampled=(parts[0], parts[1]))
+            far = max(deviation.there.max, deviation.back.max, deviation.thin_distance)
+            if far <= LOST * self.cell:  # exact: what is further away would be further than that
+                return deviation if far > KEPT * self.cell else None
+        if len(given.surface.faces) and len(written.faces):  # else it is gone
+            return self._measure(number, given.surface, written, uncertain=places)
+        return None
 
     def exact_deviation(self, number: int) -> Deviation:
         """Measure the distances between both surfaces of a label everywhere."""
-        surfaces = self.original.surface(number), self.surface(number)
+        surfaces = self.given(number).surface, self.surface(number)
         return measure_deviation(
             *surfaces, cell=self.cell, kinds=_ThicknessOf(number=number, check=self), threads=self.threads
         )
@@ -228,7 +277,8 @@ class PartitionCheck:
             exact=False,
             uncertain=uncertain,
             sampled=sampled,
-            threads=self.threads,
+            # Others are measured at the same time.
+            threads=1 if len(result.faces) < LARGE else self.threads,
         )
 
 
@@ -241,7 +291,7 @@ class _Places:
 
     def hold(self, points: Floats, *, threads: int | None = None) -> NDArray[np.bool_]:  # noqa: ARG002 - as others
         """Tell for points (N, 3), mm, whether they lie in the cells."""
-        return _look_up(self.cells, _to_cells(points, self.volume))
+        return look_up(self.cells, _to_cells(points, self.volume))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -275,7 +325,7 @@ def _to_cells(points: Floats, volume: Volume) -> Floats:
     return np.asarray((points - np.array(volume.origin)) @ np.asarray(volume.direction) / volume.cell_size)
 
 
-def _look_up(cells: NDArray[np.bool_], points: NDArray[np.floating]) -> NDArray[np.bool_]:
+def look_up(cells: NDArray[np.bool_], points: NDArray[np.floating]) -> NDArray[np.bool_]:
     """Return the values of the cells that hold points (N, 3), in cells; points outside are in the nearest one."""
     at = points.astype(np.int32)  # towards 0: the nearest cell is the first, there
     return np.asarray(cells[tuple(np.clip(at[:, axis], 0, cells.shape[axis] - 1) for axis in range(3))])
@@ -298,9 +348,6 @@ def dilate_cells(cells: NDArray[np.bool_], reach: tuple[int, ...]) -> NDArray[np
     return wider
 
 
-def find_unsettled(graph: WallGraph, changed: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Mark the points of walls (P,) whose edge, face or tetrahedron has a corner in a changed cell."""
-    unsettled = np.zeros(graph.point_count, dtype=bool)
-    for chosen, corners in simplices(graph):
-        unsettled[chosen] = np.any([cells_at(changed, corner) for corner in corners], axis=0)
-    return unsettled
+def mark_faces(faces: NDArray[np.integer], chosen: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Mark the faces (F, 3) with a chosen corner."""
+    return np.asarray(chosen[faces[:, 0]] | chosen[faces[:, 1]] | chosen[faces[:, 2]])

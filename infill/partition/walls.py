@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.kernels import cutting
+from infill.kernels import cutting, wall_points
 from infill.kernels import partition as kernels
 from infill.kernels.threads import in_order, in_threads, thread_count
 from infill.partition.fields import PartitionFields
@@ -65,6 +65,11 @@ class WallGraph:
     starts: NDArray[np.int64]
     triangles: NDArray[np.integer]
     sides: NDArray[np.int32]
+
+    @property
+    def rows(self) -> tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.int32], NDArray[np.int64]]:
+        """Where the points of rows are, as kernels take it."""
+        return self.row_starts, self.bases, self.masks, self.starts
 
     @property
     def point_count(self) -> int:
@@ -154,10 +159,9 @@ def place_walls(
     """
     count = thread_count(threads)
     points = np.empty((graph.point_count, 3), dtype=np.float32)
-    rows = graph.row_starts, graph.bases, graph.masks, graph.starts
     added = np.asarray(offsets, dtype=np.float32)
     values = fields.entries, fields.labels, fields.slots, fields.values, added
-    in_threads(kernels.place_points, graph.winners, *CUTTING, SLOTS_AT, *rows, *values, points, threads=count)
+    in_threads(kernels.place_points, graph.winners, *CUTTING, SLOTS_AT, *graph.rows, *values, points, threads=count)
     if shifts is not None:
         points[shifts.points] += shifts.vectors
     volumes = measure_volumes(graph, points, fields.count, scale=scale, threads=threads)
@@ -182,6 +186,18 @@ def measure_volumes(
     return volumes
 
 
+def count_parts(
+    winners: NDArray[np.uint16], labels: int, *, threads: int | None = None
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Count the points and the triangles of every label, (labels,) each, without tracing its walls."""
+    count, tables = thread_count(threads), make_tables()
+    points, triangles = (np.zeros((count, labels), dtype=np.int64) for _ in range(2))
+    of_cubes = winners, *CUTTING[1:], SLOTS_AT, tables.counts, tables.triangles
+    of_sides = tables.flat_counts, tables.flat_triangles
+    in_threads(wall_points.count_parts, *of_cubes, *of_sides, points, triangles, threads=count)
+    return points.sum(axis=0), triangles.sum(axis=0)
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class CutLabel:
     """The triangles around one label, which face away from it.
@@ -200,26 +216,62 @@ class CutLabel:
     faces: NDArray[np.integer]
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class LabelCutter:
+    """Cuts the walls of single labels out of those of all.
+
+    Parameters
+    ----------
+    triangles : (T, 3) int
+    starts : (labels + 1, 2) int64
+        Where those of each label begin in `behind` and `before`.
+    behind, before : (N,), (M,) int
+        The triangles by the label behind them, and by that before them.
+    """
+
+    triangles: NDArray[np.integer]
+    starts: NDArray[np.int64]
+    behind: NDArray[np.integer]
+    before: NDArray[np.integer]
+
+    @classmethod
+    def of(cls, triangles: NDArray[np.integer], sides: NDArray[np.int32], labels: int) -> LabelCutter:
+        """Sort triangles (T, 3) by the labels on both sides, (T, 2), of which there are `labels`, 0 among them."""
+        starts = np.zeros((labels + 1, 2), dtype=np.int64)
+        cutting.count_sides(sides, starts)
+        kind = np.int32 if len(triangles) < np.iinfo(np.int32).max else np.int64
+        behind, before = (np.empty(starts[-1, side], dtype=kind) for side in range(2))
+        cutting.sort_sides(sides, starts[:-1].copy(), behind, before)
+        return cls(triangles=triangles, starts=starts, behind=behind, before=before)
+
+    def cut(self, label: int) -> CutLabel:
+        """Cut out the walls of a label."""
+        behind, before = (
+            order[self.starts[label, side] : self.starts[label + 1, side]]
+            for side, order in enumerate((self.behind, self.before))
+        )
+        return cut_triangles(self.triangles, behind, before, label)
+
+
+def cut_triangles(
+    triangles: NDArray[np.integer], behind: NDArray[np.integer], before: NDArray[np.integer], label: int
+) -> CutLabel:
+    """Cut out the triangles that have a label behind them, (N,), and those that have it before them, (M,)."""
+    faces = np.empty((len(behind) + len(before), 3), dtype=triangles.dtype)
+    if not len(faces):
+        return CutLabel(label=label, points=np.empty(0, dtype=np.int64), faces=faces)
+    low, high = cutting.find_ends(triangles, behind, before)
+    words = np.zeros((high - low) // cutting.WORD + 1, dtype=np.uint32)
+    starts = np.empty(len(words), dtype=np.int32)
+    points = np.empty(cutting.mark_points(triangles, behind, before, low, words, starts), dtype=np.int64)
+    cutting.list_points(words, low, points)
+    cutting.number_faces(triangles, behind, before, low, words, starts, faces)
+    return CutLabel(label=label, points=points, faces=faces)
+
+
 def cut_labels(walls: Walls, labels: int, *, threads: int | None = None) -> Iterator[CutLabel]:
     """Yield the walls of labels 1, 2 ... up to but without `labels`; labels without any are left out."""
-    count = thread_count(threads)
-    starts = np.zeros((labels + 1, 2), dtype=np.int64)
-    cutting.count_sides(walls.sides, starts)
-    kind = np.int32 if len(walls.triangles) < np.iinfo(np.int32).max else np.int64
-    orders = [np.empty(starts[-1, side], dtype=kind) for side in range(2)]
-    cutting.sort_sides(walls.sides, starts[:-1].copy(), *orders)
-    tables = [np.full(len(walls.points), -1, dtype=walls.triangles.dtype) for _ in range(count)]
-
-    def cut(label: int) -> CutLabel:
-        behind, before = (order[starts[label, side] : starts[label + 1, side]] for side, order in enumerate(orders))
-        faces = np.empty((len(behind) + len(before), 3), dtype=walls.triangles.dtype)
-        points = np.empty(3 * len(faces), dtype=np.int64)
-        table = tables.pop()  # each thread has one
-        points = np.sort(points[: cutting.list_points(walls.triangles, behind, before, table, points)])
-        cutting.number_faces(walls.triangles, behind, before, table, points, faces)
-        tables.append(table)
-        return CutLabel(label=label, points=points, faces=faces)
-
-    for _, piece in in_order(cut, range(1, labels), threads=count):
+    cutter = LabelCutter.of(walls.triangles, walls.sides, labels)
+    for _, piece in in_order(cutter.cut, range(1, labels), threads=thread_count(threads)):
         if len(piece.faces):
             yield piece

@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import GeometryError, UsageError
-from infill.formats.label_walls import LabelWalls
 from infill.formats.mesh_files import TETRAHEDRA, WALL_WRITERS
 from infill.formats.parts import hex_colour
 from infill.inspection.partitions import PartitionCheck
@@ -19,7 +18,6 @@ from infill.machine import require_memory
 from infill.partition.fields import PartitionFields, smooth_fields
 from infill.partition.simplifying import simplify_partition
 from infill.partition.volumes import SMALLEST, VolumePartition, keep_volumes
-from infill.partition.walls import cut_labels
 from infill.phasefield.profile import PLAIN_PROFILE, REFINED_PROFILE
 from infill.phasefield.refining import refine_bricks
 from infill.phasefield.sparse import SparseField, smooth_bricks
@@ -29,6 +27,7 @@ from infill.reports.sections import with_late_sections
 from infill.reports.smoothing import Distance, TogetherSeconds
 from infill.result import Clock, Result
 from infill.smoothing.label_stages import FACES_PER_RUN, LabelPiece, field_reach
+from infill.smoothing.label_surfaces import LabelMeasures, LabelSurfaces, NumberedSurfaces
 from infill.smoothing.together_checks import (
     WORDS,
     find_label_differences,
@@ -38,7 +37,6 @@ from infill.smoothing.together_checks import (
     summarise_verdicts,
 )
 from infill.smoothing.together_stages import TogetherStages
-from infill.surface import Surface
 
 if TYPE_CHECKING:
     from infill.inspection.bricks import TopologyCheck
@@ -88,8 +86,8 @@ def smooth_together(
     with clock.stage("simplify", 0.7):
         simple = simplify(partition, request.tolerance, volume, threads=request.threads)
     with clock.stage("surface", 0.85):
-        surfaces = cut_surfaces(simple, volume, pieces, threads=request.threads)
-        walls = place_label_walls(simple, volume, pieces)
+        names = [piece.name for piece in pieces]
+        surfaces = LabelSurfaces.of(simple.walls, volume, names, threads=request.threads)
     with clock.stage("check", 0.9):
         if not surfaces:
             raise GeometryError("no label is left after smoothing; give fewer steps")
@@ -98,7 +96,7 @@ def smooth_together(
     report: TogetherReport = {
         **report_head("together"),
         "triangles": len(simple.walls.triangles),
-        "closed": all(surface.closed for surface in surfaces.values()),
+        "closed": all(facts.closed for facts in surfaces.measures.values()),
         "problems": [*problems, *_problems_of_all(labels, gone, simple.crossings)],
         "request": request.facts(),
         "labels": labels,
@@ -116,14 +114,14 @@ def smooth_together(
         segments={piece.name: piece.segment for piece in pieces},
         failed={piece.name: NOTHING_LEFT for piece in gone},
         partition=partition,
-        walls=walls,
+        written=simple.walls,
         volume=volume,
         values=(0, *(piece.segment.value for piece in pieces)),
         max_memory=request.max_memory,
     )
     colours = {piece.name: piece.segment.colour for piece in left if piece.segment.colour is not None}
     writers: dict[str, Callable[[BinaryIO], None]] = {
-        **{suffix: partial(write, walls) for suffix, write in WALL_WRITERS.items()},
+        **{suffix: partial(stages.write_walls, write) for suffix, write in WALL_WRITERS.items()},
         TETRAHEDRA: stages.write_tetrahedra,
     }
     return Result(surfaces=surfaces, report=report, stages=stages, colours=colours, writers=writers)
@@ -206,41 +204,12 @@ def scale_of(volume: Volume) -> tuple[float, ...]:
     return tuple((volume.cell_size / volume.cell_size.min()).tolist())
 
 
-def cut_surfaces(
-    partition: VolumePartition, volume: Volume, pieces: Sequence[LabelPiece], *, threads: int | None = None
-) -> dict[str, Surface]:
-    """Return the surface of every label that is left, by its name; neighbours have the same coordinates at walls."""
-    points, sides = partition.walls.points, volume.cell_size
-    # A turn is done for all points at once: then neighbours have the same coordinates to the last bit.
-    placed = None if (np.asarray(volume.direction) == np.eye(3)).all() else volume.place(points * sides)
-    surfaces = {}
-    for cut in cut_labels(partition.walls, len(pieces) + 1, threads=threads):
-        faces = cut.faces[:, ::-1] if volume.mirrored else cut.faces
-        vertices = volume.place(points[cut.points] * sides) if placed is None else placed[cut.points]
-        surface = Surface(vertices=vertices, faces=faces, space=volume.space)
-        if surface.volume > 0:
-            surfaces[pieces[cut.label - 1].name] = surface
-    return surfaces
-
-
-def place_label_walls(partition: VolumePartition, volume: Volume, pieces: Sequence[LabelPiece]) -> LabelWalls:
-    """Return the walls of all labels in their place, with the values of the labels on both sides."""
-    walls = partition.walls
-    values = np.array([0, *(piece.segment.value for piece in pieces), 0])  # the last is beyond the box
-    labels = values[walls.sides]
-    is_turned = walls.sides[:, 0] == 0  # so that triangles at the outside face outwards
-    labels[is_turned] = labels[is_turned, ::-1]
-    triangles = np.where((is_turned != volume.mirrored)[:, None], walls.triangles[:, ::-1], walls.triangles)
-    points = volume.place(walls.points.astype(np.float64) * volume.cell_size)
-    return LabelWalls(points=points, triangles=triangles, labels=labels)
-
-
 def _judge_labels(
     numbers: NDArray[np.uint16],
     counts: NDArray[np.int64],
     partition: VolumePartition,
     simple: VolumePartition,
-    surfaces: dict[str, Surface],
+    surfaces: LabelSurfaces,
     volume: Volume,
     pieces: Sequence[LabelPiece],
     request: SmoothRequest,
@@ -257,14 +226,14 @@ def _judge_labels(
         With all triangles, and as it is written.
     """
     is_simple = simple is not partition
-    numbered = enumerate(pieces, 1)
     check = PartitionCheck(
         numbers=numbers,
         graph=partition.graph,
         points=partition.walls.points,
         volume=volume,
         count=len(pieces) + 1,
-        written={number: surfaces[piece.name] for number, piece in numbered if is_simple and piece.name in surfaces},
+        cutter=None if is_simple else surfaces.cutter,
+        written=NumberedSurfaces(surfaces=surfaces) if is_simple else {},
         leeway=float(request.tolerance) if is_simple and request.tolerance else 0.0,
         threads=request.threads,
     )
@@ -274,31 +243,31 @@ def _judge_labels(
     for number, piece in enumerate(pieces, 1):
         if piece.name not in surfaces:
             continue
-        cells, surface = int(counts[number]), surfaces[piece.name]
-        change = surface.volume / (cells * volume.cell_volume) - 1
+        cells, facts = int(counts[number]), surfaces.measures[piece.name]
+        change = facts.volume / (cells * volume.cell_volume) - 1
         differences = find_label_differences(
             topologies[number], deviations[number], change if cells >= SMALLEST else None
         )
         verdict = label_verdict(differences, deviations[number], check.cell)
-        keys = _label_keys(piece, surface, cells * volume.cell_volume, topologies[number], verdict)
+        keys = _label_keys(piece, facts, cells * volume.cell_volume, topologies[number], verdict)
         labels.append(with_late_sections(keys, distance=partial(label_distance, check, number)))
         problems += [f"{piece.name}: {problem}" for problem in (*differences.losses, *differences.problems)]
     return labels, problems
 
 
 def _label_keys(
-    piece: LabelPiece, surface: Surface, data: float, topology: TopologyCheck, verdict: TogetherVerdict
+    piece: LabelPiece, facts: LabelMeasures, data: float, topology: TopologyCheck, verdict: TogetherVerdict
 ) -> TogetherLabel:
     """Return the keys of a label in the report; its distances are measured when they are first read."""
     colour = piece.segment.colour
     return {
         **piece.place,
         "colour": None if colour is None else hex_colour(colour),
-        "triangles": len(surface.faces),
-        "closed": surface.closed,
+        "triangles": facts.triangles,
+        "closed": facts.closed,
         "data": data,
-        "volume": surface.volume,
-        "volume_change": surface.volume / data - 1,
+        "volume": facts.volume,
+        "volume_change": facts.volume / data - 1,
         "components_before": topology.data.components,
         "components": topology.result.components,
         "topology": label_topology(topology),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, BinaryIO
@@ -18,6 +19,7 @@ from infill.smoothing.label_stages import LabelStages
 
 if TYPE_CHECKING:
     from infill.partition.volumes import VolumePartition
+    from infill.partition.walls import Walls
     from infill.reports.smoothing import TetrahedraKeys
     from infill.volume import Volume
 
@@ -33,8 +35,8 @@ class TogetherStages(LabelStages):
     ----------
     partition : VolumePartition
         The walls with all triangles, in cells.
-    walls : LabelWalls
-        The walls as they are written, mm.
+    written : Walls
+        The walls as they are written, in cells.
     volume : Volume
         The labels.
     values : tuple of int
@@ -43,10 +45,26 @@ class TogetherStages(LabelStages):
     """
 
     partition: VolumePartition
-    walls: LabelWalls
+    written: Walls
     volume: Volume
     values: tuple[int, ...]
     max_memory: int | None = None
+
+    @property
+    def walls(self) -> LabelWalls:
+        """The walls as they are written, mm, with the values of the labels on both sides."""
+        walls = self.written
+        values = np.array([*self.values, 0])  # the last is beyond the box
+        labels = values[walls.sides]
+        is_turned = walls.sides[:, 0] == 0  # so that triangles at the outside face outwards
+        labels[is_turned] = labels[is_turned, ::-1]
+        triangles = np.where((is_turned != self.volume.mirrored)[:, None], walls.triangles[:, ::-1], walls.triangles)
+        points = self.volume.place(walls.points.astype(np.float64) * self.volume.cell_size)
+        return LabelWalls(points=points, triangles=triangles, labels=labels)
+
+    def write_walls(self, write: Callable[[LabelWalls, BinaryIO], None], file: BinaryIO) -> None:
+        """Write the walls of all labels with a writer of a format."""
+        write(self.walls, file)
 
     @cached_property
     def tetrahedra(self) -> LabelTetrahedra:
