@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
+from scipy import ndimage
 from test_together import NASTY, voronoi
 
 from infill import Smoothing, Surface, Volume, smooth_labels, smooth_volume
@@ -17,6 +18,7 @@ from infill.inspection.deviation import KEPT, measure_deviation
 from infill.inspection.label_connections import count_connections
 from infill.inspection.partitions import PartitionCheck
 from infill.isosurfaces.components import shell_names
+from infill.kernels.thickness import find_thick
 from infill.meshes.shells import shell_volumes
 from infill.partition.simplices import cells_at, middle_points, simplices
 from infill.partition.wall_points import mark_beside, mark_far, mark_labels, place_middles
@@ -203,6 +205,23 @@ def test_marks_of_points_are_those_of_the_corners_between_which_they_lie(
     sides = graph.sides[beside[graph.triangles].any(axis=1)]
     labels = mark_labels(graph, beside, count + 1)
     assert np.flatnonzero(labels).tolist() == np.unique(sides[sides != OUTSIDE]).tolist()
+
+
+@settings(max_examples=8, deadline=None)
+@given(st.tuples(*[st.integers(1, 9)] * 3), st.floats(0.05, 0.95), st.integers(0, 10**6))
+def test_thick_places_are_those_that_a_block_opens(shape: tuple[int, int, int], share: float, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    solid = rng.random(shape) < share
+    places = rng.uniform(0, shape, (200, 3)).round(1)
+    is_thick, position = np.empty(200, dtype=bool), places + 3
+    find_thick(places, solid.astype(np.uint16), 1, is_thick)
+    padded = np.pad(solid, 3, mode="edge")
+    expected = np.ones(200, dtype=bool)
+    for side in (padded, ~padded):
+        thick = ndimage.binary_opening(side, np.ones((2, 2, 2)))
+        cells = [np.floor(position - 0.5 + step).astype(int) for step in np.ndindex(2, 2, 2)]
+        expected &= np.any([thick[tuple(cell.T)] for cell in cells], axis=0)
+    assert (is_thick == expected).all()
 
 
 @settings(max_examples=8, deadline=None)

@@ -213,6 +213,7 @@ def measure_deviation(
     exact: bool = True,
     uncertain: Places | None = None,
     sampled: tuple[Surface, Surface] | None = None,
+    trees: tuple[TriangleTree | None, TriangleTree | None] = (None, None),
     threads: int | None = None,
 ) -> Deviation:
     """Compare a result with the given surface.
@@ -235,6 +236,8 @@ def measure_deviation(
         `exact`, and without holes.
     sampled : (Surface, Surface), optional
         The parts of the given surface and of the result that are measured; by default, all of both.
+    trees : (TriangleTree or None, TriangleTree or None)
+        Of the given surface, with its holes closed if they are, and of the result, if there are any already.
     threads : int, optional
         See `infill.kernels.threads.thread_count`.
     """
@@ -242,11 +245,11 @@ def measure_deviation(
     enough = 0.0 if exact else KEPT * cell
     given_part, result_part = (given, result) if sampled is None else sampled
     points, _, area = sample_surface(result_part, PITCH * cell)
-    distance = _distances(points, given if closed is None else closed, enough, places, threads)
+    distance = _distances(points, given if closed is None else closed, trees[0], enough, places, threads)
     there, added = _gap(points, distance, area, exact=exact), _patches(points, distance, area, cell)
     result_area = float(area.sum())
     points, faces, area = sample_surface(given_part, PITCH * cell)
-    distance = _distances(points, result, enough, places, threads)
+    distance = _distances(points, result, trees[1], enough, places, threads)
     distant = np.flatnonzero(distance > KEPT * cell)
     kind = kinds(points[distant], faces[distant]) if len(distant) else np.empty(0, dtype=np.int64)
     thin_points = distant[kind == THIN]
@@ -276,7 +279,12 @@ def measure_deviation(
 
 
 def _distances(
-    points: Floats, surface: Surface, enough: float, uncertain: Places | None, threads: int | None
+    points: Floats,
+    surface: Surface,
+    tree: TriangleTree | None,
+    enough: float,
+    uncertain: Places | None,
+    threads: int | None,
 ) -> Floats:
     """Return the distance of each point from a surface, (N,), mm; one below `enough` may be too great.
 
@@ -286,7 +294,7 @@ def _distances(
     chosen = np.arange(len(points)) if uncertain is None else np.flatnonzero(uncertain.hold(points, threads=threads))
     if len(chosen):
         order = chosen[morton_order(points[chosen])]
-        distance[order], _ = TriangleTree.of(surface).nearest(points[order], enough=enough, threads=threads)
+        distance[order], _ = (tree or TriangleTree.of(surface)).nearest(points[order], enough=enough, threads=threads)
     return distance
 
 

@@ -7,7 +7,7 @@ point of one is further from the other than their corners are: so only the trian
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -20,7 +20,9 @@ from infill.inspection.bricks import TopologyCheck
 from infill.inspection.changes import TopologyChanges
 from infill.inspection.deviation import COUNTS, KEPT, LOST, THIN, Deviation, measure_deviation
 from infill.inspection.label_connections import count_connections
+from infill.kernels.thickness import find_thick
 from infill.kernels.threads import in_order, thread_count
+from infill.meshes.distance import TriangleTree
 from infill.partition.wall_points import mark_beside, mark_far, mark_labels, place_middles
 from infill.partition.walls import LabelCutter, WallGraph, cut_triangles, trace_walls
 from infill.surface import Surface
@@ -29,8 +31,8 @@ from infill.volume import Volume
 # In units of distance around changed cells: where points are measured, and the walls to which they are measured first.
 NEAR, AROUND = 2, 4
 MOST_BOXES = 8  # of the grid: cells in the boxes of all labels, up to which walls are traced in each
+UNSETTLED_SHARE = 0.25  # of the triangles of a surface
 LARGE = 2**20  # triangles of a label: it alone is measured by several threads
-OPENED = np.ones((2, 2, 2), dtype=bool)  # thicker than one cell: this fits in
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -231,26 +233,37 @@ class PartitionCheck:
         given = self.given(number)
         if not is_unsettled and not given.unsettled.any():
             return None
-        parts, beside = [given.within(given.unsettled)], [given.within(look_up(around, given.cells))]
+        sides = [given]
+        if number in self.written:
+            written = self.written[number]
+        else:
+            sides.append(self.result(number))
+            written = sides[1].surface
+        wholes = given.surface, written
+        if not all(len(surface.faces) for surface in wholes):  # it is gone
+            return None
+        parts = [side.within(side.unsettled) for side in sides]
+        # Where much is unsettled, the tree of all of a surface serves twice.
+        trees = [
+            TriangleTree.of(surface) if len(part.faces) > UNSETTLED_SHARE * len(surface.faces) else None
+            for part, surface in zip(parts, wholes, strict=False)
+        ]
+        beside = [
+            side.within(look_up(around, side.cells)) if tree is None else side.surface
+            for side, tree in zip(sides, trees, strict=True)
+        ]
         places, limits = _Places(cells=near, volume=self.volume), None
         if number in self.written:  # its triangles are not those of the walls, so places decide what is measured
-            written = self.written[number]
             parts.append(written)
             beside.append(written)
+            trees.append(TriangleTree.of(written))
             limits = places
-        else:
-            result = self.result(number)
-            written = result.surface
-            parts.append(result.within(result.unsettled))
-            beside.append(result.within(look_up(around, result.cells)))
         if all(len(surface.faces) for surface in (*parts, *beside)):
-            deviation = self._measure(number, *beside, uncertain=limits, sampled=(parts[0], parts[1]))
+            deviation = self._measure(number, *beside, uncertain=limits, sampled=(parts[0], parts[1]), trees=trees)
             far = max(deviation.there.max, deviation.back.max, deviation.thin_distance)
             if far <= LOST * self.cell:  # exact: what is further away would be further than that
                 return deviation if far > KEPT * self.cell else None
-        if len(given.surface.faces) and len(written.faces):  # else it is gone
-            return self._measure(number, given.surface, written, uncertain=places)
-        return None
+        return self._measure(number, *wholes, uncertain=places, trees=trees)
 
     def exact_deviation(self, number: int) -> Deviation:
         """Measure the distances between both surfaces of a label everywhere."""
@@ -267,6 +280,7 @@ class PartitionCheck:
         *,
         uncertain: _Places | None = None,
         sampled: tuple[Surface, Surface] | None = None,
+        trees: Sequence[TriangleTree | None],
     ) -> Deviation:
         """Measure the distances between both surfaces of a label where they may be large."""
         return measure_deviation(
@@ -277,6 +291,7 @@ class PartitionCheck:
             exact=False,
             uncertain=uncertain,
             sampled=sampled,
+            trees=(trees[0], trees[1]),
             # Others are measured at the same time.
             threads=1 if len(result.faces) < LARGE else self.threads,
         )
@@ -303,26 +318,15 @@ class _ThicknessOf:
 
     def __call__(self, points: Floats, faces: NDArray[np.integer]) -> NDArray[np.integer]:  # noqa: ARG002 - a `Kinds`
         """Return the kind of points (N, 3), mm: `COUNTS` or `THIN`."""
-        places = _to_cells(points, self.check.volume)
-        low, high = (
-            np.clip(end, 0, self.check.numbers.shape) for end in (places.min(axis=0) - 3, places.max(axis=0) + 4)
-        )
-        box = tuple(slice(int(a), int(b)) for a, b in zip(low, high, strict=True))
-        solid = np.pad(self.check.numbers[box] == self.number, 2, mode="edge")
-        position = places - low.astype(np.int64) + 2
-        thick = [ndimage.binary_opening(side, OPENED) for side in (solid, ~solid)]
-        beside = np.zeros((2, len(points)), dtype=bool)
-        for step in np.ndindex(2, 2, 2):
-            cell = np.floor(position - 0.5).astype(np.int64) + step
-            cell = np.clip(cell, 0, np.array(solid.shape) - 1)
-            for side in range(2):
-                beside[side] |= thick[side][tuple(cell.T)]
-        return np.where(beside.all(axis=0), COUNTS, THIN)
+        is_thick = np.empty(len(points), dtype=bool)
+        find_thick(_to_cells(points, self.check.volume), self.check.numbers, self.number, is_thick)
+        return np.where(is_thick, COUNTS, THIN)
 
 
 def _to_cells(points: Floats, volume: Volume) -> Floats:
     """Convert points in space, mm, to cells of a grid."""
-    return np.asarray((points - np.array(volume.origin)) @ np.asarray(volume.direction) / volume.cell_size)
+    turn, places = np.asarray(volume.direction), points - np.array(volume.origin)
+    return np.asarray((places if (turn == np.eye(3)).all() else places @ turn) / volume.cell_size)
 
 
 def look_up(cells: NDArray[np.bool_], points: NDArray[np.floating]) -> NDArray[np.bool_]:
