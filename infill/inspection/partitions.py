@@ -32,6 +32,7 @@ from infill.volume import Volume
 NEAR, AROUND = 2, 4
 MOST_BOXES = 8  # of the grid: cells in the boxes of all labels, up to which walls are traced in each
 UNSETTLED_SHARE = 0.25  # of the triangles of a surface
+LAYERS = 32  # of a grid at a time
 LARGE = 2**20  # triangles of a label: it alone is measured by several threads
 
 
@@ -341,6 +342,15 @@ def dilate_cells(cells: NDArray[np.bool_], reach: tuple[int, ...]) -> NDArray[np
     >>> dilate_cells(np.array([[[False, False, True, False, False, False]]]), (2, 2, 2)).astype(int).tolist()
     [[[1, 1, 1, 1, 1, 0]]]
     """
+    wider = np.empty_like(cells)
+    for begin in range(0, len(cells), LAYERS):  # in slabs, since lists of places are larger than cells
+        low, end = max(0, begin - reach[0]), min(len(cells), begin + LAYERS)
+        wider[begin:end] = _dilate_slab(cells[low : end + reach[0]], reach)[begin - low : end - low]
+    return wider
+
+
+def _dilate_slab(cells: NDArray[np.bool_], reach: tuple[int, ...]) -> NDArray[np.bool_]:
+    """Mark the cells up to `reach` from marked ones, in a part of a grid."""
     wider = cells
     for axis, steps in enumerate(reach):
         at = np.nonzero(wider)

@@ -53,7 +53,7 @@ class PartitionFields:
         rows = self.values[:: max(1, len(self.values) // SAMPLED_BRICKS)].reshape(-1, BRICK[-1])
         low, high = rows[:, :-1], rows[:, 1:]
         crosses = (low > 0) != (high > 0)
-        return float(np.quantile(np.abs(high - low)[crosses], STEEP)) if crosses.any() else 1.0
+        return float(np.quantile(np.abs(high[crosses] - low[crosses]), STEEP)) if crosses.any() else 1.0
 
     def margins(self, bins: int, *, threads: int | None = None) -> NDArray[np.int64]:
         """Count the cells of every label by how much it exceeds the highest other one: (labels, bins) from -2 to 2."""

@@ -51,7 +51,7 @@ class WallMesh:
     points : (P, 3) float64
         In sides of cells.
     triangles : (T, 3) int32
-    sides : (T, 2) int32
+    sides : (T, 2) int
         The lower label is behind the triangle.
     pair : (T,) int32
         A number for the two labels.
@@ -63,7 +63,7 @@ class WallMesh:
 
     points: NDArray[np.float64]
     triangles: NDArray[np.int32]
-    sides: NDArray[np.int32]
+    sides: NDArray[np.integer]
     pair: NDArray[np.int32]
     order: NDArray[np.int8]
     flags: NDArray[np.int8]

@@ -16,6 +16,7 @@ from infill.partition.tetrahedra import FACE_SLOT, FACES, STEPS, TETRAHEDRA, TET
 
 OUTSIDE = kernels.NONE  # instead of a label: beyond the box
 CUTTING = np.array(STEPS), np.array(FACES), np.array(TETRAHEDRA)
+MOST_INT16 = np.iinfo(np.int16).max  # of a label
 SLOTS_AT = np.array([FACE_SLOT, TETRAHEDRON_SLOT])
 
 
@@ -28,7 +29,7 @@ class Walls:
     points : (P, 3) float32
         In cells of the grid, from its lower corner.
     triangles : (T, 3) int32, int64 from 2³¹ points on
-    sides : (T, 2) int32
+    sides : (T, 2) int16, int32 from 2¹⁵ labels on
         The labels behind and before each triangle, which faces the second; `OUTSIDE` beyond the box.
     volumes : (labels,) float64
         Of every label; that of 0 is the rest of the box. Cells.
@@ -36,7 +37,7 @@ class Walls:
 
     points: NDArray[np.float32]
     triangles: NDArray[np.integer]
-    sides: NDArray[np.int32]
+    sides: NDArray[np.integer]
     volumes: NDArray[np.float64]
 
 
@@ -52,22 +53,22 @@ class WallGraph:
         Bases, points and triangles before each row of the lattice, and before the next.
     bases, masks : (b,) int32
         Bases of points along their rows, and the points that each owns, as bits.
-    starts : (b,) int64
+    starts : (b,) int32, int64 from 2³¹ points on
         The number of the first of these.
     triangles : (T, 3) int32, int64 from 2³¹ points on
-    sides : (T, 2) int32
+    sides : (T, 2) int16, int32 from 2¹⁵ labels on
     """
 
     winners: NDArray[np.uint16]
     row_starts: NDArray[np.int64]
     bases: NDArray[np.int32]
     masks: NDArray[np.int32]
-    starts: NDArray[np.int64]
+    starts: NDArray[np.integer]
     triangles: NDArray[np.integer]
-    sides: NDArray[np.int32]
+    sides: NDArray[np.integer]
 
     @property
-    def rows(self) -> tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.int32], NDArray[np.int64]]:
+    def rows(self) -> tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.int32], NDArray[np.integer]]:
         """Where the points of rows are, as kernels take it."""
         return self.row_starts, self.bases, self.masks, self.starts
 
@@ -114,10 +115,10 @@ def trace_walls(winners: NDArray[np.uint16], *, threads: int | None = None) -> W
     row_starts = np.concatenate([ends - sizes, ends], axis=-1)
     base_count, point_count, triangle_count = (int(end) for end in ends.reshape(-1, 3)[-1])
     bases, masks = (np.empty(base_count, dtype=np.int32) for _ in range(2))
-    starts = np.empty(base_count, dtype=np.int64)
+    starts: NDArray[np.integer] = np.empty(base_count, dtype=np.int32 if point_count < 2**31 else np.int64)
     in_threads(kernels.fill_rows, winners, *CUTTING[1:], SLOTS_AT, row_starts, bases, masks, starts, threads=count)
     triangles = np.empty((triangle_count, 3), dtype=np.int32 if point_count < 2**31 else np.int64)
-    sides = np.empty((triangle_count, 2), dtype=np.int32)
+    sides = np.empty((triangle_count, 2), dtype=np.int16 if winners.max(initial=0) <= MOST_INT16 else np.int32)
     inner, flat = (
         (tables.places, tables.counts, tables.triangles),
         (tables.flat_places, tables.flat_counts, tables.flat_triangles),
@@ -235,7 +236,7 @@ class LabelCutter:
     before: NDArray[np.integer]
 
     @classmethod
-    def of(cls, triangles: NDArray[np.integer], sides: NDArray[np.int32], labels: int) -> LabelCutter:
+    def of(cls, triangles: NDArray[np.integer], sides: NDArray[np.integer], labels: int) -> LabelCutter:
         """Sort triangles (T, 3) by the labels on both sides, (T, 2), of which there are `labels`, 0 among them."""
         starts = np.zeros((labels + 1, 2), dtype=np.int64)
         cutting.count_sides(sides, starts)

@@ -86,6 +86,10 @@ class LabelSurfaces(Mapping[str, Surface]):
             self._used[name] = surface
         return surface
 
+    def __contains__(self, name: object) -> bool:
+        """Tell whether a label has a surface, without making it."""
+        return name in self.measures
+
     def __iter__(self) -> Iterator[str]:
         """Iterate over the names."""
         return iter(self.measures)
@@ -143,6 +147,10 @@ class NumberedSurfaces(Mapping[int, Surface]):
     def __getitem__(self, number: int) -> Surface:
         """Return the surface of a label."""
         return self.surfaces[self._names[number]]
+
+    def __contains__(self, number: object) -> bool:
+        """Tell whether a label has a surface, without making it."""
+        return number in self._names
 
     def __iter__(self) -> Iterator[int]:
         """Iterate over the numbers."""
