@@ -259,6 +259,13 @@ def _propose_faces(u, v, points, triangles, fan_u, fan_v, place, moved, chosen):
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
+def _ends_of(corners, axis):
+    """Return the lowest and the highest coordinate of a triangle along an axis."""
+    a, b, c = corners[0, axis], corners[1, axis], corners[2, axis]
+    return min(a, b, c), max(a, b, c)
+
+
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _is_clear(u, v, mesh, fan_u, fan_v, moved, changed, chosen, around, corners, bounds, normal, height):
     """Return True if no face that a collapse would leave passes through a face at one of the neighbours.
 
@@ -281,13 +288,15 @@ def _is_clear(u, v, mesh, fan_u, fan_v, moved, changed, chosen, around, corners,
                     continue
                 for k in range(3):
                     copy_row(corners[k], points[triangles[t, k]])
+                low_x, high_x = _ends_of(corners, 0)
+                low_y, high_y = _ends_of(corners, 1)
+                low_z, high_z = _ends_of(corners, 2)
                 for m in range(changed):
-                    apart = False
-                    for axis in range(3):
-                        low, high = bounds[m, 0, axis], bounds[m, 1, axis]
-                        a, b, c = corners[0, axis], corners[1, axis], corners[2, axis]
-                        apart = apart or (a > high and b > high and c > high) or (a < low and b < low and c < low)
-                    if apart:
+                    if low_x > bounds[m, 1, 0] or high_x < bounds[m, 0, 0]:
+                        continue
+                    if low_y > bounds[m, 1, 1] or high_y < bounds[m, 0, 1]:
+                        continue
+                    if low_z > bounds[m, 1, 2] or high_z < bounds[m, 0, 2]:
                         continue
                     shares = False
                     for k in range(3):
@@ -350,7 +359,8 @@ def sweep_walls(
     watched : tuple
         What must stay near: places (H, 3) float64, watched_heads (T,) int32, next_watched (H,) int32, point (H,) int32,
         original corners (T, 3, 3) float64, star_start (P + 1,) int32, star (3 T,) int32 and the pairs (T,) of the
-        original. Without places, nothing is watched.
+        original, and reach (H,) float64, see `infill.kernels.wall_edges.measure_reach`. Without places, nothing is
+        watched.
     members, starts : (P,) int32, (slabs + 1,) int64
         The points of each slab.
     bound : float

@@ -20,6 +20,7 @@ LEVEL_SPACING = 8.0  # there, places at which the distance is measured are furth
 MAX_WATCHED = 1 << 14  # points on the faces around an edge: where there are more, it stays
 KEEP_SHARE = 0.25  # of a squared tolerance: a point within this of a triangle needs no nearer one
 MOST_SAMPLES = 32  # on an edge
+ROUNDING = 1 + 1e-9  # of a distance
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
@@ -93,9 +94,16 @@ def _near_point(x, y, z, last, of, watched, tolerance, pair, chosen, goes, goes_
             best, nearest = squared, p
     if nearest == NONE or best <= tolerance or _is_near_star(x, y, z, nearest, of, watched, tolerance):
         return nearest
+    distance, reach = math.sqrt(tolerance), watched[8]
     for n in range(taken):
-        if pair[chosen[goes_to[n]]] == of and _is_near_star(x, y, z, goes[n], of, watched, tolerance):
-            return goes[n]
+        if pair[chosen[goes_to[n]]] != of:
+            continue
+        p = goes[n]
+        farthest = ROUNDING * (reach[p] + distance)  # no face at the point is as near beyond
+        if (places[p, 0] - x) ** 2 + (places[p, 1] - y) ** 2 + (places[p, 2] - z) ** 2 > farthest * farthest:
+            continue
+        if _is_near_star(x, y, z, p, of, watched, tolerance):
+            return p
     return NONE
 
 

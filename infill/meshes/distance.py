@@ -36,8 +36,14 @@ class TriangleTree:
     order: NDArray[np.int64]
 
     @classmethod
-    def of(cls, surface: Surface) -> TriangleTree:
+    def of(cls, surface: Surface, *, order: NDArray[np.int64] | None = None) -> TriangleTree:
         """Build the tree of a surface with at least one triangle.
+
+        Parameters
+        ----------
+        surface : Surface, mm
+        order : (F,) int64, optional
+            Of the faces, in which neighbours are near in space, if one is better than that of the curve.
 
         Notes
         -----
@@ -46,12 +52,13 @@ class TriangleTree:
         from infill.kernels.distances import box_leaves
 
         vertices, faces = np.asarray(surface.vertices, dtype=np.float64), surface.faces
-        centroids = vertices[faces[:, 0]]
-        centroids += vertices[faces[:, 1]]
-        centroids += vertices[faces[:, 2]]
-        centroids /= 3
-        order = morton_order(centroids)
-        del centroids  # freed at once: an array as long as the faces adds to the peak of memory
+        if order is None:
+            centroids = vertices[faces[:, 0]]
+            centroids += vertices[faces[:, 1]]
+            centroids += vertices[faces[:, 2]]
+            centroids /= 3
+            order = morton_order(centroids)
+            del centroids  # freed at once: an array as long as the faces adds to the peak of memory
         corners = vertices[faces[order]]
         leaves = 1 << max(0, int(np.ceil(np.log2(-(-len(corners) // LEAF)))))
         low, high = np.empty((2 * leaves - 1, 3)), np.empty((2 * leaves - 1, 3))

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.kernels.threads import thread_count
-from infill.meshes.distance import TriangleTree
+from infill.meshes.distance import TriangleTree, morton_order
 from infill.meshes.intersections import intersecting_pairs
 from infill.partition.junctions import on_side
 from infill.partition.volumes import PRECISION, VolumePartition, neighbour_areas, solve_steps
@@ -133,10 +133,22 @@ def find_far(
 
     far = []
     for mesh, other in ((original, fewer), (fewer, original)):
-        corners = spread(other.points[other.triangles], other.pair[:, None])
+        corners = other.points[other.triangles]
+        order = _order_by_wall(corners.mean(axis=1), other.pair)
+        corners = spread(corners, other.pair[:, None])
         faces = np.arange(3 * len(corners)).reshape(-1, 3)
-        tree = TriangleTree.of(Surface(vertices=corners.reshape(-1, 3), faces=faces))
+        tree = TriangleTree.of(Surface(vertices=corners.reshape(-1, 3), faces=faces), order=order)
         places, pair = mesh.sampled(SIDES_APART * float(np.mean(scale)))
-        distance = tree.nearest(spread(places, pair), enough=SURE * tolerance, threads=threads)[0]
-        far.append(places[distance > SURE * tolerance])
+        order, is_far = _order_by_wall(places, pair), np.empty(len(places), dtype=bool)
+        distance = tree.nearest(spread(places[order], pair[order]), enough=SURE * tolerance, threads=threads)[0]
+        is_far[order] = distance > SURE * tolerance
+        far.append(places[is_far])
     return np.concatenate(far)
+
+
+def _order_by_wall(places: NDArray[np.float64], pair: NDArray[np.int32]) -> NDArray[np.int64]:
+    """Return the order of places (N, 3) wall by wall, with neighbours near each other in each."""
+    order = morton_order(places)
+    # Numbers of 16 bits are sorted faster.
+    walls = pair.astype(np.uint16) if pair.max(initial=0) <= np.iinfo(np.uint16).max else pair
+    return np.asarray(order[np.argsort(walls[order], kind="stable")])

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.kernels import wall_collapsing as kernels
+from infill.kernels import wall_edges as edge_kernels
 from infill.kernels.quadrics import add_planes
 from infill.kernels.threads import in_threads
 from infill.partition.walls import OUTSIDE, WallGraph, Walls
@@ -27,6 +28,7 @@ MOST_PLACES = 150_000  # on them, about
 MOST_PARTS = 64  # of a side of a triangle, between places at which its distance is measured
 RIDGE_HEIGHT = 0.25  # of the tolerance: edges that rise higher above their neighbours are watched in between
 EDGE_SPACING, MOST_ON_EDGE = 4.0, 8  # tolerances between the points watched on an edge, and most of them
+MOST_IN_TABLE = 4096  # labels whose pairs are numbered by a table
 MOST_SWEEPS, LEAST_SWEPT = 12, 0.1  # with one bound, and the share of points that one takes
 
 
@@ -39,6 +41,7 @@ Watched = tuple[
     NDArray[np.int32],
     NDArray[np.int32],
     NDArray[np.int32],
+    NDArray[np.float64],
 ]
 
 
@@ -78,8 +81,7 @@ class WallMesh:
         is_turned = (walls.sides[:, 0] > walls.sides[:, 1]) & (walls.sides[:, 1] != OUTSIDE)
         triangles = np.where(is_turned[:, None], walls.triangles[:, ::-1], walls.triangles).astype(np.int32)
         sides = np.where(is_turned[:, None], walls.sides[:, ::-1], walls.sides)
-        keys = sides[:, 0].astype(np.int64) << 32 | (sides[:, 1].astype(np.int64) & 0xFFFFFFFF)
-        pair = np.unique(keys, return_inverse=True)[1].astype(np.int32)
+        pair = number_pairs(sides)
         flags, order = np.zeros(len(points), dtype=np.int8), np.empty(len(points), dtype=np.int8)
         for axis in range(3):
             for side, at in enumerate((0, shape[axis])):
@@ -160,19 +162,19 @@ class WallMesh:
         """Collect the points that must stay near, once for each wall at them. See `wall_collapsing.sweep_walls`."""
         if tolerance is None:
             none = np.empty(0, dtype=np.int32)
-            return np.empty((0, 3)), none, none, none, np.empty((0, 3, 3)), none, none, none
-        corners = self.triangles.ravel()
-        order = np.argsort(corners, kind="stable").astype(np.int32)
-        star_start = np.searchsorted(corners[order], np.arange(len(self.points) + 1)).astype(np.int32)
-        star = order // 3
-        keys = corners[order].astype(np.int64) << 32 | self.pair[star]
-        one_of_each = np.unique(keys, return_index=True)[1]
+            return np.empty((0, 3)), none, none, none, np.empty((0, 3, 3)), none, none, none, np.empty(0)
+        star_start = np.zeros(len(self.points) + 1, dtype=np.int32)
+        star, on_walls, wall_faces = (np.empty(3 * len(self.triangles), dtype=np.int32) for _ in range(3))
+        edge_kernels.list_stars(self.triangles, star_start, star)
+        count = edge_kernels.list_walls(star_start, star, self.pair, on_walls, wall_faces)
         places, on_edges, edge_faces = self._points_on_edges(tolerance)
-        point = np.concatenate([corners[order][one_of_each], on_edges])
-        face = np.concatenate([star[one_of_each], edge_faces])
-        places = np.concatenate([self.points[point[: len(one_of_each)]], places])
+        point = np.concatenate([on_walls[:count], on_edges])
+        face = np.concatenate([wall_faces[:count], edge_faces])
+        places = np.concatenate([self.points[on_walls[:count]], places])
         heads, after = chain(face, len(self.triangles))
-        return places, heads, after, point, self.points[self.triangles], star_start, star, self.pair.copy()
+        corners, reach = self.points[self.triangles], np.empty(len(places))
+        edge_kernels.measure_reach(places, point, corners, star_start, star, reach)
+        return places, heads, after, point, corners, star_start, star, self.pair.copy(), reach
 
     def _points_on_edges(self, tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]:
         """Set points along the edges at which a wall bends or ends; return them, a point and a face of each edge."""
@@ -247,6 +249,22 @@ class WallMesh:
         )
 
 
+def number_pairs(sides: NDArray[np.integer]) -> NDArray[np.int32]:
+    """Give a number to the pair of labels of each triangle, (T,), in their order; the outside comes last.
+
+    >>> number_pairs(np.array([[1, 3], [0, 1], [1, OUTSIDE], [0, 1]])).tolist()
+    [1, 0, 2, 0]
+    """
+    labels = int(sides.max(initial=0)) + 1
+    keys = sides[:, 0].astype(np.int64) * (labels + 1)
+    keys += np.where(sides[:, 1] == OUTSIDE, np.int64(labels), sides[:, 1])
+    if labels > MOST_IN_TABLE:
+        return np.unique(keys, return_inverse=True)[1].astype(np.int32)
+    present = np.zeros(labels * (labels + 1), dtype=bool)
+    present[keys] = True
+    return np.asarray((np.cumsum(present, dtype=np.int32) - 1)[keys])
+
+
 def edges_of(triangles: NDArray[np.int32]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Return the starts and ends (3 T,) of the edges of triangles (T, 3)."""
     return triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
@@ -263,12 +281,12 @@ def pair_wall_edges(
     single : (S,) int64
         The other edges: there, the wall ends.
     """
-    starts, ends = edges_of(triangles)
-    edge = np.minimum(starts, ends).astype(np.int64) << 32 | np.maximum(starts, ends)
-    order = np.lexsort((np.repeat(pair, 3), edge))
-    edge, pairs = edge[order], np.repeat(pair, 3)[order]
-    same = (edge[1:] == edge[:-1]) & (pairs[1:] == pairs[:-1])
-    return order[:-1][same], order[1:][same], order[~(np.append(same, False) | np.append(False, same))]
+    order, is_next = np.empty(triangles.size, dtype=np.int64), np.empty(triangles.size, dtype=bool)
+    edge_kernels.sort_edges(triangles, pair, np.zeros(int(triangles.max(initial=0)) + 2, dtype=np.int64), order)
+    edge_kernels.match_edges(triangles, pair, order, is_next)
+    at = np.flatnonzero(is_next)
+    is_next[at + 1] = True
+    return order[at], order[at + 1], order[~is_next]
 
 
 def _add_upright_planes(
@@ -298,13 +316,8 @@ def chain(owner: NDArray[np.integer], count: int) -> tuple[NDArray[np.int32], ND
     >>> [part.tolist() for part in chain(np.array([1, 0, 1]), 3)]
     [[1, 0, -1], [2, -1, -1]]
     """
-    order = np.argsort(owner, kind="stable").astype(np.int32)
-    ranked = owner[order]
-    heads, after = np.full(count, -1, dtype=np.int32), np.full(len(owner), -1, dtype=np.int32)
-    same = ranked[1:] == ranked[:-1]
-    after[order[:-1][same]] = order[1:][same]
-    is_first = np.concatenate([np.ones(min(1, len(ranked)), dtype=bool), ~same])
-    heads[ranked[is_first]] = order[is_first]
+    heads, after = np.full(count, -1, dtype=np.int32), np.empty(len(owner), dtype=np.int32)
+    edge_kernels.link_items(np.asarray(owner, dtype=np.int32), heads, after)
     return heads, after
 
 
