@@ -378,6 +378,7 @@ def sweep_walls(
     uses_u, uses_v = np.empty(sides, np.int32), np.empty(sides, np.int32)
     tried, moved, chosen = np.empty(sides, np.bool_), np.empty((sides, 3, 3)), np.empty(2 * sides, np.int32)
     goes, goes_to = np.empty(MAX_WATCHED, np.int32), np.empty(MAX_WATCHED, np.int32)
+    goes_at, normals = np.empty((MAX_WATCHED, 3)), np.empty((sides, 3))
     around, crossing_space = np.empty(MOST_FACES, np.int32), (
         np.empty((3, 3)), np.empty((sides, 2, 3)), np.empty(3), np.empty(3)
     )  # fmt: skip
@@ -416,10 +417,22 @@ def sweep_walls(
                 taken = 0
                 if len(watched[0]):
                     taken = reassign_watched(
-                        u, triangles, pair, fan_v, watched, tolerance, moved, chosen, changed, goes, goes_to
+                        u, triangles, pair, fan_v, watched, tolerance, moved, chosen, changed, goes, goes_to, goes_at
                     )
                     if taken == NONE or not are_faces_near(
-                        place, moved, changed, pair, chosen, watched, tolerance, spacing, goes, goes_to, taken
+                        place,
+                        moved,
+                        changed,
+                        pair,
+                        chosen,
+                        watched,
+                        tolerance,
+                        spacing,
+                        goes,
+                        goes_to,
+                        goes_at,
+                        taken,
+                        normals,
                     ):
                         continue
                     if not _is_clear(u, v, mesh, fan_u, fan_v, moved, changed, chosen, around, *crossing_space):

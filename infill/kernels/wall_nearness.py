@@ -30,10 +30,11 @@ def has_corner(triangles, t, w):
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def reassign_watched(u, triangles, pair, fan_v, watched, tolerance, moved, chosen, changed, goes, goes_to):
+def reassign_watched(u, triangles, pair, fan_v, watched, tolerance, moved, chosen, changed, goes, goes_to, goes_at):
     """Find for each watched point of the faces at an edge the nearest face of its wall; return their number, or -1.
 
-    -1 stands for a point that would be too far from its wall, or too many points.
+    -1 stands for a point that would be too far from its wall, or too many points. `goes`, `goes_to` and `goes_at` are
+    work space: the numbers, the new faces and the places of these points.
     """
     places, watched_heads, next_watched = watched[0], watched[1], watched[2]
     gone = 0
@@ -59,6 +60,7 @@ def reassign_watched(u, triangles, pair, fan_v, watched, tolerance, moved, chose
             if best > tolerance or count == len(goes):
                 return NONE
             goes[count], goes_to[count] = p, nearest
+            goes_at[count, 0], goes_at[count, 1], goes_at[count, 2] = x, y, z
             count += 1
             p = next_watched[p]
     return count
@@ -79,19 +81,15 @@ def _is_near_star(x, y, z, p, of, watched, tolerance):
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _near_point(x, y, z, last, of, watched, tolerance, pair, chosen, goes, goes_to, taken):
+def _near_point(x, y, z, last, of, watched, tolerance, pair, chosen, goes, goes_to, goes_at, taken):
     """Return a watched point with a face of its wall near a place, `last` if it has one; -1 if there is none."""
     if last != NONE and _is_near_star(x, y, z, last, of, watched, tolerance):
         return last
-    places = watched[0]
     best, nearest = math.inf, NONE
     for n in range(taken):
-        if pair[chosen[goes_to[n]]] != of:
-            continue
-        p = goes[n]
-        squared = (places[p, 0] - x) ** 2 + (places[p, 1] - y) ** 2 + (places[p, 2] - z) ** 2
-        if squared < best:
-            best, nearest = squared, p
+        squared = (goes_at[n, 0] - x) ** 2 + (goes_at[n, 1] - y) ** 2 + (goes_at[n, 2] - z) ** 2
+        if squared < best and pair[chosen[goes_to[n]]] == of:
+            best, nearest = squared, goes[n]
     if nearest == NONE or best <= tolerance or _is_near_star(x, y, z, nearest, of, watched, tolerance):
         return nearest
     distance, reach = math.sqrt(tolerance), watched[8]
@@ -100,7 +98,7 @@ def _near_point(x, y, z, last, of, watched, tolerance, pair, chosen, goes, goes_
             continue
         p = goes[n]
         farthest = ROUNDING * (reach[p] + distance)  # no face at the point is as near beyond
-        if (places[p, 0] - x) ** 2 + (places[p, 1] - y) ** 2 + (places[p, 2] - z) ** 2 > farthest * farthest:
+        if (goes_at[n, 0] - x) ** 2 + (goes_at[n, 1] - y) ** 2 + (goes_at[n, 2] - z) ** 2 > farthest * farthest:
             continue
         if _is_near_star(x, y, z, p, of, watched, tolerance):
             return p
@@ -108,16 +106,23 @@ def _near_point(x, y, z, last, of, watched, tolerance, pair, chosen, goes, goes_
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def are_faces_near(place, moved, changed, pair, chosen, watched, tolerance, spacing, goes, goes_to, taken):
-    """Return True if a place, the edges from it and the middles of its faces are near the walls that were given."""
+def are_faces_near(
+    place, moved, changed, pair, chosen, watched, tolerance, spacing, goes, goes_to, goes_at, taken, normals
+):
+    """Return True if a place, the edges from it and the middles of its faces are near the walls that were given.
+
+    `normals` is work space.
+    """
+    for m in range(changed):
+        normals[m, 0], normals[m, 1], normals[m, 2], _ = normal_and_shape(moved[m, 0], moved[m, 1], moved[m, 2])
     for m in range(changed):
         of = pair[chosen[m]]
-        mx, my, mz, _ = normal_and_shape(moved[m, 0], moved[m, 1], moved[m, 2])
+        mx, my, mz = normals[m, 0], normals[m, 1], normals[m, 2]
         level, is_first = True, True
         for n in range(changed):
             if pair[chosen[n]] == of:
                 is_first = is_first and n >= m
-                nx, ny, nz, _ = normal_and_shape(moved[n, 0], moved[n, 1], moved[n, 2])
+                nx, ny, nz = normals[n, 0], normals[n, 1], normals[n, 2]
                 same = nx * mx + ny * my + nz * mz
                 squares = (nx * nx + ny * ny + nz * nz) * (mx * mx + my * my + mz * mz)
                 level = level and same > 0 and same * same >= LEVEL**2 * squares
@@ -131,7 +136,7 @@ def are_faces_near(place, moved, changed, pair, chosen, watched, tolerance, spac
             z = place[2] + share * (a[2] - place[2])
             if part == parts:
                 x, y, z = (place[0] + a[0] + b[0]) / 3, (place[1] + a[1] + b[1]) / 3, (place[2] + a[2] + b[2]) / 3
-            last = _near_point(x, y, z, last, of, watched, tolerance, pair, chosen, goes, goes_to, taken)
+            last = _near_point(x, y, z, last, of, watched, tolerance, pair, chosen, goes, goes_to, goes_at, taken)
             if last == NONE:
                 return False
     return True
