@@ -67,8 +67,8 @@ def reassign_watched(u, triangles, pair, fan_v, watched, tolerance, moved, chose
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _is_near_star(x, y, z, p, of, watched, tolerance):
-    """Return True if a place is near a given face of a wall at a watched point."""
+def _face_of_star(x, y, z, p, of, watched, tolerance):
+    """Return a given face of a wall at a watched point that is near a place; -1 if there is none."""
     point, original, star_start, star, was_pair = watched[3], watched[4], watched[5], watched[6], watched[7]
     v = point[p]
     for n in range(star_start[v], star_start[v + 1]):
@@ -76,32 +76,41 @@ def _is_near_star(x, y, z, p, of, watched, tolerance):
         if was_pair[t] != of:
             continue
         if squared_distance(x, y, z, original[t, 0], original[t, 1], original[t, 2]) <= tolerance:
-            return True
-    return False
+            return t
+    return NONE
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _near_point(x, y, z, last, of, watched, tolerance, pair, chosen, goes, goes_to, goes_at, taken):
-    """Return a watched point with a face of its wall near a place, `last` if it has one; -1 if there is none."""
-    if last != NONE and _is_near_star(x, y, z, last, of, watched, tolerance):
-        return last
+def _find_near_face(x, y, z, last, of, watched, tolerance, pair, chosen, goes, goes_to, goes_at, taken):
+    """Return a given face of a wall near a place; -1 if there is none at the watched points that are taken.
+
+    Tried first are the face that was found last, `last`, and those at the nearest point.
+    """
+    if last != NONE:
+        original = watched[4]
+        if squared_distance(x, y, z, original[last, 0], original[last, 1], original[last, 2]) <= tolerance:
+            return last
     best, nearest = math.inf, NONE
     for n in range(taken):
         squared = (goes_at[n, 0] - x) ** 2 + (goes_at[n, 1] - y) ** 2 + (goes_at[n, 2] - z) ** 2
         if squared < best and pair[chosen[goes_to[n]]] == of:
             best, nearest = squared, goes[n]
-    if nearest == NONE or best <= tolerance or _is_near_star(x, y, z, nearest, of, watched, tolerance):
-        return nearest
+    if nearest == NONE:
+        return NONE
+    t = _face_of_star(x, y, z, nearest, of, watched, tolerance)
+    if t != NONE:
+        return t
     distance, reach = math.sqrt(tolerance), watched[8]
     for n in range(taken):
-        if pair[chosen[goes_to[n]]] != of:
-            continue
         p = goes[n]
+        if p == nearest or pair[chosen[goes_to[n]]] != of:
+            continue
         farthest = ROUNDING * (reach[p] + distance)  # no face at the point is as near beyond
         if (goes_at[n, 0] - x) ** 2 + (goes_at[n, 1] - y) ** 2 + (goes_at[n, 2] - z) ** 2 > farthest * farthest:
             continue
-        if _is_near_star(x, y, z, p, of, watched, tolerance):
-            return p
+        t = _face_of_star(x, y, z, p, of, watched, tolerance)
+        if t != NONE:
+            return t
     return NONE
 
 
@@ -136,7 +145,7 @@ def are_faces_near(
             z = place[2] + share * (a[2] - place[2])
             if part == parts:
                 x, y, z = (place[0] + a[0] + b[0]) / 3, (place[1] + a[1] + b[1]) / 3, (place[2] + a[2] + b[2]) / 3
-            last = _near_point(x, y, z, last, of, watched, tolerance, pair, chosen, goes, goes_to, goes_at, taken)
+            last = _find_near_face(x, y, z, last, of, watched, tolerance, pair, chosen, goes, goes_to, goes_at, taken)
             if last == NONE:
                 return False
     return True
