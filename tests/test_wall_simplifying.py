@@ -15,11 +15,13 @@ from scipy.spatial import cKDTree
 
 from infill import smooth_labels
 from infill.kernels import wall_collapsing as kernels
+from infill.kernels.wall_edges import list_stars, list_walls
 from infill.meshes.distance import distances
 from infill.meshes.intersections import intersecting_pairs
+from infill.partition import wall_mesh
 from infill.partition.simplifying import find_far, simplify_partition
 from infill.partition.volumes import VolumePartition
-from infill.partition.wall_mesh import WallMesh
+from infill.partition.wall_mesh import WallMesh, chain, edges_of, number_pairs, pair_wall_edges
 from infill.partition.walls import OUTSIDE, Walls
 from infill.smoothing import together
 from infill.surface import Surface
@@ -203,3 +205,63 @@ def test_walls_that_came_in_with_crossings_are_simplified_all_the_same(monkeypat
     assert len(simple.walls.triangles) < 0.6 * len(crossed.triangles)
     surface = Surface(vertices=simple.walls.points.astype(float), faces=simple.walls.triangles)
     assert 0 < len(intersecting_pairs(surface)) == simple.crossings <= pairs
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.integers(1, 40), st.integers(3, 12), st.integers(1, 4), st.integers(0, 10**6))
+def test_edges_and_corners_of_walls_come_in_the_order_of_a_sort(count: int, points: int, pairs: int, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    triangles = np.array([rng.permutation(points)[:3] for _ in range(count)], dtype=np.int32)
+    pair = rng.integers(0, pairs, count).astype(np.int32)
+    starts, ends = edges_of(triangles)
+    keys = np.minimum(starts, ends).astype(np.int64) << 32 | np.maximum(starts, ends)
+    order = np.lexsort((np.repeat(pair, 3), keys))
+    sorted_keys, sorted_pairs = keys[order], np.repeat(pair, 3)[order]
+    same = (sorted_keys[1:] == sorted_keys[:-1]) & (sorted_pairs[1:] == sorted_pairs[:-1])
+    first, second, single = pair_wall_edges(triangles, pair)
+    assert first.tolist() == order[:-1][same].tolist()
+    assert second.tolist() == order[1:][same].tolist()
+    assert single.tolist() == order[~(np.append(same, False) | np.append(False, same))].tolist()
+
+    begins, star = np.zeros(points + 1, dtype=np.int32), np.empty(3 * count, dtype=np.int32)
+    list_stars(triangles, begins, star)
+    corners = np.argsort(triangles.ravel(), kind="stable")
+    assert star.tolist() == (corners // 3).tolist()
+    assert begins.tolist() == np.searchsorted(np.sort(triangles.ravel()), np.arange(points + 1)).tolist()
+    at, faces = np.empty(3 * count, dtype=np.int32), np.empty(3 * count, dtype=np.int32)
+    number = list_walls(begins, star, pair, at, faces)
+    owner = triangles.ravel()[corners]
+    one_of_each = np.unique(owner.astype(np.int64) << 32 | pair[star], return_index=True)[1]
+    assert at[:number].tolist() == owner[one_of_each].tolist()
+    assert faces[:number].tolist() == star[one_of_each].tolist()
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.integers(1, 60), st.integers(1, 9), st.integers(0, 10**6))
+def test_items_are_chained_in_the_order_of_their_numbers(count: int, owners: int, seed: int) -> None:
+    owner = np.random.default_rng(seed).integers(0, owners, count)
+    heads, after = chain(owner, owners)
+    for number in range(owners):
+        chained, item = [], int(heads[number])
+        while item >= 0:
+            chained.append(item)
+            item = int(after[item])
+        assert chained == np.flatnonzero(owner == number).tolist()
+
+
+@pytest.mark.parametrize("in_table", [5, 4096])
+def test_pairs_of_labels_are_numbered_in_their_order(in_table: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(wall_mesh, "MOST_IN_TABLE", in_table)
+    sides = np.random.default_rng(2).integers(0, 9, (200, 2)).astype(np.int16)
+    sides[::7, 1] = OUTSIDE
+    expected = np.unique(np.where(sides == OUTSIDE, 99, sides), axis=0, return_inverse=True)[1].ravel()
+    assert number_pairs(sides).tolist() == expected.tolist()
+
+
+def test_places_reach_as_far_as_the_triangles_at_their_point(monkeypatch: pytest.MonkeyPatch) -> None:
+    partition = partition_of(make_cells((12, 12, 12), 5, 4), monkeypatch)
+    mesh = WallMesh.of(partition.walls, CUBIC, (12, 12, 12))
+    places, _, _, point, corners, starts, star, _, reach = mesh._watched(0.1)
+    for n in range(0, len(places), 17):
+        of_star = corners[star[starts[point[n]] : starts[point[n] + 1]]].reshape(-1, 3)
+        assert reach[n] == pytest.approx(np.linalg.norm(of_star - places[n], axis=1).max(), rel=1e-12)
