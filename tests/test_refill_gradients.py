@@ -112,7 +112,9 @@ def spacing_of(layers: list[SparseLayer]) -> float:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("pattern", ["honeycomb", *(name for name in STRETCHING if name != "honeycomb")])
+@pytest.mark.parametrize(
+    "pattern", ["honeycomb", *(name for name in STRETCHING if name not in ("honeycomb", "concentric"))]
+)
 def test_lines_that_follow_a_field_obey_its_laws(sliced: Path, tmp_path: Path, pattern: str) -> None:
     """Density to three points, filament of the print to 1 %, 0.95 line widths between lines, no crossing, time 1.15."""
     out = tmp_path / "new.gcode"
@@ -128,6 +130,52 @@ def test_lines_that_follow_a_field_obey_its_laws(sliced: Path, tmp_path: Path, p
     assert spacing_of(layers) > (0.92 if pattern == "cubic" else 0.95)  # one layer of cubic: docs/refill.md says so
     plain = refill(sliced, pattern=pattern, density=(DENSE + SPARSE) / 2, dry_run=True).report
     assert graded["time"]["print_after_s"] < 1.15 * plain["time"]["print_after_s"]
+
+
+@pytest.mark.long
+def test_rings_that_follow_a_field_obey_its_laws(sliced: Path, tmp_path: Path) -> None:
+    """The same, but for boxes where rings end, in the middle, and where they turn: round corners are shorter.
+
+    The area of the infill reaches half a cell around the rings.
+    """
+    out = tmp_path / "new.gcode"
+    graded = refill(sliced, output=out, pattern="concentric", density=(DENSE, SPARSE), by="x").report
+    layers = read_sparse(out.read_text())
+    x0, y0, *_ = area(read_sparse(sliced.read_text())).bounds
+    region = shapely.box(x0, y0, 260 - x0, y0 + 56.9)  # rows of waves end before the wall at the right and above
+
+    def wanted(points: Floats) -> Floats:
+        return np.interp(points[:, 0], [region.bounds[0], region.bounds[2]], [DENSE, SPARSE])
+
+    rings = [shapely.Polygon(path) for path in layers[0].paths]
+    middle = shapely.buffer(min(rings, key=lambda ring: ring.area), 2 * FAMILIES["concentric"].cell_for(SPARSE, WIDTH))
+    pairs = local_densities(layers, region.difference(middle), wanted, side("concentric"))
+    errors = np.abs(pairs[:, 1] - pairs[:, 0])
+    assert len(pairs) > 20
+    assert np.quantile(errors, 0.8) < 0.005
+    assert errors.max() < 0.05
+    needs = np.array([wanted(nodes(region)).mean() * region.area * layer.height for layer in layers])
+    assert np.abs(np.array([layer.filament for layer in layers]) * FILAMENT / needs - 1).max() < 0.01
+    assert sum(map(crossing_paths, layers)) == 0
+    assert spacing_of(layers) > 0.95
+    plain = refill(sliced, pattern="concentric", density=(DENSE + SPARSE) / 2, dry_run=True).report
+    assert graded["time"]["print_after_s"] < 1.05 * plain["time"]["print_after_s"]
+
+
+@pytest.mark.long
+def test_rings_of_a_real_print_keep_their_distance(data: Path, tmp_path: Path) -> None:
+    """Where nothing of the slicer's stays in a layer, in narrow places too."""
+    source, out = data / "prints" / "p29_arcs_honeycomb_klipper.gcode", tmp_path / "new.gcode"
+    refill(source, output=out, pattern="concentric", density=(DENSE, SPARSE), by="skin")
+    stays = {(layer.z, path.round(2).tobytes()) for layer in read_sparse(source.read_text()) for path in layer.paths}
+    layers = [
+        layer
+        for layer in read_sparse(out.read_text())
+        if not any((layer.z, path.round(2).tobytes()) in stays for path in layer.paths)
+    ]
+    assert len(layers) > 30
+    assert sum(map(crossing_paths, layers)) == 0
+    assert spacing_of(layers) > 0.95
 
 
 @pytest.mark.long

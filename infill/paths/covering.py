@@ -212,6 +212,7 @@ def _draw_joined(
     ground: LayerBelow | None = None,
 ) -> list[Path]:
     """Draw the paths of a family in a region, in any order."""
+    family = family.at(spec.z)
     if isinstance(family, RegionFamily):
         return family.strands_inside(outline.region, spec)
     pieces = clip(family.strands(outline.region.bounds, spec), outline)
