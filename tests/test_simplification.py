@@ -19,7 +19,7 @@ from infill.kernels import quadrics
 from infill.meshes import edge_collapse as collapsing
 from infill.meshes.distance import LEAF, TriangleTree, nearest_on_triangles
 from infill.meshes.edge_collapse import CornerTable, collapse_edges
-from infill.meshes.hausdorff_samples import CLEAR, SURE, level_faces, match_faces, sample_between_vertices
+from infill.meshes.hausdorff_samples import CLEAR, SURE, flat_faces, match_faces, sample_between_vertices
 from infill.meshes.intersections import count_self_intersections
 from infill.meshes.project_back import project_back
 from infill.meshes.simplification import simplify_surface
@@ -269,9 +269,9 @@ def test_a_piece_that_two_faces_share_is_left_out_where_both_are_near(slope: flo
 
 def test_some_faces_are_level_as_all_are() -> None:
     surface = made("box with a hole", 16)
-    every = level_faces(surface, 0.1)
+    every = flat_faces(surface, 0.1)
     some = np.array([5, 3, len(every) - 1, 3])
-    np.testing.assert_array_equal(level_faces(surface, 0.1, faces=some), every[some])
+    np.testing.assert_array_equal(flat_faces(surface, 0.1, faces=some), every[some])
 
 
 def test_faces_that_two_surfaces_share_are_known_whatever_their_order() -> None:
@@ -312,7 +312,7 @@ def test_a_level_face_has_nothing_near_that_faces_elsewhere(shape: str, toleranc
     """By points all over the faces, against every pair of faces whose normals differ by more than 30 degrees."""
     found = collapse_edges(made(shape, 16), tolerance=0.1)
     assert found is not None
-    level = level_faces(found, tolerance)
+    level = flat_faces(found, tolerance)
     corners = np.asarray(found.vertices)[found.faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
@@ -335,7 +335,7 @@ def test_a_vertex_that_strayed_where_all_is_level_is_brought_back() -> None:
     strayed = np.array(first.vertices)
     strayed[70] += 3 * tolerance * (strayed[70] - first.bounds.mean(axis=0)) / 20
     found = replace(first, vertices=strayed)
-    assert level_faces(found, tolerance)[(found.faces == 70).any(axis=1)].all()  # nothing but its distance tells
+    assert flat_faces(found, tolerance)[(found.faces == 70).any(axis=1)].all()  # nothing but its distance tells
     assert farthest(found, surface) > 2 * tolerance
     again, left, _ = project_back(found, surface, TriangleTree.of(surface), tolerance)
     assert not len(left)

@@ -67,8 +67,8 @@ def read_klipper_config(path: Path) -> Sections:
     return sections
 
 
-def _add_file(sections: Sections, text: str, stack: tuple[Path, ...], count: list[int]) -> None:
-    """Add the sections of a file, and of those that it includes, in the order of their lines."""
+def _add_file(sections: Sections, text: str, stack: tuple[Path, ...], file_count: list[int]) -> None:
+    """Add the sections of a file, and of those that it includes, in the order of their lines; count the files too."""
     lines: list[str] = []
     for line in text.split("\n"):
         header = SECTION.match(line)
@@ -83,10 +83,10 @@ def _add_file(sections: Sections, text: str, stack: tuple[Path, ...], count: lis
             if included.resolve() in (path.resolve() for path in stack):
                 names = excerpt(" includes ".join(path.name for path in (*stack, included)), 200)
                 raise FormatError(f"{stack[0]}: {names}, in a loop; remove one of these lines")
-            count[0] += 1
-            if count[0] > MAX_FILES:
+            file_count[0] += 1
+            if file_count[0] > MAX_FILES:
                 raise FormatError(f"{stack[0]} includes more than {MAX_FILES} files; remove some of its includes")
-            _add_file(sections, read_printer_text(included), (*stack, included), count)
+            _add_file(sections, read_printer_text(included), (*stack, included), file_count)
     _add_lines(sections, "\n".join(lines))
 
 

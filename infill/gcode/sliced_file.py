@@ -67,8 +67,8 @@ class SlicedFile:
     plates: tuple[int, ...] = ()
     parts: tuple[int | None, ...] = (None,)
 
-    def part(self, plate: int | None) -> int | None:
-        """Return the print of a plate; without a plate, the first.
+    def part_of_plate(self, plate: int | None) -> int | None:
+        """Return the entry of `parts` for a plate; without a plate, the first.
 
         Raises
         ------

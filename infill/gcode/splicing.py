@@ -192,7 +192,7 @@ def verify_replay(table: GcodeTable, strokes: InfillStrokes, new: NewPaths, spli
 
 
 def find_difference(table: GcodeTable, new_table: GcodeTable, spliced_text: SplicedText) -> str:
-    """Describe the first difference of the copied lines, or of the state at the end, between old and new text."""
+    """Describe the first difference in copied lines, or in the state at the end, of two texts; "" without one."""
     if len(new_table) != len(table) + int(spliced_text.shift[-1]):
         return "the number of lines"
     old_rows = np.flatnonzero(spliced_text.same)

@@ -183,7 +183,7 @@ def cut_open(
         If manifold3d rejects the voids.
     """
     manifold, best = to_manifold(solid), None
-    for candidate in _cut_variants(manifold, voids, opening, size):
+    for candidate in _cut_candidates(manifold, voids, opening, size):
         if best is None or int(coincident_vertices(candidate).sum()) < int(coincident_vertices(best).sum()):
             best = candidate
         if best.closed and not coincident_vertices(best).any():
@@ -209,7 +209,11 @@ def clip_to_opening(surface: Surface, opening: Opening, size: float) -> Surface:
     return cut
 
 
-def _cut_variants(body: object, voids: Sequence[Surface], opening: Opening, size: float) -> Iterator[Surface]:
+def _cut_candidates(body: object, voids: Sequence[Surface], opening: Opening, size: float) -> Iterator[Surface]:
+    """Yield the body without the voids, moved off the open sides by a few shares of a cell, as far as that is a solid.
+
+    A candidate with vertices that coincide in single precision is followed by itself with these merged.
+    """
     import manifold3d
 
     assert isinstance(body, manifold3d.Manifold)
@@ -222,13 +226,13 @@ def _cut_variants(body: object, voids: Sequence[Surface], opening: Opening, size
             yield (candidate := from_manifold(remainder))
             if (
                 coincident_vertices(candidate).any()
-                and manifold_status(merged := _merge_in_single_precision(candidate)) == FINE
+                and manifold_status(merged := _merge_coincident_vertices(candidate)) == FINE
             ):
                 yield merged
 
 
-def _merge_in_single_precision(surface: Surface) -> Surface:
-    """Drop the edges of a surface that single precision makes points."""
+def _merge_coincident_vertices(surface: Surface) -> Surface:
+    """Merge vertices that are the same in single precision, and drop the triangles that this makes edges."""
     _, representative, number = np.unique(
         np.asarray(surface.vertices, dtype=np.float32), axis=0, return_index=True, return_inverse=True
     )

@@ -266,12 +266,26 @@ def sweep_short_edges(vertices, start, twin, leaving, name, fixed, quadric, boun
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _collapse_in_order(
-    mesh, fixed, quadric, held, was, tolerance, bound, sizes, queue, ends, marked, failed, changed_in, space, into
+    mesh,
+    fixed,
+    quadric,
+    held,
+    was,
+    squared_tolerance,
+    bound,
+    sizes,
+    queue,
+    ends,
+    marked,
+    failed,
+    changed_in,
+    space,
+    into,
 ):
     """Collapse edges, cheapest first, as `collapse` does, with all arrays at hand; return the number of faces left."""
     vertices, start, twin, leaving, name = mesh
     points, corner, first_point, next_point = held
-    remaining, fewest, edge, sample_step = sizes
+    remaining, fewest, edge, squared_spacing = sizes
     s, place, ring, end_ring, moved, chosen, goes, goes_to = space
     bounded = len(points) > 0
     for n in range(len(start)):
@@ -319,10 +333,12 @@ def _collapse_in_order(
                 continue
             level = _are_level(moved, changed, s)
             chosen[changed], chosen[changed + 1] = c // 3, d // 3
-            taken = reassign_points(first_point, next_point, points, tolerance, moved, chosen, changed, goes, goes_to)
+            taken = reassign_points(
+                first_point, next_point, points, squared_tolerance, moved, chosen, changed, goes, goes_to
+            )
             if taken > 0:
-                spacing = math.inf if level else sample_step
-                if are_edges_near(place, moved, changed, spacing, points, tolerance, goes, taken, corner, was):
+                limit = math.inf if level else squared_spacing
+                if are_edges_near(place, moved, changed, limit, points, squared_tolerance, goes, taken, corner, was):
                     break
             changed = NO_CORNER
         if changed == NO_CORNER:
@@ -352,7 +368,9 @@ def _collapse_in_order(
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corner, tolerance, bound, fewest, into):
+def collapse(
+    vertices, start, twin, leaving, name, fixed, quadric, points, corner, squared_tolerance, bound, fewest, into
+):
     """Collapse edges, cheapest first, while the mesh stays closed and near; return the number of faces that remain.
 
     Parameters
@@ -373,7 +391,7 @@ def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corne
         Of the original mesh, its vertices first, then points along edges; empty if the mesh need not stay near.
     corner : (P,) int32
         The corner of each vertex, and the edge on which each of the others lies.
-    tolerance : float
+    squared_tolerance : float
         The square of the largest distance of the mesh from these points, and from the surface around them.
     bound : float
         Largest mean squared distance of a collapse from the planes it replaces; may be infinite.
@@ -398,7 +416,7 @@ def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corne
             edge += squared_length(vertices[start[c]], vertices[start[next_corner(c)]])
             remaining += 1
     edge, remaining = edge / max(1, remaining), remaining // 3
-    sample_step = min(SAMPLE_SPACING * edge, WIDE * tolerance)
+    squared_spacing = min(SAMPLE_SPACING * edge, WIDE * squared_tolerance)
     queue, ends = np.full((len(start), 3), NO_CORNER, dtype=np.int32), np.full((BUCKETS, 2), NO_CORNER, dtype=np.int32)
     marked = np.full(name.max() + 1, NO_CORNER, dtype=np.int32)
     failed, changed_in = np.full(len(start), NO_CORNER, dtype=np.int32), np.zeros(len(vertices), dtype=np.int32)
@@ -406,7 +424,21 @@ def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corne
     mesh = vertices, start, twin, leaving, name
     held = points, corner, first_point, next_point
     was = original_corners, was_twin, was_leaving
-    sizes = remaining, fewest, edge, sample_step
+    sizes = remaining, fewest, edge, squared_spacing
     return _collapse_in_order(
-        mesh, fixed, quadric, held, was, tolerance, bound, sizes, queue, ends, marked, failed, changed_in, space, into
+        mesh,
+        fixed,
+        quadric,
+        held,
+        was,
+        squared_tolerance,
+        bound,
+        sizes,
+        queue,
+        ends,
+        marked,
+        failed,
+        changed_in,
+        space,
+        into,
     )

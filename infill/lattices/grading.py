@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from infill.arrays import Floats
 from infill.errors import GeometryError
-from infill.interior.conformal_map import fit_conformal_map, spline_slopes
+from infill.interior.conformal_map import fit_conformal_map, spline_jacobians
 from infill.interior.interior import Interior
 from infill.lattices.field_place import LEAST_SHARE, InteriorPlace
 from infill.lattices.region_nodes import SHIFTS, RegionNodes
@@ -69,7 +69,7 @@ class LocalWidths:
         """The smallest and the largest cell inside, over the nominal cell: sides of cubes of their volume."""
         if self.spline is None:
             return 1.0, 1.0
-        sides = np.abs(np.linalg.det(spline_slopes(self.spline)[self.within])) ** (-1 / 3)
+        sides = np.abs(np.linalg.det(spline_jacobians(self.spline)[self.within])) ** (-1 / 3)
         return float(sides.min()), float(sides.max())
 
     def in_box(self, corner: NDArray[np.int64], shape: tuple[int, ...]) -> LocalWidths:

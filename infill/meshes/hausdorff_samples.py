@@ -192,7 +192,7 @@ def sample_between_vertices(
     folds : float, mm
         Length up to which a piece of a face is not sampled where the other surface folds little below it.
     own : TriangleTree, optional
-        Of all faces of this surface, if pieces of faces that are level as in `level_faces` need no samples.
+        Of all faces of this surface, if pieces of faces that are flat as in `flat_faces` need no samples.
     all_places : bool
         Whether to return samples within the tolerance as well.
     threads : int, optional
@@ -239,7 +239,7 @@ def _sample_arrays(threads: int, capacity: int) -> tuple[Floats, NDArray[np.int3
     return np.empty((*shape, 3)), np.empty(shape, dtype=np.int32), np.empty(shape, dtype=np.int64), np.empty(shape)
 
 
-def level_faces(
+def flat_faces(
     surface: Surface,
     tolerance: float,
     *,
@@ -266,23 +266,23 @@ def level_faces(
 
     >>> roof = np.array([[0.0, 0, 0], [4, 0, 0], [0, 4, 0], [4, 4, 0], [4, 0, 4], [4, 4, 4]])
     >>> faces = np.array([[0, 1, 2], [1, 3, 2], [1, 4, 3], [4, 5, 3]])
-    >>> level_faces(Surface(vertices=roof, faces=faces), 0.1).tolist()
+    >>> flat_faces(Surface(vertices=roof, faces=faces), 0.1).tolist()
     [False, False, False, False]
-    >>> level_faces(Surface(vertices=roof * [1, 1, 0.1], faces=faces), 0.1)[:2].tolist()
+    >>> flat_faces(Surface(vertices=roof * [1, 1, 0.1], faces=faces), 0.1)[:2].tolist()
     [False, False]
-    >>> level_faces(Surface(vertices=roof, faces=faces[:2]), 0.1).tolist()
+    >>> flat_faces(Surface(vertices=roof, faces=faces[:2]), 0.1).tolist()
     [True, True]
     """
-    from infill.kernels.covering import mark_level_faces
+    from infill.kernels.covering import mark_flat_faces
 
     tree = tree or TriangleTree.of(surface)
     place = np.empty(len(tree.order), dtype=np.int64)
     place[tree.order] = np.arange(len(tree.order))
     chosen = place if faces is None else place[faces]
-    level = np.empty(len(chosen), dtype=bool)
+    flat = np.empty(len(chosen), dtype=bool)
     arguments = tree.corners, tree.normals(), tree.low, tree.high, LEAF, CLEAR * tolerance
-    in_threads(mark_level_faces, *arguments, chosen, level, threads=thread_count(threads))
-    return level
+    in_threads(mark_flat_faces, *arguments, chosen, flat, threads=thread_count(threads))
+    return flat
 
 
 def find_strays(

@@ -25,7 +25,7 @@ def measure_surface(surface: Surface, *, threads: int | None = None) -> Surface:
     """
     volume, area = volume_and_area(surface, threads=threads)
     closed = surface.closed if surface.knows_closed else _is_closed(surface, thread_count(threads))
-    return surface.knowing(closed=closed, volume=volume, area=area)
+    return surface.with_measures(closed=closed, volume=volume, area=area)
 
 
 def volume_and_area(surface: Surface, *, threads: int | None = None) -> tuple[float, float]:

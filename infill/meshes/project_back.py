@@ -8,7 +8,7 @@ import numpy as np
 
 from infill.arrays import Floats, Integers
 from infill.meshes.distance import TriangleTree, barycentric, nearest_on_triangles
-from infill.meshes.hausdorff_samples import HausdorffSamples, find_strays, level_faces, sample_original
+from infill.meshes.hausdorff_samples import HausdorffSamples, find_strays, flat_faces, sample_original
 from infill.meshes.intersections import intersecting_pairs
 from infill.surface import Surface
 
@@ -68,7 +68,7 @@ def project_back(
         missed = np.flatnonzero(samples.away > tolerance)
         assumed_near = np.concatenate([assumed_near, np.zeros(len(candidate.faces) - len(assumed_near), dtype=bool)])
         own = TriangleTree.of(candidate)
-        assumed_near[changed] = level_faces(candidate, tolerance, faces=changed, tree=own, threads=threads)
+        assumed_near[changed] = flat_faces(candidate, tolerance, faces=changed, tree=own, threads=threads)
         strays = find_strays(
             tree, candidate, changed, side, tolerance, sure=assumed_near[changed], own=own, threads=threads
         )
@@ -88,7 +88,7 @@ def project_back(
                 return candidate, np.empty((0, 3)), samples
             beside = np.isin(candidate.faces, bent_vertices).any(axis=1)  # pieces of them were level before
             bent = np.flatnonzero(assumed_near | beside)
-            bent = bent[~level_faces(candidate, tolerance, faces=bent, tree=own, threads=threads)]
+            bent = bent[~flat_faces(candidate, tolerance, faces=bent, tree=own, threads=threads)]
             assumed_near[bent] = False
             strays = find_strays(tree, candidate, bent, side, tolerance, own=own, threads=threads)
             if not len(strays.points):

@@ -154,7 +154,7 @@ class _Search:
         enough: float,
         jumps: bool = False,
     ) -> tuple[NDArray[np.float64], tuple[WallGraph, Walls] | None]:
-        """Return the best offsets found by Newton's method, and their walls, unless others came after them.
+        """Find offsets by Newton's method; return the best and their walls, or None if later ones replaced them.
 
         Parameters
         ----------

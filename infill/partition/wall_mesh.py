@@ -132,7 +132,7 @@ class WallMesh:
                 number += 1
                 if removed.sum() < LEAST_SWEPT * len(members) and number % WAYS == 0:
                     break
-        return self._left(points, triangles, flags, quadric)
+        return self._compact(points, triangles, flags, quadric)
 
     def _cut_slabs(
         self, points: NDArray[np.float64], into: NDArray[np.int32], number: int
@@ -223,14 +223,14 @@ class WallMesh:
         is_near = np.isfinite(cKDTree(places).query(self.points, distance_upper_bound=reach)[0])
         return replace(self, order=np.where(is_near, np.int8(kernels.FIXED), self.order))
 
-    def _left(
+    def _compact(
         self,
         points: NDArray[np.float64],
         triangles: NDArray[np.int32],
         flags: NDArray[np.int8],
         quadric: NDArray[np.float64],
     ) -> WallMesh:
-        """Drop the triangles and points that are gone."""
+        """Return the mesh without dropped triangles, whose first corner is negative, and without unused points."""
         kept = triangles[:, 0] >= 0
         used = np.zeros(len(points), dtype=bool)
         used[triangles[kept]] = True

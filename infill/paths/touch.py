@@ -53,7 +53,9 @@ def touch_preserving_deviations(
 def _measure_touch(
     points: Floats, offsets: Places, layer: Places, walls: BeadIndex, reach: float
 ) -> tuple[Floats, Floats, Floats, Floats]:
-    """Measure how much of each leg lies within `reach` of walls, where, and the distance of walls from its beginning.
+    """Measure how much of each leg lies near walls, its distance from both ends, and that of walls from the start.
+
+    Near is within `reach`.
 
     Returns
     -------

@@ -53,7 +53,7 @@ TINY_WEIGHT = 1e-6  # of a weight, added where no surface is near and the means 
 
 @dataclass(frozen=True, kw_only=True)
 class Gate:
-    """When to use the milder of two fields.
+    """Deviations between two fields at which the milder of them is used.
 
     Parameters
     ----------
@@ -100,7 +100,9 @@ class ExactDataLimits:
 
     @property
     def gate(self) -> Gate:
-        """Gate of the data: noise averages out in <r>, so that its limit grows less than that of <r²>.
+        """Deviations from the data at which data and filtered field have half the weight each.
+
+        Noise averages out in the mean, so that its limit grows less than that of the root mean square.
 
         Measured on boxes of 40 and 100 cells and on balls with noise of 0, 0.06, 0.15 and 0.3 cells: faces of boxes lie
         within 0.01 cells of their place, and 30 % of the noise remains.
@@ -226,7 +228,10 @@ def filter_bricks(
     threads: int | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> tuple[SparseField, SparseField, SparseField]:
-    """Return P_0, P_1 and P_2, which share all arrays except their values; for parameters, see `refine_bricks`."""
+    """Filter data mildly, more, and strongly: P_0, P_1 and P_2, which share all arrays except their values.
+
+    For parameters, see `refine_bricks`.
+    """
     threads = thread_count(threads)
     schedule = Schedule.of(smoothing.steps)
     numbers = step_coefficients(smoothing, spacing, f.ndim)

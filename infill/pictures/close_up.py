@@ -153,7 +153,7 @@ def insert_close_up(picture: Image.Image, close_up: Image.Image, factor: float, 
 
 
 def _find_empty_square(pixels: NDArray[np.uint8]) -> tuple[int, int] | None:
-    """Find the upper left corner of an empty square for a close-up, the nearest to a corner; None if there is none."""
+    """Find the upper left corner (x, y) of an empty square for a close-up, the nearest to a corner; or None."""
     taken = (pixels != pixels[0, 0]).any(axis=2)
     sums = np.pad(taken.astype(np.int64).cumsum(axis=0).cumsum(axis=1), ((1, 0), (1, 0)))
     inside = sums[SIDE:, SIDE:] - sums[:-SIDE, SIDE:] - sums[SIDE:, :-SIDE] + sums[:-SIDE, :-SIDE]

@@ -136,7 +136,7 @@ def _vector_jerk(bounds: BoundedMoves, limit: Limit) -> Floats:
 
 
 def _vector_rest_speed(bounds: BoundedMoves, limit: Limit) -> Floats:
-    """Return half the jerk of x and y, or less where half that of z or e is smaller."""
+    """Return the speed with which moves begin and end at rest, mm/s: half the jerk of x and y, or of z or e if less."""
     half = limit("jerk") / 2
     meets = np.abs(bounds.direction) * bounds.speed[:, None] > half
     meets[:, :2] = [True, False]

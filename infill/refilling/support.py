@@ -146,7 +146,7 @@ class _SampledLayers:
         return cls(
             layers=layers,
             corners=stroke_corners(layers, rounding, acceleration=acceleration, gaps=gaps),
-            walls={layer.number: layers.bead_samples(layer.number - 1) for layer in layers.resting},
+            walls={layer.number: layers.bead_samples(layer.number - 1) for layer in layers.upper},
         )
 
     def rounded(self, rounding: Rounding) -> RoundedPaths:
