@@ -226,6 +226,7 @@ def _crossing_heights(corners: Floats, places: Floats) -> Floats:
 
 
 def _label_components(pairs: Integers, count: int) -> Integers:
+    """Label items 0 to `count` - 1, joined by pairs (N, 2); return the component of each, (count,)."""
     return label_connected(pairs[:, 0], pairs[:, 1], count)[0].astype(np.int64)
 
 

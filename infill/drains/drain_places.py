@@ -156,7 +156,7 @@ class DrainTask:
         shells, _ = shell_names(self.voids)
         starts = np.unique(shells, return_index=True)[1]
         numbers = self.names[starts[shells[starts] >= 0]]
-        return set(numbers[self.opening.opened(self.voids)].tolist())
+        return set(numbers[self.opening.reaches_out(self.voids)].tolist())
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -210,6 +210,7 @@ def _drain_one_way(
     drained = set(drained)
 
     def drill(void: int, apart: bool) -> bool:
+        """Drill a void at its best place, off other holes if `apart`; return False if there is none."""
         shaft = places.shaft(void, np.array(taken).reshape(-1, 2) if apart else None)
         if shaft is not None:
             taken.append(shaft.at)

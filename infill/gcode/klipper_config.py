@@ -142,8 +142,8 @@ class _NumberReader:
         return default
 
 
-def _place_given(sections: Mapping[str, Mapping[str, Any]], given: Mapping[str, float]) -> Sections:
-    """Return the options of the printer and its extruder, with limits by name in the place of theirs."""
+def _override_options(sections: Mapping[str, Mapping[str, Any]], given: Mapping[str, float]) -> Sections:
+    """Return the options of the printer and its extruder, with those that given limits by name override."""
     options = {name: dict(sections.get(name, {})) for name in ("printer", "extruder", "firmware_retraction")}
     if "max_accel_to_decel" in given:
         options["printer"].pop("minimum_cruise_ratio", None)
@@ -178,7 +178,7 @@ def klipper_limits(
     FormatError
         If a limit is missing or impossible.
     """
-    number = _NumberReader(_place_given(sections, given), source).read
+    number = _NumberReader(_override_options(sections, given), source).read
     speed = number("printer", "max_velocity", "feedrate")
     acceleration = number("printer", "max_accel", "acceleration")
     nozzle = number("extruder", "nozzle_diameter", "feedrate", NOZZLE)

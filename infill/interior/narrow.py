@@ -181,10 +181,12 @@ def _open(section: manifold3d.CrossSection, width: float) -> manifold3d.CrossSec
 
 
 def _offset(section: manifold3d.CrossSection, distance: float) -> manifold3d.CrossSection:
+    """Offset the outlines of a section outwards by a distance, mm, inwards if negative, with round corners."""
     import manifold3d
 
     return section.offset(distance, manifold3d.JoinType.Round)
 
 
 def _unite(sections: Iterable[manifold3d.CrossSection]) -> manifold3d.CrossSection:
+    """Unite sections, at least one."""
     return reduce(lambda union, section: union + section, sections)

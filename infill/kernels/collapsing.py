@@ -36,7 +36,7 @@ MOST_SWEEPS, LEAST_SWEPT = 12, 0.04  # sweeps without an order of edges, and the
 MOST_AROUND = 12  # corners at a vertex after such a collapse: no vertex grows at the cost of its neighbours
 # Squared cosines, of the planes of a quadric as a mean and of each face: where a place is level to 10 and 14 degrees,
 # an edge is furthest from the surface near its middle, so that one sample is enough for it.
-LEVEL_PLANES, LEVEL_FACES = 0.97, 0.94
+ALIGNED_PLANES, ALIGNED_FACES = 0.97, 0.94
 RETRY_SHARE = 0.005  # of the triangles: while at least this share is removed, edges that stayed are tried again
 
 
@@ -157,7 +157,7 @@ def _propose_faces(c, vertices, start, twin, ring, ring_size, end_ring, end_ring
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _are_level(moved, changed, s):
+def _are_aligned(moved, changed, s):
     """Return True if `changed` faces (N, 3, 3) and the planes of a quadric all face nearly the same way."""
     mx, my, mz = 0.0, 0.0, 0.0
     for m in range(changed):
@@ -168,12 +168,12 @@ def _are_level(moved, changed, s):
         return False
     mx, my, mz = mx / length, my / length, mz / length
     along = s[0] * mx * mx + s[3] * my * my + s[5] * mz * mz + 2 * (s[1] * mx * my + s[2] * mx * mz + s[4] * my * mz)
-    if along < LEVEL_PLANES * s[10]:
+    if along < ALIGNED_PLANES * s[10]:
         return False
     for m in range(changed):
         nx, ny, nz, _ = normal_and_shape(moved[m, 0], moved[m, 1], moved[m, 2])
         same = nx * mx + ny * my + nz * mz
-        if not same > 0 or same * same < LEVEL_FACES * (nx * nx + ny * ny + nz * nz):
+        if not same > 0 or same * same < ALIGNED_FACES * (nx * nx + ny * ny + nz * nz):
             return False
     return True
 
@@ -319,9 +319,9 @@ def _collapse_in_order(
         if not can_collapse(c, start, twin, leaving, name, ring, ring_size, end_ring, end_ring_size, marked, step):
             continue
         best_place(vertices[u], vertices[v], quadric[u], quadric[v], s, place)
-        changed, taken, level = NO_CORNER, 0, False
+        changed, taken, aligned = NO_CORNER, 0, False
         for attempt in range(3 if bounded else 1):  # where the best place is too far, one of the ends may be near
-            if level:  # but hardly where all is level: there, five of a thousand tries on a ball ended so
+            if aligned:  # but hardly where all are aligned: there, five of a thousand tries on a ball ended so
                 break
             if attempt > 0:
                 copy_row(place, vertices[u] if attempt == 1 else vertices[v])
@@ -331,13 +331,13 @@ def _collapse_in_order(
             )
             if changed == NO_CORNER or not bounded:
                 continue
-            level = _are_level(moved, changed, s)
+            aligned = _are_aligned(moved, changed, s)
             chosen[changed], chosen[changed + 1] = c // 3, d // 3
             taken = reassign_points(
                 first_point, next_point, points, squared_tolerance, moved, chosen, changed, goes, goes_to
             )
             if taken > 0:
-                limit = math.inf if level else squared_spacing
+                limit = math.inf if aligned else squared_spacing
                 if are_edges_near(place, moved, changed, limit, points, squared_tolerance, goes, taken, corner, was):
                     break
             changed = NO_CORNER

@@ -26,7 +26,7 @@ SLENDER = 0.02  # shape of a triangle whose normal says nothing of its neighbour
 FOLD = 0.5  # of a length: twice the share by which a piece may leave two planes that meet below it
 PIECE_COSINE = 0.995  # the same for a piece of a triangle, of which no edge is sampled: 6 degrees
 HALVINGS = 4  # of a side of a piece, to find the place on it where the nearest triangle changes
-FLAT_COSINE = 0.866  # cosine of the angle, 30 degrees, up to which neighbouring triangles count as flat
+ALIGNED_COSINE = 0.866  # cosine of the angle, 30 degrees, up to which neighbouring triangles count as aligned
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
@@ -118,7 +118,7 @@ def _is_over_a_fold(owners, farthest, corners, squared_tolerance, squared_length
         j = (k + 1) % 3
         cosine = normals[k, 0] * normals[j, 0] + normals[k, 1] * normals[j, 1] + normals[k, 2] * normals[j, 2]
         least = min(least, cosine)
-    return least >= FLAT_COSINE and FOLD * math.sqrt(squared_length) * math.sqrt(max(0.0, 1 - least * least)) <= room
+    return least >= ALIGNED_COSINE and FOLD * math.sqrt(squared_length) * math.sqrt(max(0.0, 1 - least * least)) <= room
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
@@ -154,7 +154,7 @@ def _are_separated(triangle, second_triangle, normal, reach):
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _is_flat_around(triangle, normal, corners, normals, low, high, leaf, reach, cosine, stack):
+def _is_aligned(triangle, normal, corners, normals, low, high, leaf, reach, cosine, stack):
     """Return True if all triangles of a mesh within `reach` of a triangle face the same way, up to a cosine."""
     first_leaf = (len(low) - 1) // 2
     stack[0], count = 0, 1
@@ -182,10 +182,10 @@ def _is_flat_around(triangle, normal, corners, normals, low, high, leaf, reach, 
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _is_flat_around_piece(piece, own, leaf, reach, normal, stack):
+def _is_piece_aligned(piece, own, leaf, reach, normal, stack):
     """Return True if all triangles of its own mesh within `reach` of a piece face the same way as the piece.
 
-    False if `own`, that mesh as for `mark_flat_faces`, is without triangles: then pieces are to be sampled.
+    False if `own`, that mesh as for `mark_aligned_faces`, is without triangles: then pieces are to be sampled.
     """
     if not len(own[0]):
         return False
@@ -194,7 +194,7 @@ def _is_flat_around_piece(piece, own, leaf, reach, normal, stack):
         return False
     twice = math.sqrt(nx * nx + ny * ny + nz * nz)
     normal[0], normal[1], normal[2] = nx / twice, ny / twice, nz / twice
-    return _is_flat_around(piece, normal, own[0], own[1], own[2], own[3], leaf, reach, PIECE_COSINE, stack)
+    return _is_aligned(piece, normal, own[0], own[1], own[2], own[3], leaf, reach, PIECE_COSINE, stack)
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
@@ -249,7 +249,7 @@ def _sample_in_order(
                 longest <= fine * fine or _is_over_a_fold(ends, farthest, corners, squared_tolerance, longest)
             ):
                 continue
-            if depth >= 2 and depth % 2 == 0 and _is_flat_around_piece(piece[:3], own, leaf, reach, normal, stack):
+            if depth >= 2 and depth % 2 == 0 and _is_piece_aligned(piece[:3], own, leaf, reach, normal, stack):
                 continue
             if longest <= folds * folds and _is_over_a_fold(ends, farthest, corners, squared_tolerance, longest):
                 continue
@@ -321,7 +321,7 @@ def sample_faces(
         Length up to which a piece counts as near where its nearest triangles fold little; 0 where triangles of the
         other mesh may lie between its corners.
     own : tuple of arrays
-        Triangles of this mesh as for `mark_flat_faces`, with their normals: pieces with flat ones alone within
+        Triangles of this mesh as for `mark_aligned_faces`, with their normals: pieces with aligned ones alone within
         `reach` are near. Without rows, if such pieces are to be sampled.
     reach : float
     squared_minimum : float
@@ -365,7 +365,7 @@ def sample_faces(
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def mark_flat_faces(corners, normals, low, high, leaf, reach, chosen, flat, thread, threads):
+def mark_aligned_faces(corners, normals, low, high, leaf, reach, chosen, aligned, thread, threads):
     """Set True if all triangles within `reach` of every `threads`-th chosen triangle face nearly the same way.
 
     Parameters
@@ -373,15 +373,17 @@ def mark_flat_faces(corners, normals, low, high, leaf, reach, chosen, flat, thre
     corners, low, high, leaf
         A mesh: see `infill.kernels.distances.nearest_triangles`.
     normals : (F, 3) float64
-        Of length 1, or of length 0 where a triangle has no area: neither such a triangle nor its neighbours are flat.
+        Of length 1, or of length 0 where a triangle has no area: neither it nor its neighbours are aligned.
     reach : float
         Triangles that are clearly further away, by planes of either triangle, do not count; all others do.
     chosen : (N,) int64
         Triangles.
-    flat : (N,) bool
+    aligned : (N,) bool
         The result.
     """
     stack = np.empty(STACK_SIZE, dtype=np.int64)
     for n in range(thread, len(chosen), threads):
         f = chosen[n]
-        flat[n] = _is_flat_around(corners[f], normals[f], corners, normals, low, high, leaf, reach, FLAT_COSINE, stack)
+        aligned[n] = _is_aligned(
+            corners[f], normals[f], corners, normals, low, high, leaf, reach, ALIGNED_COSINE, stack
+        )

@@ -15,8 +15,8 @@ from infill.kernels.distances import squared_distance
 from infill.kernels.quadrics import normal_and_shape, squared_length
 
 NONE = -1
-LEVEL = 0.985  # cosine of the angle, 10 degrees, up to which the triangles of a wall count as level
-LEVEL_SPACING = 8.0  # there, places at which the distance is measured are further apart
+ALIGNED = 0.985  # cosine of the angle, 10 degrees, up to which the triangles of a wall count as aligned
+ALIGNED_SPACING = 8.0  # there, places at which the distance is measured are further apart
 MAX_WATCHED = 1 << 14  # points on the faces around an edge: where there are more, it stays
 KEEP_SHARE = 0.25  # of a squared tolerance: a point within this of a triangle needs no nearer one
 MOST_SAMPLES = 32  # on an edge
@@ -105,16 +105,16 @@ def are_faces_near(place, moved, changed, pair, chosen, watched, squared_toleran
     for m in range(changed):
         of = pair[chosen[m]]
         mx, my, mz, _ = normal_and_shape(moved[m, 0], moved[m, 1], moved[m, 2])
-        level, is_first = True, True
+        aligned, is_first = True, True
         for n in range(changed):
             if pair[chosen[n]] == of:
                 is_first = is_first and n >= m
                 nx, ny, nz, _ = normal_and_shape(moved[n, 0], moved[n, 1], moved[n, 2])
                 same = nx * mx + ny * my + nz * mz
                 squares = (nx * nx + ny * ny + nz * nz) * (mx * mx + my * my + mz * mz)
-                level = level and same > 0 and same * same >= LEVEL**2 * squares
+                aligned = aligned and same > 0 and same * same >= ALIGNED**2 * squares
         a, b = moved[m, 1], moved[m, 2]
-        apart, last = spacing * LEVEL_SPACING if level else spacing, NONE
+        apart, last = spacing * ALIGNED_SPACING if aligned else spacing, NONE
         parts = max(2, min(MOST_SAMPLES, math.ceil(math.sqrt(squared_length(place, a)) / apart)))
         for part in range(0 if is_first else 1, parts + 1):
             share = part / parts

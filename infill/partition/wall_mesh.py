@@ -99,7 +99,7 @@ class WallMesh:
             box=box,
         )
 
-    def collapsed(self, bound: float, tolerance: float | None, threads: int) -> WallMesh:
+    def collapse(self, bound: float, tolerance: float | None, threads: int) -> WallMesh:
         """Collapse edges; return the smaller mesh.
 
         Parameters
@@ -193,7 +193,7 @@ class WallMesh:
         at, to = self.points[starts[owner]], self.points[ends[owner]]
         return at + share[:, None] * (to - at), starts[owner], face[owner]
 
-    def sampled(self, spacing: float) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    def sample(self, spacing: float) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
         """Return places (N, 3) spread over triangles, and the pair of each; of large meshes, a sample."""
         stride = 1 + len(self.triangles) // MOST_SAMPLED
         corners, pair = self.points[self.triangles[::stride]], self.pair[::stride]
@@ -216,7 +216,7 @@ class WallMesh:
         walls = Walls(points=points, triangles=triangles, sides=self.sides, volumes=np.empty(0))
         return replace(graph, triangles=triangles, sides=self.sides), walls
 
-    def fixed_near(self, places: NDArray[np.float64], reach: float) -> WallMesh:
+    def fix_near(self, places: NDArray[np.float64], reach: float) -> WallMesh:
         """Fix the points around some places (N, 3)."""
         from scipy.spatial import cKDTree
 

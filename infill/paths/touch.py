@@ -75,7 +75,7 @@ def _measure_touch(
     leg_ends = np.append(points[1:], points[-1:], axis=0)
     leg_ends[offsets[1:] - 1] = points[offsets[1:] - 1]
     places = points[leg_of] + share[:, None] * (leg_ends - points)[leg_of]
-    distance = np.minimum(walls.near(places, layer[leg_of], SEEN), SEEN)
+    distance = np.minimum(walls.distances(places, layer[leg_of], SEEN), SEEN)
     # Each piece goes from its place to the next; the last place of a path has none.
     next_distance = np.append(distance[1:], SEEN)
     span = next_distance - distance

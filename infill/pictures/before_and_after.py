@@ -161,6 +161,7 @@ def _draw_marked(marked: MarkedSurface, view: tuple[float, float], window: Windo
     hits = 0
 
     def paint(points: Floats) -> NDArray[np.number]:
+        """Return the colour of points, that of the mark where they lie far away; count these."""
         nonlocal hits
         is_far_point = marked.is_far(points) if marked.area else np.zeros(len(points), dtype=bool)
         hits += int(is_far_point.sum())

@@ -117,6 +117,7 @@ def draw_close_up(
         surface = from_manifold(solid.trim_by_plane((-eye).tolist(), -depth))
 
     def paint_cut(points: Floats) -> NDArray[np.number]:
+        """Return the colour of points, another one on the cut."""
         is_cut = np.abs(points @ eye - depth) < CUT_TOLERANCE * place.half
         return np.where(is_cut[:, None], np.array(cut_colour), paint(points))
 

@@ -107,6 +107,7 @@ def check_gradient(densities: Sequence[float], by: object) -> Gradient:
 
 
 def _percent(density: float) -> str:
+    """Format a density in per cent."""
     return f"{plain_argument(100 * density)}%"
 
 
@@ -288,6 +289,7 @@ def _stretch_at(trial: _Trial, graded: GradedDensity, heights: Sequence[float]) 
 
 
 def _rise(slopes: Floats) -> float:
+    """Return the least scale of a map, from its Jacobians (..., 2, 2): the root of the least determinant."""
     return float(np.sqrt(np.linalg.det(slopes).min()))
 
 
@@ -337,5 +339,6 @@ class _Trial:
 
 
 def _square(cell: float) -> Bounds:
+    """Return the box of a trial about (0, 0), mm."""
     half = TRIAL_CELLS * cell / 2
     return -half, -half, half, half

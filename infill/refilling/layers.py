@@ -232,6 +232,7 @@ class Layer:
 
     @cached_property
     def _beads(self) -> slice:
+        """Rows of its other beads among those of all layers."""
         return slice(*np.searchsorted(self.layers.bead_layer, [self.number, self.number + 1]))
 
     @cached_property

@@ -106,6 +106,7 @@ def _check_heights(old: Trace, new: Trace, beads: Places, theirs: Places, found:
     heights = old.rows.end[theirs, 2]
 
     def describe_height(k: int) -> str:
+        """Describe the height of a bead, and the nearest old one."""
         z = new.rows.end[rows[k], 2]
         mine = heights[layers[0][theirs] == layers[1][rows[k]]]
         nearest = float(mine[np.argmin(np.abs(mine - z))])

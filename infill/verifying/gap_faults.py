@@ -37,6 +37,7 @@ def report_gaps(comparison: BeadComparison, speed_limit: float, found: Violation
         places, apart = rows[chosen], off_by[chosen]
 
         def describe_bead(k: int, kind: str = kind, places: Places = places, apart: Floats = apart) -> str:
+            """Describe a bead that is new, or how far it lies from the old ones."""
             text = describe_place(comparison.b.end[places[k]])
             return f"a bead to {text} is new" if kind == "added" else f"{text}, {apart[k]:.2f} mm beside the old bead"
 

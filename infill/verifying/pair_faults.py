@@ -92,6 +92,7 @@ def _compare_filament(comparison: BeadComparison, found: ViolationList) -> None:
     wrong = np.abs(now - was) > FILAMENT_SHARE * np.abs(was) + FILAMENT_STEP + slack
 
     def describe_filament(k: int) -> str:
+        """Describe the filament of a pair, new and old."""
         return describe_lengths(now[k], was[k], "of filament")
 
     _add_runs(comparison, found, "E jump", draws & jump, describe_filament)

@@ -49,6 +49,7 @@ def check_travels(comparison: BeadComparison, changed: NDArray[np.bool_], found:
         hit, through = _without_known(hit, through, found)
 
         def describe_travel(k: int, hit: Places = hit, through: Places = through) -> str:
+            """Describe a travel through a bead, and its old lift."""
             before = was[hit[k]] if paired[hit[k]] else floors[1][hit[k]] + lift
             return (
                 f"travels at z {plain_argument(round(float(floors[1][hit[k]]), 3))} mm through the bead of line "

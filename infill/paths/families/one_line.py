@@ -84,7 +84,7 @@ class Spirals(CentredFamily):
         pattern = {kind.name: kind for kind in kinds}[self.name]()
         middle = self.middle_of(bounds)
         corner = np.abs(np.array(bounds, dtype=np.float64).reshape(2, 2) - middle).max(axis=0)
-        return [turn(pattern.drawn(float(np.hypot(*corner)) / spec.cell) * spec.cell, self.angle) + middle]
+        return [turn(pattern.draw_turns(float(np.hypot(*corner)) / spec.cell) * spec.cell, self.angle) + middle]
 
 
 ARCHIMEDEAN_CHORDS = Spirals(
