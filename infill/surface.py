@@ -198,9 +198,9 @@ class Surface:
 def _sorted_edge_keys(faces: NDArray[np.integer]) -> NDArray[np.int64]:
     """Return the directed edges of all faces as sorted integer keys (3 F,).
 
-    The edge from vertex i to j > i gets 2 (i n + j), with n the number of vertices, and the side from j to i one more.
-    So the sides of one edge are adjacent, those from its lower vertex first, and those of a closed surface come in
-    pairs: an even number and the next one.
+    The edge from vertex i to j > i gets 2 (i n + j), with n the number of vertices, and that from j to i one more. So
+    both directions are adjacent, that from the lower vertex first; keys of a closed surface come in pairs: an even
+    number and the next one.
     """
     vertex_count = int(faces.max()) + 1
     sides = np.empty((3, len(faces)), dtype=np.int64)

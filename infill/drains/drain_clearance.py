@@ -247,7 +247,7 @@ def _surface_points(
 
 
 def _fine_points(at: Floats, low: float, high: float, radius: float) -> tuple[Floats, float]:
-    """Place many points on a hole about (x, y), (M, 3); also return how far its points lie from the nearest one, mm."""
+    """Place many points on a hole about (x, y), (M, 3); also return how far from these its surface goes, mm."""
     around, least = FINE
     arc = 2 * np.pi * radius / around
     along = max(least, math.ceil((high - low) / arc) + 1)

@@ -177,7 +177,7 @@ def compute_interior(
     places: Sequence[LocalWall] = (),
     open_: Open | None = None,
     beyond: float = 0.0,
-    extra_bytes: int = 0,
+    extra_bytes_per_cell: int = 0,
     slabs: bool = False,
     threads: int | None = None,
     max_memory: int | None = None,
@@ -186,7 +186,7 @@ def compute_interior(
 
     In `places`, the wall has another thickness; where they overlap, that of the last one. Beyond open sides, the inside
     goes on for `beyond`, mm; where the wall is 0, voids may reach as far out of all the skin.
-    `extra_bytes` is the number of additional bytes for each cell. With `slabs`, a large space is kept in slabs.
+    `extra_bytes_per_cell` adds to the memory that is needed. With `slabs`, a large space is kept in slabs.
 
     Raises
     ------
@@ -206,7 +206,7 @@ def compute_interior(
     margin = MARGIN + math.ceil(outside - BEYOND)
     grid = grid_for_part(part, voxel=voxel, further=further, margin=margin)
     advice = f"the grid has {' x '.join(map(str, grid.shape))} cells; give larger voxels or larger cells"
-    require_memory(expected_bytes(grid.shape, extra_bytes, slabs=slabs), max_memory, advice)
+    require_memory(expected_bytes(grid.shape, extra_bytes_per_cell, slabs=slabs), max_memory, advice)
     voxelised = voxelise_with_report(part, voxel=voxel, margin=margin, max_memory=max_memory)
     closed_part, skin, overlap = _repair_skin(voxelised)
     longer, cells, opening, repairs = closed_part, voxelised.volume, None, voxelised.repairs
@@ -272,12 +272,12 @@ def _units_for(longest: float) -> str:
     return f"--units {' or '.join(fitting or ['m'])}"
 
 
-def expected_bytes(shape: tuple[int, ...], extra_bytes: int, *, slabs: bool) -> int:
+def expected_bytes(shape: tuple[int, ...], extra_bytes_per_cell: int, *, slabs: bool) -> int:
     """Return the memory for a grid in bytes; in slabs, for one slab and the packed rest."""
     cells = math.prod(shape)
     if slabs and cells > WHOLE:
         return BYTES_PACKED * cells + BYTES_PER_CELL * WHOLE
-    return (BYTES_PER_CELL + extra_bytes) * cells
+    return (BYTES_PER_CELL + extra_bytes_per_cell) * cells
 
 
 def added_length(open_: Open | None, wall: float, beyond: float, voxel: float) -> float:

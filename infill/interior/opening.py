@@ -211,7 +211,7 @@ def clip_to_opening(surface: Surface, opening: Opening, size: float) -> Surface:
 
 
 def _cut_candidates(body: object, voids: Sequence[Surface], opening: Opening, size: float) -> Iterator[Surface]:
-    """Yield the body without the voids, moved off the open sides by a few shares of a cell, as far as that is a solid.
+    """Yield the body minus the voids, whose vertices keep one of several distances from the open sides, if it is solid.
 
     A candidate with vertices that coincide in single precision is followed by itself with these merged.
     """

@@ -76,7 +76,7 @@ class PlannedVoids:
         sides = faces * min(density, 1.0) * room / self.width / self.voxel**2
         most = math.inf if request.voxel else request.triangles_left(len(self.task.part.faces)) / FACES_PER_SIDE
         larger = max(1.0, math.sqrt(sides / most))  # times the size of the cells
-        grid = expected_bytes(self.grid.shape, request.extra_bytes, slabs=goes_by_slabs(self.task))
+        grid = expected_bytes(self.grid.shape, request.extra_bytes_per_cell, slabs=goes_by_slabs(self.task))
         return grid / larger**3 + per_side * sides / larger**2
 
 

@@ -67,7 +67,7 @@ def make_void_meshes(task: FillTask) -> tuple[VoidMeshes, Fields]:
                 places=task.local_walls,
                 open_=request.open_,
                 beyond=request.beyond,
-                extra_bytes=request.extra_bytes,
+                extra_bytes_per_cell=request.extra_bytes_per_cell,
                 slabs=goes_by_slabs(task),
                 threads=task.threads,
                 max_memory=task.max_memory,

@@ -142,7 +142,7 @@ class FillSpec:
         return self.ties and not self.is_block and (self.wall == 0 or self.open_ == "both")
 
     @property
-    def extra_bytes(self) -> int:
+    def extra_bytes_per_cell(self) -> int:
         """Additional bytes for each cell of the grid: where bodies are, and how deep in them the cell lies."""
         return 5 if self.align == "body" else 0
 

@@ -142,7 +142,7 @@ def smooth_fields(
     lattice = tuple(math.ceil((cells + 2) / size) for cells, size in zip(numbers.shape, BRICK, strict=True))
 
     def smooth_one(label: int) -> tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.float32]]:
-        """Return the bricks, their numbers and the values of the smoothed field of a label."""
+        """Smooth a label; return the bricks that it reaches, the slot of each, and the values of the kept ones."""
         low, high = _reached_box(boxes[label], numbers.shape, reach)
         mask = numbers[tuple(map(slice, low, high))] == label
         field = smooth(mask, 1 if mask.size < SMALL else count)

@@ -106,11 +106,7 @@ class Outline:
     def stretch(self, ring: int, begin: float, length: float) -> Path:
         """Return the ring from a place on, backwards if `length` is below 0: (N, 2), with both ends, mm."""
         begin_point, end_point = self.points_at(ring, np.array([begin, begin + length]))
-        corners = (
-            self.corners_between(ring, begin, length)
-            if length > 0
-            else self.corners_between(ring, begin + length, -length)[::-1]
-        )
+        corners = self.corners_between(ring, begin + min(length, 0.0), abs(length))[:: 1 if length > 0 else -1]
         return np.concatenate([begin_point[None], corners, end_point[None]])
 
 
