@@ -417,13 +417,13 @@ def test_a_quadric_is_the_sum_of_squared_distances_and_is_least_where_the_planes
         around = (surface.faces == vertex).any(axis=1)
         heights = ((points[:, None] - corners[None, around, 0]) * normals[around]).sum(axis=2)
         expected = (areas[around] / 3 * heights**2).sum(axis=1)
-        found = [quadrics.value_of(quadric[vertex], *point) for point in points]
+        found = [quadrics.evaluate_quadric(quadric[vertex], *point) for point in points]
         np.testing.assert_allclose(found, expected, atol=1e-12)
         assert quadric[vertex, 10] == pytest.approx(areas[around].sum() / 3)
     one, other = surface.faces[0, :2]
     total, place = np.empty(11), np.empty(3)
     least = quadrics.best_place(vertices[one], vertices[other], quadric[one], quadric[other], total, place)
-    around_both = [quadrics.value_of(total, *(place + shift)) for shift in 0.1 * np.eye(3)]
+    around_both = [quadrics.evaluate_quadric(total, *(place + shift)) for shift in 0.1 * np.eye(3)]
     assert all(least <= value + 1e-12 for value in around_both)
 
 

@@ -19,7 +19,7 @@ import numpy as np
 
 from infill.kernels.compiling import njit
 from infill.kernels.crossings import does_edge_pierce
-from infill.kernels.quadrics import best_place, move_into_plane, normal_and_shape, squared_length, value_of
+from infill.kernels.quadrics import best_place, evaluate_quadric, move_into_plane, normal_and_shape, squared_length
 from infill.kernels.rows import copy_row
 from infill.kernels.wall_nearness import MAX_WATCHED, NONE, are_faces_near, hand_over, has_corner, reassign_watched
 
@@ -176,7 +176,7 @@ def _place_of(u, v, points, order, flags, quadric, box, s, place):
         for k in range(11):
             s[k] = quadric[u, k] + quadric[v, k]
         copy_row(place, points[v])
-        return value_of(s, place[0], place[1], place[2])
+        return evaluate_quadric(s, place[0], place[1], place[2])
     if high not in (flags[u], flags[v]):
         return math.inf
     cost = best_place(points[u], points[v], quadric[u], quadric[v], s, place)
@@ -184,7 +184,7 @@ def _place_of(u, v, points, order, flags, quadric, box, s, place):
         if low != high:
             copy_row(place, points[u] if high == flags[u] else points[v])
         _side_place(high, box[0], box[1], place)
-        cost = value_of(s, place[0], place[1], place[2])
+        cost = evaluate_quadric(s, place[0], place[1], place[2])
     return cost
 
 

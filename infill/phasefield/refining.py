@@ -305,7 +305,7 @@ class _WeightedSum:
 def _extend_to_new_bricks(previous: Field, known_count: int, bricks: Bricks) -> Field:
     """Extend the last but one field to the new bricks, in which it equals the data."""
     if len(previous) < bricks.count:
-        larger = np.empty((bricks.room(LATER_GROWTH), CELLS), dtype=np.float32)
+        larger = np.empty((bricks.capacity(LATER_GROWTH), CELLS), dtype=np.float32)
         larger[:known_count] = previous[:known_count]
         previous = larger
     previous[known_count : bricks.count] = bricks.held[known_count : bricks.count]
@@ -340,7 +340,16 @@ def _gate_averages(
 ) -> NDArray[np.float32]:
     """Return <w>, <w r> and <w r²> of `blend_by_gate` on coarse cells; `phase` is the field at distance `above`."""
     sums = np.empty((len(bricks.values), kernels.SUMS, *(count // size for count in BRICK)), dtype=np.float32)
-    in_threads(kernels.collect, below, above, phase.reshape(-1, CELLS), np.float32(unit), size, sums, threads=threads)
+    in_threads(
+        kernels.average,
+        below,
+        above,
+        phase.reshape(-1, CELLS),
+        np.float32(unit),
+        size,
+        sums,
+        threads=threads,
+    )
     blurred = np.empty_like(sums)
     in_threads(kernels.blur, sums, bricks.slots, bricks.where, blurred, threads=threads)
     return blurred
