@@ -19,7 +19,7 @@ from PIL import Image
 from test_command_line import one_line_error, run, usage_error
 
 from infill import GeometryError, InfillError, UsageError, refill
-from infill.interior.conformal_map import map_points, spline_slopes, wall_density_factor
+from infill.interior.conformal_map import map_points, spline_jacobians, wall_density_factor
 from infill.interior.plane_map import fit_plane_map
 from infill.paths.families.catalogue import FAMILIES
 from infill.paths.families.family import TOUCH, PathSpec
@@ -389,7 +389,7 @@ def test_no_cell_of_the_plane_folds_over(data: st.DataObject) -> None:
     shape = data.draw(st.tuples(st.integers(4, 20), st.integers(4, 20)))
     random = np.random.default_rng(data.draw(st.integers(0, 1000)))
     coordinates, more = fit_plane_map(np.exp(random.uniform(-1.2, 1.2, shape)))
-    assert np.linalg.det(spline_slopes(coordinates)).min() > 0
+    assert np.linalg.det(spline_jacobians(coordinates)).min() > 0
     assert np.isfinite(more).all()
 
 
@@ -401,7 +401,7 @@ def linear_map(first: float, last: float) -> PlaneMap:
     coordinates, more = fit_plane_map(scales)
     np.testing.assert_allclose(more[15:76, 15:76], scales[15:76, 15:76], rtol=0.01)
     forward = PlaneSpline(corner=corner, step=1.0, coefficients=corner + coordinates)
-    return invert_map(forward, spline_slopes(coordinates), pattern_bounds(forward, (0, 0, 60, 60)), 15.0)
+    return invert_map(forward, spline_jacobians(coordinates), pattern_bounds(forward, (0, 0, 60, 60)), 15.0)
 
 
 def test_cells_of_a_density_that_changes_along_a_line_stay_round() -> None:

@@ -44,15 +44,15 @@ def sort_sides(sides, cursor, behind, before):
 
 @njit(nogil=True, cache=True)
 def list_points(triangles, behind, before, table, points):
-    """List the points of triangles, each once, which `table` marks by 0; return their number.
+    """Write the points of two lists of triangles to `points`, without repetition; return their number.
 
     Parameters
     ----------
     triangles : (T, 3) int
     behind, before : (N,), (M,) int
-        Numbers of triangles.
+        Numbers of the triangles behind and before a label.
     table : (P,) int
-        Of -1; written.
+        Of -1; becomes 0 for points that are listed.
     points : (K,) int64
         Written.
     """

@@ -15,8 +15,8 @@ from infill.kernels.distances import squared_distance
 from infill.kernels.quadrics import normal_and_shape, squared_length
 
 NONE = -1
-LEVEL = 0.985  # cosine of the angle, 10 degrees, up to which the triangles of a wall count as level
-LEVEL_SPACING = 8.0  # there, places at which the distance is measured are further apart
+ALIGNED = 0.985  # cosine of the angle, 10 degrees, up to which the triangles of a wall count as aligned
+ALIGNED_SPACING = 8.0  # there, places at which the distance is measured are further apart
 MAX_WATCHED = 1 << 14  # points on the faces around an edge: where there are more, it stays
 KEEP_SHARE = 0.25  # of a squared tolerance: a point within this of a triangle needs no nearer one
 MOST_SAMPLES = 32  # on an edge
@@ -29,7 +29,7 @@ def has_corner(triangles, t, w):
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def reassign_watched(u, triangles, pair, fan_v, watched, tolerance, moved, chosen, changed, goes, goes_to):
+def reassign_watched(u, triangles, pair, fan_v, watched, squared_tolerance, moved, chosen, changed, goes, goes_to):
     """Find for each watched point of the faces at an edge the nearest face of its wall; return their number, or -1.
 
     -1 stands for a point that would be too far from its wall, or too many points.
@@ -49,13 +49,13 @@ def reassign_watched(u, triangles, pair, fan_v, watched, tolerance, moved, chose
             if face < changed:
                 best, nearest = squared_distance(x, y, z, moved[face, 0], moved[face, 1], moved[face, 2]), face
             for m in range(changed):
-                if best <= KEEP_SHARE * tolerance:
+                if best <= KEEP_SHARE * squared_tolerance:
                     break
                 if m != face and pair[chosen[m]] == of:
                     squared = squared_distance(x, y, z, moved[m, 0], moved[m, 1], moved[m, 2])
                     if squared < best:
                         best, nearest = squared, m
-            if best > tolerance or count == len(goes):
+            if best > squared_tolerance or count == len(goes):
                 return NONE
             goes[count], goes_to[count] = p, nearest
             count += 1
@@ -64,7 +64,7 @@ def reassign_watched(u, triangles, pair, fan_v, watched, tolerance, moved, chose
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _is_near_star(x, y, z, p, of, watched, tolerance):
+def _is_near_star(x, y, z, p, of, watched, squared_tolerance):
     """Return True if a place is near a given face of a wall at a watched point."""
     point, original, star_start, star, was_pair = watched[3], watched[4], watched[5], watched[6], watched[7]
     v = point[p]
@@ -72,15 +72,15 @@ def _is_near_star(x, y, z, p, of, watched, tolerance):
         t = star[n]
         if was_pair[t] != of:
             continue
-        if squared_distance(x, y, z, original[t, 0], original[t, 1], original[t, 2]) <= tolerance:
+        if squared_distance(x, y, z, original[t, 0], original[t, 1], original[t, 2]) <= squared_tolerance:
             return True
     return False
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _near_point(x, y, z, last, of, watched, tolerance, pair, chosen, goes, goes_to, taken):
+def _near_point(x, y, z, last, of, watched, squared_tolerance, pair, chosen, goes, goes_to, taken):
     """Return a watched point with a face of its wall near a place, `last` if it has one; -1 if there is none."""
-    if last != NONE and _is_near_star(x, y, z, last, of, watched, tolerance):
+    if last != NONE and _is_near_star(x, y, z, last, of, watched, squared_tolerance):
         return last
     places = watched[0]
     best, nearest = math.inf, NONE
@@ -91,30 +91,30 @@ def _near_point(x, y, z, last, of, watched, tolerance, pair, chosen, goes, goes_
         squared = (places[p, 0] - x) ** 2 + (places[p, 1] - y) ** 2 + (places[p, 2] - z) ** 2
         if squared < best:
             best, nearest = squared, p
-    if nearest == NONE or best <= tolerance or _is_near_star(x, y, z, nearest, of, watched, tolerance):
+    if nearest == NONE or best <= squared_tolerance or _is_near_star(x, y, z, nearest, of, watched, squared_tolerance):
         return nearest
     for n in range(taken):
-        if pair[chosen[goes_to[n]]] == of and _is_near_star(x, y, z, goes[n], of, watched, tolerance):
+        if pair[chosen[goes_to[n]]] == of and _is_near_star(x, y, z, goes[n], of, watched, squared_tolerance):
             return goes[n]
     return NONE
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def are_faces_near(place, moved, changed, pair, chosen, watched, tolerance, spacing, goes, goes_to, taken):
+def are_faces_near(place, moved, changed, pair, chosen, watched, squared_tolerance, spacing, goes, goes_to, taken):
     """Return True if a place, the edges from it and the middles of its faces are near the walls that were given."""
     for m in range(changed):
         of = pair[chosen[m]]
         mx, my, mz, _ = normal_and_shape(moved[m, 0], moved[m, 1], moved[m, 2])
-        level, is_first = True, True
+        aligned, is_first = True, True
         for n in range(changed):
             if pair[chosen[n]] == of:
                 is_first = is_first and n >= m
                 nx, ny, nz, _ = normal_and_shape(moved[n, 0], moved[n, 1], moved[n, 2])
                 same = nx * mx + ny * my + nz * mz
                 squares = (nx * nx + ny * ny + nz * nz) * (mx * mx + my * my + mz * mz)
-                level = level and same > 0 and same * same >= LEVEL**2 * squares
+                aligned = aligned and same > 0 and same * same >= ALIGNED**2 * squares
         a, b = moved[m, 1], moved[m, 2]
-        apart, last = spacing * LEVEL_SPACING if level else spacing, NONE
+        apart, last = spacing * ALIGNED_SPACING if aligned else spacing, NONE
         parts = max(2, min(MOST_SAMPLES, math.ceil(math.sqrt(squared_length(place, a)) / apart)))
         for part in range(0 if is_first else 1, parts + 1):
             share = part / parts
@@ -123,7 +123,7 @@ def are_faces_near(place, moved, changed, pair, chosen, watched, tolerance, spac
             z = place[2] + share * (a[2] - place[2])
             if part == parts:
                 x, y, z = (place[0] + a[0] + b[0]) / 3, (place[1] + a[1] + b[1]) / 3, (place[2] + a[2] + b[2]) / 3
-            last = _near_point(x, y, z, last, of, watched, tolerance, pair, chosen, goes, goes_to, taken)
+            last = _near_point(x, y, z, last, of, watched, squared_tolerance, pair, chosen, goes, goes_to, taken)
             if last == NONE:
                 return False
     return True

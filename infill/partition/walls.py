@@ -210,7 +210,8 @@ def cut_labels(walls: Walls, labels: int, *, threads: int | None = None) -> Iter
     cutting.sort_sides(walls.sides, starts[:-1].copy(), *orders)
     tables = [np.full(len(walls.points), -1, dtype=walls.triangles.dtype) for _ in range(count)]
 
-    def cut(label: int) -> CutLabel:
+    def cut_label(label: int) -> CutLabel:
+        """Cut out one label: renumber its points and triangles."""
         behind, before = (order[starts[label, side] : starts[label + 1, side]] for side, order in enumerate(orders))
         faces = np.empty((len(behind) + len(before), 3), dtype=walls.triangles.dtype)
         points = np.empty(3 * len(faces), dtype=np.int64)
@@ -220,6 +221,6 @@ def cut_labels(walls: Walls, labels: int, *, threads: int | None = None) -> Iter
         tables.append(table)
         return CutLabel(label=label, points=points, faces=faces)
 
-    for _, piece in in_order(cut, range(1, labels), threads=count):
+    for _, piece in in_order(cut_label, range(1, labels), threads=count):
         if len(piece.faces):
             yield piece

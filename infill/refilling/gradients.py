@@ -12,7 +12,7 @@ import numpy as np
 
 from infill.arrays import Floats
 from infill.errors import GeometryError, ParameterError, UsageError
-from infill.interior.conformal_map import spline_slopes
+from infill.interior.conformal_map import spline_jacobians
 from infill.interior.plane_map import fit_plane_map
 from infill.options.density_fields import BoxedField, Field, ScatteredField, SimulatedField, describe_box, resolve_field
 from infill.paths.families.family import STRETCHED_TOUCH, Bounds, Family, NominalStrand, PathSpec
@@ -106,6 +106,7 @@ def check_gradient(densities: Sequence[float], by: object) -> Gradient:
 
 
 def _percent(density: float) -> str:
+    """Format a density in per cent."""
     return f"{plain_argument(100 * density)}%"
 
 
@@ -294,7 +295,7 @@ def _stretch_at(trial: _Trial, graded: GradedDensity, heights: Sequence[float]) 
         shares = graded.shares(np.column_stack([inside, np.full(len(inside), height)])).reshape(nodes.shape[:2])
         coordinates, _ = fit_plane_map(trial.scales_of(shares, graded.gradient.middle), trial.normals)
         splines.append(PlaneSpline(corner=corner, step=step, coefficients=corner + step * coordinates))
-        slopes.append(spline_slopes(coordinates))
+        slopes.append(spline_jacobians(coordinates))
     bounds = float(low[0]), float(low[1]), float(high[0]), float(high[1])
     return [
         invert_map(spline, slope, pattern_bounds(spline, bounds), padding)
@@ -303,6 +304,7 @@ def _stretch_at(trial: _Trial, graded: GradedDensity, heights: Sequence[float]) 
 
 
 def _rise(slopes: Floats) -> float:
+    """Return the least scale of a map, from its Jacobians (..., 2, 2): the root of the least determinant."""
     return float(np.sqrt(np.linalg.det(slopes).min()))
 
 
@@ -352,5 +354,6 @@ class _Trial:
 
 
 def _square(cell: float) -> Bounds:
+    """Return the box of a trial about (0, 0), mm."""
     half = TRIAL_CELLS * cell / 2
     return -half, -half, half, half

@@ -190,6 +190,7 @@ def plan_refill(
     everywhere = index_beads(np.concatenate(walls))
 
     def measure(paths: Sequence[Floats], cell: float) -> float:
+        """Measure the length of the paths of a cell with round corners, mm."""
         strands = [path for path in paths if len(path) > 1]
         smooth_paths, _ = round_paths(
             strands,
