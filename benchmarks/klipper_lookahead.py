@@ -101,7 +101,7 @@ class Planner:
 def compare(toolhead: Any, path: Path, **stated: Any) -> str:
     """Plan a print with both; return a line of the table."""
     planner, ours = Planner(toolhead), []
-    with open_sliced(path) as file, open_timeline(file, file.part(None), collect_given(**stated)) as timeline:
+    with open_sliced(path) as file, open_timeline(file, file.part_of_plate(None), collect_given(**stated)) as timeline:
         for steps, plan in timeline:
             planner.add(steps, timeline.limits)
             ours.append(plan.seconds)

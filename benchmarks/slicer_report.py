@@ -23,7 +23,6 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterable
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 from typing import Any
 
@@ -101,13 +100,10 @@ def fill(results: dict[str, Any], given: argparse.Namespace) -> None:
         if missing:
             todo.append((case, missing))
     print(f"{len(todo)} cases to run")
-    forked = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(max_workers=given.jobs, mp_context=forked, max_tasks_per_child=20) as pool:
-        waiting, done = {}, 0
-        for case, modes in todo:
-            waiting[pool.submit(_timed, case, modes, begin + 60 * given.minutes)] = case
-        for future in as_completed(waiting):
-            case, (found, seconds) = waiting[future], future.result()
+    spawned = multiprocessing.get_context("spawn")
+    until, done = begin + 60 * given.minutes, 0
+    with spawned.Pool(given.jobs, maxtasksperchild=20) as pool:
+        for case, (found, seconds) in pool.imap_unordered(_timed, [(*task, until) for task in todo]):
             if not found:
                 continue
             done += 1
@@ -155,12 +151,13 @@ def imported(modules: Iterable[str], root: Path = ROOT) -> list[Path]:
     return [files[module] for module in sorted(files)]
 
 
-def _timed(case: Case, modes: list[str], until: float) -> tuple[dict[str, Any], float]:
-    """Run a case unless it is too late; return what it gave, and the seconds of one core that it took."""
+def _timed(task: tuple[Case, list[str], float]) -> tuple[Case, tuple[dict[str, Any], float]]:
+    """Run a case unless it is too late; return it, what it gave, and the seconds of one core that it took."""
+    case, modes, until = task
     if time.monotonic() >= until:
-        return {}, 0.0
+        return case, ({}, 0.0)
     begin = _core_seconds()
-    return run_case(case, modes), _core_seconds() - begin
+    return case, (run_case(case, modes), _core_seconds() - begin)
 
 
 def _core_seconds() -> float:

@@ -39,7 +39,7 @@ class Edges:
         >>> edges.ends[edges.faces == 2].tolist()
         [[0, 2]]
         """
-        edge_numbers, is_backward = np.divmod(_sorted_sides(faces), 2)
+        edge_numbers, is_backward = np.divmod(_sorted_edge_keys(faces), 2)
         starts = np.flatnonzero(np.diff(edge_numbers, prepend=-1))
         faces_of, back = np.diff(starts, append=len(edge_numbers)), np.add.reduceat(is_backward, starts)
         ends = np.stack(np.divmod(edge_numbers[starts], int(faces.max()) + 1), axis=1)
@@ -114,7 +114,7 @@ class Surface:
         """True if every edge has two faces that run along it in opposite directions."""
         if len(self.faces) == 0 or len(self.faces) % 2:
             return False
-        ahead, back = _sorted_sides(self.faces).reshape(-1, 2).T
+        ahead, back = _sorted_edge_keys(self.faces).reshape(-1, 2).T
         return bool((back == ahead + 1).all() and not (ahead & 1).any() and (ahead[1:] != ahead[:-1]).all())
 
     @cached_property
@@ -166,7 +166,7 @@ class Surface:
         """True if `closed` is computed already."""
         return "closed" in self.__dict__
 
-    def knowing(self, *, closed: bool, volume: float, area: float) -> Surface:
+    def with_measures(self, *, closed: bool, volume: float, area: float) -> Surface:
         """Return the same surface with quantities measured elsewhere: see `infill.meshes.measuring`."""
         copy = Surface(vertices=self.vertices, faces=self.faces, space=self.space)
         copy.__dict__.update(closed=closed, _volume_and_area=(volume, area))
@@ -195,12 +195,12 @@ class Surface:
         return trimesh.Trimesh(vertices=self.vertices, faces=self.faces, process=False)
 
 
-def _sorted_sides(faces: NDArray[np.integer]) -> NDArray[np.int64]:
-    """Return the sides of all faces as sorted numbers (3 F,).
+def _sorted_edge_keys(faces: NDArray[np.integer]) -> NDArray[np.int64]:
+    """Return the directed edges of all faces as sorted integer keys (3 F,).
 
-    The side from vertex i to j > i gets 2 (i n + j), with n the number of vertices, and the side from j to i one more.
-    So the sides of one edge are adjacent, those from its lower vertex first, and those of a closed surface come in
-    pairs: an even number and the next one.
+    The edge from vertex i to j > i gets 2 (i n + j), with n the number of vertices, and that from j to i one more. So
+    both directions are adjacent, that from the lower vertex first; keys of a closed surface come in pairs: an even
+    number and the next one.
     """
     vertex_count = int(faces.max()) + 1
     sides = np.empty((3, len(faces)), dtype=np.int64)

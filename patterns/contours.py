@@ -64,6 +64,7 @@ def zero_lines(
     x, y = (_nodes(bounds[i], bounds[i + 2], step, OFFSET[i]) for i in (0, 1))
 
     def value(x: Floats, y: Floats) -> Floats:
+        """Return the function at points of the height, or raise PatternError."""
         x, y = np.broadcast_arrays(x, y)
         values = np.broadcast_to(np.asarray(function(x, y, np.full(x.shape, float(z))), dtype=np.float64), x.shape)
         if not np.isfinite(values).all():

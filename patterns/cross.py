@@ -56,7 +56,7 @@ class Cross(Pattern):
             raise PatternError(
                 f"the cell is {format_decimal(self.cell)} mm; the curve reaches {ORIGIN} octagons: give a larger one"
             )
-        parts = shapely.get_parts(shapely.line_merge(shapely.multilinestrings(curve_steps(low, high))))
+        parts = shapely.get_parts(shapely.line_merge(shapely.multilinestrings(curve_segments(low, high))))
         placed_lines = shapely.transform(parts, lambda ends: turn(ends * pitch, self.angle) + np.array(self.phase))
         lines = clip(placed_lines, region)
         return add_frame(lines, region) if self.frame else lines
@@ -112,8 +112,10 @@ class Cross3D(Cross):
         return self.phase[0] + self.cell / 2 * np.cos(turned), self.phase[1] + self.cell / 2 * np.sin(turned)
 
 
-def curve_steps(low: NDArray[np.float64], high: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the steps of the curve around nodes from `low` to `high`, (2,) each: (N, 2, 2), in node distances.
+def curve_segments(low: NDArray[np.float64], high: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the segments of the curve around the nodes of a box from `low` to `high`, by their ends: (N, 2, 2).
+
+    Lengths are distances between nodes; `low` and `high` are (2,).
 
     Notes
     -----
@@ -122,7 +124,7 @@ def curve_steps(low: NDArray[np.float64], high: NDArray[np.float64]) -> NDArray[
     coordinates. Two such nodes are never neighbours: one coordinate would be odd in both.
 
     >>> import numpy as np
-    >>> len(curve_steps(np.array([0.0, 0.0]), np.array([9.0, 9.0])))
+    >>> len(curve_segments(np.array([0.0, 0.0]), np.array([9.0, 9.0])))
     400
     """
     import numpy as np

@@ -56,7 +56,7 @@ class Spiral(Pattern):
 
         centre = bounds_centre(region) + self.phase
         farthest = float(np.linalg.norm(shapely.get_coordinates(shapely.envelope(region)) - centre, axis=1).max())
-        spiral = turn(self.drawn(farthest / self.cell) * self.cell, self.angle) + centre
+        spiral = turn(self.draw_turns(farthest / self.cell) * self.cell, self.angle) + centre
         lines = clip([shapely.LineString(spiral)], region)
         return add_frame(lines, region) if self.frame else lines
 
@@ -64,7 +64,7 @@ class Spiral(Pattern):
         """Return the distance between neighbouring turns, mm."""
         return self.cell
 
-    def drawn(self, reach: float) -> NDArray[np.float64]:
+    def draw_turns(self, reach: float) -> NDArray[np.float64]:
         """Return a spiral whose turns are 1 apart, about (0, 0), to beyond `reach`: (N, 2)."""
         import numpy as np
 

@@ -65,7 +65,7 @@ class Surfaces(Cells):
         import numpy as np
 
         points = np.asarray(points, dtype=np.float64)
-        foot = points + self._towards(points)
+        foot = points + self._offsets_to_surface(points)
         nearest = np.minimum(np.linalg.norm(points - foot, axis=1), MAX_DISTANCE)
         active = np.flatnonzero(nearest < MAX_DISTANCE)
         foot = foot[active]
@@ -83,7 +83,7 @@ class Surfaces(Cells):
         signed: Floats = np.where(self._at(points) < 0, -1.0, 1.0) * nearest
         return signed
 
-    def _towards(self, points: Floats) -> Floats:
+    def _offsets_to_surface(self, points: Floats) -> Floats:
         """Return the offset from points (N, 3) to the nearest surface point of the nodes around them, (N, 3)."""
         import numpy as np
 
@@ -143,7 +143,8 @@ def surface_offsets(surfaces: Surfaces) -> Floats:
     value = surfaces._at(nodes.reshape(-1, 3)).reshape(nodes.shape[:3])
     offsets, least_squared = np.full(nodes.shape, np.inf), np.full(value.shape, np.inf)
 
-    def nearer(candidate: Floats) -> None:
+    def keep_nearer(candidate: Floats) -> None:
+        """Keep the candidates that are nearer than the offsets so far."""
         squared = np.einsum("...i,...i", candidate, candidate)
         better = squared < least_squared
         offsets[better], least_squared[better] = candidate[better], squared[better]
@@ -155,12 +156,12 @@ def surface_offsets(surfaces: Surfaces) -> Floats:
         foot, residual = surfaces._on_surface(nodes[crossed] + share[:, None] * step, NEWTON_STEPS)
         candidate = np.full(nodes.shape, np.inf)
         candidate[crossed] = np.where((np.abs(residual) < ZERO_TOLERANCE)[:, None], foot - nodes[crossed], np.inf)
-        nearer(candidate)
-        nearer(np.roll(candidate - step, 1, axis=axis))
+        keep_nearer(candidate)
+        keep_nearer(np.roll(candidate - step, 1, axis=axis))
     directions = [np.array(direction) for direction in itertools.product((-1, 0, 1), repeat=3) if any(direction)]
     for jump in JUMPS:
         for direction in directions:
-            nearer(np.roll(offsets, tuple(-jump * direction), axis=(0, 1, 2)) + jump * direction / NODES_PER_CELL)
+            keep_nearer(np.roll(offsets, tuple(-jump * direction), axis=(0, 1, 2)) + jump * direction / NODES_PER_CELL)
     return offsets
 
 
@@ -202,10 +203,10 @@ class Network(Cells):
 
         line = np.arange(DEEPEST) / DEEPEST
         grid = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
-        shortfall: Floats = self._deep(grid).max() - self._deep(np.asarray(points, dtype=np.float64))
+        shortfall: Floats = self._depth(grid).max() - self._depth(np.asarray(points, dtype=np.float64))
         return shortfall
 
-    def _deep(self, points: Floats) -> Floats:
+    def _depth(self, points: Floats) -> Floats:
         """Return the depth of points on the chosen side of the surfaces, in cells; negative on the other side."""
         return self.side * self.surfaces.distance(points)
 

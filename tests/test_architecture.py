@@ -58,7 +58,7 @@ KEPT = {
     "numba": "infill.kernels",
     "llvmlite": "infill.kernels",
     "SimpleITK": "infill.imaging.medical",
-    "DracoPy": "infill.formats.draco",
+    "DracoPy": "infill.formats.gltf_reader",
     "pydicom": "infill.imaging.dicom",
     "typer": "infill.cli",
     "rich": "infill.cli",

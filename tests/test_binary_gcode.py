@@ -24,15 +24,15 @@ from infill.gcode.binary import (
     Compression,
     Encoding,
     Kind,
-    blocks,
-    decoded,
-    edited,
-    encoded,
+    decode_block,
+    edit_metadata,
+    encode_block,
     is_binary,
-    metadata,
-    rewritten,
-    stored,
-    text_pieces,
+    pack_block,
+    read_blocks,
+    read_metadata,
+    read_text_pieces,
+    rewrite_binary,
 )
 from infill.gcode.stream import MAX_CHUNK_BYTES
 
@@ -300,38 +300,38 @@ def a_file() -> list[bytes]:
 def test_a_file_of_another_writer_is_read() -> None:
     assert is_binary(HEAD)
     assert not is_binary(b"G1 X1")
-    read = list(blocks(opened(a_file())))
+    read = list(read_blocks(opened(a_file())))
     assert [each.kind for each in read] == [0, 3, 5, 4, 2, 1, 1]
-    assert [stored(each) for each in read] == a_file()[1:]
-    assert decoded(read[2]) == PICTURE
-    assert metadata(read[4]) == {"a": "1", "b ": " x=y"}
+    assert [pack_block(each) for each in read] == a_file()[1:]
+    assert decode_block(read[2]) == PICTURE
+    assert read_metadata(read[4]) == {"a": "1", "b ": " x=y"}
     # The last line of the first block goes on in the second.
-    assert b"".join(text_pieces(opened(a_file()))) == b"G28\nG1 X1" + PACKED_TEXT
+    assert b"".join(read_text_pieces(opened(a_file()))) == b"G28\nG1 X1" + PACKED_TEXT
 
 
 @pytest.mark.slow
 @given(texts, st.sampled_from(Compression), st.sampled_from(Encoding))
 @example(TEXT, Compression.HEATSHRINK_12, Encoding.MEATPACK_COMMENTS)
 def test_what_is_encoded_decodes_to_the_same(text: bytes, compression: Compression, encoding: Encoding) -> None:
-    new = encoded(text, like=made(compression, encoding))
+    new = encode_block(text, like=made(compression, encoding))
     assert (new.compression, new.encoding) == (compression, encoding)
     wanted = text
     if encoding:
         wanted = meatpack.normalise_text(text, comments=encoding == Encoding.MEATPACK_COMMENTS)
-    assert decoded(new) == wanted
-    assert next(blocks(opened([HEAD, stored(new)]))).data == new.data
+    assert decode_block(new) == wanted
+    assert next(read_blocks(opened([HEAD, pack_block(new)]))).data == new.data
 
 
 @pytest.mark.parametrize("line", [b"GRAB  BOX ; a\n", b' M118 "a;b"\n', b"M117 \xff \n", b'G1 "X"\n', b"G\n"])
 def test_a_line_that_packing_would_change_is_kept_as_it_is(line: bytes) -> None:
-    new = encoded(line + TEXT + line + line, like=made(3, 2))
-    assert decoded(new) == line + TEXT + line + line
+    new = encode_block(line + TEXT + line + line, like=made(3, 2))
+    assert decode_block(new) == line + TEXT + line + line
 
 
 def test_what_meatpack_cannot_hold_is_refused() -> None:
-    assert decoded(encoded(b"M117 \xff\xff\n", like=made(3, 0))) == b"M117 \xff\xff\n"
+    assert decode_block(encode_block(b"M117 \xff\xff\n", like=made(3, 0))) == b"M117 \xff\xff\n"
     with pytest.raises(OutputError, match="does not read back"):
-        encoded(b"M117 \xff\xff\n", like=made(3, 2))
+        encode_block(b"M117 \xff\xff\n", like=made(3, 2))
 
 
 @pytest.mark.parametrize("broken", [b"", b"\xff\xff\xfb\x1d\x1f", b"\xff\xff\xfb\x1d\x1d"])
@@ -341,7 +341,7 @@ def test_a_packer_that_errs_is_found_out(
 ) -> None:
     monkeypatch.setattr(place, name, lambda text, **_: broken)
     with pytest.raises(OutputError, match="does not read back"):
-        encoded(b"G1\n", like=made(3, 2))
+        encode_block(b"G1\n", like=made(3, 2))
 
 
 def test_a_file_cut_anywhere_is_told() -> None:
@@ -350,10 +350,10 @@ def test_a_file_cut_anywhere_is_told() -> None:
     for length in range(len(whole)):
         cut = opened(whole[:length])
         if length in borders:
-            assert len(list(blocks(cut))) < 7
+            assert len(list(read_blocks(cut))) < 7
             continue
         with pytest.raises(FormatError) as told:
-            list(blocks(cut))
+            list(read_blocks(cut))
         assert "\n" not in str(told.value)
         assert "cut off" in str(told.value) or length < 4
         if length > len(HEAD):
@@ -366,7 +366,7 @@ def test_one_changed_bit_anywhere_is_told() -> None:
         damaged = bytearray(whole)
         damaged[place] ^= 1 << place % 8
         with pytest.raises(FormatError) as told:
-            list(blocks(opened(bytes(damaged))))
+            list(read_blocks(opened(bytes(damaged))))
         assert "\n" not in str(told.value)
 
 
@@ -392,17 +392,17 @@ def test_one_changed_bit_anywhere_is_told() -> None:
 )
 def test_what_is_wrong_is_one_line(data: bytes, word: str) -> None:
     with pytest.raises(FormatError, match=word) as told:
-        list(text_pieces(opened(data)))
+        list(read_text_pieces(opened(data)))
     assert "\n" not in str(told.value)
 
 
 def test_a_file_without_checksums_is_read_and_written_without() -> None:
     whole = opened([struct.pack("<4sIH", b"GCDE", 1, 0), *(each[:-4] for each in a_file()[1:])])
     target = io.BytesIO()
-    rewritten(whole, target, [b"G28\n"])
+    rewrite_binary(whole, target, [b"G28\n"])
     assert target.getvalue()[:10] == whole.getvalue()[:10]
-    assert b"".join(text_pieces(opened(target.getvalue()))) == b"G28\n"
-    assert not any(each.summed for each in blocks(opened(target.getvalue())))
+    assert b"".join(read_text_pieces(opened(target.getvalue()))) == b"G28\n"
+    assert not any(each.summed for each in read_blocks(opened(target.getvalue())))
 
 
 # --- written anew ----------------------------------------------------------------------------------------
@@ -413,30 +413,30 @@ FILAMENT = "filament used [g]"
 @pytest.mark.parametrize("compression", [0, 1, 2, 3])
 @pytest.mark.parametrize("encoding", [0, 1, 2])
 def test_only_the_text_and_the_metadata_that_are_named_change(compression: int, encoding: int) -> None:
-    old = parts([stored(encoded(TEXT, like=made(compression, encoding)))])
+    old = parts([pack_block(encode_block(TEXT, like=made(compression, encoding)))])
     target = io.BytesIO()
-    found = rewritten(opened(old), target, iter([TEXT[:-3], TEXT[-3:], b"M84\n"]), {FILAMENT: "9.1", "mass": "2"})
+    found = rewrite_binary(opened(old), target, iter([TEXT[:-3], TEXT[-3:], b"M84\n"]), {FILAMENT: "9.1", "mass": "2"})
     assert found == {FILAMENT}
     whole = target.getvalue()
-    new = list(blocks(opened(whole)))
-    assert whole == b"".join([HEAD, *map(stored, new)])
-    assert [stored(new[place]) for place in (0, 2, 4)] == [old[place + 1] for place in (0, 2, 4)]
-    assert decoded(new[1]) == PRINTER.replace(b"28.18", b"9.1")
-    assert decoded(new[3]) == PRINT.replace(b"28.18", b"9.1")
+    new = list(read_blocks(opened(whole)))
+    assert whole == b"".join([HEAD, *map(pack_block, new)])
+    assert [pack_block(new[place]) for place in (0, 2, 4)] == [old[place + 1] for place in (0, 2, 4)]
+    assert decode_block(new[1]) == PRINTER.replace(b"28.18", b"9.1")
+    assert decode_block(new[3]) == PRINT.replace(b"28.18", b"9.1")
     assert {(each.compression, each.encoding) for each in new[5:]} == {(compression, encoding)}
     wanted = TEXT + b"M84\n"
     if encoding:
         wanted = meatpack.normalise_text(wanted, comments=encoding == 2)
-    assert b"".join(text_pieces(opened(whole))) == wanted
+    assert b"".join(read_text_pieces(opened(whole))) == wanted
 
 
 def test_compressed_metadata_is_edited_and_a_line_break_is_refused() -> None:
-    slicer = list(blocks(opened(a_file())))[4]
-    new = edited(slicer, {"b ": "é", "c": "3"})
-    assert (new.compression, decoded(new)) == (Compression.DEFLATE, "a=1\nb =é\n".encode())
-    assert edited(slicer, {"c": "3"}) is slicer
+    slicer = list(read_blocks(opened(a_file())))[4]
+    new = edit_metadata(slicer, {"b ": "é", "c": "3"})
+    assert (new.compression, decode_block(new)) == (Compression.DEFLATE, "a=1\nb =é\n".encode())
+    assert edit_metadata(slicer, {"c": "3"}) is slicer
     with pytest.raises(ParameterError, match="one line each"):
-        edited(slicer, {"a": "1\n2"})
+        edit_metadata(slicer, {"a": "1\n2"})
 
 
 def test_blocks_hold_whole_lines_and_no_more_than_the_limit() -> None:
@@ -444,14 +444,14 @@ def test_blocks_hold_whole_lines_and_no_more_than_the_limit() -> None:
     longest = b";" + b"a" * MAX_CHUNK_BYTES + b"\n"
     text = b"".join(lines) + longest + lines[0]
     target = io.BytesIO()
-    rewritten(opened(a_file()), target, (text[start : start + 999] for start in range(0, len(text), 999)))
-    found = [decoded(each) for each in blocks(opened(target.getvalue())) if each.kind == Kind.GCODE]
+    rewrite_binary(opened(a_file()), target, (text[start : start + 999] for start in range(0, len(text), 999)))
+    found = [decode_block(each) for each in read_blocks(opened(target.getvalue())) if each.kind == Kind.GCODE]
     assert b"".join(found) == text
     assert all(each.endswith(b"\n") for each in found)
     # As full as whole lines allow: the next line would not have fitted.
     assert all(len(each) > MAX_CHUNK_BYTES - 10 for each in found[:-3])
     assert [len(each) > MAX_CHUNK_BYTES for each in found] == [each == longest for each in found]
-    assert list(text_pieces(opened(target.getvalue()))) == found
+    assert list(read_text_pieces(opened(target.getvalue()))) == found
 
 
 def test_memory_does_not_grow_with_the_file(tmp_path) -> None:
@@ -462,7 +462,7 @@ def test_memory_does_not_grow_with_the_file(tmp_path) -> None:
         path.write_bytes(b"".join(parts([gcode] * count)))
         tracemalloc.start()
         with path.open("rb") as source, path.open("rb") as text, new.open("wb") as target:
-            rewritten(source, target, text_pieces(text))
+            rewrite_binary(source, target, read_text_pieces(text))
         most = tracemalloc.get_traced_memory()[1]
         tracemalloc.stop()
         return most

@@ -115,7 +115,7 @@ with event.install_recorder("numba:compile") as recorder:
 ahead = {
     components: ["label_cells", "meet_or_spread", "mark_runs", "join_beyond"],
     flips: ["flip_simple", "count_lonely"],
-    measures: ["sum_up", "begin_edges", "match_sides", "measure_areas", "find_first_corners", "spread_points"],
+    measures: ["sum_up", "find_edge_starts", "match_sides", "measure_areas", "find_first_corners", "spread_points"],
     rays: ["sample_rays"],
     distances: ["interleave_bits", "box_leaves", "nearest_triangles"],
 }

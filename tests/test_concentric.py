@@ -80,7 +80,7 @@ def test_the_shadow_is_what_lies_inside_the_walls(name: str, turned: float) -> N
     assert silhouette(in_slabs(space)).equals(found)
     assert found.length == pytest.approx(wanted.length, rel=0.02)  # a staircase is longer
     # Where voids reach through the walls, these are no part of it; which corners are left out may differ.
-    assert shapely.hausdorff_distance(silhouette(space.unwalled).boundary, found.boundary) < 0.05 * voxel
+    assert shapely.hausdorff_distance(silhouette(space.through_walls).boundary, found.boundary) < 0.05 * voxel
 
 
 def test_a_part_with_hardly_any_room_has_no_shadow_and_no_lines() -> None:
@@ -186,7 +186,7 @@ def test_lines_are_about_as_dense_as_their_share_of_a_cell() -> None:
     assert isinstance(voids, Prismatic)
     for density in (0.1, 0.2, 0.5):
         assert voids.widths(density) == pytest.approx(density, rel=0.06)
-    assert voids.sample.apart == 1.0
+    assert voids.sample.spacing == 1.0
 
 
 def test_rings_of_a_box_meet_at_right_angles() -> None:

@@ -424,7 +424,7 @@ clouds = st.lists(coordinates, min_size=1, max_size=40).map(np.array)
 @given(points=clouds, walls=clouds, distance=st.floats(0.1, 3))
 def test_what_lies_beside_walls_is_found(points: np.ndarray, walls: np.ndarray, distance: float) -> None:
     apart = np.hypot(*(points[:, None] - walls).transpose(2, 0, 1)).min(axis=1)
-    near = index_beads(walls).near(points, np.zeros(len(points), dtype=int), distance)
+    near = index_beads(walls).distances(points, np.zeros(len(points), dtype=int), distance)
     assert near == pytest.approx(np.where(apart < distance, apart, np.inf))
 
 
@@ -434,7 +434,7 @@ def test_each_point_sees_the_walls_of_its_layer(
 ) -> None:
     numbers = st.integers(3, 6)
     layer, of = (np.array(data.draw(st.lists(numbers, min_size=len(x), max_size=len(x)))) for x in (points, walls))
-    near = index_beads(walls, of).near(points, layer, distance)
+    near = index_beads(walls, of).distances(points, layer, distance)
     apart = np.hypot(*(points[:, None] - walls).transpose(2, 0, 1))
     apart = np.where(layer[:, None] == of, apart, np.inf).min(axis=1)
     assert near == pytest.approx(np.where(apart < distance, apart, np.inf))
@@ -442,10 +442,10 @@ def test_each_point_sees_the_walls_of_its_layer(
 
 def test_a_wall_far_away_takes_no_memory() -> None:
     walls = np.array([[0.0, 0.0], [1e7, -1e7], [3e300, 0.0]])
-    near = index_beads(walls).near(np.array([[0.3, 0.0], [5.0, 0.0], [-2e8, 1e9]]), np.zeros(3, dtype=int), 0.5)
+    near = index_beads(walls).distances(np.array([[0.3, 0.0], [5.0, 0.0], [-2e8, 1e9]]), np.zeros(3, dtype=int), 0.5)
     assert near == pytest.approx([0.3, np.inf, np.inf])
-    assert len(index_beads(walls).near(np.empty((0, 2)), np.empty(0, dtype=int), 0.5)) == 0
-    assert index_beads(np.empty((0, 2))).near(walls, np.zeros(3, dtype=int), 0.5).tolist() == [np.inf] * 3
+    assert len(index_beads(walls).distances(np.empty((0, 2)), np.empty(0, dtype=int), 0.5)) == 0
+    assert index_beads(np.empty((0, 2))).distances(walls, np.zeros(3, dtype=int), 0.5).tolist() == [np.inf] * 3
 
 
 @given(
@@ -458,7 +458,7 @@ def test_corners_beside_walls_hardly_move(turn: float, side: float, near: float,
     direction = np.array([-math.sin(side), math.cos(side)])
     walls = middle + np.linspace(-4, 4, 801)[:, None] * direction  # a straight one, at `near`
     found, layer = index_beads(walls), np.zeros(1, dtype=int)
-    apart = found.near(path[1:2], layer, BESIDE * WIDTH)
+    apart = found.distances(path[1:2], layer, BESIDE * WIDTH)
     if near > BESIDE * WIDTH:
         assert apart == [np.inf]
         return

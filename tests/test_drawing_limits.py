@@ -228,7 +228,7 @@ def test_a_tile_whose_density_cannot_be_measured_is_refused_without_a_word_of_th
     with pytest.raises(
         PatternError, match=r"49 copies of a\.wkt have 2,[\d,]+ points; .* simplify the drawing"
     ) as caught:
-        assert LineSample(pattern=tiled).apart
+        assert LineSample(pattern=tiled).spacing
     assert caught.value.parameters == ()
     assert "larger" not in str(caught.value)
 

@@ -17,7 +17,7 @@ from infill import FormatError
 from infill.gcode import stream
 from infill.gcode.lines import ARC, BLANK, COMMENT, MOVE, ODD, OTHER
 from infill.gcode.machine_state import MachineState
-from infill.gcode.numbers import MAX_DIGITS, WORD, long_numbers, read_numbers, short_numbers, write_words
+from infill.gcode.numbers import MAX_DIGITS, WORD, parse_long_numbers, parse_short_numbers, read_numbers, write_words
 from infill.gcode.sections import LineMarks, TagState, mark_lines
 from infill.gcode.stream import batches
 from infill.gcode.strokes import InfillStrokes, find_strokes
@@ -97,8 +97,8 @@ def test_eight_bytes_at_a_time_tell_what_byte_after_byte_does(tokens: list[str],
     text = "".join(token + behind for token in tokens).encode("latin-1") + b"\n"
     places = np.cumsum([0] + [len(token) + 1 for token in tokens])[:-1]
     data = np.frombuffer(text, dtype=np.uint8)
-    *quick, whole = short_numbers(data, places)
-    for one, other in zip(quick, long_numbers(data, places), strict=True):
+    *quick, whole = parse_short_numbers(data, places)
+    for one, other in zip(quick, parse_long_numbers(data, places), strict=True):
         np.testing.assert_array_equal(one[whole], other[whole])
     # A second point ends a number as any other character does.
     read = [re.match(r"\d*\.?\d*", token) for token in tokens]

@@ -823,17 +823,19 @@ def test_what_is_not_planned_follows_what_is() -> None:
         b"; model printing time: 50m 0s; total estimated time: 57m 0s",
         b"M73 Q0 S999",
     ]
-    assert EstimateChange(ratio=0.5).told_by(lines) == EstimateChange(ratio=0.5, silent=1800.0, prepared=420.0)
-    assert EstimateChange(ratio=0.5).told_by([b"M73 Q0 S30", b"M73 Q5 S20"]).silent == 900.0
+    assert EstimateChange(ratio=0.5).with_stated_times(lines) == EstimateChange(
+        ratio=0.5, silent=1800.0, prepared=420.0
+    )
+    assert EstimateChange(ratio=0.5).with_stated_times([b"M73 Q0 S30", b"M73 Q5 S20"]).silent == 900.0
 
 
 def test_filament_is_told_by_what_the_print_says_of_its_tools() -> None:
     lines = [b"; filament used [g] = 9.0", b"; filament used [mm] = 100.0, 0.0, 300.0"]
-    change = EstimateChange(seconds=5.0).as_told(lines, {0: -10.0, 2: 30.0, 7: 1.0})
+    change = EstimateChange(seconds=5.0).with_stated_filament(lines, {0: -10.0, 2: 30.0, 7: 1.0})
     assert change == EstimateChange(seconds=5.0, filament=420 / 400, tools=(0.9, 1.0, 1.1))
     for said in ([], [b"; filament used [mm] = 0.0"], [b"; filament used [mm] = 5.0, 1.0"]):
         untold = EstimateChange(filament=0.97, tools=(0.97,))
-        assert untold.as_told(said, {0: -10.0}) == untold
+        assert untold.with_stated_filament(said, {0: -10.0}) == untold
 
 
 @pytest.mark.parametrize(

@@ -274,7 +274,7 @@ def test_coarse_cells_are_means(size: int) -> None:
     low, high, phase = rng.uniform(-1, 1, (3, 7, CELLS)).astype(np.float32)
     side = tuple(n // size for n in BRICK)
     sums = np.empty((7, refining.SUMS, *side), dtype=np.float32)
-    refining.collect(low, high, phase, np.float32(1.7), size, sums, 0, 1)
+    refining.average(low, high, phase, np.float32(1.7), size, sums, 0, 1)
     w, r = 1 - phase.astype(float) ** 2, 1.7 * (high.astype(float) - low)
     for m in range(refining.SUMS):
         cells = (w * r**m).reshape(7, side[0], size, side[1], size, side[2], size)

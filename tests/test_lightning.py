@@ -88,10 +88,10 @@ def test_what_comes_into_a_wall_stands_there() -> None:
     joint = int(np.flatnonzero((forest.at == (4, 0)).all(axis=1))[0])
     inside = np.ones(len(forest.at), dtype=bool)
     inside[forest.feet] = False
-    forest.stand(inside)
+    forest.record_inside(inside)
     assert len(forest.feet) == 1
     inside[joint] = False
-    forest.stand(inside)
+    forest.record_inside(inside)
     # Two branches end there now, and from there to the old foot it is one of its own, which draws back.
     assert sorted(forest.at[forest.feet].tolist()) == [[0.0, 0.0], [4.0, 0.0]]
     assert len(forest.branches) == 3

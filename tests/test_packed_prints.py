@@ -15,7 +15,7 @@ from test_binary_gcode import HEAD, block, made, parts
 from test_command_line import one_line_error, run
 
 from infill import FormatError, ParameterError, motion, refill
-from infill.gcode.binary import encoded, stored
+from infill.gcode.binary import encode_block, pack_block
 from infill.planner.layer_speeds import layer_speeds, middle_layer
 from tests.gcode_judge import changed, judge
 from tests.handmade_prints import Dialect, written
@@ -65,7 +65,7 @@ def archive(tmp_path: Path) -> Path:
 @pytest.fixture
 def binary(tmp_path: Path) -> Path:
     path = tmp_path / "part.bgcode"
-    path.write_bytes(b"".join(parts([stored(encoded(ONE, like=made(compression=3, encoding=2)))])))
+    path.write_bytes(b"".join(parts([pack_block(encode_block(ONE, like=made(compression=3, encoding=2)))])))
     return path
 
 

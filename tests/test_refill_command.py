@@ -16,7 +16,7 @@ from test_architecture import modules_after
 from test_binary_gcode import made, parts
 from test_command_line import one_line_error, refused, run, usage_error
 
-from infill.gcode.binary import Block, Kind, blocks, decoded, encoded, stored
+from infill.gcode.binary import Block, Kind, decode_block, encode_block, pack_block, read_blocks
 from infill.gcode.meatpack import normalise_text
 from tests.gcode_judge import changed, judge
 from tests.handmade_prints import Dialect, written
@@ -161,12 +161,12 @@ def test_binary_gcode_stays_binary(tmp_path: Path) -> None:
     """Under a name that says nothing of it, as PrusaSlicer hands it to a script: as MeatPack within Heatshrink."""
     text = normalise_text(PRINT, comments=True)
     path = tmp_path / "1234.gcode.pp"
-    path.write_bytes(b"".join(parts([stored(encoded(text, like=made(compression=3, encoding=2)))])))
+    path.write_bytes(b"".join(parts([pack_block(encode_block(text, like=made(compression=3, encoding=2)))])))
     pictures = [block.data for block in blocks_of(path) if block.kind == Kind.THUMBNAIL]
     result = run("refill", path)
     assert result.exit_code == 0, result.stderr
     assert "3 of 3 sections" in result.stderr
-    new = b"".join(decoded(block) for block in blocks_of(path) if block.kind == Kind.GCODE)
+    new = b"".join(decode_block(block) for block in blocks_of(path) if block.kind == Kind.GCODE)
     assert new.count(STAMP) == 1
     assert judge(text, new, filament=(0.85, 1.003)) == []
     assert [block.data for block in blocks_of(path) if block.kind == Kind.THUMBNAIL] == pictures
@@ -177,7 +177,7 @@ def test_binary_gcode_stays_binary(tmp_path: Path) -> None:
 
 def blocks_of(path: Path) -> list[Block]:
     with path.open("rb") as file:
-        return list(blocks(file))
+        return list(read_blocks(file))
 
 
 # --- what it says ----------------------------------------------------------------------------------------

@@ -73,8 +73,8 @@ def test_the_least_distance_is_the_least_of_all_distances(threads, rounded, rng)
     points = np.round(points) if rounded else points
     tree = TriangleTree.of(surface_of(trimesh.creation.box((20, 20, 20))))
     distances = tree.nearest(points)[0]
-    assert tree.least(points, threads=threads) == (distances.min(), distances.argmin())
-    assert tree.least(points, float(distances.min()), threads=threads) == (distances.min(), -1)
+    assert tree.least_distance(points, threads=threads) == (distances.min(), distances.argmin())
+    assert tree.least_distance(points, float(distances.min()), threads=threads) == (distances.min(), -1)
 
 
 @pytest.mark.parametrize("corners", [4, 2 * MOST_BOXES + 3])

@@ -19,7 +19,7 @@ from infill.kernels import quadrics
 from infill.meshes import edge_collapse as collapsing
 from infill.meshes.distance import LEAF, TriangleTree, nearest_on_triangles
 from infill.meshes.edge_collapse import CornerTable, collapse_edges
-from infill.meshes.hausdorff_samples import CLEAR, SURE, level_faces, match_faces, sample_between_vertices
+from infill.meshes.hausdorff_samples import CLEAR, SURE, aligned_faces, match_faces, sample_between_vertices
 from infill.meshes.intersections import count_self_intersections
 from infill.meshes.project_back import project_back
 from infill.meshes.simplification import simplify_surface
@@ -269,9 +269,9 @@ def test_a_piece_that_two_faces_share_is_left_out_where_both_are_near(slope: flo
 
 def test_some_faces_are_level_as_all_are() -> None:
     surface = made("box with a hole", 16)
-    every = level_faces(surface, 0.1)
+    every = aligned_faces(surface, 0.1)
     some = np.array([5, 3, len(every) - 1, 3])
-    np.testing.assert_array_equal(level_faces(surface, 0.1, faces=some), every[some])
+    np.testing.assert_array_equal(aligned_faces(surface, 0.1, faces=some), every[some])
 
 
 def test_faces_that_two_surfaces_share_are_known_whatever_their_order() -> None:
@@ -296,7 +296,7 @@ def test_what_was_measured_is_handed_to_a_surface_that_differs_in_a_place() -> N
     strayed = np.array(back.vertices)
     strayed[7] += 0.5
     found = replace(back, vertices=strayed)
-    handed = seen.handed_to(found, surface, 1.0, 0.1)
+    handed = seen.transfer_to(found, surface, 1.0, 0.1)
     exact = TriangleTree.of(found).nearest(handed.points)[0]
     np.testing.assert_array_equal(handed.away > 0.1, exact > 0.1)
     np.testing.assert_array_equal(handed.unsure, np.flatnonzero((found.faces == 7).any(axis=1)))
@@ -312,7 +312,7 @@ def test_a_level_face_has_nothing_near_that_faces_elsewhere(shape: str, toleranc
     """By points all over the faces, against every pair of faces whose normals differ by more than 30 degrees."""
     found = collapse_edges(made(shape, 16), tolerance=0.1)
     assert found is not None
-    level = level_faces(found, tolerance)
+    level = aligned_faces(found, tolerance)
     corners = np.asarray(found.vertices)[found.faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
@@ -335,7 +335,7 @@ def test_a_vertex_that_strayed_where_all_is_level_is_brought_back() -> None:
     strayed = np.array(first.vertices)
     strayed[70] += 3 * tolerance * (strayed[70] - first.bounds.mean(axis=0)) / 20
     found = replace(first, vertices=strayed)
-    assert level_faces(found, tolerance)[(found.faces == 70).any(axis=1)].all()  # nothing but its distance tells
+    assert aligned_faces(found, tolerance)[(found.faces == 70).any(axis=1)].all()  # nothing but its distance tells
     assert farthest(found, surface) > 2 * tolerance
     again, left, _ = project_back(found, surface, TriangleTree.of(surface), tolerance)
     assert not len(left)
@@ -357,7 +357,7 @@ def test_patches_keep_the_laws_and_do_not_depend_on_threads(shape: str, monkeypa
     np.testing.assert_array_equal(one.start, two.start)
     np.testing.assert_array_equal(one.into, two.into)
     np.testing.assert_array_equal(one.start[one.twin], np.roll(one.start.reshape(-1, 3), -1, axis=1).ravel())
-    found = one.placed_in(surface)
+    found = one.to_surface(surface)
     assert found.closed
     assert found.euler_number == surface.euler_number
     assert components(found) == components(surface)
@@ -417,13 +417,13 @@ def test_a_quadric_is_the_sum_of_squared_distances_and_is_least_where_the_planes
         around = (surface.faces == vertex).any(axis=1)
         heights = ((points[:, None] - corners[None, around, 0]) * normals[around]).sum(axis=2)
         expected = (areas[around] / 3 * heights**2).sum(axis=1)
-        found = [quadrics.value_of(quadric[vertex], *point) for point in points]
+        found = [quadrics.evaluate_quadric(quadric[vertex], *point) for point in points]
         np.testing.assert_allclose(found, expected, atol=1e-12)
         assert quadric[vertex, 10] == pytest.approx(areas[around].sum() / 3)
     one, other = surface.faces[0, :2]
     total, place = np.empty(11), np.empty(3)
     least = quadrics.best_place(vertices[one], vertices[other], quadric[one], quadric[other], total, place)
-    around_both = [quadrics.value_of(total, *(place + shift)) for shift in 0.1 * np.eye(3)]
+    around_both = [quadrics.evaluate_quadric(total, *(place + shift)) for shift in 0.1 * np.eye(3)]
     assert all(least <= value + 1e-12 for value in around_both)
 
 

@@ -77,7 +77,8 @@ def asked(pattern: str, **more: Any) -> FillSpec:
 def in_slabs(space: Interior, thick: int = THICK) -> Interior:
     nz = space.shape[2]
     return replace(
-        space, layers=LayerStack.packed(space.layers.between(low, min(low + thick, nz)) for low in range(0, nz, thick))
+        space,
+        layers=LayerStack.packed(space.layers.read_layers(low, min(low + thick, nz)) for low in range(0, nz, thick)),
     )
 
 
@@ -128,9 +129,9 @@ def test_packed_layers_are_what_was_packed(
     assert packed.shape == whole.shape
     assert packed.bounds() == [(0, 6), (6, 12), (12, 18), (18, 23)]
     for low, high in ((0, 23), (0, 6), (3, 4), (5, 13), (17, 23)):
-        assert np.array_equal(packed.between(low, high), whole[:, :, low:high])
-        assert np.array_equal(LayerStack.of(whole).between(low, high), whole[:, :, low:high])
-    assert packed.alike(6, 12) == packed.alike(12, 18) != packed.alike(0, 6)
+        assert np.array_equal(packed.read_layers(low, high), whole[:, :, low:high])
+        assert np.array_equal(LayerStack.of(whole).read_layers(low, high), whole[:, :, low:high])
+    assert packed.layer_key(6, 12) == packed.layer_key(12, 18) != packed.layer_key(0, 6)
 
 
 @pytest.mark.parametrize("thick", [1, 5, 8, 23, 40])
@@ -150,7 +151,7 @@ def test_a_space_in_slabs_measures_as_the_whole(space: Interior) -> None:
     assert slabs.shape == space.shape
     assert slabs.cells == pytest.approx(space.cells, rel=1e-12)
     assert slabs.thickness == pytest.approx(space.thickness, rel=1e-12)
-    assert slabs.across == space.across
+    assert slabs.second_longest_side == space.second_longest_side
     shares = [solid_share(drawn(each, "honeycomb")[1]) for each in (space, slabs)]
     assert shares[0] == pytest.approx(shares[1], rel=1e-9)
 

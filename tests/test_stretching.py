@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from test_command_line import run, usage_error
 
 from infill import UsageError, fill
-from infill.interior.conformal_map import fit_conformal_map, map_points, spline_slopes, wall_density_factor
+from infill.interior.conformal_map import fit_conformal_map, map_points, spline_jacobians, wall_density_factor
 from infill.lattices import void_meshes
 from infill.lattices.void_meshes import median_width
 from infill.lattices.voids import NODES
@@ -49,7 +49,7 @@ def test_coordinates_are_as_their_slopes_say() -> None:
     for axis in range(3):
         step = tiny * np.eye(3)[axis]
         slopes = (map_points(coordinates, nodes + step) - map_points(coordinates, nodes - step)) / (2 * tiny)
-        found = spline_slopes(coordinates)[1:-1, 1:-1, 1:-1, :, axis].reshape(-1, 3)
+        found = spline_jacobians(coordinates)[1:-1, 1:-1, 1:-1, :, axis].reshape(-1, 3)
         np.testing.assert_allclose(found, slopes, atol=1e-8)
 
 
@@ -73,7 +73,7 @@ def test_no_cell_is_torn_or_folded_over(data: st.DataObject) -> None:
     random = np.random.default_rng(data.draw(st.integers(0, 1000)))
     scales = np.exp(random.uniform(-1.2, 1.2, shape))
     coordinates, more = fit_conformal_map(scales)
-    assert np.linalg.det(spline_slopes(coordinates)).min() > 0
+    assert np.linalg.det(spline_jacobians(coordinates)).min() > 0
     assert np.isfinite(more).all()
 
 
@@ -82,7 +82,7 @@ def test_a_step_that_would_fold_cells_is_evened_out() -> None:
     up = np.linspace(0, 1, 24)
     scales = np.broadcast_to(np.where(up > 0.5, 4.0, 0.2), (12, 12, 24))
     coordinates, more = fit_conformal_map(scales)
-    assert np.linalg.det(spline_slopes(coordinates)).min() > 0
+    assert np.linalg.det(spline_jacobians(coordinates)).min() > 0
     assert more[..., -1].mean() > 2 * more[..., 0].mean()
 
 

@@ -106,6 +106,34 @@ def test_better_points_leave_walls_and_turn_nothing_inside_out(scale: tuple[floa
     assert volumes_of(better.points, better.tetrahedra).sum() == pytest.approx(labels.size)
 
 
+@pytest.mark.parametrize("axis", [0, 1, 2])
+def test_heat_flows_through_layers_as_their_resistances_say(axis: int, tmp_path: Path) -> None:
+    """Another library solves on the file: linear elements are exact in layers, if they are conforming and in place."""
+    skfem = pytest.importorskip("skfem", reason="scikit-fem is not installed")
+    meshio = pytest.importorskip("meshio", reason="meshio is not installed")
+    labels = np.full((8, 8, 8), 3)
+    labels[(slice(None),) * axis + (slice(0, 3),)] = 1
+    spacing = (0.5, 1.0, 1.5)
+    smooth_labels(labels, spacing=spacing, together=True).save(tmp_path / "layers.vtu")
+    file = meshio.read(tmp_path / "layers.vtu")
+    tetrahedra, label = file.cells_dict["tetra"], file.cell_data["Label"][0]
+    basis = skfem.Basis(skfem.MeshTet(file.points.T.copy(), tetrahedra.T.copy()), skfem.ElementTetP1())
+    conductivity = basis.with_element(skfem.ElementTetP0()).interpolate(np.where(label == 1, 2.0, 7.0))
+    form = skfem.BilinearForm(lambda u, v, w: w.k * (u.grad * v.grad).sum(axis=0))
+    stiffness = form.assemble(basis, k=conductivity)
+    depth = file.points[:, axis]
+    low, high = np.flatnonzero(depth == depth.min()), np.flatnonzero(depth == depth.max())
+    assert min(len(low), len(high)) >= 81
+    start = np.where(depth == depth.max(), 1.0, 0.0)
+    heat = skfem.solve(*skfem.condense(stiffness, x=start, D=np.concatenate([low, high])))
+    wall = depth[np.intersect1d(tetrahedra[label == 1], tetrahedra[label == 3])]
+    assert wall == pytest.approx(3 * spacing[axis], rel=1e-4)  # to which volumes are kept
+    assert np.ptp(wall) < 1e-9
+    sides = 8 * np.array(spacing)
+    resistance = (wall[0] / 2.0 + (sides[axis] - wall[0]) / 7.0) * sides[axis] / sides.prod()
+    assert heat @ stiffness @ heat == pytest.approx(1 / resistance, rel=1e-9)
+
+
 def test_qualities_are_those_of_vtk() -> None:
     vtk = pytest.importorskip("vtk", reason="VTK, of the extra bench, is not installed")
     from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy

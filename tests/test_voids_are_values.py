@@ -52,7 +52,7 @@ def test_voids_drawn_again_are_the_same(pattern: str, align: str) -> None:
     )
     spaces = [compute_interior(part, wall=1.0, voxel=0.6) for part in PARTS]
     task = FillTask.of(PARTS[0], request, threads=1)
-    local = request.grading and request.grading.over(spaces[0], task.pattern.widths)
+    local = request.grading and request.grading.widths_in(spaces[0], task.pattern.widths)
     fresh, wider, elsewhere = (
         Layout(space=space, cell=5.0, width=width, local=local, threads=1)
         for space, width in ((spaces[0], 0.8), (spaces[0], 0.9), (spaces[1], 0.8))

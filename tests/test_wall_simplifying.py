@@ -185,7 +185,7 @@ def test_a_wall_that_is_moved_is_found_and_its_points_can_be_fixed(monkeypatch: 
     far = find_far(whole, moved, 0.1, CUBIC, 1)
     assert len(far)
     assert np.linalg.norm(far - points[inner[0]], axis=1).min() < 1.0
-    kept = whole.fixed_near(far, 1.5).collapsed(0.08**2, 0.08, 1)
+    kept = whole.fix_near(far, 1.5).collapse(0.08**2, 0.08, 1)
     assert not len(find_far(whole, kept, 0.1, CUBIC, 1))
     near = np.linalg.norm(whole.points - points[inner[0]], axis=1) < 1.0
     held = set(map(tuple, kept.points.tolist()))

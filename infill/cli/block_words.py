@@ -57,5 +57,6 @@ def describe_loose(count: int, noun: str) -> str:
 
 
 def _format_request(request: LatticeRequest) -> str:
+    """Return pattern and size of a requested block as text."""
     size = plain_size(*request["size"], request["height"], digits=6, separator="")
     return f"{request['pattern']}, {size}"

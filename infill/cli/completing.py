@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from patterns.declared import DescribedField
 
 
-def pattern_names(incomplete: str) -> list[tuple[str, str]]:
+def block_pattern_names(incomplete: str) -> list[tuple[str, str]]:
     """Return the patterns of `make` whose names begin with the word, each with its summary."""
     from patterns import PATTERNS
 
@@ -24,7 +24,7 @@ def sample_names(incomplete: str) -> list[tuple[str, str]]:
     return [(name, sample.summary) for name, sample in SAMPLES.items() if name.startswith(incomplete)]
 
 
-def fill_names(incomplete: str) -> list[tuple[str, str]]:
+def fill_pattern_names(incomplete: str) -> list[tuple[str, str]]:
     """Return all patterns whose names begin with the word, each with its summary."""
     from patterns import PATTERNS
 

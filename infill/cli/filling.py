@@ -23,7 +23,7 @@ from infill.cli.common import (
     TrustCode,
     Verbose,
 )
-from infill.cli.completing import fill_assignments, fill_names, slicer_names
+from infill.cli.completing import fill_assignments, fill_pattern_names, slicer_names
 from infill.cli.console import print_json, print_log, progress_bar, say
 from infill.cli.declared import takes_options
 from infill.errors import UsageError
@@ -42,7 +42,7 @@ PATTERN = "Pattern"
 SLICER = "{slicer}"  # the placeholder in names of files
 
 
-@takes_options(FillOptions, pattern=fill_names, slicer=slicer_names)
+@takes_options(FillOptions, pattern=fill_pattern_names, slicer=slicer_names)
 def fill(
     part: Annotated[
         Path,

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from infill.cli.completing import fill_names
+from infill.cli.completing import fill_pattern_names
 from infill.cli.console import can_show, format_table, print_json, progress_bar, say
 
 if TYPE_CHECKING:
@@ -31,7 +31,9 @@ def list_patterns(
     pattern: Annotated[
         str | None,
         typer.Argument(
-            metavar="PATTERN", help="Show this one, with its parameters and a picture.", autocompletion=fill_names
+            metavar="PATTERN",
+            help="Show this one, with its parameters and a picture.",
+            autocompletion=fill_pattern_names,
         ),
     ] = None,
     preview: Annotated[

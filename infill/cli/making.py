@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, BinaryIO
 import typer
 
 from infill.cli.common import AsciiStl, Config, Force, Json, MaxMemory, Quiet, SaveConfig, TrustCode, Verbose
-from infill.cli.completing import pattern_assignments, pattern_names
+from infill.cli.completing import block_pattern_names, pattern_assignments
 from infill.cli.console import format_bytes, format_table, print_json, progress_bar, say
 from infill.cli.declared import takes_options
 from infill.making.settings import MakeSettings, resolve
@@ -32,7 +32,7 @@ def make(
         typer.Argument(
             metavar="PATTERN",
             help="Name ('infill list' shows all), drawing, or module.py:name.",
-            autocompletion=pattern_names,
+            autocompletion=block_pattern_names,
         ),
     ] = None,
     output: Annotated[

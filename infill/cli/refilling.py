@@ -146,7 +146,7 @@ def _read_sliced_layer(
     return number, {f"layer {number}, before": layer_speeds(gcode, number)}
 
 
-def _write_preview(number: int, sliced_layers: dict[str, LayerSpeeds], path: Path, preview: Path) -> None:
+def _write_preview(number: int, sliced_layers: dict[str, LayerSpeeds], refilled: Path, picture: Path) -> None:
     """Draw the speeds of a layer before and after refilling into a picture file."""
     from functools import partial
 
@@ -155,7 +155,7 @@ def _write_preview(number: int, sliced_layers: dict[str, LayerSpeeds], path: Pat
     from infill.planner.layer_speeds import layer_speeds
 
     write_all_files(
-        {preview: partial(write_speeds, {**sliced_layers, f"layer {number}, refilled": layer_speeds(path, number)})}
+        {picture: partial(write_speeds, {**sliced_layers, f"layer {number}, refilled": layer_speeds(refilled, number)})}
     )
 
 

@@ -38,10 +38,11 @@ def rewrite_values(options: Sequence[Any], arguments: Sequence[str]) -> list[str
         If a value is not a number where one is needed.
     """
     by_flag = {flag: option for option in options for flag in option.opts if flag.startswith("-")}
-    return list(_rewrite(by_flag, arguments))
+    return list(_rewrite_arguments(by_flag, arguments))
 
 
-def _rewrite(by_flag: dict[str, Any], arguments: Sequence[str]) -> Iterator[str]:
+def _rewrite_arguments(by_flag: dict[str, Any], arguments: Sequence[str]) -> Iterator[str]:
+    """Yield the arguments, with the values of options as plain numbers and listed choices."""
     place = 0
     while place < len(arguments):
         word = arguments[place]

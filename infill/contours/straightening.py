@@ -91,7 +91,9 @@ def _halve(rings: Contours, is_corner: Flags, limit: float) -> None:
         begins = np.flatnonzero(is_corner[open_corners])
         counts = np.diff(begins, append=len(open_corners))
         corner = open_corners[begins]
-        start, end = (np.repeat(points[corners], counts) for corners in (corner, _next_kept(rings, is_corner)[corner]))
+        start, end = (
+            np.repeat(points[corners], counts) for corners in (corner, _following_corner(rings, is_corner)[corner])
+        )
         distance = _segment_distances(points[open_corners], start, end)
         largest = np.maximum.reduceat(distance, begins)
         split = largest > limit
@@ -104,8 +106,8 @@ def _complex(points: Floats) -> Complexes:
     return np.ascontiguousarray(points).view(np.complex128)[:, 0]
 
 
-def _next_kept(rings: Contours, is_corner: Flags) -> Indices:
-    """Return the kept corner after each kept one, (N,); the first corner of every ring must be kept."""
+def _following_corner(rings: Contours, is_corner: Flags) -> Indices:
+    """Return the next kept corner of the same ring, (N,), 0 for dropped ones; the first of every ring must be kept."""
     corners = np.flatnonzero(is_corner)
     following = np.zeros(len(is_corner), dtype=np.intp)
     following[corners] = np.append(corners[1:], 0)

@@ -98,7 +98,7 @@ class Skin:
         return TriangleTree.of(self.part)
 
     def tree(self, mouth: int) -> TriangleTree | None:
-        """Build the tree of faces outside a mouth, or of all that do not look down for -1; None without faces."""
+        """Build the tree of triangles outside a smooth face, or, for -1, of all that do not look down; else None."""
         if mouth not in self._trees:
             is_outside = ~self.facing if mouth < 0 else self.smooth_faces != mouth
             self._trees[mouth] = None
@@ -108,8 +108,8 @@ class Skin:
                 )
         return self._trees[mouth]
 
-    def knows(self, mouth: int) -> bool:
-        """Tell whether the tree of a mouth is built already."""
+    def has_tree(self, mouth: int) -> bool:
+        """Tell whether `tree` was built before for a mouth, the number of a smooth face."""
         return mouth in self._trees
 
     def may_keep(self, ways: DrainWays, numbers: Integers, high: Floats, needs: DrainNeeds, mouth: int) -> Flags:
@@ -124,6 +124,7 @@ class Skin:
             Heights at which they end.
         needs : DrainNeeds
         mouth : int
+            Number of a smooth face, or -1: see `tree`.
         """
         tree, at, low = self.tree(mouth), ways.at[numbers], ways.skin[numbers]
         remaining = np.arange(len(at))
@@ -225,6 +226,7 @@ def _crossing_heights(corners: Floats, places: Floats) -> Floats:
 
 
 def _label_components(pairs: Integers, count: int) -> Integers:
+    """Label items 0 to `count` - 1, joined by pairs (N, 2); return the component of each, (count,)."""
     return label_connected(pairs[:, 0], pairs[:, 1], count)[0].astype(np.int64)
 
 
@@ -245,7 +247,7 @@ def _surface_points(
 
 
 def _fine_points(at: Floats, low: float, high: float, radius: float) -> tuple[Floats, float]:
-    """Place many points on a hole, (M, 3); return the largest distance of any other point from one of them too, mm."""
+    """Place many points on a hole about (x, y), (M, 3); also return how far from these its surface goes, mm."""
     around, least = FINE
     arc = 2 * np.pi * radius / around
     along = max(least, math.ceil((high - low) / arc) + 1)

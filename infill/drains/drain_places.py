@@ -42,7 +42,7 @@ class TurnedPart:
         The void of every vertex of the voids.
     count : int
         Of voids.
-    turned : (3, 3) float64
+    rotation : (3, 3) float64
         Rotation from the original part to this one.
     """
 
@@ -50,20 +50,25 @@ class TurnedPart:
     voids: Surface
     names: NDArray[np.integer]
     count: int
-    turned: Floats
+    rotation: Floats
     skin: Skin = field(repr=False)
 
     @classmethod
-    def of(cls, part: Surface, voids: Surface, names: NDArray[np.integer], count: int, turned: Floats) -> TurnedPart:
+    def of(cls, part: Surface, voids: Surface, names: NDArray[np.integer], count: int, rotation: Floats) -> TurnedPart:
         """Turn a part and its voids."""
-        turned_part, turned_voids = _turn(part, turned), _turn(voids, turned)
+        turned_part, turned_voids = _turn(part, rotation), _turn(voids, rotation)
         return cls(
-            part=turned_part, voids=turned_voids, names=names, count=count, turned=turned, skin=Skin(part=turned_part)
+            part=turned_part,
+            voids=turned_voids,
+            names=names,
+            count=count,
+            rotation=rotation,
+            skin=Skin(part=turned_part),
         )
 
     def back(self, points: Floats) -> Floats:
         """Turn points (..., 3) back to the original part."""
-        original: Floats = points @ self.turned
+        original: Floats = points @ self.rotation
         return original
 
     def lattice(self, needs: DrainNeeds, most: int = MOST_LINES) -> LineLattice:
@@ -136,11 +141,11 @@ class DrainTask:
         """Return the same task with holes of another diameter, mm."""
         return replace(self, needs=replace(self.needs, diameter=diameter))
 
-    def along(self, turned: NDArray[np.float64]) -> TurnedPart:
+    def along(self, rotation: NDArray[np.float64]) -> TurnedPart:
         """Return the part and its voids turned by a rotation (3, 3), from a cache."""
-        key = turned.round(12).tobytes()
+        key = rotation.round(12).tobytes()
         if key not in self._views:
-            self._views[key] = TurnedPart.of(self.part, self.voids, self.names, len(self.volumes), turned)
+            self._views[key] = TurnedPart.of(self.part, self.voids, self.names, len(self.volumes), rotation)
         return self._views[key]
 
     @property
@@ -151,7 +156,7 @@ class DrainTask:
         shells, _ = shell_names(self.voids)
         starts = np.unique(shells, return_index=True)[1]
         numbers = self.names[starts[shells[starts] >= 0]]
-        return set(numbers[self.opening.opened(self.voids)].tolist())
+        return set(numbers[self.opening.reaches_out(self.voids)].tolist())
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -229,7 +234,7 @@ class DrainPlaces:
             high = np.minimum(self.ways.floor[batch] + up * needs.diameter, self.ways.ceiling[batch])
             is_passing = np.empty(len(batch), dtype=bool)
             mouths = skin.smooth_faces[self.ways.face[batch]]
-            mouths = np.where([skin.knows(name) for name in mouths.tolist()], mouths, -1)
+            mouths = np.where([skin.has_tree(name) for name in mouths.tolist()], mouths, -1)
             for mouth in np.unique(mouths).tolist():
                 at_mouth = mouths == mouth
                 is_passing[at_mouth] = skin.may_keep(self.ways, batch[at_mouth], high[at_mouth], needs, mouth)
@@ -237,8 +242,9 @@ class DrainPlaces:
                 yield int(batch[index]), float(high[index])
 
 
-def _turn(surface: Surface, turned: Floats) -> Surface:
-    return Surface(vertices=np.asarray(surface.vertices, dtype=np.float64) @ turned.T, faces=surface.faces)
+def _turn(surface: Surface, rotation: Floats) -> Surface:
+    """Turn a surface by a rotation (3, 3) about the origin."""
+    return Surface(vertices=np.asarray(surface.vertices, dtype=np.float64) @ rotation.T, faces=surface.faces)
 
 
 def _select_ways(ways: Integers) -> Integers:

@@ -205,11 +205,12 @@ def _drain_one_way(
 ) -> tuple[list[Hole], tuple[SealedVoid, ...]]:
     """Drain voids one way; return the holes, including branches to drained voids, and the voids that have none."""
     places = DrainPlaces.of(below, needs)
-    taken = [(below.turned @ hole.at)[:2] for hole in holes if -(below.turned @ hole.way)[2] > LEVEL]
+    taken = [(below.rotation @ hole.at)[:2] for hole in holes if -(below.rotation @ hole.way)[2] > LEVEL]
     new_holes: list[Hole] = []
     drained = set(drained)
 
     def drill(void: int, apart: bool) -> bool:
+        """Drill a void at its best place, off other holes if `apart`; return False if there is none."""
         shaft = places.shaft(void, np.array(taken).reshape(-1, 2) if apart else None)
         if shaft is not None:
             taken.append(shaft.at)
@@ -237,4 +238,4 @@ def _drain_one_way(
             corners = np.asarray(below.voids.vertices, dtype=np.float64)[below.names == void]
             at, is_blocked = below.back(corners[np.argmin(corners[:, 2])]), not len(places.order[void])
             sealed.append(SealedVoid(void=void, volume=task.volumes[void], at=at, blocked=is_blocked))
-    return [hole.turn_back(below.turned) for hole in new_holes + branches], tuple(sealed)
+    return [hole.turn_back(below.rotation) for hole in new_holes + branches], tuple(sealed)

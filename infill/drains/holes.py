@@ -129,7 +129,7 @@ class Hole:
             above=max(0.0, shaft.floor - lowest),
         )
 
-    def turn_back(self, turned: Floats) -> Hole:
-        """Return the same hole before a rotation (3, 3)."""
-        at, to, way, near = (vector @ turned for vector in (self.at, self.to, self.way, self.near))
+    def turn_back(self, rotation: Floats) -> Hole:
+        """Return the same hole in the part before it was turned by a rotation (3, 3)."""
+        at, to, way, near = (vector @ rotation for vector in (self.at, self.to, self.way, self.near))
         return replace(self, at=at, to=to, way=way, near=near)

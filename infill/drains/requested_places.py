@@ -26,7 +26,7 @@ def make_hole_at(task: DrainTask, place: Place, *, remedies: bool = True) -> Hol
     needs, request = task.needs, f"is {plain_place(place, 6)}"
     point, normal, distance = _nearest_on_skin(np.array(place), task)
     below = task.along(_rotation_down(normal))
-    x, y, z = below.turned @ point
+    x, y, z = below.rotation @ point
     line = LineLattice(low=np.array([x, y]) + needs.diameter * np.array(NUDGE), step=1.0, shape=(1, 1))
     ways = find_ways(below.part, below.voids, below.names, line)
     at_place = np.flatnonzero(np.abs(ways.skin - z) < needs.radius)
@@ -40,7 +40,7 @@ def make_hole_at(task: DrainTask, place: Place, *, remedies: bool = True) -> Hol
                 break
     if distance <= needs.radius and way is not None and shaft is not None and shaft.clearance >= needs.wall:
         void = int(ways.void[way])
-        hole = Hole.of(shaft, "place", void, diameter=needs.diameter, lowest=0.0).turn_back(below.turned)
+        hole = Hole.of(shaft, "place", void, diameter=needs.diameter, lowest=0.0).turn_back(below.rotation)
         lowest = float(np.asarray(task.voids.vertices, dtype=np.float64)[task.names == void, 2].min())
         return replace(hole, above=max(0.0, float(below.back(np.array([*shaft.at, shaft.floor]))[2]) - lowest))
     if distance > needs.radius:
@@ -80,7 +80,7 @@ def find_place(task: DrainTask, void: int) -> Place | None:
 
 def _advise_place(task: DrainTask, point: Floats, below: TurnedPart) -> str:
     """Advise what to do in place of an impossible hole: the nearest possible place, seen from the same direction."""
-    x, y, z = below.turned @ point
+    x, y, z = below.rotation @ point
     shaft = DrainPlaces.of(below, task.needs).nearest(np.array([x, y]), z)
     if shaft is not None:
         place = _round_place(below.back(shaft.mouth))

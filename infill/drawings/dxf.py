@@ -139,6 +139,7 @@ def _require_few_entities(document: Any) -> None:  # noqa: ANN401 - a document o
     weights: dict[str, float] = {}
 
     def weight(layout: Any, inside: frozenset[str]) -> float:  # noqa: ANN401 - a layout of ezdxf
+        """Count the entities of a layout with those of the blocks that it inserts."""
         total = 0.0
         for entity in layout:
             total += 1 + (len(entity.paths) if entity.dxftype() == "HATCH" else 0)
@@ -147,6 +148,7 @@ def _require_few_entities(document: Any) -> None:  # noqa: ANN401 - a document o
         return total
 
     def of_block(name: str, inside: frozenset[str]) -> float:
+        """Count the entities of a block, once; raise ValueError for a block in itself."""
         if name in inside:
             raise ValueError(f"its block {name[:40]!r} contains itself")
         require_at_most(DEEPEST, len(inside), "blocks in one another")

@@ -196,7 +196,8 @@ class _Reader:
         width, height = self.view
         mean = math.hypot(width, height) / math.sqrt(2)
 
-        def get(name: str) -> float:
+        def length(name: str) -> float:
+            """Return the length of an attribute, px; a percentage is that of the page along its axis."""
             full_size = {"x": width, "c": width, "w": width, "y": height, "h": height}.get(name[0], mean)
             return parse_length(element.get(name), height if name in ("cy", "ry") else full_size)
 
@@ -204,23 +205,30 @@ class _Reader:
             case "path":
                 return path_lines(element.get("d") or "")
             case "line":
-                return [np.array([[get("x1"), get("y1")], [get("x2"), get("y2")]])]
+                return [np.array([[length("x1"), length("y1")], [length("x2"), length("y2")]])]
             case "polyline" | "polygon":
                 numbers = parse_numbers(element.get("points") or "")
                 points = np.array(numbers[: len(numbers) // 2 * 2]).reshape(-1, 2)
                 return [np.vstack([points, points[:1]]) if tag == "polygon" else points]
             case "circle":
-                return ellipse_lines(get("cx"), get("cy"), get("r"), get("r"))
+                return ellipse_lines(length("cx"), length("cy"), length("r"), length("r"))
             case "ellipse":
                 rx, ry = (element.get(name) for name in ("rx", "ry"))
-                return ellipse_lines(get("cx"), get("cy"), get("rx" if rx else "ry"), get("ry" if ry else "rx"))
+                return ellipse_lines(
+                    length("cx"), length("cy"), length("rx" if rx else "ry"), length("ry" if ry else "rx")
+                )
             case "rect":
-                if self._is_background(element, (get("x"), get("y"), get("width"), get("height"))):
+                if self._is_background(element, (length("x"), length("y"), length("width"), length("height"))):
                     self.left_out["background"] += 1
                     return []
-                corner_rx, corner_ry = get("rx"), get("ry")
+                corner_rx, corner_ry = length("rx"), length("ry")
                 return rectangle_lines(
-                    get("x"), get("y"), get("width"), get("height"), corner_rx or corner_ry, corner_ry or corner_rx
+                    length("x"),
+                    length("y"),
+                    length("width"),
+                    length("height"),
+                    corner_rx or corner_ry,
+                    corner_ry or corner_rx,
                 )
         return []
 

@@ -42,7 +42,7 @@ def parse_numbers(text: str) -> list[float]:
 
 @lru_cache(maxsize=10_000)
 def parse_transform(text: str | None) -> Matrix:
-    """Parse an attribute `transform` to a matrix."""
+    """Parse an attribute `transform` to a matrix (2, 3); without one, it is the identity."""
     matrix = IDENTITY
     transforms = re.findall(r"(\w+)\s*\(([^)]*)\)", text or "")
     require_at_most(MOST_TRANSFORMS, len(transforms), "transforms of one element")

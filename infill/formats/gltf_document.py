@@ -27,7 +27,7 @@ MESHOPT = ("EXT_meshopt_compression", "KHR_meshopt_compression")
 
 
 def split_chunks(path: Path, data: bytes) -> tuple[JsonObject, bytes | None]:
-    """Split a binary file into the description and the numbers."""
+    """Split a .glb file into its JSON document and its binary chunk, or None without one."""
     if data[:4] != MAGIC or len(data) < 12:
         raise FormatError(f"{path} is broken or not a .glb file (it does not begin with 'glTF'); export the mesh again")
     version, length = struct.unpack_from("<II", data, 4)

@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 
 from infill.arrays import Floats, Integers
-from infill.formats.draco import unpack_draco
 from infill.formats.gltf_document import MESHOPT, Gltf, JsonObject, parse_document, quote, split_chunks
 from infill.machine import require_memory
 from infill.meshes.polygons import split_fan, split_strips
@@ -232,7 +231,7 @@ def _corners(gltf: Gltf, primitive: JsonObject, mode: int) -> tuple[Floats, Inte
     attributes = gltf.part(primitive, "attributes")
     compression = gltf.extension(primitive, DRACO)
     if compression is not None:
-        mesh = unpack_draco(gltf.view(compression.get("bufferView"))[0])
+        mesh = _unpack_draco(gltf.view(compression.get("bufferView"))[0])
         if mesh is not None:
             return mesh
         description = gltf.item("accessors", attributes.get("POSITION"))
@@ -322,3 +321,25 @@ def _move_by_joints(
     placed = np.einsum("nij,nj->ni", blended[:, :3, :3], points) + blended[:, :3, 3]
     mirrored = bool((np.linalg.det(blended[:, :3, :3]) < 0).mean() > 0.5) if len(points) else False
     return placed, triangles, mirrored
+
+
+def _unpack_draco(data: bytes) -> tuple[Floats, Integers] | None:
+    """Decompress a mesh by DracoPy; return vertices and triangles, or None if it is not installed.
+
+    Raises
+    ------
+    ValueError
+        If the data hold no mesh.
+    """
+    try:
+        import DracoPy
+    except ImportError:
+        return None
+    try:
+        mesh = DracoPy.decode(data)
+    except DracoPy.FileTypeException as error:
+        raise ValueError("the Draco data cannot be unpacked") from error
+    faces = getattr(mesh, "faces", None)
+    if faces is None:
+        raise ValueError("the Draco data hold points and no triangles")
+    return np.asarray(mesh.points, dtype=np.float64).reshape(-1, 3), np.asarray(faces, dtype=np.int64).reshape(-1, 3)

@@ -46,7 +46,7 @@ def read_obj(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64], tuple[
     lines = Lines(path=path, original=original, text=blank_breaks(blank_comments(original)))
     if len(lines) == 0:
         raise FormatError(f"{path} holds no vertices; export the mesh again")
-    letter1, letter2, letter3 = (lines.keys(place) for place in range(3))
+    letter1, letter2, letter3 = (lines.key_bytes(place) for place in range(3))
     has_one_letter, has_two_letters = are_separators(letter2), are_separators(letter3)
     is_vertex = (letter1 == ord("v")) & has_one_letter
     is_face = (letter1 == ord("f")) & (has_one_letter | ((letter2 == ord("o")) & has_two_letters))
@@ -61,7 +61,7 @@ def read_obj(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64], tuple[
 def _check_statements(lines: Lines, rows: NDArray[np.int64]) -> tuple[str, ...]:
     """Return notes of unknown statements; raise FormatError for surfaces, and for lines of another format."""
     unknown: dict[bytes, int] = {}
-    for number in lines.first[rows].tolist():
+    for number in lines.first_words[rows].tolist():
         word = lines.word(number)
         if word.lower() in SURFACES:
             raise lines.error(
@@ -81,12 +81,12 @@ def _check_statements(lines: Lines, rows: NDArray[np.int64]) -> tuple[str, ...]:
 
 def _vertices(lines: Lines, rows: NDArray[np.int64]) -> NDArray[np.float64]:
     """Return x, y and z of all vertices, (V, 3), without weights and colours."""
-    numbers = lines.words[rows] - 1
+    numbers = lines.word_counts[rows] - 1
     short = np.flatnonzero(numbers < 3)
     if len(short):
         count = int(numbers[short[0]])
         raise lines.error(
-            int(lines.first[rows[short[0]]]), f"a vertex of {count_noun(count, 'number')}, not three or more"
+            int(lines.first_words[rows[short[0]]]), f"a vertex of {count_noun(count, 'number')}, not three or more"
         )
     values = lines.numbers(rows, 1, np.float64).astype(np.float64, copy=False)
     if len(numbers) and (numbers == numbers[0]).all():
@@ -99,12 +99,12 @@ def _corners(
     lines: Lines, vertex_rows: NDArray[np.int64], rows: NDArray[np.int64]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return the corners of all polygons counted from 0, (C,), and the number of each, (P,)."""
-    counts = lines.words[rows] - 1
+    counts = lines.word_counts[rows] - 1
     short = np.flatnonzero(counts < CORNERS)
     if len(short):
         count = int(counts[short[0]])
         raise lines.error(
-            int(lines.first[rows[short[0]]]), f"a face of {count_noun(count, 'corner')}, not three or more"
+            int(lines.first_words[rows[short[0]]]), f"a face of {count_noun(count, 'corner')}, not three or more"
         )
     corners = lines.numbers(rows, 1, np.int64, slashes=True).astype(np.int64, copy=False)
     total = len(vertex_rows)
@@ -118,7 +118,7 @@ def _corners(
             reason = f"corner {corner} does not exist: the file holds {total} vertices"
             if corner < 0:
                 reason = f"corner {corner} does not exist: {int(before[wrong[0]])} vertices stand before this line"
-            raise lines.error(int(lines.first[rows[row]]), reason)
+            raise lines.error(int(lines.first_words[rows[row]]), reason)
         return resolved, counts
     return corners - 1, counts
 

@@ -37,13 +37,13 @@ def read_off(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     if keyword:  # the counts may follow on its line, even without a blank
         text = b" " * keyword.end() + text[keyword.end() :]
     lines = Lines(path=path, original=original, text=text)
-    announced = 2 if len(lines) and lines.words[0] == 2 else 3  # some programs leave out the number of edges
+    announced = 2 if len(lines) and lines.word_counts[0] == 2 else 3  # some programs leave out the number of edges
     numbers = [_count(lines, number) for number in range(min(announced, len(lines.begins)))]
     if len(numbers) < 2:
         raise FormatError(f"{path} does not say how many vertices and faces it has; export the mesh again")
     vertices, faces = numbers[:2]
-    head = int(np.searchsorted(np.cumsum(lines.words), len(numbers)))  # of the lines with a word
-    if lines.words[0] > 3 or len(lines) < head + 1 + vertices + faces:
+    head = int(np.searchsorted(np.cumsum(lines.word_counts), len(numbers)))  # of the lines with a word
+    if lines.word_counts[0] > 3 or len(lines) < head + 1 + vertices + faces:
         return _read_words(lines, numbers)
     rows = np.arange(head + 1, head + 1 + vertices + faces)
     return _read_lines(lines, rows[:vertices], rows[vertices:])
@@ -61,17 +61,18 @@ def _read_lines(
     lines: Lines, vertex_rows: NDArray[np.int64], face_rows: NDArray[np.int64]
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Read one vertex or face per line, and leave out the rest of the line."""
-    width = lines.words[vertex_rows]
+    width = lines.word_counts[vertex_rows]
     short = np.flatnonzero(width < 3)
     if len(short):
         count = int(width[short[0]])
         raise lines.error(
-            int(lines.first[vertex_rows[short[0]]]), f"a vertex of {count_noun(count, 'number')}, not three or more"
+            int(lines.first_words[vertex_rows[short[0]]]),
+            f"a vertex of {count_noun(count, 'number')}, not three or more",
         )
     values = lines.numbers(vertex_rows, 0, np.float64).astype(np.float64, copy=False)
     begins = np.cumsum(width) - width
     vertices = values[begins[:, None] + np.arange(3)]
-    width = lines.words[face_rows]
+    width = lines.word_counts[face_rows]
     face_numbers = lines.numbers(face_rows, 0, np.float64)  # colours may be fractions
     begins = np.cumsum(width) - width
     counts = _to_integers(lines, face_rows, face_numbers[begins])
@@ -79,7 +80,7 @@ def _read_lines(
     if len(short):
         stated, available = int(counts[short[0]]), int(width[short[0]]) - 1
         raise lines.error(
-            int(lines.first[face_rows[short[0]]]),
+            int(lines.first_words[face_rows[short[0]]]),
             f"a face of {count_noun(stated, 'corner')} with {count_noun(available, 'number')}",
         )
     positions = np.repeat(begins + 1 - (np.cumsum(counts) - counts), counts)
@@ -94,7 +95,7 @@ def _to_integers(lines: Lines, rows: NDArray[np.int64], values: NDArray[np.gener
     wrong = np.flatnonzero(~((np.abs(numbers) < 2**53) & (numbers == np.floor(numbers))))
     if len(wrong):
         raise lines.error(
-            int(lines.first[rows[wrong[0]]]), f"{plain_argument(numbers[wrong[0]])} is not a whole number"
+            int(lines.first_words[rows[wrong[0]]]), f"{plain_argument(numbers[wrong[0]])} is not a whole number"
         )
     return numbers.astype(np.int64)
 

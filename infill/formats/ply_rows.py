@@ -226,7 +226,7 @@ def _line_starts(path: Path, data: bytes, rows: int) -> NDArray[np.bool_] | None
     if 2 * len(lines) < rows:
         return None
     is_start = np.zeros(len(lines.begins) + 1, dtype=bool)
-    is_start[lines.first] = is_start[-1] = True
+    is_start[lines.first_words] = is_start[-1] = True
     return is_start
 
 

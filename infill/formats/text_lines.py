@@ -115,31 +115,31 @@ class Lines:
         return first_words[has_word], word_counts[has_word], line_starts[has_word], ends[has_word]
 
     @property
-    def first(self) -> Integers:
-        """First word of each line, (L,)."""
+    def first_words(self) -> Integers:
+        """Number of the first word of each line, (L,)."""
         return self._rows[0]
 
     @property
-    def words(self) -> Integers:
+    def word_counts(self) -> Integers:
         """Number of words on each line, (L,)."""
         return self._rows[1]
 
     def __len__(self) -> int:
         """Return the number of lines with a word."""
-        return len(self.words)
+        return len(self.word_counts)
 
-    def keys(self, place: int) -> NDArray[np.uint8]:
-        """Return a byte of the first word of each line, in lower case; see `are_separators`."""
-        letters = self.bytes_of[np.minimum(self.begins[self.first] + place, len(self.bytes_of) - 1)]
+    def key_bytes(self, place: int) -> NDArray[np.uint8]:
+        """Return byte `place` of the first word of each line, in lower case, or what follows a shorter word: (L,)."""
+        letters = self.bytes_of[np.minimum(self.begins[self.first_words] + place, len(self.bytes_of) - 1)]
         return np.where((letters >= ord("A")) & (letters <= ord("Z")), letters + 32, letters).astype(np.uint8)
 
     def word(self, number: int) -> bytes:
-        """Return a word."""
+        """Return the word of a number, its first 80 bytes at most."""
         begin = int(self.begins[number])
         return self.text[begin : begin + 80].split(None, 1)[0]
 
     def line(self, number: int) -> int:
-        """Return the number of the line of a word, as an editor counts."""
+        """Return the number of the line that a word is on, counted from 1."""
         return self.original.count(b"\n", 0, int(self.begins[number])) + 1
 
     def numbers(
@@ -163,7 +163,7 @@ class Lines:
         FormatError
             If one of the words is not a number; the first one is named with its line.
         """
-        word_count = int((self.words[rows] - skip).sum())
+        word_count = int((self.word_counts[rows] - skip).sum())
         if word_count == 0:
             return np.empty(0, dtype=dtype)
         text = self._text_of(rows, skip)
@@ -191,7 +191,7 @@ class Lines:
     def _text_without_keywords(self) -> bytes:
         """The text with blanks for the first word of each line, if that has one or two letters."""
         text = self.bytes_of.copy()
-        begins = self.begins[self.first]
+        begins = self.begins[self.first_words]
         text[begins] = BLANK
         after = begins[are_separators(text[begins + 2])] + 1
         text[after[text[after] != NEWLINE]] = BLANK
@@ -200,14 +200,16 @@ class Lines:
     def _number_error(self, rows: Integers, skip: int, dtype: type[np.generic], *, slashes: bool) -> FormatError:
         """Return the error about the first word that is not a number."""
         is_integer = issubclass(dtype, np.integer)
-        for first_word, word_count in zip(self.first[rows].tolist(), self.words[rows].tolist(), strict=True):
+        for first_word, word_count in zip(
+            self.first_words[rows].tolist(), self.word_counts[rows].tolist(), strict=True
+        ):
             for number in range(first_word + skip, first_word + word_count):
                 word = self.word(number)
                 if complaint := number_complaint(
                     word.partition(b"/")[0] or word if slashes else word, whole=is_integer
                 ):
                     return self.error(number, complaint)
-        return self.error(int(self.first[rows[0]]), "a number that cannot be read")
+        return self.error(int(self.first_words[rows[0]]), "a number that cannot be read")
 
     def error(self, number: int, complaint: str, advice: str = "export the mesh again") -> FormatError:
         """Return the error about a word, with its line."""

@@ -70,7 +70,8 @@ def write_3mf_parts(parts: Sequence[Part], file: BinaryIO) -> None:
     names = [printable_name(part.name) for part in parts]
     coloured = [number for number, part in enumerate(parts) if part.colour is not None]
 
-    def model(into: IO[bytes]) -> None:
+    def write_model(into: IO[bytes]) -> None:
+        """Write the model: materials, meshes and build."""
         into.write(model_head({"Application": APPLICATION}).encode())
         into.write(_format_materials([(names[k], parts[k]) for k in coloured], len(parts) + 1).encode())
         for number, part in enumerate(parts):
@@ -81,7 +82,7 @@ def write_3mf_parts(parts: Sequence[Part], file: BinaryIO) -> None:
             into.write(b"</object>")
         into.write(model_end(range(1, len(parts) + 1)).encode())
 
-    write_package(file, model)
+    write_package(file, write_model)
 
 
 def write_package(file: BinaryIO, model: Callable[[IO[bytes]], None], attached: Sequence[Attachment] = ()) -> None:

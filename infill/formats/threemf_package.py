@@ -92,19 +92,19 @@ class Model:
     spaces: Mapping[str, str]
     meshes: Mapping[ElementTree.Element, Mesh]
 
-    def below(self, element: ElementTree.Element, path: str) -> Iterator[ElementTree.Element]:
+    def descendants(self, element: ElementTree.Element, path: str) -> Iterator[ElementTree.Element]:
         """Yield the descendants of an element along a path of names of the core specification."""
         return element.iterfind("/".join(self.core + name for name in path.split("/")))
 
     @property
     def objects(self) -> Iterator[ElementTree.Element]:
         """The objects among its resources."""
-        return self.below(self.root, "resources/object")
+        return self.descendants(self.root, "resources/object")
 
     @property
     def items(self) -> Iterator[ElementTree.Element]:
         """Items of the build."""
-        return self.below(self.root, "build/item")
+        return self.descendants(self.root, "build/item")
 
     def mesh_of(self, each: ElementTree.Element) -> tuple[ElementTree.Element, Mesh] | None:
         """Return the element of the mesh of an object, and the mesh; None without a mesh."""

@@ -170,7 +170,7 @@ class PackageReading:
         with wrap_reader_errors(self.path, f"has a broken {BAMBU_CONFIG}", EXPORT_ADVICE):
             return bambu_parts(parse_xml(read_entry(self.package, BAMBU_CONFIG), self.path), self.project)
 
-    def told_role(self, chain: tuple[Key, ...]) -> tuple[str, str, VolumeSettings]:
+    def stated_role(self, chain: tuple[Key, ...]) -> tuple[str, str, VolumeSettings]:
         """Return role, name and settings of an object in the build by Bambu Studio and OrcaSlicer.
 
         They write every object except parts with the type "other", so for a negative volume the role counts.
@@ -207,7 +207,7 @@ class PackageReading:
             self.note(f"{excerpt(part)} is in {excerpt(model_unit)}, and read in {build_unit}, as what is built says")
         if (element_name := element.get("name")) and excerpt(element_name):
             name = f"{name} '{excerpt(element_name)}'"
-        told, _, told_settings = self.told_role(chain)
+        told, _, told_settings = self.stated_role(chain)
         is_modifier = told == MODIFIER and told_settings.is_any
         if not is_part_type(element.get("type")) and told != NEGATIVE and not is_modifier:
             self.note(f"{name} is of type '{excerpt(element.get('type', ''))}', not a part: it is left out")
@@ -221,7 +221,7 @@ class PackageReading:
         self._note_extensions(model, element, name)
         if model.mesh_of(element) is not None:
             yield from self._volumes(model, element, name, chain, outer)
-        for component in model.below(element, "components/component"):
+        for component in model.descendants(element, "components/component"):
             inner = parse_transform(component.get("transform", IDENTITY))
             yield from self.placed(self.reference(component, part), compose_transforms(inner, outer), chain)
 
@@ -235,7 +235,7 @@ class PackageReading:
         if mesh.fault:
             raise FormatError(f"{self.path} has {mesh.fault}; {EXPORT_ADVICE}")
         self._count_rows(len(mesh.faces) + len(mesh.vertices))
-        role, role_name, settings = self.told_role(chain)
+        role, role_name, settings = self.stated_role(chain)
         if role_name and excerpt(role_name):
             name = f"object {excerpt(number)} '{excerpt(role_name)}'"
         placed = self._place(mesh.vertices, mesh.faces, outer)
@@ -368,9 +368,9 @@ class PackageReading:
 def base_colour(model: Model, element: ElementTree.Element) -> Colour | None:
     """Return the colour of the base material of an object; None without one, or if it is not #RRGGBB."""
     group, number = element.get("pid"), whole_number(element.get("pindex", "0"))
-    for materials in model.below(model.root, "resources/basematerials"):
+    for materials in model.descendants(model.root, "resources/basematerials"):
         if group is not None and materials.get("id") == group:
-            bases = list(model.below(materials, "base"))
+            bases = list(model.descendants(materials, "base"))
             text = bases[number].get("displaycolor", "") if 0 <= number < len(bases) else ""
             found = COLOUR.fullmatch(text.strip())
             if found is not None:

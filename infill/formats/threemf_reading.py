@@ -112,6 +112,7 @@ class _Build:
 
 
 def _read_build(path: Path) -> _Build:
+    """Read and place the volumes that the build of a 3MF lists, or raise FormatError."""
     with open_package(path) as package:
         reading = PackageReading(path=path, package=package)
         main = reading.model(reading.main) if reading.main else None

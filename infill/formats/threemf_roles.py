@@ -93,7 +93,7 @@ def object_key(text: str | None) -> str:
 
 
 def metadata_of(element: ElementTree.Element) -> dict[str, str]:
-    """Return the entries of a settings file, by key."""
+    """Return the metadata of an element of a settings file: values by key."""
     return {entry.get("key", ""): entry.get("value", "") for entry in element.findall("metadata")}
 
 

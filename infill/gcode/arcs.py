@@ -105,11 +105,12 @@ def find_arcs(table: GcodeTable) -> PlaneArcs:
     lines = np.flatnonzero(((table.kind == ARC) | odd) & (table.plane == XY_PLANE))
     previous = lines - 1
 
-    def at_start(name: str) -> Floats:
+    def start_values(name: str) -> Floats:
+        """Return a coordinate where each arc begins."""
         values, before = getattr(table, name), getattr(table.before, name)
         return np.asarray(np.where(previous >= 0, values[np.maximum(previous, 0)], before))
 
-    start = np.column_stack([at_start("x"), at_start("y")])
+    start = np.column_stack([start_values("x"), start_values("y")])
     end = np.column_stack([table.x[lines], table.y[lines]])
     offset, stated, turns = stated_circles(table, lines)
     clockwise = table.code[lines] == 2
@@ -120,7 +121,7 @@ def find_arcs(table: GcodeTable) -> PlaneArcs:
     first, last = start - centre, end - centre
     turn = arc_turns(first, last, clockwise)
     arcs = PlaneArcs(line=lines, start=start, end=end, centre=centre, turn=turn)
-    height = at_start("z")
+    height = start_values("z")
     level = (table.z[lines] == height) | ~table.given[lines, 2]
     once = (turns <= 1) & (offset[:, 2] == 0)
     inner, outer = np.hypot(*first.T), np.hypot(*last.T)
@@ -141,8 +142,8 @@ def path_steps(table: GcodeTable) -> Floats:
     return steps
 
 
-def is_on(arcs: PlaneArcs, lines: int) -> NDArray[np.bool_]:
-    """Mark the lines, of so many, that are one of these arcs."""
-    marked = np.zeros(lines, dtype=bool)
+def mark_arc_lines(arcs: PlaneArcs, count: int) -> NDArray[np.bool_]:
+    """Mark the lines, of `count` in all, that are one of these arcs: (count,)."""
+    marked = np.zeros(count, dtype=bool)
     marked[arcs.line] = True
     return marked

@@ -20,9 +20,9 @@ from infill.gcode.block_file import (
     Compression,
     Encoding,
     Kind,
-    blocks,
     is_binary,
-    stored,
+    pack_block,
+    read_blocks,
 )
 from infill.gcode.stream import whole_lines
 
@@ -31,22 +31,22 @@ __all__ = [
     "Compression",
     "Encoding",
     "Kind",
-    "blocks",
-    "decoded",
-    "edited",
-    "encoded",
+    "decode_block",
+    "edit_metadata",
+    "encode_block",
     "is_binary",
-    "metadata",
-    "rewritten",
-    "stored",
-    "text_pieces",
+    "pack_block",
+    "read_blocks",
+    "read_metadata",
+    "read_text_pieces",
+    "rewrite_binary",
 ]
 
 WINDOW_BITS = {Compression.HEATSHRINK_11: 11, Compression.HEATSHRINK_12: 12}
 METADATA_KINDS = (Kind.FILE_METADATA, Kind.SLICER_METADATA, Kind.PRINTER_METADATA, Kind.PRINT_METADATA)
 
 
-def decoded(block: Block) -> bytes:
+def decode_block(block: Block) -> bytes:
     """Decode the content of a block: G-code text, metadata as key=value lines, or an image.
 
     Raises
@@ -62,7 +62,7 @@ def decoded(block: Block) -> bytes:
         raise FormatError(f"{block.name}: {told}") from None
 
 
-def encoded(text: bytes, *, like: Block) -> Block:
+def encode_block(text: bytes, *, like: Block) -> Block:
     """Make a block that holds a text, encoded and compressed like another block.
 
     MeatPack drops blank lines, blanks and comments behind commands, see `meatpack.normalise_text`. Prusa's firmware
@@ -88,7 +88,7 @@ def encoded(text: bytes, *, like: Block) -> Block:
         data = meatpack.pack_text(expected, comments=comments)
     result = replace(like, data=_compress(data, like.compression), size=len(data), number=0)
     try:
-        same = decoded(result) == expected
+        same = decode_block(result) == expected
     except FormatError:
         same = False
     if not same:
@@ -98,13 +98,13 @@ def encoded(text: bytes, *, like: Block) -> Block:
     return result
 
 
-def metadata(block: Block) -> dict[str, str]:
+def read_metadata(block: Block) -> dict[str, str]:
     """Read the keys and values of a block of metadata."""
     lines = _metadata_text(block).decode(errors="surrogateescape").split("\n")
     return {key: value for key, equals, value in (line.partition("=") for line in lines) if equals}
 
 
-def edited(block: Block, changes: Mapping[str, str]) -> Block:
+def edit_metadata(block: Block, changes: Mapping[str, str]) -> Block:
     """Change values of a block of metadata; skip keys that it lacks, and keep all else.
 
     Raises
@@ -123,21 +123,21 @@ def edited(block: Block, changes: Mapping[str, str]) -> Block:
     for line in lines:
         word = line.partition(b"=")[0]
         new.append(word + b"=" + named[word] if b"=" in line and word in named else line)
-    return block if new == lines else replace(encoded(b"\n".join(new), like=block), number=block.number)
+    return block if new == lines else replace(encode_block(b"\n".join(new), like=block), number=block.number)
 
 
-def text_pieces(file: BinaryIO) -> Iterator[bytes]:
+def read_text_pieces(file: BinaryIO) -> Iterator[bytes]:
     """Read the G-code text of a file in pieces of whole lines, up to LONGEST_TEXT bytes; a longer line is one piece.
 
     Raises
     ------
     FormatError
-        As `blocks` and `decoded`; or the file has no G-code.
+        As `read_blocks` and `decode_block`; or the file has no G-code.
     """
     return whole_lines(_read_texts(file))
 
 
-def rewritten(
+def rewrite_binary(
     source: BinaryIO, target: BinaryIO, text: Iterable[bytes], changes: Mapping[str, str] | None = None
 ) -> frozenset[str]:
     """Write a file with other G-code text; copy everything else byte for byte; return the keys of `changes` it has.
@@ -150,7 +150,7 @@ def rewritten(
     source, target : BinaryIO
         The old file at its start, and the new one.
     text : iterable of bytes
-        The new text in pieces of any length, read one by one; it may come from `text_pieces` of the same file
+        The new text in pieces of any length, read one by one; it may come from `read_text_pieces` of the same file
         opened a second time.
     changes : mapping, optional
         New values of metadata of the print and of the printer.
@@ -163,19 +163,19 @@ def rewritten(
     changes = changes or {}
     present_keys: set[str] = set()
     started = copied = False
-    for block in blocks(source):
+    for block in read_blocks(source):
         if not started:
             target.write(HEAD.pack(MAGIC, 1, block.summed))
             started = True
         if block.kind == Kind.GCODE:
             if not copied:
                 copied = True
-                target.writelines(stored(encoded(piece, like=block)) for piece in whole_lines(text))
+                target.writelines(pack_block(encode_block(piece, like=block)) for piece in whole_lines(text))
             continue
         if changes and block.kind in (Kind.PRINT_METADATA, Kind.PRINTER_METADATA):
-            present_keys |= metadata(block).keys() & changes.keys()
-            block = edited(block, changes)
-        target.write(stored(block))
+            present_keys |= read_metadata(block).keys() & changes.keys()
+            block = edit_metadata(block, changes)
+        target.write(pack_block(block))
     if not copied:
         raise FormatError(f"binary G-code without a block of G-code; {SLICE_AGAIN}")
     return frozenset(present_keys)
@@ -184,15 +184,16 @@ def rewritten(
 def _read_texts(file: BinaryIO) -> Iterator[bytes]:
     """Yield the decoded text of every G-code block; raise if there is none."""
     empty = True
-    for block in blocks(file):
+    for block in read_blocks(file):
         if block.kind == Kind.GCODE:
             empty = False
-            yield decoded(block)
+            yield decode_block(block)
     if empty:
         raise FormatError(f"binary G-code without a block of G-code; {SLICE_AGAIN}")
 
 
 def _encode_text(text: str) -> bytes:
+    """Encode text as UTF-8; bytes that were not text come back as they were."""
     return text.encode(errors="surrogateescape")
 
 
@@ -202,7 +203,7 @@ def _metadata_text(block: Block) -> bytes:
         raise ParameterError(f"{block.name} holds no metadata; take one of metadata")
     if block.encoding != 0:
         raise FormatError(f"{block.name} has encoding {block.encoding}, and only 0 (INI) is read here; {SLICE_AGAIN}")
-    return decoded(block)
+    return decode_block(block)
 
 
 def _decompress(block: Block) -> bytes:

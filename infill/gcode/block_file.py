@@ -105,7 +105,7 @@ def is_binary(head: bytes) -> bool:
     return head[:4] == MAGIC
 
 
-def blocks(file: BinaryIO) -> Iterator[Block]:
+def read_blocks(file: BinaryIO) -> Iterator[Block]:
     """Read the blocks of a file one by one, and compare checksums.
 
     Raises
@@ -182,7 +182,7 @@ def _read_block(file: BinaryIO, number: int, *, summed: bool) -> Block | None:
     )
 
 
-def stored(block: Block) -> bytes:
+def pack_block(block: Block) -> bytes:
     """Return the bytes of a block as stored in a file, with its checksum."""
     sizes = (block.size,) if block.compression == Compression.NONE else (block.size, len(block.data))
     head = struct.pack(f"<HH{len(sizes)}I", block.kind, block.compression, *sizes)

@@ -155,12 +155,13 @@ def cut_chords(
     arc = np.repeat(np.arange(len(count)), count)
     number = np.arange(len(arc)) - np.repeat(np.cumsum(count) - count, count)
 
-    def at(share: Floats) -> Floats:
+    def points_at(share: Floats) -> Floats:
+        """Return the points at shares of the arcs, (K, 3), mm."""
         angle = begin[arc] + share * turn[arc]
         level = centre[arc] + radius[arc, None] * np.column_stack([np.cos(angle), np.sin(angle)])
         return np.column_stack([level, start[arc, 2] + share * (end - start)[arc, 2]])
 
-    first, last = at(number / count[arc]), at((number + 1) / count[arc])
+    first, last = points_at(number / count[arc]), points_at((number + 1) / count[arc])
     opening, closing = number == 0, number == count[arc] - 1
     first[opening], last[closing] = start[arc[opening]], end[arc[closing]]
     return arc, first, last

@@ -56,7 +56,7 @@ class EstimateChange:
     filament: float = 1.0
     tools: tuple[float, ...] = ()
 
-    def told_by(self, lines: Iterable[bytes]) -> EstimateChange:
+    def with_stated_times(self, lines: Iterable[bytes]) -> EstimateChange:
         """Return the change with the silent and preparation times that the old lines of a print state."""
         silent = prepared = longest = 0.0
         for line in lines:
@@ -68,7 +68,7 @@ class EstimateChange:
                 prepared = max(spans[-1] - spans[0], 0.0) if spans else 0.0
         return replace(self, silent=silent or longest * self.ratio, prepared=prepared)
 
-    def as_told(self, lines: Iterable[bytes], change: Mapping[int, float]) -> EstimateChange:
+    def with_stated_filament(self, lines: Iterable[bytes], change: Mapping[int, float]) -> EstimateChange:
         """Return the change with ratios from the filament that the print states by tool, if it does.
 
         Parameters
@@ -142,7 +142,7 @@ def restate(
     """
     outside = {name: b"; %s = %s" % (name, value) for name, value in metadata}
     old = [*lines, *outside.values()]
-    change = change.told_by(old).as_told(lines, increase)
+    change = change.with_stated_times(old).with_stated_filament(lines, increase)
     new_lines, new_outside = list(lines), {}
     if elapsed is not None:
         progress = zip(lines, elapsed, completion_letters(lines), strict=True)
@@ -356,7 +356,8 @@ def _format_progress(line: bytes, elapsed: float, change: EstimateChange, comple
     share_elapsed = min(max(elapsed / change.seconds, 0.0), 1.0)
     total = {b"R": change.seconds + change.prepared, b"S": change.silent or change.seconds}
 
-    def anew(match: re.Match[bytes]) -> bytes:
+    def update_word(match: re.Match[bytes]) -> bytes:
+        """Return a word of M73 with its new number."""
         letter, decimals = match[1], len(match[2].partition(b".")[2])
         share = 1.0 if letter in completed else share_elapsed
         if letter in b"PQ":
@@ -366,7 +367,7 @@ def _format_progress(line: bytes, elapsed: float, change: EstimateChange, comple
         return letter + _format_truncated((total[letter] * (1 - share) + HALF_SECOND) / 60, decimals)
 
     words, mark, remark = line.partition(b";")
-    return _WORD.sub(anew, words) + mark + remark
+    return _WORD.sub(update_word, words) + mark + remark
 
 
 def _format_truncated(value: float, decimals: int) -> bytes:

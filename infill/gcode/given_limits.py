@@ -113,7 +113,7 @@ def parse_macros(name: str, value: object) -> dict[str, float]:
 
 
 def _parse_seconds(name: str, word: str, value: object) -> float:
-    """Return a time in seconds: a number, or a text such as 45s, 1m 30s or 1h."""
+    """Parse a time to seconds: a number, or a text such as 45s, 1m 30s or 1h; errors name the argument and the word."""
     number: float | None = None
     if isinstance(value, int | float) and not isinstance(value, bool):
         number = float(value)

@@ -67,8 +67,8 @@ def read_klipper_config(path: Path) -> Sections:
     return sections
 
 
-def _add_file(sections: Sections, text: str, stack: tuple[Path, ...], count: list[int]) -> None:
-    """Add the sections of a file, and of those that it includes, in the order of their lines."""
+def _add_file(sections: Sections, text: str, stack: tuple[Path, ...], file_count: list[int]) -> None:
+    """Add the sections of a file, and of those that it includes, in the order of their lines; count the files too."""
     lines: list[str] = []
     for line in text.split("\n"):
         header = SECTION.match(line)
@@ -83,10 +83,10 @@ def _add_file(sections: Sections, text: str, stack: tuple[Path, ...], count: lis
             if included.resolve() in (path.resolve() for path in stack):
                 names = excerpt(" includes ".join(path.name for path in (*stack, included)), 200)
                 raise FormatError(f"{stack[0]}: {names}, in a loop; remove one of these lines")
-            count[0] += 1
-            if count[0] > MAX_FILES:
+            file_count[0] += 1
+            if file_count[0] > MAX_FILES:
                 raise FormatError(f"{stack[0]} includes more than {MAX_FILES} files; remove some of its includes")
-            _add_file(sections, read_printer_text(included), (*stack, included), count)
+            _add_file(sections, read_printer_text(included), (*stack, included), file_count)
     _add_lines(sections, "\n".join(lines))
 
 
@@ -142,8 +142,8 @@ class _NumberReader:
         return default
 
 
-def _place_given(sections: Mapping[str, Mapping[str, Any]], given: Mapping[str, float]) -> Sections:
-    """Return the options of the printer and its extruder, with limits by name in the place of theirs."""
+def _override_options(sections: Mapping[str, Mapping[str, Any]], given: Mapping[str, float]) -> Sections:
+    """Return the options of the printer and its extruder, with those that given limits by name override."""
     options = {name: dict(sections.get(name, {})) for name in ("printer", "extruder", "firmware_retraction")}
     if "max_accel_to_decel" in given:
         options["printer"].pop("minimum_cruise_ratio", None)
@@ -178,7 +178,7 @@ def klipper_limits(
     FormatError
         If a limit is missing or impossible.
     """
-    number = _NumberReader(_place_given(sections, given), source).read
+    number = _NumberReader(_override_options(sections, given), source).read
     speed = number("printer", "max_velocity", "feedrate")
     acceleration = number("printer", "max_accel", "acceleration")
     nozzle = number("extruder", "nozzle_diameter", "feedrate", NOZZLE)

@@ -148,6 +148,7 @@ def _classify_lines(
     last_byte = len(text) - 1
 
     def byte(offset: int = 0) -> NDArray[np.uint8]:
+        """Return the byte of each line at an offset from where its text begins."""
         return text[np.minimum(begin + offset, last_byte)]
 
     blank = byte() <= SPACE

@@ -181,13 +181,14 @@ def _survey_lines(code: Bytes, starts: NDArray[np.int64]) -> _Lines:
     count = len(code)
     place = np.arange(count)
 
-    def nearest(flags: Flags) -> NDArray[np.int64]:
+    def first_flag(flags: Flags) -> NDArray[np.int64]:
+        """Return the first marked place of each line, or the number of bytes."""
         return np.minimum.reduceat(np.where(flags, place, count), starts)
 
-    first_place, remark = nearest(_is_ink(code)), nearest(code == SEMICOLON)
+    first_place, remark = first_flag(_is_ink(code)), first_flag(code == SEMICOLON)
     padded = np.append(code, np.zeros(2, np.uint8))
     g, digit = padded[first_place] == G, DIGITS[padded[first_place + 1]]
-    odd = (g & ~digit) | (nearest(ODD[code]) < remark)
+    odd = (g & ~digit) | (first_flag(ODD[code]) < remark)
     return _Lines(first_place, remark, (first_place == remark) & (first_place < count), g & digit & ~odd, odd)
 
 

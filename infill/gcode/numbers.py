@@ -67,10 +67,10 @@ def read_numbers(text: Bytes, places: Places) -> tuple[NDArray[np.float64], NDAr
     head = text[np.minimum(places, end)]
     negative = head == MINUS
     at = places + (negative | (head == PLUS))
-    digits, number, decimals, is_short = short_numbers(text, at)
+    digits, number, decimals, is_short = parse_short_numbers(text, at)
     long = np.flatnonzero(~is_short)
     if len(long):
-        digits[long], number[long], decimals[long] = long_numbers(text, at[long])
+        digits[long], number[long], decimals[long] = parse_long_numbers(text, at[long])
     good = _ENDS[text[np.minimum(at + number + (decimals >= 0), end)]] & (number > 0) & (number <= MAX_DIGITS)
     values = digits / POWERS[np.maximum(decimals, 0)]
     np.negative(values, where=negative, out=values)
@@ -78,8 +78,10 @@ def read_numbers(text: Bytes, places: Places) -> tuple[NDArray[np.float64], NDAr
     return values, good
 
 
-def long_numbers(text: Bytes, at: Places) -> tuple[Integers, Integers, Integers]:
-    """Parse numbers without a sign, of up to `MAX_CHARACTERS` characters, one character after another.
+def parse_long_numbers(text: Bytes, at: Places) -> tuple[Integers, Integers, Integers]:
+    """Parse unsigned numbers, one character after another; return digits as an integer, their count and the decimals.
+
+    A number has at most `MAX_CHARACTERS` characters.
 
     Returns
     -------
@@ -109,8 +111,10 @@ def long_numbers(text: Bytes, at: Places) -> tuple[Integers, Integers, Integers]
     return digits, number, decimals
 
 
-def short_numbers(text: Bytes, at: Places) -> tuple[Integers, Integers, Integers, NDArray[np.bool_]]:
-    """Parse numbers as `long_numbers` does, each from one word of 64 bits whose lowest byte comes first.
+def parse_short_numbers(text: Bytes, at: Places) -> tuple[Integers, Integers, Integers, NDArray[np.bool_]]:
+    """Parse unsigned numbers as `parse_long_numbers` does, from eight bytes each; also tell which end within these.
+
+    The bytes are one word of 64 bits, whose lowest byte comes first.
 
     Returns
     -------

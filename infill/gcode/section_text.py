@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from infill.arrays import Floats
-from infill.gcode.arcs import find_arcs, is_on
+from infill.gcode.arcs import find_arcs, mark_arc_lines
 from infill.gcode.infill_sections import InfillSection
 from infill.gcode.lines import ARC, MOVE, ODD
 from infill.gcode.machine_state import firmware_retraction, sets_counter
@@ -59,7 +59,8 @@ def measure_travel(table: GcodeTable, before: TravelSettings | None = None) -> T
     up = (table.kind == MOVE) & table.given[:, 2] & ~moved & (depth > 1e-6) & (rises > 0)
     default = before or TravelSettings()
 
-    def usual(values: Floats, otherwise: float) -> float:
+    def median_or(values: Floats, otherwise: float) -> float:
+        """Return the median of the positive values, or a default without any."""
         values = values[np.isfinite(values) & (values > 0)]
         return float(np.median(values)) if len(values) else otherwise
 
@@ -68,12 +69,12 @@ def measure_travel(table: GcodeTable, before: TravelSettings | None = None) -> T
     down = (table.kind == MOVE) & table.given[:, 2] & ~moved & (depth > 1e-6) & (rises < 0)
     down &= table.z >= _last_printed_height(table) - MIN_STEP
     return TravelSettings(
-        travel=usual(table.f[travel], default.travel),
-        retraction=usual(np.round(depth[travel & (depth > 0.05)], 5), default.retraction),
-        retract_feed=usual(table.f[back], default.retract_feed),
-        prime_feed=usual(table.f[forth], default.prime_feed),
-        lift=usual(-rises[down], default.lift) if down.any() else default.lift,
-        lift_feed=usual(table.f[up], default.lift_feed),
+        travel=median_or(table.f[travel], default.travel),
+        retraction=median_or(np.round(depth[travel & (depth > 0.05)], 5), default.retraction),
+        retract_feed=median_or(table.f[back], default.retract_feed),
+        prime_feed=median_or(table.f[forth], default.prime_feed),
+        lift=median_or(-rises[down], default.lift) if down.any() else default.lift,
+        lift_feed=median_or(table.f[up], default.lift_feed),
         firmware=any(firmware_retraction(command, table.before.firmware) for command in table.commands)
         or default.firmware,
     )
@@ -116,7 +117,8 @@ def compose_section(
     pieces: list[bytes] = []
     pushed = 0.0
 
-    def go(goal: Floats, retract: bool) -> None:
+    def travel_to(goal: Floats, retract: bool) -> None:
+        """Travel to a place, with retraction if asked."""
         nonlocal feed
         if np.abs(goal - position).max() < 1e-9:
             return
@@ -133,7 +135,7 @@ def compose_section(
         stops = np.zeros(len(path), dtype=bool)
         stops[[point for point, _ in lines]] = True
         moves = plan_moves(path, np.array([0, len(path)]), arc_deviation=arc_deviation, stops=stops)
-        go(path[0], retract)
+        travel_to(path[0], retract)
         along = np.cumsum(moves.length)
         steps = np.rint((pushed + along * rate) / FILAMENT_UNIT)
         if relative:
@@ -153,7 +155,7 @@ def compose_section(
             copied_rows = row
         pieces.append(rows.text[rows.start[copied_rows] :])
         position = path[-1]
-    go(body.end, retracts[-1])
+    travel_to(body.end, retracts[-1])
     pieces.extend(rest)
     expected = float(table.e[body.last])
     if not relative and abs(counter - expected) >= FILAMENT_UNIT / 2:
@@ -252,7 +254,7 @@ def validate_sections(
     drawn = fresh & (new_table.code >= 0) & (new_table.given[:, 0] | new_table.given[:, 1]) & (new_table.extruded != 0)
     if (new_table.kind[fresh] == ODD).any():
         return "a new line that cannot be read"
-    if not is_on(find_arcs(new_table), len(new_table))[fresh & (new_table.kind == ARC)].all():
+    if not mark_arc_lines(find_arcs(new_table), len(new_table))[fresh & (new_table.kind == ARC)].all():
         return "a new arc that closes on no circle"
     if (new_table.extruded[drawn] < 0).any():
         return "a new move that draws filament back"

@@ -198,11 +198,12 @@ def mark_lines(table: GcodeTable, before: TagState) -> LineMarks:
     roles = tuple(place)
     count = np.diff([*at, lines])
 
-    def spread(values: Sequence[Any], kind: Any) -> NDArray[Any]:  # noqa: ANN401 - a NumPy type
+    def repeat_values(values: Sequence[Any], kind: Any) -> NDArray[Any]:  # noqa: ANN401 - a NumPy type
+        """Repeat each value for the lines that it holds for."""
         return np.repeat(np.array(values, dtype=kind), count)
 
-    role = spread([place[name] for name in fields["role"]], np.uint8)
-    purged = spread(fields["changing_tool"], np.bool_)
+    role = repeat_values([place[name] for name in fields["role"]], np.uint8)
+    purged = repeat_values(fields["changing_tool"], np.bool_)
     keys = list(zip(fields["role"], fields["layer"], fields["part"], strict=True))
     begins = np.zeros(lines + 1, dtype=bool)
     begins[
@@ -223,11 +224,11 @@ def mark_lines(table: GcodeTable, before: TagState) -> LineMarks:
         role=role,
         purged=purged,
         section=section,
-        layer=spread(fields["layer"], np.intp),
+        layer=repeat_values(fields["layer"], np.intp),
         layers=state.layer - before.layer,
-        width=spread(fields["width"], np.float64),
-        height=spread(fields["height"], np.float64),
-        acceleration=spread(fields["acceleration"], np.float64),
+        width=repeat_values(fields["width"], np.float64),
+        height=repeat_values(fields["height"], np.float64),
+        acceleration=repeat_values(fields["acceleration"], np.float64),
         wiping=wiping,
         names=_fill_names(names, section),
         tagged=tagged,

@@ -67,8 +67,8 @@ class SlicedFile:
     plates: tuple[int, ...] = ()
     parts: tuple[int | None, ...] = (None,)
 
-    def part(self, plate: int | None) -> int | None:
-        """Return the print of a plate; without a plate, the first.
+    def part_of_plate(self, plate: int | None) -> int | None:
+        """Return the entry of `parts` for a plate; without a plate, the first.
 
         Raises
         ------
@@ -124,29 +124,29 @@ class SlicedFile:
 
             rewrite_archive(self.file, target, {plate: text for plate, text in texts.items() if plate is not None})
         elif self.form == "binary":
-            from infill.gcode.binary import rewritten
+            from infill.gcode.binary import rewrite_binary
 
-            rewritten(self.file, target, texts[None], metadata)
+            rewrite_binary(self.file, target, texts[None], metadata)
         else:
             target.writelines(texts[None])
 
     @contextlib.contextmanager
     def _binary(self, folder: Path | None) -> Iterator[SlicedText]:
         """Yield the text of a binary file, with the settings and values of its metadata."""
-        from infill.gcode.binary import Kind, blocks, metadata, text_pieces
+        from infill.gcode.binary import Kind, read_blocks, read_metadata, read_text_pieces
 
-        with _unpack_to_file(text_pieces(self.file), folder) as text:
+        with _unpack_to_file(read_text_pieces(self.file), folder) as text:
             self.file.seek(0)
             settings: dict[str, str] = {}
             values: dict[str, str] = {}
             slicer = ""
-            for block in blocks(self.file):
+            for block in read_blocks(self.file):
                 if block.kind == Kind.SLICER_METADATA:
-                    settings.update(metadata(block))
+                    settings.update(read_metadata(block))
                 elif block.kind in (Kind.PRINT_METADATA, Kind.PRINTER_METADATA):
-                    values.update(metadata(block))
+                    values.update(read_metadata(block))
                 elif block.kind == Kind.FILE_METADATA:
-                    slicer = metadata(block).get("Producer", "")
+                    slicer = read_metadata(block).get("Producer", "")
             pairs = tuple((_encode_text(name), _encode_text(value)) for name, value in values.items())
             yield SlicedText(text=text, settings=settings, metadata=pairs, slicer=slicer)
 

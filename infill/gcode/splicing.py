@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.arrays import Floats, Places
-from infill.gcode.arcs import find_arcs, is_on, path_steps
+from infill.gcode.arcs import find_arcs, mark_arc_lines, path_steps
 from infill.gcode.lines import ARC
 from infill.gcode.numbers import format_word
 from infill.gcode.path_moves import PathMoves, plan_moves
@@ -192,7 +192,7 @@ def verify_replay(table: GcodeTable, strokes: InfillStrokes, new: NewPaths, spli
 
 
 def find_difference(table: GcodeTable, new_table: GcodeTable, spliced_text: SplicedText) -> str:
-    """Describe the first difference of the copied lines, or of the state at the end, between old and new text."""
+    """Describe the first difference in copied lines, or in the state at the end, of two texts; "" without one."""
     if len(new_table) != len(table) + int(spliced_text.shift[-1]):
         return "the number of lines"
     old_rows = np.flatnonzero(spliced_text.same)
@@ -235,7 +235,7 @@ def _find_wrong_move(
     owner = spliced_text.owner
     if len(move) != len(owner):
         return "the number of new moves"
-    if not is_on(find_arcs(new_table), len(new_table))[move[new_table.kind[move] == ARC]].all():
+    if not mark_arc_lines(find_arcs(new_table), len(new_table))[move[new_table.kind[move] == ARC]].all():
         return "a new arc that closes on no circle"
     z = np.where(move >= 1, new_table.z[move - 1], new_table.before.z)
     length = path_steps(new_table)[move]

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.arrays import Floats, Places
-from infill.gcode.arcs import find_arcs, is_on
+from infill.gcode.arcs import find_arcs, mark_arc_lines
 from infill.gcode.lines import BLANK, COMMENT, MOVE
 from infill.gcode.machine_state import MachineState
 from infill.gcode.sections import SPARSE, LineMarks, TagState, is_printing, mark_lines
@@ -112,11 +112,11 @@ def find_strokes(table: GcodeTable, marks: LineMarks, role: str = SPARSE) -> Inf
     to the display. Lines with something odd (line numbers, relative moves, inches, a change of z) are in no stroke.
     An arc lies in the plane of the layers, and its points are those of its chords.
     """
-    x0, y0, z0 = (_shift(getattr(table, name), getattr(table.before, name)) for name in "xyz")
+    x0, y0, z0 = (_previous_values(getattr(table, name), getattr(table.before, name)) for name in "xyz")
     arcs = find_arcs(table)
     length = np.hypot(table.x - x0, table.y - y0)
     length[arcs.line] = arcs.length
-    on_arc = is_on(arcs, len(table))
+    on_arc = mark_arc_lines(arcs, len(table))
     with np.errstate(invalid="ignore"):
         drawn = ((table.kind == MOVE) | on_arc) & (table.extruded > 0) & (length > 0) & np.isfinite(length)
     drawn &= (table.z == z0) | ~table.given[:, 2]
@@ -124,7 +124,7 @@ def find_strokes(table: GcodeTable, marks: LineMarks, role: str = SPARSE) -> Inf
     passive = ((table.kind == COMMENT) & ~marks.tagged) | (table.kind == BLANK)
     for command in table.commands:
         passive[command.line] |= command.code in DISPLAY_COMMANDS
-    feed = _shift(table.f, table.before.f)
+    feed = _previous_values(table.f, table.before.f)
     with np.errstate(invalid="ignore"):
         passive |= (table.kind == MOVE) & ~table.moves & (table.f == feed)
     rows = np.flatnonzero(drawn)
@@ -160,7 +160,7 @@ def find_strokes(table: GcodeTable, marks: LineMarks, role: str = SPARSE) -> Inf
     )
 
 
-def _shift(values: Floats, before: float) -> Floats:
+def _previous_values(values: Floats, before: float) -> Floats:
     """Return the value before each line."""
     return np.concatenate([[before], values[:-1]])[: len(values)]
 

@@ -51,7 +51,7 @@ class _MetaFields(dict[str, str]):
     def __missing__(self, name: str) -> str:
         raise ValueError(f"its header lacks {name}")
 
-    def yes(self, *names: str) -> bool:
+    def is_true(self, *names: str) -> bool:
         """Tell whether the first of the named fields in the header is true."""
         value = next((self[name] for name in names if name in self), "false").lower()
         if value not in ("true", "false", "1", "0", "yes", "no", "t", "f"):
@@ -191,11 +191,11 @@ def _cell_reader(path: Path, fields: _MetaFields, header: ImageHeader, listed: t
     for key, usual in (("elementtointensityfunctionslope", 1.0), ("elementtointensityfunctionoffset", 0.0)):
         if float(fields.get(key, usual)) != usual:
             raise FormatError(f"{path} scales its values by {key}; save the scaled values")
-    if fields.yes("binarydata") or "binarydata" not in fields:
-        encoding = "zlib" if fields.yes("compresseddata") else "raw"
+    if fields.is_true("binarydata") or "binarydata" not in fields:
+        encoding = "zlib" if fields.is_true("compresseddata") else "raw"
     else:
         encoding = "text"
-    most_first = fields.yes("binarydatabyteordermsb", "elementbyteordermsb")
+    most_first = fields.is_true("binarydatabyteordermsb", "elementbyteordermsb")
     kind = np.dtype(TYPES[name]).newbyteorder(">" if most_first else "<")
     skip = int(fields.get("headersize", "0"))
     if skip < -1 or (skip == -1 and encoding != "raw"):

@@ -108,14 +108,14 @@ class _NiftiHeader:
     def __init__(self, form: _HeaderLayout, order: str, content: bytes) -> None:
         self.form, self.order, self.held = form, order, content
 
-    def all(self, name: str) -> tuple[Any, ...]:
+    def numbers(self, name: str) -> tuple[Any, ...]:
         """Return the numbers of a field."""
         kind, at = self.form.fields[name]
         return struct.unpack_from(self.order + kind, self.held, at)
 
-    def one(self, name: str) -> Any:  # noqa: ANN401 - a number or bytes
+    def number(self, name: str) -> Any:  # noqa: ANN401 - a number or bytes
         """Return the only number of a field."""
-        return self.all(name)[0]
+        return self.numbers(name)[0]
 
 
 def read_nifti(path: Path, frame: int | None = None) -> Volume:
@@ -131,7 +131,8 @@ def read_nifti(path: Path, frame: int | None = None) -> Volume:
         kind = _kind(path, header)
         begin = _first_cell(path, header)
 
-        def read(low: int, high: int) -> NDArray[Any]:
+        def read_cells(low: int, high: int) -> NDArray[Any]:
+            """Read cells `low` to `high - 1`."""
             file.seek(0)
             size = kind.itemsize
             content = read_bytes(
@@ -144,7 +145,7 @@ def read_nifti(path: Path, frame: int | None = None) -> Volume:
             )
             return _scaled(path, content.view(kind), header)
 
-        return read_frame(image, frame, read)
+        return read_frame(image, frame, read_cells)
 
 
 def _read_head(path: Path, file: BinaryIO, *, packed: bool) -> bytes:
@@ -180,7 +181,7 @@ def _parse_header(path: Path, content: bytes) -> _NiftiHeader:
         if len(content) < form.size:
             raise cut_off_error(str(path), len(content), form.size, "bytes of its header")
         header = _NiftiHeader(form, order, content)
-        magic = header.one("magic")[:4]
+        magic = header.number("magic")[:4]
         if magic in (b"ni1\0", b"ni2\0"):
             raise FormatError(f"{path} is the header of a pair of files; save both as one .nii")
         if magic not in (b"n+1\0", b"n+2\0"):
@@ -191,7 +192,7 @@ def _parse_header(path: Path, content: bytes) -> _NiftiHeader:
 
 def _sizes(path: Path, header: _NiftiHeader) -> tuple[int, ...]:
     """Return the cells along each axis."""
-    axes, *sizes = header.all("dim")
+    axes, *sizes = header.numbers("dim")
     if not 1 <= axes <= len(sizes):
         raise FormatError(f"{path} has {axes} axes, and NIfTI 1 to 7; save it again")
     # Axes beyond space may be given as 0 where there is nothing along them.
@@ -202,7 +203,7 @@ def _sizes(path: Path, header: _NiftiHeader) -> tuple[int, ...]:
 
 def _kind(path: Path, header: _NiftiHeader) -> np.dtype[Any]:
     """Return the type of the cells."""
-    code = header.one("datatype")
+    code = header.number("datatype")
     if code in COMPLEX:
         raise FormatError(f"{path} holds complex numbers; save their magnitude or their phase")
     if code in COLOURS:
@@ -210,16 +211,16 @@ def _kind(path: Path, header: _NiftiHeader) -> np.dtype[Any]:
     if code not in TYPES:
         raise FormatError(f"{path} holds cells of type {code}; save them as integers or floats of up to 64 bits")
     kind = np.dtype(TYPES[code]).newbyteorder("<" if header.order == "<" else ">")
-    if header.one("bitpix") not in (0, 8 * kind.itemsize):
+    if header.number("bitpix") not in (0, 8 * kind.itemsize):
         raise FormatError(
-            f"{path} states cells of {header.one('bitpix')} bits and a type of {8 * kind.itemsize}; save it again"
+            f"{path} states cells of {header.number('bitpix')} bits and a type of {8 * kind.itemsize}; save it again"
         )
     return kind
 
 
 def _first_cell(path: Path, header: _NiftiHeader) -> int:
     """Return the position of the first cell, bytes."""
-    begin = header.one("vox_offset")
+    begin = header.number("vox_offset")
     if begin == 0:  # some programs leave it out
         return header.form.first
     if not header.form.first <= begin < 2**62 or begin != int(begin):
@@ -231,7 +232,7 @@ def _first_cell(path: Path, header: _NiftiHeader) -> int:
 
 def _scaled(path: Path, cells: NDArray[Any], header: _NiftiHeader) -> NDArray[Any]:
     """Scale cells to values: slope * cell + intercept, unless the slope is 0 or not finite."""
-    slope, intercept = header.all("slope")
+    slope, intercept = header.numbers("slope")
     if not math.isfinite(slope) or slope == 0 or (slope == 1 and intercept == 0):
         return cells
     if not math.isfinite(intercept):
@@ -252,18 +253,18 @@ def _affine(path: Path, header: _NiftiHeader, sizes: tuple[int, ...]) -> NDArray
 
     If neither counts, the axes lead left, anterior and superior from a volume around the origin, as in Analyze.
     """
-    unit = header.one("units") & LENGTH_BITS
+    unit = header.number("units") & LENGTH_BITS
     if unit == 0:
         warn("%s does not say its unit of length; it is taken as mm, unless --spacing gives it", path)
     elif unit not in MILLIMETRES:
         warn("%s has an unknown unit of length (code %d); it is taken as mm, unless --spacing gives it", path, unit)
     scale = MILLIMETRES.get(unit, 1.0)
-    steps = np.abs(np.array(header.all("pixdim")[1 : AXES + 1], dtype=np.float64))
-    codes = {name: header.one(f"{name}_code") for name in ("sform", "qform")}
+    steps = np.abs(np.array(header.numbers("pixdim")[1 : AXES + 1], dtype=np.float64))
+    codes = {name: header.number(f"{name}_code") for name in ("sform", "qform")}
     for name, code in codes.items():
         if code not in CODES:
             warn("%s has an unknown %s code, %d", path, name, code)
-    by_matrix = np.array(header.all("sform"), dtype=np.float64).reshape(AXES, AXES + 1)
+    by_matrix = np.array(header.numbers("sform"), dtype=np.float64).reshape(AXES, AXES + 1)
     by_quaternion = _affine_of_quaternion(path, header, steps) if codes["qform"] else None
     if codes["sform"]:
         _warn_if_sizes_differ(path, by_matrix, steps)
@@ -295,7 +296,7 @@ def _affine(path: Path, header: _NiftiHeader, sizes: tuple[int, ...]) -> NDArray
 
 def _affine_of_quaternion(path: Path, header: _NiftiHeader, steps: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the affine of the qform; formulas of nifti1.h, "QUATERNION REPRESENTATION OF ROTATION MATRIX"."""
-    b, c, d, *offset = (float(number) for number in header.all("quaternion"))
+    b, c, d, *offset = (float(number) for number in header.numbers("quaternion"))
     squared_real = 1 - (b * b + c * c + d * d)
     if not squared_real > -QUATERNION_TOLERANCE:
         raise FormatError(
@@ -314,7 +315,7 @@ def _affine_of_quaternion(path: Path, header: _NiftiHeader, steps: NDArray[np.fl
             [2 * (b * d - a * c), 2 * (c * d + a * b), a * a + d * d - b * b - c * c],
         ]
     )
-    if header.all("pixdim")[0] < 0:
+    if header.numbers("pixdim")[0] < 0:
         rotation[:, 2] *= -1
     return np.column_stack([rotation * steps, offset])
 

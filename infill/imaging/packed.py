@@ -225,7 +225,7 @@ def _read_plain(source: str, file: BinaryIO, count: int) -> NDArray[np.uint8]:
 
 
 def _require_nothing(source: str, after: bytes, surplus: int) -> None:
-    """Raise FormatError if more than padding follows the cells."""
+    """Raise FormatError if more than padding follows the cells: `surplus` bytes, of which `after` are known."""
     if surplus > MOST_PADDING or after.strip(BLANK_BYTES):
         raise _surplus_error(source, surplus)
     if surplus > SILENT_PADDING:

@@ -38,17 +38,18 @@ def _raise_complaints(path: Path) -> Iterator[None]:
     """Raise FormatError for problems that tifffile only logs, such as missing pages of a truncated file."""
     complaints: list[str] = []
 
-    def keep(record: logging.LogRecord) -> bool:
+    def collect(record: logging.LogRecord) -> bool:
+        """Collect the text of an error; let no record through."""
         if record.levelno >= logging.ERROR:
             complaints.append(record.getMessage())
         return False
 
     logger = logging.getLogger("tifffile")
-    logger.addFilter(keep)
+    logger.addFilter(collect)
     try:
         yield
     finally:
-        logger.removeFilter(keep)
+        logger.removeFilter(collect)
     if complaints:
         complaint = " ".join(complaints[0].split())
         raise FormatError(f"{path} is broken or cut off ({complaint}); save it again")

@@ -109,21 +109,22 @@ def _unpack(raw: memoryview, coding: VtkCoding, needed: int, *, in_base64: bool)
     """Return the `needed` bytes of an array, decompressed."""
     word = coding.head.itemsize
 
-    def head(begin: int, count: int) -> list[int]:
+    def read_head(begin: int, count: int) -> list[int]:
+        """Read numbers of the header of an array."""
         return [
             int(number)
             for number in np.frombuffer(_slice_bytes(raw, begin, count * word, in_base64), dtype=coding.head)
         ]
 
     if not coding.packed:
-        size = head(0, 1)[0]
+        size = read_head(0, 1)[0]
         if size != needed:
             raise ValueError(f"{size} bytes where there should be {needed}")
         return _slice_bytes(raw, 0, word + size, in_base64)[word:]
-    blocks, size, last_size = head(0, 3)
+    blocks, size, last_size = read_head(0, 3)
     if blocks > len(raw) or (blocks - (last_size > 0)) * size + last_size != needed:
         raise ValueError(f"{blocks} blocks of {size} bytes where there should be {needed} bytes")
-    packed = head(0, 3 + blocks)[3:]
+    packed = read_head(0, 3 + blocks)[3:]
     # The head is encoded in base64 separately, and the packed blocks after it as one.
     begin = math.ceil((3 + blocks) * word / BASE64_IN) * BASE64_OUT if in_base64 else (3 + blocks) * word
     data, parts = _slice_bytes(raw, begin, sum(packed), in_base64), []

@@ -106,7 +106,7 @@ def _pick_evenly(areas: Floats) -> NDArray[np.intp]:
 
 
 def _facet_bends(faces: NDArray[np.integer], normals: Floats) -> Floats:
-    """Return the largest angle within `BENDS` between each face and a neighbour, 0 if there is none."""
+    """Return the largest bend, radians, from each face to a neighbour, of those within `BENDS`; 0 without one."""
     edges = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
     order = np.lexsort(edges.T)
     shared = (edges[order[1:]] == edges[order[:-1]]).all(axis=1)

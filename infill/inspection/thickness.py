@@ -58,6 +58,7 @@ def thinnest_walls(
     distances = (np.arange(places, dtype=np.float64) + 0.5) * (STEP * float(size.min()))
 
     def thinnest_wall(values: NDArray[np.generic], height: float, leeway: int) -> float | None:
+        """Return the thickness of the thinnest walls in values, mm; None without any."""
         solid = np.empty((len(start), len(distances)))
         sample_rays(field.slots, values, field.shape, start, inwards, distances, size, height, solid)
         lengths = first_solid_length(solid, distances, leeway=leeway)

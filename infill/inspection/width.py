@@ -135,6 +135,7 @@ def _sampler(layer: NDArray[np.floating], grid: Grid) -> Callable[[Floats], Floa
     field = np.pad(layer, 1, constant_values=VOID)
 
     def value(points: Floats) -> Floats:
+        """Interpolate the layer at points (N, 2), mm."""
         cell = (points - grid.origin) / grid.cell_size + 0.5  # the first cell of the padded field is centred on 0
         return interpolate_pixels(field, cell)
 

@@ -81,7 +81,7 @@ def _fit_coordinates(targets: Floats) -> tuple[Floats, Floats, Floats]:
             scales = np.clip(scales * targets / more, targets / MOST, targets * MOST)
         along_axes = [step_divergence(scales, axis) for axis in range(targets.ndim)]
         coordinates = extrapolate_nodes(solve_poisson(along_axes))
-        slopes = spline_slopes(coordinates)
+        slopes = spline_jacobians(coordinates)
         more = wall_density_factor(slopes)
     return coordinates, slopes, more
 
@@ -135,8 +135,11 @@ def extrapolate_nodes(nodes: Floats) -> Floats:
     return nodes
 
 
-def spline_slopes(coordinates: Floats) -> Floats:
-    """Compute slopes (n, m, k, 3, 3) at the nodes of a spline with coefficients (n + 2, m + 2, k + 2, 3)."""
+def spline_jacobians(coordinates: Floats) -> Floats:
+    """Compute the Jacobians of a cubic spline at its nodes, from coefficients (n + 2, m + 2, k + 2, 3).
+
+    The result, (n, m, k, 3, 3), has the derivative of coordinate i along axis j at [..., i, j], per step of the nodes.
+    """
     values, slopes = (1 / 6, 2 / 3, 1 / 6), (-1 / 2, 0.0, 1 / 2)
     shape = tuple(count - 2 for count in coordinates.shape[:-1])
     dimension = len(shape)

@@ -85,7 +85,7 @@ class Interior:
     @property
     def depth(self) -> NDArray[np.float32]:
         """Depths of all cells, (nx, ny, nz) in cells: a new array at each access if the space is in slabs."""
-        return self.layers.between(0, self.shape[2])
+        return self.layers.read_layers(0, self.shape[2])
 
     @property
     def shape(self) -> tuple[int, int, int]:
@@ -93,7 +93,7 @@ class Interior:
         return self.layers.shape
 
     @cached_property
-    def shares(self) -> NDArray[np.float64]:
+    def layer_shares(self) -> NDArray[np.float64]:
         """Share of each layer of the grid that lies between the open sides of the part, (nz,)."""
         middle = self.origin[2] + self.size * np.arange(self.shape[2])
         if self.opening is None:
@@ -112,7 +112,7 @@ class Interior:
         first : int
             The number of its first layer in the grid.
         """
-        shares = self.shares[first : first + field.shape[2]]
+        shares = self.layer_shares[first : first + field.shape[2]]
         return float(sum(np.clip(layer + 0.5, 0, 1).sum(axis=0, dtype=np.float64) @ shares for layer in field))
 
     @property
@@ -121,29 +121,29 @@ class Interior:
         return self.depth - np.float32(self.through) if self.through else self.depth
 
     @cached_property
-    def unwalled(self) -> Interior:
+    def through_walls(self) -> Interior:
         """The same space, where voids reach through the wall and out of the part."""
         through = self.wall / self.size + self.outside
         depth = self.depth + np.float32(through)
         return replace(self, layers=LayerStack.of(depth), wall=0.0, walled=self, through=through)
 
     @cached_property
-    def deepest(self) -> NDArray[np.float32]:
+    def column_depths(self) -> NDArray[np.float32]:
         """Depth of the deepest cell of each column, (nx, ny) in cells."""
-        deepest: NDArray[np.float32] = np.maximum.reduce([slab.max(axis=2) for _, slab in self.layers.each()])
+        deepest: NDArray[np.float32] = np.maximum.reduce([slab.max(axis=2) for _, slab in self.layers.read_slabs()])
         return deepest
 
     @cached_property
     def cells(self) -> float:
         """Number of cells inside the walls, parts of cells counted as such."""
-        return sum(self.cells_in(slab, first=first) for first, slab in self.layers.each())
+        return sum(self.cells_in(slab, first=first) for first, slab in self.layers.read_slabs())
 
     @cached_property
-    def across(self) -> float:
+    def second_longest_side(self) -> float:
         """The second longest side of the space inside the walls, mm; larger cells of a pattern are of no use."""
         used = [np.zeros(count, dtype=bool) for count in self.shape]
-        for first, slab in self.layers.each():
-            inside = (slab > 0) & (self.shares[first : first + slab.shape[2]] >= 0.5)
+        for first, slab in self.layers.read_slabs():
+            inside = (slab > 0) & (self.layer_shares[first : first + slab.shape[2]] >= 0.5)
             used[0] |= inside.any(axis=(1, 2))
             used[1] |= inside.any(axis=(0, 2))
             used[2][first : first + slab.shape[2]] = inside.any(axis=(0, 1))
@@ -154,8 +154,8 @@ class Interior:
     def thickness(self) -> float:
         """Thickness of the space inside the walls, mm: that of a plate with this volume and surface."""
         cells = 0.0
-        for first, slab in self.layers.each():
-            between_ends = self.shares[first : first + slab.shape[2]] > 0
+        for first, slab in self.layers.read_slabs():
+            between_ends = self.layer_shares[first : first + slab.shape[2]] > 0
             # Across a plane, weights add up to 1 wherever it lies between the cells.
             cells += sum(
                 float(np.clip(1 - np.abs(layer[:, between_ends]), 0, None).sum(dtype=np.float64)) for layer in slab
@@ -177,7 +177,7 @@ def compute_interior(
     places: Sequence[LocalWall] = (),
     open_: Open | None = None,
     beyond: float = 0.0,
-    held: int = 0,
+    extra_bytes_per_cell: int = 0,
     slabs: bool = False,
     threads: int | None = None,
     max_memory: int | None = None,
@@ -186,7 +186,7 @@ def compute_interior(
 
     In `places`, the wall has another thickness; where they overlap, that of the last one. Beyond open sides, the inside
     goes on for `beyond`, mm; where the wall is 0, voids may reach as far out of all the skin.
-    `held` is the number of additional bytes for each cell. With `slabs`, a large space is kept in slabs.
+    `extra_bytes_per_cell` adds to the memory that is needed. With `slabs`, a large space is kept in slabs.
 
     Raises
     ------
@@ -206,7 +206,7 @@ def compute_interior(
     margin = MARGIN + math.ceil(outside - BEYOND)
     grid = grid_for_part(part, voxel=voxel, further=further, margin=margin)
     advice = f"the grid has {' x '.join(map(str, grid.shape))} cells; give larger voxels or larger cells"
-    require_memory(expected_bytes(grid.shape, held, slabs=slabs), max_memory, advice)
+    require_memory(expected_bytes(grid.shape, extra_bytes_per_cell, slabs=slabs), max_memory, advice)
     voxelised = voxelise_with_report(part, voxel=voxel, margin=margin, max_memory=max_memory)
     closed_part, skin, overlap = _repair_skin(voxelised)
     longer, cells, opening, repairs = closed_part, voxelised.volume, None, voxelised.repairs
@@ -219,6 +219,7 @@ def compute_interior(
     reach, is_overlapping = thickest / voxel + BAND + outside - BEYOND, overlap > LEAST_OVERLAP
 
     def depths_of(volume: Volume) -> NDArray[np.float32]:
+        """Measure the depth of cells below the walls, in cells."""
         depths = distances_in_cells(longer, volume, reach, several=is_overlapping, threads=threads)
         return subtract_walls(depths, volume, wall, places, BAND + outside)
 
@@ -229,7 +230,7 @@ def compute_interior(
         layers = LayerStack.packed(depths_of(volume) for volume in slab_volumes)
     else:
         layers = LayerStack.of(depths_of(cells))
-    if not any((slab > 0).any() for _, slab in layers.each()):
+    if not any((slab > 0).any() for _, slab in layers.read_slabs()):
         raise GeometryError.about("wall", nowhere)
     space = Interior(
         layers=layers,
@@ -244,7 +245,7 @@ def compute_interior(
         outside=outside,
     )
     for end in () if open_ is None else ENDS[open_]:
-        layer = np.flatnonzero(space.shares > 0)[-1 if end == "top" else 0]
+        layer = np.flatnonzero(space.layer_shares > 0)[-1 if end == "top" else 0]
         if not (space.depth[:, :, layer] > 0).any():
             raise GeometryError.about(
                 "open",
@@ -271,12 +272,12 @@ def _units_for(longest: float) -> str:
     return f"--units {' or '.join(fitting or ['m'])}"
 
 
-def expected_bytes(shape: tuple[int, ...], held: int, *, slabs: bool) -> int:
+def expected_bytes(shape: tuple[int, ...], extra_bytes_per_cell: int, *, slabs: bool) -> int:
     """Return the memory for a grid in bytes; in slabs, for one slab and the packed rest."""
     cells = math.prod(shape)
     if slabs and cells > WHOLE:
         return BYTES_PACKED * cells + BYTES_PER_CELL * WHOLE
-    return (BYTES_PER_CELL + held) * cells
+    return (BYTES_PER_CELL + extra_bytes_per_cell) * cells
 
 
 def added_length(open_: Open | None, wall: float, beyond: float, voxel: float) -> float:

@@ -71,12 +71,12 @@ class LayerStack:
         """Return the first layer of each slab, and the first layer above it."""
         return list(pairwise([*range(0, self.shape[2], self.thick), self.shape[2]]))
 
-    def each(self) -> Iterator[tuple[int, Field]]:
+    def read_slabs(self) -> Iterator[tuple[int, Field]]:
         """Yield the slabs (nx, ny, n), each with the number of its first layer."""
         for number, (low, _) in enumerate(self.bounds()):
             yield low, self._read_slab(number)
 
-    def between(self, low: int, high: int) -> Field:
+    def read_layers(self, low: int, high: int) -> Field:
         """Return the layers from `low` up to, not including, `high`: (nx, ny, high - low)."""
         low_slab, high_slab = low // self.thick, (high - 1) // self.thick
         if low_slab == high_slab:
@@ -110,18 +110,19 @@ class LayerStack:
         results = []
         for low, high in self.bounds():
             first, last = max(0, low - below), min(self.shape[2], high + above)
-            key = (low - first, high - first, *self.alike(first, last))
+            key = (low - first, high - first, *self.layer_key(first, last))
             if key not in outcomes:
-                outcomes[key] = function(self.between(first, last), low - first, high - first)
+                outcomes[key] = function(self.read_layers(first, last), low - first, high - first)
             results.append((low, outcomes[key]))
         return results
 
-    def alike(self, low: int, high: int) -> tuple[object, ...]:
+    def layer_key(self, low: int, high: int) -> tuple[object, ...]:
         """Return a key that is equal for equal layers, so that these are computed once."""
         low_slab, high_slab = low // self.thick, (high - 1) // self.thick
         return (low - low_slab * self.thick, high - low, *(id(slab) for slab in self.slabs[low_slab : high_slab + 1]))
 
     def _read_slab(self, number: int) -> Field:
+        """Return a slab by its number, unpacked: (nx, ny, n)."""
         slab = self.slabs[number]
         if not isinstance(slab, bytes):
             return slab

@@ -71,7 +71,7 @@ class _Section:
     gone: list[manifold3d.CrossSection]
 
 
-def estimate_narrow(part: Surface, infill: Surface, wall: float, line: float, least: float) -> NarrowShares | None:
+def estimate_narrow(part: Surface, infill: Surface, wall: float, line: float, narrowest: float) -> NarrowShares | None:
     """Estimate the shares of infill that slicers do not print; return None if manifold3d rejects a surface.
 
     Parameters
@@ -79,7 +79,7 @@ def estimate_narrow(part: Surface, infill: Surface, wall: float, line: float, le
     part, infill : Surface, mm
         The infill may reach into the walls.
     wall, line : float, mm
-    least : float, mm
+    narrowest : float, mm
         Width of the narrowest infill that is printed.
 
     Returns
@@ -99,14 +99,14 @@ def estimate_narrow(part: Surface, infill: Surface, wall: float, line: float, le
     low, high = part.bounds[:, 2]
     areas = np.zeros(3)  # all, in too narrow a room, that and what is too narrow
     for z in low + (np.arange(SECTIONS) + 0.5) / SECTIONS * (high - low):
-        section = _divide_section(part_body.slice(z), infill_body.slice(z), wall, line, least)
+        section = _divide_section(part_body.slice(z), infill_body.slice(z), wall, line, narrowest)
         gone = sum(piece.area() for piece in section.gone)
         areas += [section.filled.area(), section.filled.area() - section.roomy.area(), gone]
     total, in_narrow_room, gone = areas.tolist()
     return NarrowShares(room=in_narrow_room / total if total else 0.0, all=gone / total if total else 0.0)
 
 
-def drop_narrow(part: Surface, infill: Surface, wall: float, line: float, least: float) -> Surface:
+def drop_narrow(part: Surface, infill: Surface, wall: float, line: float, narrowest: float) -> Surface:
     """Drop the infill that slicers do not print, layer by layer; the rest may be empty.
 
     Parameters
@@ -114,7 +114,7 @@ def drop_narrow(part: Surface, infill: Surface, wall: float, line: float, least:
     part, infill : Surface, mm
         Solids for manifold3d; the infill may reach into the walls.
     wall, line : float, mm
-    least : float, mm
+    narrowest : float, mm
         Width of the narrowest infill that is printed.
 
     >>> import trimesh
@@ -133,7 +133,7 @@ def drop_narrow(part: Surface, infill: Surface, wall: float, line: float, least:
     areas: list[tuple[manifold3d.CrossSection, int, int]] = []  # with the first and the last layer
     for layer in range(int(np.ceil((high - low) / LAYER))):
         middle = float(low) + LAYER * (layer + 0.5)
-        section = _divide_section(part_body.slice(middle), infill_body.slice(middle), wall, line, least)
+        section = _divide_section(part_body.slice(middle), infill_body.slice(middle), wall, line, narrowest)
         if not section.gone:
             continue
         gone = _unite(section.gone)
@@ -157,7 +157,7 @@ def _fits(area: manifold3d.CrossSection, gone: manifold3d.CrossSection, kept: ma
 
 
 def _divide_section(
-    part: manifold3d.CrossSection, infill: manifold3d.CrossSection, wall: float, line: float, least: float
+    part: manifold3d.CrossSection, infill: manifold3d.CrossSection, wall: float, line: float, narrowest: float
 ) -> _Section:
     """Divide a section into infill that a slicer prints, and infill that it does not print.
 
@@ -167,7 +167,7 @@ def _divide_section(
     around = _offset(part, overlap - wall)
     filled = around ^ infill
     roomy = filled ^ _offset(_open(room, line), overlap)
-    kept = _open(roomy, least)
+    kept = _open(roomy, narrowest)
     near_kept = _offset(kept, 3 * APART)
     unprinted = _open(filled - _offset(kept, APART), 2 * APART)
     pieces = [piece for piece in unprinted.decompose() if piece.area() > CRUMB]
@@ -181,10 +181,12 @@ def _open(section: manifold3d.CrossSection, width: float) -> manifold3d.CrossSec
 
 
 def _offset(section: manifold3d.CrossSection, distance: float) -> manifold3d.CrossSection:
+    """Offset the outlines of a section outwards by a distance, mm, inwards if negative, with round corners."""
     import manifold3d
 
     return section.offset(distance, manifold3d.JoinType.Round)
 
 
 def _unite(sections: Iterable[manifold3d.CrossSection]) -> manifold3d.CrossSection:
+    """Unite sections, at least one."""
     return reduce(lambda union, section: union + section, sections)

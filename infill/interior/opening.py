@@ -53,20 +53,20 @@ class Opening:
         """Test which heights, mm, lie in the part."""
         return (heights >= self.low) & (heights <= self.high)
 
-    def opened(self, voids: Surface) -> NDArray[np.bool_]:
+    def reaches_out(self, voids: Surface) -> NDArray[np.bool_]:
         """Test which voids, component by component, reach out of the part: (N,)."""
-        lowest, highest = _heights(voids)
+        lowest, highest = _component_heights(voids)
         return (lowest < self.low) | (highest > self.high)
 
     def closed_ends(self, voids: Sequence[Surface]) -> list[str]:
         """List the open sides that no void reaches out of."""
-        lowest, highest = (np.concatenate(heights) for heights in zip(*map(_heights, voids), strict=True))
+        lowest, highest = (np.concatenate(heights) for heights in zip(*map(_component_heights, voids), strict=True))
         reached = {"bottom": bool((lowest < self.low).any()), "top": bool((highest > self.high).any())}
         return [end for end in ENDS[self.name] if not reached[end]]
 
-    def reaching(self, voids: Surface, size: float) -> Surface | None:
+    def keep_reaching(self, voids: Surface, size: float) -> Surface | None:
         """Keep the components that reach over one cell, of `size` mm, into the part; return None without any."""
-        lowest, highest = _heights(voids)
+        lowest, highest = _component_heights(voids)
         is_deep = (highest > self.low + LEAST * size) & (lowest < self.high - LEAST * size)
         if is_deep.all():
             return voids
@@ -86,7 +86,7 @@ class Opening:
         return volume_in_box(voids, np.append(-sides, self.low), np.append(sides, self.high))
 
 
-def _heights(surface: Surface) -> tuple[Floats, Floats]:
+def _component_heights(surface: Surface) -> tuple[Floats, Floats]:
     """Return the lowest and the highest point of every component, mm."""
     names, count = shell_names(surface)
     lowest, highest = np.full(count, np.inf), np.full(count, -np.inf)
@@ -141,6 +141,7 @@ def extend_ends(part: Surface, ends: list[tuple[NDArray[np.bool_], float]], far:
 
 
 def _move_out(part: Surface, flat: NDArray[np.bool_], distance: float) -> Surface:
+    """Move flat faces by a distance, mm, along z, up if positive, and join them to the rest by upright faces."""
     # The faces keep their numbers, so that masks of the other end still hold.
     vertices, faces = np.asarray(part.vertices, dtype=np.float64), np.array(part.faces, dtype=np.int64)
     flat = np.pad(flat, (0, len(faces) - len(flat)))
@@ -183,7 +184,7 @@ def cut_open(
         If manifold3d rejects the voids.
     """
     manifold, best = to_manifold(solid), None
-    for candidate in _cut_variants(manifold, voids, opening, size):
+    for candidate in _cut_candidates(manifold, voids, opening, size):
         if best is None or int(coincident_vertices(candidate).sum()) < int(coincident_vertices(best).sum()):
             best = candidate
         if best.closed and not coincident_vertices(best).any():
@@ -209,7 +210,11 @@ def clip_to_opening(surface: Surface, opening: Opening, size: float) -> Surface:
     return cut
 
 
-def _cut_variants(body: object, voids: Sequence[Surface], opening: Opening, size: float) -> Iterator[Surface]:
+def _cut_candidates(body: object, voids: Sequence[Surface], opening: Opening, size: float) -> Iterator[Surface]:
+    """Yield the body minus the voids, whose vertices keep one of several distances from the open sides, if it is solid.
+
+    A candidate with vertices that coincide in single precision is followed by itself with these merged.
+    """
     import manifold3d
 
     assert isinstance(body, manifold3d.Manifold)
@@ -222,13 +227,13 @@ def _cut_variants(body: object, voids: Sequence[Surface], opening: Opening, size
             yield (candidate := from_manifold(remainder))
             if (
                 coincident_vertices(candidate).any()
-                and manifold_status(merged := _merge_in_single_precision(candidate)) == FINE
+                and manifold_status(merged := _merge_coincident_vertices(candidate)) == FINE
             ):
                 yield merged
 
 
-def _merge_in_single_precision(surface: Surface) -> Surface:
-    """Drop the edges of a surface that single precision makes points."""
+def _merge_coincident_vertices(surface: Surface) -> Surface:
+    """Merge vertices that are the same in single precision, and drop the triangles that this makes edges."""
     _, representative, number = np.unique(
         np.asarray(surface.vertices, dtype=np.float32), axis=0, return_index=True, return_inverse=True
     )
@@ -241,6 +246,7 @@ def _merge_in_single_precision(surface: Surface) -> Surface:
 
 
 def _move_off_planes(voids: Surface, opening: Opening, distance: float) -> Surface:
+    """Move vertices near the planes of the open sides away from these, up or down, to a distance, mm."""
     vertices = np.array(voids.vertices, dtype=np.float64)
     for end in (opening.low, opening.high):
         height = vertices[:, 2] - end

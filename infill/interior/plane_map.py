@@ -19,7 +19,7 @@ from infill.interior.conformal_map import (
     extrapolate_nodes,
     fit_without_folds,
     solve_poisson,
-    spline_slopes,
+    spline_jacobians,
     step_divergence,
     wall_density_factor,
 )
@@ -64,7 +64,7 @@ def _fit_coordinates(targets: Floats, normals: Floats | None) -> tuple[Floats, F
             step_divergence(across, 0) + step_divergence(along, 1),
         ]
         coordinates = extrapolate_nodes(solve_poisson(rises))
-        slopes = spline_slopes(coordinates)
+        slopes = spline_jacobians(coordinates)
         more = wall_density_factor(slopes, normals)
         turn = np.arctan2(slopes[..., 1, 0] - slopes[..., 0, 1], slopes[..., 0, 0] + slopes[..., 1, 1])
         turn -= turn[tuple(count // 2 for count in turn.shape)]

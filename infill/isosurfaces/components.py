@@ -253,7 +253,18 @@ def label_shells(
     total: tuple[float, float] | None = None,
     threads: int | None = None,
 ) -> SurfaceShells:
-    """Label and measure the connected parts of a closed surface; `total` is the volume and slope of all, if known."""
+    """Label and measure the connected parts of a closed surface, whose vertices move by `rate`, mm, with the level.
+
+    Parameters
+    ----------
+    surface : Surface, mm
+    rate : (V, 3) float32
+        Movement of each vertex when the level rises by one, mm.
+    total : (float, float), optional
+        Volume and slope of the whole surface, if they are known.
+    threads : int, optional
+        See `infill.kernels.threads.thread_count`.
+    """
     names, count = shell_names(surface)
     if total is not None and count == 1 and names.min() == 0:
         return SurfaceShells(

@@ -36,7 +36,7 @@ MOST_SWEEPS, LEAST_SWEPT = 12, 0.04  # sweeps without an order of edges, and the
 MOST_AROUND = 12  # corners at a vertex after such a collapse: no vertex grows at the cost of its neighbours
 # Squared cosines, of the planes of a quadric as a mean and of each face: where a place is level to 10 and 14 degrees,
 # an edge is furthest from the surface near its middle, so that one sample is enough for it.
-LEVEL_PLANES, LEVEL_FACES = 0.97, 0.94
+ALIGNED_PLANES, ALIGNED_FACES = 0.97, 0.94
 RETRY_SHARE = 0.005  # of the triangles: while at least this share is removed, edges that stayed are tried again
 
 
@@ -157,7 +157,7 @@ def _propose_faces(c, vertices, start, twin, ring, ring_size, end_ring, end_ring
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _are_level(moved, changed, s):
+def _are_aligned(moved, changed, s):
     """Return True if `changed` faces (N, 3, 3) and the planes of a quadric all face nearly the same way."""
     mx, my, mz = 0.0, 0.0, 0.0
     for m in range(changed):
@@ -168,12 +168,12 @@ def _are_level(moved, changed, s):
         return False
     mx, my, mz = mx / length, my / length, mz / length
     along = s[0] * mx * mx + s[3] * my * my + s[5] * mz * mz + 2 * (s[1] * mx * my + s[2] * mx * mz + s[4] * my * mz)
-    if along < LEVEL_PLANES * s[10]:
+    if along < ALIGNED_PLANES * s[10]:
         return False
     for m in range(changed):
         nx, ny, nz, _ = normal_and_shape(moved[m, 0], moved[m, 1], moved[m, 2])
         same = nx * mx + ny * my + nz * mz
-        if not same > 0 or same * same < LEVEL_FACES * (nx * nx + ny * ny + nz * nz):
+        if not same > 0 or same * same < ALIGNED_FACES * (nx * nx + ny * ny + nz * nz):
             return False
     return True
 
@@ -266,12 +266,26 @@ def sweep_short_edges(vertices, start, twin, leaving, name, fixed, quadric, boun
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _collapse_in_order(
-    mesh, fixed, quadric, held, was, tolerance, bound, sizes, queue, ends, marked, failed, changed_in, space, into
+    mesh,
+    fixed,
+    quadric,
+    held,
+    was,
+    squared_tolerance,
+    bound,
+    sizes,
+    queue,
+    ends,
+    marked,
+    failed,
+    changed_in,
+    space,
+    into,
 ):
     """Collapse edges, cheapest first, as `collapse` does, with all arrays at hand; return the number of faces left."""
     vertices, start, twin, leaving, name = mesh
     points, corner, first_point, next_point = held
-    remaining, fewest, edge, sample_step = sizes
+    remaining, fewest, edge, squared_spacing = sizes
     s, place, ring, end_ring, moved, chosen, goes, goes_to = space
     bounded = len(points) > 0
     for n in range(len(start)):
@@ -305,9 +319,9 @@ def _collapse_in_order(
         if not can_collapse(c, start, twin, leaving, name, ring, ring_size, end_ring, end_ring_size, marked, step):
             continue
         best_place(vertices[u], vertices[v], quadric[u], quadric[v], s, place)
-        changed, taken, level = NO_CORNER, 0, False
+        changed, taken, aligned = NO_CORNER, 0, False
         for attempt in range(3 if bounded else 1):  # where the best place is too far, one of the ends may be near
-            if level:  # but hardly where all is level: there, five of a thousand tries on a ball ended so
+            if aligned:  # but hardly where all are aligned: there, five of a thousand tries on a ball ended so
                 break
             if attempt > 0:
                 copy_row(place, vertices[u] if attempt == 1 else vertices[v])
@@ -317,12 +331,14 @@ def _collapse_in_order(
             )
             if changed == NO_CORNER or not bounded:
                 continue
-            level = _are_level(moved, changed, s)
+            aligned = _are_aligned(moved, changed, s)
             chosen[changed], chosen[changed + 1] = c // 3, d // 3
-            taken = reassign_points(first_point, next_point, points, tolerance, moved, chosen, changed, goes, goes_to)
+            taken = reassign_points(
+                first_point, next_point, points, squared_tolerance, moved, chosen, changed, goes, goes_to
+            )
             if taken > 0:
-                spacing = math.inf if level else sample_step
-                if are_edges_near(place, moved, changed, spacing, points, tolerance, goes, taken, corner, was):
+                limit = math.inf if aligned else squared_spacing
+                if are_edges_near(place, moved, changed, limit, points, squared_tolerance, goes, taken, corner, was):
                     break
             changed = NO_CORNER
         if changed == NO_CORNER:
@@ -352,7 +368,9 @@ def _collapse_in_order(
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corner, tolerance, bound, fewest, into):
+def collapse(
+    vertices, start, twin, leaving, name, fixed, quadric, points, corner, squared_tolerance, bound, fewest, into
+):
     """Collapse edges, cheapest first, while the mesh stays closed and near; return the number of faces that remain.
 
     Parameters
@@ -373,7 +391,7 @@ def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corne
         Of the original mesh, its vertices first, then points along edges; empty if the mesh need not stay near.
     corner : (P,) int32
         The corner of each vertex, and the edge on which each of the others lies.
-    tolerance : float
+    squared_tolerance : float
         The square of the largest distance of the mesh from these points, and from the surface around them.
     bound : float
         Largest mean squared distance of a collapse from the planes it replaces; may be infinite.
@@ -398,7 +416,7 @@ def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corne
             edge += squared_length(vertices[start[c]], vertices[start[next_corner(c)]])
             remaining += 1
     edge, remaining = edge / max(1, remaining), remaining // 3
-    sample_step = min(SAMPLE_SPACING * edge, WIDE * tolerance)
+    squared_spacing = min(SAMPLE_SPACING * edge, WIDE * squared_tolerance)
     queue, ends = np.full((len(start), 3), NO_CORNER, dtype=np.int32), np.full((BUCKETS, 2), NO_CORNER, dtype=np.int32)
     marked = np.full(name.max() + 1, NO_CORNER, dtype=np.int32)
     failed, changed_in = np.full(len(start), NO_CORNER, dtype=np.int32), np.zeros(len(vertices), dtype=np.int32)
@@ -406,7 +424,21 @@ def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corne
     mesh = vertices, start, twin, leaving, name
     held = points, corner, first_point, next_point
     was = original_corners, was_twin, was_leaving
-    sizes = remaining, fewest, edge, sample_step
+    sizes = remaining, fewest, edge, squared_spacing
     return _collapse_in_order(
-        mesh, fixed, quadric, held, was, tolerance, bound, sizes, queue, ends, marked, failed, changed_in, space, into
+        mesh,
+        fixed,
+        quadric,
+        held,
+        was,
+        squared_tolerance,
+        bound,
+        sizes,
+        queue,
+        ends,
+        marked,
+        failed,
+        changed_in,
+        space,
+        into,
     )

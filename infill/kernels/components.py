@@ -339,8 +339,8 @@ def lower_to_levels(values, labels, levels, common, out, thread, threads):
 
 
 @njit(inline="always", cache=True)
-def any_row(slot, row, bits, kind):
-    """Return a row of a slot of the lattice; a brick of one value is full if it is of the given `kind`."""
+def row_of_slot(slot, row, bits, kind):
+    """Return the bits of a row of a slot of the lattice; a brick of one value is full if it is of `kind`."""
     if slot >= 0:
         return np.uint32(bits[slot, row])
     full = slot == kind or (slot == OUTSIDE and kind == VOID_BRICK)
@@ -366,8 +366,8 @@ def meet_or_spread(slots, where, bits, kind, meet, way, out, thread, threads):
                     j = (B1 - 1) * behind if right else y
                     v = B1 * (1 - behind) if right else y + behind
                     row_bits, next_bits = (
-                        any_row(slot, i * B1 + j, bits, kind),
-                        any_row(next_slot, i * B1 + j, bits, kind),
+                        row_of_slot(slot, i * B1 + j, bits, kind),
+                        row_of_slot(next_slot, i * B1 + j, bits, kind),
                     )
                     next_to = (
                         row_bits << one_bit | next_bits >> last_bit

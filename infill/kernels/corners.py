@@ -113,7 +113,7 @@ def corners_of(vertex, twin, leaving, ring):
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _has_three(vertex, twin, leaving):
+def _has_three_faces(vertex, twin, leaving):
     """Return True if a vertex has exactly three faces."""
     at = leaving[vertex]
     for _ in range(3):
@@ -132,7 +132,7 @@ def can_collapse(c, start, twin, leaving, name, ring, ring_size, end_ring, end_r
     if common != 2:
         return False
     opposite, beyond = start[previous_corner(c)], start[previous_corner(twin[c])]
-    return not _has_three(opposite, twin, leaving) and not _has_three(beyond, twin, leaving)
+    return not _has_three_faces(opposite, twin, leaving) and not _has_three_faces(beyond, twin, leaving)
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")

@@ -26,38 +26,38 @@ SLENDER = 0.02  # shape of a triangle whose normal says nothing of its neighbour
 FOLD = 0.5  # of a length: twice the share by which a piece may leave two planes that meet below it
 PIECE_COSINE = 0.995  # the same for a piece of a triangle, of which no edge is sampled: 6 degrees
 HALVINGS = 4  # of a side of a piece, to find the place on it where the nearest triangle changes
-LEVEL_COSINE = 0.866  # cosine of the angle, 30 degrees, up to which neighbouring triangles count as level
+ALIGNED_COSINE = 0.866  # cosine of the angle, 30 degrees, up to which neighbouring triangles count as aligned
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _is_covered_by_one(piece, owners, corners, tolerance):
+def _is_covered_by_one(piece, owners, corners, squared_tolerance):
     """Return True if all corners of a piece are near the same triangle, one of their nearest triangles."""
     for k in range(3):
         at, all_near = owners[k], True
         for j in range(3):
             if all_near and owners[j] != at:
                 a, b, c = corners[at, 0], corners[at, 1], corners[at, 2]
-                all_near = squared_distance(piece[j, 0], piece[j, 1], piece[j, 2], a, b, c) <= tolerance
+                all_near = squared_distance(piece[j, 0], piece[j, 1], piece[j, 2], a, b, c) <= squared_tolerance
         if all_near:
             return True
     return False
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _is_near(x, y, z, at, corners, tolerance):
-    """Return True if a place is near a triangle."""
-    return squared_distance(x, y, z, corners[at, 0], corners[at, 1], corners[at, 2]) <= tolerance
+def _is_near(x, y, z, at, corners, squared_tolerance):
+    """Return True if a place lies within a tolerance, given squared, of triangle `at`."""
+    return squared_distance(x, y, z, corners[at, 0], corners[at, 1], corners[at, 2]) <= squared_tolerance
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _is_side_shared(p, q, near_p, near_q, corners, tolerance):
+def _is_side_shared(p, q, near_p, near_q, corners, squared_tolerance):
     """Return True if a place between p and q is near both a triangle that p is near and one that q is near."""
     low, high = 0.0, 1.0
     for _ in range(HALVINGS):
         share = (low + high) / 2
         x, y, z = p[0] + share * (q[0] - p[0]), p[1] + share * (q[1] - p[1]), p[2] + share * (q[2] - p[2])
-        is_near_p = _is_near(x, y, z, near_p, corners, tolerance)
-        if is_near_p == _is_near(x, y, z, near_q, corners, tolerance):
+        is_near_p = _is_near(x, y, z, near_p, corners, squared_tolerance)
+        if is_near_p == _is_near(x, y, z, near_q, corners, squared_tolerance):
             return is_near_p
         if is_near_p:
             low = share
@@ -67,7 +67,7 @@ def _is_side_shared(p, q, near_p, near_q, corners, tolerance):
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _is_covered_by_two(piece, owners, corners, tolerance):
+def _is_covered_by_two(piece, owners, corners, squared_tolerance):
     """Return True if one of their nearest triangles is near two corners of a piece, and another the rest of it.
 
     A place on either side to the third corner is near both triangles: these places part the piece into a quadrangle
@@ -78,32 +78,32 @@ def _is_covered_by_two(piece, owners, corners, tolerance):
         at, beyond = owners[i], owners[k]
         if at == beyond:
             continue
-        if owners[j] != at and not _is_near(piece[j, 0], piece[j, 1], piece[j, 2], at, corners, tolerance):
+        if owners[j] != at and not _is_near(piece[j, 0], piece[j, 1], piece[j, 2], at, corners, squared_tolerance):
             continue
-        if not _is_side_shared(piece[i], piece[k], at, beyond, corners, tolerance):
+        if not _is_side_shared(piece[i], piece[k], at, beyond, corners, squared_tolerance):
             continue
-        if _is_side_shared(piece[j], piece[k], at, beyond, corners, tolerance):
+        if _is_side_shared(piece[j], piece[k], at, beyond, corners, squared_tolerance):
             return True
     return False
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _is_covered(piece, owners, squared, corners, tolerance):
+def _is_covered(piece, owners, squared, corners, squared_tolerance):
     """Return True if all of a piece is near one or two of the triangles nearest to its corners."""
-    if squared[0] > tolerance or squared[1] > tolerance or squared[2] > tolerance:
+    if squared[0] > squared_tolerance or squared[1] > squared_tolerance or squared[2] > squared_tolerance:
         return False
-    one = _is_covered_by_one(piece, owners, corners, tolerance)
-    return one or _is_covered_by_two(piece, owners, corners, tolerance)
+    one = _is_covered_by_one(piece, owners, corners, squared_tolerance)
+    return one or _is_covered_by_two(piece, owners, corners, squared_tolerance)
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _is_over_a_fold(owners, farthest, corners, tolerance, length):
+def _is_over_a_fold(owners, farthest, corners, squared_tolerance, squared_length):
     """Return True if the nearest triangles of a piece's corners fold so little that all of the piece is near them.
 
     Between its corners, a piece of a length moves away from two planes by at most a quarter of it, times the sine of
     the angle between them: where the planes meet in the middle.
     """
-    room = math.sqrt(tolerance) - math.sqrt(farthest)
+    room = math.sqrt(squared_tolerance) - math.sqrt(farthest)
     if room <= 0:
         return False
     least, normals = 1.0, np.empty((3, 3))
@@ -118,7 +118,7 @@ def _is_over_a_fold(owners, farthest, corners, tolerance, length):
         j = (k + 1) % 3
         cosine = normals[k, 0] * normals[j, 0] + normals[k, 1] * normals[j, 1] + normals[k, 2] * normals[j, 2]
         least = min(least, cosine)
-    return least >= LEVEL_COSINE and FOLD * length * math.sqrt(max(0.0, 1 - least * least)) <= room
+    return least >= ALIGNED_COSINE and FOLD * math.sqrt(squared_length) * math.sqrt(max(0.0, 1 - least * least)) <= room
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
@@ -154,7 +154,7 @@ def _are_separated(triangle, second_triangle, normal, reach):
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _is_level(triangle, normal, corners, normals, low, high, leaf, reach, cosine, stack):
+def _is_aligned(triangle, normal, corners, normals, low, high, leaf, reach, cosine, stack):
     """Return True if all triangles of a mesh within `reach` of a triangle face the same way, up to a cosine."""
     first_leaf = (len(low) - 1) // 2
     stack[0], count = 0, 1
@@ -182,8 +182,11 @@ def _is_level(triangle, normal, corners, normals, low, high, leaf, reach, cosine
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _is_level_piece(piece, own, leaf, reach, normal, stack):
-    """Return True if a piece of a mesh has nothing but level triangles of it around; `own` may be without triangles."""
+def _is_piece_aligned(piece, own, leaf, reach, normal, stack):
+    """Return True if all triangles of its own mesh within `reach` of a piece face the same way as the piece.
+
+    False if `own`, that mesh as for `mark_aligned_faces`, is without triangles: then pieces are to be sampled.
+    """
     if not len(own[0]):
         return False
     nx, ny, nz, shape = normal_and_shape(piece[0], piece[1], piece[2])
@@ -191,7 +194,7 @@ def _is_level_piece(piece, own, leaf, reach, normal, stack):
         return False
     twice = math.sqrt(nx * nx + ny * ny + nz * nz)
     normal[0], normal[1], normal[2] = nx / twice, ny / twice, nz / twice
-    return _is_level(piece, normal, own[0], own[1], own[2], own[3], leaf, reach, PIECE_COSINE, stack)
+    return _is_aligned(piece, normal, own[0], own[1], own[2], own[3], leaf, reach, PIECE_COSINE, stack)
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
@@ -200,12 +203,12 @@ def _sample_in_order(
     nearest,
     squared,
     tree,
-    tolerance,
-    enough,
+    squared_tolerance,
+    squared_enough,
     lengths,
     own,
     reach,
-    minimum,
+    squared_minimum,
     begin,
     results,
     space,
@@ -232,7 +235,7 @@ def _sample_in_order(
             for k in range(3):
                 copy_row(piece[k], pieces[stack_size, k])
                 ends[k], off[k] = owners[stack_size, k], offs[stack_size, k]
-            if depth == MAX_CUTS or _is_covered(piece, ends, off, corners, tolerance):
+            if depth == MAX_CUTS or _is_covered(piece, ends, off, corners, squared_tolerance):
                 continue
             k, longest = 0, 0.0
             for side in range(3):
@@ -240,22 +243,23 @@ def _sample_in_order(
                 if side_length > longest:
                     k, longest = side, side_length
             limit, farthest = coarse, max(off[0], off[1], off[2])
-            if farthest > enough:
-                limit = min(coarse, max(fine, SLOPE * (math.sqrt(tolerance) - math.sqrt(farthest))))
+            if farthest > squared_enough:
+                limit = min(coarse, max(fine, SLOPE * (math.sqrt(squared_tolerance) - math.sqrt(farthest))))
             if longest <= limit * limit and (
-                longest <= fine * fine or _is_over_a_fold(ends, farthest, corners, tolerance, math.sqrt(longest))
+                longest <= fine * fine or _is_over_a_fold(ends, farthest, corners, squared_tolerance, longest)
             ):
                 continue
-            if depth >= 2 and depth % 2 == 0 and _is_level_piece(piece[:3], own, leaf, reach, normal, stack):
+            if depth >= 2 and depth % 2 == 0 and _is_piece_aligned(piece[:3], own, leaf, reach, normal, stack):
                 continue
-            if longest <= folds * folds and _is_over_a_fold(ends, farthest, corners, tolerance, math.sqrt(longest)):
+            if longest <= folds * folds and _is_over_a_fold(ends, farthest, corners, squared_tolerance, longest):
                 continue
             j = (k + 1) % 3
             for axis in range(3):
                 piece[3, axis] = (piece[k, axis] + piece[j, axis]) / 2
-            x, y, z = piece[3, 0], piece[3, 1], piece[3, 2]
-            off[3], ends[3] = nearest_triangle(x, y, z, ends[k], corners, low, high, leaf, enough, stack, waiting)
-            if off[3] > minimum:
+            off[3], ends[3] = nearest_triangle(
+                piece[3, 0], piece[3, 1], piece[3, 2], ends[k], corners, low, high, leaf, squared_enough, stack, waiting
+            )
+            if off[3] > squared_minimum:
                 if count == points.shape[1]:
                     begin[thread] = f
                     return before
@@ -284,14 +288,14 @@ def sample_faces(
     low,
     high,
     leaf,
-    tolerance,
-    enough,
+    squared_tolerance,
+    squared_enough,
     coarse,
     fine,
     folds,
     own,
     reach,
-    minimum,
+    squared_minimum,
     begin,
     points,
     face,
@@ -309,7 +313,7 @@ def sample_faces(
         The triangle of the other mesh nearest to each vertex, and its squared distance.
     corners, low, high, leaf
         The other mesh: see `infill.kernels.distances.nearest_triangles`.
-    tolerance, enough : float
+    squared_tolerance, squared_enough : float
         Squared distances: the limit of near points, and the one below which the exact distance does not matter.
     coarse, fine : float
         Lengths to which pieces are cut: all of them, and those with a corner that is barely near.
@@ -317,16 +321,16 @@ def sample_faces(
         Length up to which a piece counts as near where its nearest triangles fold little; 0 where triangles of the
         other mesh may lie between its corners.
     own : tuple of arrays
-        Triangles of this mesh as for `mark_level_faces`, with their normals: pieces with level ones alone within
+        Triangles of this mesh as for `mark_aligned_faces`, with their normals: pieces with aligned ones alone within
         `reach` are near. Without rows, if such pieces are to be sampled.
     reach : float
-    minimum : float
+    squared_minimum : float
         Only points further away than this, a squared distance, are kept.
     begin : (threads,) int64
         The first face of each thread; becomes the first one whose points did not fit, or the number of faces.
     points, face, owner, squares : (threads, P, 3) float64, (threads, P) int32, (threads, P) int64, (threads, P) float64
         Results: the face that each point lies on, the triangle of the other mesh nearest to it, or any within
-        `enough`, and the squared distance from that triangle.
+        `squared_enough`, and the squared distance from that triangle.
     """
     room = MAX_CUTS + 2
     space = (
@@ -346,12 +350,12 @@ def sample_faces(
         nearest,
         squared,
         (corners, low, high, leaf),
-        tolerance,
-        enough,
+        squared_tolerance,
+        squared_enough,
         (coarse, fine, folds),
         own,
         reach,
-        minimum,
+        squared_minimum,
         begin,
         (points, face, owner, squares),
         space,
@@ -361,7 +365,7 @@ def sample_faces(
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def mark_level_faces(corners, normals, low, high, leaf, reach, chosen, level, thread, threads):
+def mark_aligned_faces(corners, normals, low, high, leaf, reach, chosen, aligned, thread, threads):
     """Set True if all triangles within `reach` of every `threads`-th chosen triangle face nearly the same way.
 
     Parameters
@@ -369,15 +373,17 @@ def mark_level_faces(corners, normals, low, high, leaf, reach, chosen, level, th
     corners, low, high, leaf
         A mesh: see `infill.kernels.distances.nearest_triangles`.
     normals : (F, 3) float64
-        Of length 1, or of length 0 where a triangle has no area: neither such a triangle nor its neighbours are level.
+        Of length 1, or of length 0 where a triangle has no area: neither it nor its neighbours are aligned.
     reach : float
         Triangles that are clearly further away, by planes of either triangle, do not count; all others do.
     chosen : (N,) int64
         Triangles.
-    level : (N,) bool
+    aligned : (N,) bool
         The result.
     """
     stack = np.empty(STACK_SIZE, dtype=np.int64)
     for n in range(thread, len(chosen), threads):
         f = chosen[n]
-        level[n] = _is_level(corners[f], normals[f], corners, normals, low, high, leaf, reach, LEVEL_COSINE, stack)
+        aligned[n] = _is_aligned(
+            corners[f], normals[f], corners, normals, low, high, leaf, reach, ALIGNED_COSINE, stack
+        )

@@ -233,14 +233,14 @@ def _push_children(x, y, z, box, low, high, best, stack, box_distance, count):
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def nearest_triangle(x, y, z, guess, corners, low, high, leaf, enough, stack, box_distance):
+def nearest_triangle(x, y, z, guess, corners, low, high, leaf, squared_enough, stack, box_distance):
     """Find the triangle nearest to a point; return its squared distance and its index.
 
     Parameters
     ----------
     guess : int
         A triangle that is probably near.
-    corners, low, high, leaf, enough
+    corners, low, high, leaf, squared_enough
         See `nearest_triangles`.
     stack, box_distance : (DEEPEST,) int64, (DEEPEST,) float64
         Work space.
@@ -249,7 +249,7 @@ def nearest_triangle(x, y, z, guess, corners, low, high, leaf, enough, stack, bo
     nearest = guess
     best = squared_distance(x, y, z, corners[nearest, 0], corners[nearest, 1], corners[nearest, 2])
     stack[0], box_distance[0], count = 0, 0.0, 1
-    while count > 0 and best > enough:
+    while count > 0 and best > squared_enough:
         count -= 1
         if box_distance[count] >= best:
             continue
@@ -266,7 +266,7 @@ def nearest_triangle(x, y, z, guess, corners, low, high, leaf, enough, stack, bo
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def nearest_triangles(points, corners, low, high, leaf, enough, squared, face, thread, threads):
+def nearest_triangles(points, corners, low, high, leaf, squared_enough, squared, face, thread, threads):
     """Find the triangle nearest to every `threads`-th point.
 
     Parameters
@@ -278,7 +278,7 @@ def nearest_triangles(points, corners, low, high, leaf, enough, squared, face, t
         Boxes of the tree: the children of box n are 2 n + 1 and 2 n + 2, the last L are leaves.
     leaf : int
         Triangles in a leaf.
-    enough : float
+    squared_enough : float
         A squared distance: the first triangle found within it may stand for the nearest.
     squared : (N,) float64, face : (N,) int64
         The results.
@@ -288,12 +288,14 @@ def nearest_triangles(points, corners, low, high, leaf, enough, squared, face, t
     nearest = np.int64(0)  # no literal, for which the search would be compiled a second time
     for n in range(thread, len(points), threads):
         x, y, z = points[n]
-        squared[n], nearest = nearest_triangle(x, y, z, nearest, corners, low, high, leaf, enough, stack, box_distance)
+        squared[n], nearest = nearest_triangle(
+            x, y, z, nearest, corners, low, high, leaf, squared_enough, stack, box_distance
+        )
         face[n] = nearest
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def least_distance(points, corners, low, high, leaf, limit, thread, threads):
+def least_distance(points, corners, low, high, leaf, squared_limit, thread, threads):
     """Find which of every `threads`-th point is nearest to triangles; return its squared distance and its index.
 
     Of points at the same distance, the first counts. The index is -1 if all are farther away than the limit. Most
@@ -303,11 +305,11 @@ def least_distance(points, corners, low, high, leaf, limit, thread, threads):
     ----------
     points, corners, low, high, leaf
         See `nearest_triangles`.
-    limit : float
+    squared_limit : float
         A squared distance.
     """
     stack, box_distance = np.empty(STACK_SIZE, dtype=np.int64), np.empty(STACK_SIZE)
-    first_leaf, least, nearest = (len(low) - 1) // 2, limit, -1
+    first_leaf, least, nearest = (len(low) - 1) // 2, squared_limit, -1
     for n in range(thread, len(points), threads):
         x, y, z = points[n]
         best = least

@@ -14,11 +14,11 @@ AHEAD, BACK = 1, 2  # faces seen along an edge: one from its lower vertex, one f
 
 
 @njit(nogil=True, cache=True)
-def begin_edges(faces, edge_start):
-    """Set the begin of each vertex's edges to higher vertices, if each edge has two faces: (V + 1,), initially zeros.
+def find_edge_starts(faces, edge_start):
+    """Write where the edges of each vertex to higher ones begin, (V + 1,) of zeros; return False if that cannot be.
 
-    Return True if they may: faces have three different vertices, and vertices an even number of sides.
-    Return whether they may: no face has a vertex twice, and no vertex an odd number of sides.
+    It cannot if not all edges have two faces, as where a face has a vertex twice, or a vertex an odd number of sides to
+    higher ones. True does not prove that they have: see `match_sides`.
     """
     for f in range(len(faces)):
         a, b, c = faces[f, 0], faces[f, 1], faces[f, 2]
@@ -44,7 +44,7 @@ def match_sides(faces, edge_start, higher, thread, threads):
     ----------
     faces : (F, 3) int
     edge_start : (V + 1,) int
-        See `begin_edges`.
+        See `find_edge_starts`.
     higher : (E,) int
         Work space for their other vertices, times four, and the faces seen: initially -1.
     """

@@ -61,7 +61,7 @@ def edge_points(vertices, start, twin, height, apart, max_points, points, owner)
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def reassign_points(first_point, next_point, points, tolerance, moved, chosen, changed, goes, goes_to):
+def reassign_points(first_point, next_point, points, squared_tolerance, moved, chosen, changed, goes, goes_to):
     """Find for each point of some faces, two of which will go, one of the others: the nearest, or one that is near.
 
     Parameters
@@ -69,7 +69,7 @@ def reassign_points(first_point, next_point, points, tolerance, moved, chosen, c
     first_point, next_point : (F,) int32, (P,) int32
         The points of each face, as a chain.
     points : (P, 3) float64
-    tolerance : float
+    squared_tolerance : float
         The square of the largest allowed distance.
     moved : (N, 3, 3) float64
         The faces after the collapse.
@@ -93,15 +93,15 @@ def reassign_points(first_point, next_point, points, tolerance, moved, chosen, c
             best, nearest = math.inf, NO_CORNER
             if face < changed:
                 best, nearest = squared_distance(x, y, z, moved[face, 0], moved[face, 1], moved[face, 2]), face
-            if best > KEEP_SHARE * tolerance:
+            if best > KEEP_SHARE * squared_tolerance:
                 for m in range(changed):
-                    if best <= KEEP_SHARE * tolerance:
+                    if best <= KEEP_SHARE * squared_tolerance:
                         break
                     if m != face:
                         squared = squared_distance(x, y, z, moved[m, 0], moved[m, 1], moved[m, 2])
                         if squared < best:
                             best, nearest = squared, m
-            if best > tolerance or count == len(goes):
+            if best > squared_tolerance or count == len(goes):
                 return NO_CORNER
             goes[count], goes_to[count] = p, chosen[nearest]
             count += 1
@@ -110,7 +110,7 @@ def reassign_points(first_point, next_point, points, tolerance, moved, chosen, c
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _find_near_corner_at(x, y, z, point, bound, corner, was):
+def _find_near_corner_at(x, y, z, point, squared_tolerance, corner, was):
     """Return a corner at a point whose original face is near a place; -1 if there is none."""
     original_corners, twin, leaving = was
     on_edge = point >= len(leaving)
@@ -118,7 +118,10 @@ def _find_near_corner_at(x, y, z, point, bound, corner, was):
     at = begin
     while True:
         f = 3 * (at // 3)
-        if squared_distance(x, y, z, original_corners[f], original_corners[f + 1], original_corners[f + 2]) <= bound:
+        if (
+            squared_distance(x, y, z, original_corners[f], original_corners[f + 1], original_corners[f + 2])
+            <= squared_tolerance
+        ):
             return at
         at = twin[at] if on_edge else twin[previous_corner(at)]
         if at == begin:
@@ -126,7 +129,7 @@ def _find_near_corner_at(x, y, z, point, bound, corner, was):
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _find_near_corner(x, y, z, points, tolerance, goes, count, corner, was):
+def _find_near_corner(x, y, z, points, squared_tolerance, goes, count, corner, was):
     """Return a corner, at one of some points, whose original face is near a place; -1 if there is none.
 
     Faces at the point nearest to the place are tried first, then those at all other points.
@@ -137,28 +140,28 @@ def _find_near_corner(x, y, z, points, tolerance, goes, count, corner, was):
         squared = (points[p, 0] - x) ** 2 + (points[p, 1] - y) ** 2 + (points[p, 2] - z) ** 2
         if squared < best:
             best, nearest = squared, p
-    at = _find_near_corner_at(x, y, z, nearest, tolerance, corner, was)
+    at = _find_near_corner_at(x, y, z, nearest, squared_tolerance, corner, was)
     n = 0
     while at == NO_CORNER and n < count:
-        at = _find_near_corner_at(x, y, z, goes[n], tolerance, corner, was)
+        at = _find_near_corner_at(x, y, z, goes[n], squared_tolerance, corner, was)
         n += 1
     return at
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def are_edges_near(place, moved, changed, apart, points, tolerance, goes, count, corner, was):
-    """Return True if the new edges are near the original surface, sampled every `apart`, a squared length.
+def are_edges_near(place, moved, changed, squared_spacing, points, squared_tolerance, goes, count, corner, was):
+    """Return True if samples on the new edges, no further apart than a squared spacing, are near the original surface.
 
     That suffices: a face between them is flat, and so is the original that lies on it. `was` holds the original
     corners (3 F, 3), their twins and one corner of each vertex; see `reassign_points` for the others.
     """
     original_corners = was[0]
-    middle = _find_near_corner(place[0], place[1], place[2], points, tolerance, goes, count, corner, was)
+    middle = _find_near_corner(place[0], place[1], place[2], points, squared_tolerance, goes, count, corner, was)
     if middle == NO_CORNER:
         return False
     for m in range(changed):
         a, at = moved[m, 1], middle
-        parts = max(2, min(MAX_SAMPLES, math.ceil(math.sqrt(squared_length(place, a) / apart))))
+        parts = max(2, min(MAX_SAMPLES, math.ceil(math.sqrt(squared_length(place, a) / squared_spacing))))
         for part in range(1, parts):
             share = part / parts
             x = place[0] + share * (a[0] - place[0])
@@ -167,9 +170,9 @@ def are_edges_near(place, moved, changed, apart, points, tolerance, goes, count,
             f = 3 * (at // 3)
             if (
                 squared_distance(x, y, z, original_corners[f], original_corners[f + 1], original_corners[f + 2])
-                > tolerance
+                > squared_tolerance
             ):
-                at = _find_near_corner(x, y, z, points, tolerance, goes, count, corner, was)
+                at = _find_near_corner(x, y, z, points, squared_tolerance, goes, count, corner, was)
                 if at == NO_CORNER:
                     return False
     return True

@@ -262,7 +262,7 @@ def value_in_brick(slot, cell, values):
 
 
 @njit(inline="always", cache=True)
-def value_of(label, i, j, k, shape, entries, labels, slots, values, offsets):
+def value_at(label, i, j, k, shape, entries, labels, slots, values, offsets):
     """Return the value plus offset of a label at a point of the lattice."""
     i, j, k = nearest_cell(i, shape[0]), nearest_cell(j, shape[1]), nearest_cell(k, shape[2])
     p, q, r = i // B0, j // B1, k // B2
@@ -344,7 +344,7 @@ def place_points(
                             d = chain[corner_at]
                             ci, cj, ck = i + steps[d, 0], j + steps[d, 1], k + steps[d, 2]
                             for other in range(count):
-                                matrix[other, corner_at] = value_of(
+                                matrix[other, corner_at] = value_at(
                                     corner[chain[other]], ci, cj, ck, shape, entries, labels, slots, values, offsets
                                 )
                         weigh_corners(matrix, count, weight)

@@ -71,7 +71,7 @@ def add_planes(vertices, start, quadric):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def value_of(q, x, y, z):
+def evaluate_quadric(q, x, y, z):
     """Return the weighted sum of squared distances from the planes of a quadric, never below zero."""
     value = q[0] * x * x + q[3] * y * y + q[5] * z * z + 2 * (q[1] * x * y + q[2] * x * z + q[4] * y * z)
     return max(0.0, value + 2 * (q[6] * x + q[7] * y + q[8] * z) + q[9])
@@ -128,12 +128,12 @@ def best_place(u, v, p, q, s, place):
     x, y, z, is_solved = solve_quadric(s, mx, my, mz, -s[6], -s[7], -s[8])
     if is_solved and (x - mx) ** 2 + (y - my) ** 2 + (z - mz) ** 2 <= squared_length(u, v):
         place[0], place[1], place[2] = x, y, z
-        return value_of(s, x, y, z)
+        return evaluate_quadric(s, x, y, z)
     place[0], place[1], place[2] = mx, my, mz
-    best = value_of(s, mx, my, mz)
+    best = evaluate_quadric(s, mx, my, mz)
     for end in range(2):
         w = u if end == 0 else v
-        value = value_of(s, w[0], w[1], w[2])
+        value = evaluate_quadric(s, w[0], w[1], w[2])
         if value < best:
             best = value
             copy_row(place, w)

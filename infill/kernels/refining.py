@@ -8,13 +8,13 @@ read and replaced while its brick is being processed.
 A gate weights averages over a Gaussian of `size` cells. They are taken on coarse cells of `size` cells along each axis,
 (n, 3, 8/size, 8/size, 16/size): the means of w, of w r and of w r², 0 where no brick is kept.
 
-    fine       . . . . . . . .      collect   1  means over `size` cells: a box, variance size²/12
+    fine       . . . . . . . .      average   1  means over `size` cells: a box, variance size²/12
     coarse     |---o---|---o---|    blur      2  TAPS over five coarse cells: variance 3 size²/4
     fine       . . x . . . . .      blend     3  interpolated between coarse centres: a tent, variance size²/6
                                               together size², as the Gaussian's
 
-For the blur, a brick needs two coarse cells around it, for the interpolation one: `fetch` copies them from the 26
-bricks around it. `blend` interpolates along i for a plane, then along j for a row, then along k for its cells.
+For the blur, a brick needs two coarse cells around it, for the interpolation one: `gather_coarse_cells` copies them
+from the 26 bricks around it. `blend` interpolates along i for a plane, then along j for a row, then along k for cells.
 """
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201
@@ -117,8 +117,8 @@ def add_snapshot(phi, data, total, weight, known_count, so_far, count, thread, t
 
 
 @njit(nogil=True, cache=True)
-def collect(low, high, phase, unit, size, sums, thread, threads):
-    """Set the means over coarse cells of w = 1 - phase², w r and w r², r = unit (high - low)."""
+def average(low, high, phase, unit, size, sums, thread, threads):
+    """Write the means over coarse cells of w = 1 - phase², w r and w r² with r = unit (high - low) to `sums`."""
     n1, n2 = B1 // size, B2 // size
     share = np.float32(1 / size**3)
     weight, moment = np.empty(CELLS, dtype=np.float32), np.empty(CELLS, dtype=np.float32)
@@ -140,7 +140,7 @@ def collect(low, high, phase, unit, size, sums, thread, threads):
 
 
 @njit(cache=True)
-def fetch(sums, slots, place, rim, out):
+def gather_coarse_cells(sums, slots, place, rim, out):
     """Copy the coarse cells of the brick at `place` and of those around it, `rim` deep, into `out`."""
     _, _, n0, n1, n2 = sums.shape
     a0, a1, a2 = place[0] * n0 - rim, place[1] * n1 - rim, place[2] * n2 - rim
@@ -163,7 +163,7 @@ def blur(sums, slots, where, out, thread, threads):
     outer_tap, inner_tap, centre_tap = np.float32(TAPS[0]), np.float32(TAPS[1]), np.float32(TAPS[2])
     block = np.empty((SUMS, n0 + 4, n1 + 4, n2 + 4), dtype=np.float32)
     for s in range(thread, len(sums), threads):
-        fetch(sums, slots, where[s], np.int64(2), block)
+        gather_coarse_cells(sums, slots, where[s], np.int64(2), block)
         for m in range(SUMS):
             u = block[m]
             for i in range(n0):  # in place: what is written is not read again
@@ -207,7 +207,7 @@ def blend(low, high, sums, slots, where, shape, signed, unsigned, tiny, thread, 
         ends[k], parts[k] = coarse_cell_before(k, size)
     bias, spread = signed**4, unsigned**8
     for s in range(thread, len(low), threads):
-        fetch(sums, slots, where[s], np.int64(1), block)
+        gather_coarse_cells(sums, slots, where[s], np.int64(1), block)
         low_brick, high_brick = low[s], high[s]
         for i in range(B0):
             at, part = coarse_cell_before(i, size)

@@ -99,7 +99,7 @@ def note_rows(brick, moving, rows):
 
 
 @njit(inline="always", cache=True)
-def value_of(plus, minus, part):
+def common_value(plus, minus, part):
     """Return +1 or -1 if all rows of a part have that value, else 0."""
     if plus & part == part:
         return 1
@@ -111,12 +111,12 @@ def update_faces(brick, faces, flat, rows, moving):
     """Update the notes on the rows in `movable_rows` and on faces of +1 or -1 throughout; copy the other faces."""
     note_rows(brick, moving, rows)
     for up in range(2):
-        flat[up] = value_of(rows[0], rows[1], LAST_I if up else FIRST_I)
+        flat[up] = common_value(rows[0], rows[1], LAST_I if up else FIRST_I)
         if flat[up] == 0:
             at, to = (CELLS - PLANE) * up, FACE_I * up
             for j in range(B1):
                 copy(faces, to + j * B2, brick, at + j * B2)
-        flat[2 + up] = value_of(rows[0], rows[1], LAST_J if up else FIRST_J)
+        flat[2 + up] = common_value(rows[0], rows[1], LAST_J if up else FIRST_J)
         if flat[2 + up] == 0:
             at, to = (PLANE - B2) * up, SECOND + FACE_J * up
             for i in range(B0):
@@ -133,7 +133,7 @@ def update_faces(brick, faces, flat, rows, moving):
                 plus |= np.uint64(mask_equal(faces, to + part * B2, np.float32(1))) << shift
                 minus |= np.uint64(mask_equal(faces, to + part * B2, np.float32(-1))) << shift
             rows[2 + 2 * up], rows[3 + 2 * up] = plus, minus
-        flat[4 + up] = value_of(rows[2 + 2 * up], rows[3 + 2 * up], ALL)
+        flat[4 + up] = common_value(rows[2 + 2 * up], rows[3 + 2 * up], ALL)
 
 
 @njit(nogil=True, cache=True)

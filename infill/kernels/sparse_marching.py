@@ -196,17 +196,17 @@ def keep_clear_of_zero(value, clearance, tie):
 
 
 @njit(from_python=False, cache=True)
-def set_numbers_around(slots, index, p, q, r, masks, starts, offsets, begin, behind, crossing):
-    """Set the first vertex numbers of the rows of a brick and of the first rows after it.
+def write_first_numbers(slots, index, p, q, r, masks, starts, offsets, begin, behind, crossing):
+    """Write the number of the first vertex on each row of a brick, and on the rows just after it: see below.
 
     Parameters
     ----------
     begin : (9, 9, 3)
-        Of those on edges along i, j, k in the brick itself.
+        Of the first vertex on the edges of row i, j along an axis, in the brick itself; written.
     behind : (9, 9, 3)
-        Of those in the next brick along k.
+        The same in the next brick along k; written.
     crossing : (9, 9, 3)
-        The edges of a row that have a vertex.
+        The edges of a row that have a vertex, as bits; written.
     """
     for side in range(4):
         up, right = side & 1, side >> 1
@@ -271,7 +271,7 @@ def write_surface(
         p, q, r = places[n, 0], places[n, 1], places[n, 2]
         rows_around(slots, p, q, r, bits, shape, rows)
         values_around(slots, p, q, r, values, shape, numbers, around)
-        set_numbers_around(slots, index, p, q, r, masks, starts, offsets, begin, behind, crossing)
+        write_first_numbers(slots, index, p, q, r, masks, starts, offsets, begin, behind, crossing)
         v, f, u = offsets[n, 0], offsets[n, 1], offsets[n, 2]
         for i in range(B0):
             for j in range(B1):

@@ -19,7 +19,7 @@ import numpy as np
 
 from infill.kernels.compiling import njit
 from infill.kernels.crossings import does_edge_pierce
-from infill.kernels.quadrics import best_place, move_into_plane, normal_and_shape, squared_length, value_of
+from infill.kernels.quadrics import best_place, evaluate_quadric, move_into_plane, normal_and_shape, squared_length
 from infill.kernels.rows import copy_row
 from infill.kernels.wall_nearness import MAX_WATCHED, NONE, are_faces_near, hand_over, has_corner, reassign_watched
 
@@ -176,7 +176,7 @@ def _place_of(u, v, points, order, flags, quadric, box, s, place):
         for k in range(11):
             s[k] = quadric[u, k] + quadric[v, k]
         copy_row(place, points[v])
-        return value_of(s, place[0], place[1], place[2])
+        return evaluate_quadric(s, place[0], place[1], place[2])
     if high not in (flags[u], flags[v]):
         return math.inf
     cost = best_place(points[u], points[v], quadric[u], quadric[v], s, place)
@@ -184,7 +184,7 @@ def _place_of(u, v, points, order, flags, quadric, box, s, place):
         if low != high:
             copy_row(place, points[u] if high == flags[u] else points[v])
         _side_place(high, box[0], box[1], place)
-        cost = value_of(s, place[0], place[1], place[2])
+        cost = evaluate_quadric(s, place[0], place[1], place[2])
     return cost
 
 
@@ -346,7 +346,20 @@ def _is_in_slab(faces, count, triangles, slab, number):
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def sweep_walls(
-    mesh, watched, members, starts, bound, tolerance, spacing, into, swept, failed, sweep, removed, thread, threads
+    mesh,
+    watched,
+    members,
+    starts,
+    bound,
+    squared_tolerance,
+    spacing,
+    into,
+    swept,
+    failed,
+    sweep,
+    removed,
+    thread,
+    threads,
 ):
     """Collapse one edge for each point of each slab, and nowhere twice; count the points gone.
 
@@ -365,7 +378,7 @@ def sweep_walls(
         The points of each slab.
     bound : float
         Largest mean squared distance of a collapse from the planes it replaces.
-    tolerance, spacing : float
+    squared_tolerance, spacing : float
         The square of the largest distance, and the distance between the places where it is measured.
     into, swept, failed : (P,) int32
         The point that each was collapsed into; the last sweeps that changed a point, and that found no way for it.
@@ -417,7 +430,18 @@ def sweep_walls(
                 taken = 0
                 if len(watched[0]):
                     taken = reassign_watched(
-                        u, triangles, pair, fan_v, watched, tolerance, moved, chosen, changed, goes, goes_to, goes_at
+                        u,
+                        triangles,
+                        pair,
+                        fan_v,
+                        watched,
+                        squared_tolerance,
+                        moved,
+                        chosen,
+                        changed,
+                        goes,
+                        goes_to,
+                        goes_at,
                     )
                     if taken == NONE or not are_faces_near(
                         place,
@@ -426,7 +450,7 @@ def sweep_walls(
                         pair,
                         chosen,
                         watched,
-                        tolerance,
+                        squared_tolerance,
                         spacing,
                         goes,
                         goes_to,

@@ -64,7 +64,7 @@ class BranchLines:
         tips = _find_tips(twigs, walls, reach=reach)
         for layer in range(space.shape[2] - 1, -1, -1):
             forest.draw_back(step)
-            forest.stand(walls.inside(forest.at, layer))
+            forest.record_inside(walls.inside(forest.at, layer))
             for foot in forest.feet[walls.inside(forest.at[forest.feet], layer)].tolist():
                 forest.move(foot, walls.foot(forest.at[foot], layer)[1], near=NEAR)
             planted = _sort_tips(tips.get(layer, ()), walls, layer)
@@ -107,7 +107,7 @@ def _find_tips(twigs: list[tuple[int, Floats]], walls: _Walls, *, reach: float) 
         inside = walls.column(twig)
         for top in np.flatnonzero(inside & ~np.append(inside[1:], False)).tolist():
             floor = walls.floor(twig, top)
-            if walls.away(twig, max(floor, top - down)) > reach + SLACK:
+            if walls.distance_at(twig, max(floor, top - down)) > reach + SLACK:
                 by_layer.setdefault(top, []).append((power, twig))
     return by_layer
 
@@ -148,7 +148,7 @@ class _Walls:
         outside = np.flatnonzero(~self.column(place)[: layer + 1])
         return int(outside[-1]) + 1 if len(outside) else 0
 
-    def away(self, place: Floats, layer: int) -> float:
+    def distance_at(self, place: Floats, layer: int) -> float:
         """Return the distance of a place inside from the nearest wall of a layer, in cells."""
         return self._direction_to_wall(place, layer)[0]
 
@@ -185,6 +185,7 @@ class _Walls:
         return self.nearest[layer]
 
     def _cells_at(self, places: Floats) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Return the cells that hold places (..., 2), as indices along x and along y; those outside are clipped."""
         upper = np.array(self.depth.shape[:2]) - 1
         cells = np.clip(np.floor(places + 0.5 + ROUNDING), 0, upper).astype(np.intp)
         return cells[..., 0], cells[..., 1]

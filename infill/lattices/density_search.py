@@ -34,7 +34,7 @@ def make_voids(task: FillTask, layout: Layout, known: Fields | None = None) -> t
 
     In a large space that is kept in slabs, only their volume is computed for now.
     """
-    fields = task.draw(replace(layout, space=task.reach(layout.space)), known)
+    fields = task.draw(replace(layout, space=task.space_for_voids(layout.space)), known)
     make = defer_voids if layout.space.layers.in_slabs else make_surfaces
     return make(task, fields), fields
 
@@ -76,18 +76,22 @@ def find_sizes(
         return layout, varied, fields
     request, density = task.request, requested_density(task, layout.local) or LEAST
 
-    def off(layout: Layout) -> float:
+    def log_error(layout: Layout) -> float:
+        """Return the logarithm of the solid share of a layout over the density; keep its fields."""
         nonlocal fields
         fields = task.draw(layout, fields)
         return math.log(solid_share(fields) / density)
 
     def fit(start: Layout, vary: Size) -> Layout:
-        return start.scale(find_root(lambda times: off(start.scale(times, vary)), CLOSE / 4 / density, TRIES), vary)
+        """Scale one size of a layout until its solid share is the density."""
+        return start.scale(
+            find_root(lambda times: log_error(start.scale(times, vary)), CLOSE / 4 / density, TRIES), vary
+        )
 
-    if request.cell is None and request.line_width is None and layout.cell > (most := layout.space.across):
+    if request.cell is None and request.line_width is None and layout.cell > (most := layout.space.second_longest_side):
         if request.form == "project":
             fitted = fit(layout, varied[0])
-            if abs(off(fitted)) <= CLOSE / density:
+            if abs(log_error(fitted)) <= CLOSE / density:
                 return fitted, varied, fields
         layout, varied = replace(layout, cell=most, width=layout.width * most / layout.cell), ("width",)
     return fit(layout, varied[0]), varied, fields
@@ -116,16 +120,18 @@ def fit_density(
         return _match_local_densities(task, hollow, fields)
     density = task.request.density or LEAST
 
-    def off(hollow: VoidMeshes) -> float:
+    def log_error(hollow: VoidMeshes) -> float:
+        """Return the logarithm of the density of voids over the requested one."""
         return math.log(max(hollow.density, LEAST) / density)
 
     def evaluate(times: float, start: Layout, vary: Size) -> float:
+        """Make the voids of a scaled layout, keep the best, and return their error."""
         nonlocal hollow, fields
         candidate = hollow
         if times != 1:
             candidate, fields = make_voids(task, start.scale(times, vary), fields)
-        hollow = min(hollow, candidate, key=lambda hollow: abs(off(hollow)))  # two are kept at most
-        return off(candidate)
+        hollow = min(hollow, candidate, key=lambda hollow: abs(log_error(hollow)))  # two are kept at most
+        return log_error(candidate)
 
     for vary in varied:
         find_root(partial(evaluate, start=hollow.layout, vary=vary), CLOSE / density, ROUNDS)

@@ -83,6 +83,7 @@ class DrainedSolid:
 
 
 def _as_report(undrained: SealedVoid) -> UndrainedVoid:
+    """Return a void without a drain as the report has it."""
     return {"void": undrained.void, "volume": undrained.volume, "at": undrained.at.tolist(), "fits": undrained.fits}
 
 

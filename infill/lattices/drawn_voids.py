@@ -92,7 +92,7 @@ class Prismatic:
         room = shapely.transform(silhouette(space), lambda points: points - self.anchor[:2])
         return shapely.buffer(room, (self.share - 1) / 2 * cell, quad_segs=ROUND)
 
-    def _miss(self, space: Interior, cell: float) -> GeometryError:
+    def _miss_error(self, space: Interior, cell: float) -> GeometryError:
         """Return the error that a single drawing lies beside the part."""
         everywhere = centred_square(WIDER * float(np.abs(np.asarray(space.part.bounds) - [*self.anchor]).max() + cell))
         drawn = shapely.bounds(draw_lines(with_cell(self.pattern, cell), everywhere)) + np.tile(self.anchor[:2], 2)
@@ -108,7 +108,8 @@ class Prismatic:
         )
 
     def _make_faces(self, space: Interior, cell: float, width: float, reach: float) -> _Faces:
-        lower, upper = (np.array([side.min() - 1, side.max() + 1]) for side in np.nonzero(space.deepest > -BAND))
+        """Draw the lines in and around a part, tie their islands, and divide the plane into faces between them."""
+        lower, upper = (np.array([side.min() - 1, side.max() + 1]) for side in np.nonzero(space.column_depths > -BAND))
         low = space.origin[:2] + np.array([lower[0], upper[0]]) * space.size - self.anchor[:2]
         high = space.origin[:2] + np.array([lower[1], upper[1]]) * space.size - self.anchor[:2]
         box = shapely.box(*low, *high)
@@ -119,7 +120,7 @@ class Prismatic:
             room = centred_square(WIDER * float(np.linalg.norm(np.abs([low, high]).max(axis=0))))
         lines = shapely.intersection(draw_lines(with_cell(self.pattern, cell), room), region)
         if is_drawn_once(self.pattern) and not shapely.intersects(lines, box):
-            raise self._miss(space, cell)
+            raise self._miss_error(space, cell)
         ties = Ties.none()
         if self.ties:
             ties = tie_islands(lines, self._room_of_islands(space), width=width, walled=space.opening is not None)
@@ -142,7 +143,8 @@ class Prismatic:
             planes.append(np.where(inside, distance, -to_border))
         corners, angles = find_polygon_corners(polygons)
         at = np.round((corners - start) / space.size).astype(np.int64)
-        with_room = space.deepest[tuple(np.clip(at, 0, (nx - 1, ny - 1)).T)] > 0  # there is none at the rim of the grid
+        # There is no room at the rim of the grid.
+        with_room = space.column_depths[tuple(np.clip(at, 0, (nx - 1, ny - 1)).T)] > 0
         return _Faces(
             colours=tuple(planes),
             sharpest=sharpest_angle(angles[with_room]),
@@ -212,7 +214,7 @@ def silhouette(space: Interior) -> shapely.Geometry:
 
     Where voids reach through the walls, the walls still count.
     """
-    return _outline_columns(space, space.deepest - np.float32(space.through))
+    return _outline_columns(space, space.column_depths - np.float32(space.through))
 
 
 def open_columns(space: Interior) -> shapely.Geometry:
@@ -220,8 +222,8 @@ def open_columns(space: Interior) -> shapely.Geometry:
     shallowest = np.minimum.reduce(
         [
             slab[:, :, inside].min(axis=2)
-            for first, slab in space.layers.each()
-            if (inside := space.shares[first : first + slab.shape[2]] > 0).any()
+            for first, slab in space.layers.read_slabs()
+            if (inside := space.layer_shares[first : first + slab.shape[2]] > 0).any()
         ]
     )
     return _outline_columns(space, shallowest - np.float32(space.through))

@@ -34,7 +34,7 @@ class InteriorPlace:
         space = self.space
         stride = max(1, int(np.ceil((space.depth.size / MOST_CELLS) ** (1 / 3))))
         # Beyond an open side there is neither wall nor part, so no point is nearest to cells there.
-        layers = np.flatnonzero(space.shares >= LEAST_SHARE)
+        layers = np.flatnonzero(space.layer_shares >= LEAST_SHARE)
         bottom, top = int(layers[0]), int(layers[-1]) + 1
         inside = space.depth[::stride, ::stride, bottom:top:stride] > 0
         opening = space.opening

@@ -74,9 +74,9 @@ class PlannedVoids:
         density = self.width / self.cell if request.density is None else request.density
         faces = 4 if has_bars(request.kind) else 2
         sides = faces * min(density, 1.0) * room / self.width / self.voxel**2
-        most = math.inf if request.voxel else request.room(len(self.task.part.faces)) / FACES_PER_SIDE
+        most = math.inf if request.voxel else request.triangles_left(len(self.task.part.faces)) / FACES_PER_SIDE
         larger = max(1.0, math.sqrt(sides / most))  # times the size of the cells
-        grid = expected_bytes(self.grid.shape, request.held, slabs=goes_by_slabs(self.task))
+        grid = expected_bytes(self.grid.shape, request.extra_bytes_per_cell, slabs=goes_by_slabs(self.task))
         return grid / larger**3 + per_side * sides / larger**2
 
 
@@ -116,6 +116,7 @@ def measure_room(task: FillTask) -> float:
     voxel = math.cbrt(float(np.prod(np.maximum(task.extents, task.extents.max() / 1000))) / COARSE_CELLS)
 
     def volume_inside(thickness: float) -> float | None:
+        """Return the volume inside walls of a thickness, mm³; None if there is no room."""
         try:
             return compute_interior(
                 task.part,

@@ -53,7 +53,7 @@ class Forest:
         self._keep(~np.isin(np.arange(len(self.to)), tips[~longer]))
         self._drop_bare_feet()
 
-    def stand(self, inside: Flags) -> None:
+    def record_inside(self, inside: Flags) -> None:
         """Record which nodes (N,) are inside the walls: a node that was inside and is not any more becomes a foot.
 
         The branch from there to the next node has a tip of its own.
@@ -109,20 +109,24 @@ class Forest:
         return float(distance[nearest]), int(starts[nearest]), float(share[nearest])
 
     def _add(self, place: Floats, to: int, *, inside: bool) -> int:
+        """Add a node at a place, joined to node `to`; return its number."""
         self.at = np.concatenate([self.at, place[None]])
         self.to = np.append(self.to, to)
         self.inside = np.append(self.inside, inside)
         return len(self.to) - 1
 
     def _is_tip(self) -> Flags:
+        """Mark the nodes that no branch leads to: (N,)."""
         is_tip = np.ones(len(self.to), dtype=bool)
         is_tip[self.to[self.to != NONE]] = False
         return is_tip
 
     def _drop_bare_feet(self) -> None:
+        """Drop the feet without a branch."""
         self._keep(~(self._is_tip() & (self.to == NONE)))
 
     def _keep(self, mask: Flags) -> None:
+        """Keep the nodes in a mask, and renumber the branches."""
         if mask.all():
             return
         number = np.cumsum(mask) - 1

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from infill.arrays import Floats
 from infill.errors import GeometryError
-from infill.interior.conformal_map import fit_conformal_map, spline_slopes
+from infill.interior.conformal_map import fit_conformal_map, spline_jacobians
 from infill.interior.interior import Interior
 from infill.lattices.field_place import LEAST_SHARE, InteriorPlace
 from infill.lattices.region_nodes import SHIFTS, RegionNodes
@@ -69,7 +69,7 @@ class LocalWidths:
         """The smallest and the largest cell inside, over the nominal cell: sides of cubes of their volume."""
         if self.spline is None:
             return 1.0, 1.0
-        sides = np.abs(np.linalg.det(spline_slopes(self.spline)[self.within])) ** (-1 / 3)
+        sides = np.abs(np.linalg.det(spline_jacobians(self.spline)[self.within])) ** (-1 / 3)
         return float(sides.min()), float(sides.max())
 
     def in_box(self, corner: NDArray[np.int64], shape: tuple[int, ...]) -> LocalWidths:
@@ -123,7 +123,7 @@ class Grading:
         """Rough size of the cells over the nominal cell where it is densest."""
         return self.middle / max(self.first, self.last) if self.varies == "cell" else 1.0
 
-    def over(self, space: Interior, widths: Callable[[float], float]) -> LocalWidths:
+    def widths_in(self, space: Interior, widths: Callable[[float], float]) -> LocalWidths:
         """Return the widths of walls in a space; `widths` gives the width for a density, in cells of the pattern."""
         shape = np.array(space.depth.shape)
         step = max(1.0, float((shape.max() - 1) / NODES))
@@ -176,13 +176,13 @@ class Grading:
 def cells_inside(space: Interior, points: Floats) -> NDArray[np.bool_]:
     """Test which points, in cells, lie inside the walls; all are, if none are because the part is too thin."""
     at = tuple(np.minimum(points.round().astype(int), np.array(space.depth.shape) - 1).T)
-    inside = (space.depth[at] > 0) & (space.shares[at[2]] >= LEAST_SHARE)
+    inside = (space.depth[at] > 0) & (space.layer_shares[at[2]] >= LEAST_SHARE)
     return inside if inside.any() else np.ones(len(points), dtype=bool)
 
 
 def _sample_cells(space: Interior) -> tuple[Floats, Floats]:
     """Draw random cells inside the walls, (N, 3); return also the outermost along each axis and the deepest."""
-    cells = np.argwhere((space.depth > 0) & (space.shares >= LEAST_SHARE))
+    cells = np.argwhere((space.depth > 0) & (space.layer_shares >= LEAST_SHARE))
     if not len(cells):
         cells = np.argwhere(np.ones(space.depth.shape, dtype=bool))
     deepest = np.array(np.unravel_index(int(space.depth.argmax()), space.depth.shape))[None]
@@ -201,7 +201,7 @@ def densities_by_share(
     thinner. Voids are scaled so that the mean density is exact, which removes the chance that remains.
     """
     depth, corners = space.depth, (np.asarray(voids.vertices, dtype=np.float64) - space.origin) / space.size
-    candidates = np.argwhere((depth > -1) & (space.shares >= LEAST_SHARE))  # at most a cell outside the walls
+    candidates = np.argwhere((depth > -1) & (space.layer_shares >= LEAST_SHARE))  # at most a cell outside the walls
     cells = candidates[np.random.default_rng(0).integers(len(candidates), size=POINTS)]
     places, solid = cells.astype(np.float64), np.empty(POINTS, dtype=bool)
     for shift, indices in zip(SHIFTS, np.array_split(np.arange(POINTS), len(SHIFTS)), strict=True):

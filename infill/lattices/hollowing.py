@@ -67,15 +67,15 @@ def make_void_meshes(task: FillTask) -> tuple[VoidMeshes, Fields]:
                 places=task.local_walls,
                 open_=request.open_,
                 beyond=request.beyond,
-                held=request.held,
+                extra_bytes_per_cell=request.extra_bytes_per_cell,
                 slabs=goes_by_slabs(task),
                 threads=task.threads,
                 max_memory=task.max_memory,
             )
-        room = request.room(len(space.part.faces))
+        room = request.triangles_left(len(space.part.faces))
         with clock.stage("density", progress + 0.05):
             grading = request.grading
-            local = None if grading is None else grading.over(space, task.pattern.widths)
+            local = None if grading is None else grading.widths_in(space, task.pattern.widths)
             layout = Layout(space=space, cell=cell, width=width, local=local, threads=task.threads)
             layout, varied, known = find_sizes(task, layout, varied)
             triangles, known = estimate_triangles(task, layout, known)
@@ -125,11 +125,11 @@ def match_width(
     request = task.request
     if "width" in varied[:1] or request.grading is not None or not has_uniform_width(task):
         return hollow, fields
-    fields = task.draw(replace(hollow.layout, space=task.reach(hollow.space)), fields)
+    fields = task.draw(replace(hollow.layout, space=task.space_for_voids(hollow.space)), fields)
     if not choose_smoothing(task, fields).steps:
         return hollow, fields
     for _ in range(REDRAWN):
-        median, seen = hollow.median
+        median, seen = hollow.median_width
         if median is None or seen < SURE or abs(median / width - 1) <= WIDTH_CLOSE:
             break
         layout = replace(hollow.layout, width=hollow.width * width / median)

@@ -135,7 +135,7 @@ def make_joined_voids(task: FillTask) -> tuple[VoidMeshes, Fields]:
             if all(after is piece for after, piece in zip([rest, *pieces], before, strict=True)):
                 break
             joined = _join(rest, pieces)
-    room = task.request.room(len(joined.space.part.faces))
+    room = task.request.triangles_left(len(joined.space.part.faces))
     if joined.triangles > room:
         with task.clock.stage("simplify", 0.8):
             joined = simplify_to_fit(task, joined, room)

@@ -75,6 +75,7 @@ class NonPrismatic:
         )
 
     def _measure(self, layout: Layout, reach: float) -> _Distances:
+        """Measure how far each cell lies from the lines of its layer, in cells up to `reach`; negative on one side."""
         from infill.kernels.layered import distances_to_lines
 
         space, lines = layout.space, self.layers.lines(layout.space, layout.cell)

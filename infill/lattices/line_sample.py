@@ -38,7 +38,7 @@ class LineSample:
     pattern: Pattern
 
     @cached_property
-    def apart(self) -> float:
+    def spacing(self) -> float:
         """Average spacing of lines, as if they formed a grid, in cells; at most one."""
         region, lines = self._lines_in_square
         return min(1.0, float(2 * region.area / lines.length))
@@ -47,12 +47,12 @@ class LineSample:
         """Return the width of lines, in cells, that gives a density in the sample."""
         region, lines = self._lines_in_square
 
-        def off(times: float) -> float:
-            walls = shapely.buffer(lines, times * self.apart * density / 4, quad_segs=1)
+        def log_error(times: float) -> float:
+            walls = shapely.buffer(lines, times * self.spacing * density / 4, quad_segs=1)
             return math.log(shapely.intersection(walls, region).area / (density * region.area))
 
         # Lines a cell apart in one direction would be as wide as the density; most run in two.
-        return self.apart * density / 2 * find_root(off, NEAR, TRIES)
+        return self.spacing * density / 2 * find_root(log_error, NEAR, TRIES)
 
     @cached_property
     def _lines_in_square(self) -> tuple[shapely.Polygon, shapely.Geometry]:

@@ -174,7 +174,7 @@ class RegionDensities:
         """Size of the smallest cells over the nominal cell."""
         return 1.0
 
-    def over(self, space: Interior, widths: Callable[[float], float]) -> LocalWidths:
+    def widths_in(self, space: Interior, widths: Callable[[float], float]) -> LocalWidths:
         """Return the widths of walls in a space; `widths` gives the width for a density, in cells of the pattern.
 
         Raises
@@ -191,7 +191,7 @@ class RegionDensities:
         for region in self.regions:
             cover = region.cover(space, counts, step=step)
             if region.is_requested and not cover[within].any():
-                raise _miss(region, "holds nothing of the space inside the walls", np.asarray(space.part.bounds))
+                raise _miss_error(region, "holds nothing of the space inside the walls", np.asarray(space.part.bounds))
             covers.append(cover)
         wide = np.array([widths(density) for density in self.densities]) / widths(self.base)
         regions = RegionNodes(
@@ -216,10 +216,10 @@ def check_places(regions: Sequence[PlacedRegion], bounds: Floats) -> None:
     """Raise GeometryError if a region lies outside the box around a part, (2, 3) mm."""
     for region in regions:
         if not ((region.low < bounds[1]) & (region.high > bounds[0])).all():
-            raise _miss(region, "lies outside the part", bounds)
+            raise _miss_error(region, "lies outside the part", bounds)
 
 
-def _miss(region: PlacedRegion, problem: str, bounds: Floats) -> GeometryError:
+def _miss_error(region: PlacedRegion, problem: str, bounds: Floats) -> GeometryError:
     """Return the error that a region holds nothing of a part."""
     spans = ", ".join(
         f"{axis} {plain_argument(low, 4)} to {plain_argument(high, 4)}"

@@ -64,7 +64,7 @@ def measure_least_wall(
     for points in chain.from_iterable(map(_point_batches, voids)):
         if opening is not None:
             points = points[opening.inside(points[:, 2])]
-        least, number = tree.least(points, least, threads=threads)
+        least, number = tree.least_distance(points, least, threads=threads)
         if number >= 0:
             place = points[number]
     return least, place.tolist()
@@ -181,7 +181,7 @@ def measure_solid(
         loose=max(0, count_bodies(solid) - count_bodies(space.part)) if request.wall == 0 else 0,
         crowded=max(0, crowded),
         verdict=next((word for word in map(manifold_status, split_into_batches(solid, AT_ONCE)) if word != FINE), FINE),
-        width=(hollow.median[0] if has_uniform_width(task) and not request.has_areas else None) or hollow.width,
+        width=(hollow.median_width[0] if has_uniform_width(task) and not request.has_areas else None) or hollow.width,
         drawn=0.0 if request.has_areas else solid_share(task.draw(hollow.layout, fields)),
         wanted=requested_density(task, local),
         graded=[] if local is None or local.regions is not None else density_steps(hollow, local),
@@ -293,7 +293,7 @@ def is_width_ok(width: float, requested: float) -> bool:
 
 def size_problems(request: FillSpec, hollow: VoidMeshes) -> Iterator[str]:
     """Yield a message for a requested cell that is too large for the part, or that alone decides the density."""
-    room, cell = hollow.space.across, request.cell
+    room, cell = hollow.space.second_longest_side, request.cell
     if cell is None:
         return
     if cell >= room:

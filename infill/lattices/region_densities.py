@@ -51,7 +51,7 @@ class RegionSample:
 def sample_regions(space: Interior, regions: Sequence[PlacedRegion]) -> RegionSample:
     """Draw points of the rest and of each region: in all of its cells, or in as many as suffice."""
     depth, count, rng = space.depth, 1 + len(regions), np.random.default_rng(0)
-    is_near = (depth > -1) & (space.shares >= LEAST_SHARE)  # at most a cell outside the walls
+    is_near = (depth > -1) & (space.layer_shares >= LEAST_SHARE)  # at most a cell outside the walls
     x, y, z = (np.arange(cells, dtype=np.uint8) for cells in depth.shape)
     turn = (x[:, None, None] + y[:, None] + z) % len(SHIFTS)  # each cell has a point in one of the grids
     drawn, groups, volumes = [], [], np.zeros(count)

@@ -142,12 +142,12 @@ class FillSpec:
         return self.ties and not self.is_block and (self.wall == 0 or self.open_ == "both")
 
     @property
-    def held(self) -> int:
+    def extra_bytes_per_cell(self) -> int:
         """Additional bytes for each cell of the grid: where bodies are, and how deep in them the cell lies."""
         return 5 if self.align == "body" else 0
 
     @property
-    def lined(self) -> bool:
+    def has_slicer_lines(self) -> bool:
         """True if walls and bars are as wide as a slicer's lines, which no density may change."""
         return self.form == "project" and not isinstance(self.kind, Lightning)
 
@@ -226,11 +226,11 @@ class FillSpec:
             return ("cell",) if self.cell is None else ("width",)
         return (
             ("width",)
-            if (has_bars(self.kind) or isinstance(self.kind, Lightning)) and not self.lined
+            if (has_bars(self.kind) or isinstance(self.kind, Lightning)) and not self.has_slicer_lines
             else ("cell", "width")
         )
 
-    def room(self, taken: int) -> int:
+    def triangles_left(self, taken: int) -> int:
         """Return the number of triangles that voids may have beside those of the part.
 
         Raises

@@ -9,12 +9,12 @@ LONGEST = 0.7  # step, in logarithms
 GENTLE, STEEP = 0.2, 5.0  # slopes that a secant may have
 
 
-def find_root(off: Callable[[float], float], good: float, tries: int) -> float:
+def find_root(log_error: Callable[[float], float], good: float, tries: int) -> float:
     """Find the factor at which a logarithm is nearly 0; return the best factor that was tried.
 
     Parameters
     ----------
-    off : callable
+    log_error : callable
         Takes a factor, and returns the logarithm of the result over its target. It grows with the factor, but may jump.
     good : float
         Error that is good enough.
@@ -31,7 +31,7 @@ def find_root(off: Callable[[float], float], good: float, tries: int) -> float:
     exponent, attempts = 0.0, list[tuple[float, float]]()
     low, high = -math.inf, math.inf
     for _ in range(tries):
-        error = off(math.exp(exponent))
+        error = log_error(math.exp(exponent))
         attempts.append((exponent, error))
         if abs(error) <= good:
             break

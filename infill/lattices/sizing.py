@@ -73,13 +73,14 @@ def enlarge(request: FillSpec, sizes: tuple[float, float], times: float) -> tupl
 
 
 def _nominal_sizes(task: FillTask) -> tuple[float, float]:
+    """Return cell and width, mm: as requested, or in the ratio that the density requires far from any skin."""
     request = task.request
     if request.density is None:
         return request.cell or BRANCHES_CELL, request.line_width or request.default_width
     share = task.pattern.widths(request.density)
     if request.line_width is None and request.cell is not None:
         return request.cell, share * request.cell
-    if request.line_width is None and "cell" not in request.varied and not request.lined:
+    if request.line_width is None and "cell" not in request.varied and not request.has_slicer_lines:
         cell = BAR_CELL if has_bars(request.kind) else BRANCHES_CELL
         return cell, share * cell
     width = request.default_width if request.line_width is None else request.line_width
@@ -127,7 +128,7 @@ def _largest_voxel(task: FillTask, cell: float, width: float, fineness: Fineness
     width *= request.thinnest
     size = (min(request.walls) or math.inf) / fineness.across
     if isinstance(pattern, Prismatic):
-        return min(size, pattern.sample.apart * cell / fineness.lines)
+        return min(size, pattern.sample.spacing * cell / fineness.lines)
     if has_bars(request.kind):
         return min(size, cell / fineness.bars, width / fineness.across_bar)
     if isinstance(pattern, NonPrismatic) and pattern.around:

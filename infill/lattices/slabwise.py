@@ -37,6 +37,7 @@ def count_filled_cells(fields: Fields) -> float:
     """Count the cells that voids fill before they are smoothed, parts of cells counted as such."""
 
     def count(depth: NDArray[np.float32], *_: int) -> float:
+        """Count the cells of a slab that all fields fill."""
         out = np.empty_like(depth)
         return sum(fields.write_sdf(out, which, depth) for which in range(fields.count))
 
@@ -126,6 +127,7 @@ def _map_pieces(
     smoothing, threads = choose_smoothing(task, fields), task.threads
 
     def process(depth: NDArray[np.float32], low: int, high: int) -> list[Outcome | None]:
+        """Apply the function to the piece of each field in a slab."""
         outcomes: list[Outcome | None] = []
         for which in range(fields.count):
             distance, piece = np.empty_like(depth), None

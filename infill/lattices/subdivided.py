@@ -92,11 +92,11 @@ class Subdivided:
         shares = np.array(SHARES[: self.pattern.levels + 1])
         shares, sides = shares / shares.sum(), 2.0 ** np.arange(len(shares))
 
-        def off(times: float) -> float:
+        def log_error(times: float) -> float:
             voids = np.maximum(1 - times * density / 3 / sides, 0) ** 3
             return float(np.log((1 - shares @ voids) / density))
 
-        return density / 3 * find_root(off, NEAR, TRIES)
+        return density / 3 * find_root(log_error, NEAR, TRIES)
 
     def _start(self, space: Interior, cell: float) -> NDArray[np.float64]:
         """Return the place of the first cell of the grid in the pattern, in sides of the smallest cubes."""
@@ -104,6 +104,7 @@ class Subdivided:
         return start
 
     def _build_tree(self, layout: Layout, skin: cKDTree) -> CubeTree:
+        """Divide the space into cubes that are smaller the nearer they lie to the skin of the pattern."""
         from infill.kernels.cells import colours_of_cubes
 
         space, cell, threads = layout.space, layout.cell, thread_count(layout.threads)

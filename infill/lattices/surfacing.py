@@ -55,17 +55,18 @@ def make_surfaces(task: FillTask, fields: Fields) -> VoidMeshes:
     elif task.request.form == "project":
         walls = extract_inner_side(space, overlap=0.0, tolerance=task.request.tolerance / 4, threads=threads)
 
-    def trace() -> Iterator[Surface]:
+    def trace_fields() -> Iterator[Surface]:
+        """Yield the surface of each field, smoothed, if there is one."""
         for which in range(fields.count):
             fields.write_sdf(out, which, inside.depth)
             field = smooth_void(out, inside.depth, smoothing, threads=threads)
             surface = None if field is None else extract_surface(field, space, threads)
             if surface is not None and space.opening is not None:
-                surface = space.opening.reaching(surface, space.size)
+                surface = space.opening.keep_reaching(surface, space.size)
             if surface is not None:
                 yield surface
 
-    hollow = drop_useless(trace(), replace(fields.layout, space=space))
+    hollow = drop_useless(trace_fields(), replace(fields.layout, space=space))
     return replace(hollow, walls=walls, ties=fields.ties)
 
 

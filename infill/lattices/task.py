@@ -91,9 +91,9 @@ class FillTask:
             if region.wall is not None
         )
 
-    def reach(self, space: Interior) -> Interior:
+    def space_for_voids(self, space: Interior) -> Interior:
         """Return the space that voids may take: through the skin where a slicer makes the shell, or there is none."""
-        return space.unwalled if self.request.reaches_skin else space
+        return space.through_walls if self.request.reaches_skin else space
 
     def draw(self, layout: Layout, known: Fields | None = None) -> Fields:
         """Draw the pattern; what suits of an earlier drawing is used again."""

@@ -109,7 +109,7 @@ class VoidMeshes:
     def open(self) -> int:
         """Number of voids that reach out of an open side of the part."""
         opening = self.space.opening
-        return 0 if opening is None else sum(int(opening.opened(surface).sum()) for surface in self.surfaces)
+        return 0 if opening is None else sum(int(opening.reaches_out(surface).sum()) for surface in self.surfaces)
 
     @property
     def triangles(self) -> int:
@@ -129,7 +129,7 @@ class VoidMeshes:
         return self.loose + sum(shared_volume(surface, self.walls) for surface in self.surfaces)
 
     @cached_property
-    def median(self) -> tuple[float | None, int]:
+    def median_width(self) -> tuple[float | None, int]:
         """Median width of walls, or thickness of bars, away from the part's walls, mm; and the number of points."""
         if not self.surfaces:
             return None, 0

@@ -189,6 +189,7 @@ def period_table(pattern: Surfaces | Network) -> NDArray[np.float32]:
 
 @cache
 def _bin_bars(pattern: Bars) -> BinnedEdges:
+    """Return the bars of a pattern, sorted for the search of the nearest; cached."""
     return pattern.around_cell()
 
 

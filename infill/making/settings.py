@@ -59,6 +59,7 @@ def parse_size(name: str, size: object) -> tuple[float, ...]:
 
 
 def _as_float(number: object) -> float | None:
+    """Convert a value to a float; return None if it is not a number."""
     try:
         return float(number)  # type: ignore[arg-type]
     except (TypeError, ValueError, OverflowError):

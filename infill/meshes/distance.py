@@ -97,7 +97,7 @@ class TriangleTree:
         )
         return np.sqrt(squared), self.order[triangle]
 
-    def least(
+    def least_distance(
         self, points: NDArray[np.floating], limit: float = np.inf, *, threads: int | None = None
     ) -> tuple[float, int]:
         """Return the least distance of points (N, 3) from the triangles, mm, and the index of the nearest point.

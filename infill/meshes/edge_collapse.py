@@ -124,15 +124,15 @@ class CornerTable:
         add_planes(self.vertices, self.start, quadric)
         if near is None and triangles <= FEW_TRIANGLES and math.isfinite(bound):
             table, quadric = _collapse_within_patches(table, quadric, bound, order, threads, progress)
-        points, corner = (np.empty((0, 3)), np.empty(0, dtype=np.int32)) if near is None else table.watched(near)
+        points, corner = (np.empty((0, 3)), np.empty(0, dtype=np.int32)) if near is None else table.watched_points(near)
         vertices, start, twin = table.vertices.copy(), table.start.copy(), table.twin.copy()
         collapsed_into = np.arange(len(vertices), dtype=np.int32)
         mesh = vertices, start, twin, table.leaving.copy(), table.name, table.fixed, quadric, points, corner
         reach = 0.0 if near is None else near**2
         run_interruptibly(partial(collapse, *mesh, reach, float(bound), triangles, collapsed_into))
-        return table.left(vertices, start, twin, collapsed_into)[0]
+        return table.compact(vertices, start, twin, collapsed_into)[0]
 
-    def left(
+    def compact(
         self, vertices: Floats, start: Corners, twin: Corners, targets: Corners
     ) -> tuple[CornerTable, NDArray[np.bool_]]:
         """Drop the faces and vertices that are gone; return the table, and a mask of the vertices that stay.
@@ -166,7 +166,7 @@ class CornerTable:
         )
         return fewer, used_vertices
 
-    def unfolded(self, original: CornerTable, restored: NDArray[np.bool_]) -> CornerTable | None:
+    def restore(self, original: CornerTable, restored: NDArray[np.bool_]) -> CornerTable | None:
         """Restore some vertices (V,) and the faces around them; return None if the table would no longer be closed."""
         from infill.kernels.corners import pair_edges, split_fans
 
@@ -195,7 +195,7 @@ class CornerTable:
             into=into,
         )
 
-    def placed_in(self, surface: Surface) -> Surface:
+    def to_surface(self, surface: Surface) -> Surface:
         """Return the surface of the table, with the frame and number type of the surface that it came from."""
         vertex_names, faces = np.unique(self.name[self.start], return_inverse=True)
         vertices = np.empty((len(vertex_names), 3))
@@ -206,7 +206,7 @@ class CornerTable:
             faces=faces.reshape(-1, 3).astype(np.asarray(surface.faces).dtype),
         )
 
-    def watched(self, tolerance: float) -> tuple[Floats, Corners]:
+    def watched_points(self, tolerance: float) -> tuple[Floats, Corners]:
         """Return the points that have to stay near, vertices first, and the corner or edge on which each lies."""
         from infill.kernels.nearness import edge_points
 
@@ -264,7 +264,8 @@ def _collapse_within_patches(
         )
     done, lock = 0, Lock()
 
-    def work(task: Callable[[], None]) -> None:
+    def run_and_report(task: Callable[[], None]) -> None:
+        """Run a task, and report the progress."""
         nonlocal done
         task()
         with lock:
@@ -272,8 +273,8 @@ def _collapse_within_patches(
             if progress is not None:
                 progress(done / len(tasks))
 
-    run_together(*(partial(work, task) for task in tasks), threads=thread_count(threads))
-    fewer, used = table.left(vertices, start, twin, collapsed_into)
+    run_together(*(partial(run_and_report, task) for task in tasks), threads=thread_count(threads))
+    fewer, used = table.compact(vertices, start, twin, collapsed_into)
     return fewer, quadric[used]
 
 
@@ -366,7 +367,7 @@ def collapse_edges(
     if table is None:
         return None
     if tolerance is None:
-        return table.without_edges(math.inf, triangles).placed_in(surface)
+        return table.without_edges(math.inf, triangles).to_surface(surface)
     tolerance *= SAMPLED_SHARE
     tell = progress or (lambda _: None)
     tree, aim, samples, fewer = TriangleTree.of(surface), triangles, None, table
@@ -382,7 +383,7 @@ def collapse_edges(
             )
             fewer = fewer.without_edges(tolerance**2, aim, near=tolerance)
         tell(1 - 0.5 ** (attempt + 1))
-        candidate = fewer.placed_in(surface)
+        candidate = fewer.to_surface(surface)
         places, excess = crossing_corners(candidate, threads), 0
         if not len(places) or attempt == ATTEMPTS - 1:  # the slowest check comes last
             candidate, places, samples = project_back(
@@ -403,5 +404,5 @@ def collapse_edges(
         table = replace(table, fixed=table.fixed | blocked)
         restored = np.zeros(len(fewer.vertices), dtype=bool)
         restored[fewer.into[blocked]] = True
-        fewer = fewer.unfolded(table, restored) or table
+        fewer = fewer.restore(table, restored) or table
     return surface if len(places) else candidate

@@ -12,7 +12,7 @@ from infill.kernels.threads import in_threads, thread_count
 from infill.meshes.distance import LEAF, TriangleTree
 from infill.surface import Surface
 
-SURE_EDGES = 3.0  # times as far apart are samples on the edges between level faces
+SURE_EDGES = 3.0  # times as far apart are samples on the edges between aligned faces
 FINER, WIDE = 0.2, 2.0  # sides of the original's triangles, and tolerances: spacing of samples on edges
 # In sides of the original's triangles: largest spacing of samples on the original, and on the result, whose triangles
 # are larger; closer if the tolerance is a large part of a side.
@@ -20,7 +20,7 @@ GIVEN, FOUND, LARGE = 0.3, (0.7, 0.35), 0.3
 FOLDS = 2.0  # sides of the original's triangles: pieces up to this length lie on few triangles of the result
 # Of the tolerance: distances that do not matter, and the smallest spacing of samples.
 SURE, SMALL = 0.6, 0.5
-CLEAR = 2.5  # tolerances around a face, within which only faces level with it may lie
+CLEAR = 2.5  # tolerances around a face, within which only faces aligned with it may lie
 ROOM = 1 << 18  # samples that the arrays hold at a time
 
 
@@ -47,7 +47,7 @@ class HausdorffSamples:
     away: Floats
     unsure: Integers
 
-    def again(self, result: Surface, tolerance: float, threads: int | None) -> HausdorffSamples:
+    def remeasure(self, result: Surface, tolerance: float, threads: int | None) -> HausdorffSamples:
         """Measure the samples near changed faces of `result` once more; return all samples."""
         changed = np.zeros(len(result.faces), dtype=bool)
         changed[self.unsure] = True
@@ -62,7 +62,7 @@ class HausdorffSamples:
             away[stale], owner[stale] = TriangleTree.of(result).nearest(self.points[stale], threads=threads)
         return replace(self, found=result, owner=owner, away=away)
 
-    def handed_to(
+    def transfer_to(
         self, result: Surface, original: Surface, side: float, tolerance: float, threads: int | None = None
     ) -> HausdorffSamples:
         """Move the samples to another surface that shares many faces; measure those near the other faces once more."""
@@ -192,7 +192,7 @@ def sample_between_vertices(
     folds : float, mm
         Length up to which a piece of a face is not sampled where the other surface folds little below it.
     own : TriangleTree, optional
-        Of all faces of this surface, if pieces of faces that are level as in `level_faces` need no samples.
+        Of all faces of this surface, if pieces of faces that are aligned as in `aligned_faces` need no samples.
     all_places : bool
         Whether to return samples within the tolerance as well.
     threads : int, optional
@@ -239,7 +239,7 @@ def _sample_arrays(threads: int, capacity: int) -> tuple[Floats, NDArray[np.int3
     return np.empty((*shape, 3)), np.empty(shape, dtype=np.int32), np.empty(shape, dtype=np.int64), np.empty(shape)
 
 
-def level_faces(
+def aligned_faces(
     surface: Surface,
     tolerance: float,
     *,
@@ -266,23 +266,23 @@ def level_faces(
 
     >>> roof = np.array([[0.0, 0, 0], [4, 0, 0], [0, 4, 0], [4, 4, 0], [4, 0, 4], [4, 4, 4]])
     >>> faces = np.array([[0, 1, 2], [1, 3, 2], [1, 4, 3], [4, 5, 3]])
-    >>> level_faces(Surface(vertices=roof, faces=faces), 0.1).tolist()
+    >>> aligned_faces(Surface(vertices=roof, faces=faces), 0.1).tolist()
     [False, False, False, False]
-    >>> level_faces(Surface(vertices=roof * [1, 1, 0.1], faces=faces), 0.1)[:2].tolist()
+    >>> aligned_faces(Surface(vertices=roof * [1, 1, 0.1], faces=faces), 0.1)[:2].tolist()
     [False, False]
-    >>> level_faces(Surface(vertices=roof, faces=faces[:2]), 0.1).tolist()
+    >>> aligned_faces(Surface(vertices=roof, faces=faces[:2]), 0.1).tolist()
     [True, True]
     """
-    from infill.kernels.covering import mark_level_faces
+    from infill.kernels.covering import mark_aligned_faces
 
     tree = tree or TriangleTree.of(surface)
     place = np.empty(len(tree.order), dtype=np.int64)
     place[tree.order] = np.arange(len(tree.order))
     chosen = place if faces is None else place[faces]
-    level = np.empty(len(chosen), dtype=bool)
+    aligned = np.empty(len(chosen), dtype=bool)
     arguments = tree.corners, tree.normals(), tree.low, tree.high, LEAF, CLEAR * tolerance
-    in_threads(mark_level_faces, *arguments, chosen, level, threads=thread_count(threads))
-    return level
+    in_threads(mark_aligned_faces, *arguments, chosen, aligned, threads=thread_count(threads))
+    return aligned
 
 
 def find_strays(

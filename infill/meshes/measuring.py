@@ -25,7 +25,7 @@ def measure_surface(surface: Surface, *, threads: int | None = None) -> Surface:
     """
     volume, area = volume_and_area(surface, threads=threads)
     closed = surface.closed if surface.knows_closed else _is_closed(surface, thread_count(threads))
-    return surface.knowing(closed=closed, volume=volume, area=area)
+    return surface.with_measures(closed=closed, volume=volume, area=area)
 
 
 def volume_and_area(surface: Surface, *, threads: int | None = None) -> tuple[float, float]:
@@ -66,14 +66,14 @@ def face_areas(surface: Surface) -> NDArray[np.float64]:
 
 def _is_closed(surface: Surface, threads: int) -> bool:
     """Tell whether every edge has two faces that run along it in opposite directions."""
-    from infill.kernels.measures import begin_edges, match_sides
+    from infill.kernels.measures import find_edge_starts, match_sides
 
     faces, count = faces_for_kernels(surface), len(surface.vertices)
     if not len(faces):
         return False
     index_type = np.int32 if count < MOST_INT32_VERTICES else np.int64
     edge_start = np.zeros(count + 1, dtype=index_type)
-    if not begin_edges(faces, edge_start):
+    if not find_edge_starts(faces, edge_start):
         return False
     higher = np.full(int(edge_start[-1]), -1, dtype=index_type)
     return all(in_threads(match_sides, faces, edge_start, higher, threads=threads))

@@ -90,6 +90,7 @@ def _turn_shared_diagonals(
     turned: set[int] = set()  # diagonals of the fans turned so far
 
     def is_free(pairs: Integers, polygon: int) -> bool:
+        """Tell whether pairs that a polygon would have as diagonals are neither edges nor diagonals of others."""
         low, high = np.searchsorted(edges, pairs), np.searchsorted(edges, pairs, side="right")
         own_diagonals = diagonals[diagonal_start[polygon] : diagonal_start[polygon] + inner[polygon]]
         used = np.searchsorted(uses, pairs, side="right") - np.searchsorted(uses, pairs) - np.isin(pairs, own_diagonals)

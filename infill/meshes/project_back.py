@@ -8,7 +8,7 @@ import numpy as np
 
 from infill.arrays import Floats, Integers
 from infill.meshes.distance import TriangleTree, barycentric, nearest_on_triangles
-from infill.meshes.hausdorff_samples import HausdorffSamples, find_strays, level_faces, sample_original
+from infill.meshes.hausdorff_samples import HausdorffSamples, aligned_faces, find_strays, sample_original
 from infill.meshes.intersections import intersecting_pairs
 from infill.surface import Surface
 
@@ -58,17 +58,17 @@ def project_back(
     if known is None:
         samples = sample_original(TriangleTree.of(candidate), candidate, original, side, tolerance, threads=threads)
     else:
-        samples = known.handed_to(candidate, original, side, tolerance, threads)
+        samples = known.transfer_to(candidate, original, side, tolerance, threads)
     bent_vertices = np.empty(0, dtype=np.int64)
-    assumed_near = np.zeros(len(candidate.faces), dtype=bool)  # faces with everything around them level
+    assumed_near = np.zeros(len(candidate.faces), dtype=bool)  # faces with all faces around them aligned
     for n in range(ROUNDS):
         if n > 0:
-            samples = samples.again(candidate, tolerance, threads)
+            samples = samples.remeasure(candidate, tolerance, threads)
         changed, owner, points = samples.unsure, samples.owner, samples.points
         missed = np.flatnonzero(samples.away > tolerance)
         assumed_near = np.concatenate([assumed_near, np.zeros(len(candidate.faces) - len(assumed_near), dtype=bool)])
         own = TriangleTree.of(candidate)
-        assumed_near[changed] = level_faces(candidate, tolerance, faces=changed, tree=own, threads=threads)
+        assumed_near[changed] = aligned_faces(candidate, tolerance, faces=changed, tree=own, threads=threads)
         strays = find_strays(
             tree, candidate, changed, side, tolerance, sure=assumed_near[changed], own=own, threads=threads
         )
@@ -86,9 +86,9 @@ def project_back(
                 continue
             if n == 0:
                 return candidate, np.empty((0, 3)), samples
-            beside = np.isin(candidate.faces, bent_vertices).any(axis=1)  # pieces of them were level before
+            beside = np.isin(candidate.faces, bent_vertices).any(axis=1)  # pieces of them were aligned before
             bent = np.flatnonzero(assumed_near | beside)
-            bent = bent[~level_faces(candidate, tolerance, faces=bent, tree=own, threads=threads)]
+            bent = bent[~aligned_faces(candidate, tolerance, faces=bent, tree=own, threads=threads)]
             assumed_near[bent] = False
             strays = find_strays(tree, candidate, bent, side, tolerance, own=own, threads=threads)
             if not len(strays.points):

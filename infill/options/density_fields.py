@@ -114,6 +114,7 @@ class ScatteredField:
 
     @cached_property
     def _tree(self) -> cKDTree:
+        """Search tree of the points."""
         from scipy.spatial import cKDTree
 
         return cKDTree(self.points)
@@ -242,6 +243,7 @@ def resolve_field(by: object, *, roofs: bool = False) -> tuple[Field, str]:
 
 
 def _field_of_array(values: NDArray[Any], name: str) -> Field:
+    """Return the field of an array: a box of values (nx, ny, nz), or rows of x, y, z and a value."""
     values = np.asarray(values, dtype=np.float64)
     if not values.size or not np.isfinite(values).all():
         raise FormatError.about("by", f"is {name}, which holds nothing, or numbers that are not finite; check it")

@@ -141,7 +141,8 @@ def smooth_fields(
     count = thread_count(threads)
     lattice = tuple(math.ceil((cells + 2) / size) for cells, size in zip(numbers.shape, BRICK, strict=True))
 
-    def one(label: int) -> tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.float32]]:
+    def smooth_one(label: int) -> tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.float32]]:
+        """Smooth a label; return the bricks that it reaches, the slot of each, and the values of the kept ones."""
         low, high = _reached_box(boxes[label], numbers.shape, reach)
         mask = numbers[tuple(map(slice, low, high))] == label
         field = smooth(mask, 1 if mask.size < SMALL else count)
@@ -159,7 +160,7 @@ def smooth_fields(
 
     places, labels, slots, start = [], [], [], 0
     values = np.empty((0, CELLS), dtype=np.float32)
-    for label, (brick, slot, cells) in in_order(one, range(len(boxes)), threads=count):
+    for label, (brick, slot, cells) in in_order(smooth_one, range(len(boxes)), threads=count):
         places.append(brick)
         labels.append(np.full(len(brick), label, dtype=np.int32))
         slots.append(np.where(slot == INSIDE, slot, slot + start).astype(np.int32))

@@ -56,8 +56,8 @@ def simplify_partition(
     free = original
     for attempt in range(ATTEMPTS):
         leeway = tolerance * LESS**attempt
-        fewer = free.collapsed((BLIND_SHARE * leeway) ** 2, None, count)
-        fewer = fewer.collapsed((SAMPLED_SHARE * leeway) ** 2, SAMPLED_SHARE * leeway, count)
+        fewer = free.collapse((BLIND_SHARE * leeway) ** 2, None, count)
+        fewer = fewer.collapse((SAMPLED_SHARE * leeway) ** 2, SAMPLED_SHARE * leeway, count)
         graph, walls = fewer.as_walls(partition.graph, scale)
         walls = restore_volumes(graph, walls, targets, scale=scale, threads=count)
         fewer = replace(fewer, points=walls.points.astype(np.float64) * np.array(scale))
@@ -69,7 +69,7 @@ def simplify_partition(
             return replace(partition, graph=graph, walls=walls, crossings=len(crossing))
         places = np.concatenate([far, fewer.points[fewer.triangles[np.unique(crossing)]].reshape(-1, 3)])
         if len(places):
-            free = free.fixed_near(places, NEAR_SIDES * float(np.mean(scale)))
+            free = free.fix_near(places, NEAR_SIDES * float(np.mean(scale)))
     return partition
 
 
@@ -138,7 +138,7 @@ def find_far(
         corners = spread(corners, other.pair[:, None])
         faces = np.arange(3 * len(corners)).reshape(-1, 3)
         tree = TriangleTree.of(Surface(vertices=corners.reshape(-1, 3), faces=faces), order=order)
-        places, pair = mesh.sampled(SIDES_APART * float(np.mean(scale)))
+        places, pair = mesh.sample(SIDES_APART * float(np.mean(scale)))
         order, is_far = _order_by_wall(places, pair), np.empty(len(places), dtype=bool)
         distance = tree.nearest(spread(places[order], pair[order]), enough=SURE * tolerance, threads=threads)[0]
         is_far[order] = distance > SURE * tolerance

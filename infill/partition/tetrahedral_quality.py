@@ -161,11 +161,12 @@ def _move_points(points: Floats, star: NDArray[np.int64], owner: NDArray[np.int6
     middle = np.add.reduceat(ring.mean(axis=1), starts, axis=0) / counts[:, None]
     fixed = _edge_squares(ring)
 
-    def rate(candidate: Floats) -> Floats:
+    def rate_shapes(candidate: Floats) -> Floats:
+        """Return the mean ratios of the tetrahedra around points moved to candidates."""
         ratios = _ratios_from(np.repeat(candidate, counts, axis=0), ring, fixed)
         return np.asarray(ratios)
 
-    ratios = rate(centre)
+    ratios = rate_shapes(centre)
     best = np.minimum.reduceat(ratios, starts)
     # The first tetrahedron around each point that is as bad as its worst.
     worst = np.flatnonzero(ratios == np.repeat(best, counts))
@@ -177,7 +178,7 @@ def _move_points(points: Floats, star: NDArray[np.int64], owner: NDArray[np.int6
     candidates = [centre + share * (middle - centre) for share in TOWARDS_MIDDLE]
     candidates += [centre + step * normal for step in AWAY]
     for candidate in candidates:
-        rated = np.minimum.reduceat(rate(candidate), starts)
+        rated = np.minimum.reduceat(rate_shapes(candidate), starts)
         better = rated > best + GAIN
         place[better], best[better] = candidate[better], rated[better]
     points[owner[starts]] = place

@@ -112,7 +112,7 @@ class _Search:
     threads: int | None
     tell_round: Callable[[], None]
 
-    def share(self, offsets: NDArray[np.float64]) -> _Round:
+    def measure_shares(self, offsets: NDArray[np.float64]) -> _Round:
         """Measure volumes by shares of cells, which is fast and needs no walls."""
         # Wide enough that every wall has cells on its ramp, whatever its direction.
         ramp = self.slope * max(self.scale)
@@ -137,7 +137,7 @@ class _Search:
         walls = place_walls(graph, self.fields, offsets, shifts=shifts, scale=self.scale, threads=self.threads)
         return graph, walls
 
-    def measure(
+    def measure_in_walls(
         self, offsets: NDArray[np.float64], *, held: WallGraph | None = None, shifts: Shifts | None = None
     ) -> _Round:
         """Measure the volumes within walls; see `extract`."""
@@ -154,7 +154,7 @@ class _Search:
         enough: float,
         jumps: bool = False,
     ) -> tuple[NDArray[np.float64], tuple[WallGraph, Walls] | None]:
-        """Return the best offsets found by Newton's method, and their walls, unless others came after them.
+        """Find offsets by Newton's method; return the best and their walls, or None if later ones replaced them.
 
         Parameters
         ----------
@@ -240,14 +240,16 @@ def keep_volumes(
         threads=threads,
         tell_round=tell_round,
     )
-    offsets, _ = search.run(search.share, first_offsets(fields, threads=threads), rounds=SHARING_ROUNDS, enough=ROUGH)
-    offsets, traced = search.run(search.measure, offsets, rounds=FREE_ROUNDS, enough=NEAR, jumps=True)
+    offsets, _ = search.run(
+        search.measure_shares, first_offsets(fields, threads=threads), rounds=SHARING_ROUNDS, enough=ROUGH
+    )
+    offsets, traced = search.run(search.measure_in_walls, offsets, rounds=FREE_ROUNDS, enough=NEAR, jumps=True)
     graph, walls = traced or search.extract(offsets)
     del traced
     shifts, crossings = smooth_junctions(graph, walls, threads=threads), 0
     for _ in range(SMOOTHING_ROUNDS):
         del walls
-        measure = partial(search.measure, held=graph, shifts=shifts)
+        measure = partial(search.measure_in_walls, held=graph, shifts=shifts)
         offsets, placed = search.run(measure, offsets, rounds=HELD_ROUNDS, enough=PRECISION)
         _, walls = placed or search.extract(offsets, held=graph, shifts=shifts)
         del placed

@@ -101,7 +101,7 @@ class WallMesh:
             box=box,
         )
 
-    def collapsed(self, bound: float, tolerance: float | None, threads: int) -> WallMesh:
+    def collapse(self, bound: float, tolerance: float | None, threads: int) -> WallMesh:
         """Collapse edges; return the smaller mesh.
 
         Parameters
@@ -134,7 +134,7 @@ class WallMesh:
                 number += 1
                 if removed.sum() < LEAST_SWEPT * len(members) and number % WAYS == 0:
                     break
-        return self._left(points, triangles, flags, quadric)
+        return self._compact(points, triangles, flags, quadric)
 
     def _cut_slabs(
         self, points: NDArray[np.float64], into: NDArray[np.int32], number: int
@@ -195,7 +195,7 @@ class WallMesh:
         at, to = self.points[starts[owner]], self.points[ends[owner]]
         return at + share[:, None] * (to - at), starts[owner], face[owner]
 
-    def sampled(self, spacing: float) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    def sample(self, spacing: float) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
         """Return places (N, 3) spread over triangles, and the pair of each; of large meshes, a sample."""
         stride = 1 + len(self.triangles) // MOST_SAMPLED
         corners, pair = self.points[self.triangles[::stride]], self.pair[::stride]
@@ -218,21 +218,21 @@ class WallMesh:
         walls = Walls(points=points, triangles=triangles, sides=self.sides, volumes=np.empty(0))
         return replace(graph, triangles=triangles, sides=self.sides), walls
 
-    def fixed_near(self, places: NDArray[np.float64], reach: float) -> WallMesh:
+    def fix_near(self, places: NDArray[np.float64], reach: float) -> WallMesh:
         """Fix the points around some places (N, 3)."""
         from scipy.spatial import cKDTree
 
         is_near = np.isfinite(cKDTree(places).query(self.points, distance_upper_bound=reach)[0])
         return replace(self, order=np.where(is_near, np.int8(kernels.FIXED), self.order))
 
-    def _left(
+    def _compact(
         self,
         points: NDArray[np.float64],
         triangles: NDArray[np.int32],
         flags: NDArray[np.int8],
         quadric: NDArray[np.float64],
     ) -> WallMesh:
-        """Drop the triangles and points that are gone."""
+        """Return the mesh without dropped triangles, whose first corner is negative, and without unused points."""
         kept = triangles[:, 0] >= 0
         used = np.zeros(len(points), dtype=bool)
         used[triangles[kept]] = True

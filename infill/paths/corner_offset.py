@@ -187,7 +187,7 @@ def _off_walls(points: Floats, corner: Places, layer: Places, walls: BeadIndex, 
         ends = np.stack([points[corner], points[corner + step]], axis=1)
         samples = sample_paths(ends.reshape(-1, 2), np.arange(len(corner) + 1) * 2, LEG_STEP)
         length = np.hypot(*(ends[:, 1] - ends[:, 0]).T)[samples.path]
-        distance = walls.near(samples.points, layer[corner][samples.path], (BESIDE + ROOM) * line_width)
+        distance = walls.distances(samples.points, layer[corner][samples.path], (BESIDE + ROOM) * line_width)
         room = np.maximum(distance - BESIDE * line_width, 0.0) / 2
         hits = np.flatnonzero(np.isfinite(distance))
         remainder = (1 - samples.along / np.maximum(length, 1e-9))[hits]

@@ -135,6 +135,7 @@ def round_corners(
 
 
 def _take(value: float | Floats, index: Places) -> Floats | float:
+    """Return the values at indices, or the number itself if it is one for all."""
     return value[index] if isinstance(value, np.ndarray) else value
 
 

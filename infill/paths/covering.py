@@ -137,7 +137,8 @@ def solve_cell(
             f"{plain_size(area, digits=6, power=2)}; ask for a lower density"
         )
 
-    def ratio(cell: float) -> float:
+    def length_ratio(cell: float) -> float:
+        """Return the length of paths of a cell over the requested length."""
         length = 0.0
         for (region, z, layer), number in places.items():
             spec = PathSpec(cell=cell, line_width=line_width, z=z, layer=layer, radius=radius)
@@ -147,7 +148,7 @@ def solve_cell(
 
     trials: list[tuple[float, float]] = []
     for cell, share in _search_cells(
-        ratio, max(smallest, family.cell_for(target * smallest / area, line_width)), smallest
+        length_ratio, max(smallest, family.cell_for(target * smallest / area, line_width)), smallest
     ):
         trials.append((share, cell))
         if abs(share - 1) <= LENGTH_TOLERANCE:
@@ -212,6 +213,7 @@ def _draw_joined(
     ground: LayerBelow | None = None,
 ) -> list[Path]:
     """Draw the paths of a family in a region, in any order."""
+    family = family.at(spec.z)
     if isinstance(family, RegionFamily):
         return family.strands_inside(outline.region, spec)
     pieces = clip(family.strands(outline.region.bounds, spec), outline)

@@ -67,7 +67,7 @@ def join(
     link: dict[int, tuple[int, Path]] = {}
     for gap in np.flatnonzero(walked).tolist():
         begin, end, place = int(gaps.begin[gap]), int(gaps.end[gap]), float(gaps.place[gap])
-        wall = outline.between(int(gaps.ring[gap]), place, float(gaps.length[gap]))
+        wall = outline.corners_between(int(gaps.ring[gap]), place, float(gaps.length[gap]))
         link[begin], link[end] = (end, wall), (begin, wall[::-1])
     chains = _link_chains(len(pieces.paths), link)
     lengths = np.array([np.hypot(*np.diff(path, axis=0).T).sum() for path in pieces.paths])

@@ -57,7 +57,7 @@ class BeadIndex:
 
         return cKDTree(self.points, balanced_tree=False)  # built twice as fast
 
-    def near(self, points: Floats, layer: Places | int, distance: float) -> Floats:
+    def distances(self, points: Floats, layer: Places | int, distance: float) -> Floats:
         """Compute distances to the other beads of each point's layer, mm; infinite from `distance` on.
 
         Parameters
@@ -213,7 +213,7 @@ def deviation_beside_beads(
     deviation, line_width : float, mm
     """
     away_limit = min(deviation, AWAY_LIMIT * line_width)
-    new_distance = walls.near(
+    new_distance = walls.distances(
         points[corners] + _inward_direction(points, corners) * away_limit, layer, BESIDE * line_width
     )
     return np.where(new_distance < distance - TOWARDS_LIMIT, min(deviation, TOWARDS_LIMIT), away_limit)

@@ -72,6 +72,7 @@ class _RemainingPoints:
             count *= 4
 
     def _renew(self) -> None:
+        """Build the search tree of the remaining points again."""
         from scipy.spatial import cKDTree
 
         self._number = np.flatnonzero(self.left)

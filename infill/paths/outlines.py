@@ -88,7 +88,7 @@ class Outline:
         places = places % self.around[ring]
         return np.stack([np.interp(places, corner_places, points[:, axis]) for axis in (0, 1)], axis=-1)
 
-    def between(self, ring: int, begin: float, length: float) -> Path:
+    def corners_between(self, ring: int, begin: float, length: float) -> Path:
         """Return only the corners that a ring has within `length` mm after `begin`, without the ends: (N, 2), mm."""
         first_edge, count = int(self.first[ring]), int(self.first[ring + 1] - self.first[ring])
         corner_places, around = self.place[first_edge : first_edge + count], float(self.around[ring])
@@ -106,7 +106,7 @@ class Outline:
     def stretch(self, ring: int, begin: float, length: float) -> Path:
         """Return the ring from a place on, backwards if `length` is below 0: (N, 2), with both ends, mm."""
         begin_point, end_point = self.points_at(ring, np.array([begin, begin + length]))
-        corners = self.between(ring, begin, length) if length > 0 else self.between(ring, begin + length, -length)[::-1]
+        corners = self.corners_between(ring, begin + min(length, 0.0), abs(length))[:: 1 if length > 0 else -1]
         return np.concatenate([begin_point[None], corners, end_point[None]])
 
 

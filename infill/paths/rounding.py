@@ -180,7 +180,8 @@ def find_corners(
         Recut curves; otherwise all turns are corners.
     """
 
-    def machine(begins: Places) -> Machine:
+    def machine_of(begins: Places) -> Machine:
+        """Return the machine at the points of paths that begin at these places."""
         count = np.diff(begins)
         return Machine(
             acceleration=np.repeat(acceleration, count),
@@ -191,11 +192,11 @@ def find_corners(
         )
 
     layer_of = np.repeat(layer, np.diff(offsets))
-    distance = walls.near(points, layer_of, BESIDE * line_width)
+    distance = walls.distances(points, layer_of, BESIDE * line_width)
     hard = np.zeros(len(points), dtype=bool) if hard is None else hard
     bulge = np.where(np.isfinite(distance), TOWARDS_LIMIT, MOST_BULGE) if recut else np.zeros(len(points))
     bulge[hard] = 0.0
-    curves = recut_curves(points, offsets, machine(offsets), bulge)
+    curves = recut_curves(points, offsets, machine_of(offsets), bulge)
     inner = ~curves.curved
     inner[curves.first[:-1]] = inner[curves.first[1:] - 1] = False
     corners = np.flatnonzero(inner & ~hard[curves.source])
@@ -212,7 +213,7 @@ def find_corners(
     return PathCorners(
         curves=curves,
         old=len(points),
-        machine=machine(curves.first),
+        machine=machine_of(curves.first),
         inner=corners,
         beside=beside_walls,
         near=distance[curves.source[beside_walls]],

@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.arrays import Floats, Places
-from infill.paths.families.family import Bounds, Family, NominalStrand, Path, PathSpec
+from infill.paths.families.family import STRETCHED_TOUCH, Bounds, Family, NominalStrand, Path, PathSpec
 from infill.paths.plane_splines import PlaneMap, pattern_bounds
 from infill.ragged import concatenate_rows, split_rows
 
@@ -31,7 +31,6 @@ LONGEST_LEG = 0.5  # cells: longer legs of a line are divided before they are st
 MOST_BEND = 0.006  # mm between a stretched leg and its chord; legs that bend more are divided
 MOST_PIECES = 16  # of such a leg
 SADDLE_ROOM = 1.1  # times the distance of touching beads that lines of a surface keep, in cells of the smallest size
-STRETCHED_TOUCH = 0.98  # line widths between beads that touch: more than `TOUCH`, as stretching moves some by 2 %
 LEAST_SPACING = 0.98  # line widths between joins along walls and other lines; 0.95 after rounding
 MARGIN = 1.0  # cells around a box, in which lines are still drawn
 
@@ -91,18 +90,21 @@ class SteppedFamily(Family):
 
     Parameters
     ----------
-    families : sequence of StretchedFamily
-        From the lowest step to the highest.
+    family : Family
+        The one whose cells change.
+    families : sequence of Family
+        From the lowest step to the highest, with cells that change from place to place.
     tops, middles : sequence of float, mm
         Where each step ends, the last one at infinity, and the middle of its layers.
     """
 
-    families: Sequence[StretchedFamily]
+    family: Family
+    families: Sequence[Family]
     tops: Sequence[float]
     middles: Sequence[float]
     least_spacing: ClassVar[float] = LEAST_SPACING
 
-    def at(self, z: float) -> StretchedFamily:
+    def at(self, z: float) -> Family:
         """Return the family at a height, mm."""
         return self.families[int(np.searchsorted(self.tops, z))]
 
@@ -116,15 +118,15 @@ class SteppedFamily(Family):
 
     def cell_for(self, density: float, line_width: float) -> float:
         """Return the nominal cell of the families for a density."""
-        return self.families[0].cell_for(density, line_width)
+        return self.family.cell_for(density, line_width)
 
     def largest_radius(self, cell: float, line_width: float) -> float:
-        """Return the radius of the families at the nominal cell."""
-        return self.families[0].family.largest_radius(cell, line_width)
+        """Return the radius at the nominal cell."""
+        return self.family.largest_radius(cell, line_width)
 
 
 def step_family(
-    family: Family, families: Sequence[StretchedFamily], tops: Sequence[float], middles: Sequence[float]
+    family: Family, families: Sequence[Family], tops: Sequence[float], middles: Sequence[float]
 ) -> SteppedFamily:
     """Return a family whose cells follow another map in every step of height."""
     return SteppedFamily(
@@ -132,6 +134,7 @@ def step_family(
         summary=family.summary,
         prismatic=False,
         wide=family.wide,
+        family=family,
         families=tuple(families),
         tops=tuple(tops),
         middles=tuple(middles),

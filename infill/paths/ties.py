@@ -168,6 +168,7 @@ def _pieces_in_room(
 
 
 def _as_line(part: shapely.Geometry) -> shapely.LineString:
+    """Return the corners of a geometry as a line."""
     return shapely.linestrings(shapely.get_coordinates(part))
 
 

@@ -53,7 +53,9 @@ def touch_preserving_deviations(
 def _measure_touch(
     points: Floats, offsets: Places, layer: Places, walls: BeadIndex, reach: float
 ) -> tuple[Floats, Floats, Floats, Floats]:
-    """Measure how much of each leg lies within `reach` of walls, where, and the distance of walls from its beginning.
+    """Measure how much of each leg lies near walls, its distance from both ends, and that of walls from the start.
+
+    Near is within `reach`.
 
     Returns
     -------
@@ -73,7 +75,7 @@ def _measure_touch(
     leg_ends = np.append(points[1:], points[-1:], axis=0)
     leg_ends[offsets[1:] - 1] = points[offsets[1:] - 1]
     places = points[leg_of] + share[:, None] * (leg_ends - points)[leg_of]
-    distance = np.minimum(walls.near(places, layer[leg_of], SEEN), SEEN)
+    distance = np.minimum(walls.distances(places, layer[leg_of], SEEN), SEEN)
     # Each piece goes from its place to the next; the last place of a path has none.
     next_distance = np.append(distance[1:], SEEN)
     span = next_distance - distance

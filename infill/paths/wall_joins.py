@@ -114,7 +114,7 @@ def _end_of_straight(heading: Floats, leg: int, stop: int) -> int:
 
 def _legs_along(path: Floats, length: Floats, walls: BeadIndex, reach: float) -> Flags:
     """Tell for each leg of a path, (N - 1,), whether it runs along other beads: about as near to them at both ends."""
-    distance = walls.near(np.concatenate([path, (path[1:] + path[:-1]) / 2]), 0, reach)
+    distance = walls.distances(np.concatenate([path, (path[1:] + path[:-1]) / 2]), 0, reach)
     ends, middles = distance[: len(path)], distance[len(path) :]
     with np.errstate(invalid="ignore"):
         along: Flags = np.isfinite(middles) & (np.abs(ends[1:] - ends[:-1]) <= LEAST_SLOPE * length)

@@ -91,7 +91,10 @@ class Profile:
         return flat_phase.reshape(np.shape(distance))
 
     def distance(self, values: Field, *, out: Field | None = None, threads: int | None = None) -> Field:
-        """Return the distance for phi (...) float32, whose last three axes are bricks; `out` may be `values`."""
+        """Return distances for phi (...) float32, over the cut-off distance, in [-1, 1]; `out` may be `values`.
+
+        The last three axes are bricks.
+        """
         from infill.kernels import transfer
         from infill.kernels.sparse import CELLS
 

@@ -53,7 +53,7 @@ TINY_WEIGHT = 1e-6  # of a weight, added where no surface is near and the means 
 
 @dataclass(frozen=True, kw_only=True)
 class Gate:
-    """When to use the milder of two fields.
+    """Deviations between two fields at which the milder of them is used.
 
     Parameters
     ----------
@@ -100,7 +100,9 @@ class ExactDataLimits:
 
     @property
     def gate(self) -> Gate:
-        """Gate of the data: noise averages out in <r>, so that its limit grows less than that of <r²>.
+        """Deviations from the data at which data and filtered field have half the weight each.
+
+        Noise averages out in the mean, so that its limit grows less than that of the root mean square.
 
         Measured on boxes of 40 and 100 cells and on balls with noise of 0, 0.06, 0.15 and 0.3 cells: faces of boxes lie
         within 0.01 cells of their place, and 30 % of the noise remains.
@@ -226,7 +228,10 @@ def filter_bricks(
     threads: int | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> tuple[SparseField, SparseField, SparseField]:
-    """Return P_0, P_1 and P_2, which share all arrays except their values; for parameters, see `refine_bricks`."""
+    """Filter data mildly, more, and strongly: P_0, P_1 and P_2, which share all arrays except their values.
+
+    For parameters, see `refine_bricks`.
+    """
     threads = thread_count(threads)
     schedule = Schedule.of(smoothing.steps)
     numbers = step_coefficients(smoothing, spacing, f.ndim)
@@ -300,7 +305,7 @@ class _WeightedSum:
 def _extend_to_new_bricks(previous: Field, known_count: int, bricks: Bricks) -> Field:
     """Extend the last but one field to the new bricks, in which it equals the data."""
     if len(previous) < bricks.count:
-        larger = np.empty((bricks.room(LATER_GROWTH), CELLS), dtype=np.float32)
+        larger = np.empty((bricks.capacity(LATER_GROWTH), CELLS), dtype=np.float32)
         larger[:known_count] = previous[:known_count]
         previous = larger
     previous[known_count : bricks.count] = bricks.held[known_count : bricks.count]
@@ -335,7 +340,16 @@ def _gate_averages(
 ) -> NDArray[np.float32]:
     """Return <w>, <w r> and <w r²> of `blend_by_gate` on coarse cells; `phase` is the field at distance `above`."""
     sums = np.empty((len(bricks.values), kernels.SUMS, *(count // size for count in BRICK)), dtype=np.float32)
-    in_threads(kernels.collect, below, above, phase.reshape(-1, CELLS), np.float32(unit), size, sums, threads=threads)
+    in_threads(
+        kernels.average,
+        below,
+        above,
+        phase.reshape(-1, CELLS),
+        np.float32(unit),
+        size,
+        sums,
+        threads=threads,
+    )
     blurred = np.empty_like(sums)
     in_threads(kernels.blur, sums, bricks.slots, bricks.where, blurred, threads=threads)
     return blurred

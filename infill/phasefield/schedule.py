@@ -69,7 +69,7 @@ class Schedule:
         return max(max(weights) for weights in self.weights)
 
     def momentum(self, step: int) -> float:
-        """Return b of a step, counting from 0."""
+        """Return the share of the previous change that a step, counted from 0, goes on with: b."""
         return 0.0 if step < self.plain else MOMENTUM
 
 

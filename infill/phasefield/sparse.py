@@ -283,13 +283,13 @@ class Bricks:
         self.flat, self.next_flat = self.next_flat, self.flat
         self.rows, self.next_rows = self.next_rows, self.rows
 
-    def room(self, times: float) -> int:
+    def capacity(self, times: float) -> int:
         """Return the number of bricks to allocate: the present number times a factor, limited by the lattice."""
         return max(16, min(int(times * self.count), self.slots.size))
 
     def _grow(self, times: float) -> None:
         """Enlarge the arrays to the present number of bricks times a factor."""
-        room = self.room(times)
+        room = self.capacity(times)
         faces = ("faces", "next_faces", "flat", "next_flat", "rows", "next_rows")
         for name in ("phi", "held", *faces, "still", "beside", "where"):
             current = getattr(self, name)

@@ -97,7 +97,7 @@ class MarkedSurface:
         _, is_far_point, area = self.samples
         return float(area[is_far_point].sum())
 
-    def shown(self, view: tuple[float, float]) -> int:
+    def count_visible(self, view: tuple[float, float]) -> int:
         """Count the far points that are visible from one side, in pixels of a small picture."""
         points, is_far_point, _ = self.samples
         right, up, eye = directions(*view)
@@ -161,6 +161,7 @@ def _draw_marked(marked: MarkedSurface, view: tuple[float, float], window: Windo
     hits = 0
 
     def paint(points: Floats) -> NDArray[np.number]:
+        """Return the colour of points, that of the mark where they lie far away; count these."""
         nonlocal hits
         is_far_point = marked.is_far(points) if marked.area else np.zeros(len(points), dtype=bool)
         hits += int(is_far_point.sum())
@@ -207,7 +208,7 @@ def _choose_view(lost: MarkedSurface, added: MarkedSurface) -> tuple[float, floa
     for marked in (lost, added):
         if not marked.area:
             continue
-        counts = [marked.shown(view) for view in VIEWS]
+        counts = [marked.count_visible(view) for view in VIEWS]
         if any(counts):
             return VIEWS[int(np.argmax(np.array(counts) >= VIEW_SHARE * max(counts)))]
     return VIEWS[0]

@@ -117,6 +117,7 @@ def draw_close_up(
         surface = from_manifold(solid.trim_by_plane((-eye).tolist(), -depth))
 
     def paint_cut(points: Floats) -> NDArray[np.number]:
+        """Return the colour of points, another one on the cut."""
         is_cut = np.abs(points @ eye - depth) < CUT_TOLERANCE * place.half
         return np.where(is_cut[:, None], np.array(cut_colour), paint(points))
 
@@ -153,7 +154,7 @@ def insert_close_up(picture: Image.Image, close_up: Image.Image, factor: float, 
 
 
 def _find_empty_square(pixels: NDArray[np.uint8]) -> tuple[int, int] | None:
-    """Find the upper left corner of an empty square for a close-up, the nearest to a corner; None if there is none."""
+    """Find the upper left corner (x, y) of an empty square for a close-up, the nearest to a corner; or None."""
     taken = (pixels != pixels[0, 0]).any(axis=2)
     sums = np.pad(taken.astype(np.int64).cumsum(axis=0).cumsum(axis=1), ((1, 0), (1, 0)))
     inside = sums[SIDE:, SIDE:] - sums[:-SIDE, SIDE:] - sums[SIDE:, :-SIDE] + sums[:-SIDE, :-SIDE]

@@ -98,6 +98,7 @@ def _draw_half(surface: Surface, cut: Cut, side: int = PANEL) -> Image.Image:
     tolerance = PLANE_TOLERANCE * float(np.ptp(surface.bounds, axis=0).max())
 
     def paint(points: Floats) -> NDArray[np.number]:
+        """Return the colour of points, another one on the cut."""
         return np.where((np.abs(points[:, axis] - cut.at) < tolerance)[:, None], np.array(CUT), np.array(BEHIND))
 
     azimuth, elevation = VIEWS[axis]

@@ -52,6 +52,7 @@ def draw_layer_times(curves: Mapping[str, Sequence[float]]) -> Image.Image:
     origin = LEFT * scale, (size[1] - BOTTOM) * scale
 
     def place(layer: float, seconds: float) -> tuple[float, float]:
+        """Return the pixel (x, y) of the seconds of a layer."""
         return (
             origin[0] + (layer - 1) / (layers - 1) * WIDTH * scale,
             origin[1] - seconds / top * HEIGHT * scale,

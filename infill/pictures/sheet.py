@@ -58,7 +58,7 @@ def arrange_panels(panels: Mapping[str, Image.Image], facts: str, legend: Legend
 
 
 def spell_units(text: str) -> str:
-    """Spell the units whose signs the font of pictures lacks.
+    """Spell out units whose signs the font of pictures lacks: mm³ as cubic mm, µm as um.
 
     >>> spell_units("3 mm³ of 12 µm², 2 x 4 µm")
     '3 cubic mm of 12 square um, 2 x 4 um'

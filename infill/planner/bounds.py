@@ -95,6 +95,7 @@ def bound_moves(moves: Moves, limits: Sequence[Limits]) -> BoundedMoves:
     direction = delta / distance[:, None]
 
     def limit(name: str) -> Floats:
+        """Return a limit for every move."""
         return limit_values(limits, name, moves.setting)
 
     lowest = np.where(pushed == 0, limit("minimum_travel_feedrate"), limit("minimum_feedrate"))

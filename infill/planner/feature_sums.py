@@ -69,7 +69,7 @@ class FeatureSums:
         self.drew_back = bool(back[-1])
         seconds = plan.seconds + steps.pause
         retracts = begins_back + steps.retractions
-        self._lead(draws, feature, seconds, np.where(pushed > 0, 0.0, distance), retracts)
+        self._count_leading_moves(draws, feature, seconds, np.where(pushed > 0, 0.0, distance), retracts)
         if self.times_only:
             for name, values in (("seconds", seconds), ("retractions", steps.retractions)):
                 self._sum(name, feature[draws], values[draws])
@@ -128,7 +128,7 @@ class FeatureSums:
             self.lengths = np.pad(self.lengths, ((0, more), (0, 0)))
             self.flow = np.pad(self.flow, (0, more))
 
-    def _lead(
+    def _count_leading_moves(
         self,
         draws: NDArray[np.bool_],
         feature: NDArray[np.intp],

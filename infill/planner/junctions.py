@@ -29,6 +29,7 @@ def joint_limits(moves: Moves, bounds: BoundedMoves, limits: Sequence[Limits]) -
     """
 
     def limit(name: str) -> Floats:
+        """Return a limit for every move."""
         return limit_values(limits, name, moves.setting)
 
     inside, at_rest = _MODELS[limits[0].model]
@@ -59,7 +60,7 @@ def _half_turn_sin_cos(direction: Floats) -> tuple[Floats, Floats]:
 
 
 def _square_corner(bounds: BoundedMoves, limit: Limit) -> Floats:
-    """Klipper's rule.
+    """Return the square of the highest speed at each corner, mm²/s², by Klipper's square corner velocity.
 
     With s = cos(phi / 2), the circle that leaves the corner by the deviation J allows v² = a J s / (1 - s), where J
     gives the square corner velocity c at a right angle: a J = c² (sqrt(2) - 1). The circle must touch both moves
@@ -100,7 +101,9 @@ def _junction_deviation(bounds: BoundedMoves, limit: Limit) -> Floats:
 
 
 def _jerk(bounds: BoundedMoves, limit: Limit) -> Floats:
-    """Classic jerk: the velocity of no axis may jump by more than its jerk; a reversal counts its larger side.
+    """Return the square of the highest speed at each corner, mm²/s², by classic jerk.
+
+    The velocity of no axis may jump by more than its jerk; a reversal counts its larger side.
 
     The speed of the joint is the lower one of both moves, scaled down until every axis agrees; or that of a start
     from rest, if both moves allow it. Two things are asymmetric, in firmware of this model and in the estimates of
@@ -120,14 +123,17 @@ def _jerk(bounds: BoundedMoves, limit: Limit) -> Floats:
 
 
 def _rest_speed(bounds: BoundedMoves, limit: Limit) -> NDArray[np.float64]:
-    """Return the speed at which the machine may stop or start at once: the smallest jerk of all axes involved."""
+    """Return the speed with which moves begin and end at rest, mm/s: the smallest jerk of all axes involved."""
     jerk = limit("jerk")
     meets = np.abs(bounds.direction) * bounds.speed[:, None] > jerk
     return np.asarray(np.minimum(bounds.speed, np.where(meets, jerk, np.inf).min(axis=1)))
 
 
 def _vector_jerk(bounds: BoundedMoves, limit: Limit) -> Floats:
-    """Old classic jerk: x and y jump together, as a vector, and every move counts with its own speed."""
+    """Return the square of the highest speed at each corner, mm²/s², by old classic jerk: x and y jump as a vector.
+
+    Every move counts with its own speed.
+    """
     jump = np.abs(np.diff(bounds.direction * bounds.speed[:, None], axis=0))
     jump[:, 0] = np.hypot(jump[:, 0], jump[:, 1])
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -136,7 +142,7 @@ def _vector_jerk(bounds: BoundedMoves, limit: Limit) -> Floats:
 
 
 def _vector_rest_speed(bounds: BoundedMoves, limit: Limit) -> Floats:
-    """Return half the jerk of x and y, or less where half that of z or e is smaller."""
+    """Return the speed with which moves begin and end at rest, mm/s: half the jerk of x and y, or of z or e if less."""
     half = limit("jerk") / 2
     meets = np.abs(bounds.direction) * bounds.speed[:, None] > half
     meets[:, :2] = [True, False]

@@ -73,7 +73,7 @@ def layer_speeds(
     """
     batches_of_pieces = []
     stated = collect_given(**given)
-    with open_sliced(Path(path)) as file, open_timeline(file, file.part(plate), stated) as timeline:
+    with open_sliced(Path(path)) as file, open_timeline(file, file.part_of_plate(plate), stated) as timeline:
         for steps, plan in timeline:
             begin, end = np.searchsorted(steps.layer, (layer, layer + 1))  # layers only ever rise
             rows = slice(int(begin), int(end))
@@ -122,5 +122,5 @@ def _speed_at(plan: MotionPlan, distance: Floats, move: NDArray[np.intp], share:
 
 def middle_layer(path: str | os.PathLike[str], plate: int | None = None) -> int:
     """Return the number of the middle layer of a print, counted from 1; for an archive, of one plate."""
-    with open_sliced(Path(path)) as file, file.text(file.part(plate)) as sliced_text:
+    with open_sliced(Path(path)) as file, file.text(file.part_of_plate(plate)) as sliced_text:
         return max(1, sum(len(LAYER_TAG.findall(text)) for text in batches(sliced_text.text)) // 2)

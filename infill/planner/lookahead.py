@@ -189,7 +189,7 @@ def hump_slopes(eased: Floats, reach: Floats) -> tuple[NDArray[np.bool_], NDArra
 
 
 def hump_tops(eased: Floats, reach: Floats, cruise: Floats) -> Floats:
-    """Return the top of the hump of each move, (N,).
+    """Return the top of the hump that each move belongs to, a squared speed, (N,) mm²/s².
 
     Parameters
     ----------

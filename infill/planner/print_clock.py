@@ -191,6 +191,7 @@ class PrintClock:
         )
 
     def _count(self, steps: Steps, motion_plan: MotionPlan) -> None:
+        """Add planned moves to all sums."""
         if len(steps):
             self._sums.add(steps, motion_plan)
             self._elapsed.add(steps, motion_plan)

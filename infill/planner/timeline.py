@@ -227,7 +227,7 @@ class Timeline:
 
     def _apply_commands(self, table: GcodeTable) -> _Orders:
         """Apply the commands of a table; return their requests by line."""
-        setting = np.full(len(table), self._number(self.found.limits), dtype=np.intp)
+        setting = np.full(len(table), self._number_limits(self.found.limits), dtype=np.intp)
         stop, pause = np.zeros(len(table), dtype=bool), np.zeros(len(table))
         retractions = np.zeros(len(table), dtype=np.intp)
         speed, flow = np.full(len(table), self._speed), np.full(len(table), self._flow_of(table.before.tool))
@@ -237,12 +237,12 @@ class Timeline:
             code, line = command.code, command.line
             if code in LIMITING_CODES:
                 self.found = self.found.after(code, table.text(line, line + 1))
-                setting[line:] = self._number(self.found.limits)
+                setting[line:] = self._number_limits(self.found.limits)
             elif code in STOPS:
                 stop[line] = True
             if code in self.found.macros:
                 self.found = self.found.after_macro(code)
-                setting[line:] = self._number(self.found.limits)
+                setting[line:] = self._number_limits(self.found.limits)
             if (seconds := self.found.macro_seconds.get(code)) is not None:
                 self.macro_seconds[code] = self.macro_seconds.get(code, 0.0) + seconds
                 pause[line], stop[line] = seconds, True
@@ -301,7 +301,7 @@ class Timeline:
             text = table.text(line, line + 1)[:MAX_SHOWN_BYTES].decode("utf-8", "replace").strip()
         self.unread = UnreadLines(lines=self.unread.lines + len(unread), first=first_line, text=text)
 
-    def _number(self, limits: Limits) -> int:
+    def _number_limits(self, limits: Limits) -> int:
         """Return the number of these limits, which are remembered if they are new."""
         if limits not in self._limits:
             self._limits.append(limits)

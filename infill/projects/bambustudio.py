@@ -44,7 +44,8 @@ MATRIX = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"
 def write(project: Project, file: BinaryIO, *, application: str = BAMBU) -> None:
     """Write a project for Bambu Studio, or for another program that keeps the settings of files from an application."""
 
-    def model(stream: IO[bytes]) -> None:
+    def write_model(stream: IO[bytes]) -> None:
+        """Write the model: part and infill as components of one object."""
         metadata = {**project.metadata, "Application": application, "BambuStudio:3mfVersion": "1"}
         stream.write(model_head(metadata, {"BambuStudio": NAMESPACE}).encode())
         for number, surface in ((PART_ID, project.part), (INFILL_ID, project.infill)):
@@ -61,7 +62,7 @@ def write(project: Project, file: BinaryIO, *, application: str = BAMBU) -> None
     settings = Attachment(name=CONFIG, content=_settings_config(project).encode(), media="application/xml")
     version = application.rpartition("-")[2]
     info = Attachment(name=INFO, content=_info(version).encode(), media="application/xml")
-    write_package(file, model, [*project.attached, settings, info])
+    write_package(file, write_model, [*project.attached, settings, info])
 
 
 write_orcaslicer = partial(write, application=ORCA)

@@ -27,7 +27,8 @@ INFILL_SETTINGS = {
 def write(project: Project, file: BinaryIO) -> None:
     """Write a project for Cura."""
 
-    def model(stream: IO[bytes]) -> None:
+    def write_model(stream: IO[bytes]) -> None:
+        """Write the model: part and infill with their settings."""
         stream.write(model_head(project.metadata, {"cura": NAMESPACE}).encode())
         volumes = ((1, PART, project.part, PART_SETTINGS), (2, INFILL, project.infill, INFILL_SETTINGS))
         for number, name, surface, settings in volumes:
@@ -39,7 +40,7 @@ def write(project: Project, file: BinaryIO) -> None:
         stream.write(f'<object id="3" type="model" name={name}><components>{components}</components></object>'.encode())
         stream.write(model_end([3]).encode())
 
-    write_package(file, model, project.attached)
+    write_package(file, write_model, project.attached)
 
 
 def _group(settings: Mapping[str, str]) -> str:

@@ -11,7 +11,8 @@ from infill.projects.project import INFILL, PART, Project
 def write(project: Project, file: BinaryIO) -> None:
     """Write part and infill as two objects."""
 
-    def model(stream: IO[bytes]) -> None:
+    def write_model(stream: IO[bytes]) -> None:
+        """Write the model: part and infill as two objects."""
         stream.write(model_head(project.metadata).encode())
         for number, name, surface in ((1, PART, project.part), (2, INFILL, project.infill)):
             stream.write(f'<object id="{number}" type="model" name="{name}">'.encode())
@@ -19,4 +20,4 @@ def write(project: Project, file: BinaryIO) -> None:
             stream.write(b"</object>\n")
         stream.write(model_end([1, 2]).encode())
 
-    write_package(file, model, project.attached)
+    write_package(file, write_model, project.attached)

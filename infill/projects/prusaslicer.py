@@ -39,7 +39,8 @@ def write(project: Project, file: BinaryIO) -> None:
     """Write a project for PrusaSlicer."""
     part, infill = project.part, project.infill
 
-    def model(into: IO[bytes]) -> None:
+    def write_model(into: IO[bytes]) -> None:
+        """Write the model: part and infill as one mesh."""
         # Without its version, the slicer takes the file for another program's, and moves only the first volume.
         metadata = {**project.metadata, "slic3rpe:Version3mf": "1"}
         into.write(model_head(metadata, {"slic3rpe": NAMESPACE}).encode())
@@ -53,7 +54,7 @@ def write(project: Project, file: BinaryIO) -> None:
         into.write(model_end([1]).encode())
 
     config = Attachment(name=CONFIG, content=_volumes_config(project).encode(), media="application/xml")
-    write_package(file, model, [*project.attached, config])
+    write_package(file, write_model, [*project.attached, config])
 
 
 def _volumes_config(project: Project) -> str:

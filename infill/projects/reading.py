@@ -212,6 +212,7 @@ class Package:
         visits, triangles, deepest = before, 0, 0
 
         def visit(key: str, above: tuple[str, ...]) -> None:
+            """Follow an object, in those above it, to its meshes."""
             nonlocal visits, triangles, deepest
             visits += 1
             deepest = max(deepest, len(above))
@@ -263,7 +264,9 @@ def read_package(path: Path) -> Package:
         texts=texts,
         unit=model.root.get("unit", "millimeter"),
         extensions=tuple(required_extensions(model)),
-        metadata={excerpt(row.get("name", "")): excerpt(row.text or "") for row in model.below(model.root, "metadata")},
+        metadata={
+            excerpt(row.get("name", "")): excerpt(row.text or "") for row in model.descendants(model.root, "metadata")
+        },
         prefix=next((prefix for prefix, uri in model.spaces.items() if prefix and f"{{{uri}}}" == model.core), "")
         if "" not in model.spaces
         else "",
@@ -309,7 +312,7 @@ def _read_body(model: Model, element: ElementTree.Element, part: str, main: str,
         kind=excerpt(element.get("type", "")),
         mesh=mesh,
         components=tuple(
-            _key_of_reference(component, part, main) for component in model.below(element, "components/component")
+            _key_of_reference(component, part, main) for component in model.descendants(element, "components/component")
         ),
         settings={
             excerpt(key, 200): excerpt(value) for key, value in settings_of(element, model.core, model.spaces).items()

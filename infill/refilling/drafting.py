@@ -121,6 +121,7 @@ class Drafting:
             return stats
 
         def measure(text: BinaryIO) -> Floats:
+            """Measure seconds or filament of every layer of a text."""
             return measure_layers_of(make_timeline(sliced, text, found=clock.found), text, by)
 
         drawing = EvenDrawing(
@@ -164,6 +165,7 @@ class Drafting:
         bytes_read = shown = 0
 
         def refill_next(layers: Layers) -> tuple[NewInfill, RefillStats]:
+            """Refill the next layers, and count them."""
             infill = layers.infill
             acceleration = layers.acceleration(rules.acceleration)
             seconds = path_seconds(infill.points, infill.first, layers.speed, acceleration)

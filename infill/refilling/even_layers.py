@@ -48,11 +48,11 @@ class LayerShares:
     by: str
     shares: Mapping[int, float]
 
-    def slow(self, layer: int, feed: float) -> float:
+    def feed_rate(self, layer: int, feed: float) -> float:
         """Return the feed rate of the infill of a layer, mm/min."""
         return feed / self.shares.get(layer, 1.0) if self.by == TIME else feed
 
-    def widen(self, layer: int, rate: float, usual_rate: float) -> float:
+    def filament_rate(self, layer: int, rate: float, usual_rate: float) -> float:
         """Return the filament per mm of a layer, within the window around the slicer's."""
         if self.by != VOLUME:
             return rate
@@ -197,8 +197,10 @@ def _restore_sum(values: Floats, total: float, least: Floats, most: Floats) -> F
 
 
 def _spread(steps: list[float]) -> float:
+    """Return the standard deviation, 0 for no steps."""
     return float(np.std(steps)) if steps else 0.0
 
 
 def _median(steps: list[float]) -> float:
+    """Return the median size, 0 for no steps."""
     return float(np.median(np.abs(steps))) if steps else 0.0

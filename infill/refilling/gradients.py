@@ -12,15 +12,13 @@ import numpy as np
 
 from infill.arrays import Floats
 from infill.errors import GeometryError, ParameterError, UsageError
-from infill.interior.conformal_map import spline_slopes
+from infill.interior.conformal_map import spline_jacobians
 from infill.interior.plane_map import fit_plane_map
 from infill.options.density_fields import BoxedField, Field, ScatteredField, SimulatedField, describe_box, resolve_field
-from infill.paths.families.family import Bounds, Family, NominalStrand, PathSpec
+from infill.paths.families.family import STRETCHED_TOUCH, Bounds, Family, NominalStrand, PathSpec
+from infill.paths.families.nested import ConcentricPaths, GradedRings, RatioMap
 from infill.paths.plane_splines import PlaneMap, PlaneSpline, invert_map, pattern_bounds
 from infill.paths.stretching import (
-    STRETCHED_TOUCH,
-    SteppedFamily,
-    StretchedFamily,
     equal_normals,
     line_angles,
     scaled_length,
@@ -38,6 +36,7 @@ LOCAL_STEP = 0.05  # of density, that it changes by within the heights of a step
 MEAN_STEP = 1.14  # ratio of the highest and the lowest mean density of the layers of a step, which beads make up for
 MOST_STEPS = 64
 STEP_POINTS = 2000  # at which densities are compared, in each layer
+RATIO_NODES = 128  # along the longer side of the print, between which densities are interpolated for rings
 NODES = 64  # along the longer side of the print, where the field is evaluated
 PADDING = 0.25  # of that side, and cells: around the print, as far as its lines may reach in the plane of the pattern
 PADDED_CELLS = 3.0
@@ -107,6 +106,7 @@ def check_gradient(densities: Sequence[float], by: object) -> Gradient:
 
 
 def _percent(density: float) -> str:
+    """Format a density in per cent."""
     return f"{plain_argument(100 * density)}%"
 
 
@@ -250,18 +250,34 @@ def _greedy_ends(shares: Floats, means: Floats, local: float, ratio: float) -> l
     return [*ends, len(shares)]
 
 
-def stretch_to_density(family: Family, graded: GradedDensity, line_width: float) -> StretchedFamily | SteppedFamily:
+def stretch_to_density(family: Family, graded: GradedDensity, line_width: float) -> Family:
     """Return a family whose cells follow a graded density; its nominal cell is that of the middle density."""
-    cell = family.cell_for(graded.gradient.middle, line_width)
-    trial = _Trial.of(family, cell, line_width)
     steps = find_steps(graded)
     heights = np.array([layer.z for layer in graded.place.filled])
     of_steps = [heights[(heights > low) & (heights <= high)] for low, high in steps]
     middles = [float((within.min() + within.max()) / 2) for within in of_steps]
-    made = _stretch_at(trial, graded, middles)
-    rise = min(_rise(plane_map.slopes) for plane_map in made)
-    families = [stretch_family(family, plane_map, rise) for plane_map in made]
+    if isinstance(family, ConcentricPaths):
+        families: list[Family] = [GradedRings(ratios=ratios) for ratios in _ratios_at(graded, middles)]
+    else:
+        trial = _Trial.of(family, family.cell_for(graded.gradient.middle, line_width), line_width)
+        made = _stretch_at(trial, graded, middles)
+        rise = min(_rise(plane_map.slopes) for plane_map in made)
+        families = [stretch_family(family, plane_map, rise) for plane_map in made]
     return families[0] if len(families) == 1 else step_family(family, families, [high for _, high in steps], middles)
+
+
+def _ratios_at(graded: GradedDensity, heights: Sequence[float]) -> list[RatioMap]:
+    """Return the ratios of the densities at some heights, mm, to the middle one."""
+    low, high = graded.place.bounds[:, :2]
+    step = float((high - low).max()) / RATIO_NODES
+    axes = [np.arange(start, end + step, step) for start, end in zip(low, high, strict=True)]
+    nodes = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
+    inside = np.clip(nodes.reshape(-1, 2), low, high)
+    shares = [graded.shares(np.column_stack([inside, np.full(len(inside), height)])) for height in heights]
+    return [
+        RatioMap(corner=low, step=step, values=share.reshape(nodes.shape[:2]) / graded.gradient.middle)
+        for share in shares
+    ]
 
 
 def _stretch_at(trial: _Trial, graded: GradedDensity, heights: Sequence[float]) -> list[PlaneMap]:
@@ -279,7 +295,7 @@ def _stretch_at(trial: _Trial, graded: GradedDensity, heights: Sequence[float]) 
         shares = graded.shares(np.column_stack([inside, np.full(len(inside), height)])).reshape(nodes.shape[:2])
         coordinates, _ = fit_plane_map(trial.scales_of(shares, graded.gradient.middle), trial.normals)
         splines.append(PlaneSpline(corner=corner, step=step, coefficients=corner + step * coordinates))
-        slopes.append(spline_slopes(coordinates))
+        slopes.append(spline_jacobians(coordinates))
     bounds = float(low[0]), float(low[1]), float(high[0]), float(high[1])
     return [
         invert_map(spline, slope, pattern_bounds(spline, bounds), padding)
@@ -288,6 +304,7 @@ def _stretch_at(trial: _Trial, graded: GradedDensity, heights: Sequence[float]) 
 
 
 def _rise(slopes: Floats) -> float:
+    """Return the least scale of a map, from its Jacobians (..., 2, 2): the root of the least determinant."""
     return float(np.sqrt(np.linalg.det(slopes).min()))
 
 
@@ -337,5 +354,6 @@ class _Trial:
 
 
 def _square(cell: float) -> Bounds:
+    """Return the box of a trial about (0, 0), mm."""
     half = TRIAL_CELLS * cell / 2
     return -half, -half, half, half

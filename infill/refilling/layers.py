@@ -73,15 +73,15 @@ class Layers:
         return map(self.of, np.unique(self.layer).tolist())
 
     @cached_property
-    def resting(self) -> list[Layer]:
+    def upper(self) -> list[Layer]:
         """Layers with infill, without the lowest unless it is the only one: the layer below it is unknown."""
         lowest, layers = int(self.marks.layer.min()), list(self)
         return [layer for layer in layers if layer.number > lowest] or layers[-1:]
 
     @cached_property
     def typical(self) -> list[Layer]:
-        """Resting layers that stand for the others: a single one is enough if it holds much infill."""
-        return self.resting[-1:] if self.resting and self.resting[-1].length > ENOUGH_INFILL else self.resting
+        """The `upper` layers, or the last of them alone if it has much infill, to stand for all."""
+        return self.upper[-1:] if self.upper and self.upper[-1].length > ENOUGH_INFILL else self.upper
 
     @cached_property
     def layer(self) -> Places:
@@ -232,6 +232,7 @@ class Layer:
 
     @cached_property
     def _beads(self) -> slice:
+        """Rows of its other beads among those of all layers."""
         return slice(*np.searchsorted(self.layers.bead_layer, [self.number, self.number + 1]))
 
     @cached_property

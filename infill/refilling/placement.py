@@ -42,7 +42,7 @@ class PatternParameters:
 
     of_family: ClassVar[tuple[str, ...]] = ()  # names of those that the family has too
 
-    def placed(self, family: Family) -> Family:
+    def apply_to(self, family: Family) -> Family:
         """Return a family with these parameters."""
         return replace(family, **{name: getattr(self, name) for name in self.of_family})
 
@@ -63,11 +63,11 @@ class PlacedParameters(SizedParameters):
     angle: float = angle_parameter()
     phase: tuple[float, float] = phase_parameter()
 
-    def placed(self, family: Family) -> Family:
+    def apply_to(self, family: Family) -> Family:
         """Return a family with these parameters."""
         from infill.paths.families.family import turn_family
 
-        return turn_family(super().placed(family), self.angle, self.phase)
+        return turn_family(super().apply_to(family), self.angle, self.phase)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -187,7 +187,7 @@ def check_pattern_parameters(
     return replace(kind, **parameters)
 
 
-def facts(pattern: str, parameters: Mapping[str, Any], lines: LineSource | None = None) -> dict[str, Any]:
+def parameter_facts(pattern: str, parameters: Mapping[str, Any], lines: LineSource | None = None) -> dict[str, Any]:
     """Return all parameters of a pattern as the report has them; the cell is none if none was given."""
     if KINDS.get(pattern) is PatternParameters:
         return {}
@@ -219,4 +219,4 @@ def family_of(pattern: str, parameters: Mapping[str, Any], lines: LineSource | N
         from infill.drawings.drawing_files import read_tile_family
 
         family = read_tile_family(pattern)
-    return made.placed(family)
+    return made.apply_to(family)

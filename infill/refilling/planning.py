@@ -80,7 +80,7 @@ class RefillPlan:
 
     def radii_at(self, paths: Sequence[Floats], cell: float) -> Floats | None:
         """Return the largest radius of corners at all points of some paths, mm; None if it is the same everywhere."""
-        if not isinstance(self.family, StretchedFamily) or not paths:
+        if not paths:
             return None
         return self.family.radii_at(np.concatenate(paths), cell, self.line_width)
 
@@ -190,6 +190,7 @@ def plan_refill(
     everywhere = index_beads(np.concatenate(walls))
 
     def measure(paths: Sequence[Floats], cell: float) -> float:
+        """Measure the length of the paths of a cell with round corners, mm."""
         strands = [path for path in paths if len(path) > 1]
         smooth_paths, _ = round_paths(
             strands,

@@ -111,6 +111,7 @@ class PrintPlace:
 
     @cached_property
     def _skin_depths(self) -> NDArray[np.float32]:
+        """Distance of each node of the grid from the border of the infill, mm; 0 outside."""
         from scipy.ndimage import distance_transform_edt
 
         _, steps, inside = self._grid

@@ -160,8 +160,8 @@ def find_region(around: LayerBeads, infill: Floats, before: FreeAreas | None = N
     """
     if not len(around.points) or not len(infill):
         return FreeAreas(polygons=(), distance=USUAL_DISTANCE, skin_distance=USUAL_DISTANCE)
-    wall_distance = _kept_distance(around.walls.near(infill, 0, ALONG_WALLS), SHARE_BESIDE, USUAL_DISTANCE)
-    skin_distance = _kept_distance(around.skins.near(infill, 0, ALONG_WALLS), SHARE_BESIDE_SKINS, wall_distance)
+    wall_distance = _kept_distance(around.walls.distances(infill, 0, ALONG_WALLS), SHARE_BESIDE, USUAL_DISTANCE)
+    skin_distance = _kept_distance(around.skins.distances(infill, 0, ALONG_WALLS), SHARE_BESIDE_SKINS, wall_distance)
     skin_distance = float(np.clip(skin_distance, wall_distance, wall_distance + SKINS_FARTHER))
     if before is not None and _is_same_region(before, around, infill, wall_distance, skin_distance):
         return before
@@ -194,8 +194,8 @@ def _is_same_region(
         return False
     if len(around.skins.points) and abs(region.skin_distance - skin_distance) > SAME_WITHIN:
         return False
-    beside_walls = around.walls.near(region.outline, 0, REACH) - region.distance
-    beside_skins = around.skins.near(region.outline, 0, REACH) - region.skin_distance
+    beside_walls = around.walls.distances(region.outline, 0, REACH) - region.distance
+    beside_skins = around.skins.distances(region.outline, 0, REACH) - region.skin_distance
     excess = np.minimum(beside_walls, beside_skins)
     # At corners, an outline keeps further away.
     if excess.min() < -SAME_WITHIN / 2 or excess.max() > DENT_RADIUS:
@@ -218,7 +218,7 @@ def _free_area(kinds: Sequence[tuple[BeadIndex, float]], grid: Floats) -> Polygo
     nodes = grid.reshape(-1, 2)
     field = np.full(len(nodes), ACROSS)
     for walls, distance in kinds:
-        np.minimum(field, walls.near(nodes, 0, distance + ACROSS) - distance, out=field)
+        np.minimum(field, walls.distances(nodes, 0, distance + ACROSS) - distance, out=field)
     padded = np.pad(field.reshape(grid.shape[:2]), 1, constant_values=-ACROSS)
     contours = find_contours(padded, 0.0)  # type: ignore[no-untyped-call]
     lines = [shapely.LineString((line - 1) * NODES + grid[0, 0]) for line in contours if len(line) > 3]

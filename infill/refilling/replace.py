@@ -187,10 +187,10 @@ class NewSection:
 
     def even_out(self, even: LayerShares) -> NewSection:
         """Return the section with the speed and the filament per mm that even out its layer."""
-        body = replace(self.body, feed=even.slow(self.body.layer, self.body.feed))
-        return replace(self, body=body, rate=even.widen(body.layer, self.rate, body.rate))
+        body = replace(self.body, feed=even.feed_rate(self.body.layer, self.body.feed))
+        return replace(self, body=body, rate=even.filament_rate(body.layer, self.rate, body.rate))
 
-    def not_faster(self, layers: Layers) -> NewSection:
+    def slow_down_to_old(self, layers: Layers) -> NewSection:
         """Return the section, slowed down if it would take less time than the old one.
 
         Travel counts on both sides, at the feed rates of the section and without acceleration, as slicers count it.
@@ -242,7 +242,7 @@ def replace_infill(layers: Layers, rules: RefillRules, plan: RefillPlan, memory:
     if not new:
         return NewInfill.unchanged(layers, kept)
     slow = may_be_slowed(layers, rules)
-    new = [s.not_faster(layers) if slow[s.body.layer - int(layers.marks.layer[0])] else s for s in new]
+    new = [s.slow_down_to_old(layers) if slow[s.body.layer - int(layers.marks.layer[0])] else s for s in new]
     if plan.even is not None:
         new = [section.even_out(plan.even) for section in new]
     text, filament, fault = redraw_sections(
@@ -354,6 +354,7 @@ def _region_finder(initial: FreeAreas | None, spacing: float) -> Callable[[Layer
     region = initial
 
     def find_next(layer: Layer) -> tuple[FreeAreas, LayerBeads]:
+        """Find the region of the next layer, and its other beads."""
         nonlocal region
         found = layer.find_region(region)
         region = found if found is region else found.keep_apart(spacing)
@@ -415,7 +416,8 @@ def _shorter_direction(paths: Paths, body: InfillSection) -> Paths:
     if not paths:
         return paths
 
-    def travel_of(ordered: Paths) -> float:
+    def travel_length(ordered: Paths) -> float:
+        """Return the travel to ordered paths and from them to the end, mm."""
         return float(np.hypot(*(ordered[0][0] - body.start)) + np.hypot(*(ordered[-1][-1] - body.end)))
 
-    return min(paths, [path[::-1] for path in paths[::-1]], key=travel_of)
+    return min(paths, [path[::-1] for path in paths[::-1]], key=travel_length)

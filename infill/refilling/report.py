@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from infill.gcode.ending import describe_missing_end
 from infill.gcode.infill_sections import ODD_ARCS
 from infill.gcode.survey import Survey
-from infill.refilling.placement import facts
+from infill.refilling.placement import parameter_facts
 from infill.refilling.request import AUTO, KEEP, Request
 from infill.refilling.rules import RefillRules
 from infill.refilling.stats import PURGED, UNREAD, RefillStats
@@ -49,7 +49,7 @@ def refill_report(
         "form": FORM,
         "request": {
             "pattern": request.pattern,
-            "parameters": facts(request.pattern, request.parameters, request.lines),
+            "parameters": parameter_facts(request.pattern, request.parameters, request.lines),
             "density": None if isinstance(request.density, tuple) else request.density,
             "densities": None if request.gradient is None else [request.gradient.first, request.gradient.last],
             "by": request.by,
@@ -150,15 +150,17 @@ def contact_section(tally: RefillStats) -> ContactKeys:
 
 
 def _finite(value: float) -> float | None:
+    """Replace infinity and NaN with None."""
     return value if math.isfinite(value) else None
 
 
-def _is_untold(reason: str) -> bool:
+def _is_unexplained(reason: str) -> bool:
     """Tell whether no other problem names the sections that stay for a reason."""
     return reason not in WHY_KEPT and not reason.startswith("a check failed")
 
 
 def _problems(report: RefillReport, tally: RefillStats) -> list[str]:
+    """List the problems of a refill, one phrase each."""
     keeps = report["request"]["pattern"] == KEEP
     problems = []
     if not tally.sections:
@@ -172,7 +174,7 @@ def _problems(report: RefillReport, tally: RefillStats) -> list[str]:
         for reason, words in WHY_KEPT.items()
         if tally.kept.get(reason, 0) >= MANY_KEPT * max(tally.sections, 1)
     ]
-    others = {reason: number for reason, number in sorted(tally.kept.items()) if _is_untold(reason)}
+    others = {reason: number for reason, number in sorted(tally.kept.items()) if _is_unexplained(reason)}
     if not keeps and tally.replaced and sum(others.values()) >= MANY_KEPT * tally.sections:
         reasons = ", ".join(f"{reason} ({number})" for reason, number in others.items())
         problems.append(f"{sum(others.values())} of {tally.sections} sections stay as {stay}: {reasons}")

@@ -250,14 +250,15 @@ class RefillStats:
             Of the filaments by tool, mm²; further tools have the last one.
         """
 
-        def section(tool: int) -> float:
+        def filament_section(tool: int) -> float:
+            """Return the cross-section of the filament of a tool, mm²."""
             return sections[min(tool, len(sections) - 1)]
 
         volume = sum(self.filament.values())
         for amounts in (self.filament, self.change):
-            amounts.update({tool: value / section(tool) for tool, value in amounts.items()})
+            amounts.update({tool: value / filament_section(tool) for tool, value in amounts.items()})
         length = sum(self.filament.values())
-        usual = volume / length if length > 0 and volume > 0 else section(0)
+        usual = volume / length if length > 0 and volume > 0 else filament_section(0)
         self.infill = replace(self.infill, filament=self.infill.filament / usual)
         self.infill_after = replace(self.infill_after, filament=self.infill_after.filament / usual)
         self.widened /= usual
@@ -309,4 +310,5 @@ def count_refill(layers: Layers, new: NewInfill, seconds: Floats) -> RefillStats
 
 
 def _sum_by_tool(tools: Places, filament: Floats) -> dict[int, float]:
+    """Sum up filament by tool."""
     return {tool: float(filament[tools == tool].sum()) for tool in np.unique(tools).tolist()}

@@ -79,14 +79,15 @@ def largest_deviation(samples: Sequence[Layers], rounding: Rounding, acceleratio
 
     old_contact, old = measure_all(lambda sample: sample.layers.infill)
 
-    def share(deviation: float) -> float:
+    def kept_share(deviation: float) -> float:
+        """Return the least share that paths rounded by a deviation keep."""
         trial_rounding = replace(rounding, deviation=deviation)
         contact, new = measure_all(lambda sample: sample.rounded(trial_rounding))
         return min(*kept_shares(old_contact, contact), kept_length_share(old, new))
 
-    if share(rounding.deviation) >= AIM:
+    if kept_share(rounding.deviation) >= AIM:
         return rounding.deviation
-    return largest_sufficient([deviation for deviation in DEVIATIONS if deviation < rounding.deviation], share)
+    return largest_sufficient([deviation for deviation in DEVIATIONS if deviation < rounding.deviation], kept_share)
 
 
 def smaller_deviation(deviation: float, share: float, previous_share: float = 0.0) -> float:
@@ -143,10 +144,11 @@ class _SampledLayers:
 
     @classmethod
     def of(cls, layers: Layers, rounding: Rounding, acceleration: float, gaps: GapMemory) -> _SampledLayers:
+        """Find the corners of sampled layers, and the other beads in the layers below."""
         return cls(
             layers=layers,
             corners=stroke_corners(layers, rounding, acceleration=acceleration, gaps=gaps),
-            walls={layer.number: layers.bead_samples(layer.number - 1) for layer in layers.resting},
+            walls={layer.number: layers.bead_samples(layer.number - 1) for layer in layers.upper},
         )
 
     def rounded(self, rounding: Rounding) -> RoundedPaths:
@@ -216,7 +218,8 @@ def measure_layers(
     def layer_samples(number: int) -> tuple[Samples, Samples]:
         return sample_paths(*old.of(number)), sample_paths(*new.of(number))
 
-    def below(number: int) -> SampledLayer:
+    def sample_below(number: int) -> SampledLayer:
+        """Sample all of the layer of a number, before and after."""
         beads = walls(number)
         old_samples, new_samples = layer_samples(number)
         return SampledLayer(
@@ -228,7 +231,7 @@ def measure_layers(
         if number % stride:
             continue
         if number - 1 in layer_set:
-            lower = below(number - 1)
+            lower = sample_below(number - 1)
         elif last is not None and last.number == number - 1:
             lower = last
         else:
@@ -238,7 +241,7 @@ def measure_layers(
         before += _measure_layer(old_samples, lower.before, beads, line_width)
         after += _measure_layer(new_samples, lower.after, beads, line_width)
     final = int(numbers[-1]) if len(numbers) else 0
-    return before, after, below(final) if len(numbers) and (final + 1) % stride == 0 else None
+    return before, after, sample_below(final) if len(numbers) and (final + 1) % stride == 0 else None
 
 
 def _measure_layer(infill: Samples, below: Samples, walls: Samples, line_width: float) -> Contact:

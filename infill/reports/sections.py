@@ -13,6 +13,7 @@ def _after_all(name: str) -> Callable[..., Any]:
     method = getattr(dict, name)
 
     def call(self: Sections, *arguments: Any, **keywords: Any) -> Any:  # noqa: ANN401 - those of the method
+        """Compute all late values, then call the method."""
         for sections in (self, *arguments):
             for key in list(sections.late) if isinstance(sections, Sections) else ():
                 sections[key]

@@ -158,7 +158,7 @@ class _PrintPen:
         self.lines += [f";TYPE:{feature}", f";WIDTH:{LINE:g}"]
 
     def draw(self, points: Line, speed: float) -> None:
-        """Draw a line through points, mm."""
+        """Draw a line through points, mm, at a speed in mm/s."""
         self._travel(points[0])
         if speed != self._speed:
             self.lines.append(f"G1 F{60 * speed:g}")

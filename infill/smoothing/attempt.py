@@ -138,7 +138,7 @@ def run_attempt(smooth_input: SmoothInput, request: SmoothRequest) -> Attempt:
         If nothing is left, or the surface is not closed.
     MemoryLimitError
     """
-    request = request.at(float(smooth_input.data.cell_size.min()))
+    request = request.for_cell(float(smooth_input.data.cell_size.min()))
     clock = Clock(request.progress)
     clock.seconds["voxels"] = smooth_input.seconds
     with clock.stage("smooth", 0.05):

@@ -155,7 +155,8 @@ def _loss_classifier(smoothed: SmoothedInput) -> Kinds:
         enclosed, mesh = smooth_input.mesh_volumes, smooth_input.closed_mesh
         assert mesh is not None
 
-        def bounding(points: NDArray[np.float64], faces: NDArray[np.integer]) -> NDArray[np.integer]:
+        def classify_on_mesh(points: NDArray[np.float64], faces: NDArray[np.integer]) -> NDArray[np.integer]:
+            """Return the class of each point (N, 3) on faces (N,) of the mesh, by the solid on both sides of them."""
             outside, inside, narrow = (
                 enclosed.solid_beside(mesh, points, faces, offset, threads=threads)
                 for offset in (SIDE_OFFSET, -SIDE_OFFSET, SLIT_WIDTH)
@@ -163,11 +164,12 @@ def _loss_classifier(smoothed: SmoothedInput) -> Kinds:
             sides = np.where(inside & outside, HIDDEN, np.where(inside | outside, COUNTS, SHEET))
             return np.where((sides == COUNTS) & narrow & inside, THIN, sides)
 
-        return bounding
+        return classify_on_mesh
     cells = THICK_IN_NOISE if _is_noisy(smooth_input) else THICK
     data, turn = smooth_input.data, np.asarray(smooth_input.data.direction)
 
-    def thick(points: NDArray[np.float64], faces: NDArray[np.integer]) -> NDArray[np.integer]:  # noqa: ARG001
+    def classify_in_voxels(points: NDArray[np.float64], faces: NDArray[np.integer]) -> NDArray[np.integer]:  # noqa: ARG001
+        """Return the class of each point (N, 3), mm: whether wall and gap are more than one cell thick there."""
         bits = data_bits(field, threads=threads)
         solid, empty = (open_by_blocks(field, bits, void=void, cells=cells, threads=threads) for void in (False, True))
         position = (points - np.array(data.origin)) @ turn / data.cell_size
@@ -178,7 +180,7 @@ def _loss_classifier(smoothed: SmoothedInput) -> Kinds:
             gap |= look_up_cells(field, empty, cell, void=True)
         return np.where(wall & gap, COUNTS, THIN)
 
-    return thick
+    return classify_in_voxels
 
 
 def find_differences(

@@ -34,7 +34,7 @@ def compile_check_kernels() -> None:
     runs = (signs, ints, array_of(np.int16, 2))
     compile_for(components.label_cells, cells, slots, *runs, slots, names, 1, names)
     compile_for(measures.sum_up, rows, faces, line, rows, *THREADS)
-    compile_for(measures.begin_edges, faces, names)
+    compile_for(measures.find_edge_starts, faces, names)
     compile_for(measures.match_sides, faces, names, names, *THREADS)
     compile_for(components.meet_or_spread, slots, faces, signs, 1, True, 1, signs, *THREADS)
     compile_for(flips.flip_simple, slots, signs, cells)

@@ -82,7 +82,7 @@ class LabelSurfaces(Mapping[str, Surface]):
         surface = self._used.get(name)
         if surface is None:
             facts = self.measures[name]
-            surface = self.cut(facts.number).knowing(closed=facts.closed, volume=facts.volume, area=facts.area)
+            surface = self.cut(facts.number).with_measures(closed=facts.closed, volume=facts.volume, area=facts.area)
             self._used[name] = surface
         return surface
 

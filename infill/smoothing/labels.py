@@ -249,7 +249,8 @@ def _smooth_pieces(
 ) -> list[_Outcome | InfillError | None]:
     """Smooth all labels; return the surface and the report of each, or its error; None after an error that ends all."""
 
-    def smooth(number: int, threads: int, progress: Progress | None) -> _Outcome | InfillError:
+    def smooth_one(number: int, threads: int, progress: Progress | None) -> _Outcome | InfillError:
+        """Smooth a label; return its error instead if there is one."""
         piece = pieces[number]
         label_options: SmoothOptions = {**options, "threads": threads, "progress": progress}
         try:
@@ -258,7 +259,7 @@ def _smooth_pieces(
             return error
 
     return run_labels(
-        smooth,
+        smooth_one,
         [piece.work(request) for piece in pieces],
         stop_early=not keep_going,
         threads=request.threads,

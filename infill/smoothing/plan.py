@@ -140,7 +140,7 @@ def plan_smoothing(source: Source | SampledStack, *, begin: float, **options: Un
         survey = _survey_mesh(source, request, choice.get("resolution"), choice.get("voxel"))
     else:
         survey = _survey_points(source[:, :AXES], choice["voxel"], choice.get("shell"), request)
-    grid, cell_request = survey.grid, survey.request.at(float(survey.grid.cell_size.min()))
+    grid, cell_request = survey.grid, survey.request.for_cell(float(survey.grid.cell_size.min()))
     cells, surface = survey.bytes_per_cell * grid.cells, bytes_per_surface_cell(cell_request) * survey.vertices
     if request.max_memory is not None:
         needed = round(max(cells, surface))
@@ -188,7 +188,7 @@ def plan_labels(
     pieces = find_pieces(segmentation, label, tuple(table))
     sizes = [dict(count_labels(volume)) for volume in segmentation.layers]
     smallest = min(segmentation.layers, key=lambda volume: float(volume.cell_size.min()))
-    cell_request = request.at(float(smallest.cell_size.min()))
+    cell_request = request.for_cell(float(smallest.cell_size.min()))
     grid = Grid(shape=smallest.values.shape, spacing=tuple(smallest.cell_size.tolist()), origin=smallest.origin)
     _load_smoother(cell_request, grid)
     loaded = time.perf_counter()

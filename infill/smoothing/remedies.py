@@ -101,7 +101,7 @@ def _replaced_smoothing(first: Way, taken: Way, best: Attempt) -> ReplacedSmooth
     if (asked.smoothing.steps, asked.radius) == (used.smoothing.steps, used.radius):
         return None
     cell = float(best.smoothed.smooth_input.data.cell_size.min())
-    return {"steps": asked.at(cell).smoothing.steps, "radius": asked.radius}
+    return {"steps": asked.for_cell(cell).smoothing.steps, "radius": asked.radius}
 
 
 def _input_of(way: Way) -> SmoothInput:
@@ -143,7 +143,7 @@ def _find_remedy(remedies: Iterable[Way], work_left: float) -> str | None:
 
 def estimate_work(smooth_input: SmoothInput, request: SmoothRequest) -> float:
     """Estimate the work of a run before it begins: cells at the surface times steps."""
-    steps = request.at(float(smooth_input.data.cell_size.min())).total_steps
+    steps = request.for_cell(float(smooth_input.data.cell_size.min())).total_steps
     return estimate_surface_cells(smooth_input.data) * (OTHER_STEPS + steps)
 
 

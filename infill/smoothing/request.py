@@ -132,7 +132,7 @@ class SmoothRequest:
         """Steps of the scheme: refining takes 65 for every 20."""
         return self.smoothing.steps * (SNAPSHOT_QUARTERS[-1] / 4 if self.refined else 1)
 
-    def at(self, cell: float) -> SmoothRequest:
+    def for_cell(self, cell: float) -> SmoothRequest:
         """Return the request for cells of a size, mm: the radius becomes steps, and an `auto` tolerance one in mm.
 
         n steps blur a field about as much as a Gaussian with a standard deviation of sqrt(2 n / 7) cells.

@@ -106,18 +106,19 @@ def _measure_coarsening(
 ) -> CoarseChange:
     """Measure the change of a solid's volume by larger voxels, mm, and find smaller ones if it is large."""
 
-    def change_of(solid: Volume) -> float:
+    def volume_change(solid: Volume) -> float:
+        """Return the change of the volume by larger voxels, as a share."""
         cells = int(np.count_nonzero(np.asarray(solid.values) > 0))
         return cells * solid.cell_volume / before - 1
 
     before = int(np.count_nonzero(np.asarray(fine.values) > 0)) * fine.cell_volume
-    change, fitting = change_of(coarse), None
+    change, fitting = volume_change(coarse), None
     if abs(change) >= COARSE_LOSS:
         smallest = float(scan.cell_size.min())
         for smaller in (float(plain_argument(voxel / by, 2)) for by in SMALLER):
             if smaller < smallest:
                 break
-            if abs(change_of(_coarsen_solid(scan, fine, used, smaller)[1])) < COARSE_LOSS:
+            if abs(volume_change(_coarsen_solid(scan, fine, used, smaller)[1])) < COARSE_LOSS:
                 fitting = smaller
                 break
     return {"volume_before": before, "change": change, "fitting": fitting}

@@ -66,7 +66,7 @@ def smooth_together(
         For an option that does not apply.
     """
     refuse_unfit(request)
-    request = request.at(float(volume.cell_size.min()))
+    request = request.for_cell(float(volume.cell_size.min()))
     clock = Clock(request.progress)
     needed = needed_memory(volume.values.size, pieces, request)
     require_memory(needed, request.max_memory, "give --roi for a part of it, or a volume of larger voxels")
@@ -173,7 +173,8 @@ def _smooth_fields(
     is_plain = request.method == "plain"
     smoother, profile = (smooth_bricks, PLAIN_PROFILE) if is_plain else (refine_bricks, REFINED_PROFILE)
 
-    def smooth(mask: NDArray[np.bool_], threads: int) -> SparseField:
+    def smooth_mask(mask: NDArray[np.bool_], threads: int) -> SparseField:
+        """Smooth the cells of a label to distances from its surface."""
         field = smoother(mask, request.smoothing, spacing=spacing, threads=threads)
         # Distances change evenly from cell to cell, as walls between them assume.
         return replace(field, values=profile.distance(field.values, out=field.values, threads=threads))
@@ -182,7 +183,7 @@ def _smooth_fields(
     return smooth_fields(
         numbers,
         boxes,
-        smooth,
+        smooth_mask,
         reach=field_reach(request.smoothing.interface),
         threads=request.threads,
         progress=lambda share: clock.tell("smooth", 0.5 * share),

@@ -74,7 +74,7 @@ def plan_together(
     seconds = _expected_seconds(cells, faces, volume, request, tetrahedra=tetrahedra)
     memory = needed_memory(cells, pieces, request)
     return {
-        "request": request.at(float(volume.cell_size.min())).facts(),
+        "request": request.for_cell(float(volume.cell_size.min())).facts(),
         "labels": [
             {
                 **piece.place,

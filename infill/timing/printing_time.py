@@ -232,7 +232,7 @@ def motion(
     given = collect_given(**arguments)
     with open_sliced(source) as file, contextlib.ExitStack() as texts:
         target = None if write is None else check_written(source, Path(write), overwrite=overwrite)
-        parts = file.parts if write is not None and plate is None else (file.part(plate),)
+        parts = file.parts if write is not None and plate is None else (file.part_of_plate(plate),)
         plans = [_plan_part(file, part, given, texts, target) for part in parts]
         written = None
         if target is not None:

@@ -105,13 +105,14 @@ def _check_heights(old: Trace, new: Trace, beads: Places, theirs: Places, found:
     rows = beads[np.array(wrong, dtype=bool)[inverse.ravel()]]
     heights = old.rows.end[theirs, 2]
 
-    def describe(k: int) -> str:
+    def describe_height(k: int) -> str:
+        """Describe the height of a bead, and the nearest old one."""
         z = new.rows.end[rows[k], 2]
         mine = heights[layers[0][theirs] == layers[1][rows[k]]]
         nearest = float(mine[np.argmin(np.abs(mine - z))])
         return f"z {plain_argument(round(z, 4))} mm, was {plain_argument(round(nearest, 4))} mm"
 
-    found.add_runs("height", rows, describe)
+    found.add_runs("height", rows, describe_height)
 
 
 def _check_filament(old: Trace, new: Trace, mine: Places, theirs: Places, found: ViolationList) -> None:

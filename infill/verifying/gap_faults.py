@@ -36,11 +36,12 @@ def report_gaps(comparison: BeadComparison, speed_limit: float, found: Violation
     for kind, chosen in (("added", np.isinf(off_by)), ("place", np.isfinite(off_by))):
         places, apart = rows[chosen], off_by[chosen]
 
-        def describe(k: int, kind: str = kind, places: Places = places, apart: Floats = apart) -> str:
+        def describe_bead(k: int, kind: str = kind, places: Places = places, apart: Floats = apart) -> str:
+            """Describe a bead that is new, or how far it lies from the old ones."""
             text = describe_place(comparison.b.end[places[k]])
             return f"a bead to {text} is new" if kind == "added" else f"{text}, {apart[k]:.2f} mm beside the old bead"
 
-        found.add_runs(kind, comparison.new_rows[places], describe)
+        found.add_runs(kind, comparison.new_rows[places], describe_bead)
     lies = usable & ~off & (gaps.nearest >= 0)
     near, rows = gaps.nearest[lies], gaps.new[lies]
     rise = np.abs(comparison.a.end[near, 2] - comparison.b.end[rows, 2])

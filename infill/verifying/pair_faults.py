@@ -91,15 +91,16 @@ def _compare_filament(comparison: BeadComparison, found: ViolationList) -> None:
     )
     wrong = np.abs(now - was) > FILAMENT_SHARE * np.abs(was) + FILAMENT_STEP + slack
 
-    def describe(k: int) -> str:
+    def describe_filament(k: int) -> str:
+        """Describe the filament of a pair, new and old."""
         return describe_lengths(now[k], was[k], "of filament")
 
-    _add_runs(comparison, found, "E jump", draws & jump, describe)
+    _add_runs(comparison, found, "E jump", draws & jump, describe_filament)
     after_jump = np.zeros(len(comparison.b) + 1, dtype=bool)
     after_jump[comparison.second[draws & jump] + 1] = True  # where E is absolute, the next line takes it back
-    _add_runs(comparison, found, "material", draws & wrong & ~jump & ~after_jump[comparison.second], describe)
+    _add_runs(comparison, found, "material", draws & wrong & ~jump & ~after_jump[comparison.second], describe_filament)
     retracts = ~draws & _begins_alike(comparison) & (np.abs(now - was) > DEPTH_TOLERANCE)
-    _add_runs(comparison, found, "retraction", retracts, describe)
+    _add_runs(comparison, found, "retraction", retracts, describe_filament)
     blob_was, blob = comparison.a.blob[comparison.first], comparison.b.blob[comparison.second]
     for kind, chosen in (
         ("E jump", blob > blob_was + DEPTH_TOLERANCE),

@@ -317,7 +317,7 @@ def read_trace(path: Path, plate: int | None = None, like: Trace | None = None) 
     """
     collector, sums = _Collector(), FeatureSums(times_only=True)
     with open_sliced(path) as file:
-        part = file.part(plate)
+        part = file.part_of_plate(plate)
         with file.text(part) as text:
             timeline = make_timeline(text)
             if like is not None and not timeline.found.slicer:

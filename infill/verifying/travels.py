@@ -48,14 +48,15 @@ def check_travels(comparison: BeadComparison, changed: NDArray[np.bool_], found:
         hit, through = _find_crossings(rows, candidates, through_rows, floors[1] - depth, same_layer=same_layer)
         hit, through = _without_known(hit, through, found)
 
-        def describe(k: int, hit: Places = hit, through: Places = through) -> str:
+        def describe_travel(k: int, hit: Places = hit, through: Places = through) -> str:
+            """Describe a travel through a bead, and its old lift."""
             before = was[hit[k]] if paired[hit[k]] else floors[1][hit[k]] + lift
             return (
                 f"travels at z {plain_argument(round(float(floors[1][hit[k]]), 3))} mm through the bead of line "
                 f"{rows.line[through[k]]}, was lifted to {plain_argument(round(float(before), 3))} mm"
             )
 
-        found.add_runs("travel", hit, describe)
+        found.add_runs("travel", hit, describe_travel)
 
 
 def _without_known(hit: Places, through: Places, found: ViolationList) -> tuple[Places, Places]:

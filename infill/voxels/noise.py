@@ -43,6 +43,7 @@ def noise_share(solid: NDArray[Any], *, threads: int | None = None) -> float:
     count = min(thread_count(threads), len(starts))
 
     def count_in_slabs(thread: int) -> NDArray[np.int64]:
+        """Count overruled and surface cells in the slabs of a thread."""
         tally = np.zeros(3, dtype=np.int64)
         work = np.empty(work_shape(solid[:LAYERS]), dtype=np.uint8)
         for start in starts[thread::count]:

@@ -130,6 +130,7 @@ def merge_close_points(points: Floats, normals: Floats) -> tuple[Floats, Floats]
     group = group.reshape(-1)
 
     def sum_groups(values: Floats) -> Floats:
+        """Sum rows (N, 3) by group."""
         return np.stack(
             [np.bincount(group, weights=coordinate, minlength=len(count)) for coordinate in values.T], axis=1
         )

@@ -197,6 +197,7 @@ def _header(path: Path) -> tuple[Dataset, Pixels | None]:
     pixel_elements: list[tuple[int, str | None, int]] = []
 
     def at_pixels(tag: int, vr: str | None, length: int) -> bool:
+        """Tell whether an element holds the pixels, and note it."""
         if tag in PIXEL_TAGS:
             pixel_elements.append((int(tag), vr, length))
         return tag in PIXEL_TAGS

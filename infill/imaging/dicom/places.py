@@ -186,16 +186,17 @@ def _frame_of_groups(
 ) -> Frame:
     """Build a frame from its own and shared functional groups; `common` are the marks of all frames."""
 
-    def macro(name: str) -> Dataset | None:
+    def read_group(name: str) -> Dataset | None:
+        """Return a functional group of the frame, or else of all frames."""
         own_item = read_first_item(item, name)
         return read_first_item(shared, name) if own_item is None else own_item
 
-    measures, values = macro("PixelMeasuresSequence"), macro("PixelValueTransformationSequence")
-    place, plane = macro("PlanePositionSequence"), macro("PlaneOrientationSequence")
+    measures, values = read_group("PixelMeasuresSequence"), read_group("PixelValueTransformationSequence")
+    place, plane = read_group("PlanePositionSequence"), read_group("PlaneOrientationSequence")
     position, axes = read_numbers(place, "ImagePositionPatient", 3), read_numbers(plane, "ImageOrientationPatient", 6)
     space = "LPS"
     if position is None and axes is None:
-        place, plane = macro("PlanePositionVolumeSequence"), macro("PlaneOrientationVolumeSequence")
+        place, plane = read_group("PlanePositionVolumeSequence"), read_group("PlaneOrientationVolumeSequence")
         position, axes = read_numbers(place, "ImagePositionVolume", 3), read_numbers(plane, "ImageOrientationVolume", 6)
         space = "" if position is not None else space
     if position is None and read_whole_number(header, "NumberOfFrames", 1) == 1:
@@ -207,7 +208,7 @@ def _frame_of_groups(
         for name, index_value in zip(dimensions, index, strict=False):
             if name:
                 marks.setdefault(name, (index_value,))
-    segment = read_number(macro("SegmentIdentificationSequence"), "ReferencedSegmentNumber")
+    segment = read_number(read_group("SegmentIdentificationSequence"), "ReferencedSegmentNumber")
     slope, intercept = _scaling(header if values is None else values)
     return Frame(
         path=path,

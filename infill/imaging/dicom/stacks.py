@@ -237,7 +237,7 @@ def _split_at_places(frames: Sequence[Frame]) -> Stacks | None:
 
 
 def _split_by_marks(frames: Sequence[Frame], names: tuple[str, ...]) -> Stacks | None:
-    """Divide frames by marks; return None if that gives a single volume, or a group that is none."""
+    """Divide frames by marks; return None if that gives a single group, or one whose frames make no even volume."""
     groups: dict[tuple[Mark, ...], list[Frame]] = {}
     for frame in frames:
         groups.setdefault(tuple(frame.marks.get(name, ()) for name in names), []).append(frame)

@@ -61,10 +61,11 @@ def repeat_curves(
     paths: list[Path] = []
     for curve in curves:
 
-        def points(angle: Floats, curve: Callable[[Floats], Floats] = curve) -> Path:
+        def points_of_curve(angle: Floats, curve: Callable[[Floats], Floats] = curve) -> Path:
+            """Return points of the curve at angles, mm."""
             return unit * np.stack([angle, curve(angle)], axis=-1)
 
-        u = chord_parameters(points, math.tau)[:-1]
+        u = chord_parameters(points_of_curve, math.tau)[:-1]
         v = curve(u)
         row = np.arange(math.floor(v0 - v.max() / math.tau), math.ceil(v1 - v.min() / math.tau) + 1)
         along = np.tile(((column * math.tau)[:, None] + u).ravel(), (len(row), 1))

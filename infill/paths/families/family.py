@@ -21,6 +21,7 @@ Path = NDArray[np.float64]  # (N, 2), mm; a closed one ends where it begins
 Bounds = tuple[float, float, float, float]
 
 TOUCH = 0.905
+STRETCHED_TOUCH = 0.98  # line widths between beads that touch where cells change: stretching moves some by 2 %
 CLEAR = 0.95  # of the distance of touching beads: beads overlap by at most 5 %
 
 
@@ -149,6 +150,14 @@ class Family(ABC):
     def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002 - some families need it
         """Return the largest radius of corners, mm, at which lines with a wall in common still touch."""
         return self.corner_share * cell
+
+    def radii_at(self, points: NDArray[np.float64], cell: float, line_width: float) -> NDArray[np.float64] | None:  # noqa: ARG002
+        """Return the largest radius of corners, mm, at points (N, 2), mm: (N,); None if it is the same everywhere."""
+        return None
+
+    def at(self, z: float) -> Family:  # noqa: ARG002 - some families change with height
+        """Return the family at a height, mm."""
+        return self
 
 
 @runtime_checkable

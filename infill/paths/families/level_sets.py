@@ -47,9 +47,11 @@ class GyroidPaths(Family):
         along_x = abs(cosine) > abs(sine)
 
         def middle(angle: Floats) -> Floats:
+            """Return the middle of the two waves at angles, radians."""
             return np.arctan2(cosine, np.sin(angle)) if along_x else np.arctan2(np.cos(angle) * side, abs(sine))
 
         def swing(angle: Floats) -> Floats:
+            """Return the offset of a wave from the middle at angles, radians."""
             if along_x:
                 return np.arccos(-sine * np.cos(angle) / np.hypot(np.sin(angle), cosine))
             return np.arccos(-side * cosine * np.sin(angle) / np.hypot(np.cos(angle), sine))
@@ -80,6 +82,7 @@ class SchwarzPPaths(Family):
         half = max(abs(cosine), smallest) / 2
 
         def quarter(angle: Floats) -> Path:
+            """Return points of a quarter of the loop at angles, mm."""
             swing = (1 - half) * np.cos(angle)
             return unit * np.arccos(np.clip(half + np.stack([swing, -swing], axis=-1), -1, 1))
 

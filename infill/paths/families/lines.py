@@ -60,6 +60,7 @@ class LinePaths(CentredFamily):
         return cell
 
     def _draw(self, cell: float, half: float, z: float, line_width: float) -> list[Path]:
+        """Draw the paths of a square with a half side about (0, 0), mm; cached if the pattern can be hashed."""
         pattern = with_cell(self.pattern, cell)
         if isinstance(pattern, Hashable):
             return _paths_in_square(pattern, half, z, line_width)
@@ -84,6 +85,7 @@ def line_paths(pattern: Pattern) -> LinePaths:
 
 @lru_cache(maxsize=16)
 def _paths_in_square(pattern: Any, half: float, z: float, line_width: float) -> list[Path]:  # noqa: ANN401 - a Pattern
+    """Draw the paths along the lines of a pattern in a square with a half side about (0, 0), mm."""
     import shapely
 
     lines = draw_lines(pattern, shapely.box(-half, -half, half, half), z)

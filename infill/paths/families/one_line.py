@@ -11,7 +11,7 @@ import numpy as np
 from infill.errors import ParameterError
 from infill.paths.families.family import Bounds, CentredFamily, Family, Path, PathSpec
 from infill.plain_numbers import plain_argument
-from patterns.cross import ORIGIN, SIDE, curve_steps
+from patterns.cross import ORIGIN, SIDE, curve_segments
 from patterns.errors import PatternError
 from patterns.hilbert import hilbert_curve
 
@@ -58,7 +58,7 @@ class CrossPaths(Family):
             raise ParameterError(
                 f"the cell is {plain_argument(spec.cell)} mm; the curve reaches {ORIGIN} octagons: give a larger one"
             )
-        merged = shapely.line_merge(shapely.multilinestrings(curve_steps(low, high)))
+        merged = shapely.line_merge(shapely.multilinestrings(curve_segments(low, high)))
         return [shapely.get_coordinates(part) * pitch for part in shapely.get_parts(merged)]
 
     def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002
@@ -84,7 +84,7 @@ class Spirals(CentredFamily):
         pattern = {kind.name: kind for kind in kinds}[self.name]()
         middle = self.middle_of(bounds)
         corner = np.abs(np.array(bounds, dtype=np.float64).reshape(2, 2) - middle).max(axis=0)
-        return [turn(pattern.drawn(float(np.hypot(*corner)) / spec.cell) * spec.cell, self.angle) + middle]
+        return [turn(pattern.draw_turns(float(np.hypot(*corner)) / spec.cell) * spec.cell, self.angle) + middle]
 
 
 ARCHIMEDEAN_CHORDS = Spirals(

@@ -192,6 +192,7 @@ def _wave_corners(wave: Wave) -> Path:
 
 
 def _turn(points: Path, angle: float) -> Path:
+    """Turn points (N, 2) by `angle` degrees about (0, 0)."""
     if not angle:
         return points
     from patterns.linework import turn

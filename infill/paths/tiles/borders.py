@@ -96,6 +96,7 @@ def find_borders(lines: list[Line], size: tuple[float, float], *, line_width: fl
 
 
 def _edges(parts: list[Line]) -> Floats:
+    """Return the segments of lines, (S, 2, 2)."""
     pieces = [np.stack([part[:-1], part[1:]], axis=1) for part in parts]
     return np.concatenate(pieces) if pieces else np.empty((0, 2, 2))
 

@@ -62,6 +62,7 @@ def tile_strands(field: Floats, grid: TileGrid) -> list[Strand]:
 
 
 def _origin(grid: TileGrid) -> Floats:
+    """Return the first node of the tile itself, behind the padding, mm."""
     origin: Floats = grid.first + np.array(grid.spacing) * grid.pad
     return origin
 
