@@ -77,7 +77,8 @@ def take_back_crossings(
         crossing[triangles[np.unique(pairs)]] = True
         is_taken = _add_ring(crossing, triangles, count)[shifts.points]
         changed = shifts.points[is_taken]
-        points = points.copy()
+        if points is walls.points:
+            points = points.copy()  # once: it is as large as all walls
         points[changed] -= shifts.vectors[is_taken]
         shifts = Shifts(points=shifts.points[~is_taken], vectors=shifts.vectors[~is_taken])
     return shifts, len(pairs)
