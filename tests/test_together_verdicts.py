@@ -247,7 +247,7 @@ def test_walls_traced_in_the_box_of_a_label_are_those_of_all(spacing: Any, monke
         monkeypatch.setattr(partitions, "MOST_BOXES", most)
         check = check_of(labels, after, spacing=spacing)
         checks.append((check.deviations(), [check.given(number) for number in range(1, 8)]))
-        assert (check._whole is None) == bool(most)
+        assert (check.whole is None) == bool(most)
     (deviations, parts), (all_deviations, all_parts) = checks
     assert deviations == all_deviations
     assert any(deviations)

@@ -261,7 +261,7 @@ def test_pairs_of_labels_are_numbered_in_their_order(in_table: int, monkeypatch:
 def test_places_reach_as_far_as_the_triangles_at_their_point(monkeypatch: pytest.MonkeyPatch) -> None:
     partition = partition_of(make_cells((12, 12, 12), 5, 4), monkeypatch)
     mesh = WallMesh.of(partition.walls, CUBIC, (12, 12, 12))
-    places, _, _, point, corners, starts, star, _, reach = mesh._watched(0.1)
+    places, _, _, point, corners, starts, star, _, reach = mesh.watched(0.1)
     for n in range(0, len(places), 17):
         of_star = corners[star[starts[point[n]] : starts[point[n] + 1]]].reshape(-1, 3)
         assert reach[n] == pytest.approx(np.linalg.norm(of_star - places[n], axis=1).max(), rel=1e-12)

@@ -116,7 +116,7 @@ class PartitionCheck:
         return [box and tuple(slice(max(0, side.start - 1), side.stop + 1) for side in box) for box in boxes]
 
     @cached_property
-    def _whole(self) -> tuple[WallGraph, LabelCutter] | None:
+    def whole(self) -> tuple[WallGraph, LabelCutter] | None:
         """The walls between all given labels, where tracing them in the box of every label would take longer."""
         shape = self.numbers.shape
         cells = sum(
@@ -138,8 +138,8 @@ class PartitionCheck:
                 cells=np.empty((0, 3)),
                 unsettled=np.empty(0, dtype=bool),
             )
-        if self._whole is not None:
-            graph, cutter = self._whole
+        if self.whole is not None:
+            graph, cutter = self.whole
             cut, corner, changed = cutter.cut(number), (0, 0, 0), self.changed
         else:
             graph = trace_walls(np.ascontiguousarray(self.numbers[box]), threads=1)
@@ -206,7 +206,7 @@ class PartitionCheck:
         around, near = (
             dilate_cells(self.changed, tuple(np.ceil(cells * reach).astype(int).tolist())) for cells in (AROUND, NEAR)
         )
-        _ = self._whole, self._cutter, self._boxes  # made before threads ask for them
+        _ = self.whole, self._cutter, self._boxes  # made before threads ask for them
 
         def compare(number: int) -> Deviation | None:
             return self._compare(number, around, near, is_unsettled=bool(is_unsettled[number]))

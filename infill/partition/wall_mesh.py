@@ -119,7 +119,7 @@ class WallMesh:
             self.flags.copy(),
             self.quadric.copy(),
         )
-        into, watched = np.arange(len(points), dtype=np.int32), self._watched(tolerance)
+        into, watched = np.arange(len(points), dtype=np.int32), self.watched(tolerance)
         swept = np.full(len(into), -1, dtype=np.int32)
         number, squared, spacing = 0, (tolerance or 0.0) ** 2, SPACING * (tolerance or 1.0)
         for share in BOUNDS:
@@ -158,7 +158,7 @@ class WallMesh:
         starts = np.searchsorted(slab[members][order], np.arange(count + 2))
         return slab, members[order], starts
 
-    def _watched(self, tolerance: float | None) -> Watched:
+    def watched(self, tolerance: float | None) -> Watched:
         """Collect the points that must stay near, once for each wall at them. See `wall_collapsing.sweep_walls`."""
         if tolerance is None:
             none = np.empty(0, dtype=np.int32)
