@@ -121,7 +121,7 @@ def fill(
     writers = {path: _writer(path, settings, slicer, ascii_stl=ascii_stl) for path, slicer in files}
     outputs = [path for path, _ in files]
     if preview is not None:
-        from infill.pictures.preview import check_preview
+        from infill.pictures.picture_files import check_preview
 
         check_preview(preview)
     cuts = _parse_cuts(cut or [], drawn=preview is not None, dry_run=dry_run)

@@ -151,7 +151,7 @@ def _check_formats(output: SmoothOutput, settings: SmoothSettings) -> None:
     if settings.by_component:
         check_fields(output.outputs)
     if output.preview is not None:
-        from infill.pictures.preview import check_preview
+        from infill.pictures.picture_files import check_preview
 
         check_preview(output.preview)
 
