@@ -107,7 +107,8 @@ def _show_in_space(name: str, kind: PatternClass, *, as_json: bool) -> None:
         place = "follows the part" if not getattr(kind, "repeats", True) else "repeats in space"
         rows = {**SIZES, **_parameter_rows(kind, own=True)}
         typer.echo(format_table(rows, title=f"{name}: {kind.summary}\n  {place}\n"))
-        typer.echo(f"\n'infill list {name} --preview {kind.name}.png' draws it, 'infill make {name}' makes a block of it.")
+        drawn = f"'infill list {name} --preview {kind.name}.png' draws it"
+        typer.echo(f"\n{drawn}, 'infill make {name}' makes a block of it.")
 
 
 def _write_preview(name: str, kind: PatternClass, path: Path, *, overwrite: bool) -> None:
