@@ -46,7 +46,9 @@ SLICER = "{slicer}"  # the placeholder in names of files
 def fill(
     part: Annotated[
         Path,
-        typer.Argument(metavar="PART", help="Mesh to fill (.stl .3mf .obj .ply .off .glb .gltf): closed, or nearly."),
+        typer.Argument(
+            metavar="PART...", help="Mesh to fill (.stl .3mf .obj .ply .off .glb .gltf): closed, or nearly."
+        ),
     ],
     output: Annotated[
         list[Path] | None,

@@ -37,7 +37,7 @@ def refill(
     gcode: Annotated[
         Path,
         typer.Argument(
-            metavar="PRINT.gcode",
+            metavar="PRINT.gcode...",
             help="G-code from a slicer: .gcode, .bgcode or .gcode.3mf; replaced in place without -o.",
         ),
     ],

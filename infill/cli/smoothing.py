@@ -41,7 +41,7 @@ def smooth(
     source: Annotated[
         Path,
         typer.Argument(
-            metavar="INPUT",
+            metavar="INPUT...",
             help="Mesh (.stl .3mf .obj .ply .off .glb .gltf), volume (.npy .npz .tif .nrrd .nii .mha .mgz .vtk .vti, a "
             "folder of DICOM or slices) or points (.xyz .csv .txt .npy .ply).",
         ),
