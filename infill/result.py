@@ -21,8 +21,8 @@ from infill.formats.parts import Part
 from infill.imaging.label_tables import Colour
 from infill.meshes.split_components import concatenate_surfaces
 from infill.pictures.picturable import Picturable
-from infill.pictures.preview import SUFFIXES as PICTURES
-from infill.pictures.preview import is_picture
+from infill.pictures.picture_files import SUFFIXES as PICTURES
+from infill.pictures.picture_files import is_picture
 from infill.plain_numbers import plain_size
 from infill.reports.common import Declared, declare
 from infill.surface import Surface

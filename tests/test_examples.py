@@ -26,7 +26,7 @@ ROOT = Path(__file__).resolve().parents[1]
 FOLDER = ROOT / "examples"
 GOLDEN = {
     "01_make": 1022.024,
-    "02_own_pattern": 25,
+    "02_own_pattern": 36,
     "03_before_the_slicer": 0.199635,
     "04_smooth_a_scan": 15402.34,
 }

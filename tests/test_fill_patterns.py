@@ -153,7 +153,7 @@ def test_a_pattern_that_cannot_be_turned_says_so() -> None:
     ("pattern", "error", "says"),
     [
         ("honycomb", PatternError, "no pattern 'honycomb'; did you mean 'honeycomb'"),
-        ("user.py:none", FormatError, "nothing called 'none'; check the name"),
+        ("user.py:none", FormatError, "nothing called 'none'; it has "),
         ("absent.py:sheet", FormatError, "absent.py"),
         ("absent.svg", FormatError, "absent.svg"),
         ("user.py:never", ParameterError, r"0 nowhere: .* from 1.* to 2\.98"),

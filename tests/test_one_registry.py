@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 import shapely
 from made_shapes import box
-from shapes import BUILT_IN, IN_SPACE
+from shapes import BUILT_IN, IN_SPACE, Ripples
 from test_command_line import one_line_error, run
 
 import patterns
@@ -113,6 +113,26 @@ def test_one_file_makes_fills_and_refills(way: str, folder: Path, monkeypatch: p
     assert report["sections"]["replaced"] == report["sections"]["all"] > 0
     # A region of the print has room for few bricks, so that the length of lines jumps with their size.
     assert judge(Path("print.gcode").read_bytes(), Path("c.gcode").read_bytes(), filament=(0.8, 1.1)) == []
+
+
+def test_list_shows_a_pattern_of_a_users(folder: Path) -> None:
+    shown = run("list", "bricks_module.py:Bricks", "--preview", "bricks.png")
+    assert shown.exit_code == 0, shown.stderr
+    assert "bricks: a wall of bricks" in shown.stdout
+    assert "--set long" in shown.stdout
+    assert Path("bricks.png").exists()
+    one_line_error(run("list", "bricks_module.py:clip"), "clip is not a class of patterns, .*functions too")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [("make",), ("list",), ("fill", "part.stl", "--pattern"), ("refill", "print.gcode", "--pattern")],
+    ids=lambda words: words[0],
+)
+def test_a_file_without_the_name_of_its_pattern_is_one_clear_line(words: tuple[str, ...], folder: Path) -> None:
+    out = {"make": ["-o", "a.stl"], "fill": ["-o", "b.stl"], "refill": ["-o", "c.gcode"]}.get(words[0], [])
+    one_line_error(run(*words, "bricks_module.py", *out), r"give bricks_module\.py:NAME, where NAME is its class")
+    one_line_error(run(*words, "bricks_module.py:bricks", *out), "has nothing called 'bricks'; it has Bricks$")
 
 
 @pytest.mark.slow
@@ -283,6 +303,40 @@ def test_paths_along_lines_lie_alike_in_every_region() -> None:
     )
     window = shapely.box(*kinds[1][0])
     # Rings begin elsewhere in another square, and each is simplified by up to 0.002 mm.
+    assert shapely.hausdorff_distance(large.intersection(window), small.intersection(window)) < 0.004
+
+
+def test_a_wave_that_a_border_cuts_at_its_crest_is_one_path() -> None:
+    """The ends of its pieces are near each other, at the border alone."""
+    x = np.linspace(-23, 23, 461)
+    wave = shapely.LineString(np.stack([x, 5 + np.cos(x)], axis=-1))
+    lines = shapely.intersection(wave, shapely.box(-23, -23, 23, 5.99))
+    assert len(lines.geoms) == 8
+    doubled = separate_lines(lines, cell=3.0, line_width=WIDTH)
+    paths = separate_lines(lines, cell=3.0, line_width=WIDTH, inside=shapely.box(-17, -17, 17, 3))
+    assert shapely.MultiLineString(doubled).length > 1.5 * lines.length
+    assert len(paths) == 8
+    assert shapely.hausdorff_distance(shapely.MultiLineString(paths), lines) < 1e-5  # a grid of 1e-6 cells
+
+
+@pytest.mark.slow
+def test_a_level_set_is_drawn_around_the_region_alone_and_alike_in_every_region() -> None:
+    drawn: list[float] = []
+
+    class Watched(Ripples):
+        def level_set(self, x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndarray:
+            drawn.append(float(np.abs(y).min()) if x.ndim == 2 else np.inf)
+            return super().level_set(x, y, z)
+
+    family = line_paths(Watched(frame=False, angle=7))
+    spec = PathSpec(cell=3.0, line_width=WIDTH, z=0.2, layer=0, radius=0.0)
+    small, large = (
+        shapely.MultiLineString(family.strands(bounds, spec)) for bounds in ((30, 40, 38, 44), (-50, -50, 50, 50))
+    )
+    assert drawn[0] > 30  # the middle of the print is far away
+    window = shapely.box(30, 40, 38, 44)
+    assert shapely.intersection(small, window).length > 0
+    # Each is simplified by up to 0.002 mm.
     assert shapely.hausdorff_distance(large.intersection(window), small.intersection(window)) < 0.004
 
 

@@ -32,7 +32,7 @@ from infill import (
 )
 from infill.cli.app import build_app
 from infill.formats.units import read_mesh_in_mm
-from infill.pictures.preview import SUFFIXES
+from infill.pictures.picture_files import SUFFIXES
 
 SPHERE = trimesh.creation.icosphere(3, 8.0)
 

@@ -15,7 +15,7 @@ from infill import FormatError, OutputError, Smoothing, Surface, make, smooth_la
 from infill.meshes.winding import is_solid_boundary, winding_numbers
 from infill.pictures.before_and_after import FAR_VOXELS, LEAST_HITS, MarkedSurface, draw_before_and_after
 from infill.pictures.close_up import FRAME, SIDE, SURROUNDINGS, insert_close_up
-from infill.pictures.preview import check_preview
+from infill.pictures.picture_files import check_preview
 from infill.pictures.render import render
 from infill.pictures.sheet import CAPTION, LINE, MARGIN, PANEL, arrange_panels, spell_units, wrap_words
 

@@ -109,7 +109,7 @@ def test_new_lines_keep_off_a_section_that_stays(tmp_path: Path, graded: dict[st
     sliced, output = tmp_path / "old.gcode", tmp_path / "new.gcode"
     sliced.write_bytes(text[:end] + stray + text[end:])
     report = refill(sliced, output=output, pattern="honeycomb", **graded).report
-    assert report["sections"]["kept"] == {"no sure region": 1}
+    assert report["sections"]["kept"] == {"no room found between walls": 1}
     assert report["sections"]["replaced"] == report["sections"]["all"] - 1
     layers = read_sparse(output.read_text())
     assert sum(map(crossing_paths, layers)) == 0

@@ -12,6 +12,7 @@ from typing import Annotated, Any
 import typer
 
 from infill.cli.commands import Command, Group
+from infill.cli.several import FileCommand
 from infill.version import __version__
 
 # By name: module and function, which are loaded when the command is built, and an example. Those not in
@@ -28,6 +29,7 @@ COMMANDS: dict[str, tuple[str, str, str]] = {
     "sample": ("sampling", "sample", "infill sample part scan print"),
 }
 
+FILE_COMMANDS = ("smooth", "fill", "refill")  # which take several files
 LISTING = ("list", "sample")  # commands that list things when nothing is given
 
 
@@ -53,7 +55,12 @@ def build_app(command_name: str = "") -> typer.Typer:
     for name in [command_name] if command_name in COMMANDS else COMMANDS:
         module, attribute, example = COMMANDS[name]
         function: Callable[..., Any] = getattr(importlib.import_module(f"infill.cli.{module}"), attribute)
-        app.command(name, cls=Command, no_args_is_help=name not in LISTING, epilog=f"Example: {example}")(function)
+        app.command(
+            name,
+            cls=FileCommand if name in FILE_COMMANDS else Command,
+            no_args_is_help=name not in LISTING,
+            epilog=f"Example: {example}",
+        )(function)
     return app
 
 

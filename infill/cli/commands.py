@@ -49,27 +49,38 @@ class Command(TyperCommand):
         try:
             return super().parse_args(ctx, rewrite_values(self.params, args))
         except TypedValueError as error:
-            raise _usage_exit(ctx, str(error)) from error
+            raise usage_exit(ctx, str(error)) from error
         except UsageException as error:
-            raise _usage_exit(ctx, _plain_message(error)) from error
+            raise usage_exit(ctx, _plain_message(error)) from error
 
     def invoke(self, ctx: Any) -> Any:  # noqa: ANN401
         """Run the command; print an error of the library as one line and exit with 1, or with the usage and 2."""
         try:
+            return self.run(ctx)
+        except (InfillError, PatternError, MemoryError) as error:
+            say(f"error: {self.explain(ctx, error)}")
+        raise typer.Exit(FAILED)
+
+    def run(self, ctx: Any) -> Any:  # noqa: ANN401
+        """Run the command; print an error of the command line with the usage, and exit with 2."""
+        try:
             return super().invoke(ctx)
         except UsageException as error:
-            raise _usage_exit(ctx, _plain_message(error)) from error
-        except (InfillError, PatternError) as error:
-            message = use_typed_options(error, ctx)
+            raise usage_exit(ctx, _plain_message(error)) from error
+        except (UsageError, PatternUsageError) as error:
             # An option of a config file is not part of the command line.
-            names_option = message != str(error) or message.startswith("--")
-            if names_option and isinstance(error, (UsageError, PatternUsageError)):
-                raise _usage_exit(ctx, message) from error
-            missing = _find_missing_input(ctx) if isinstance(error, OutputError) else None
-            say(f"error: {message if missing is None else missing_file(missing)}")
-        except MemoryError:
-            say("error: out of memory; use larger cells or voxels, or a smaller part")
-        raise typer.Exit(FAILED)
+            message = use_typed_options(error, ctx)
+            if message != str(error) or message.startswith("--"):
+                raise usage_exit(ctx, message) from error
+            raise
+
+    def explain(self, ctx: Any, error: BaseException) -> str:  # noqa: ANN401
+        """Return the message of an error of the library, with the options that were typed."""
+        if isinstance(error, MemoryError):
+            return "out of memory; use larger cells or voxels, or a smaller part"
+        assert isinstance(error, (InfillError, PatternError))
+        missing = _find_missing_input(ctx) if isinstance(error, OutputError) else None
+        return use_typed_options(error, ctx) if missing is None else missing_file(missing)
 
 
 # Options that people type from another command or a slicer, and what they mean here: the first that the command has.
@@ -111,14 +122,14 @@ class Group(TyperGroup):
         try:
             return super().parse_args(ctx, args)
         except UsageException as error:
-            raise _usage_exit(ctx, _plain_message(error)) from error
+            raise usage_exit(ctx, _plain_message(error)) from error
 
     def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:  # noqa: ANN401
         """Return the command of a name, or end with the usage and exit status 2 if it does not exist."""
         try:
             return super().resolve_command(ctx, args)
         except UsageException as error:
-            raise _usage_exit(ctx, _plain_message(error)) from error
+            raise usage_exit(ctx, _plain_message(error)) from error
 
 
 def use_typed_options(error: InfillError | PatternError, context: typer.Context) -> str:
@@ -151,7 +162,7 @@ def _plain_message(error: Any) -> str:  # noqa: ANN401 - a usage error of typer'
     return message.removeprefix("Invalid value: ").replace("Value error, ", "")
 
 
-def _usage_exit(context: typer.Context, message: str) -> typer.Exit:
+def usage_exit(context: typer.Context, message: str) -> typer.Exit:
     """Print the usage and an error of the command line; return the exit."""
     say(context.get_usage())
     say(f"Try '{context.command_path} --help' for help.")

@@ -46,7 +46,9 @@ SLICER = "{slicer}"  # the placeholder in names of files
 def fill(
     part: Annotated[
         Path,
-        typer.Argument(metavar="PART", help="Mesh to fill (.stl .3mf .obj .ply .off .glb .gltf): closed, or nearly."),
+        typer.Argument(
+            metavar="PART...", help="Mesh to fill (.stl .3mf .obj .ply .off .glb .gltf): closed, or nearly."
+        ),
     ],
     output: Annotated[
         list[Path] | None,
@@ -121,7 +123,7 @@ def fill(
     writers = {path: _writer(path, settings, slicer, ascii_stl=ascii_stl) for path, slicer in files}
     outputs = [path for path, _ in files]
     if preview is not None:
-        from infill.pictures.preview import check_preview
+        from infill.pictures.picture_files import check_preview
 
         check_preview(preview)
     cuts = _parse_cuts(cut or [], drawn=preview is not None, dry_run=dry_run)

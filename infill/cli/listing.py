@@ -32,7 +32,7 @@ def list_patterns(
         str | None,
         typer.Argument(
             metavar="PATTERN",
-            help="Show this one, with its parameters and a picture.",
+            help="Show this one, with its parameters and a picture; also one of yours: module.py:name.",
             autocompletion=fill_pattern_names,
         ),
     ] = None,
@@ -52,13 +52,13 @@ def list_patterns(
     if pattern is None and preview is not None:
         raise typer.BadParameter("a preview shows a single pattern; name one")
     pattern = None if pattern is None else PATTERNS.spelled(pattern)
-    shown: Mapping[str, PatternClass] = PATTERNS if pattern is None else {pattern: PATTERNS.find(pattern)}
+    shown: Mapping[str, PatternClass] = PATTERNS if pattern is None else {pattern: _find_class(pattern)}
     kinds = {name: kind for name, kind in shown.items() if kind.prismatic and not issubclass(kind, Cells)}
     in_space = {name: kind.summary for name, kind in shown.items() if name not in kinds}
     if preview is not None:
-        _write_preview(shown[str(pattern)], preview, overwrite=force)
+        _write_preview(str(pattern), shown[str(pattern)], preview, overwrite=force)
     if pattern in in_space:
-        _show_in_space(shown[str(pattern)], as_json=as_json)
+        _show_in_space(str(pattern), shown[str(pattern)], as_json=as_json)
         return
     if as_json:
         listed: PatternList = {"patterns": {name: _facts(kind) for name, kind in kinds.items()}}
@@ -73,9 +73,33 @@ def list_patterns(
         typer.echo(_pattern_text(kinds[pattern]))
 
 
-def _show_in_space(kind: PatternClass, *, as_json: bool) -> None:
+def _find_class(name: str) -> PatternClass:
+    """Return the class of a pattern: a registered one, or a class in a module of the user's.
+
+    Raises
+    ------
+    ParameterError, PatternError, FormatError
+        If there is no such pattern, or the module has a function or an instance in place of a class.
+    """
+    from infill.errors import ParameterError
+    from infill.options.modules import load_object, names_code
+    from infill.options.resolve_pattern import refuse_file
+    from patterns import PATTERNS, lacking
+
+    if name in PATTERNS or not names_code(name):
+        refuse_file(name)
+        return PATTERNS.find(name)
+    found = load_object(name)
+    if not isinstance(found, type) or lacking(found):
+        raise ParameterError(
+            f"{name} is not a class of patterns, and list shows classes alone; infill make takes functions too"
+        )
+    kind: PatternClass = found
+    return kind
+
+
+def _show_in_space(name: str, kind: PatternClass, *, as_json: bool) -> None:
     """Print the purpose of a pattern in space, and its parameters unless as JSON."""
-    name = kind.name
     if as_json:
         listed: PatternList = {"patterns": {}, "in_space": {name: kind.summary}}
         print_json(listed)
@@ -83,14 +107,15 @@ def _show_in_space(kind: PatternClass, *, as_json: bool) -> None:
         place = "follows the part" if not getattr(kind, "repeats", True) else "repeats in space"
         rows = {**SIZES, **_parameter_rows(kind, own=True)}
         typer.echo(format_table(rows, title=f"{name}: {kind.summary}\n  {place}\n"))
-        typer.echo(f"\n'infill list {name} --preview {name}.png' draws it, 'infill make {name}' makes a block of it.")
+        drawn = f"'infill list {name} --preview {kind.name}.png' draws it"
+        typer.echo(f"\n{drawn}, 'infill make {name}' makes a block of it.")
 
 
-def _write_preview(kind: PatternClass, path: Path, *, overwrite: bool) -> None:
+def _write_preview(name: str, kind: PatternClass, path: Path, *, overwrite: bool) -> None:
     """Draw a pattern with its defaults into a picture file: its lines, or in space, a cube of it cut open."""
     from infill.files.whole_files import check_targets, write_all_files
     from infill.pictures.drawing import write_drawing
-    from infill.pictures.preview import check_preview
+    from infill.pictures.picture_files import check_preview
     from patterns import Cells
 
     check_targets([check_preview(path)], overwrite=overwrite)
@@ -100,7 +125,7 @@ def _write_preview(kind: PatternClass, path: Path, *, overwrite: bool) -> None:
         from infill.making.block import make
 
         with progress_bar(shown=True) as progress:
-            block = make(kind.name, size=CUBE, progress=progress)
+            block = make(name, size=CUBE, progress=progress)
             write_all_files({path: block.write_picture})
     say(f"wrote {path}")
 

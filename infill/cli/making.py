@@ -131,7 +131,7 @@ def make(
     for path in outputs:
         mesh_writer(path, ascii=ascii_stl)
     if preview is not None:
-        from infill.pictures.preview import check_preview
+        from infill.pictures.picture_files import check_preview
 
         check_preview(preview)
     check_outputs((*outputs, preview), text=save_config, overwrite=force, as_json=as_json, dry_run=dry_run)

@@ -37,7 +37,7 @@ def refill(
     gcode: Annotated[
         Path,
         typer.Argument(
-            metavar="PRINT.gcode",
+            metavar="PRINT.gcode...",
             help="G-code from a slicer: .gcode, .bgcode or .gcode.3mf; replaced in place without -o.",
         ),
     ],
@@ -134,7 +134,7 @@ def _read_sliced_layer(
 ) -> tuple[int, dict[str, LayerSpeeds]]:
     """Check the preview's path; return the number of the layer to draw, the middle one by default, and its speeds."""
     from infill.files.whole_files import check_targets
-    from infill.pictures.preview import check_preview
+    from infill.pictures.picture_files import check_preview
     from infill.planner.layer_speeds import layer_speeds, middle_layer
 
     check_targets([check_preview(preview)], overwrite=overwrite)

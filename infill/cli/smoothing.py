@@ -41,7 +41,7 @@ def smooth(
     source: Annotated[
         Path,
         typer.Argument(
-            metavar="INPUT",
+            metavar="INPUT...",
             help="Mesh (.stl .3mf .obj .ply .off .glb .gltf), volume (.npy .npz .tif .nrrd .nii .mha .mgz .vtk .vti, a "
             "folder of DICOM or slices) or points (.xyz .csv .txt .npy .ply).",
         ),
@@ -151,7 +151,7 @@ def _check_formats(output: SmoothOutput, settings: SmoothSettings) -> None:
     if settings.by_component:
         check_fields(output.outputs)
     if output.preview is not None:
-        from infill.pictures.preview import check_preview
+        from infill.pictures.picture_files import check_preview
 
         check_preview(output.preview)
 

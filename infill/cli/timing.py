@@ -126,7 +126,7 @@ def _check_write(file: Path, other: Path | None, write: Path | None, *, in_place
 def _check_plot(path: Path, *, overwrite: bool) -> None:
     """Raise if the file of the plot is not a picture, or exists and may not be overwritten."""
     from infill.files.whole_files import check_targets
-    from infill.pictures.preview import check_preview
+    from infill.pictures.picture_files import check_preview
 
     check_targets([check_preview(path)], overwrite=overwrite)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+from types import ModuleType
 
 from infill.errors import FormatError
 from infill.files.broken import require_readable, wrap_reader_errors
@@ -36,5 +37,16 @@ def load_object(text: str) -> object:
     with wrap_reader_errors(path, "cannot be loaded", "run it by itself first"):
         spec.loader.exec_module(module)
     if not hasattr(module, name):
-        raise FormatError(f"{path} has nothing called {name!r}; check the name")
+        own = _own_names(module)
+        advice = f"it has {', '.join(own)}" if own else "it defines no class and no function"
+        raise FormatError(f"{path} has nothing called {name!r}; {advice}")
     return getattr(module, name)
+
+
+def _own_names(module: ModuleType) -> list[str]:
+    """List the public classes and functions that a module defines, in its order."""
+    return [
+        name
+        for name, value in vars(module).items()
+        if not name.startswith("_") and callable(value) and getattr(value, "__module__", None) == module.__name__
+    ]

@@ -63,7 +63,7 @@ def resolve_pattern(pattern: object, product: str) -> tuple[Kind, str]:
 
             kind = read_tiled(name)
         else:
-            _refuse_mesh(name)
+            refuse_file(name)
             name = PATTERNS.spelled(name)
             kind = _pattern_from_object(PATTERNS.find(name), name)
     offered = offers(kind)
@@ -78,9 +78,15 @@ def resolve_pattern(pattern: object, product: str) -> tuple[Kind, str]:
     return kind, name
 
 
-def _refuse_mesh(name: str) -> None:
-    """Raise PatternError for the name of a file with a mesh, which a person may give where a pattern is needed."""
-    if Path(name).suffix.lower() in MESHES and name not in PATTERNS:
+def refuse_file(name: str) -> None:
+    """Raise PatternError for the name of a mesh or a module, which a person may give where a pattern is needed."""
+    if name in PATTERNS:
+        return
+    if Path(name).suffix.lower() == ".py":
+        raise PatternError(
+            f"{name!r} names a file and no pattern in it; give {name}:NAME, where NAME is its class or its function"
+        )
+    if Path(name).suffix.lower() in MESHES:
         raise PatternError(
             f"there is no pattern {name!r}, which is named like a mesh; infill fill {Path(name).name} --pattern NAME "
             "fills a part, and infill list shows the patterns"

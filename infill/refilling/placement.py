@@ -128,7 +128,7 @@ def resolve_paths(pattern: object, parameters: Mapping[str, Any]) -> tuple[str, 
         If there is no such pattern, or it offers no paths, lines or level set; if a parameter is given twice.
     """
     from infill.options.modules import names_code
-    from infill.options.resolve_pattern import is_drawing, resolve_pattern
+    from infill.options.resolve_pattern import is_drawing, refuse_file, resolve_pattern
     from infill.paths.families.catalogue import FAMILIES
     from patterns import PATTERNS
 
@@ -137,6 +137,7 @@ def resolve_paths(pattern: object, parameters: Mapping[str, Any]) -> tuple[str, 
         if name in FAMILIES or is_drawing(name):
             return name, parameters, None
         if name not in PATTERNS and not names_code(name):
+            refuse_file(name)
             meant = PATTERNS.nearest(name, FAMILIES)
             advice = f"give keep, or one of {', '.join(FAMILIES)}" if meant is None else f"did you mean {meant!r}?"
             raise ParameterError(f"there is no pattern {name!r}; {advice}")

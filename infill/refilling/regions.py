@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from shapely import MultiPolygon, Polygon
 
 
-NO_REGION = "no sure region"  # reason for which a section keeps its paths
+NO_REGION = "no room found between walls"  # reason for which a section keeps its paths
 BEAD_STEP = 0.15  # mm between the points on beads
 INFILL_STEP = 0.2  # mm between the points on infill
 NODES = 0.2  # mm between the nodes of the grid

@@ -1,4 +1,4 @@
-"""Formats of pictures."""
+"""Names of picture files, and the formats that are written."""
 
 from __future__ import annotations
 
