@@ -18,7 +18,7 @@ from infill.inspection.deviation import KEPT, measure_deviation
 from infill.inspection.label_connections import count_connections
 from infill.inspection.partitions import PartitionCheck
 from infill.isosurfaces.components import shell_names
-from infill.kernels.thickness import find_thick
+from infill.kernels.wall_points import find_thick
 from infill.meshes.shells import shell_volumes
 from infill.partition.simplices import cells_at, middle_points, simplices
 from infill.partition.wall_points import mark_beside, mark_far, mark_labels, place_middles

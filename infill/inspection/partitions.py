@@ -20,8 +20,8 @@ from infill.inspection.bricks import TopologyCheck
 from infill.inspection.changes import TopologyChanges
 from infill.inspection.deviation import COUNTS, KEPT, LOST, THIN, Deviation, measure_deviation
 from infill.inspection.label_connections import count_connections
-from infill.kernels.thickness import find_thick
 from infill.kernels.threads import in_order, thread_count
+from infill.kernels.wall_points import find_thick
 from infill.meshes.distance import TriangleTree
 from infill.partition.wall_points import mark_beside, mark_far, mark_labels, place_middles
 from infill.partition.walls import LabelCutter, WallGraph, cut_triangles, trace_walls

@@ -390,8 +390,8 @@ def sweep_walls(
     ring_u, ring_v = np.empty((sides, 2), np.int32), np.empty((sides, 2), np.int32)
     uses_u, uses_v = np.empty(sides, np.int32), np.empty(sides, np.int32)
     tried, moved, chosen = np.empty(sides, np.bool_), np.empty((sides, 3, 3)), np.empty(2 * sides, np.int32)
-    goes, goes_to = np.empty(MAX_WATCHED, np.int32), np.empty(MAX_WATCHED, np.int32)
-    goes_at, normals = np.empty((MAX_WATCHED, 3)), np.empty((sides, 3))
+    going = np.empty(MAX_WATCHED, np.int32), np.empty(MAX_WATCHED, np.int32), np.empty((MAX_WATCHED, 3))
+    normals = np.empty((sides, 3))
     around, crossing_space = np.empty(MOST_FACES, np.int32), (
         np.empty((3, 3)), np.empty((sides, 2, 3)), np.empty(3), np.empty(3)
     )  # fmt: skip
@@ -430,38 +430,15 @@ def sweep_walls(
                 taken = 0
                 if len(watched[0]):
                     taken = reassign_watched(
-                        u,
-                        triangles,
-                        pair,
-                        fan_v,
-                        watched,
-                        squared_tolerance,
-                        moved,
-                        chosen,
-                        changed,
-                        goes,
-                        goes_to,
-                        goes_at,
+                        u, triangles, pair, fan_v, watched, squared_tolerance, moved, chosen, changed, *going
                     )
                     if taken == NONE or not are_faces_near(
-                        place,
-                        moved,
-                        changed,
-                        pair,
-                        chosen,
-                        watched,
-                        squared_tolerance,
-                        spacing,
-                        goes,
-                        goes_to,
-                        goes_at,
-                        taken,
-                        normals,
+                        place, moved, changed, pair, chosen, watched, squared_tolerance, spacing, taken, normals, *going
                     ):
                         continue
                     if not _is_clear(u, v, mesh, fan_u, fan_v, moved, changed, chosen, around, *crossing_space):
                         continue
-                    hand_over(watched[1], watched[2], chosen, changed, goes, goes_to, taken)
+                    hand_over(watched[1], watched[2], chosen, changed, going[0], going[1], taken)
                 copy_row(quadric[v], s)
                 copy_row(points[v], place)
                 _collapse(u, v, mesh, faces_u, count_u, faces_v, into, swept, sweep)

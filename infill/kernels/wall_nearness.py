@@ -118,7 +118,7 @@ def _find_near_face(x, y, z, last, of, watched, squared_tolerance, pair, chosen,
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def are_faces_near(
-    place, moved, changed, pair, chosen, watched, squared_tolerance, spacing, goes, goes_to, goes_at, taken, normals
+    place, moved, changed, pair, chosen, watched, squared_tolerance, spacing, taken, normals, goes, goes_to, goes_at
 ):
     """Return True if a place, the edges from it and the middles of its faces are near the walls that were given.
 
