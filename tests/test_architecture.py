@@ -537,7 +537,9 @@ def test_the_command_smooths_without_linear_algebra_and_leaves_it_to_others(tmp_
         f"import sys, contextlib; sys.argv = {words!r}\nimport infill.cli\n"
         "with contextlib.suppress(SystemExit), contextlib.redirect_stdout(sys.stderr): infill.cli.program()"
     )
-    brought = modules_after("import scipy.ndimage")  # which looks for far places; of SciPy 1.18, it loads linear algebra
+    brought = modules_after(
+        "import scipy.ndimage"
+    )  # which looks for far places; of SciPy 1.18, it loads linear algebra
     assert "scipy.linalg" not in modules_after(code) - brought
     assert "scipy.linalg.cython_blas" in modules_after(f"{code}\nimport scipy.linalg.cython_blas")
 

@@ -346,7 +346,7 @@ def test_a_print_that_is_not_there_leaves_nothing(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("words", [[], ["one.gcode", "two.gcode"], ["one.gcode", "--sharp"]])
+@pytest.mark.parametrize("words", [[], ["one.gcode", "two.gcode", "-o", "x.gcode"], ["one.gcode", "--sharp"]])
 def test_wrong_usage_exits_2(words: list[str]) -> None:
     assert run("refill", *words).exit_code == 2
 

@@ -132,7 +132,7 @@ def test_lines_that_follow_a_field_obey_its_laws(sliced: Path, tmp_path: Path, p
     assert graded["time"]["print_after_s"] < 1.15 * plain["time"]["print_after_s"]
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_rings_that_follow_a_field_obey_its_laws(sliced: Path, tmp_path: Path) -> None:
     """The same, but for boxes where rings end, in the middle, and where they turn: round corners are shorter.
 
@@ -162,7 +162,7 @@ def test_rings_that_follow_a_field_obey_its_laws(sliced: Path, tmp_path: Path) -
     assert graded["time"]["print_after_s"] < 1.05 * plain["time"]["print_after_s"]
 
 
-@pytest.mark.long
+@pytest.mark.longest
 def test_rings_of_a_real_print_keep_their_distance(data: Path, tmp_path: Path) -> None:
     """Where nothing of the slicer's stays in a layer, in narrow places too."""
     source, out = data / "prints" / "p29_arcs_honeycomb_klipper.gcode", tmp_path / "new.gcode"

@@ -114,6 +114,11 @@ def test_an_option_that_is_wrong_ends_the_run_before_the_first_file(folder: Path
     assert not Path("out").exists()
 
 
+def test_nothing_to_write_is_wrong_usage_once(folder: Path) -> None:
+    usage_error(run("smooth", "a.stl", "b.v2.stl"), "nothing to write; give -o FILE")
+    usage_error(run("fill", "a.stl", "b.v2.stl"), "nothing to write; give -o FILE")
+
+
 def test_stars_are_expanded_where_no_shell_does(folder: Path) -> None:
     assert expand_files(["*.gcode", "one.gcode", "none*.stl"]) == [
         Path("one.gcode"),

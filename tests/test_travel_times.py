@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from infill.kernels.eikonal import sweep_times
@@ -90,6 +90,7 @@ def test_without_a_gradient_lines_are_those_of_concentric(region: shapely.Polygo
     assert shapely.hausdorff_distance(lines_of(graded), lines_of(plain)) < 0.2
 
 
+@settings(max_examples=8)
 @given(dense=st.floats(0.5, 2.0), sparse=st.floats(0.5, 2.0), cell=st.floats(1.0, 4.0), seed=st.integers(0, 2**16))
 def test_lines_are_as_long_as_the_density_integrates_to_and_keep_their_distance(
     dense: float, sparse: float, cell: float, seed: int

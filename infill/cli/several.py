@@ -14,7 +14,7 @@ from typing import Any
 
 import typer
 
-from infill.cli.commands import FAILED, Command, UsageException, usage_exit
+from infill.cli.commands import FAILED, USAGE, Command, UsageException, usage_exit
 from infill.cli.console import say
 from infill.cli.piping import is_piped
 from infill.errors import InfillError
@@ -56,6 +56,8 @@ class FileCommand(Command):
                 failures[file] = self.explain(ctx, error)
                 say(f"error: {failures[file]}")
             except typer.Exit as end:
+                if end.exit_code == USAGE:
+                    raise
                 if end.exit_code:
                     failures[file] = f"exit status {end.exit_code}"
         if failures:
@@ -119,7 +121,7 @@ def name_outputs(
     for number, file in enumerate(files):
         outputs: dict[str, Any] = {
             key: [_output_of(file, path, suffix) for path in value]
-            if isinstance(value, list)
+            if isinstance(value, (list, tuple))
             else _output_of(file, value, ".png" if key == "preview" else suffix)
             for key, value in named.items()
         }
@@ -137,7 +139,7 @@ def name_outputs(
 
 
 def _as_list(value: Any) -> list[Any]:  # noqa: ANN401 - one path, several or none
-    return value if isinstance(value, list) else [] if value is None else [value]
+    return list(value) if isinstance(value, (list, tuple)) else [] if value is None else [value]
 
 
 def _has_placeholder(given: Mapping[str, Any]) -> bool:
