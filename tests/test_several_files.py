@@ -105,7 +105,7 @@ def test_a_dry_run_leaves_no_folder_and_reports_come_one_after_another(folder: P
 
 
 def test_a_folder_in_which_nothing_was_written_goes_again(folder: Path) -> None:
-    assert run("smooth", "broken.stl", "missing.stl", "-o", "out").exit_code == 1
+    assert run("smooth", "broken.stl", "missing.stl", "-o", "out/deep").exit_code == 1
     assert not Path("out").exists()
 
 
@@ -125,6 +125,11 @@ def test_stars_are_expanded_where_no_shell_does(folder: Path) -> None:
         Path("two.gcode"),
         Path("none*.stl"),
     ]
+
+
+def test_a_star_that_matches_one_file_is_that_file(folder: Path) -> None:
+    assert run("smooth", "a*.stl", "--voxel", "1", "-o", "x.stl", "-q").exit_code == 0
+    assert Path("x.stl").is_file()
 
 
 def test_commands_with_one_file_still_refuse_more(folder: Path) -> None:

@@ -41,6 +41,7 @@ class FileCommand(Command):
         files = expand_files([str(ctx.params[argument]), *ctx.args])
         given = dict(ctx.params)
         if len(files) == 1 and not _has_placeholder(given):
+            ctx.params[argument] = files[0]
             return super().invoke(ctx)
         failures: dict[Path, str] = {}
         try:
@@ -72,14 +73,15 @@ class FileCommand(Command):
 def _new_folders(outputs: Mapping[str, Any]) -> Iterator[None]:
     """Make the folders of outputs; those that are still empty at the end go again."""
     paths = [path for key in NAMED for path in _as_list(outputs.get(key)) if not is_piped(path)]
-    made = [folder for folder in {path.parent for path in paths} if not folder.exists()]
-    with wrap_os_errors(made[0] if made else Path()):
-        for folder in made:
-            folder.mkdir(parents=True)
+    folders = {folder for path in paths for folder in path.parents if not folder.exists()}
+    made = sorted(folders, key=lambda folder: len(folder.parts))
+    for folder in made:
+        with wrap_os_errors(folder):
+            folder.mkdir()
     try:
         yield
     finally:
-        for folder in made:
+        for folder in made[::-1]:
             with contextlib.suppress(OSError):
                 folder.rmdir()
 

@@ -271,13 +271,18 @@ def _ratios_at(graded: GradedDensity, heights: Sequence[float]) -> list[RatioMap
     low, high = graded.place.bounds[:, :2]
     step = float((high - low).max()) / RATIO_NODES
     axes = [np.arange(start, end + step, step) for start, end in zip(low, high, strict=True)]
-    nodes = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
-    inside = np.clip(nodes.reshape(-1, 2), low, high)
-    shares = [graded.shares(np.column_stack([inside, np.full(len(inside), height)])) for height in heights]
     return [
-        RatioMap(corner=low, step=step, values=share.reshape(nodes.shape[:2]) / graded.gradient.middle)
-        for share in shares
+        RatioMap(corner=low, step=step, values=shares / graded.gradient.middle)
+        for shares in _shares_at(graded, axes, heights)
     ]
+
+
+def _shares_at(graded: GradedDensity, axes: Sequence[Floats], heights: Sequence[float]) -> list[Floats]:
+    """Return the densities at the nodes of a grid, (N, M) for each height, mm; beside the print, those at its side."""
+    nodes = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
+    inside = np.clip(nodes.reshape(-1, 2), *graded.place.bounds[:, :2])
+    rows = [graded.shares(np.column_stack([inside, np.full(len(inside), height)])) for height in heights]
+    return [row.reshape(nodes.shape[:2]) for row in rows]
 
 
 def _stretch_at(trial: _Trial, graded: GradedDensity, heights: Sequence[float]) -> list[PlaneMap]:
@@ -288,11 +293,8 @@ def _stretch_at(trial: _Trial, graded: GradedDensity, heights: Sequence[float]) 
     corner = low - padding
     counts = np.ceil((high + padding - corner) / step).astype(int) + 1
     axes = [start + step * np.arange(count) for start, count in zip(corner, counts.tolist(), strict=True)]
-    nodes = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
-    inside = np.clip(nodes.reshape(-1, 2), low, high)
     splines, slopes = [], []
-    for height in heights:
-        shares = graded.shares(np.column_stack([inside, np.full(len(inside), height)])).reshape(nodes.shape[:2])
+    for shares in _shares_at(graded, axes, heights):
         coordinates, _ = fit_plane_map(trial.scales_of(shares, graded.gradient.middle), trial.normals)
         splines.append(PlaneSpline(corner=corner, step=step, coefficients=corner + step * coordinates))
         slopes.append(spline_jacobians(coordinates))
