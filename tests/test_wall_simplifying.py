@@ -18,7 +18,7 @@ from infill.kernels import wall_collapsing as kernels
 from infill.kernels.wall_edges import list_stars, list_walls
 from infill.meshes.distance import distances
 from infill.meshes.intersections import intersecting_pairs
-from infill.partition import wall_mesh
+from infill.partition import simplifying, wall_mesh
 from infill.partition.simplifying import find_far, simplify_partition
 from infill.partition.volumes import VolumePartition
 from infill.partition.wall_mesh import WallMesh, chain, edges_of, number_pairs, pair_wall_edges
@@ -185,12 +185,92 @@ def test_a_wall_that_is_moved_is_found_and_its_points_can_be_fixed(monkeypatch: 
     far = find_far(whole, moved, 0.1, CUBIC, 1)
     assert len(far)
     assert np.linalg.norm(far - points[inner[0]], axis=1).min() < 1.0
-    kept = whole.fix_near(far, 1.5).collapse(0.08**2, 0.08, 1)
+    kept = whole.fix(whole.near(far, 1.5)).collapse(0.08**2, 0.08, 1)
     assert not len(find_far(whole, kept, 0.1, CUBIC, 1))
     near = np.linalg.norm(whole.points - points[inner[0]], axis=1) < 1.0
     held = set(map(tuple, kept.points.tolist()))
     assert near.any()
     assert all(place in held for place in map(tuple, whole.points[near].tolist()))
+
+
+@settings(max_examples=12, deadline=None)
+@given(seed=st.integers(0, 99), places=st.integers(1, 12), reach=st.sampled_from([1.0, 2.5]))
+def test_points_that_come_back_leave_every_label_whole(seed: int, places: int, reach: float) -> None:
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        partition = partition_of(make_cells((20, 20, 20), 6, 1), monkeypatch)
+    whole = WallMesh.of(partition.walls, CUBIC, (20, 20, 20))
+    fewer = whole.collapse(0.02**2, None, 1).collapse(0.2**2, 0.2, 1)
+    is_back = whole.near(np.random.default_rng(seed).uniform(0, 20, (places, 3)), reach)
+    restored = fewer.restore(whole, is_back)
+    assert restored is not None
+    assert len(fewer.triangles) <= len(restored.triangles) < len(whole.triangles)
+    assert (restored.points[restored.into[is_back]] == whole.points[is_back]).all()
+    mapped = restored.into[whole.triangles]
+    distinct = (mapped != np.roll(mapped, 1, axis=1)).all(axis=1)
+    assert mapped[distinct].tolist() == restored.triangles.tolist()
+    assert not restored.crowded_points().any()
+    new = restored.into[is_back]
+    before, after = whole.points[whole.triangles[distinct]], restored.points[restored.triangles]
+    normals = [np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) for corners in (before, after)]
+    assert ((normals[0] * normals[1]).sum(axis=1) > 0)[np.isin(restored.triangles, new).any(axis=1)].all()
+    walls = restored.as_walls(partition.graph, CUBIC)[1]
+    check_whole(partition.walls, walls)
+    assert set(key_of(walls).tolist()) == set(key_of(partition.walls).tolist())
+
+
+def test_triangles_that_lie_on_each_other_are_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    mesh = WallMesh.of(partition_of(make_cells((12, 12, 12), 3, 2), monkeypatch).walls, CUBIC, (12, 12, 12))
+    assert not mesh.crowded_points().any()
+    points = len(mesh.points)
+    pillow = np.array([[0, 1, 2], [0, 2, 1]], dtype=np.int32) + points  # closed, and apart from all else
+    doubled = replace(
+        mesh,
+        points=np.concatenate([mesh.points, np.eye(3)]),
+        triangles=np.concatenate([mesh.triangles, pillow]),
+        sides=np.concatenate([mesh.sides, mesh.sides[:1], mesh.sides[:1]]),
+    )
+    assert np.flatnonzero(doubled.crowded_points()).tolist() == [points, points + 1, points + 2]
+    inner = int(np.flatnonzero(mesh.order == kernels.WALL)[0])
+    at = mesh.triangles[(mesh.triangles == inner).any(axis=1)][:1]
+    flap = np.array([[at[0, 0], at[0, 1], points]], dtype=np.int32)
+    flapped = replace(
+        mesh,
+        points=np.concatenate([mesh.points, np.zeros((1, 3))]),
+        triangles=np.concatenate([mesh.triangles, flap]),
+        sides=np.concatenate([mesh.sides, mesh.sides[(mesh.triangles == inner).any(axis=1)][:1]]),
+    )
+    assert np.flatnonzero(flapped.crowded_points()).tolist() == sorted(at[0, :2].tolist())
+
+
+@pytest.mark.parametrize("walls", ["flat", "rough"])
+def test_a_place_that_fails_costs_few_triangles(walls: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    labels = make_cells((30, 30, 30), 6, 3)
+    if walls == "rough":
+        labels = make_cells((30, 30, 30), 200, 3) % 6 + 1
+    partition = partition_of(labels, monkeypatch)
+    plain = simplify_partition(partition, 0.1, scale=CUBIC)
+    failing = partition.walls.points.astype(float)[len(partition.walls.points) // 2][None]
+    collapses, checks = [], []
+
+    def collapse(self: WallMesh, *arguments: Any) -> WallMesh:
+        collapses.append(arguments)
+        return collapse_of_mesh(self, *arguments)
+
+    def find(*arguments: Any) -> NDArray[np.float64]:
+        """Report a planted place at the first check."""
+        checks.append(arguments)
+        return failing if len(checks) == 1 else find_far(*arguments)
+
+    collapse_of_mesh = WallMesh.collapse
+    monkeypatch.setattr(WallMesh, "collapse", collapse)
+    monkeypatch.setattr(simplifying, "find_far", find)
+    mended = simplify_partition(partition, 0.1, scale=CUBIC)
+    check_whole(partition.walls, mended.walls)
+    assert len(plain.walls.triangles) < len(mended.walls.triangles) < 1.1 * len(plain.walls.triangles)
+    if walls == "rough":
+        assert len(collapses) == 2  # without and with measured distances, once
+    near = np.linalg.norm(partition.walls.points - failing, axis=1) < 1.0
+    assert cKDTree(mended.walls.points).query(partition.walls.points[near])[0].max() < 0.01
 
 
 def test_walls_that_came_in_with_crossings_are_simplified_all_the_same(monkeypatch: pytest.MonkeyPatch) -> None:

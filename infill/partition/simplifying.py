@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.kernels.threads import thread_count
+from infill.kernels.wall_collapsing import FIXED
 from infill.meshes.distance import TriangleTree, morton_order
 from infill.meshes.intersections import intersecting_pairs
 from infill.partition.junctions import on_side
@@ -20,8 +21,10 @@ from infill.surface import Surface
 BLIND_SHARE = 0.05  # of the tolerance, as a mean: edges collapse up to here without any distance being measured
 SAMPLED_SHARE = 0.8  # of the tolerance: where samples may lie, so that places between them lie within the tolerance
 NEAR_SIDES = 1.5  # sides of cells: around a place that fails, points this near are fixed
-# With points fixed around places that failed before, and a smaller share of the tolerance: a large one may be too much.
-ATTEMPTS, LESS = 10, 0.8
+FEW_FAILED = 0.05  # of the points: so many come back, rather than that all is done again
+MOST_MORE = 1.1  # times as many triangles: with more come back, all is done again. On flat walls, all may come back
+# After so many attempts, all is done again with a smaller share of the tolerance: a large one may be too much.
+ATTEMPTS, RESTORED, LESS = 24, 8, 0.8
 RESTORING_ROUNDS = 6  # of moving walls; each leaves about a tenth
 PRECISE = 5e-5  # of the volume of every label
 SIDES_APART = 0.35  # sides of cells: between places at which the distance of triangles is measured
@@ -43,8 +46,9 @@ def simplify_partition(
 
     Notes
     -----
-    Where a wall goes too far, or triangles pass through each other, the points around the place are fixed, and all is
-    done again. Where that does not help, the walls stay as they were.
+    Where a wall goes too far, or triangles pass through each other, the points around the place come back. Where that
+    does not help, or the places are many, these points are fixed, and all is done again, in time with a smaller
+    tolerance. In the end, the walls stay as they were.
     """
     if not len(partition.walls.triangles):
         return partition
@@ -53,11 +57,12 @@ def simplify_partition(
     is_cut = np.isin(np.arange(len(volumes)), partition.walls.sides)
     targets = np.where(is_cut & (np.arange(len(volumes)) > 0), volumes, 0.0)
     original = WallMesh.of(partition.walls, scale, shape)
-    free = original
+    fixed, fewer = original.order == FIXED, None
     for attempt in range(ATTEMPTS):
-        leeway = tolerance * LESS**attempt
-        fewer = free.collapse((BLIND_SHARE * leeway) ** 2, None, count)
-        fewer = fewer.collapse((SAMPLED_SHARE * leeway) ** 2, SAMPLED_SHARE * leeway, count)
+        if fewer is None:
+            leeway = tolerance * LESS ** (attempt // RESTORED)
+            fewer = original.fix(fixed).collapse((BLIND_SHARE * leeway) ** 2, None, count)
+            fewer = fewer.collapse((SAMPLED_SHARE * leeway) ** 2, SAMPLED_SHARE * leeway, count)
         graph, walls = fewer.as_walls(partition.graph, scale)
         walls = restore_volumes(graph, walls, targets, scale=scale, threads=count)
         fewer = replace(fewer, points=walls.points.astype(np.float64) * np.array(scale))
@@ -68,8 +73,13 @@ def simplify_partition(
         if not len(far) and is_kept.all() and len(crossing) <= partition.crossings:
             return replace(partition, graph=graph, walls=walls, crossings=len(crossing))
         places = np.concatenate([far, fewer.points[fewer.triangles[np.unique(crossing)]].reshape(-1, 3)])
+        is_failed = np.zeros(len(fixed), dtype=bool)
         if len(places):
-            free = free.fix_near(places, NEAR_SIDES * float(np.mean(scale)))
+            is_failed = original.near(places, NEAR_SIDES * float(np.mean(scale)))
+            fixed |= is_failed
+        is_local = is_kept.all() and is_failed.mean() < FEW_FAILED and (attempt + 1) % RESTORED
+        restored = fewer.restore(original, is_failed) if is_local else None
+        fewer = restored if restored and len(restored.triangles) <= MOST_MORE * len(fewer.triangles) else None
     return partition
 
 

@@ -29,6 +29,8 @@ MOST_PARTS = 64  # of a side of a triangle, between places at which its distance
 RIDGE_HEIGHT = 0.25  # of the tolerance: edges that rise higher above their neighbours are watched in between
 EDGE_SPACING, MOST_ON_EDGE = 4.0, 8  # tolerances between the points watched on an edge, and most of them
 MOST_IN_TABLE = 4096  # labels whose pairs are numbered by a table
+RESTORING_ROUNDS = 20  # of bringing back more points, where triangles would lie on each other or would turn
+MOST_TURNED = 0.2  # cosine of the angle by which a triangle may turn
 MOST_SWEEPS, LEAST_SWEPT = 12, 0.1  # with one bound, and the share of points that one takes
 
 
@@ -62,6 +64,8 @@ class WallMesh:
         See `infill.kernels.wall_collapsing`.
     quadric : (P, 11) float64
     box : (2, 3) float64
+    into : (W,) int32
+        The point that each point of the original mesh has become.
     """
 
     points: NDArray[np.float64]
@@ -72,6 +76,7 @@ class WallMesh:
     flags: NDArray[np.int8]
     quadric: NDArray[np.float64]
     box: NDArray[np.float64]
+    into: NDArray[np.int32]
 
     @classmethod
     def of(cls, walls: Walls, scale: tuple[float, ...], shape: tuple[int, ...]) -> WallMesh:
@@ -99,6 +104,7 @@ class WallMesh:
             flags=flags,
             quadric=quadric,
             box=box,
+            into=np.arange(len(points), dtype=np.int32),
         )
 
     def collapse(self, bound: float, tolerance: float | None, threads: int) -> WallMesh:
@@ -134,7 +140,7 @@ class WallMesh:
                 number += 1
                 if removed.sum() < LEAST_SWEPT * len(members) and number % WAYS == 0:
                     break
-        return self._compact(points, triangles, flags, quadric)
+        return self._compact(points, triangles, flags, quadric, into)
 
     def _cut_slabs(
         self, points: NDArray[np.float64], into: NDArray[np.int32], number: int
@@ -218,12 +224,102 @@ class WallMesh:
         walls = Walls(points=points, triangles=triangles, sides=self.sides, volumes=np.empty(0))
         return replace(graph, triangles=triangles, sides=self.sides), walls
 
-    def fix_near(self, places: NDArray[np.float64], reach: float) -> WallMesh:
-        """Fix the points around some places (N, 3)."""
+    def near(self, places: NDArray[np.float64], reach: float) -> NDArray[np.bool_]:
+        """Mark the points (P,) around some places (N, 3)."""
         from scipy.spatial import cKDTree
 
-        is_near = np.isfinite(cKDTree(places).query(self.points, distance_upper_bound=reach)[0])
-        return replace(self, order=np.where(is_near, np.int8(kernels.FIXED), self.order))
+        return np.isfinite(cKDTree(places).query(self.points, distance_upper_bound=reach)[0])
+
+    def fix(self, is_fixed: NDArray[np.bool_]) -> WallMesh:
+        """Fix some points (P,)."""
+        return replace(self, order=np.where(is_fixed, np.int8(kernels.FIXED), self.order))
+
+    def restore(self, original: WallMesh, is_back: NDArray[np.bool_]) -> WallMesh | None:
+        """Bring back points of the original mesh, and the triangles at them.
+
+        Parameters
+        ----------
+        original : WallMesh
+            The mesh of which this is a simpler form, with W points.
+        is_back : (W,) bool
+            The points to bring back. Those that became the same point come back with them, and so do those around
+            which triangles would lie on each other, or would turn.
+
+        Returns
+        -------
+        WallMesh or None
+            None if the walls would be joined in another way than before.
+        """
+        crowded_before, is_split = self.crowded_points().sum(), np.zeros(len(self.points), dtype=bool)
+        for _ in range(RESTORING_ROUNDS):
+            is_split[self.into[is_back]] = True
+            is_back = is_split[self.into]
+            rank = np.cumsum(~is_split, dtype=np.int32) - 1
+            into = np.where(is_back, rank[-1] + np.cumsum(is_back, dtype=np.int32), rank[self.into])
+            triangles = into[original.triangles]
+            kept = (triangles != np.roll(triangles, 1, axis=1)).all(axis=1)
+            restored = replace(
+                original,
+                points=np.concatenate([self.points[~is_split], original.points[is_back]]),
+                triangles=triangles[kept],
+                sides=original.sides[kept],
+                pair=original.pair[kept],
+                order=np.concatenate([self.order[~is_split], original.order[is_back]]),
+                flags=np.concatenate([self.flags[~is_split], original.flags[is_back]]),
+                quadric=np.concatenate([self.quadric[~is_split], original.quadric[is_back]]),
+                into=into,
+            )
+            is_wrong = restored.turned_points(original.points[original.triangles[kept]], into[is_back])
+            if not is_wrong.any():
+                is_wrong = restored.crowded_points()
+                if is_wrong.sum() <= crowded_before:
+                    return restored if restored.euler_number() == self.euler_number() else None
+            is_back = is_wrong[into]
+        return None
+
+    def turned_points(self, before: NDArray[np.float64], new: NDArray[np.int32]) -> NDArray[np.bool_]:
+        """Mark the points (P,) of triangles at new points (N,) that face elsewhere than before, (T, 3, 3) corners."""
+        is_new = np.zeros(len(self.points), dtype=bool)
+        is_new[new] = True
+        at_new = is_new[self.triangles]
+        chosen = np.flatnonzero(at_new.any(axis=1) & ~at_new.all(axis=1))
+        normals = [
+            np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+            for corners in (before[chosen], self.points[self.triangles[chosen]])
+        ]
+        lengths = [np.linalg.norm(normal, axis=1) for normal in normals]
+        is_turned = (normals[0] * normals[1]).sum(axis=1) <= MOST_TURNED * lengths[0] * lengths[1]
+        result = np.zeros(len(self.points), dtype=bool)
+        result[self.triangles[chosen[is_turned]]] = True
+        return result & ~is_new
+
+    def crowded_points(self) -> NDArray[np.bool_]:
+        """Mark the points (P,) of triangles that lie on each other, and of edges with over two triangles of a label."""
+        starts, ends = edges_of(self.triangles)
+        number, first = self._number_edges()
+        behind, before = (np.repeat(side.astype(np.int64), 3) for side in self.sides.T)
+        is_inner, labels = before != OUTSIDE, int(self.sides.max(initial=0)) + 1
+        uses = np.concatenate([number * labels + behind, number[is_inner] * labels + before[is_inner]])
+        use, count = np.unique(uses, return_counts=True)
+        crowded = first[use[count > 2] // labels]
+        of_triangle = number.reshape(-1, 3)
+        two_edges = of_triangle.min(axis=1) * len(first) + of_triangle.max(axis=1)  # no other triangle has both
+        _, same, count = np.unique(two_edges, return_inverse=True, return_counts=True)
+        is_crowded = np.zeros(len(self.points), dtype=bool)
+        is_crowded[starts[crowded]] = is_crowded[ends[crowded]] = True
+        is_crowded[self.triangles[count[same] > 1]] = True
+        return is_crowded
+
+    def euler_number(self) -> int:
+        """Count points - edges + triangles of all walls."""
+        return len(self.points) - len(self._number_edges()[1]) + len(self.triangles)
+
+    def _number_edges(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Number the edges between the same points alike, (3 T,); return the numbers, and where each comes first."""
+        starts, ends = edges_of(self.triangles)
+        keys = np.minimum(starts, ends).astype(np.int64) * len(self.points) + np.maximum(starts, ends)
+        _, first, number = np.unique(keys, return_index=True, return_inverse=True)
+        return number, first
 
     def _compact(
         self,
@@ -231,8 +327,11 @@ class WallMesh:
         triangles: NDArray[np.int32],
         flags: NDArray[np.int8],
         quadric: NDArray[np.float64],
+        into: NDArray[np.int32],
     ) -> WallMesh:
         """Return the mesh without dropped triangles, whose first corner is negative, and without unused points."""
+        while (into[into] != into).any():
+            into = into[into]
         kept = triangles[:, 0] >= 0
         used = np.zeros(len(points), dtype=bool)
         used[triangles[kept]] = True
@@ -246,6 +345,7 @@ class WallMesh:
             order=self.order[used],
             flags=flags[used],
             quadric=quadric[used],
+            into=rank[into[self.into]],
         )
 
 
