@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import SupportsFloat
 
 SMALLEST, LARGEST = 1e-9, 1e15  # beyond these, a message names the bound instead of a row of zeros
@@ -55,6 +55,15 @@ def choose_unit(*values: SupportsFloat, power: int = 1) -> str:
     while largest * UNITS[unit] ** -power >= MOST_UNITS[power] and unit != names[-1]:
         unit = names[names.index(unit) + 1]
     return unit
+
+
+def list_some(items: Sequence[object], most: int) -> str:
+    """List the first items of a sequence; "…" stands for more.
+
+    >>> list_some(["liver", "spleen"], 2), list_some([1, 2, 3], 2)
+    ('liver, spleen', '1, 2, …')
+    """
+    return ", ".join(map(str, items[:most])) + (", …" if len(items) > most else "")
 
 
 def plain_size(

@@ -13,7 +13,7 @@ import typer
 
 from infill.cli.console import format_bytes, format_table, print_json, print_log, progress_bar, say
 from infill.cli.foreseeing import format_span
-from infill.plain_numbers import plain_number, plain_size
+from infill.plain_numbers import list_some, plain_number, plain_size
 
 if TYPE_CHECKING:
     from infill.imaging.label_tables import Segment
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from infill.surface import Surface
 
 MOST_ROWS = 60  # labels in the summary
+MOST_FILES = 12  # that a dry run lists
 UNFIT = ("units", "resolution", "voxel", "shell", "threshold", "range", "otsu", "grey", "by_component")
 
 
@@ -179,7 +180,7 @@ def _show_label_plan(source: Path, settings: SmoothSettings, output: SmoothOutpu
     rows["memory"] = f"about {format_bytes(plan['memory'])}" + ("" if settings.together else " for the largest")
     rows["time"] = f"about {format_span(plan['seconds']['total'])} on this machine, as busy as it is"
     if files:
-        rows["would write"] = ", ".join(files)
+        rows["would write"] = list_some(files, MOST_FILES)
     typer.echo(format_table(rows, title=f"{source}: nothing is written (--dry-run)"))
 
 

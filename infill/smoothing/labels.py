@@ -17,6 +17,7 @@ from infill.imaging.label_tables import Segment
 from infill.imaging.segmentations import Segmentation, read_segmentation
 from infill.kernels.compiling import log_compilation
 from infill.kernels.sparse import BRICK
+from infill.plain_numbers import list_some
 from infill.reports.common import report_head
 from infill.reports.smoothing import LabelSeconds
 from infill.result import Clock, Result
@@ -207,10 +208,8 @@ def find_pieces(
         raise ParameterError("the volume holds no label, only 0; check that it is the right file")
     for value in requested or ():
         if value not in values:
-            excerpt = ", ".join(map(str, values[:MAX_LISTED_LABELS])) + (
-                ", …" if len(values) > MAX_LISTED_LABELS else ""
-            )
-            raise ParameterError.about("label", f"is {value}, and the volume holds {excerpt}; give one that is there")
+            listed = list_some(values, MAX_LISTED_LABELS)
+            raise ParameterError.about("label", f"is {value}, and the volume holds {listed}; give one that is there")
     used_names: set[str] = set()
     pieces = []
     for segment, extent in present:

@@ -7,7 +7,7 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 from infill.inspection.deviation import LOST, Deviation, Word, total_area
-from infill.plain_numbers import count_noun
+from infill.plain_numbers import count_noun, list_some
 from infill.reports.common import Topology, declare
 from infill.reports.smoothing import Distance
 from infill.smoothing.attempt import MAX_LISTED_PLACES
@@ -108,6 +108,6 @@ def summarise_verdicts(labels: Sequence[TogetherLabel], gone: Sequence[str]) -> 
     for word in reversed(WORDS):
         if not names[word]:
             continue
-        listed = ", ".join(names[word][:MOST_NAMED]) + (", …" if len(names[word]) > MOST_NAMED else "")
-        phrases.append(f"{len(names[word]):,} {word}" + ("" if word == "kept" else f" ({listed})"))
+        listed = "" if word == "kept" else f" ({list_some(names[word], MOST_NAMED)})"
+        phrases.append(f"{len(names[word]):,} {word}{listed}")
     return ", ".join(phrases)

@@ -18,7 +18,7 @@ from infill.errors import FormatError
 from infill.imaging.dicom.elements import Mark
 from infill.imaging.dicom.headers import Image
 from infill.imaging.dicom.places import DIRECTION_TOLERANCE, OTHER_MARKS, VOLUME_MARKS, Frame
-from infill.plain_numbers import plain_argument
+from infill.plain_numbers import list_some, plain_argument
 from infill.volume import AXES
 
 STEP_TOLERANCE = 0.05  # of a step: tolerance of frames against even steps
@@ -163,9 +163,7 @@ def split_into_stacks(path: Path, frames: Sequence[Frame]) -> Stacks:
         candidates = [even_stack(group) for group in groups]
         stacks = tuple(stack for stack in candidates if isinstance(stack, Stack))
         if len(stacks) < len(candidates):
-            counts = ", ".join(str(len(group)) for group in groups[:NAMES_SHOWN]) + (
-                ", …" if len(groups) > NAMES_SHOWN else ""
-            )
+            counts = list_some([len(group) for group in groups], NAMES_SHOWN)
             raise FormatError(
                 f"{path} holds slices of {len(groups)} orientations, sizes or coordinate systems ({counts}), which "
                 "make no volume; keep those of one volume"
