@@ -28,6 +28,7 @@ MOST_PLACES = 150_000  # on them, about
 MOST_PARTS = 64  # of a side of a triangle, between places at which its distance is measured
 RIDGE_HEIGHT = 0.25  # of the tolerance: edges that rise higher above their neighbours are watched in between
 EDGE_SPACING, MOST_ON_EDGE = 4.0, 8  # tolerances between the points watched on an edge, and most of them
+EDGE_BLOCK = 1 << 18  # edges of which the height is measured at once
 MOST_IN_TABLE = 4096  # labels whose pairs are numbered by a table
 RESTORING_ROUNDS = 20  # of bringing back more points, where triangles would lie on each other or would turn
 MOST_TURNED = 0.2  # cosine of the angle by which a triangle may turn
@@ -185,21 +186,29 @@ class WallMesh:
     def _points_on_edges(self, tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]:
         """Set points along the edges at which a wall bends or ends; return them, a point and a face of each edge."""
         starts, ends = edges_of(self.triangles)
-        face = np.repeat(np.arange(len(self.triangles), dtype=np.int32), 3)
         first, second, single = pair_wall_edges(self.triangles, self.pair)
-        corners = self.points[self.triangles]
-        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        twice = np.linalg.norm(normals, axis=1)
-        normals /= np.maximum(twice, 1e-300)[:, None]
-        cosine = (normals[face[first]] * normals[face[second]]).sum(axis=1)
-        rise = np.sqrt(np.maximum(0.0, 0.5 - 0.5 * cosine)) * np.minimum(twice[face[first]], twice[face[second]])
-        length = np.linalg.norm(self.points[starts] - self.points[ends], axis=1)
-        watched = np.concatenate([first[rise > RIDGE_HEIGHT * tolerance * length[first]], single])
-        count = np.clip((length[watched] / (EDGE_SPACING * tolerance)).astype(np.int64), 1, MOST_ON_EDGE)
+        blocks = [slice(begin, begin + EDGE_BLOCK) for begin in range(0, len(first), EDGE_BLOCK)]
+        watched = np.concatenate([*(self._ridges(first[block], second[block], tolerance) for block in blocks), single])
+        length = np.linalg.norm(self.points[starts[watched]] - self.points[ends[watched]], axis=1)
+        count = np.clip((length / (EDGE_SPACING * tolerance)).astype(np.int64), 1, MOST_ON_EDGE)
         owner = np.repeat(watched, count)
         share = (np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count) + 1) / (np.repeat(count, count) + 1)
         at, to = self.points[starts[owner]], self.points[ends[owner]]
-        return at + share[:, None] * (to - at), starts[owner], face[owner]
+        return at + share[:, None] * (to - at), starts[owner], (owner // 3).astype(np.int32)
+
+    def _ridges(self, first: NDArray[np.int64], second: NDArray[np.int64], tolerance: float) -> NDArray[np.int64]:
+        """Choose the edges at which a wall bends, of pairs (E,) of the same edge in two triangles."""
+        normals, twice = [], []
+        for edges in (first, second):
+            corners = self.points[self.triangles[edges // 3]]
+            normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+            twice.append(np.linalg.norm(normal, axis=1))
+            normals.append(normal / np.maximum(twice[-1], 1e-300)[:, None])
+        cosine = (normals[0] * normals[1]).sum(axis=1)
+        rise = np.sqrt(np.maximum(0.0, 0.5 - 0.5 * cosine)) * np.minimum(*twice)
+        ends = (self.points[self.triangles[first // 3, (first + step) % 3]] for step in (0, 1))
+        length = np.linalg.norm(np.subtract(*ends), axis=1)
+        return first[rise > RIDGE_HEIGHT * tolerance * length]
 
     def sample(self, spacing: float) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
         """Return places (N, 3) spread over triangles, and the pair of each; of large meshes, a sample."""

@@ -46,9 +46,9 @@ if TYPE_CHECKING:
 
 # Options that do not apply to all labels at once.
 UNFIT = ("level", "despeckle", "crumbs", "max_triangles", "allow_broken", "strict")
-# Of the grid, and for each face of a label's cells, estimated from its runs: peaks were 170 to 360 bytes a face, and
-# 1,250 where walls are simplified.
-BYTES_PER_CELL, BYTES_PER_FACE, BYTES_SIMPLIFIED = 10, 450, 1400
+# Of the grid, and for each face of a label's cells, estimated from its runs: peaks were 170 to 450 bytes a face, and
+# up to 2,100 where walls are simplified.
+BYTES_PER_CELL, BYTES_PER_FACE, BYTES_SIMPLIFIED = 10, 450, 2200
 NOTHING_LEFT = "nothing of it is left"
 
 

@@ -30,9 +30,9 @@ if TYPE_CHECKING:
     from infill.reports.smoothing import LabelsForecast
 
 TRIANGLES_PER_FACE = 5.0  # of a label, for each face of its cells, as its runs count them
-SCENE, LARGE_SCENE = 32, 112  # cells along the sides of the scenes
+SCENE, LARGE_SCENE = 24, 112  # cells along the sides of the scenes
 MOST_LABELS = 7  # of the scene
-EDGE = 8  # cells along the sides of the blocks of the scene that are labels
+EDGE = 4  # cells along the sides of the blocks of the scene that are labels: those of scans are as thin
 
 
 def plan_together(
