@@ -1,8 +1,9 @@
 """Labels smoothed together beside peers: ``python -m benchmarks.labels_together [--scenes 100-128] [--methods serra]``.
 
 Scenes are Voronoi partitions, named cells-size or cells-size-ratio (100-128-4: voxels of 1 x 1 x 4), and `organs-256`:
-40 labels of `benchmarks.label_scene`. Each method runs alone in a fresh process, once to compile and once measured,
-from an array to meshes in memory. VTK (extra `bench`) and serra-mesh get the labels padded by a layer of void.
+40 labels of `benchmarks.label_scene`; the name of a file stands for its labels. Each method runs alone in a fresh
+process, once to compile and once measured, from an array to meshes in memory.
+VTK (extra `bench`) and serra-mesh get the labels padded by a layer of void.
 
 Quality is that of labels that touch no side of the box (of all if each does), 40 at most:
 
@@ -31,6 +32,7 @@ from scipy.spatial import cKDTree
 
 from benchmarks.label_scene import segmentation
 from infill import Surface, smooth_labels
+from infill.imaging.segmentations import read_segmentation
 from infill.meshes.distance import TriangleTree
 from infill.meshes.solids import FINE, manifold_status
 
@@ -49,6 +51,9 @@ def voronoi_seeds(count: int, size: int, ratio: float) -> NDArray[np.float64]:
 
 def make_scene(name: str) -> tuple[NDArray[np.uint16], tuple[float, float, float], NDArray[np.float64] | None]:
     """Return labels, the sides of voxels, and the seeds of Voronoi cells."""
+    if Path(name).is_file():
+        volume = read_segmentation(name).layers[0]
+        return volume.values.astype(np.uint16), tuple(volume.cell_size.tolist()), None
     if name.startswith("organs"):
         return segmentation(int(name.split("-")[1])).astype(np.uint16), (1.0, 1.0, 1.0), None
     count, size, ratio = (*map(float, name.split("-")), 1.0)[:3]
@@ -194,6 +199,8 @@ def judge(
             if other != label
         ]
         corners = np.concatenate(others)
+        if not len(corners):
+            continue
         tree = TriangleTree.of(
             Surface(vertices=corners.reshape(-1, 3), faces=np.arange(3 * len(corners)).reshape(-1, 3))
         )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import tempfile
 from collections.abc import Callable
@@ -9,9 +10,9 @@ from pathlib import Path
 
 import numpy as np
 import trimesh
-from PIL import Image
+from PIL import Image, ImageChops
 
-from infill import Smoothing, fill, make, refill, smooth_labels, smooth_volume
+from infill import Smoothing, Surface, fill, make, refill, smooth_labels, smooth_volume
 from infill.meshes.distance import TriangleTree
 from infill.meshes.split_components import concatenate_surfaces
 from infill.pictures.render import render
@@ -22,6 +23,7 @@ ROOT = Path(__file__).resolve().parents[1]
 FOLDER = Path(__file__).parent / "pictures"
 PANEL = 320  # pixels along the sides of a picture of labels
 LABEL_COLOURS = ((240, 160, 60), (90, 140, 220))
+BRAIN = Path(os.environ.get("INFILL_DATA", ROOT / "data")) / "volumes" / "brain_desikan_killiany.nii.gz"
 VIEW = (2.2, 0.6)  # azimuth and elevation, radians
 sys.path.insert(0, str(ROOT))
 
@@ -43,6 +45,8 @@ def main() -> None:
     both.save(FOLDER / "stamps.png", optimize=True)
     smooth_volume(gyroid(), spacing=0.5, tolerance=None).save(FOLDER / "smooth.png")
     save_labels(FOLDER / "labels-together.png")
+    if BRAIN.exists():  # made by `make data`
+        save_brain(BRAIN, FOLDER / "brain-together.png")
     fill(bracket(), density=0.2).save(FOLDER / "fill.png")
     if not slicers.missing_prusa():
         save_refill(prints.prusa_print, {"fill_pattern": "honeycomb"}, FOLDER / "refill.png")
@@ -75,6 +79,25 @@ def save_labels(path: Path) -> None:
         view = render(whole, width=PANEL, height=PANEL, azimuth=VIEW[0], elevation=VIEW[1], paint=paint)
         sheet.paste(Image.fromarray(view), (number * PANEL, 0))
     sheet.quantize(64).save(path, optimize=True)
+
+
+def save_brain(source: Path, path: Path) -> None:
+    """Draw the regions of a brain, smoothed together: the triangles that part them from what is around the brain."""
+    walls = smooth_labels(source, together=True).stages.walls
+    outer = (walls.labels == 0).any(axis=1)
+    surface, labels = Surface(vertices=walls.points, faces=walls.triangles[outer]), walls.labels[outer].max(axis=1)
+    tree = TriangleTree.of(surface)
+    colours = np.random.default_rng(4).integers(60, 250, (labels.max() + 1, 3))
+    view = render(
+        surface,
+        width=2 * PANEL,
+        height=2 * PANEL,
+        azimuth=np.pi - 0.3,
+        elevation=0.25,
+        paint=lambda points: colours[labels[tree.nearest(points)[1]]],
+    )
+    picture = Image.fromarray(view)
+    picture.crop(ImageChops.invert(picture).getbbox()).quantize(96).save(path, optimize=True)
 
 
 def save_gradients(path: Path) -> None:

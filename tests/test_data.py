@@ -92,7 +92,7 @@ def test_a_file_of_an_archive_comes_alone_and_has_to_be_the_right_one(tmp_path: 
             f'sha256 = "{hashlib.sha256(content).hexdigest()}"\nbytes = 6\nlicence = "BSD"\n'
             for name, (archive, member, content) in members.items()
         )
-        + "[[other]]\npath = \"models/ours.stl\"\n"
+        + '[[other]]\npath = "models/ours.stl"\n'
     )
     command = [sys.executable, SCRIPT, tmp_path / "here", "--table", table]
     run = subprocess.run(command, capture_output=True, encoding="utf-8", timeout=60)

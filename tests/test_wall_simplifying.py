@@ -266,9 +266,12 @@ def test_a_place_that_fails_costs_few_triangles(walls: str, monkeypatch: pytest.
     monkeypatch.setattr(simplifying, "find_far", find)
     mended = simplify_partition(partition, 0.1, scale=CUBIC)
     check_whole(partition.walls, mended.walls)
-    assert len(plain.walls.triangles) < len(mended.walls.triangles) < 1.1 * len(plain.walls.triangles)
+    more = len(mended.walls.triangles) / len(plain.walls.triangles)
     if walls == "rough":
+        assert 1 < more < 1.1
         assert len(collapses) == 2  # without and with measured distances, once
+    else:
+        assert 1 < more < 2  # all is done again, with a smaller tolerance
     near = np.linalg.norm(partition.walls.points - failing, axis=1) < 1.0
     assert cKDTree(mended.walls.points).query(partition.walls.points[near])[0].max() < 0.01
 

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
 MOST_ROWS = 60  # labels in the summary
 MOST_FILES = 12  # that a dry run lists
+MOST_PROBLEMS = 12  # in the summary
 UNFIT = ("units", "resolution", "voxel", "shell", "threshold", "range", "otsu", "grey", "by_component")
 
 
@@ -284,7 +285,10 @@ def _summary(report: Mapping[str, Any], files: Sequence[str], name: str) -> str:
     if report.get("tetrahedra"):
         rows["tetrahedra"] = _tetrahedra_text(report["tetrahedra"])
     if report["problems"]:
-        rows["PROBLEMS"] = "; ".join(report["problems"])
+        more = len(report["problems"]) - MOST_PROBLEMS
+        rows["PROBLEMS"] = "; ".join(report["problems"][:MOST_PROBLEMS])
+        if more > 0:
+            rows["PROBLEMS"] += f"; and {more} more, all in the report (--json)"
     sizes = [Path(file).stat().st_size for file in files if Path(file).is_file()]
     if len(files) == 1:
         rows[f"wrote {files[0]}"] = format_bytes(sum(sizes))

@@ -23,6 +23,11 @@ PLACE = {"spacing", "spacing_zyx_mm", "origin", "direction", "space"}  # optiona
 
 def read_npy(path: Path) -> Volume:
     """Memory-map an array [x, y, z]."""
+    return checked_volume(path, map_npy(path))
+
+
+def map_npy(path: Path) -> NDArray[Any]:
+    """Memory-map the array of a file, of any number of axes."""
     with wrap_reader_errors(path):
         values = npy_format.open_memmap(path, mode="r")
         surplus = path.stat().st_size - values.offset - values.nbytes
@@ -32,21 +37,20 @@ def read_npy(path: Path) -> Volume:
             file.seek(-surplus, os.SEEK_END)
             if file.read(surplus).strip(BLANK_BYTES):
                 raise FormatError(f"{path} holds {surplus} bytes more than its header announces; save one array in it")
-    return checked_volume(path, values)
+    return values
 
 
 def read_npz(path: Path, name: str | None = None) -> Volume:
     """Read the only array with three axes, or the named one, with its place in space if the file has one."""
+    values, placement = read_npz_array(path, name)
+    return checked_volume(path, values, **placement)
+
+
+def read_npz_array(path: Path, name: str | None = None) -> tuple[NDArray[Any], dict[str, Any]]:
+    """Read the only array with three or more axes, or the named one; return it, and its place as `Volume` takes it."""
     with wrap_reader_errors(path), zipfile.ZipFile(path) as archive:
-        members = {member.filename.removesuffix(".npy"): member for member in archive.infolist()}
-        volumes = [key for key, member in members.items() if _axes(archive, member) >= AXES and key not in PLACE]
-        if name is not None and name not in members:
-            raise FormatError(f"{path} holds no array {name!r}; it holds {', '.join(members) or 'none'}")
-        if name is None and len(volumes) != 1:
-            content = f"{len(volumes)} arrays with three axes ({', '.join(volumes)})" if volumes else "no volume"
-            advice = f"choose one: --array {volumes[0]}" if volumes else "save an array [x, y, z]"
-            raise FormatError(f"{path} holds {content}; {advice}")
-        values = _read_member(archive, members[name or volumes[0]])
+        members = _members(archive)
+        values = _read_member(archive, members[_choose_array(path, archive, name)])
         place = {key: _read_member(archive, members[key]) for key in PLACE & set(members)}
     if {"spacing", "spacing_zyx_mm"} <= set(place):
         raise FormatError(f"{path} holds both spacing and spacing_zyx_mm; keep the one in the order of the axes")
@@ -55,7 +59,7 @@ def read_npz(path: Path, name: str | None = None) -> Volume:
         placement["spacing"] = tuple(
             _check_numbers(path, "spacing_zyx_mm", place["spacing_zyx_mm"], (AXES,))[::-1].tolist()
         )
-        values = values.T
+        values = values.transpose(*range(values.ndim - AXES), *range(values.ndim)[: -AXES - 1 : -1])
     elif "spacing" in place:
         spacing = place["spacing"]
         placement["spacing"] = _check_numbers(path, "spacing", spacing, (AXES,) if spacing.ndim else ()).tolist()
@@ -65,7 +69,31 @@ def read_npz(path: Path, name: str | None = None) -> Volume:
         placement["direction"] = _check_numbers(path, "direction", place["direction"], (AXES, AXES))
     if "space" in place:
         placement["space"] = str(place["space"])
-    return checked_volume(path, values, **placement)
+    return values, placement
+
+
+def count_npz_axes(path: Path, name: str | None = None) -> int:
+    """Count the axes of the array that `read_npz_array` would read."""
+    with wrap_reader_errors(path), zipfile.ZipFile(path) as archive:
+        return _axes(archive, _members(archive)[_choose_array(path, archive, name)])
+
+
+def _members(archive: zipfile.ZipFile) -> dict[str, zipfile.ZipInfo]:
+    """Return the arrays of an archive by their names."""
+    return {member.filename.removesuffix(".npy"): member for member in archive.infolist()}
+
+
+def _choose_array(path: Path, archive: zipfile.ZipFile, name: str | None) -> str:
+    """Return the name of the only array with three or more axes, or the given name if it is there."""
+    members = _members(archive)
+    volumes = [key for key, member in members.items() if _axes(archive, member) >= AXES and key not in PLACE]
+    if name is not None and name not in members:
+        raise FormatError(f"{path} holds no array {name!r}; it holds {', '.join(members) or 'none'}")
+    if name is None and len(volumes) != 1:
+        content = f"{len(volumes)} arrays with three axes ({', '.join(volumes)})" if volumes else "no volume"
+        advice = f"choose one: --array {volumes[0]}" if volumes else "save an array [x, y, z]"
+        raise FormatError(f"{path} holds {content}; {advice}")
+    return name or volumes[0]
 
 
 def _check_numbers(path: Path, name: str, values: NDArray[Any], shape: tuple[int, ...]) -> NDArray[np.float64]:

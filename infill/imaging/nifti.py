@@ -12,9 +12,10 @@ import logging
 import math
 import struct
 import zlib
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, BinaryIO, cast
+from typing import Any, BinaryIO, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,11 +23,12 @@ from numpy.typing import NDArray
 from infill.errors import FormatError
 from infill.files.broken import error_text, wrap_reader_errors
 from infill.imaging.assumed import warn
-from infill.imaging.images import ImageHeader, read_frame, require_sizes
+from infill.imaging.images import CellReader, ImageHeader, read_frame, read_frames, require_sizes
 from infill.imaging.packed import cut_off_error, read_bytes
 from infill.plain_numbers import plain_argument
 from infill.volume import AXES, Volume
 
+Content = TypeVar("Content")
 LOG = logging.getLogger("infill")
 MAGIC_OF_GZIP = b"\x1f\x8b"
 TYPES = {
@@ -120,6 +122,21 @@ class _NiftiHeader:
 
 def read_nifti(path: Path, frame: int | None = None) -> Volume:
     """Read the volume of a file, [x, y, z] in LPS, or one of several, counted from 0."""
+    return _read_image(path, lambda image, read_cells: read_frame(image, frame, read_cells))
+
+
+def read_nifti_frames(path: Path) -> tuple[Volume, ...]:
+    """Read all volumes of a file, [x, y, z] in LPS."""
+    return _read_image(path, read_frames)
+
+
+def count_nifti_frames(path: Path) -> int:
+    """Count the volumes of a file from its header."""
+    return _read_image(path, lambda image, _: image.frames)
+
+
+def _read_image(path: Path, read: Callable[[ImageHeader, CellReader], Content]) -> Content:
+    """Parse the header of a file; return what a function of it, and of a reader of its cells, returns."""
     with wrap_reader_errors(path), np.errstate(all="ignore"), path.open("rb") as file:  # infinite places are refused
         packed = file.read(2) == MAGIC_OF_GZIP
         file.seek(0)
@@ -145,7 +162,7 @@ def read_nifti(path: Path, frame: int | None = None) -> Volume:
             )
             return _scaled(path, content.view(kind), header)
 
-        return read_frame(image, frame, read_cells)
+        return read(image, read_cells)
 
 
 def _read_head(path: Path, file: BinaryIO, *, packed: bool) -> bytes:

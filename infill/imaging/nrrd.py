@@ -140,6 +140,12 @@ def read_layers(path: Path) -> tuple[Volume, ...]:
         return read_frames(header, read)
 
 
+def count_nrrd_frames(path: Path) -> int:
+    """Count the volumes of a file from its header."""
+    with wrap_reader_errors(path), np.errstate(all="ignore"):
+        return _open_image(path)[0].frames
+
+
 def _open_image(path: Path) -> tuple[ImageHeader, CellReader]:
     """Return the header of a file, and the function that reads its cells."""
     fields = _parse_header(path)

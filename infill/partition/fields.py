@@ -20,7 +20,8 @@ SAMPLES = 2**21  # of cells that two labels share, at most, of each thread
 GROWTH = 1.5  # of the room for bricks
 SMALL = 2**20  # cells of a box: one thread smooths it before others have begun
 
-SmoothLabel = Callable[[NDArray[np.bool_], int], SparseField]
+SmoothLabel = Callable[[NDArray[np.generic], int], SparseField]
+LabelData = Callable[[int, tuple[slice, ...]], NDArray[np.generic]]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -116,6 +117,7 @@ def smooth_fields(
     boxes: Sequence[tuple[tuple[int, ...], tuple[int, ...]]],
     smooth: SmoothLabel,
     *,
+    data: LabelData | None = None,
     reach: int = 20,
     threads: int | None = None,
     progress: Callable[[float], None] | None = None,
@@ -132,7 +134,9 @@ def smooth_fields(
     boxes : sequence of (low, high)
         The cells that hold each label, 0 first: from `low` up to but without `high`.
     smooth : callable
-        Returns the field of a mask, with a number of threads.
+        Returns the field of a mask, or of values in [-1, 1], with a number of threads.
+    data : callable, optional
+        Returns the data of a label in a part of the grid, if they are not the mask of its number.
     reach : int
         Cells around a label beyond which its field is void to the last bit; 20 is enough for an interface of 2 cells.
     progress : callable, optional
@@ -144,8 +148,9 @@ def smooth_fields(
     def smooth_one(label: int) -> tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.float32]]:
         """Smooth a label; return the bricks that it reaches, the slot of each, and the values of the kept ones."""
         low, high = _reached_box(boxes[label], numbers.shape, reach)
-        mask = numbers[tuple(map(slice, low, high))] == label
-        field = smooth(mask, 1 if mask.size < SMALL else count)
+        box = tuple(map(slice, low, high))
+        part = numbers[box] == label if data is None else data(label, box)
+        field = smooth(part, 1 if part.size < SMALL else count)
         shift = np.array(low) // BRICK
         values = field.values.reshape(-1, CELLS)
         # Bricks that hold one value to the last bit are not kept.

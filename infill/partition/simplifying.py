@@ -23,8 +23,8 @@ SAMPLED_SHARE = 0.8  # of the tolerance: where samples may lie, so that places b
 NEAR_SIDES = 1.5  # sides of cells: around a place that fails, points this near are fixed
 FEW_FAILED = 0.05  # of the points: so many come back, rather than that all is done again
 MOST_MORE = 1.1  # times as many triangles: with more come back, all is done again. On flat walls, all may come back
-# After so many attempts, all is done again with a smaller share of the tolerance: a large one may be too much.
-ATTEMPTS, RESTORED, LESS = 24, 8, 0.8
+# Each time that all is done again, with a smaller share of the tolerance: a large one may be too much.
+ATTEMPTS, REPAIRS, LESS = 10, 8, 0.8
 RESTORING_ROUNDS = 6  # of moving walls; each leaves about a tenth
 PRECISE = 5e-5  # of the volume of every label
 SIDES_APART = 0.35  # sides of cells: between places at which the distance of triangles is measured
@@ -47,8 +47,8 @@ def simplify_partition(
     Notes
     -----
     Where a wall goes too far, or triangles pass through each other, the points around the place come back. Where that
-    does not help, or the places are many, these points are fixed, and all is done again, in time with a smaller
-    tolerance. In the end, the walls stay as they were.
+    does not help, or the places are many, these points are fixed, and all is done again with a smaller tolerance. In
+    the end, the walls stay as they were.
     """
     if not len(partition.walls.triangles):
         return partition
@@ -57,10 +57,11 @@ def simplify_partition(
     is_cut = np.isin(np.arange(len(volumes)), partition.walls.sides)
     targets = np.where(is_cut & (np.arange(len(volumes)) > 0), volumes, 0.0)
     original = WallMesh.of(partition.walls, scale, shape)
-    fixed, fewer = original.order == FIXED, None
-    for attempt in range(ATTEMPTS):
+    fixed, fewer, attempts = original.order == FIXED, None, 0
+    while fewer is not None or attempts < ATTEMPTS:
         if fewer is None:
-            leeway = tolerance * LESS ** (attempt // RESTORED)
+            leeway, repairs = tolerance * LESS**attempts, 0
+            attempts += 1
             fewer = original.fix(fixed).collapse((BLIND_SHARE * leeway) ** 2, None, count)
             fewer = fewer.collapse((SAMPLED_SHARE * leeway) ** 2, SAMPLED_SHARE * leeway, count)
         graph, walls = fewer.as_walls(partition.graph, scale)
@@ -77,7 +78,8 @@ def simplify_partition(
         if len(places):
             is_failed = original.near(places, NEAR_SIDES * float(np.mean(scale)))
             fixed |= is_failed
-        is_local = is_kept.all() and is_failed.mean() < FEW_FAILED and (attempt + 1) % RESTORED
+        is_local = is_kept.all() and is_failed.mean() < FEW_FAILED and repairs < REPAIRS
+        repairs += 1
         restored = fewer.restore(original, is_failed) if is_local else None
         fewer = restored if restored and len(restored.triangles) <= MOST_MORE * len(fewer.triangles) else None
     return partition

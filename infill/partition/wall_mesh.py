@@ -208,7 +208,7 @@ class WallMesh:
         rise = np.sqrt(np.maximum(0.0, 0.5 - 0.5 * cosine)) * np.minimum(*twice)
         ends = (self.points[self.triangles[first // 3, (first + step) % 3]] for step in (0, 1))
         length = np.linalg.norm(np.subtract(*ends), axis=1)
-        return first[rise > RIDGE_HEIGHT * tolerance * length]
+        return np.asarray(first[rise > RIDGE_HEIGHT * tolerance * length])
 
     def sample(self, spacing: float) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
         """Return places (N, 3) spread over triangles, and the pair of each; of large meshes, a sample."""
@@ -324,7 +324,7 @@ class WallMesh:
         return len(self.points) - len(self._number_edges()[1]) + len(self.triangles)
 
     def _number_edges(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """Number the edges between the same points alike, (3 T,); return the numbers, and where each comes first."""
+        """Give edges (3 T,) between the same points the same number; return the numbers, and where each comes first."""
         starts, ends = edges_of(self.triangles)
         keys = np.minimum(starts, ends).astype(np.int64) * len(self.points) + np.maximum(starts, ends)
         _, first, number = np.unique(keys, return_index=True, return_inverse=True)

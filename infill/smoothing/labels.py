@@ -14,7 +14,7 @@ from infill.errors import InfillError, ParameterError, UsageError
 from infill.formats.parts import hex_colour
 from infill.grid import spacing_of
 from infill.imaging.label_tables import Segment
-from infill.imaging.segmentations import Segmentation, read_segmentation
+from infill.imaging.segmentations import Segmentation, read_segmentation, segmentation_of_shares
 from infill.kernels.compiling import log_compilation
 from infill.kernels.sparse import BRICK
 from infill.plain_numbers import list_some
@@ -85,7 +85,8 @@ def smooth_labels(
     ----------
     volume : (nx, ny, nz) array, Volume, Segmentation or path
         A file or folder of labels, see `infill.read_segmentation`; or whole numbers [x, y, z], 0 for cells without a
-        label.
+        label; or, with `together`, the share of every cell that each label has, [label, x, y, z]: partial volumes, or
+        probabilities of a network. See `infill.imaging.segmentations.segmentation_of_shares`.
     spacing, origin
         See `infill.smooth_volume`.
     label : int or tuple of int, optional
@@ -137,12 +138,15 @@ def smooth_labels(
     with clock.stage("labels", 0.0):
         pieces = find_pieces(segmentation, label, tuple(table))
         absent = _absent_names(segmentation, pieces) if label is None else []
-    if together:
+    if not together:
+        refuse_shares(segmentation)
+    else:
         if keep_going:
             raise UsageError.about("keep_going", "does not go with labels together; leave it out")
         from infill.smoothing.together import smooth_together
 
-        return smooth_together(segmentation.layers[pieces[0].segment.layer], pieces, request, absent)
+        volume = segmentation.layers[pieces[0].segment.layer]
+        return smooth_together(volume, pieces, request, absent, segmentation.shares)
     surfaces: dict[str, Surface] = {}
     reports: dict[str, SmoothReport] = {}
     failed: dict[str, str] = {}
@@ -176,9 +180,17 @@ def _as_segmentation(
     """Return a segmentation of an array, a volume or a segmentation."""
     if isinstance(volume, Segmentation):
         return volume
+    if not isinstance(volume, Volume) and np.ndim(volume) == AXES + 1:
+        return segmentation_of_shares(np.asarray(volume), spacing=spacing, origin=origin)
     if not isinstance(volume, Volume):
         volume = Volume(values=np.asarray(volume), spacing=spacing_of(spacing, AXES), origin=origin)
     return Segmentation(layers=(volume,))
+
+
+def refuse_shares(segmentation: Segmentation) -> None:
+    """Raise UsageError if labels share cells: they are smoothed together alone."""
+    if segmentation.shares is not None:
+        raise UsageError.about("together", "is left out, and the labels share cells; give it")
 
 
 def find_pieces(

@@ -28,7 +28,7 @@ from infill.phasefield.schedule import MIN_STEPS
 from infill.reports.common import declare
 from infill.reports.smoothing import InputKeys, LabelsForecast, PlannedInput, PlannedLabel, SmoothForecast
 from infill.smoothing.attempt import bytes_per_surface_cell
-from infill.smoothing.labels import find_pieces
+from infill.smoothing.labels import find_pieces, refuse_shares
 from infill.smoothing.meshes import BYTES_PER_CELL as MESH_BYTES_PER_CELL
 from infill.smoothing.meshes import MARGIN, mesh_ways
 from infill.smoothing.remedies import first_sound
@@ -185,6 +185,7 @@ def plan_labels(
         If there is no label, or the requested one is missing.
     """
     request = SmoothRequest(**options)
+    refuse_shares(segmentation)
     pieces = find_pieces(segmentation, label, tuple(table))
     sizes = [dict(count_labels(volume)) for volume in segmentation.layers]
     smallest = min(segmentation.layers, key=lambda volume: float(volume.cell_size.min()))

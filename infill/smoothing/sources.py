@@ -175,6 +175,11 @@ def read_label_source(
             "labels", f"are those of a volume, and {source} is read as {source_kind}; leave them out"
         )
     segmentation = read_segmentation(source, array=array, series=series, frame=frame, spacing=spacing)
+    shares = segmentation.shares
+    if shares is not None and roi is not None:
+        volume = segmentation.layers[0]
+        parts = [crop(replace(volume, values=share), roi, varied=False).values for share in shares]
+        segmentation = replace(segmentation, shares=np.stack(parts))
     return replace(
         segmentation, layers=tuple(_resize_and_crop(layer, spacing, roi, varied=False) for layer in segmentation.layers)
     )

@@ -40,7 +40,7 @@ from infill.smoothing.together_stages import TogetherStages
 
 if TYPE_CHECKING:
     from infill.inspection.bricks import TopologyCheck
-    from infill.reports.smoothing import TogetherLabel, TogetherReport, TogetherVerdict
+    from infill.reports.smoothing import TogetherLabel, TogetherReport, TogetherVerdict, Verdicts
     from infill.smoothing.request import SmoothRequest
     from infill.volume import Volume
 
@@ -53,9 +53,23 @@ NOTHING_LEFT = "nothing of it is left"
 
 
 def smooth_together(
-    volume: Volume, pieces: Sequence[LabelPiece], request: SmoothRequest, absent: Sequence[str]
+    volume: Volume,
+    pieces: Sequence[LabelPiece],
+    request: SmoothRequest,
+    absent: Sequence[str],
+    shares: NDArray[np.float32] | None = None,
 ) -> Result[TogetherStages, TogetherReport]:
     """Smooth labels of one volume together; the other values are the space between them.
+
+    Parameters
+    ----------
+    volume : Volume
+    pieces : sequence of LabelPiece
+    request : SmoothRequest
+    absent : sequence of str
+        Names of the labels without a cell.
+    shares : (labels, nx, ny, nz) float32, optional
+        The share of every cell that labels 1, 2 ... have.
 
     Raises
     ------
@@ -68,12 +82,13 @@ def smooth_together(
     refuse_unfit(request)
     request = request.for_cell(float(volume.cell_size.min()))
     clock = Clock(request.progress)
-    needed = needed_memory(volume.values.size, pieces, request)
+    needed = needed_memory(volume.values.size, pieces, request) + (0 if shares is None else shares.nbytes)
     require_memory(needed, request.max_memory, "give --roi for a part of it, or a volume of larger voxels")
     numbers = number_labels(volume, pieces)
+    chosen = None if shares is None else shares[[piece.segment.value - 1 for piece in pieces]]
+    counts = _count_cells(numbers, len(pieces), chosen)
     with clock.stage("smooth", 0.0):
-        fields = _smooth_fields(numbers, volume, pieces, request, clock)
-    counts = np.bincount(numbers.ravel(), minlength=len(pieces) + 1)
+        fields = _smooth_fields(numbers, volume, pieces, request, clock, chosen)
     with clock.stage("volumes", 0.5):
         partition = keep_volumes(
             fields,
@@ -102,10 +117,7 @@ def smooth_together(
         "labels": labels,
         "failed": [{**piece.place, "error": NOTHING_LEFT} for piece in gone],
         "absent": list(absent),
-        "verdict": {
-            "word": "lost" if gone else max((keys["verdict"]["word"] for keys in labels), key=WORDS.index),
-            "summary": summarise_verdicts(labels, [piece.name for piece in gone]),
-        },
+        "verdict": _verdict_of_all(labels, gone),
         "rounds": partition.rounds,
         "tetrahedra": None,
         "seconds": clock.timings(TogetherSeconds),
@@ -166,28 +178,56 @@ def needed_memory(cells: int, pieces: Sequence[LabelPiece], request: SmoothReque
 
 
 def _smooth_fields(
-    numbers: NDArray[np.uint16], volume: Volume, pieces: Sequence[LabelPiece], request: SmoothRequest, clock: Clock
+    numbers: NDArray[np.uint16],
+    volume: Volume,
+    pieces: Sequence[LabelPiece],
+    request: SmoothRequest,
+    clock: Clock,
+    shares: NDArray[np.float32] | None,
 ) -> PartitionFields:
-    """Smooth the field of every label, and of the space between them."""
+    """Smooth the field of every label, and of the space between them; `shares` are those of the pieces."""
     spacing = tuple(volume.cell_size.tolist())
     is_plain = request.method == "plain"
     smoother, profile = (smooth_bricks, PLAIN_PROFILE) if is_plain else (refine_bricks, REFINED_PROFILE)
 
-    def smooth_mask(mask: NDArray[np.bool_], threads: int) -> SparseField:
+    def smooth_data(data: NDArray[np.generic], threads: int) -> SparseField:
         """Smooth the cells of a label to distances from its surface."""
-        field = smoother(mask, request.smoothing, spacing=spacing, threads=threads)
+        field = smoother(data, request.smoothing, spacing=spacing, threads=threads)
         # Distances change evenly from cell to cell, as walls between them assume.
         return replace(field, values=profile.distance(field.values, out=field.values, threads=threads))
 
+    def phase_of_shares(number: int, box: tuple[slice, ...]) -> NDArray[np.float32]:
+        """Return the shares of a label, or of the space between all, as a phase field."""
+        assert shares is not None
+        part = shares[number - 1][box] if number else np.maximum(1 - shares[(slice(None), *box)].sum(axis=0), 0)
+        return np.asarray(2 * part - 1)
+
     boxes = [((0, 0, 0), numbers.shape), *((piece.extent.low, piece.extent.high) for piece in pieces)]
+    if shares is not None:
+        boxes[1:] = [_box_of(share > 0) for share in shares]
     return smooth_fields(
         numbers,
         boxes,
-        smooth_mask,
+        smooth_data,
+        data=None if shares is None else phase_of_shares,
         reach=field_reach(request.smoothing.interface),
         threads=request.threads,
         progress=lambda share: clock.tell("smooth", 0.5 * share),
     )
+
+
+def _count_cells(numbers: NDArray[np.uint16], labels: int, shares: NDArray[np.float32] | None) -> NDArray[np.float64]:
+    """Count the cells of the space between labels and of every label, (labels + 1,), with parts of cells."""
+    if shares is None:
+        return np.bincount(numbers.ravel(), minlength=labels + 1).astype(np.float64)
+    counts = shares.sum(axis=(1, 2, 3), dtype=np.float64)
+    return np.concatenate([[numbers.size - counts.sum()], counts])
+
+
+def _box_of(cells: NDArray[np.bool_]) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Return the lowest corner and the highest, exclusive, of marked cells."""
+    places = [np.flatnonzero(cells.any(axis=tuple({0, 1, 2} - {axis}))) for axis in range(3)]
+    return tuple(int(place[0]) for place in places), tuple(int(place[-1]) + 1 for place in places)
 
 
 def simplify(
@@ -207,7 +247,7 @@ def scale_of(volume: Volume) -> tuple[float, ...]:
 
 def _judge_labels(
     numbers: NDArray[np.uint16],
-    counts: NDArray[np.int64],
+    counts: NDArray[np.float64],
     partition: VolumePartition,
     simple: VolumePartition,
     surfaces: LabelSurfaces,
@@ -221,8 +261,8 @@ def _judge_labels(
     ----------
     numbers : (n0, n1, n2) uint16
         The label of every cell, from `number_labels`.
-    counts : (labels,) int64
-        Cells of each.
+    counts : (labels,) float64
+        Cells of each; parts of cells count as such.
     partition, simple : VolumePartition
         With all triangles, and as it is written.
     """
@@ -244,7 +284,7 @@ def _judge_labels(
     for number, piece in enumerate(pieces, 1):
         if piece.name not in surfaces:
             continue
-        cells, facts = int(counts[number]), surfaces.measures[piece.name]
+        cells, facts = float(counts[number]), surfaces.measures[piece.name]
         change = facts.volume / (cells * volume.cell_volume) - 1
         differences = find_label_differences(
             topologies[number], deviations[number], change if cells >= SMALLEST else None
@@ -275,6 +315,12 @@ def _label_keys(
         "verdict": verdict,
         "distance": declare(Distance, {}),
     }
+
+
+def _verdict_of_all(labels: Sequence[TogetherLabel], gone: Sequence[LabelPiece]) -> Verdicts:
+    """Return the worst verdict, and a phrase for each."""
+    word = "lost" if gone else max((keys["verdict"]["word"] for keys in labels), key=WORDS.index)
+    return {"word": word, "summary": summarise_verdicts(labels, [piece.name for piece in gone])}
 
 
 def _problems_of_all(labels: Sequence[TogetherLabel], gone: Sequence[LabelPiece], crossings: int) -> list[str]:

@@ -73,6 +73,7 @@ def plan_together(
     loaded = time.perf_counter()
     seconds = _expected_seconds(cells, faces, volume, request, tetrahedra=tetrahedra)
     memory = needed_memory(cells, pieces, request)
+    memory += 0 if segmentation.shares is None else 2 * segmentation.shares.nbytes
     return {
         "request": request.for_cell(float(volume.cell_size.min())).facts(),
         "labels": [
