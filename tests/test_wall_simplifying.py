@@ -193,6 +193,25 @@ def test_a_wall_that_is_moved_is_found_and_its_points_can_be_fixed(monkeypatch: 
     assert all(place in held for place in map(tuple, whole.points[near].tolist()))
 
 
+def test_every_point_that_was_is_measured_even_of_large_meshes(monkeypatch: pytest.MonkeyPatch) -> None:
+    partition = partition_of(make_cells((20, 20, 20), 4, 1), monkeypatch)
+    monkeypatch.setattr(wall_mesh, "MOST_SAMPLED", 10)
+    whole = WallMesh.of(partition.walls, CUBIC, (20, 20, 20))
+    fewer = WallMesh.of(simplify_partition(partition, 0.1, scale=CUBIC).walls, CUBIC, (20, 20, 20))
+    inner = np.flatnonzero((whole.order == kernels.WALL) & (whole.flags == 0))
+    all_walls, spikes = Surface(vertices=fewer.points, faces=fewer.triangles), 0
+    for number in inner[:: len(inner) // 20]:
+        points = whole.points.copy()
+        points[number] += 0.5
+        if distances(points[number][None], all_walls)[0] < 0.2:  # along the wall
+            continue
+        spikes += 1
+        far = find_far(replace(whole, points=points), fewer, 0.1, CUBIC, 1)
+        assert (far == points[number]).all(axis=1).any()
+        assert not len(find_far(replace(whole, points=points), fewer, 0.1, CUBIC, 1, around=points[number][None] + 9))
+    assert spikes > 5
+
+
 @settings(max_examples=12, deadline=None)
 @given(seed=st.integers(0, 99), places=st.integers(1, 12), reach=st.sampled_from([1.0, 2.5]))
 def test_points_that_come_back_leave_every_label_whole(seed: int, places: int, reach: float) -> None:
@@ -201,8 +220,10 @@ def test_points_that_come_back_leave_every_label_whole(seed: int, places: int, r
     whole = WallMesh.of(partition.walls, CUBIC, (20, 20, 20))
     fewer = whole.collapse(0.02**2, None, 1).collapse(0.2**2, 0.2, 1)
     is_back = whole.near(np.random.default_rng(seed).uniform(0, 20, (places, 3)), reach)
-    restored = fewer.restore(whole, is_back)
-    assert restored is not None
+    mended = fewer.restore(whole, is_back)
+    assert mended is not None
+    restored, back = mended
+    assert set(map(tuple, whole.points[is_back].tolist())) <= set(map(tuple, back.tolist()))
     assert len(fewer.triangles) <= len(restored.triangles) < len(whole.triangles)
     assert (restored.points[restored.into[is_back]] == whole.points[is_back]).all()
     mapped = restored.into[whole.triangles]
@@ -256,10 +277,10 @@ def test_a_place_that_fails_costs_few_triangles(walls: str, monkeypatch: pytest.
         collapses.append(arguments)
         return collapse_of_mesh(self, *arguments)
 
-    def find(*arguments: Any) -> NDArray[np.float64]:
+    def find(*arguments: Any, **options: Any) -> NDArray[np.float64]:
         """Report a planted place at the first check."""
         checks.append(arguments)
-        return failing if len(checks) == 1 else find_far(*arguments)
+        return failing if len(checks) == 1 else find_far(*arguments, **options)
 
     collapse_of_mesh = WallMesh.collapse
     monkeypatch.setattr(WallMesh, "collapse", collapse)

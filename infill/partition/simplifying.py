@@ -21,6 +21,7 @@ from infill.surface import Surface
 BLIND_SHARE = 0.05  # of the tolerance, as a mean: edges collapse up to here without any distance being measured
 SAMPLED_SHARE = 0.8  # of the tolerance: where samples may lie, so that places between them lie within the tolerance
 NEAR_SIDES = 1.5  # sides of cells: around a place that fails, points this near are fixed
+AROUND = 6.0  # sides of cells: around points that came back, distances are measured again
 FEW_FAILED = 0.05  # of the points: so many come back, rather than that all is done again
 MOST_MORE = 1.1  # times as many triangles: with more come back, all is done again. On flat walls, all may come back
 # Each time that all is done again, with a smaller share of the tolerance: a large one may be too much.
@@ -57,7 +58,9 @@ def simplify_partition(
     is_cut = np.isin(np.arange(len(volumes)), partition.walls.sides)
     targets = np.where(is_cut & (np.arange(len(volumes)) > 0), volumes, 0.0)
     original = WallMesh.of(partition.walls, scale, shape)
-    fixed, fewer, attempts = original.order == FIXED, None, 0
+    fixed, attempts = original.order == FIXED, 0
+    fewer: WallMesh | None = None
+    back: NDArray[np.float64] | None = None
     while fewer is not None or attempts < ATTEMPTS:
         if fewer is None:
             leeway, repairs = tolerance * LESS**attempts, 0
@@ -67,7 +70,7 @@ def simplify_partition(
         graph, walls = fewer.as_walls(partition.graph, scale)
         walls = restore_volumes(graph, walls, targets, scale=scale, threads=count)
         fewer = replace(fewer, points=walls.points.astype(np.float64) * np.array(scale))
-        far = find_far(original, fewer, tolerance, scale, count)
+        far = find_far(original, fewer, tolerance, scale, count, around=back)
         crossing = intersecting_pairs(Surface(vertices=fewer.points, faces=fewer.triangles), threads=count)
         is_kept = np.abs(walls.volumes - targets)[targets > 0] <= PRECISE * targets[targets > 0]
         # Crossings of the walls that came in cannot be fixed here.
@@ -80,8 +83,9 @@ def simplify_partition(
             fixed |= is_failed
         is_local = is_kept.all() and is_failed.mean() < FEW_FAILED and repairs < REPAIRS
         repairs += 1
-        restored = fewer.restore(original, is_failed) if is_local else None
-        fewer = restored if restored and len(restored.triangles) <= MOST_MORE * len(fewer.triangles) else None
+        mended = fewer.restore(original, is_failed) if is_local else None
+        most = MOST_MORE * len(fewer.triangles)
+        fewer, back = mended if mended and len(mended[0].triangles) <= most else (None, None)
     return partition
 
 
@@ -133,9 +137,21 @@ def restore_volumes(
 
 
 def find_far(
-    original: WallMesh, fewer: WallMesh, tolerance: float, scale: tuple[float, ...], threads: int
+    original: WallMesh,
+    fewer: WallMesh,
+    tolerance: float,
+    scale: tuple[float, ...],
+    threads: int,
+    *,
+    around: NDArray[np.float64] | None = None,
 ) -> NDArray[np.float64]:
-    """Return places (N, 3) on walls that lie too far from the same wall of the other mesh."""
+    """Return places (N, 3) on walls that lie too far from the same wall of the other mesh.
+
+    All points of the original are measured, and places spread over triangles of both; with `around`, (M, 3), only those
+    near some places.
+    """
+    from scipy.spatial import cKDTree
+
     across = int(np.ceil(np.cbrt(original.pair.max(initial=0) + 1)))
     step = 2 * float(original.box[1].max())
 
@@ -143,7 +159,7 @@ def find_far(
         """Move every wall to a place of its own, so that the nearest triangle is one of the same wall."""
         return places + step * np.stack([pair % across, pair // across % across, pair // across**2], axis=-1)
 
-    far = []
+    far: list[NDArray[np.float64]] = []
     for mesh, other in ((original, fewer), (fewer, original)):
         corners = other.points[other.triangles]
         order = _order_by_wall(corners.mean(axis=1), other.pair)
@@ -151,6 +167,11 @@ def find_far(
         faces = np.arange(3 * len(corners)).reshape(-1, 3)
         tree = TriangleTree.of(Surface(vertices=corners.reshape(-1, 3), faces=faces), order=order)
         places, pair = mesh.sample(SIDES_APART * float(np.mean(scale)))
+        if mesh is original:
+            places, pair = (np.concatenate(both) for both in zip((places, pair), mesh.points_on_walls(), strict=True))
+        if around is not None:
+            is_near = np.isfinite(cKDTree(around).query(places, distance_upper_bound=AROUND * float(np.mean(scale)))[0])
+            places, pair = places[is_near], pair[is_near]
         order, is_far = _order_by_wall(places, pair), np.empty(len(places), dtype=bool)
         distance = tree.nearest(spread(places[order], pair[order]), enough=SURE * tolerance, threads=threads)[0]
         is_far[order] = distance > SURE * tolerance

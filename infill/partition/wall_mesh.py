@@ -170,18 +170,35 @@ class WallMesh:
         if tolerance is None:
             none = np.empty(0, dtype=np.int32)
             return np.empty((0, 3)), none, none, none, np.empty((0, 3, 3)), none, none, none, np.empty(0)
-        star_start = np.zeros(len(self.points) + 1, dtype=np.int32)
-        star, on_walls, wall_faces = (np.empty(3 * len(self.triangles), dtype=np.int32) for _ in range(3))
-        edge_kernels.list_stars(self.triangles, star_start, star)
-        count = edge_kernels.list_walls(star_start, star, self.pair, on_walls, wall_faces)
+        star_start, star = self._list_stars()
+        on_walls, wall_faces = self._list_walls(star_start, star)
         places, on_edges, edge_faces = self._points_on_edges(tolerance)
-        point = np.concatenate([on_walls[:count], on_edges])
-        face = np.concatenate([wall_faces[:count], edge_faces])
-        places = np.concatenate([self.points[on_walls[:count]], places])
+        point = np.concatenate([on_walls, on_edges])
+        face = np.concatenate([wall_faces, edge_faces])
+        places = np.concatenate([self.points[on_walls], places])
         heads, after = chain(face, len(self.triangles))
         corners, reach = self.points[self.triangles], np.empty(len(places))
         edge_kernels.measure_reach(places, point, corners, star_start, star, reach)
         return places, heads, after, point, corners, star_start, star, self.pair.copy(), reach
+
+    def points_on_walls(self) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+        """Return the points (N, 3), once for each wall at them, and the pair of each."""
+        points, faces = self._list_walls(*self._list_stars())
+        return self.points[points], self.pair[faces]
+
+    def _list_stars(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+        """Return where the triangles at each point begin, and these triangles."""
+        starts, star = np.zeros(len(self.points) + 1, dtype=np.int32), np.empty(self.triangles.size, dtype=np.int32)
+        edge_kernels.list_stars(self.triangles, starts, star)
+        return starts, star
+
+    def _list_walls(
+        self, star_start: NDArray[np.int32], star: NDArray[np.int32]
+    ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+        """Return the numbers of points, once for each wall at them, and a triangle of that wall."""
+        points, faces = np.empty(len(star), dtype=np.int32), np.empty(len(star), dtype=np.int32)
+        count = edge_kernels.list_walls(star_start, star, self.pair, points, faces)
+        return points[:count], faces[:count]
 
     def _points_on_edges(self, tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]:
         """Set points along the edges at which a wall bends or ends; return them, a point and a face of each edge."""
@@ -243,7 +260,7 @@ class WallMesh:
         """Fix some points (P,)."""
         return replace(self, order=np.where(is_fixed, np.int8(kernels.FIXED), self.order))
 
-    def restore(self, original: WallMesh, is_back: NDArray[np.bool_]) -> WallMesh | None:
+    def restore(self, original: WallMesh, is_back: NDArray[np.bool_]) -> tuple[WallMesh, NDArray[np.float64]] | None:
         """Bring back points of the original mesh, and the triangles at them.
 
         Parameters
@@ -256,8 +273,9 @@ class WallMesh:
 
         Returns
         -------
-        WallMesh or None
-            None if the walls would be joined in another way than before.
+        restored : WallMesh
+        back : (N, 3) float64
+            The points that came back. None instead of both if the walls would be joined in another way than before.
         """
         crowded_before, is_split = self.crowded_points().sum(), np.zeros(len(self.points), dtype=bool)
         for _ in range(RESTORING_ROUNDS):
@@ -282,7 +300,8 @@ class WallMesh:
             if not is_wrong.any():
                 is_wrong = restored.crowded_points()
                 if is_wrong.sum() <= crowded_before:
-                    return restored if restored.euler_number() == self.euler_number() else None
+                    is_whole = restored.euler_number() == self.euler_number()
+                    return (restored, original.points[is_back]) if is_whole else None
             is_back = is_wrong[into]
         return None
 
