@@ -168,7 +168,8 @@ def find_far(
         tree = TriangleTree.of(Surface(vertices=corners.reshape(-1, 3), faces=faces), order=order)
         places, pair = mesh.sample(SIDES_APART * float(np.mean(scale)))
         if mesh is original:
-            places, pair = (np.concatenate(both) for both in zip((places, pair), mesh.points_on_walls(), strict=True))
+            points, pair_of_points = mesh.points_on_walls()
+            places, pair = np.concatenate([places, points]), np.concatenate([pair, pair_of_points])
         if around is not None:
             is_near = np.isfinite(cKDTree(around).query(places, distance_upper_bound=AROUND * float(np.mean(scale)))[0])
             places, pair = places[is_near], pair[is_near]
