@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from infill import FormatError
 from infill.gcode import stream
-from infill.gcode.lines import ARC, BLANK, COMMENT, MOVE, ODD, OTHER
+from infill.gcode.lines import ARC, BLANK, COMMENT, MOVE, ODD, OTHER, read_compiled_lines, read_plain_lines
 from infill.gcode.machine_state import MachineState
 from infill.gcode.numbers import MAX_DIGITS, WORD, parse_long_numbers, parse_short_numbers, read_numbers, write_words
 from infill.gcode.sections import LineMarks, TagState, mark_lines
@@ -311,6 +311,67 @@ def test_a_table_is_what_reading_line_by_line_gives(lines: list[bytes], state: M
     for line, codes, numbered in zip(lines, table.code.tolist(), table.numbered.tolist(), strict=True):
         assert numbered == bool(re.match(rb"\s{0,8}[Nn]\d", line))
         assert codes == kind_of(line)[1]
+
+
+FRAGMENTS = (
+    *(b"G1", b"G0", b"G01", b"G2 ", b"g3", b"G1 X", b"N12", b"n3 ", b"M204 S5", b"G1 X1 Y2 ", b"G1 X1 (a) ", b"(b)*12"),
+    *(
+        b" X",
+        b"Y",
+        b"E",
+        b"e",
+        b"I",
+        b"J",
+        b"F",
+        b"Z",
+        b"K",
+        b"1",
+        b"2.5",
+        b"-.5",
+        b"+3",
+        b"-",
+        b".",
+        b"1e-5",
+        b"=",
+        b'"',
+    ),
+    *(
+        b" ",
+        b"  ",
+        b"\t",
+        b"         ",
+        b";",
+        b"(",
+        b")",
+        b"*7",
+        b"12345678901",
+        b"99999999",
+        b"\xff",
+        b"\r",
+        b"\n",
+        b"\n",
+    ),
+)
+
+
+@pytest.mark.slow
+@settings(max_examples=400)
+@given(st.lists(st.sampled_from(FRAGMENTS), min_size=1, max_size=40).map(b"".join))
+@example(b"G1 X1.5 Y-.25 E1e-5")
+@example(b"G1 X1 X2\nG1 X1 (a) Y2\nG1 X1 (a) *7 ; b\n")
+@example(b"         G1 X1\n        G1 X1\nN123456789012 G1 X1\n")
+def test_compiled_reading_is_that_of_numpy(data: bytes) -> None:
+    text = np.frombuffer(data if data.endswith(b"\n") else data + b"\n", dtype=np.uint8)
+    start = np.append(0, np.flatnonzero(text == ord("\n")) + 1)
+    start[-1] = len(data)
+    names = ("kind", "code", "numbered", "values", "given")
+    for name, plain, compiled in zip(
+        names, read_plain_lines(text, start), read_compiled_lines(text, start), strict=True
+    ):
+        assert plain.dtype == compiled.dtype
+        np.testing.assert_array_equal(compiled, plain, err_msg=f"{name} of {data!r}")
+        if name == "values":
+            np.testing.assert_array_equal(np.signbit(compiled), np.signbit(plain))
 
 
 @pytest.mark.slow
