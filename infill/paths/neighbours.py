@@ -11,6 +11,7 @@ import numpy as np
 from infill.arrays import Floats, Places
 from infill.checks import FARTHEST
 from infill.paths.contact import project_to_pieces
+from infill.paths.point_grid import PointGrid, sort_into_grid
 
 if TYPE_CHECKING:
     from scipy.spatial import cKDTree
@@ -23,8 +24,6 @@ AWAY_LIMIT = 1 / 12
 TOWARDS_LIMIT = 0.015  # mm that it may move towards it
 LARGEST_DISTANCE = 5.0  # mm, of a search
 NEAREST = 3  # candidate pieces of beads around a point
-LEAST_FILTERED = 500  # points: with fewer, a rough filter before the search gains nothing
-MOST_SQUARES = 1 << 24  # of a plane of squares: a byte each
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,6 +48,11 @@ class BeadIndex:
     low: Floats
     high: Floats
     half: Floats
+
+    @cached_property
+    def grid(self) -> PointGrid:
+        """The points in the squares of a grid."""
+        return sort_into_grid(self.points)
 
     @cached_property
     def tree(self) -> cKDTree:
@@ -80,12 +84,7 @@ class BeadIndex:
                 is_candidate &= points[:, axis] < self.high[axis] + distance
         candidates = np.flatnonzero(is_candidate)
         shifted = _shift_to_layer(points[candidates], slot[candidates], self.pitch)
-        inside = (
-            _near_walls(shifted, self.points, distance)
-            if len(candidates) > LEAST_FILTERED
-            else np.arange(len(candidates))
-        )
-        result[candidates[inside]] = self.tree.query(shifted[inside], distance_upper_bound=distance)[0]
+        result[candidates] = self.grid.distances(shifted, distance)
         return result
 
     def nearest(self, points: Floats, layer: Places, distance: float, places: range) -> tuple[Floats, Places]:
@@ -160,30 +159,6 @@ def index_beads(points: Floats, layer: Places | None = None, half: Floats | None
 def _shift_to_layer(points: Floats, slot: Places, pitch: float) -> Floats:
     """Shift points to the place of their layer."""
     return np.stack([points[:, 0] + slot * pitch, points[:, 1]], axis=1)
-
-
-def _near_walls(points: Floats, walls: Floats, distance: float) -> Places:
-    """Find the points in squares around a wall as wide as the distance: only these need a search."""
-    low = np.array([walls[:, k].min() for k in (0, 1)]) - 2 * distance
-    size = np.array([walls[:, k].max() for k in (0, 1)]) - low
-    squares = (size / distance).astype(np.intp) + 4
-    if squares[0] * squares[1] > MOST_SQUARES:
-        return np.arange(len(points))
-    wall_squares = (
-        ((walls[:, 0] - low[0]) / distance).astype(np.intp),
-        ((walls[:, 1] - low[1]) / distance).astype(np.intp),
-    )
-    taken = np.zeros(squares, dtype=bool)
-    taken[wall_squares] = True
-    taken[1:] |= taken[:-1].copy()
-    taken[:-1] |= taken[1:].copy()
-    taken[:, 1:] |= taken[:, :-1].copy()
-    taken[:, :-1] |= taken[:, 1:].copy()
-    # Points farther out fall into the outermost squares, which are all far from walls.
-    squares_of = tuple(
-        np.clip((points[:, axis] - low[axis]) / distance, 0, squares[axis] - 1).astype(np.intp) for axis in (0, 1)
-    )
-    return np.flatnonzero(taken[squares_of])
 
 
 def deviation_beside_beads(
