@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -14,6 +13,7 @@ from infill.arrays import Floats
 from infill.checks import FARTHEST
 from infill.gcode.numbers import MAX_DIGITS, MINUS, PLUS, POINT, POWERS, SEMICOLON, SPACE, TAB, read_numbers
 from infill.gcode.unusual_moves import may_move, read_move
+from infill.kernels.compiling import is_compiler_loaded, log_compilation
 
 # Kinds of lines. Only MOVE and ARC are ever drawn; ODD is a line in an unusual spelling: if it is readable, it
 # has values like the others, but its text holds more than they state; if not, it is `unread`.
@@ -30,8 +30,6 @@ _SORTS = bytes(
 _LINE_NUMBER = re.compile(rb"\s*(?:[Nn]\d+(?![\d.])\s*)?")
 _COMMAND = re.compile(rb"([A-Za-z])(\d{1,6}(?:\.\d{1,3})?)")
 _MOVE = re.compile(rb"\s*(?:[Nn]\d+\s*)?[Gg]\s*0*[0-3](?![\d.])")
-KERNEL = "infill.kernels.gcode_lines"
-LEAST_COMPILED = 1 << 20  # bytes of a text for which loading compiled code pays
 MAX_MOVE_BYTES = 4096  # bytes of a line that is read on its own
 _WORDS_END = re.compile(rb"[;(*]")
 _REMARKS = re.compile(rb"\s*(?:\([^()]*\)\s*)*(?:\*\s*\d+\s*)?")
@@ -120,7 +118,7 @@ def parse_lines(data: bytes) -> ParsedLines:
     start[-1] = len(data)
     lines = len(start) - 1 if len(data) else 0
     start = start[: lines + 1]
-    read = read_compiled_lines if len(data) >= LEAST_COMPILED or KERNEL in sys.modules else read_plain_lines
+    read = read_compiled_lines if is_compiler_loaded() else read_plain_lines
     kind, code, numbered, values, has_word = read(text, start)
     unread, further = _read_odd_lines(data, start, kind, code, values, has_word)
     commands = tuple(_read_commands(data, start, kind))
@@ -163,8 +161,7 @@ def read_plain_lines(
 def read_compiled_lines(
     text: NDArray[np.uint8], start: NDArray[np.int64]
 ) -> tuple[NDArray[np.uint8], NDArray[np.int8], NDArray[np.bool_], Floats, NDArray[np.bool_]]:
-    """Read the lines of a text as `read_plain_lines` does, byte by byte, in compiled code, which a large text pays."""
-    from infill.kernels.compiling import log_compilation
+    """Read the lines of a text as `read_plain_lines` does, byte by byte, in compiled code."""
     from infill.kernels.gcode_lines import read_lines
 
     lines = len(start) - 1

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from infill.arrays import Floats
 from infill.gcode.limits import Limits
+from infill.kernels.compiling import is_compiler_loaded, log_compilation
 from infill.planner.bounds import BoundedMoves, Moves, limit_values
 
 Limit = Callable[[str], Floats]
@@ -110,6 +111,8 @@ def _jerk(bounds: BoundedMoves, limit: Limit) -> Floats:
     slicers, and so in this function: jumps are measured with the later move's own speed, not with that of the joint,
     and the later move's start from rest counts.
     """
+    if is_compiler_loaded():
+        return find_compiled_jerk(bounds, limit("jerk"))
     slower = np.minimum(bounds.speed[:-1], bounds.speed[1:])
     leave = bounds.direction[:-1] * slower[:, None]
     enter = bounds.direction[1:] * bounds.speed[1:, None]
@@ -125,8 +128,30 @@ def _jerk(bounds: BoundedMoves, limit: Limit) -> Floats:
 def _rest_speed(bounds: BoundedMoves, limit: Limit) -> NDArray[np.float64]:
     """Return the speed with which moves begin and end at rest, mm/s: the smallest jerk of all axes involved."""
     jerk = limit("jerk")
+    if is_compiler_loaded():
+        return find_compiled_rest(bounds, jerk)
     meets = np.abs(bounds.direction) * bounds.speed[:, None] > jerk
     return np.asarray(np.minimum(bounds.speed, np.where(meets, jerk, np.inf).min(axis=1)))
+
+
+def find_compiled_jerk(bounds: BoundedMoves, jerk: Floats) -> Floats:
+    """Return the same as `_jerk`, by compiled loops."""
+    from infill.kernels.jerk import find_joint_speeds
+
+    joint, rest = np.empty(len(bounds.speed) - 1), find_compiled_rest(bounds, jerk)
+    with log_compilation("speeds"):
+        find_joint_speeds(bounds.direction, bounds.speed, jerk, rest, joint)
+    return joint**2
+
+
+def find_compiled_rest(bounds: BoundedMoves, jerk: Floats) -> Floats:
+    """Return the same as `_rest_speed`, by compiled loops."""
+    from infill.kernels.jerk import find_rest_speeds
+
+    rest = np.empty(len(bounds.speed))
+    with log_compilation("speeds"):
+        find_rest_speeds(bounds.direction, bounds.speed, jerk, rest)
+    return rest
 
 
 def _vector_jerk(bounds: BoundedMoves, limit: Limit) -> Floats:
