@@ -20,6 +20,7 @@ from infill.paths.contact import (
     project_to_pieces,
     sample_paths,
 )
+from infill.paths.neighbours import index_beads
 from infill.paths.point_grid import join_near_paths, sort_into_grid
 
 REACH = 0.5  # mm
@@ -105,3 +106,34 @@ def test_paths_that_touch_are_joined_as_by_all_pairs(seed: int, paths: int, size
     group = join_near_paths(samples.points, samples.path, REACH)
     assert paths == 1 or 1 < groups < paths
     assert len(np.unique(np.stack([group, expected]), axis=1).T) == groups == len(np.unique(group))
+
+
+@pytest.mark.parametrize("raster", [0.0, 0.5, 3.0])
+@pytest.mark.parametrize("count", [1, 2, 3, 100, 4000])
+def test_several_neighbours_are_those_of_a_tree_also_where_some_are_as_near(count: int, raster: float) -> None:
+    random = np.random.default_rng(count)
+    points, layer = random.random((count, 2)) * 40, np.sort(random.integers(0, 3, count))
+    points = np.round(points / raster) * raster if raster else points
+    beads = index_beads(points, layer)
+    chosen = random.integers(0, count, 500)
+    distance, number = beads.nearest(points[chosen], layer[chosen], 1.35, range(2, 6))
+    slot = np.searchsorted(beads.layers, layer[chosen])
+    shifted = np.stack([points[chosen, 0] + slot * beads.pitch, points[chosen, 1]], axis=1)
+    expected, expected_number = beads.tree.query(shifted, k=[2, 3, 4, 5], distance_upper_bound=1.35)
+    np.testing.assert_array_equal(distance, expected)
+    exists = np.isfinite(distance)
+    sets = [np.sort(np.where(exists, numbers, -1), axis=1) for numbers in (number, expected_number)]
+    np.testing.assert_array_equal(*sets)
+
+
+@pytest.mark.parametrize("raster", [0.0, 0.5])
+@pytest.mark.parametrize("count", [1, 2, 3, 100, 4000])
+def test_the_nearest_pieces_are_those_of_a_tree(count: int, raster: float) -> None:
+    """However far away they are."""
+    random = np.random.default_rng(count)
+    points, places = random.random((count, 2)) * 40, random.random((900, 2)) * 90 - 30
+    if raster:
+        points, places = (np.round(values / raster) * raster for values in (points, places))
+    beads = index_beads(points)
+    expected = beads.tree.query(places, k=list(range(1, min(count, 3) + 1)))[1]
+    np.testing.assert_array_equal(beads.nearest_pieces(places), expected)

@@ -208,3 +208,41 @@ def join_near(low, cell, shape, begins, points, path, reach, parent):
                     dx, dy = x - points[k, 0], y - points[k, 1]
                     if dx * dx + dy * dy <= limit:
                         join(parent, path[point], path[k])
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def find_several(low, cell, shape, begins, points, number, places, distance, found, squares):
+    """Find the nearest points of each place, the nearest first.
+
+    Parameters
+    ----------
+    number : (N,) int64
+        What each point is called.
+    places : (M, 2) float64
+    distance : float
+        Points as far away as this do not count.
+    found : (M, K) int64
+        Written; -1 where fewer points count.
+    squares : (M, K) float64
+        Written: squares of their distances, infinite where fewer points count.
+    """
+    most = found.shape[1]
+    for place in range(len(places)):
+        x, y = places[place, 0], places[place, 1]
+        for rank in range(most):
+            found[place, rank], squares[place, rank] = -1, math.inf
+        limit = distance * distance
+        left, right = _squares_around(x, distance, low[0], cell, shape[0])
+        bottom, top = _squares_around(y, distance, low[1], cell, shape[1])
+        if left > right:
+            continue
+        for row in range(bottom, top + 1):
+            for k in range(begins[row * shape[0] + left], begins[row * shape[0] + right + 1]):
+                dx, dy = x - points[k, 0], y - points[k, 1]
+                square = dx * dx + dy * dy
+                if square < limit and square < squares[place, most - 1]:
+                    rank = most - 1
+                    while rank > 0 and square < squares[place, rank - 1]:
+                        found[place, rank], squares[place, rank] = found[place, rank - 1], squares[place, rank - 1]
+                        rank -= 1
+                    found[place, rank], squares[place, rank] = number[k], square

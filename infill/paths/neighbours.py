@@ -23,6 +23,7 @@ BESIDE = 1.3  # line widths between the centre lines of a corner and of a bead t
 AWAY_LIMIT = 1 / 12
 TOWARDS_LIMIT = 0.015  # mm that it may move towards it
 LARGEST_DISTANCE = 5.0  # mm, of a search
+FIRST_DISTANCE = 1.0  # mm, of a search without a limit
 NEAREST = 3  # candidate pieces of beads around a point
 
 
@@ -56,7 +57,7 @@ class BeadIndex:
 
     @cached_property
     def tree(self) -> cKDTree:
-        """Search tree of the points."""
+        """Search tree of the points, which takes longer to load and to search than the grid."""
         from scipy.spatial import cKDTree
 
         return cKDTree(self.points, balanced_tree=False)  # built twice as fast
@@ -106,8 +107,40 @@ class BeadIndex:
         number : (N, places) int
         """
         shifted = _shift_to_layer(points, np.searchsorted(self.layers, layer), self.pitch)
-        distances, number = self.tree.query(shifted, k=list(places), distance_upper_bound=distance)
-        return np.asarray(distances), np.asarray(number)
+        number, square = self.grid.several(shifted, distance, places.stop)
+        # Where two points are as near as each other, and one of them is left out, the tree chooses.
+        tied = np.zeros(len(points), dtype=bool)
+        for rank in (places.start - 1, places.stop - 1):
+            if rank:
+                tied |= (square[:, rank - 1] == square[:, rank]) & np.isfinite(square[:, rank])
+        ranks = slice(places.start - 1, places.stop - 1)
+        number, distances = number[:, ranks], np.sqrt(square[:, ranks])
+        if tied.any():
+            distances[tied], number[tied] = self.tree.query(
+                shifted[tied], k=list(places), distance_upper_bound=distance
+            )
+        return distances, number
+
+    def nearest_pieces(self, points: Floats) -> Places:
+        """Find the `NEAREST` pieces with the nearest middles for each point of a single layer, (N, `NEAREST` or fewer).
+
+        Where two middles are as near as each other, the tree chooses which comes first.
+        """
+        count = min(NEAREST, len(self.points))
+        numbers = np.empty((len(points), count), dtype=np.int64)
+        pending, distance = np.arange(len(points)), FIRST_DISTANCE
+        while len(pending) and distance < 4 * FARTHEST:
+            number, square = self.grid.several(points[pending], distance, count + 1)
+            numbers[pending] = number[:, :count]
+            tied = ((square[:, 1:] == square[:, :-1]) & np.isfinite(square[:, 1:])).any(axis=1)
+            if tied.any():
+                candidates = self.tree.query(points[pending[tied]], k=list(range(1, count + 1)))[1]
+                numbers[pending[tied]] = candidates
+            pending = pending[~tied & (number[:, count - 1] < 0)]
+            distance *= 4
+        if len(pending):
+            numbers[pending] = self.tree.query(points[pending], k=list(range(1, count + 1)))[1]
+        return numbers
 
 
 def project_to_beads(points: Floats, walls: BeadIndex) -> tuple[Floats, Floats]:
@@ -124,8 +157,7 @@ def project_to_beads(points: Floats, walls: BeadIndex) -> tuple[Floats, Floats]:
     """
     if not len(walls.points):
         return points, np.full(len(points), np.inf)
-    _, candidates = walls.tree.query(points, k=min(NEAREST, len(walls.points)))
-    candidates = candidates.reshape(len(points), -1)
+    candidates = walls.nearest_pieces(points)
     along, apart = project_to_pieces(points, walls.points, walls.half, candidates)
     rows, choice = np.arange(len(points)), apart.argmin(axis=1)
     piece = candidates[rows, choice]

@@ -55,6 +55,24 @@ class PointGrid:
             find_nearest(*self.squares, np.ascontiguousarray(places), float(distance), nearest)
         return nearest
 
+    def several(self, places: Floats, distance: float, count: int) -> tuple[Places, Floats]:
+        """Find the `count` points nearest to each place, (M, 2), and nearer than a distance, mm, the nearest first.
+
+        Returns
+        -------
+        number : (M, count) int64
+            -1 where fewer are as near.
+        square : (M, count) float64, mm²
+            Of their distances; infinite there.
+        """
+        from infill.kernels.point_grids import find_several
+
+        number = np.empty((len(places), count), dtype=np.int64)
+        square = np.empty((len(places), count))
+        with log_compilation(SEARCHES):
+            find_several(*self.squares, self.number, np.ascontiguousarray(places), float(distance), number, square)
+        return number, square
+
 
 def sort_into_grid(points: Floats) -> PointGrid:
     """Sort points, (N, 2), N > 0, into a grid with about two squares for each."""
