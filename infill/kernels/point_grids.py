@@ -61,6 +61,23 @@ def sort_points(points, low, cell, shape, begins, number):
     begins[0] = 0
 
 
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
+def find_distance(low, cell, shape, begins, points, x, y, distance):
+    """Return the distance of a place from the nearest point; infinite from `distance` on."""
+    best = distance * distance
+    found = False
+    left, right = _squares_around(x, distance, low[0], cell, shape[0])
+    bottom, top = _squares_around(y, distance, low[1], cell, shape[1])
+    if left <= right:
+        for row in range(bottom, top + 1):
+            for k in range(begins[row * shape[0] + left], begins[row * shape[0] + right + 1]):
+                dx, dy = x - points[k, 0], y - points[k, 1]
+                square = dx * dx + dy * dy
+                if square < best:
+                    best, found = square, True
+    return math.sqrt(best) if found else math.inf
+
+
 @njit(nogil=True, cache=True, error_model="numpy")
 def find_nearest(low, cell, shape, begins, points, places, distance, nearest):
     """Find the distance to the nearest point of each place.
@@ -74,19 +91,7 @@ def find_nearest(low, cell, shape, begins, points, places, distance, nearest):
         Written; infinite where no point counts.
     """
     for place in range(len(places)):
-        x, y = places[place, 0], places[place, 1]
-        best = distance * distance
-        found = False
-        left, right = _squares_around(x, distance, low[0], cell, shape[0])
-        bottom, top = _squares_around(y, distance, low[1], cell, shape[1])
-        if left <= right:
-            for row in range(bottom, top + 1):
-                for k in range(begins[row * shape[0] + left], begins[row * shape[0] + right + 1]):
-                    dx, dy = x - points[k, 0], y - points[k, 1]
-                    square = dx * dx + dy * dy
-                    if square < best:
-                        best, found = square, True
-        nearest[place] = math.sqrt(best) if found else math.inf
+        nearest[place] = find_distance(low, cell, shape, begins, points, places[place, 0], places[place, 1], distance)
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")

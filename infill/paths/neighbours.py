@@ -53,7 +53,7 @@ class BeadIndex:
     @cached_property
     def grid(self) -> PointGrid:
         """The points in the squares of a grid."""
-        return sort_into_grid(self.points)
+        return sort_into_grid(self.points if len(self.points) else np.zeros((1, 2)))
 
     @cached_property
     def tree(self) -> cKDTree:
@@ -61,6 +61,13 @@ class BeadIndex:
         from scipy.spatial import cKDTree
 
         return cKDTree(self.points, balanced_tree=False)  # built twice as fast
+
+    def slots(self, layer: Places) -> Places:
+        """Return the place of each layer among `layers`, (N,); -1 for one without beads."""
+        if not len(self.layers):
+            return np.full(len(layer), -1)
+        slot = np.minimum(np.searchsorted(self.layers, layer), len(self.layers) - 1)
+        return np.where(self.layers[slot] == layer, slot, -1)
 
     def distances(self, points: Floats, layer: Places | int, distance: float) -> Floats:
         """Compute distances to the other beads of each point's layer, mm; infinite from `distance` on.
@@ -75,11 +82,10 @@ class BeadIndex:
         result = np.full(len(points), np.inf)
         if not len(self.points) or not len(points):
             return result
-        layer = np.broadcast_to(layer, len(points))
-        slot = np.minimum(np.searchsorted(self.layers, layer), len(self.layers) - 1)
+        slot = self.slots(np.broadcast_to(layer, len(points)))
         with np.errstate(invalid="ignore"):
             # Axis by axis: NumPy is slow along the short axis of an array.
-            is_candidate = self.layers[slot] == layer
+            is_candidate = slot >= 0
             for axis in (0, 1):
                 is_candidate &= points[:, axis] > self.low[axis] - distance
                 is_candidate &= points[:, axis] < self.high[axis] + distance
