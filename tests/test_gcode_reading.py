@@ -17,7 +17,16 @@ from infill import FormatError
 from infill.gcode import stream
 from infill.gcode.lines import ARC, BLANK, COMMENT, MOVE, ODD, OTHER, read_compiled_lines, read_plain_lines
 from infill.gcode.machine_state import MachineState
-from infill.gcode.numbers import MAX_DIGITS, WORD, parse_long_numbers, parse_short_numbers, read_numbers, write_words
+from infill.gcode.numbers import (
+    MAX_DIGITS,
+    WORD,
+    parse_long_numbers,
+    parse_short_numbers,
+    read_numbers,
+    write_compiled_words,
+    write_plain_words,
+    write_words,
+)
 from infill.gcode.sections import LineMarks, TagState, mark_lines
 from infill.gcode.stream import batches
 from infill.gcode.strokes import InfillStrokes, find_strokes
@@ -129,6 +138,10 @@ NUMBERS = st.one_of(
 def test_words_are_written_to_their_decimals_and_read_back(rows: list[tuple[float, float]], x: int, e: int) -> None:
     columns = [(b" X", np.array([row[0] for row in rows]), x), (b" E", np.array([row[1] for row in rows]), e)]
     written = write_words(columns, b"G1", b"\r\n")
+    for codes in (None, np.arange(len(rows), dtype=np.uint8) + ord("0")):
+        plain, compiled = (write(columns, b"G1", b"\r\n", codes) for write in (write_plain_words, write_compiled_words))
+        assert compiled.text == plain.text
+        assert compiled.start.tolist() == plain.start.tolist()
     lines = [written.text[a:b].decode() for a, b in zip(written.start[:-1], written.start[1:], strict=True)]
     assert b"".join(line.encode() for line in lines) == written.text
     expected = [
