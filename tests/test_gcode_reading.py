@@ -31,7 +31,8 @@ from infill.gcode.sections import LineMarks, TagState, mark_lines
 from infill.gcode.stream import batches
 from infill.gcode.strokes import InfillStrokes, find_strokes
 from infill.gcode.survey import HEAD, STAMP, TAIL, Survey, survey_print
-from infill.gcode.table import GcodeTable, read_table
+from infill.gcode.table import GcodeTable, fill_forward_plainly, read_table
+from infill.kernels.gcode_lines import fill_forward
 
 NUMBER = rb"[-+]?(?:\d+\.?\d*|\.\d+)"
 EIGHTHS = st.integers(-4000, 4000)  # of which every sum is exact, so that nothing here needs a tolerance
@@ -385,6 +386,15 @@ def test_compiled_reading_is_that_of_numpy(data: bytes) -> None:
         np.testing.assert_array_equal(compiled, plain, err_msg=f"{name} of {data!r}")
         if name == "values":
             np.testing.assert_array_equal(np.signbit(compiled), np.signbit(plain))
+
+
+@given(st.lists(st.sampled_from([float("nan"), -0.0, 1.0, 2.5])), st.sampled_from([float("nan"), 7.0]))
+def test_compiled_filling_is_that_of_numpy(values: list[float], before: float) -> None:
+    """Of columns that lie apart in memory, too."""
+    rows = np.array([values, values]).T
+    plain, filled = fill_forward_plainly(rows[:, 1], before), np.empty(len(values))
+    fill_forward(rows[:, 1], before, filled)
+    np.testing.assert_array_equal(filled, plain)
 
 
 @pytest.mark.slow

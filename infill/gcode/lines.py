@@ -126,7 +126,8 @@ def parse_lines(data: bytes) -> ParsedLines:
         line = command.line
         if kind[line] == OTHER and may_move(command.code, data[start[line] : start[line + 1]]):
             unread[line] = True
-    if data.count(b"\r") > data.count(b"\r\n"):
+    returns = data.count(b"\r")
+    if returns and returns > data.count(b"\r\n"):
         inner = [match.start() for match in _BEHIND_RETURN.finditer(data)]
         unread[np.searchsorted(start, inner, side="right") - 1] = True
     return ParsedLines(

@@ -157,3 +157,12 @@ def read_lines(text, start, letters, places, powers, farthest, kind, code, numbe
             for column in range(columns):
                 values[line, column] = float("nan")
                 given[line, column] = False
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def fill_forward(values, before, filled):
+    """Write each value, or the previous one where it is NaN, and the one before the first, to `filled`."""
+    for k in range(len(values)):
+        if values[k] == values[k]:
+            before = values[k]
+        filled[k] = before
