@@ -20,7 +20,7 @@ from infill.paths.contact import (
     project_to_pieces,
     sample_paths,
 )
-from infill.paths.neighbours import index_beads
+from infill.paths.neighbours import index_beads, project_to_beads
 from infill.paths.point_grid import join_near_paths, sort_into_grid
 
 REACH = 0.5  # mm
@@ -128,12 +128,19 @@ def test_several_neighbours_are_those_of_a_tree_also_where_some_are_as_near(coun
 
 @pytest.mark.parametrize("raster", [0.0, 0.5])
 @pytest.mark.parametrize("count", [1, 2, 3, 100, 4000])
-def test_the_nearest_pieces_are_those_of_a_tree(count: int, raster: float) -> None:
-    """However far away they are."""
+def test_the_projection_to_beads_is_that_of_a_tree(count: int, raster: float) -> None:
+    """However far away they are, and where two are as near as each other."""
     random = np.random.default_rng(count)
     points, places = random.random((count, 2)) * 40, random.random((900, 2)) * 90 - 30
+    half = random.choice([0.0, 0.1, -0.1, 0.25], (count, 2))
     if raster:
         points, places = (np.round(values / raster) * raster for values in (points, places))
-    beads = index_beads(points)
-    expected = beads.tree.query(places, k=list(range(1, min(count, 3) + 1)))[1]
-    np.testing.assert_array_equal(beads.nearest_pieces(places), expected)
+    beads = index_beads(points, half=half)
+    nearest = beads.tree.query(places, k=list(range(1, min(count, 3) + 1)))[1]
+    along, apart = project_to_pieces(places, beads.points, beads.half, nearest)
+    rows, choice = np.arange(len(places)), apart.argmin(axis=1)
+    chosen = nearest[rows, choice]
+    projected, distance = project_to_beads(places, beads)
+    np.testing.assert_array_equal(distance, apart[rows, choice])
+    expected = points[chosen] + along[rows, choice][:, None] * half[chosen]
+    np.testing.assert_allclose(projected, expected, rtol=0, atol=1e-9)
