@@ -20,6 +20,7 @@ from infill.paths.contact import (
     project_to_pieces,
     sample_paths,
 )
+from infill.paths.gaps import find_pinched_points
 from infill.paths.neighbours import index_beads, project_to_beads
 from infill.paths.point_grid import join_near_paths, sort_into_grid
 
@@ -144,3 +145,16 @@ def test_the_projection_to_beads_is_that_of_a_tree(count: int, raster: float) ->
     np.testing.assert_array_equal(distance, apart[rows, choice])
     expected = points[chosen] + along[rows, choice][:, None] * half[chosen]
     np.testing.assert_allclose(projected, expected, rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("count", [0, 1, 2, 300])
+def test_pinched_points_are_those_of_all_pairs(count: int) -> None:
+    random = np.random.default_rng(count)
+    points, ring, around = random.random((count, 2)) * 8, random.integers(0, 2, count), np.array([30.0, 4.0])
+    place = random.random(count) * around[ring]
+    a, b = cKDTree(points).query_pairs(REACH, output_type="ndarray").T if count else np.empty((2, 0), dtype=int)
+    way = np.abs(place[a] - place[b]) % around[ring[a]]
+    is_pinch = (ring[a] != ring[b]) | (np.minimum(way, around[ring[a]] - way) > 1.5)
+    expected = np.unique(np.concatenate([a[is_pinch], b[is_pinch]]))
+    assert count < 9 or 9 < len(expected) < count
+    assert find_pinched_points(points, ring, place, around, REACH, 1.5).tolist() == expected.tolist()

@@ -251,3 +251,36 @@ def find_several(low, cell, shape, begins, points, number, places, distance, fou
                         found[place, rank], squares[place, rank] = found[place, rank - 1], squares[place, rank - 1]
                         rank -= 1
                     found[place, rank], squares[place, rank] = number[k], square
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def mark_pinched(low, cell, shape, begins, points, number, ring, place, around, reach, exempt, pinched):
+    """Mark the points on rings that are near another one, and far from it along their ring.
+
+    Parameters
+    ----------
+    points, number, ring, place : (N, 2) float64, (N,) int64, (N,) int64, (N,) float64
+        Sorted: the points, what they are called, their rings, and how far along these they are.
+    around : (R,) float64
+        Length of each ring.
+    reach, exempt : float
+        A point is near up to `reach`; and far beyond `exempt` along the ring, either way, or on another one.
+    pinched : (N,) bool
+        Written where it is true: for each point, by what it is called.
+    """
+    limit = reach * reach
+    for point in range(len(points)):
+        x, y = points[point, 0], points[point, 1]
+        left, right = _squares_around(x, reach, low[0], cell, shape[0])
+        bottom, top = _squares_around(y, reach, low[1], cell, shape[1])
+        if left > right:
+            continue
+        for row in range(bottom, top + 1):
+            for k in range(begins[row * shape[0] + left], begins[row * shape[0] + right + 1]):
+                dx, dy = x - points[k, 0], y - points[k, 1]
+                if k == point or dx * dx + dy * dy > limit:
+                    continue
+                whole = around[ring[point]]
+                way = abs(place[point] - place[k]) % whole
+                if ring[k] != ring[point] or min(way, whole - way) > exempt:
+                    pinched[number[point]] = True

@@ -180,7 +180,7 @@ def project_to_beads(points: Floats, walls: BeadIndex) -> tuple[Floats, Floats]:
     is_near = np.abs(places - chosen[:, None]).max(axis=2) <= SAME_PLACE
     unsure |= ((among == nearest[:, None]) & ~is_near).any(axis=1)
     if unsure.any():
-        candidates = walls.tree.query(points[unsure], k=list(range(1, count + 1)))[1]
+        candidates = np.asarray(walls.tree.query(points[unsure], k=list(range(1, count + 1)))[1])
         places, apart = _project_to_candidates(points[unsure], walls, candidates)
         rows, choice = np.arange(len(apart)), apart.argmin(axis=1)
         chosen[unsure], nearest[unsure] = places[rows, choice], apart[rows, choice]
