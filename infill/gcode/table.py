@@ -17,7 +17,7 @@ from infill.arrays import Floats
 from infill.gcode.lines import WORDS, GcodeCommand, ParsedLines, parse_lines
 from infill.gcode.machine_state import INCH, MachineState, apply_mode, changes_moves, firmware_retraction
 from infill.gcode.unusual_moves import EXTRUDERS
-from infill.kernels.compiling import is_compiler_loaded, log_compilation
+from infill.kernels.compiling import is_compiler_loaded
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -305,8 +305,7 @@ def _fill_forward(values: Floats, before: float) -> Floats:
         from infill.kernels.gcode_lines import fill_forward
 
         filled = np.empty(len(values))
-        with log_compilation("reading"):
-            fill_forward(values, before, filled)
+        fill_forward(values, before, filled)  # compiled when the lines are, if they have to be
         return filled
     return fill_forward_plainly(values, before)
 
