@@ -14,6 +14,7 @@ from lines import BRACKET, DISC, PARTS, RING, least_spacing, length_of, travel_l
 from shapely import MultiPolygon, Polygon, box
 
 from infill import GeometryError, ParameterError
+from infill.paths import ordering
 from infill.paths.clipping import clip
 from infill.paths.covering import cover, solve_cell, total_length
 from infill.paths.families.catalogue import FAMILIES
@@ -333,3 +334,17 @@ def test_order_goes_to_the_nearest_end() -> None:
 def test_thin_rings_are_joined() -> None:
     paths = cover(RING, FAMILIES["rectilinear"], cell=2.0, line_width=WIDTH, z=Z, layer=LAYER)
     assert len(paths) <= 8  # of 60 lines
+
+
+@pytest.mark.parametrize("raster", [0.0, 0.5, 2.0])
+@pytest.mark.parametrize("seed", range(8))
+def test_few_paths_come_in_the_order_of_many(monkeypatch: pytest.MonkeyPatch, seed: int, raster: float) -> None:
+    """Whose nearest point a tree finds; on a raster, several are often as near."""
+    random = np.random.default_rng(seed)
+    paths = [random.random((count, 2)) * 20 for count in random.integers(2, 20, 40)]
+    paths = [np.round(path / raster) * raster for path in paths] if raster else paths
+    paths[::4] = [np.concatenate([path, path[:1]]) for path in paths[::4]]
+    few = order_paths(paths)
+    monkeypatch.setattr(ordering, "FEW", 0)
+    for one, other in zip(few, order_paths(paths), strict=True):
+        np.testing.assert_array_equal(one, other)

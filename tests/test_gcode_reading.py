@@ -15,14 +15,24 @@ from hypothesis import strategies as st
 
 from infill import FormatError
 from infill.gcode import stream
-from infill.gcode.lines import ARC, BLANK, COMMENT, MOVE, ODD, OTHER
+from infill.gcode.lines import ARC, BLANK, COMMENT, MOVE, ODD, OTHER, read_compiled_lines, read_plain_lines
 from infill.gcode.machine_state import MachineState
-from infill.gcode.numbers import MAX_DIGITS, WORD, parse_long_numbers, parse_short_numbers, read_numbers, write_words
+from infill.gcode.numbers import (
+    MAX_DIGITS,
+    WORD,
+    parse_long_numbers,
+    parse_short_numbers,
+    read_numbers,
+    write_compiled_words,
+    write_plain_words,
+    write_words,
+)
 from infill.gcode.sections import LineMarks, TagState, mark_lines
 from infill.gcode.stream import batches
 from infill.gcode.strokes import InfillStrokes, find_strokes
 from infill.gcode.survey import HEAD, STAMP, TAIL, Survey, survey_print
-from infill.gcode.table import GcodeTable, read_table
+from infill.gcode.table import GcodeTable, fill_forward_plainly, read_table
+from infill.kernels.gcode_lines import fill_forward
 
 NUMBER = rb"[-+]?(?:\d+\.?\d*|\.\d+)"
 EIGHTHS = st.integers(-4000, 4000)  # of which every sum is exact, so that nothing here needs a tolerance
@@ -129,6 +139,10 @@ NUMBERS = st.one_of(
 def test_words_are_written_to_their_decimals_and_read_back(rows: list[tuple[float, float]], x: int, e: int) -> None:
     columns = [(b" X", np.array([row[0] for row in rows]), x), (b" E", np.array([row[1] for row in rows]), e)]
     written = write_words(columns, b"G1", b"\r\n")
+    for codes in (None, np.arange(len(rows), dtype=np.uint8) + ord("0")):
+        plain, compiled = (write(columns, b"G1", b"\r\n", codes) for write in (write_plain_words, write_compiled_words))
+        assert compiled.text == plain.text
+        assert compiled.start.tolist() == plain.start.tolist()
     lines = [written.text[a:b].decode() for a, b in zip(written.start[:-1], written.start[1:], strict=True)]
     assert b"".join(line.encode() for line in lines) == written.text
     expected = [
@@ -311,6 +325,76 @@ def test_a_table_is_what_reading_line_by_line_gives(lines: list[bytes], state: M
     for line, codes, numbered in zip(lines, table.code.tolist(), table.numbered.tolist(), strict=True):
         assert numbered == bool(re.match(rb"\s{0,8}[Nn]\d", line))
         assert codes == kind_of(line)[1]
+
+
+FRAGMENTS = (
+    *(b"G1", b"G0", b"G01", b"G2 ", b"g3", b"G1 X", b"N12", b"n3 ", b"M204 S5", b"G1 X1 Y2 ", b"G1 X1 (a) ", b"(b)*12"),
+    *(
+        b" X",
+        b"Y",
+        b"E",
+        b"e",
+        b"I",
+        b"J",
+        b"F",
+        b"Z",
+        b"K",
+        b"1",
+        b"2.5",
+        b"-.5",
+        b"+3",
+        b"-",
+        b".",
+        b"1e-5",
+        b"=",
+        b'"',
+    ),
+    *(
+        b" ",
+        b"  ",
+        b"\t",
+        b"         ",
+        b";",
+        b"(",
+        b")",
+        b"*7",
+        b"12345678901",
+        b"99999999",
+        b"\xff",
+        b"\r",
+        b"\n",
+        b"\n",
+    ),
+)
+
+
+@pytest.mark.slow
+@settings(max_examples=400)
+@given(st.lists(st.sampled_from(FRAGMENTS), min_size=1, max_size=40).map(b"".join))
+@example(b"G1 X1.5 Y-.25 E1e-5")
+@example(b"G1 X1 X2\nG1 X1 (a) Y2\nG1 X1 (a) *7 ; b\n")
+@example(b"         G1 X1\n        G1 X1\nN123456789012 G1 X1\n")
+def test_compiled_reading_is_that_of_numpy(data: bytes) -> None:
+    text = np.frombuffer(data if data.endswith(b"\n") else data + b"\n", dtype=np.uint8)
+    start = np.append(0, np.flatnonzero(text == ord("\n")) + 1)
+    start[-1] = len(data)
+    names = ("kind", "code", "numbered", "values", "given")
+    for name, plain, compiled in zip(
+        names, read_plain_lines(text, start), read_compiled_lines(text, start), strict=True
+    ):
+        assert plain.dtype == compiled.dtype
+        np.testing.assert_array_equal(compiled, plain, err_msg=f"{name} of {data!r}")
+        if name == "values":
+            np.testing.assert_array_equal(np.signbit(compiled), np.signbit(plain))
+
+
+@given(st.lists(st.sampled_from([float("nan"), -0.0, 1.0, 2.5])), st.sampled_from([float("nan"), 7.0]))
+def test_compiled_filling_is_that_of_numpy(values: list[float], before: float) -> None:
+    """Of columns that lie apart in memory, too."""
+    rows = np.array([values, values]).T
+    plain, filled = fill_forward_plainly(rows[:, 1], before), np.empty(len(values))
+    fill_forward(rows[:, 1], before, filled)
+    np.testing.assert_array_equal(filled, plain)
 
 
 @pytest.mark.slow

@@ -11,6 +11,7 @@ import shapely
 from handmade_prints import Dialect, written
 from hypothesis import example, given
 from hypothesis import strategies as st
+from plain_segments import merge_plainly
 from test_corners_and_curves import walk, walks
 
 from infill import ParameterError, refill
@@ -41,6 +42,32 @@ def lengths(points: np.ndarray) -> np.ndarray:
 
 def rounded(path: np.ndarray) -> np.ndarray:
     return np.rint(path / UNIT) * UNIT
+
+
+@pytest.mark.parametrize("wanted", [0.05, 0.4, "each its own"])
+@pytest.mark.parametrize("on_units", [True, False])
+@pytest.mark.parametrize("seed", range(12))
+def test_compiled_rounds_are_those_of_numpy(seed: int, on_units: bool, wanted: float | str) -> None:
+    random = np.random.default_rng(seed)
+    count = random.integers(1, 60, 30)
+    turn, step = random.choice([0.05, 0.5, 1.5], 30), random.choice([0.01, 0.03, 0.1, 0.5], 30)
+    walks = [
+        complex(*random.random(2)) * 50
+        + np.cumsum(random.exponential(mean, n) * np.exp(1j * np.cumsum(random.normal(0, bend, n))))
+        for n, mean, bend in zip(count, step, turn, strict=True)
+    ]
+    points = np.concatenate([np.stack([walk.real, walk.imag], axis=1) for walk in walks])
+    paths = RoundedPaths(
+        points=rounded(points) if on_units else points,
+        first=np.append(0, np.cumsum(count)),
+        source=np.sort(random.integers(0, 1000, len(points))),
+        radius=np.full(3, np.inf),
+    )
+    least = random.random(30) if isinstance(wanted, str) else wanted
+    plain, compiled = merge_plainly(paths, least), merge_short_segments(paths, least)
+    assert len(compiled.points) < len(points)
+    for name in ("points", "first", "source"):
+        np.testing.assert_array_equal(getattr(compiled, name), getattr(plain, name), err_msg=name)
 
 
 @given(path=walks(170, shortest=0.002, longest=0.3).map(rounded))

@@ -7,10 +7,11 @@ import math
 import numpy as np
 import pytest
 import shapely
+from plain_touch import measure_plainly
 
 from infill.paths.neighbours import index_beads
 from infill.paths.rounding import Rounding, find_corners
-from infill.paths.touch import MOST_LOST, REACH, touch_preserving_deviations
+from infill.paths.touch import MOST_LOST, REACH, measure_wall_touch, touch_preserving_deviations
 
 WIDTH = 0.45
 # What arcs lose where they leave a wall before the slanted leg would have, and chords: 0.47 % at most of 60 such paths.
@@ -101,3 +102,23 @@ def test_corners_far_from_walls_may_move_as_they_like() -> None:
             path, np.array([0, 3]), np.array([1]), np.zeros(3, dtype=np.intp), walls, line_width=WIDTH
         )
         assert most == math.inf
+
+
+@pytest.mark.parametrize("walls", [0, 1, 400])
+@pytest.mark.parametrize("seed", range(9))
+def test_compiled_touch_is_that_of_numpy(seed: int, walls: int) -> None:
+    """Of short and long legs, inside and outside the box around the walls, in layers with walls and without."""
+    random = np.random.default_rng(seed)
+    paths = [
+        random.random(2) * 20 + np.cumsum(random.normal(0, random.choice([0.05, 0.5, 3.0]), (count, 2)), axis=0)
+        for count in random.integers(2, 40, 12)
+    ]
+    first = np.append(0, np.cumsum([len(path) for path in paths]))
+    layer = np.repeat(random.integers(0, 4, len(paths)), np.diff(first))
+    beads = index_beads(random.random((walls, 2)) * 20, np.sort(random.integers(0, 3, walls)))
+    names = ("amount", "begins", "ends", "near")
+    plain = measure_plainly(np.concatenate(paths), first, layer, beads, REACH * WIDTH)
+    compiled = measure_wall_touch(np.concatenate(paths), first, layer, beads, REACH * WIDTH)
+    assert plain[0].any() == (walls > 1)
+    for name, one, other in zip(names, compiled, plain, strict=True):
+        np.testing.assert_array_equal(one, other, err_msg=name)

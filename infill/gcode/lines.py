@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from infill.arrays import Floats
 from infill.checks import FARTHEST
-from infill.gcode.numbers import MAX_DIGITS, MINUS, PLUS, POINT, SEMICOLON, SPACE, TAB, read_numbers
+from infill.gcode.numbers import MAX_DIGITS, MINUS, PLUS, POINT, POWERS, SEMICOLON, SPACE, TAB, read_numbers
 from infill.gcode.unusual_moves import may_move, read_move
+from infill.kernels.compiling import is_compiler_loaded, log_compilation
 
 # Kinds of lines. Only MOVE and ARC are ever drawn; ODD is a line in an unusual spelling: if it is readable, it
 # has values like the others, but its text holds more than they state; if not, it is `unread`.
@@ -30,6 +31,7 @@ _LINE_NUMBER = re.compile(rb"\s*(?:[Nn]\d+(?![\d.])\s*)?")
 _COMMAND = re.compile(rb"([A-Za-z])(\d{1,6}(?:\.\d{1,3})?)")
 _MOVE = re.compile(rb"\s*(?:[Nn]\d+\s*)?[Gg]\s*0*[0-3](?![\d.])")
 MAX_MOVE_BYTES = 4096  # bytes of a line that is read on its own
+_WORDS_END = re.compile(rb"[;(*]")
 _REMARKS = re.compile(rb"\s*(?:\([^()]*\)\s*)*(?:\*\s*\d+\s*)?")
 _WORD = re.compile(rb"([A-Za-z])[ \t]*([-+]?(?:\d+\.?\d*|\.\d+))?")
 _NAME = re.compile(rb"\bNAME\s*=\s*\"?([^\s\";]+)", re.IGNORECASE)
@@ -116,15 +118,16 @@ def parse_lines(data: bytes) -> ParsedLines:
     start[-1] = len(data)
     lines = len(start) - 1 if len(data) else 0
     start = start[: lines + 1]
-    kind, code, begin, numbered = _classify_lines(text, start)
-    values, has_word = _read_values(text, start, kind, begin)
+    read = read_compiled_lines if is_compiler_loaded() else read_plain_lines
+    kind, code, numbered, values, has_word = read(text, start)
     unread, further = _read_odd_lines(data, start, kind, code, values, has_word)
     commands = tuple(_read_commands(data, start, kind))
     for command in commands:
         line = command.line
         if kind[line] == OTHER and may_move(command.code, data[start[line] : start[line + 1]]):
             unread[line] = True
-    if data.count(b"\r") > data.count(b"\r\n"):
+    returns = data.count(b"\r")
+    if returns and returns > data.count(b"\r\n"):
         inner = [match.start() for match in _BEHIND_RETURN.finditer(data)]
         unread[np.searchsorted(start, inner, side="right") - 1] = True
     return ParsedLines(
@@ -138,6 +141,44 @@ def parse_lines(data: bytes) -> ParsedLines:
         unread=unread,
         further=further,
     )
+
+
+def read_plain_lines(
+    text: NDArray[np.uint8], start: NDArray[np.int64]
+) -> tuple[NDArray[np.uint8], NDArray[np.int8], NDArray[np.bool_], Floats, NDArray[np.bool_]]:
+    """Read the lines of a text with NumPy; return `kind`, `code`, `numbered`, `values` and `given` of `ParsedLines`.
+
+    Parameters
+    ----------
+    text : (B,) uint8
+        Ends with a line end.
+    start : (N + 1,) int64
+    """
+    kind, code, begin, numbered = _classify_lines(text, start)
+    values, has_word = _read_values(text, start, kind, begin)
+    return kind, code, numbered, values, has_word
+
+
+def read_compiled_lines(
+    text: NDArray[np.uint8], start: NDArray[np.int64]
+) -> tuple[NDArray[np.uint8], NDArray[np.int8], NDArray[np.bool_], Floats, NDArray[np.bool_]]:
+    """Read the lines of a text as `read_plain_lines` does, byte by byte, in compiled code."""
+    from infill.kernels.gcode_lines import read_lines
+
+    lines = len(start) - 1
+    kind, code = np.zeros(lines, dtype=np.uint8), np.empty(lines, dtype=np.int8)
+    values, has_word = np.empty((lines, len(WORDS))), np.zeros((lines, len(WORDS)), dtype=bool)
+    numbered, behind = np.zeros(lines, dtype=bool), np.zeros(lines, dtype=bool)
+    with log_compilation("reading"):
+        read_lines(
+            text, start, _LETTERS, _PLACES[:-1], POWERS, float(FARTHEST), kind, code, numbered, values, has_word, behind
+        )
+    for line in np.flatnonzero(behind).tolist():
+        words = text[start[line] : start[line + 1]].tobytes()
+        ends = _WORDS_END.search(words)
+        if ends is not None and not _REMARKS.fullmatch(words[ends.start() :].split(b";", 1)[0]):
+            kind[line], values[line], has_word[line] = ODD, np.nan, False
+    return kind, code, numbered, values, has_word
 
 
 def _classify_lines(

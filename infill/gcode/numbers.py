@@ -6,12 +6,14 @@ power of ten once, so the value is the same float that `float` returns.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from infill.arrays import Integers, Places
+from infill.kernels.compiling import is_compiler_loaded, log_compilation
 
 Bytes = NDArray[np.uint8]
 
@@ -185,6 +187,45 @@ def write_words(
     >>> write_words([(b" X", np.array([1.5, -0.25]), 3), (b" F", np.array([np.nan, 900]), 0)], b"G1", b"\n").text
     b'G1 X1.5\nG1 X-.25 F900\n'
     """
+    write = write_compiled_words if is_compiler_loaded() else write_plain_words
+    return write(columns, head, tail, codes)
+
+
+def write_compiled_words(
+    columns: Sequence[tuple[bytes, NDArray[np.float64], int]], head: bytes, tail: bytes, codes: Bytes | None
+) -> TextRows:
+    """Write rows as `write_words` does, in compiled code."""
+    from infill.kernels.gcode_words import MOST_CHARACTERS, write_rows
+
+    rows, prefixes = len(columns[0][1]), [prefix for prefix, _, _ in columns]
+    longest = len(head) + 1 + len(tail) + sum(len(prefix) + MOST_CHARACTERS for prefix in prefixes)
+    text, start = np.empty(rows * longest, dtype=np.uint8), np.empty(rows + 1, dtype=np.int64)
+    decimals = np.array([number for _, _, number in columns])
+    with log_compilation("writing"):
+        length = write_rows(
+            np.array([values for _, values, _ in columns]),
+            decimals,
+            np.array([10.0**number for number in decimals.tolist()]),
+            _bytes_of(b"".join(prefixes)),
+            np.append(0, np.cumsum([len(prefix) for prefix in prefixes])),
+            _bytes_of(head),
+            np.empty(0, dtype=np.uint8) if codes is None else codes,
+            _bytes_of(tail),
+            text,
+            start,
+        )
+    return TextRows(text=text[:length].tobytes(), start=start)
+
+
+def _bytes_of(text: bytes) -> Bytes:
+    """Return a text as an array of its own."""
+    return np.array(list(text), dtype=np.uint8)
+
+
+def write_plain_words(
+    columns: Sequence[tuple[bytes, NDArray[np.float64], int]], head: bytes, tail: bytes, codes: Bytes | None
+) -> TextRows:
+    """Write rows as `write_words` does, with NumPy."""
     rows = len(columns[0][1])
     parts = [_repeat_text(head, rows)]
     if codes is not None:

@@ -17,6 +17,7 @@ from infill.arrays import Floats
 from infill.gcode.lines import WORDS, GcodeCommand, ParsedLines, parse_lines
 from infill.gcode.machine_state import INCH, MachineState, apply_mode, changes_moves, firmware_retraction
 from infill.gcode.unusual_moves import EXTRUDERS
+from infill.kernels.compiling import is_compiler_loaded
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -300,6 +301,17 @@ def _follow_stretch(
 
 def _fill_forward(values: Floats, before: float) -> Floats:
     """Return each value, or the previous one where it is missing."""
+    if is_compiler_loaded():
+        from infill.kernels.gcode_lines import fill_forward
+
+        filled = np.empty(len(values))
+        fill_forward(values, before, filled)  # compiled when the lines are, if they have to be
+        return filled
+    return fill_forward_plainly(values, before)
+
+
+def fill_forward_plainly(values: Floats, before: float) -> Floats:
+    """Return each value, or the previous one where it is missing, with NumPy."""
     if not len(values):
         return values.copy()
     at = np.where(np.isnan(values), -1, np.arange(len(values)))

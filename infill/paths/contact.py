@@ -14,16 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.arrays import Flags, Floats, Places
-from infill.graph import label_connected
+from infill.kernels.compiling import log_compilation
+from infill.paths.point_grid import SEARCHES, join_near_paths, sort_into_grid
 
 LEAST_POINTS, MOST_POINTS = 1000, 5000  # sampled points in a layer: with fewer, shares would be inaccurate
 STEP = 0.4  # mm, of the pieces that paths are cut into; distances to pieces are exact
 TOUCHING = 1.05  # line widths between two centre lines whose beads touch
 HOLDING = 1.1  # line widths between the centre lines of two paths that hold each other; beads of walls may be wider
 SELF_STRETCH = 4.0  # line widths along a path within which it is its own neighbour
-# Within 1.05 line widths of 0.45 mm lie 5 pieces of the path itself, and fewer of any other path; the search takes
-# more where beads are wider, or chords shorter.
-NEIGHBOURS = 12
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -155,8 +153,8 @@ def layer_contact(infill: Samples, below: Samples, line_width: float) -> Contact
     weight = infill.weight[chosen] * (infill.weight.sum() / infill.weight[chosen].sum())
     supported: NDArray[np.bool_] = np.zeros(len(points), dtype=np.bool_)
     if len(below.points):
-        supported |= _are_near(points, below, line_width / 2)
-    bonded = _beside(points, infill.path[chosen], along, infill, TOUCHING * line_width)
+        supported |= are_near(points, below, line_width / 2)
+    bonded = are_beside(points, infill.path[chosen], along, infill, TOUCHING * line_width)
     return Contact(
         length=float(infill.weight.sum()),
         supported=float(weight[supported].sum()),
@@ -180,8 +178,6 @@ def free_length(infill: Samples, walls: Samples, line_width: float) -> float:
     >>> round(free_length(infill, sample_paths(np.array(wall), np.array([0, 2])), 0.45), 9)
     3.0
     """
-    from scipy.spatial import cKDTree
-
     if not len(infill.points):
         return 0.0
     # The ends of the pieces, too: a path may touch a wall with its very end.
@@ -190,34 +186,31 @@ def free_length(infill: Samples, walls: Samples, line_width: float) -> float:
     count = int(path.max()) + 1
     holds: Flags = np.zeros(count, dtype=np.bool_)
     if len(walls.points):
-        holds[path[_are_near(points, walls, reach)]] = True
+        holds[path[are_near(points, walls, reach)]] = True
     if not holds[infill.path].all():
-        pairs = path[cKDTree(points, balanced_tree=False).query_pairs(reach, output_type="ndarray")]
-        group, groups = label_connected(pairs[:, 0], pairs[:, 1], count)
-        is_held = np.bincount(group, weights=holds, minlength=groups) > 0
-        holds = is_held[group]
+        group = join_near_paths(points, path, reach)
+        holds = (np.bincount(group, weights=holds) > 0)[group]
     return float(infill.weight[~holds[infill.path]].sum())
 
 
-def _are_near(points: Floats, samples: Samples, reach: float) -> Flags:
-    """Tell which points, (N, 2), have a piece of some samples within `reach`, mm."""
-    from scipy.spatial import cKDTree
+def are_near(points: Floats, samples: Samples, reach: float) -> Flags:
+    """Tell which points, (N, 2), have one of the three pieces with the nearest middles within `reach`, mm.
 
-    _, candidates = cKDTree(samples.points, balanced_tree=False).query(
-        points, k=3, distance_upper_bound=reach + STEP / 2
-    )
-    return np.asarray((_nearest(points, samples, np.asarray(candidates))[0] <= reach).any(axis=1))
-
-
-def _nearest(points: Floats, samples: Samples, candidates: Places) -> tuple[Floats, Floats]:
-    """Compute the distance from each point to its candidate pieces, and where along their paths they are nearest.
-
-    Both are (N, k), mm; the distance is infinite where a candidate is missing.
+    Parameters
+    ----------
+    points : (N, 2) float64, mm
+    samples : Samples
+        At least one.
+    reach : float, mm
     """
-    exists = candidates < len(samples.points)
-    candidates = np.where(exists, candidates, 0)
-    along, apart = project_to_pieces(points, samples.points, samples.half, candidates)
-    return np.where(exists, apart, np.inf), samples.along[candidates] + along * samples.weight[candidates] / 2
+    from infill.kernels.point_grids import find_near_pieces
+
+    grid, near = sort_into_grid(samples.points), np.empty(len(points), dtype=np.bool_)
+    with log_compilation(SEARCHES):
+        find_near_pieces(
+            *grid.squares, samples.half[grid.number], np.ascontiguousarray(points), reach + STEP / 2, reach, near
+        )
+    return near
 
 
 def project_to_pieces(points: Floats, middle: Floats, half: Floats, which: Places) -> tuple[Floats, Floats]:
@@ -247,23 +240,24 @@ def project_to_pieces(points: Floats, middle: Floats, half: Floats, which: Place
     return along, np.hypot(dx - along * hx, dy - along * hy)
 
 
-def _beside(points: Floats, path: Places, along: Floats, infill: Samples, reach: float) -> NDArray[np.bool_]:
-    """Tell which points, at places along paths of the infill, have another stretch of it within `reach`."""
-    from scipy.spatial import cKDTree
+def are_beside(points: Floats, path: Places, along: Floats, infill: Samples, reach: float) -> Flags:
+    """Tell which points on paths of the infill have another stretch of it within `reach`.
 
-    tree, total = cKDTree(infill.points, balanced_tree=False), len(infill.points)
-    touches: NDArray[np.bool_] = np.zeros(len(points), dtype=np.bool_)
-    pending, count = np.arange(len(points)), NEIGHBOURS
-    while len(pending):
-        count = min(count, total)
-        _, candidates = tree.query(points[pending], k=count, distance_upper_bound=reach + STEP / 2)
-        candidates = candidates.reshape(len(pending), -1)
-        distance, place = _nearest(points[pending], infill, candidates)
-        has_more = candidates[:, -1] < total
-        is_same_path = infill.path[np.minimum(candidates, total - 1)] == path[pending, None]
-        is_close = np.abs(place - along[pending, None]) <= SELF_STRETCH * reach / TOUCHING
-        touches[pending] = ((distance <= reach) & ~(is_same_path & is_close)).any(axis=1)
-        if count == total:
-            break
-        pending, count = pending[has_more & ~touches[pending]], 4 * count
-    return touches
+    Parameters
+    ----------
+    points, path, along : (N, 2), (N,), (N,)
+        As in `Samples`.
+    infill : Samples
+        At least one.
+    reach : float, mm
+    """
+    from infill.kernels.point_grids import find_beside
+
+    grid, beside = sort_into_grid(infill.points), np.empty(len(points), dtype=np.bool_)
+    pieces = (column[grid.number] for column in (infill.half, infill.path, infill.along, infill.weight))
+    stretch = SELF_STRETCH * reach / TOUCHING
+    with log_compilation(SEARCHES):
+        find_beside(
+            *grid.squares, *pieces, np.ascontiguousarray(points), path, along, reach + STEP / 2, reach, stretch, beside
+        )
+    return beside

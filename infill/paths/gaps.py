@@ -11,9 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.arrays import Floats
+from infill.kernels.compiling import log_compilation
 from infill.paths.clipping import Pieces
 from infill.paths.families.family import Path
 from infill.paths.outlines import Numbers, Outline
+from infill.paths.point_grid import SEARCHES, sort_into_grid
 
 EXEMPT_LENGTH = 3.5  # line widths along a path within which it may come near itself: joins with corners of 30° and more
 EXEMPT_LENGTH_OF_ANCHOR = 2.0  # an anchor has another way to go, or none
@@ -128,7 +130,7 @@ def _measure_clearance(
         for tip, walked in ((begin[gap[sample]], from_begin), (end[gap[sample]], from_end))
     ]
     # A pinched outline is never walked: the other side of the pinch may be.
-    tight = _pinched_points(points, ring[gap], place[gap] + within, outline, reach, exempt)
+    tight = find_pinched_points(points, ring[gap], place[gap] + within, outline.around, reach, exempt)
     sample = np.concatenate([sample, tight])
     by_begin, by_end = (np.concatenate([walk, np.full(len(tight), np.inf)]) for walk in walks)
     gap_of = gap[sample]
@@ -140,16 +142,28 @@ def _measure_clearance(
     return forwards.clip(min=0), backwards.clip(min=0), is_clear
 
 
-def _pinched_points(
-    points: Path, ring: Numbers, place: Floats, outline: Outline, reach: float, exempt: float
+def find_pinched_points(
+    points: Path, ring: Numbers, place: Floats, around: Floats, reach: float, exempt: float
 ) -> Numbers:
-    """Find points on the outline that are close to other points, but far from them along their ring."""
-    from scipy.spatial import cKDTree
+    """Find points on outlines that are close to other points, but far from them along their ring.
 
-    pairs = cKDTree(points).query_pairs(reach, output_type="ndarray")
-    a, b = pairs.T
-    around = outline.around[ring[a]]
-    distance = np.abs(place[a] - place[b]) % around
-    is_pinch = (ring[a] != ring[b]) | (np.minimum(distance, around - distance) > exempt)
-    pinched: Numbers = np.unique(pairs[is_pinch])
-    return pinched
+    Parameters
+    ----------
+    points : (N, 2) float64, mm
+    ring, place : (N,) int, (N,) float64, mm
+        The ring of each, and how far along it lies.
+    around : (R,) float64, mm
+        Length of each ring.
+    reach, exempt : float, mm
+        Points are close up to `reach`, and far along a ring beyond `exempt`, or on another one.
+    """
+    from infill.kernels.point_grids import mark_pinched
+
+    if not len(points):
+        return np.empty(0, dtype=np.intp)
+    grid, is_pinched = sort_into_grid(points), np.zeros(len(points), dtype=bool)
+    with log_compilation(SEARCHES):
+        mark_pinched(
+            *grid.squares, grid.number, ring[grid.number], place[grid.number], around, reach, exempt, is_pinched
+        )
+    return np.flatnonzero(is_pinched)

@@ -11,6 +11,7 @@ import numpy as np
 from infill.arrays import Floats, Places
 from infill.checks import FARTHEST
 from infill.paths.contact import project_to_pieces
+from infill.paths.point_grid import PointGrid, sort_into_grid
 
 if TYPE_CHECKING:
     from scipy.spatial import cKDTree
@@ -22,9 +23,10 @@ BESIDE = 1.3  # line widths between the centre lines of a corner and of a bead t
 AWAY_LIMIT = 1 / 12
 TOWARDS_LIMIT = 0.015  # mm that it may move towards it
 LARGEST_DISTANCE = 5.0  # mm, of a search
+FIRST_DISTANCE = 1.0  # mm, of a search without a limit
 NEAREST = 3  # candidate pieces of beads around a point
-LEAST_FILTERED = 500  # points: with fewer, a rough filter before the search gains nothing
-MOST_SQUARES = 1 << 24  # of a plane of squares: a byte each
+SEARCHED = 8  # pieces that are searched for them: some may be as near as each other
+SAME_PLACE = 1e-9  # mm between places that are one
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,11 +53,23 @@ class BeadIndex:
     half: Floats
 
     @cached_property
+    def grid(self) -> PointGrid:
+        """The points in the squares of a grid."""
+        return sort_into_grid(self.points if len(self.points) else np.zeros((1, 2)))
+
+    @cached_property
     def tree(self) -> cKDTree:
-        """Search tree of the points."""
+        """Search tree of the points, which takes longer to load and to search than the grid."""
         from scipy.spatial import cKDTree
 
         return cKDTree(self.points, balanced_tree=False)  # built twice as fast
+
+    def slots(self, layer: Places) -> Places:
+        """Return the place of each layer among `layers`, (N,); -1 for one without beads."""
+        if not len(self.layers):
+            return np.full(len(layer), -1)
+        slot = np.minimum(np.searchsorted(self.layers, layer), len(self.layers) - 1)
+        return np.where(self.layers[slot] == layer, slot, -1)
 
     def distances(self, points: Floats, layer: Places | int, distance: float) -> Floats:
         """Compute distances to the other beads of each point's layer, mm; infinite from `distance` on.
@@ -70,22 +84,16 @@ class BeadIndex:
         result = np.full(len(points), np.inf)
         if not len(self.points) or not len(points):
             return result
-        layer = np.broadcast_to(layer, len(points))
-        slot = np.minimum(np.searchsorted(self.layers, layer), len(self.layers) - 1)
+        slot = self.slots(np.broadcast_to(layer, len(points)))
         with np.errstate(invalid="ignore"):
             # Axis by axis: NumPy is slow along the short axis of an array.
-            is_candidate = self.layers[slot] == layer
+            is_candidate = slot >= 0
             for axis in (0, 1):
                 is_candidate &= points[:, axis] > self.low[axis] - distance
                 is_candidate &= points[:, axis] < self.high[axis] + distance
         candidates = np.flatnonzero(is_candidate)
         shifted = _shift_to_layer(points[candidates], slot[candidates], self.pitch)
-        inside = (
-            _near_walls(shifted, self.points, distance)
-            if len(candidates) > LEAST_FILTERED
-            else np.arange(len(candidates))
-        )
-        result[candidates[inside]] = self.tree.query(shifted[inside], distance_upper_bound=distance)[0]
+        result[candidates] = self.grid.distances(shifted, distance)
         return result
 
     def nearest(self, points: Floats, layer: Places, distance: float, places: range) -> tuple[Floats, Places]:
@@ -107,8 +115,38 @@ class BeadIndex:
         number : (N, places) int
         """
         shifted = _shift_to_layer(points, np.searchsorted(self.layers, layer), self.pitch)
-        distances, number = self.tree.query(shifted, k=list(places), distance_upper_bound=distance)
-        return np.asarray(distances), np.asarray(number)
+        number, square = self.grid.several(shifted, distance, places.stop)
+        # Where two points are as near as each other, and one of them is left out, the tree chooses.
+        tied = np.zeros(len(points), dtype=bool)
+        for rank in (places.start - 1, places.stop - 1):
+            if rank:
+                tied |= (square[:, rank - 1] == square[:, rank]) & np.isfinite(square[:, rank])
+        ranks = slice(places.start - 1, places.stop - 1)
+        number, distances = number[:, ranks], np.sqrt(square[:, ranks])
+        if tied.any():
+            distances[tied], number[tied] = self.tree.query(
+                shifted[tied], k=list(places), distance_upper_bound=distance
+            )
+        return distances, number
+
+    def nearest_pieces(self, points: Floats) -> tuple[Places, Floats]:
+        """Find the `SEARCHED` pieces with the nearest middles for each point of a single layer, the nearest first.
+
+        Returns
+        -------
+        number : (N, SEARCHED) int
+            -1 where there are fewer.
+        square : (N, SEARCHED) float64, mm²
+            Of the distance of the middle; infinite there.
+        """
+        number = np.full((len(points), SEARCHED), -1)
+        square = np.full((len(points), SEARCHED), np.inf)
+        pending, distance, count = np.arange(len(points)), FIRST_DISTANCE, min(SEARCHED, len(self.points))
+        while len(pending) and distance < 8 * FARTHEST:
+            number[pending], square[pending] = self.grid.several(points[pending], distance, SEARCHED)
+            pending = pending[number[pending, count - 1] < 0]
+            distance *= 4
+        return number, square
 
 
 def project_to_beads(points: Floats, walls: BeadIndex) -> tuple[Floats, Floats]:
@@ -125,12 +163,34 @@ def project_to_beads(points: Floats, walls: BeadIndex) -> tuple[Floats, Floats]:
     """
     if not len(walls.points):
         return points, np.full(len(points), np.inf)
-    _, candidates = walls.tree.query(points, k=min(NEAREST, len(walls.points)))
-    candidates = candidates.reshape(len(points), -1)
+    count = min(NEAREST, len(walls.points))
+    candidates, square = walls.nearest_pieces(points)
+    places, apart = _project_to_candidates(points, walls, np.maximum(candidates, 0))
+    apart[candidates < 0] = np.inf
+    # Pieces as near as the last one may be left out instead of it: where that matters, the tree chooses.
+    last = square[:, count - 1 : count]
+    certain = np.where(square < last, apart, np.inf).min(axis=1)
+    among = np.where(square <= last, apart, np.inf)
+    nearest = among.min(axis=1)
+    is_open = (square[:, -1:] <= last)[:, 0] | ((square == last).sum(axis=1) > (square[:, :count] == last).sum(axis=1))
+    unsure = (is_open & ~(certain <= nearest)) | ~np.isfinite(nearest)
+    # So it does where two pieces are as near, in different places.
+    rows, choice = np.arange(len(points)), among.argmin(axis=1)
+    chosen = places[rows, choice]
+    is_near = np.abs(places - chosen[:, None]).max(axis=2) <= SAME_PLACE
+    unsure |= ((among == nearest[:, None]) & ~is_near).any(axis=1)
+    if unsure.any():
+        candidates = np.asarray(walls.tree.query(points[unsure], k=list(range(1, count + 1)))[1])
+        places, apart = _project_to_candidates(points[unsure], walls, candidates)
+        rows, choice = np.arange(len(apart)), apart.argmin(axis=1)
+        chosen[unsure], nearest[unsure] = places[rows, choice], apart[rows, choice]
+    return chosen, nearest
+
+
+def _project_to_candidates(points: Floats, walls: BeadIndex, candidates: Places) -> tuple[Floats, Floats]:
+    """Project points to their candidate pieces, (N, k); return the places, (N, k, 2), and the distances, (N, k), mm."""
     along, apart = project_to_pieces(points, walls.points, walls.half, candidates)
-    rows, choice = np.arange(len(points)), apart.argmin(axis=1)
-    piece = candidates[rows, choice]
-    return walls.points[piece] + along[rows, choice][:, None] * walls.half[piece], apart[rows, choice]
+    return walls.points[candidates] + along[..., None] * walls.half[candidates], apart
 
 
 def index_beads(points: Floats, layer: Places | None = None, half: Floats | None = None) -> BeadIndex:
@@ -160,30 +220,6 @@ def index_beads(points: Floats, layer: Places | None = None, half: Floats | None
 def _shift_to_layer(points: Floats, slot: Places, pitch: float) -> Floats:
     """Shift points to the place of their layer."""
     return np.stack([points[:, 0] + slot * pitch, points[:, 1]], axis=1)
-
-
-def _near_walls(points: Floats, walls: Floats, distance: float) -> Places:
-    """Find the points in squares around a wall as wide as the distance: only these need a search."""
-    low = np.array([walls[:, k].min() for k in (0, 1)]) - 2 * distance
-    size = np.array([walls[:, k].max() for k in (0, 1)]) - low
-    squares = (size / distance).astype(np.intp) + 4
-    if squares[0] * squares[1] > MOST_SQUARES:
-        return np.arange(len(points))
-    wall_squares = (
-        ((walls[:, 0] - low[0]) / distance).astype(np.intp),
-        ((walls[:, 1] - low[1]) / distance).astype(np.intp),
-    )
-    taken = np.zeros(squares, dtype=bool)
-    taken[wall_squares] = True
-    taken[1:] |= taken[:-1].copy()
-    taken[:-1] |= taken[1:].copy()
-    taken[:, 1:] |= taken[:, :-1].copy()
-    taken[:, :-1] |= taken[:, 1:].copy()
-    # Points farther out fall into the outermost squares, which are all far from walls.
-    squares_of = tuple(
-        np.clip((points[:, axis] - low[axis]) / distance, 0, squares[axis] - 1).astype(np.intp) for axis in (0, 1)
-    )
-    return np.flatnonzero(taken[squares_of])
 
 
 def deviation_beside_beads(

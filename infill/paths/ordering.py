@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from infill.paths.clipping import is_closed
 from infill.paths.families.family import Path
 
+if TYPE_CHECKING:
+    from scipy.spatial import cKDTree
+
+FEW = 2000  # points whose distances are all computed each time
 ENTRIES = 12  # places at which a closed path may be entered, for the comparison with other paths
 
 
@@ -52,16 +57,27 @@ def order_paths(paths: Sequence[Path], start: tuple[float, float] | None = None)
 
 
 class _RemainingPoints:
-    """Search tree for the nearest of the remaining points; it is rebuilt as they become few."""
+    """The nearest of the remaining points: of few, by all distances; of many, by a search tree.
+
+    The tree is built again as they become few. It also decides where two points are as near as each other.
+    """
 
     def __init__(self, points: Path) -> None:
         self.left = np.ones(len(points), dtype=bool)
         self._points = points
+        self._built: cKDTree[None, None] | None = None
         self._renew()
 
     def __call__(self, position: Path) -> int:
         if 2 * self.left.sum() < len(self._number):
             self._renew()
+        if len(self._points) <= FEW:
+            remaining = np.flatnonzero(self.left)
+            away = self._points[remaining] - position
+            square = away[:, 0] * away[:, 0] + away[:, 1] * away[:, 1]
+            nearest = int(square.argmin())
+            if np.count_nonzero(square == square[nearest]) == 1:
+                return int(remaining[nearest])
         count = 4
         while True:
             _, neighbours = self._tree.query(position, k=list(range(1, min(count, len(self._number)) + 1)))
@@ -71,9 +87,16 @@ class _RemainingPoints:
                 return int(remaining[0])
             count *= 4
 
-    def _renew(self) -> None:
-        """Build the search tree of the remaining points again."""
+    @property
+    def _tree(self) -> cKDTree[None, None]:
+        """Search tree of the points that remained when it was last renewed."""
         from scipy.spatial import cKDTree
 
+        if self._built is None:
+            self._built = cKDTree(self._points[self._number])
+        return self._built
+
+    def _renew(self) -> None:
+        """Leave out the points that are gone from the search tree, which is built when it is needed."""
         self._number = np.flatnonzero(self.left)
-        self._tree = cKDTree(self._points[self._number])
+        self._built = None

@@ -12,6 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from infill.arrays import Floats, Places
+from infill.kernels.compiling import log_compilation
 from infill.paths.corners import corner_turns
 from infill.paths.neighbours import BeadIndex
 
@@ -40,7 +41,7 @@ def touch_preserving_deviations(
     """
     turn = corner_turns(points, corner)[0]
     reach = REACH * line_width
-    before, begins, ends, distance = _measure_touch(points, offsets, layer, walls, reach)
+    before, begins, ends, distance = measure_wall_touch(points, offsets, layer, walls, reach)
     reached = np.minimum(ends[corner - 1], begins[corner])  # along a leg, before it comes to touch
     spare = MOST_LOST * (before[corner - 1] + before[corner]) / 2
     quarter = np.maximum(np.tan(turn / 4), 1e-12)  # of a straight joint, which needs no arc
@@ -50,7 +51,7 @@ def touch_preserving_deviations(
     return np.asarray(setback * quarter)
 
 
-def _measure_touch(
+def measure_wall_touch(
     points: Floats, offsets: Places, layer: Places, walls: BeadIndex, reach: float
 ) -> tuple[Floats, Floats, Floats, Floats]:
     """Measure how much of each leg lies near walls, its distance from both ends, and that of walls from the start.
@@ -66,30 +67,30 @@ def _measure_touch(
     near : (N,) float64, mm
         Up to `SEEN`.
     """
-    count = len(points)
+    from infill.kernels.wall_touch import measure_touch
+
+    is_last = np.zeros(len(points), dtype=bool)
+    is_last[offsets[1:] - 1] = True
     length = np.append(np.hypot(*np.diff(points, axis=0).T), 0.0)
-    length[offsets[1:] - 1] = 0.0
-    pieces = np.maximum(1, np.ceil(length / STEP)).astype(np.intp)
-    leg_of = np.repeat(np.arange(count), pieces)
-    share = (np.arange(len(leg_of)) - np.repeat(np.cumsum(pieces) - pieces, pieces)) / pieces[leg_of]
-    leg_ends = np.append(points[1:], points[-1:], axis=0)
-    leg_ends[offsets[1:] - 1] = points[offsets[1:] - 1]
-    places = points[leg_of] + share[:, None] * (leg_ends - points)[leg_of]
-    distance = np.minimum(walls.distances(places, layer[leg_of], SEEN), SEEN)
-    # Each piece goes from its place to the next; the last place of a path has none.
-    next_distance = np.append(distance[1:], SEEN)
-    span = next_distance - distance
-    steep = np.where(span == 0, 1.0, span)
-    crossing = np.clip((reach - distance) / steep, 0.0, 1.0)
-    inside, next_inside = distance <= reach, next_distance <= reach
-    low = np.where(inside, 0.0, np.where(next_inside, crossing, np.inf))
-    high = np.where(next_inside, 1.0, np.where(inside, crossing, -np.inf))
-    touches = np.flatnonzero((inside | next_inside) & (length[leg_of] > 0))
-    owner, piece = leg_of[touches], (length / pieces)[leg_of[touches]]
-    position = share[touches] * length[owner]
-    amount = np.zeros(count)
-    np.add.at(amount, owner, (high - low)[touches] * piece)
-    begins, ends = np.full(count, np.inf), np.full(count, np.inf)
-    np.minimum.at(begins, owner, position + low[touches] * piece)
-    np.minimum.at(ends, owner, length[owner] - position - high[touches] * piece)
-    return amount, begins, ends, distance[np.cumsum(pieces) - pieces]
+    length[is_last] = 0.0
+    slot = walls.slots(layer)
+    amount, begins, ends, near = (np.empty(len(points)) for _ in range(4))
+    box = np.concatenate([walls.low, walls.high])
+    with log_compilation("corners"):
+        measure_touch(
+            *walls.grid.squares,
+            points,
+            is_last,
+            length,
+            slot,
+            walls.pitch,
+            box,
+            STEP,
+            SEEN,
+            reach,
+            amount,
+            begins,
+            ends,
+            near,
+        )
+    return amount, begins, ends, near

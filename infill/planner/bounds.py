@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from infill.arrays import Floats
 from infill.gcode.limits import Limits
+from infill.kernels.compiling import is_compiler_loaded, log_compilation
 
 MIN_FEEDRATE = 0.01  # mm/s: replaces a feed rate of zero
 DEFAULT_FEEDRATE = 25.0  # mm/s: that of Marlin and Klipper before a file states one
@@ -85,10 +86,62 @@ def limit_values(limits: Sequence[Limits], name: str, setting: NDArray[np.intp])
     return table[:1] if (table == table[:1]).all() else table[setting]
 
 
+def row_lengths(rows: Floats) -> Floats:
+    """Return the length of vectors of three or four numbers, (N,); sums are in this order on all machines."""
+    x, y, z, *pushed = rows.T
+    return np.asarray(np.sqrt((x * x + z * z) + (y * y + pushed[0] * pushed[0] if pushed else y * y)))
+
+
 def bound_moves(moves: Moves, limits: Sequence[Limits]) -> BoundedMoves:
     """Limit moves to the speed and acceleration of the path and of every axis."""
+    return (bound_compiled_moves if is_compiler_loaded() else bound_plain_moves)(moves, limits)
+
+
+def bound_compiled_moves(moves: Moves, limits: Sequence[Limits]) -> BoundedMoves:
+    """Limit moves as `bound_moves` does, in compiled code."""
+    from infill.kernels.moves import limit_moves
+
+    count = len(moves)
+    rates = (
+        "minimum_travel_feedrate",
+        "minimum_feedrate",
+        "travel_acceleration",
+        "acceleration",
+        "retract_acceleration",
+    )
+    distance, speed, acceleration, path_acceleration = (np.empty(count) for _ in range(4))
+    direction, turning_only = np.empty((count, 4)), np.empty(count, dtype=bool)
+    with log_compilation("speeds"):
+        limit_moves(
+            np.ascontiguousarray(moves.delta),
+            np.nan_to_num(moves.feedrate, nan=DEFAULT_FEEDRATE),
+            moves.setting,
+            limits[0].model == "klipper",
+            np.array([[float(getattr(setting, name)) for name in rates] for setting in limits]),
+            np.array([setting.feedrate for setting in limits], dtype=np.float64),
+            np.array([setting.axis_acceleration for setting in limits], dtype=np.float64),
+            MIN_FEEDRATE,
+            distance,
+            direction,
+            turning_only,
+            speed,
+            acceleration,
+            path_acceleration,
+        )
+    return BoundedMoves(
+        distance=distance,
+        direction=direction,
+        turning_only=turning_only,
+        speed=speed,
+        acceleration=acceleration,
+        path_acceleration=path_acceleration,
+    )
+
+
+def bound_plain_moves(moves: Moves, limits: Sequence[Limits]) -> BoundedMoves:
+    """Limit moves as `bound_moves` does, with NumPy."""
     delta = moves.delta
-    travelled = np.sqrt(np.einsum("ij,ij->i", delta[:, :3], delta[:, :3]))
+    travelled = row_lengths(delta[:, :3])
     pushed = delta[:, 3]
     turning_only = travelled == 0
     distance = np.where(turning_only, np.abs(pushed), travelled)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.arrays import Floats
+from infill.planner.bounds import row_lengths
 from infill.planner.lookahead import MotionPlan
 from infill.planner.timeline import Steps
 
@@ -62,7 +63,7 @@ class FeatureSums:
         delta = steps.moves.delta
         pushed, feature = delta[:, 3], steps.feature
         self._widen(int(feature.max()) + 1)
-        distance = np.sqrt(np.einsum("ij,ij->i", delta[:, :3], delta[:, :3]))
+        distance = row_lengths(delta[:, :3])
         draws = (pushed > 0) & (distance > 0)
         back = pushed < 0
         begins_back = back & ~np.concatenate([[self.drew_back], back[:-1]])

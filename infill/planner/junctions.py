@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from infill.arrays import Floats
 from infill.gcode.limits import Limits
-from infill.planner.bounds import BoundedMoves, Moves, limit_values
+from infill.kernels.compiling import is_compiler_loaded, log_compilation
+from infill.planner.bounds import BoundedMoves, Moves, limit_values, row_lengths
 
 Limit = Callable[[str], Floats]
 SMALL_SEGMENT = 1.0  # mm: below it Marlin takes the corner for part of an arc,
@@ -53,10 +54,7 @@ BEFORE, AFTER = slice(None, -1), slice(1, None)
 def _half_turn_sin_cos(direction: Floats) -> tuple[Floats, Floats]:
     """Return sin and cos of half the angle by which each unit vector turns into the next, (N - 1,) both."""
     difference, total = np.diff(direction, axis=0), direction[:-1] + direction[1:]
-    return (
-        np.sqrt(np.einsum("ij,ij->i", difference, difference)) / 2,
-        np.sqrt(np.einsum("ij,ij->i", total, total)) / 2,
-    )
+    return row_lengths(difference) / 2, row_lengths(total) / 2
 
 
 def _square_corner(bounds: BoundedMoves, limit: Limit) -> Floats:
@@ -66,9 +64,11 @@ def _square_corner(bounds: BoundedMoves, limit: Limit) -> Floats:
     gives the square corner velocity c at a right angle: a J = c² (sqrt(2) - 1). The circle must touch both moves
     before their middles: v² <= a d / 2 · cot(phi / 2). And filament may not jump by more than its own velocity.
     """
-    sine, cosine = _half_turn_sin_cos(bounds.direction[:, :3])
     modal = limit("acceleration")
     deviation = limit("square_corner_velocity") ** 2 * (np.sqrt(2) - 1) / modal
+    if is_compiler_loaded():
+        return find_compiled_corners(bounds, deviation, limit("corner_extrusion_velocity"))
+    sine, cosine = _half_turn_sin_cos(bounds.direction[:, :3])
     scaled = deviation * bounds.acceleration
     with np.errstate(divide="ignore", invalid="ignore"):
         circle = cosine * (1 + cosine) / sine**2 * np.minimum(scaled[:-1], scaled[1:])
@@ -79,13 +79,25 @@ def _square_corner(bounds: BoundedMoves, limit: Limit) -> Floats:
     return joints
 
 
+def find_compiled_corners(bounds: BoundedMoves, deviation: Floats, push: Floats) -> Floats:
+    """Return the same as `_square_corner`, by compiled loops, from the deviation and the jump of the extruder."""
+    from infill.kernels.moves import find_corner_speeds
+
+    squares = np.empty(len(bounds.speed) - 1)
+    with log_compilation("speeds"):
+        find_corner_speeds(
+            bounds.direction, bounds.distance, bounds.acceleration, bounds.turning_only, deviation, push, squares
+        )
+    return squares
+
+
 def _junction_deviation(bounds: BoundedMoves, limit: Limit) -> Floats:
     """Return the square of the highest speed at each corner, mm²/s², by Marlin's rule in four dimensions.
 
     v² = a J s / (1 - s) with s = cos(phi / 2), where a is what the axes allow towards the inside of the corner; where
     a move shorter than 1 mm turns by less than 45 degrees, it is an arc of its length, v² <= a d / phi.
     """
-    unit = bounds.direction / np.sqrt(np.einsum("ij,ij->i", bounds.direction, bounds.direction))[:, None]
+    unit = bounds.direction / row_lengths(bounds.direction)[:, None]
     sine, cosine = _half_turn_sin_cos(unit)
     length = np.minimum(bounds.distance[:-1], bounds.distance[1:])
     inwards = np.abs(np.diff(unit, axis=0))
@@ -110,6 +122,8 @@ def _jerk(bounds: BoundedMoves, limit: Limit) -> Floats:
     slicers, and so in this function: jumps are measured with the later move's own speed, not with that of the joint,
     and the later move's start from rest counts.
     """
+    if is_compiler_loaded():
+        return find_compiled_jerk(bounds, limit("jerk"))
     slower = np.minimum(bounds.speed[:-1], bounds.speed[1:])
     leave = bounds.direction[:-1] * slower[:, None]
     enter = bounds.direction[1:] * bounds.speed[1:, None]
@@ -125,8 +139,30 @@ def _jerk(bounds: BoundedMoves, limit: Limit) -> Floats:
 def _rest_speed(bounds: BoundedMoves, limit: Limit) -> NDArray[np.float64]:
     """Return the speed with which moves begin and end at rest, mm/s: the smallest jerk of all axes involved."""
     jerk = limit("jerk")
+    if is_compiler_loaded():
+        return find_compiled_rest(bounds, jerk)
     meets = np.abs(bounds.direction) * bounds.speed[:, None] > jerk
     return np.asarray(np.minimum(bounds.speed, np.where(meets, jerk, np.inf).min(axis=1)))
+
+
+def find_compiled_jerk(bounds: BoundedMoves, jerk: Floats) -> Floats:
+    """Return the same as `_jerk`, by compiled loops."""
+    from infill.kernels.jerk import find_joint_speeds
+
+    joint, rest = np.empty(len(bounds.speed) - 1), find_compiled_rest(bounds, jerk)
+    with log_compilation("speeds"):
+        find_joint_speeds(bounds.direction, bounds.speed, jerk, rest, joint)
+    return joint**2
+
+
+def find_compiled_rest(bounds: BoundedMoves, jerk: Floats) -> Floats:
+    """Return the same as `_rest_speed`, by compiled loops."""
+    from infill.kernels.jerk import find_rest_speeds
+
+    rest = np.empty(len(bounds.speed))
+    with log_compilation("speeds"):
+        find_rest_speeds(bounds.direction, bounds.speed, jerk, rest)
+    return rest
 
 
 def _vector_jerk(bounds: BoundedMoves, limit: Limit) -> Floats:

@@ -22,6 +22,8 @@ from infill.planner.lookahead import MotionPlan, plan_moves
 from infill.planner.open_timeline import make_timeline
 from infill.planner.timeline import Steps
 
+BATCH = 1 << 19  # bytes: no slower than larger ones, which take 0.1 GB more
+
 
 def neutral_limits(square_corner_velocity: float = 5.0) -> Limits:
     """Return the limits for comparing paths: corners by square corner velocity, arcs by acceleration.
@@ -168,7 +170,7 @@ class PrintClock:
 
     def read(self) -> PrintTime:
         """Read the entire print."""
-        for table in self._timeline.tables():
+        for table in self._timeline.tables(BATCH):
             self.add(table)
         return self.finish()
 

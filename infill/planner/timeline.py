@@ -175,10 +175,10 @@ class Timeline:
             yield self.follow(table)
         yield self.rest()
 
-    def tables(self) -> Iterator[GcodeTable]:
-        """Read the file from the beginning; each table must be followed before the next is read."""
+    def tables(self, batch: int | None = None) -> Iterator[GcodeTable]:
+        """Read the file from the beginning, `batch` bytes at a time; follow each table before the next is read."""
         self._file.seek(0)
-        for data in _read_batches(self._file):
+        for data in _read_batches(self._file, batch or BATCH):
             yield read_table(data, self.state)
 
     def follow(self, table: GcodeTable) -> tuple[Steps, MotionPlan]:
@@ -410,10 +410,10 @@ def _read_ends(file: BinaryIO) -> tuple[bytes, bytes]:
     return head, file.read()
 
 
-def _read_batches(file: BinaryIO) -> Iterator[bytes]:
+def _read_batches(file: BinaryIO, batch: int) -> Iterator[bytes]:
     """Yield the file in batches of whole lines."""
     rest = b""
-    while data := file.read(BATCH):
+    while data := file.read(batch):
         complete = data.rfind(b"\n") + 1
         if complete:
             yield rest + data[:complete]

@@ -382,6 +382,7 @@ def _joint_report(request: Request, parts: Sequence[_Draft], plates: Sequence[in
 
 def _refill_text(sliced: SlicedText, draft: BinaryIO, request: Request, progress: Progress | None) -> _Draft:
     """Write the new text to a draft."""
+    import infill.kernels.gcode_lines  # noqa: F401 - a refill needs compiled searches: lines may be read by such code, too
     from infill.gcode.survey import survey_print
     from infill.planner.print_clock import PrintClock
     from infill.refilling.drafting import Drafting

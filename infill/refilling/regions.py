@@ -137,6 +137,15 @@ class FreeAreas:
         return np.asarray(shapely.get_coordinates(lines))
 
     @cached_property
+    def grown_areas(self) -> NDArray[np.object_]:
+        """Each of its areas with a narrow margin, prepared for queries, (A,)."""
+        import shapely
+
+        grown: NDArray[np.object_] = shapely.buffer(np.array(self.polygons, dtype=object), AROUND)
+        shapely.prepare(grown)
+        return grown
+
+    @cached_property
     def around(self) -> Polygon | MultiPolygon:
         """The region with a narrow margin, prepared for queries."""
         import shapely

@@ -178,8 +178,9 @@ class NewSection:
         lines = [shapely.linestrings(path) for path in self.paths]
         return not bool(shapely.covers(self._grown_area(REGION_TOLERANCE + UNIT), lines).all())
 
+    @cached_property
     def seconds(self) -> float:
-        """Return the time of the paths, s."""
+        """The time of the paths, s."""
         points, first = concatenate_rows(self.paths, like=(2,))
         speed = np.full(len(self.paths), max(self.body.feed / 60, LEAST_SPEED))
         acceleration = np.full(len(self.paths), self.acceleration)
@@ -264,7 +265,7 @@ def replace_infill(layers: Layers, rules: RefillRules, plan: RefillPlan, memory:
         changed=changed,
         kept=kept,
         amounts=InfillAmounts(
-            seconds=sum(section.seconds() for section in new),
+            seconds=sum(section.seconds for section in new),
             length=sum(section.length for section in new),
             filament=sum(filament),
         ),
@@ -279,7 +280,7 @@ def _sum_by_layer(sections: Sequence[NewSection]) -> dict[int, Floats]:
     """Sum up filament at the slicer's filament per mm, filament, and seconds of new sections by layer, (3,) each."""
     sums: dict[int, Floats] = {}
     for section in sections:
-        amounts = section.body.rate * section.length, section.rate * section.length, section.seconds()
+        amounts = section.body.rate * section.length, section.rate * section.length, section.seconds
         sums[section.body.layer] = sums.get(section.body.layer, np.zeros(3)) + amounts
     return sums
 

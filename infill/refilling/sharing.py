@@ -16,7 +16,6 @@ from infill.refilling.regions import NO_REGION, FreeAreas
 IGNORED_SHARE = 0.02  # share of an area's infill up to which another section is ignored
 MOST_LOST = 0.1  # share of the infill of a group that may lie outside every area
 STEP = 0.5  # mm between the sampled points on infill
-AROUND = 0.1  # mm: margin of an area
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,8 +51,7 @@ def group_sections(layer: Layer, region: FreeAreas) -> list[SectionGroup]:
     import shapely
 
     infill, strokes, section = layer.layers.infill, layer.strokes, layer.layers.section
-    grown = shapely.buffer(np.array(region.polygons, dtype=object), AROUND)
-    shapely.prepare(grown)
+    grown = region.grown_areas
     numbers = np.unique(section[strokes]).tolist()
     area_lengths_mm = np.zeros((len(numbers), len(grown)))
     total, lost = np.zeros((2, len(numbers)))  # mm

@@ -16,6 +16,7 @@ import hashlib
 import numpy as np
 
 from infill.arrays import Flags, Floats, Places
+from infill.kernels.compiling import log_compilation
 from infill.refilling.layers import Layer, Layers
 
 MOST_GROWTH = 0.15  # of the radius of the widest gap
@@ -54,8 +55,6 @@ def largest_moves(layers: Layers, gaps: GapMemory) -> Floats:
 
 def _widest_gap_radii(layer: Layer) -> Floats:
     """Measure the radius, mm, of the widest gap around each stroke of a layer."""
-    from scipy import ndimage
-
     points, offsets = layer.paths
     low, high = points.min(axis=0) - MARGIN, points.max(axis=0) + MARGIN
     spacing = _spacing(points, offsets)
@@ -70,14 +69,8 @@ def _widest_gap_radii(layer: Layer) -> Floats:
     beads = _raster(points[begins], points[begins + 1], low, pixel, shape)
     pixel_of = np.floor((points - low) / pixel + 0.5).astype(np.intp)
     beads[pixel_of[:, 0], pixel_of[:, 1]] = True
-    region, _ = ndimage.label(~_dilate(walls))
+    region, square = measure_regions(~_dilate(walls), walls | beads)
     open_sides = np.concatenate([region[0], region[-1], region[:, 0], region[:, -1]])
-    # The squares of distances, in whole numbers, of which only the largest are needed.
-    row, column = ndimage.distance_transform_edt(~(walls | beads), return_distances=False, return_indices=True)
-    row -= np.arange(shape[0], dtype=row.dtype)[:, None]
-    column -= np.arange(shape[1], dtype=column.dtype)
-    square = np.zeros(int(region.max()) + 1, dtype=row.dtype)
-    np.maximum.at(square, region.ravel(), (row * row + column * column).ravel())
     radius = np.maximum(np.sqrt(square) * pixel - ERROR * pixel, 0.0)
     radius[0] = np.inf  # beside a wall
     radius[open_sides] = spacing / 2  # an open region, without a bead that bounds the infill
@@ -89,19 +82,45 @@ def _widest_gap_radii(layer: Layer) -> Floats:
     )
 
 
+def measure_regions(free: Flags, taken: Flags) -> tuple[Places, Places]:
+    """Find the regions of free pixels, and the largest squared distance from a pixel of each to the next taken one.
+
+    Parameters
+    ----------
+    free, taken : (X, Y) bool
+
+    Returns
+    -------
+    region : (X, Y) int64
+        From 1 on; 0 for pixels that are not free.
+    square : (R + 1,) int64, pixels²
+        First that of all pixels that are not free.
+    """
+    from infill.kernels.gap_rasters import find_largest_squares, label_regions
+
+    region = np.empty(free.shape, dtype=np.int64)
+    with log_compilation("gaps"):
+        square = np.zeros(label_regions(free, region) + 1, dtype=np.int64)
+        find_largest_squares(taken, region, square)
+    return region, square
+
+
+def hull_area(points: Floats) -> float:
+    """Return the area of the convex hull of points, (N, 2), mm²."""
+    from infill.kernels.gap_rasters import find_hull_area
+
+    with log_compilation("gaps"):
+        return float(find_hull_area(points[np.lexsort((points[:, 1], points[:, 0]))]))
+
+
 def _spacing(points: Floats, offsets: Places) -> float:
     """Estimate the distance between lines, mm: the area of their hull over their length."""
-    from scipy.spatial import ConvexHull, QhullError  # which loads sooner than a library of geometry
-
     step = np.hypot(*np.diff(points, axis=0).T)
     step[offsets[1:-1] - 1] = 0.0
     length = float(step.sum())
     if not length or not np.isfinite(points).all():
         return 0.0
-    try:
-        return float(ConvexHull(points).volume) / length  # of two axes, its area
-    except QhullError:  # all on one line
-        return 0.0
+    return hull_area(points) / length
 
 
 def _raster(starts: Floats, ends: Floats, low: Floats, pixel: float, shape: tuple[int, ...]) -> Flags:
