@@ -255,10 +255,14 @@ def write_surface(
     corners,
     corner_edges,
     places_of,
+    first,
     thread,
     threads,
 ):
-    """Write vertices in cells from the first cell's centre, triangles, and the data of undecided cubes."""
+    """Write vertices in cells from the first cell's centre, triangles, and the data of undecided cubes.
+
+    The field begins at the cell `first` of the grid: vertices of a part of a grid are those of the whole.
+    """
     rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
     around = np.empty((B0 + 1, B1 + 1, B2 + 1), dtype=np.float32)
     numbered = np.empty(EDGES, dtype=np.int32)
@@ -283,9 +287,9 @@ def write_surface(
                         k = lowest_bit(remaining)
                         remaining &= remaining - 1
                         value, next_value = np.float64(around[i, j, k]), np.float64(around[i + di, j + dj, k + dk])
-                        vertices[v, 0] = p * B0 + i - 1
-                        vertices[v, 1] = q * B1 + j - 1
-                        vertices[v, 2] = r * B2 + k - 1
+                        vertices[v, 0] = first[0] + p * B0 + i - 1
+                        vertices[v, 1] = first[1] + q * B1 + j - 1
+                        vertices[v, 2] = first[2] + r * B2 + k - 1
                         vertices[v, axis] += value / (value - next_value)
                         rate[v, axis] = 1 / (next_value - value)
                         v += 1
@@ -306,7 +310,9 @@ def write_surface(
                                 faces[f, corner] = numbered[triangles[signs, t, corner]]
                             f += 1
                         continue
-                    places_of[u, 0], places_of[u, 1], places_of[u, 2] = p * B0 + i - 1, q * B1 + j - 1, r * B2 + k - 1
+                    places_of[u, 0] = first[0] + p * B0 + i - 1
+                    places_of[u, 1] = first[1] + q * B1 + j - 1
+                    places_of[u, 2] = first[2] + r * B2 + k - 1
                     for corner in range(8):
                         corners[u, corner] = around[i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2)]
                     for e in range(len(edges)):
