@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,7 +71,7 @@ def survey_components(kept: ChunkField, chunk: Chunk, labelled: Components) -> C
     order = np.argsort(-numbers, kind="stable")
     missing = anywhere[alone_names[order]] < 0
     anywhere[alone_names[order][missing]] = numbers[order][missing]
-    seen, seen_by = _border_cells(chunk, lambda places: look_up(kept, chunk, labelled, places))
+    seen, seen_by = _border_cells(chunk, lambda places: look_up(kept, labelled, places))
     is_strange = own_cells == 0
     return ChunkComponents(
         cells=own_cells,
@@ -82,9 +83,7 @@ def survey_components(kept: ChunkField, chunk: Chunk, labelled: Components) -> C
     )
 
 
-def look_up(
-    kept: ChunkField, chunk: Chunk, labelled: Components, places: NDArray[np.integer], *, reach: int = 0
-) -> NDArray[np.int32]:
+def look_up(kept: ChunkField, labelled: Components, places: NDArray[Any], *, reach: int = 0) -> NDArray[np.int32]:
     """Return the component of cells (N, 3), on the lattice from the first kept brick; or the nearest in reach."""
     label = np.empty(len(places), dtype=np.int32)
     label_cells(
@@ -116,7 +115,7 @@ def survey_solid(chunk: Chunk) -> ChunkComponents:
     )
 
 
-def _border_cells(chunk: Chunk, label: Callable[[Numbers], NDArray[np.int32]]) -> tuple[Numbers, Numbers]:
+def _border_cells(chunk: Chunk, label: Callable[[NDArray[Any]], NDArray[np.int32]]) -> tuple[Numbers, Numbers]:
     """Name a cell of every run of equal components in the layers that two chunks see; return their components, too.
 
     The first layer of a chunk is seen by itself and by the chunk below it. `label` takes cells (N, 3) on the lattice
@@ -146,7 +145,7 @@ def _border_cells(chunk: Chunk, label: Callable[[Numbers], NDArray[np.int32]]) -
     return np.concatenate(names), np.concatenate(components)
 
 
-def cell_names(cells: Numbers, chunk: Chunk) -> Numbers:
+def cell_names(cells: NDArray[Any], chunk: Chunk) -> Numbers:
     """Name cells (N, 3) of the whole lattice: the number of their brick, then their place in it."""
     brick, cell = np.divmod(cells, BRICK)
     number = (brick[:, 0] * chunk.lattice[1] + brick[:, 1]) * chunk.lattice[2] + brick[:, 2]
@@ -179,6 +178,10 @@ class JoinedComponents:
 
     cells: Numbers
     names: dict[int, NDArray[np.int32]]
+
+    def volumes(self, cell_volume: float) -> NDArray[np.float64]:
+        """Return the volume of each, mm³."""
+        return self.cells.astype(np.float64) * cell_volume
 
 
 def join_components(

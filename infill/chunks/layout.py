@@ -15,6 +15,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -160,7 +161,7 @@ class Layout:
         )
 
 
-def _as_place(numbers: NDArray[np.integer]) -> Place:
+def _as_place(numbers: NDArray[Any]) -> Place:
     """Return three whole numbers as a tuple."""
     first, second, third = (int(number) for number in numbers)
     return first, second, third

@@ -92,7 +92,7 @@ def count_piece(kept: ChunkField, chunk: Chunk, level: float) -> tuple[CountedBr
 
 
 def brick_numbers(places: Names, chunk: Chunk) -> Names:
-    """Number bricks (N, 3) of the whole lattice, the last axis fastest."""
+    """Return the numbers of bricks (N, 3) of the whole lattice, the last axis fastest."""
     _, second, third = chunk.lattice
     numbers: Names = (places[:, 0] * second + places[:, 1]) * third + places[:, 2]
     return numbers

@@ -21,8 +21,8 @@ Done = TypeVar("Done")
 EXTRA = "pip install 'phasefill[scale]'"
 THREADS, PROCESSES = "threads", "processes"
 LOST_WORKER = (
-    "a worker ended before its chunk was done, often because memory ran out; give fewer --workers, or less --max-memory, "
-    "which makes chunks smaller"
+    "a worker ended before its chunk was done, often because memory ran out; give fewer --workers, or less "
+    "--max-memory, which makes chunks smaller"
 )
 LOST_CLUSTER = "the scheduler of the cluster does not answer; check that it runs, and give its address again"
 
@@ -51,6 +51,14 @@ class Runner:
     where: str = THREADS
     client: Any = None
     pool: ProcessPoolExecutor | None = field(default=None, repr=False)
+
+    def memory_per_task(self) -> int | None:
+        """Return the bytes that a task on a cluster may take, None on this machine."""
+        if self.client is None:
+            return None
+        workers = self.client.scheduler_info(n_workers=-1)["workers"].values()
+        shares = [worker["memory_limit"] / worker["nthreads"] for worker in workers if worker["memory_limit"]]
+        return int(min(shares) / 2) if shares else None
 
     def run(
         self,
@@ -98,7 +106,7 @@ class Runner:
             options = {"scheduler": PROCESSES, "pool": self.pool}
         try:
             with Callback(posttask=count):  # type: ignore[no-untyped-call]
-                return list(dask.compute(*tasks, optimize_graph=False, **options))  # type: ignore[attr-defined]
+                return list(dask.compute(*tasks, optimize_graph=False, **options))  # type: ignore[attr-defined, no-untyped-call]
         except BrokenExecutor as error:
             raise MemoryLimitError(LOST_WORKER) from error
 
@@ -117,7 +125,7 @@ class Runner:
         try:
             shared = client.scatter(first, broadcast=True, hash=False)
             futures = [client.submit(_call_plain, function, shared, item, pure=False) for item in items]
-            for number, _ in enumerate(as_completed(futures)):
+            for number, _ in enumerate(as_completed(futures)):  # type: ignore[no-untyped-call]
                 if progress is not None:
                     progress((number + 1) / len(items))
             return list(client.gather(futures))
@@ -190,9 +198,12 @@ def _current_client() -> Any:  # noqa: ANN401 - distributed.Client
     """Return the client that this process has opened, None without one."""
     if "distributed" not in sys.modules:
         return None
-    from distributed.client import _get_global_client
+    from distributed import get_client
 
-    return _get_global_client()  # type: ignore[no-untyped-call]
+    try:
+        return get_client()
+    except ValueError:
+        return None
 
 
 @contextlib.contextmanager

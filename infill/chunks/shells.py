@@ -68,7 +68,9 @@ def join_shells(parts: Mapping[int, LevelParts], cell_volume: float) -> JoinedSh
         np.add.at(corners, own, part.shells.vertices)
         np.add.at(faces, own, part.shells.faces)
     volume, slope = (
-        np.array([_sum_of(a, b) for a, b in zip(high[:, n].tolist(), low[:, n].tolist(), strict=True)], dtype=np.float64)
+        np.array(
+            [_sum_of(a, b) for a, b in zip(high[:, n].tolist(), low[:, n].tolist(), strict=True)], dtype=np.float64
+        )
         for n in range(2)
     )
     whole = [_sum_of(sum(high[:, n].tolist()), sum(low[:, n].tolist())) for n in range(2)]

@@ -1,10 +1,10 @@
 """The surface of a volume in chunks at the level of the right volume: the same numbers as those of the whole at once.
 
-    smooth            every chunk: its field, components, and volumes at the first level
-    join              components of the whole, and the volume of each
-    search levels     by `infill.isosurfaces.levels`, which asks for volumes at a level: one pass over the chunks
-    remove crumbs     by the volumes of shells and the components nearest to them
-    number vertices   how many vertices and triangles each chunk writes
+smooth            every chunk: its field, components, and volumes at the first level
+join              components of the whole, and the volume of each
+search levels     by `infill.isosurfaces.levels`, which asks for volumes at a level: one pass over the chunks
+remove crumbs     by the volumes of shells and the components nearest to them
+number vertices   how many vertices and triangles each chunk writes
 """
 
 from __future__ import annotations
@@ -242,7 +242,7 @@ class Solver:
         count = len(joined.cells)
         if self.work.level is not None:
             return self.measure_start(), self.work.level, np.full(count, self.work.level)
-        targets = joined.cells * self.cell_volume
+        targets = joined.volumes(self.cell_volume)
         total = float(targets.sum())
         start: MeasuredSurface | None = None
         try:
@@ -288,7 +288,7 @@ class Solver:
         return elect(surface, self.joined.cells)
 
     def number_vertices(self, surface: MeasuredSurface, crumbs: NDArray[np.bool_]) -> Numbering:
-        """Number the vertices and triangles of all chunks, without those of shells that `crumbs` (n,) marks."""
+        """Count the vertices and triangles of all chunks, without those of the shells that `crumbs` (n,) marks."""
         removed = {number: crumbs[names] for number, names in surface.shells.names.items()}
         chunks, counts, shared = [], [], []
         again = [number for number, marked in removed.items() if marked.any()]
@@ -345,7 +345,7 @@ def elect(surface: MeasuredSurface, cells: Numbers) -> tuple[Numbers, Numbers]:
 
 
 def number_cubes(parts: Mapping[int, LevelParts]) -> dict[int, Numbers]:
-    """Number the undecided cubes of the whole surface, brick by brick; return those before each brick, by chunk."""
+    """Return how many undecided cubes of the whole surface lie in bricks before each brick, by chunk."""
     bricks = np.concatenate([part.cubes.bricks for part in parts.values()])
     counts = np.concatenate([part.cubes.counts for part in parts.values()])
     order = np.argsort(bricks)
@@ -374,11 +374,15 @@ def chunk_size(
     side = largest
     while side > LEAST_SIDE and bytes_of_chunk(side, steps, item, shape) > memory:
         side -= LEAST_SIDE
-    return tuple(max(1, min(side, count + size) // size) for count, size in zip(shape, (first, second, third), strict=True))  # type: ignore[return-value]
+    return tuple(
+        max(1, min(side, count + size) // size) for count, size in zip(shape, (first, second, third), strict=True)
+    )  # type: ignore[return-value]
 
 
 LEAST_SIDE = 32  # cells
-BYTES_PER_CELL = 16  # of a chunk with its margin, if a surface runs everywhere: bricks and their copies, a measured peak
+BYTES_PER_CELL = (
+    16  # of a chunk with its margin, if a surface runs everywhere: bricks and their copies, a measured peak
+)
 
 
 def bytes_of_chunk(side: int, steps: int, item: int, shape: tuple[int, ...]) -> int:

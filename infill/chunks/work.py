@@ -37,7 +37,7 @@ from infill.isosurfaces.components import Components
 from infill.isosurfaces.levels import REACH, label_field, lower_to_levels
 from infill.kernels.sparse import BRICK
 from infill.phasefield.allen_cahn import Smoothing
-from infill.voxels.segmentation import count_solid_cells, histogram_of
+from infill.voxels.segmentation import count_solid_cells, histogram_edges, histogram_of
 
 FREE_SPACE = 0.25  # of the disk of the scratch folder: it stays free
 
@@ -129,7 +129,7 @@ def _survey(values: NDArray[Any]) -> ValueSurvey:
 def count_values(work: Work, chunk: Chunk, lowest: float, highest: float) -> NDArray[np.float64]:
     """Count the values in each bin of the histogram of the whole volume."""
     if not chunk.has_cells:
-        return np.zeros(1)
+        return np.zeros(len(histogram_edges(work.source.dtype, lowest, highest)) - 1)
     return histogram_of(work.read_own(chunk), lowest, highest)[0]
 
 
@@ -237,9 +237,7 @@ def smooth(work: Work, chunk: Chunk) -> SmoothedChunk:
 
 def _smooth(work: Work, chunk: Chunk, solid: NDArray[np.bool_]) -> ChunkField | None:
     """Smooth the cells of a chunk."""
-    return smooth_chunk(
-        solid, chunk, work.smoothing, work.spacing, straighten=work.level is None, threads=1
-    )
+    return smooth_chunk(solid, chunk, work.smoothing, work.spacing, straighten=work.level is None, threads=1)
 
 
 def _path(work: Work, chunk: Chunk) -> Path | None:
@@ -281,7 +279,7 @@ def look_up_components(work: Work, chunk: Chunk, names: Numbers) -> NDArray[np.i
     """Return the components of cells by their names: see `infill.chunks.joining`."""
     kept = _field(work, chunk)
     cells = named_cells(names, chunk.lattice) - np.array(chunk.kept_low) * BRICK
-    return look_up(kept, chunk, kept.components(), cells)
+    return look_up(kept, kept.components(), cells)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -402,7 +400,7 @@ def _count_votes(
     """Count for each part the vertices nearest to each component; return part times components plus component, too."""
     assert task.names is not None
     places = vertex_places(piece.vertices[: piece.own], work.spacing, chunk)
-    label = look_up(kept, chunk, labelled, places, reach=REACH)
+    label = look_up(kept, labelled, places, reach=REACH)
     shell = parts.names[: piece.own]
     has_label = (label >= 0) & (shell >= 0)
     key = shell[has_label].astype(np.int64) * task.components + task.names[label[has_label]]

@@ -44,18 +44,21 @@ def mix(number):
 
 
 @njit(nogil=True, cache=True)
-def hash_faces(points, faces):
-    """Return the sum of a number for each triangle; points (V, 3) are the bits of float64 coordinates as uint64.
+def sum_faces(vertices, bits, faces, unit, sums):
+    """Add to `sums` (4,) the hashes of all triangles, of their edges, and their area over `unit` in two integers.
 
-    The number depends on the coordinates and the orientation, not on which corner is first.
+    The number of a triangle depends on the coordinates, whose bits are `bits` (V, 3) uint64, and on the orientation,
+    not on which corner is first. An edge counts with its number from end to end minus that the other way round: all
+    edges of a closed surface add up to 0.
     """
-    total = np.uint64(0)
+    total, edges = np.uint64(0), np.uint64(0)
+    high, low = np.float64(2**HIGH), np.float64(2**LOW)
     corners = np.empty(3, dtype=np.uint64)
     for f in range(len(faces)):
         for c in range(3):
             number = np.uint64(0)
             for axis in range(3):
-                number = mix(number ^ points[faces[f, c], axis])
+                number = mix(number ^ bits[faces[f, c], axis])
             corners[c] = number
         least = 0
         for c in range(1, 3):
@@ -64,8 +67,20 @@ def hash_faces(points, faces):
         number = np.uint64(0)
         for c in range(3):
             number = mix(number ^ corners[(least + c) % 3])
+            a, b = corners[c], corners[(c + 1) % 3]
+            edges += mix(mix(a) ^ b) - mix(mix(b) ^ a)
         total += number
-    return total
+        i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
+        ax, ay, az = vertices[i, 0], vertices[i, 1], vertices[i, 2]
+        bx, by, bz = vertices[j, 0] - ax, vertices[j, 1] - ay, vertices[j, 2] - az
+        cx, cy, cz = vertices[k, 0] - ax, vertices[k, 1] - ay, vertices[k, 2] - az
+        nx, ny, nz = by * cz - bz * cy, bz * cx - bx * cz, bx * cy - by * cx
+        area = np.sqrt(nx * nx + ny * ny + nz * nz) / 2 / unit * high
+        whole = np.rint(area)
+        sums[2] += np.int64(whole)
+        sums[3] += np.int64(np.rint((area - whole) * low))
+    sums[0] += np.int64(total)
+    sums[1] += np.int64(edges)
 
 
 @njit(nogil=True, cache=True)

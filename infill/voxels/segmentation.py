@@ -365,12 +365,19 @@ def histogram_of(values: NDArray[Any], lowest: Any, highest: Any) -> tuple[NDArr
         counts = np.zeros(int(highest - lowest) + 1)
         for part in _slabs(values):
             counts += np.bincount(part.ravel(order="K").astype(np.int64) - lowest, minlength=len(counts))
-        return counts, np.arange(len(counts) + 1) + (lowest - 0.5)
-    edges: NDArray[np.float64] = np.linspace(lowest, highest, BINS + 1)
-    counts = np.zeros(BINS)
-    for part in _slabs(values):
-        counts += np.histogram(part.ravel(order="K").astype(np.float64), BINS, (lowest, highest))[0]
-    return counts, edges
+    else:
+        counts = np.zeros(BINS)
+        for part in _slabs(values):
+            counts += np.histogram(part.ravel(order="K").astype(np.float64), BINS, (lowest, highest))[0]
+    return counts, histogram_edges(values.dtype, lowest, highest)
+
+
+def histogram_edges(kind: np.dtype[Any], lowest: Any, highest: Any) -> NDArray[np.float64]:  # noqa: ANN401
+    """Return the edges of the bins of `histogram_of`, for values of a type."""
+    if kind.kind in "iub" and highest - lowest < EXACT:
+        edges: NDArray[np.float64] = np.arange(int(highest - lowest) + 2) + (lowest - 0.5)
+        return edges
+    return np.linspace(lowest, highest, BINS + 1)
 
 
 def _slabs(values: NDArray[Any]) -> Iterator[NDArray[Any]]:
