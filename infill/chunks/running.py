@@ -12,13 +12,15 @@ from importlib.util import find_spec
 from multiprocessing import get_context
 from typing import Any, TypeVar
 
+from infill.checks import check_whole_number
 from infill.errors import InfillError, MemoryLimitError, ParameterError, UsageError
-from infill.kernels.threads import thread_count
+from infill.kernels.threads import run_interruptibly, thread_count
 
 Item = TypeVar("Item")
 Done = TypeVar("Done")
 
 EXTRA = "pip install 'phasefill[scale]'"
+CONNECTING = 10  # s: how long a scheduler may take to answer
 THREADS, PROCESSES = "threads", "processes"
 LOST_WORKER = (
     "a worker ended before its chunk was done, often because memory ran out; give fewer --workers, or less "
@@ -106,7 +108,8 @@ class Runner:
             options = {"scheduler": PROCESSES, "pool": self.pool}
         try:
             with Callback(posttask=count):  # type: ignore[no-untyped-call]
-                return list(dask.compute(*tasks, optimize_graph=False, **options))  # type: ignore[attr-defined, no-untyped-call]
+                compute = partial(dask.compute, *tasks, optimize_graph=False, **options)  # type: ignore[attr-defined]
+                return list(run_interruptibly(compute))
         except BrokenExecutor as error:
             raise MemoryLimitError(LOST_WORKER) from error
 
@@ -125,13 +128,15 @@ class Runner:
         try:
             shared = client.scatter(first, broadcast=True, hash=False)
             futures = [client.submit(_call_plain, function, shared, item, pure=False) for item in items]
-            for number, _ in enumerate(as_completed(futures)):  # type: ignore[no-untyped-call]
+            for number, _ in enumerate(as_completed(futures, loop=client.loop)):  # type: ignore[no-untyped-call]
                 if progress is not None:
                     progress((number + 1) / len(items))
             return list(client.gather(futures))
         except KilledWorker as error:
             raise MemoryLimitError(LOST_WORKER) from error
-        except (CommClosedError, TimeoutError) as error:
+        except (CommClosedError, TimeoutError, OSError) as error:
+            if isinstance(error, InfillError):
+                raise
             raise InfillError(LOST_CLUSTER) from error
         except Exception as error:
             if type(error).__name__ in ("FutureCancelledError", "CancelledError"):
@@ -176,8 +181,10 @@ def open_runner(workers: int | None = None, scheduler: str | None = None) -> Ite
         If a package is missing, or the scheduler does not answer.
     """
     require_dask()
-    client = None if scheduler in (THREADS, PROCESSES) else _current_client() if scheduler is None else None
-    if scheduler not in (None, THREADS, PROCESSES) or client is not None:
+    client = None if scheduler in (CONNECTING = 10  # s: how long a scheduler may take to answer
+THREADS, PROCESSES) else _current_client() if scheduler is None else None
+    if scheduler not in (None, CONNECTING = 10  # s: how long a scheduler may take to answer
+THREADS, PROCESSES) or client is not None:
         if workers is not None:
             raise UsageError.about("workers", "is for this machine alone, and a cluster has its own; leave it out")
         if client is not None:
@@ -186,10 +193,13 @@ def open_runner(workers: int | None = None, scheduler: str | None = None) -> Ite
         with _connect(str(scheduler)) as connected:
             yield Runner(workers=max(1, len(connected.nthreads())), where="cluster", client=connected)
         return
-    count = thread_count(workers)
+    count = thread_count(None if workers is None else check_whole_number("workers", workers, 1))
     if scheduler == PROCESSES:
-        with ProcessPoolExecutor(count, mp_context=get_context("spawn")) as pool:
+        pool = ProcessPoolExecutor(count, mp_context=get_context("spawn"))
+        try:
             yield Runner(workers=count, where=PROCESSES, pool=pool)
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)
         return
     yield Runner(workers=count)
 
@@ -214,7 +224,7 @@ def _connect(address: str) -> Iterator[Any]:
     from distributed import Client
 
     try:
-        client = Client(address, timeout=10, set_as_default=False)  # type: ignore[no-untyped-call]
+        client = Client(address, timeout=CONNECTING, set_as_default=False)  # type: ignore[no-untyped-call]
     except (OSError, ValueError, TimeoutError) as error:
         raise UsageError.about(
             "scheduler", f"is {address!r}, and nothing answers there; give an address such as tcp://host:8786"

@@ -39,7 +39,7 @@ from infill.kernels.sparse import BRICK
 from infill.phasefield.allen_cahn import Smoothing
 from infill.voxels.segmentation import count_solid_cells, histogram_edges, histogram_of
 
-FREE_SPACE = 0.25  # of the disk of the scratch folder: it stays free
+FREE_SPACE = 0.1  # of the disk of the scratch folder: it stays free
 
 Numbers = NDArray[np.int64]
 

@@ -11,7 +11,7 @@ import typer
 
 from infill.cli.console import format_bytes, format_table, print_json, print_log, progress_bar, say
 from infill.cli.foreseeing import format_span, format_steps
-from infill.errors import ParameterError
+from infill.errors import ParameterError, UsageError
 from infill.plain_numbers import count_noun, plain_size
 
 if TYPE_CHECKING:
@@ -56,7 +56,11 @@ def smooth_chunks(
         with print_log(shown=not output.quiet):
             volume = open_volume(source, array=settings.array, spacing=settings.spacing)
         volume = volume if settings.roi is None else volume.crop(settings.roi)
-        threshold: Threshold = "otsu" if settings.otsu else cast("Threshold", settings.between or settings.threshold)
+        choices = {"threshold": settings.threshold, "between": settings.between, "otsu": settings.otsu or None}
+        given = [name for name, value in choices.items() if value is not None]
+        if len(given) > 1:
+            raise UsageError.about(tuple(given), "exclude each other; give one of them")
+        threshold = cast("Threshold", "otsu" if settings.otsu else choices[given[0]] if given else None)
         if output.dry_run:
             _show_plan(volume, request, threshold, settings, output, workers=workers, scheduler=scheduler)
             return
@@ -108,7 +112,7 @@ def _check_outputs(output: SmoothOutput) -> None:
 
 def _write(surface: ChunkedSurface, volume: LazyVolume, output: SmoothOutput) -> None:
     """Write all files of a run; each is complete or not there."""
-    from infill.files.whole_files import atomic_files, scratch_file
+    from infill.files.whole_files import atomic_files, scratch_file, wrap_os_errors
     from infill.formats.mesh_pieces import PIECE_WRITERS, check_piece_size
     from infill.lazy.zarr_fields import write_zarr_field
 
@@ -129,10 +133,12 @@ def _write(surface: ChunkedSurface, volume: LazyVolume, output: SmoothOutput) ->
             for path, file in zip(meshes, files, strict=False)
         ]
         for piece in surface.pieces():
-            for writer in writers:
-                writer.add(piece)
-        for writer in writers:
-            writer.finish()
+            for path, writer in zip(meshes, writers, strict=True):
+                with wrap_os_errors(path):
+                    writer.add(piece)
+        for path, writer in zip(meshes, writers, strict=True):
+            with wrap_os_errors(path):
+                writer.finish()
         for save, file in zip(output.saved.values(), files[len(meshes) :], strict=True):
             save(file)
         for path in output.outputs:

@@ -77,7 +77,7 @@ def smooth_in_chunks(
     """
     check_chunked(request)
     require_dask()
-    request = request.for_cell(min(volume.spacing))
+    request = replace(request.for_cell(min(volume.spacing)), tolerance=None)
     progress, seconds = request.progress, {"read": 0.0, "smooth": 0.0, "surface": 0.0, "check": 0.0}
 
     def tell(stage: str, share: float) -> None:
