@@ -181,10 +181,8 @@ def open_runner(workers: int | None = None, scheduler: str | None = None) -> Ite
         If a package is missing, or the scheduler does not answer.
     """
     require_dask()
-    client = None if scheduler in (CONNECTING = 10  # s: how long a scheduler may take to answer
-THREADS, PROCESSES) else _current_client() if scheduler is None else None
-    if scheduler not in (None, CONNECTING = 10  # s: how long a scheduler may take to answer
-THREADS, PROCESSES) or client is not None:
+    client = None if scheduler in (THREADS, PROCESSES) else _current_client() if scheduler is None else None
+    if scheduler not in (None, THREADS, PROCESSES) or client is not None:
         if workers is not None:
             raise UsageError.about("workers", "is for this machine alone, and a cluster has its own; leave it out")
         if client is not None:
