@@ -9,6 +9,7 @@ number vertices   how many vertices and triangles each chunk writes
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
@@ -370,13 +371,16 @@ def chunk_size(
     largest : int
         Cells along the longest side at most.
     """
-    first, second, third = BRICK
     side = largest
     while side > LEAST_SIDE and bytes_of_chunk(side, steps, item, shape) > memory:
         side -= LEAST_SIDE
-    return tuple(
-        max(1, min(side, count + size) // size) for count, size in zip(shape, (first, second, third), strict=True)
-    )  # type: ignore[return-value]
+    bricks = []
+    for count, size in zip(shape, BRICK, strict=True):
+        lattice = math.ceil((count + 2) / size)
+        chunks = math.ceil(lattice / max(1, side // size))
+        bricks.append(math.ceil(lattice / chunks))  # chunks of about the same size
+    first, second, third = bricks
+    return first, second, third
 
 
 LEAST_SIDE = 32  # cells
