@@ -29,11 +29,7 @@ def gyroid(low, high):
     """Return grey values of a box of gyroid cells, solid where they are bright, with a little noise."""
     axes = [np.arange(a, b, dtype=np.float32) * np.float32(2 * np.pi / PERIOD) for a, b in zip(low, high, strict=True)]
     (sx, sy, sz), (cx, cy, cz) = [np.sin(axis) for axis in axes], [np.cos(axis) for axis in axes]
-    level = (
-        sx[:, None, None] * cy[None, :, None]
-        + (sy[:, None] * cz[None])[None]
-        + cx[:, None, None] * sz[None, None]
-    )
+    level = sx[:, None, None] * cy[None, :, None] + (sy[:, None] * cz[None])[None] + cx[:, None, None] * sz[None, None]
     noise = np.random.default_rng(list(low)).normal(0, 3, level.shape).astype(np.float32)
     return np.clip(128 + 80 * level + noise, 0, 255).astype(np.uint8)
 

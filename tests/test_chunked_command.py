@@ -230,7 +230,7 @@ def test_without_the_extra_a_line_says_how_to_get_it(folder: Path, monkeypatch: 
     monkeypatch.setattr(running, "find_spec", lambda name: None)
     refused(
         run("smooth", "g.npy", *PLAIN, "--workers", "2", "-o", "a.ply"),
-        r"needs the extra scale: pip install 'phasefill\[scale\]'$",
+        r"needs the extra scale: pip install dask distributed fsspec h5py zarr$",
     )
 
 

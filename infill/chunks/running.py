@@ -19,7 +19,7 @@ from infill.kernels.threads import run_interruptibly, thread_count
 Item = TypeVar("Item")
 Done = TypeVar("Done")
 
-EXTRA = "pip install 'phasefill[scale]'"
+EXTRA = "pip install dask distributed fsspec h5py zarr"
 CONNECTING = 10  # s: how long a scheduler may take to answer
 THREADS, PROCESSES = "threads", "processes"
 LOST_WORKER = (
@@ -164,6 +164,16 @@ def _call_plain(function: Callable[..., Done], first: Any, item: tuple[Any, ...]
     return function(first, *item)
 
 
+def check_runner(workers: int | None, scheduler: str | None) -> None:
+    """Raise an error for a number of workers below 1, or a scheduler that is not an address."""
+    if workers is not None:
+        check_whole_number("workers", workers, 1)
+    if scheduler not in (None, THREADS, PROCESSES) and "://" not in str(scheduler):
+        raise UsageError.about(
+            "scheduler", f"is {scheduler!r}; give {THREADS}, {PROCESSES} or an address such as tcp://host:8786"
+        )
+
+
 @contextlib.contextmanager
 def open_runner(workers: int | None = None, scheduler: str | None = None) -> Iterator[Runner]:
     """Yield what runs the tasks of a volume.
@@ -181,6 +191,7 @@ def open_runner(workers: int | None = None, scheduler: str | None = None) -> Ite
         If a package is missing, or the scheduler does not answer.
     """
     require_dask()
+    check_runner(workers, scheduler)
     client = None if scheduler in (THREADS, PROCESSES) else _current_client() if scheduler is None else None
     if scheduler not in (None, THREADS, PROCESSES) or client is not None:
         if workers is not None:
@@ -191,7 +202,7 @@ def open_runner(workers: int | None = None, scheduler: str | None = None) -> Ite
         with _connect(str(scheduler)) as connected:
             yield Runner(workers=max(1, len(connected.nthreads())), where="cluster", client=connected)
         return
-    count = thread_count(None if workers is None else check_whole_number("workers", workers, 1))
+    count = thread_count(workers)
     if scheduler == PROCESSES:
         pool = ProcessPoolExecutor(count, mp_context=get_context("spawn"))
         try:

@@ -263,7 +263,7 @@ def _keep(work: Work, chunk: Chunk, kept: ChunkField) -> None:
             part.unlink(missing_ok=True)
 
 
-def _field(work: Work, chunk: Chunk) -> ChunkField:
+def open_field(work: Work, chunk: Chunk) -> ChunkField:
     """Return the field of a chunk that a surface may cross: kept, or computed again."""
     path = _path(work, chunk)
     if path is not None:
@@ -277,7 +277,7 @@ def _field(work: Work, chunk: Chunk) -> ChunkField:
 
 def look_up_components(work: Work, chunk: Chunk, names: Numbers) -> NDArray[np.int32]:
     """Return the components of cells by their names: see `infill.chunks.joining`."""
-    kept = _field(work, chunk)
+    kept = open_field(work, chunk)
     cells = named_cells(names, chunk.lattice) - np.array(chunk.kept_low) * BRICK
     return look_up(kept, kept.components(), cells)
 
@@ -311,7 +311,7 @@ class LevelTask:
 
 def try_level(work: Work, chunk: Chunk, task: LevelTask) -> LevelParts:
     """Measure the surface of a chunk at a level."""
-    kept = _field(work, chunk)
+    kept = open_field(work, chunk)
     labelled = kept.components() if task.names is not None and (task.lowering or task.votes) else None
     lowered = _lower(kept, labelled, task)
     return _measure(work, chunk, lowered, task.level, task=task, labelled=labelled)
@@ -435,7 +435,7 @@ class Part:
 
 def make_part(work: Work, chunk: Chunk, task: LevelTask, removed: NDArray[np.bool_]) -> Part:
     """Make the triangles of a chunk at a level, without the parts that `removed` (s,) marks."""
-    kept = _field(work, chunk)
+    kept = open_field(work, chunk)
     labelled = kept.components() if task.names is not None and task.lowering else None
     lowered = _lower(kept, labelled, task)
     counted = count_piece(lowered, chunk, task.level)
@@ -467,7 +467,7 @@ def rank_shared(
 
 def field_values(work: Work, chunk: Chunk, level: float, lowering: LevelTask) -> NDArray[np.float32]:
     """Return the field of a chunk's own cells, minus its level, within +-1: what `SmoothStages.field` returns."""
-    kept = _field(work, chunk)
+    kept = open_field(work, chunk)
     labelled = kept.components() if lowering.names is not None and lowering.lowering else None
     field = _lower(kept, labelled, lowering).field
     dense = field.to_dense(threads=1)

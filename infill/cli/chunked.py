@@ -44,11 +44,13 @@ def smooth_chunks(
     show_hash: bool,
 ) -> None:
     """Smooth a volume in chunks, write the files piece by piece, and print a summary; or only the plan."""
+    from infill.chunks.running import check_runner
     from infill.lazy.opening import open_volume
     from infill.smoothing.chunk_plans import check_chunked
     from infill.smoothing.chunked import smooth_in_chunks
     from infill.smoothing.request import SmoothRequest
 
+    check_runner(workers, scheduler)
     with progress_bar(shown=not output.quiet and not output.dry_run) as progress:
         request = SmoothRequest(**cast("SmoothOptions", {**options, "progress": progress}))
         check_chunked(request, **_unfit(settings), preview=output.preview)

@@ -13,7 +13,7 @@ from infill.machine import require_memory
 from infill.volume import AXES, Volume
 from infill.voxels.cropping import cells_in_box, cut_cells
 
-EXTRA = "pip install 'phasefill[scale]'"
+EXTRA = "pip install dask distributed fsspec h5py zarr"
 ADVICE = "give --smooth plain, which works in chunks, or a coarser level of it"
 
 
