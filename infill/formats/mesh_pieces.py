@@ -12,11 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
+from infill.formats.obj import write_obj_faces, write_obj_head, write_obj_vertices
 from infill.formats.ply import FACE, ply_header
-from infill.formats.rows import write_rows
 from infill.formats.stl import RECORD, facets_of, stl_header
 from infill.surface import Surface
-from infill.version import __version__
 
 MOST_VERTICES = 2**31 - 1  # of a PLY, whose faces have 32-bit numbers
 MOST_TRIANGLES = 2**32 - 1  # of an STL
@@ -94,12 +93,12 @@ class ObjPieces(PlyPieces):
 
     def __init__(self, file: BinaryIO, scratch: BinaryIO, vertices: int, triangles: int, space: str) -> None:  # noqa: ARG002
         self.file, self.scratch = file, scratch
-        file.write(f"# phasefill {__version__}, millimetres\no infill\n".encode())
+        write_obj_head(file)
 
     def add(self, piece: MeshPiece) -> None:
         """Write the vertices of a piece, and keep its triangles."""
-        write_rows(self.file, "v %.9g %.9g %.9g\n", np.asarray(piece.surface.vertices[: piece.own]))
-        write_rows(self.scratch, "f %d %d %d\n", piece.faces, add=1)
+        write_obj_vertices(self.file, np.asarray(piece.surface.vertices[: piece.own]))
+        write_obj_faces(self.scratch, piece.faces)
 
 
 PIECE_WRITERS: dict[str, Callable[[BinaryIO, BinaryIO, int, int, str], PieceWriter]] = {
