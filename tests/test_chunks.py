@@ -17,7 +17,7 @@ from scipy.ndimage import gaussian_filter
 
 from infill import Smoothing, Volume, smooth_volume
 from infill.chunks.hashing import add_up, face_sums, hash_surface
-from infill.chunks.layout import Layout
+from infill.chunks.layout import ChunkLayout
 from infill.chunks.running import Runner
 from infill.chunks.shells import find_names
 from infill.chunks.solids import SolidRule
@@ -87,7 +87,7 @@ class Case:
         )
 
     def work(self, **changes: Any) -> Work:
-        layout = Layout(shape=self.shape, size=self.size, steps=self.steps)
+        layout = ChunkLayout(shape=self.shape, size=self.size, steps=self.steps)
         work = Work(
             source=Arranged(self.values),
             rule=SolidRule(low=self.threshold),
@@ -249,7 +249,7 @@ def test_triangles_compares_sets() -> None:
 @pytest.mark.parametrize("size", [(1, 1, 1), (2, 3, 1), (9, 9, 9)])
 def test_every_cell_belongs_to_one_chunk(shape: tuple[int, int, int], size: tuple[int, int, int]) -> None:
     seen = np.zeros(shape, dtype=int)
-    for chunk in Layout(shape=shape, size=size, steps=7):
+    for chunk in ChunkLayout(shape=shape, size=size, steps=7):
         if chunk.has_cells:
             box = tuple(
                 slice(part.start + low, part.stop + low)
@@ -265,7 +265,7 @@ def test_a_margin_one_brick_narrower_is_not_enough(monkeypatch: pytest.MonkeyPat
     """The comparison can fail: with half of the margin, cells at the border of chunks are wrong."""
     case = replace(FITTING, shape=(47, 40, 40), steps=23, blur=3.0, level=0.0, size=(1, 1, 1))
     whole = Whole.of(case)
-    monkeypatch.setattr(Layout, "margin", property(lambda self: (1, 1, 1)))
+    monkeypatch.setattr(ChunkLayout, "margin", property(lambda self: (1, 1, 1)))
     with pytest.raises(AssertionError):
         for chunk in case.work().layout:
             if chunk.has_cells and smooth(case.work(), chunk).start is not None:

@@ -65,50 +65,50 @@ def smooth_chunk(
         return None
     _, state = brick_states(solid, threads)
     begun = kept_bricks(state)
-    whole = smooth_bricks(solid, smoothing, spacing=spacing, threads=threads)
+    smoothed = smooth_bricks(solid, smoothing, spacing=spacing, threads=threads)
     low, high = (np.array(ends) - chunk.read_low for ends in (chunk.kept_low, chunk.kept_high))
-    inside = ((whole.where >= low) & (whole.where < high)).all(axis=1)
-    slots = whole.slots[tuple(slice(a, b) for a, b in zip(low, high, strict=True))].copy()
+    inside = ((smoothed.where >= low) & (smoothed.where < high)).all(axis=1)
+    slots = smoothed.slots[tuple(slice(a, b) for a, b in zip(low, high, strict=True))].copy()
     number = np.cumsum(inside, dtype=np.int32) - np.int32(1)
     is_kept = slots >= 0
     slots[is_kept] = number[slots[is_kept]]
-    where = np.ascontiguousarray(whole.where[inside])
+    where = np.ascontiguousarray(smoothed.where[inside])
     # The lattice of a volume of its own begins one cell before it.
     bricks, shape = np.array(BRICK), np.array(chunk.shape)
     own_shape = np.minimum(bricks * slots.shape - 1, shape - bricks * np.array(chunk.kept_low))
-    first, second, third = (int(count) for count in own_shape)
+    along_x, along_y, along_z = (int(count) for count in own_shape)
     field = SparseField(
-        shape=(first, second, third),
+        shape=(along_x, along_y, along_z),
         slots=slots,
         where=(where - low).astype(np.int32),
-        values=whole.values[inside],
-        data=whole.data[inside],
+        values=smoothed.values[inside],
+        data=smoothed.data[inside],
     )
     if straighten:
         field = straighten_profile(field, out=field.values, threads=threads)
     return ChunkField(field=field, own=chunk.owns(field.where), begun=begun[tuple(where.T)])
 
 
-def pack_field(kept: ChunkField) -> dict[str, NDArray[Any]]:
+def pack_field(chunk_field: ChunkField) -> dict[str, NDArray[Any]]:
     """Return the arrays of a field, to keep in a file; the data as bits."""
-    field = kept.field
+    field = chunk_field.field
     return {
         "shape": np.array(field.shape),
         "slots": field.slots,
         "where": field.where,
         "values": field.values,
         "data": np.packbits(field.data.reshape(-1, CELLS) > 0, axis=1),
-        "own": kept.own,
-        "begun": kept.begun,
+        "own": chunk_field.own,
+        "begun": chunk_field.begun,
     }
 
 
 def unpack_field(arrays: dict[str, NDArray[Any]]) -> ChunkField:
     """Return the field of `pack_field`."""
-    first, second, third = arrays["shape"].tolist()
+    along_x, along_y, along_z = arrays["shape"].tolist()
     data = np.where(np.unpackbits(arrays["data"], axis=1, count=CELLS), 1, -1).astype(np.int8)
     field = SparseField(
-        shape=(first, second, third),
+        shape=(along_x, along_y, along_z),
         slots=arrays["slots"],
         where=arrays["where"],
         values=arrays["values"],

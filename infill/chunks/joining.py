@@ -52,15 +52,15 @@ class ChunkComponents:
     strange_by: Numbers
 
 
-def survey_components(kept: ChunkField, chunk: Chunk, labelled: Components) -> ChunkComponents:
+def survey_components(chunk_field: ChunkField, chunk: Chunk, labelled: Components) -> ChunkComponents:
     """Count and name the components of a chunk, for `join_components`."""
-    field, count = kept.field, labelled.count
+    field, count = chunk_field.field, labelled.count
     lattice = np.array(chunk.lattice)
     tables = (labelled.bits, labelled.bricks, labelled.starts, labelled.names)
     where = (field.where + np.array(chunk.kept_low)).astype(np.int32)
     own_cells, first, anywhere = np.zeros(count, dtype=np.int64), np.full(count, -1), np.full(count, -1)
-    count_cells_of(where, kept.own, *tables, own_cells)
-    find_first_cells(where, kept.own & kept.begun, *tables, lattice, first)
+    count_cells_of(where, chunk_field.own, *tables, own_cells)
+    find_first_cells(where, chunk_field.own & chunk_field.begun, *tables, lattice, first)
     find_first_cells(where, np.ones(len(where), dtype=bool), *tables, lattice, anywhere)
     single = np.argwhere(labelled.alone >= 0)
     alone_names = labelled.names[labelled.alone[tuple(single.T)]]
@@ -71,7 +71,7 @@ def survey_components(kept: ChunkField, chunk: Chunk, labelled: Components) -> C
     order = np.argsort(-numbers, kind="stable")
     missing = anywhere[alone_names[order]] < 0
     anywhere[alone_names[order][missing]] = numbers[order][missing]
-    seen, seen_by = _border_cells(chunk, lambda places: look_up(kept, labelled, places))
+    seen, seen_by = _border_cells(chunk, lambda places: look_up(chunk_field, labelled, places))
     is_strange = own_cells == 0
     return ChunkComponents(
         cells=own_cells,
@@ -83,12 +83,14 @@ def survey_components(kept: ChunkField, chunk: Chunk, labelled: Components) -> C
     )
 
 
-def look_up(kept: ChunkField, labelled: Components, places: NDArray[Any], *, reach: int = 0) -> NDArray[np.int32]:
+def look_up(
+    chunk_field: ChunkField, labelled: Components, places: NDArray[Any], *, reach: int = 0
+) -> NDArray[np.int32]:
     """Return the component of cells (N, 3), on the lattice from the first kept brick; or the nearest in reach."""
     label = np.empty(len(places), dtype=np.int32)
     label_cells(
         np.ascontiguousarray(places, dtype=np.int32),
-        kept.field.slots,
+        chunk_field.field.slots,
         labelled.bits,
         labelled.bricks,
         labelled.starts,
@@ -137,11 +139,11 @@ def _border_cells(chunk: Chunk, label: Callable[[NDArray[Any]], NDArray[np.int32
             cells[..., axis] = height
             cells[..., across] = np.arange(low[across], high[across])[:, None]
             cells[..., along] = np.arange(low[along], high[along])[None]
-            found = label((cells - start).reshape(-1, 3)).reshape(cells.shape[:2])
-            begins = found >= 0
-            begins[:, 1:] &= found[:, 1:] != found[:, :-1]
+            labels = label((cells - start).reshape(-1, 3)).reshape(cells.shape[:2])
+            begins = labels >= 0
+            begins[:, 1:] &= labels[:, 1:] != labels[:, :-1]
             names.append(cell_names(cells[begins], chunk))
-            components.append(found[begins].astype(np.int64))
+            components.append(labels[begins].astype(np.int64))
     return np.concatenate(names), np.concatenate(components)
 
 

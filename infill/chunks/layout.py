@@ -72,8 +72,10 @@ class Chunk:
     def own_cells(self) -> tuple[slice, ...]:
         """The cells of the grid in its own bricks, counted from the first that is read."""
         return tuple(
-            slice(max(low * size - 1, 0) - first, min(high * size - 1, count) - first)
-            for low, high, size, count, first in zip(self.low, self.high, BRICK, self.shape, self.cell_low, strict=True)
+            slice(max(low * size - 1, 0) - along_x, min(high * size - 1, count) - along_x)
+            for low, high, size, count, along_x in zip(
+                self.low, self.high, BRICK, self.shape, self.cell_low, strict=True
+            )
         )
 
     @property
@@ -89,7 +91,7 @@ class Chunk:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Layout:
+class ChunkLayout:
     """The division of a volume into chunks.
 
     Parameters
@@ -101,7 +103,7 @@ class Layout:
     steps : int
         Steps of smoothing, each of which reaches one cell.
 
-    >>> [chunk.own_cells for chunk in Layout(shape=(20, 6, 14), size=(2, 1, 1), steps=3)][1]
+    >>> [chunk.own_cells for chunk in ChunkLayout(shape=(20, 6, 14), size=(2, 1, 1), steps=3)][1]
     (slice(15, 20, None), slice(0, 6, None), slice(0, 14, None))
     """
 
@@ -112,20 +114,24 @@ class Layout:
     @property
     def lattice(self) -> Place:
         """Bricks of the whole volume."""
-        first, second, third = (math.ceil((count + 2) / size) for count, size in zip(self.shape, BRICK, strict=True))
-        return first, second, third
+        along_x, along_y, along_z = (
+            math.ceil((count + 2) / size) for count, size in zip(self.shape, BRICK, strict=True)
+        )
+        return along_x, along_y, along_z
 
     @property
     def counts(self) -> Place:
         """Chunks along each axis."""
-        first, second, third = (math.ceil(bricks / size) for bricks, size in zip(self.lattice, self.size, strict=True))
-        return first, second, third
+        along_x, along_y, along_z = (
+            math.ceil(bricks / size) for bricks, size in zip(self.lattice, self.size, strict=True)
+        )
+        return along_x, along_y, along_z
 
     @property
     def margin(self) -> Place:
         """Bricks read beside a chunk: all cells whose values can reach its cubes."""
-        first, second, third = (max(LEAST_MARGIN, math.ceil((self.steps + 3) / size)) for size in BRICK)
-        return first, second, third
+        along_x, along_y, along_z = (max(LEAST_MARGIN, math.ceil((self.steps + 3) / size)) for size in BRICK)
+        return along_x, along_y, along_z
 
     def __len__(self) -> int:
         """Return the number of chunks."""
@@ -163,5 +169,5 @@ class Layout:
 
 def _as_place(numbers: NDArray[Any]) -> Place:
     """Return three whole numbers as a tuple."""
-    first, second, third = (int(number) for number in numbers)
-    return first, second, third
+    along_x, along_y, along_z = (int(number) for number in numbers)
+    return along_x, along_y, along_z

@@ -77,9 +77,9 @@ class UndecidedCubes:
     counts: Names
 
 
-def count_piece(kept: ChunkField, chunk: Chunk, level: float) -> tuple[CountedBricks, int, UndecidedCubes]:
+def count_piece(chunk_field: ChunkField, chunk: Chunk, level: float) -> tuple[CountedBricks, int, UndecidedCubes]:
     """Count the output of a chunk; return it with the number of its own bricks, which come first, and its cubes."""
-    field = kept.field
+    field = chunk_field.field
     bits = rows_above(field, field.values, level, threads=1)
     places = crossed_bricks(field, bits, 1)
     own = chunk.owns(places)
@@ -109,7 +109,7 @@ def edge_names(points: NDArray[np.float64], chunk: Chunk) -> Names:
 
 
 def make_piece(
-    kept: ChunkField,
+    chunk_field: ChunkField,
     chunk: Chunk,
     counted: tuple[CountedBricks, int, UndecidedCubes],
     *,
@@ -121,7 +121,7 @@ def make_piece(
 
     Parameters
     ----------
-    kept : ChunkField
+    chunk_field : ChunkField
     chunk : Chunk
     counted : tuple
         What `count_piece` returned.
@@ -132,7 +132,7 @@ def make_piece(
     """
     bricks, own_count, cubes = counted
     first = np.array(chunk.kept_low) * BRICK
-    raw = write_bricks(kept.field, bricks, level=level, first=tuple(first.tolist()), threads=1)
+    raw = write_bricks(chunk_field.field, bricks, level=level, first=tuple(first.tolist()), threads=1)
     own, own_faces, own_cubes = bricks.offsets[own_count].tolist()
     vertices, rate, faces = raw.vertices, raw.rate, raw.faces[:own_faces]
     inner = np.empty((0, 3))

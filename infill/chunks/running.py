@@ -65,11 +65,11 @@ class Runner:
     def run(
         self,
         function: Callable[..., Done],
-        first: Any,  # noqa: ANN401 - what all calls have in common
+        shared: Any,  # noqa: ANN401 - what all calls have in common
         items: Sequence[tuple[Any, ...]],
         progress: Callable[[float], None] | None = None,
     ) -> list[Done]:
-        """Return `function(first, *item)` for every item, in their order.
+        """Return `function(shared, *item)` for every item, in their order.
 
         Raises
         ------
@@ -79,13 +79,13 @@ class Runner:
         if not items:
             return []
         if self.client is not None:
-            return self._run_on_cluster(function, first, items, progress)
-        return self._run_here(function, first, items, progress)
+            return self._run_on_cluster(function, shared, items, progress)
+        return self._run_here(function, shared, items, progress)
 
     def _run_here(
         self,
         function: Callable[..., Done],
-        first: Any,  # noqa: ANN401
+        shared: Any,  # noqa: ANN401
         items: Sequence[tuple[Any, ...]],
         progress: Callable[[float], None] | None,
     ) -> list[Done]:
@@ -93,15 +93,15 @@ class Runner:
         from dask.callbacks import Callback
         from dask.delayed import delayed
 
-        call = delayed(partial(_call, function, first), pure=False)
+        call = delayed(partial(_call, function, shared), pure=False)
         tasks = [call(*map(_Plain, item)) for item in items]
-        done = 0
+        finished = 0
 
         def count(*_: object) -> None:
-            nonlocal done
-            done += 1
+            nonlocal finished
+            finished += 1
             if progress is not None:
-                progress(min(1.0, done / len(items)))
+                progress(min(1.0, finished / len(items)))
 
         options: dict[str, Any] = {"scheduler": self.where, "num_workers": self.workers}
         if self.pool is not None:
@@ -116,7 +116,7 @@ class Runner:
     def _run_on_cluster(
         self,
         function: Callable[..., Done],
-        first: Any,  # noqa: ANN401
+        shared: Any,  # noqa: ANN401
         items: Sequence[tuple[Any, ...]],
         progress: Callable[[float], None] | None,
     ) -> list[Done]:
@@ -126,8 +126,8 @@ class Runner:
         client = self.client
         futures: list[Any] = []
         try:
-            shared = client.scatter(first, broadcast=True, hash=False)
-            futures = [client.submit(_call_plain, function, shared, item, pure=False) for item in items]
+            scattered = client.scatter(shared, broadcast=True, hash=False)
+            futures = [client.submit(_call_plain, function, scattered, item, pure=False) for item in items]
             for number, _ in enumerate(as_completed(futures, loop=client.loop)):  # type: ignore[no-untyped-call]
                 if progress is not None:
                     progress((number + 1) / len(items))
@@ -154,14 +154,14 @@ class _Plain:
         self.value = value
 
 
-def _call(function: Callable[..., Done], first: Any, *item: _Plain) -> Done:  # noqa: ANN401
+def _call(function: Callable[..., Done], shared: Any, *item: _Plain) -> Done:  # noqa: ANN401
     """Call a function of plain arguments."""
-    return function(first, *(argument.value for argument in item))
+    return function(shared, *(argument.value for argument in item))
 
 
-def _call_plain(function: Callable[..., Done], first: Any, item: tuple[Any, ...]) -> Done:  # noqa: ANN401
+def _call_plain(function: Callable[..., Done], shared: Any, item: tuple[Any, ...]) -> Done:  # noqa: ANN401
     """Call a function on a worker."""
-    return function(first, *item)
+    return function(shared, *item)
 
 
 def check_runner(workers: int | None, scheduler: str | None) -> None:
@@ -176,7 +176,7 @@ def check_runner(workers: int | None, scheduler: str | None) -> None:
 
 @contextlib.contextmanager
 def open_runner(workers: int | None = None, scheduler: str | None = None) -> Iterator[Runner]:
-    """Yield what runs the tasks of a volume.
+    """Yield the runner for the tasks of a volume.
 
     Parameters
     ----------

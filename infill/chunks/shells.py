@@ -95,13 +95,14 @@ def _gather(parts: Mapping[int, LevelParts], begins: Mapping[int, int], kind: st
     return names, np.concatenate(nodes)
 
 
-def find_names(known: Numbers, wanted: Numbers) -> Numbers:
+def find_names(names: Numbers, queries: Numbers) -> Numbers:
     """Return the places of names among known ones; raise GeometryError if one is missing."""
-    order = np.argsort(known, kind="stable")
-    at = np.searchsorted(known, wanted, sorter=order)
-    if len(wanted) and (len(known) == 0 or (at == len(known)).any() or (known[order[at % len(known)]] != wanted).any()):
+    order = np.argsort(names, kind="stable")
+    at = np.searchsorted(names, queries, sorter=order)
+    beyond = len(queries) > 0 and (len(names) == 0 or bool((at == len(names)).any()))
+    if beyond or (names[order[at]] != queries).any():
         raise GeometryError("two pieces of the surface do not meet between their chunks; the input changed meanwhile")
-    places: Numbers = order[at] if len(wanted) else np.empty(0, dtype=np.int64)
+    places: Numbers = order[at] if len(queries) else np.empty(0, dtype=np.int64)
     return places
 
 

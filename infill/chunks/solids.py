@@ -1,4 +1,4 @@
-"""What is solid in a chunk: the same cells as `infill.voxels.segmentation` finds in the whole volume."""
+"""The solid cells of a chunk, the same that `infill.voxels.segmentation` finds in the whole volume."""
 
 from __future__ import annotations
 

@@ -133,7 +133,7 @@ class Solver:
     @property
     def surfaced(self) -> dict[int, Chunk]:
         """The chunks that a surface may cross."""
-        return {number: self.chunks[number] for number, done in self.smoothed.items() if done.start is not None}
+        return {number: self.chunks[number] for number, outcome in self.smoothed.items() if outcome.start is not None}
 
     def smooth(self) -> None:
         """Smooth all chunks."""
@@ -144,27 +144,29 @@ class Solver:
 
     def join_components(self) -> JoinedComponents:
         """Join the components of the chunks."""
-        surveys = {n: done.components for n, done in self.smoothed.items() if done.components is not None}
-        asked: dict[int, list[tuple[int, Numbers, Numbers]]] = {}
+        surveys = {n: outcome.components for n, outcome in self.smoothed.items() if outcome.components is not None}
+        queries: dict[int, list[tuple[int, Numbers, Numbers]]] = {}
         for number, survey in surveys.items():
             if len(survey.strange):
                 owners = self._owners(survey.strange)
                 for owner in np.unique(owners).tolist():
                     chosen = owners == owner
-                    asked.setdefault(owner, []).append((number, survey.strange_by[chosen], survey.strange[chosen]))
-        owners_list = [owner for owner in asked if self.smoothed[owner].start is not None]
+                    queries.setdefault(owner, []).append((number, survey.strange_by[chosen], survey.strange[chosen]))
+        owners_list = [owner for owner in queries if self.smoothed[owner].start is not None]
         questions = [
-            (self.chunks[owner], np.concatenate([names for _, _, names in asked[owner]])) for owner in owners_list
+            (self.chunks[owner], np.concatenate([names for _, _, names in queries[owner]])) for owner in owners_list
         ]
         answers = self.runner.run(look_up_components, self.work, questions, lambda share: self.tell("join", share))
-        found = dict(zip(owners_list, answers, strict=True))
+        replies = dict(zip(owners_list, answers, strict=True))
         links = []
-        for owner, asking in asked.items():
+        for owner, query in queries.items():
             begin = 0
-            for number, components, names in asking:
+            for number, components, names in query:
                 end = begin + len(names)
                 # A chunk without a surface is solid throughout.
-                others = found[owner][begin:end].astype(np.int64) if owner in found else np.zeros(len(names), np.int64)
+                others = (
+                    replies[owner][begin:end].astype(np.int64) if owner in replies else np.zeros(len(names), np.int64)
+                )
                 links.append((number, components, owner, others))
                 begin = end
         self.joined = join_components(_solid_only(surveys), links)
@@ -208,8 +210,8 @@ class Solver:
         """Return the whole surface at the first level, which was measured when the chunks were smoothed."""
         level = 0.0 if self.work.level is None else self.work.level
         parts = {number: self.smoothed[number].start for number in self.surfaced}
-        known = {number: part for number, part in parts.items() if part is not None}
-        return self._measure({number: LevelTask(level=level) for number in known}, known, level, "surface")
+        measured = {number: part for number, part in parts.items() if part is not None}
+        return self._measure({number: LevelTask(level=level) for number in measured}, measured, level, "surface")
 
     def _measure(
         self, tasks: Mapping[int, LevelTask], known: Mapping[int, LevelParts], level: float, stage: str
@@ -250,7 +252,7 @@ class Solver:
             start = self.measure_start()
         except GeometryError:
             start = None
-        bricks = sum(done.bricks for done in self.smoothed.values())
+        bricks = sum(outcome.bricks for outcome in self.smoothed.values())
         decided = start is not None and not any(len(part.cubes.bricks) for part in start.parts.values())
         at_zero = start.shells.total if start is not None and decided and bricks >= LARGE else None
 
@@ -292,11 +294,11 @@ class Solver:
         """Count the vertices and triangles of all chunks, without those of the shells that `crumbs` (n,) marks."""
         removed = {number: crumbs[names] for number, names in surface.shells.names.items()}
         chunks, counts, shared = [], [], []
-        again = [number for number, marked in removed.items() if marked.any()]
-        items = [(self.chunks[n], surface.tasks[n], removed[n]) for n in again]
+        recounted_chunks = [number for number, marked in removed.items() if marked.any()]
+        items = [(self.chunks[n], surface.tasks[n], removed[n]) for n in recounted_chunks]
         recounted = dict(
             zip(
-                again,
+                recounted_chunks,
                 self.runner.run(rank_shared, self.work, items, lambda share: self.tell("check", share)),
                 strict=True,
             )
@@ -346,7 +348,7 @@ def elect(surface: MeasuredSurface, cells: Numbers) -> tuple[Numbers, Numbers]:
 
 
 def number_cubes(parts: Mapping[int, LevelParts]) -> dict[int, Numbers]:
-    """Return how many undecided cubes of the whole surface lie in bricks before each brick, by chunk."""
+    """Return the number of undecided cubes before each brick, in the order of the whole surface, by chunk."""
     bricks = np.concatenate([part.cubes.bricks for part in parts.values()])
     counts = np.concatenate([part.cubes.counts for part in parts.values()])
     order = np.argsort(bricks)

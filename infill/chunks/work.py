@@ -1,4 +1,4 @@
-"""What is done with one chunk: plain functions of plain data, which any thread, process or machine may run.
+"""The work on one chunk: plain functions of plain data, which any thread, process or machine may run.
 
     survey_values ─▶ extremes          smooth ─▶ components, volumes at the first level
     count_values  ─▶ histogram         try_level ─▶ volumes at other levels       make_part ─▶ triangles to write
@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from infill.chunks.fields import ChunkField, pack_field, smooth_chunk, unpack_field
 from infill.chunks.joining import ChunkComponents, look_up, named_cells, survey_components, survey_solid
-from infill.chunks.layout import Chunk, Layout
+from infill.chunks.layout import Chunk, ChunkLayout
 from infill.chunks.pieces import (
     Piece,
     ShellParts,
@@ -63,7 +63,7 @@ class Work:
     ----------
     source : CellReader
     rule : SolidRule
-    layout : Layout
+    layout : ChunkLayout
     smoothing : Smoothing
     spacing : (hx, hy, hz), mm
     level : float or None
@@ -74,7 +74,7 @@ class Work:
 
     source: CellReader
     rule: SolidRule
-    layout: Layout
+    layout: ChunkLayout
     smoothing: Smoothing
     spacing: tuple[float, ...]
     level: float | None
@@ -119,7 +119,7 @@ def survey_values(work: Work, chunk: Chunk) -> ValueSurvey:
 
 
 def _survey(values: NDArray[Any]) -> ValueSurvey:
-    """Find the extremes of values, and whether there are no others."""
+    """Survey values: their extremes, and whether all cells have one of these two."""
     lowest, highest = values.min().item(), values.max().item()
     finite = math.isfinite(lowest) and math.isfinite(highest)
     two = finite and bool(((values == lowest) | (values == highest)).all())
@@ -152,7 +152,7 @@ class LevelParts:
     shared, shared_in, shared_rank : (S,) int64, int32, int64
         Names of shared vertices, their parts, and their numbers among the vertices of the chunk.
     voters, votes : (v,) int64
-        Part times the number of components plus the component of the whole, and the vertices nearest to it.
+        ChunkTriangles times the number of components plus the component of the whole, and the vertices nearest to it.
     """
 
     cubes: UndecidedCubes
@@ -176,7 +176,7 @@ class Lowering:
     ----------
     levels : (b,) float64
     common : float
-        The level of what has none of its own.
+        The level of everything else.
     """
 
     levels: NDArray[np.float64]
@@ -219,18 +219,18 @@ def smooth(work: Work, chunk: Chunk) -> SmoothedChunk:
     solid = np.ascontiguousarray(work.rule.mark(values))
     count = count_solid_cells(np.ascontiguousarray(solid[chunk.own_cells]))
     del values, own_values
-    kept = _smooth(work, chunk, solid)
-    if kept is None:
+    chunk_field = _smooth(work, chunk, solid)
+    if chunk_field is None:
         components = survey_solid(chunk) if count else None
         return SmoothedChunk(values=survey, solid=count, bricks=0, components=components, start=None, data=None)
-    _keep(work, chunk, kept)
-    grey = replace(kept, field=replace(kept.field, values=kept.field.data.astype(np.float32)))
+    _keep(work, chunk, chunk_field)
+    grey = replace(chunk_field, field=replace(chunk_field.field, values=chunk_field.field.data.astype(np.float32)))
     return SmoothedChunk(
         values=survey,
         solid=count,
-        bricks=int(kept.own.sum()),
-        components=survey_components(kept, chunk, kept.components()),
-        start=_measure(work, chunk, kept, 0.0 if work.level is None else work.level),
+        bricks=int(chunk_field.own.sum()),
+        components=survey_components(chunk_field, chunk, chunk_field.components()),
+        start=_measure(work, chunk, chunk_field, 0.0 if work.level is None else work.level),
         data=_measure(work, chunk, grey, 0.0, any_numbers=True),
     )
 
@@ -245,7 +245,7 @@ def _path(work: Work, chunk: Chunk) -> Path | None:
     return Path(work.scratch) / f"{chunk.number}.npz" if work.scratch and Path(work.scratch).is_dir() else None
 
 
-def _keep(work: Work, chunk: Chunk, kept: ChunkField) -> None:
+def _keep(work: Work, chunk: Chunk, chunk_field: ChunkField) -> None:
     """Keep a field in the scratch folder, if there is room for it."""
     path = _path(work, chunk)
     if path is None:
@@ -253,11 +253,11 @@ def _keep(work: Work, chunk: Chunk, kept: ChunkField) -> None:
     part = path.with_suffix(f".{os.getpid()}")
     with contextlib.suppress(OSError):
         space = shutil.disk_usage(path.parent)
-        if space.free - kept.field.values.nbytes < FREE_SPACE * space.total:
+        if space.free - chunk_field.field.values.nbytes < FREE_SPACE * space.total:
             return
         try:
             with part.open("wb") as file:
-                np.savez(file, **pack_field(kept))  # type: ignore[arg-type]
+                np.savez(file, **pack_field(chunk_field))  # type: ignore[arg-type]
             part.replace(path)
         finally:
             part.unlink(missing_ok=True)
@@ -269,17 +269,17 @@ def open_field(work: Work, chunk: Chunk) -> ChunkField:
     if path is not None:
         with contextlib.suppress(OSError), np.load(path) as arrays:
             return unpack_field(dict(arrays))
-    kept = _smooth(work, chunk, np.ascontiguousarray(work.rule.mark(work.read(chunk))))
-    assert kept is not None  # it was not when it was smoothed first
-    _keep(work, chunk, kept)
-    return kept
+    chunk_field = _smooth(work, chunk, np.ascontiguousarray(work.rule.mark(work.read(chunk))))
+    assert chunk_field is not None  # it was not when it was smoothed first
+    _keep(work, chunk, chunk_field)
+    return chunk_field
 
 
 def look_up_components(work: Work, chunk: Chunk, names: Numbers) -> NDArray[np.int32]:
     """Return the components of cells by their names: see `infill.chunks.joining`."""
-    kept = open_field(work, chunk)
+    chunk_field = open_field(work, chunk)
     cells = named_cells(names, chunk.lattice) - np.array(chunk.kept_low) * BRICK
-    return look_up(kept, kept.components(), cells)
+    return look_up(chunk_field, chunk_field.components(), cells)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -311,25 +311,25 @@ class LevelTask:
 
 def try_level(work: Work, chunk: Chunk, task: LevelTask) -> LevelParts:
     """Measure the surface of a chunk at a level."""
-    kept = open_field(work, chunk)
-    labelled = kept.components() if task.names is not None and (task.lowering or task.votes) else None
-    lowered = _lower(kept, labelled, task)
+    chunk_field = open_field(work, chunk)
+    labelled = chunk_field.components() if task.names is not None and (task.lowering or task.votes) else None
+    lowered = _lower(chunk_field, labelled, task)
     return _measure(work, chunk, lowered, task.level, task=task, labelled=labelled)
 
 
-def _lower(kept: ChunkField, labelled: Components | None, task: LevelTask) -> ChunkField:
+def _lower(chunk_field: ChunkField, labelled: Components | None, task: LevelTask) -> ChunkField:
     """Subtract the levels of components from a field."""
     if task.lowering is None or labelled is None or task.names is None:
-        return kept
-    labels = label_field(kept.field, labelled, 1)
+        return chunk_field
+    labels = label_field(chunk_field.field, labelled, 1)
     levels = task.lowering.levels[task.names]
-    return replace(kept, field=lower_to_levels(kept.field, labels, levels, task.lowering.common, 1))
+    return replace(chunk_field, field=lower_to_levels(chunk_field.field, labels, levels, task.lowering.common, 1))
 
 
 def _measure(
     work: Work,
     chunk: Chunk,
-    kept: ChunkField,
+    chunk_field: ChunkField,
     level: float,
     *,
     task: LevelTask | None = None,
@@ -337,7 +337,7 @@ def _measure(
     any_numbers: bool = False,
 ) -> LevelParts:
     """Measure the surface of a chunk; with `any_numbers`, wherever undecided cubes lie in a row."""
-    counted = count_piece(kept, chunk, level)
+    counted = count_piece(chunk_field, chunk, level)
     cubes = counted[2]
     first_cubes = None if task is None else task.first_cubes
     if first_cubes is None:
@@ -347,11 +347,11 @@ def _measure(
         complete = True
     if not complete:
         return _no_parts(cubes)
-    piece = make_piece(kept, chunk, counted, level=level, spacing=work.spacing, first_cubes=first_cubes)
+    piece = make_piece(chunk_field, chunk, counted, level=level, spacing=work.spacing, first_cubes=first_cubes)
     parts = measure_parts(piece, chunk, work.spacing)
     voters = votes = np.empty(0, dtype=np.int64)
     if task is not None and task.votes and labelled is not None and task.names is not None:
-        voters, votes = _count_votes(work, chunk, kept, piece, parts, labelled, task)
+        voters, votes = _count_votes(work, chunk, chunk_field, piece, parts, labelled, task)
     used = parts.names[: piece.own] >= 0
     rank = np.cumsum(used) - 1
     return LevelParts(
@@ -391,7 +391,7 @@ def _no_parts(cubes: UndecidedCubes) -> LevelParts:
 def _count_votes(
     work: Work,
     chunk: Chunk,
-    kept: ChunkField,
+    chunk_field: ChunkField,
     piece: Piece,
     parts: ShellParts,
     labelled: Components,
@@ -400,7 +400,7 @@ def _count_votes(
     """Count for each part the vertices nearest to each component; return part times components plus component, too."""
     assert task.names is not None
     places = vertex_places(piece.vertices[: piece.own], work.spacing, chunk)
-    label = look_up(kept, labelled, places, reach=REACH)
+    label = look_up(chunk_field, labelled, places, reach=REACH)
     shell = parts.names[: piece.own]
     has_label = (label >= 0) & (shell >= 0)
     key = shell[has_label].astype(np.int64) * task.components + task.names[label[has_label]]
@@ -409,7 +409,7 @@ def _count_votes(
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Part:
+class ChunkTriangles:
     """The triangles of a chunk, as they are written.
 
     Parameters
@@ -433,11 +433,11 @@ class Part:
     shared_rank: Numbers
 
 
-def make_part(work: Work, chunk: Chunk, task: LevelTask, removed: NDArray[np.bool_]) -> Part:
+def make_part(work: Work, chunk: Chunk, task: LevelTask, removed: NDArray[np.bool_]) -> ChunkTriangles:
     """Make the triangles of a chunk at a level, without the parts that `removed` (s,) marks."""
-    kept = open_field(work, chunk)
-    labelled = kept.components() if task.names is not None and task.lowering else None
-    lowered = _lower(kept, labelled, task)
+    chunk_field = open_field(work, chunk)
+    labelled = chunk_field.components() if task.names is not None and task.lowering else None
+    lowered = _lower(chunk_field, labelled, task)
     counted = count_piece(lowered, chunk, task.level)
     first_cubes = np.zeros(len(counted[2].bricks), dtype=np.int64) if task.first_cubes is None else task.first_cubes
     piece = make_piece(lowered, chunk, counted, level=task.level, spacing=work.spacing, first_cubes=first_cubes)
@@ -447,7 +447,7 @@ def make_part(work: Work, chunk: Chunk, task: LevelTask, removed: NDArray[np.boo
     number = np.concatenate([np.cumsum(own) - 1, int(own.sum()) + np.cumsum(foreign) - 1])
     faces = piece.faces[stays[piece.faces[:, 0]]]
     is_left = own[piece.shared_at]
-    return Part(
+    return ChunkTriangles(
         vertices=piece.vertices[: piece.own][own],
         faces=number[faces],
         foreign=piece.foreign[foreign],
@@ -466,10 +466,10 @@ def rank_shared(
 
 
 def field_values(work: Work, chunk: Chunk, level: float, lowering: LevelTask) -> NDArray[np.float32]:
-    """Return the field of a chunk's own cells, minus its level, within +-1: what `SmoothStages.field` returns."""
-    kept = open_field(work, chunk)
-    labelled = kept.components() if lowering.names is not None and lowering.lowering else None
-    field = _lower(kept, labelled, lowering).field
+    """Return the field of a chunk's own cells, minus its level, within +-1, as `SmoothStages.field` does."""
+    chunk_field = open_field(work, chunk)
+    labelled = chunk_field.components() if lowering.names is not None and lowering.lowering else None
+    field = _lower(chunk_field, labelled, lowering).field
     dense = field.to_dense(threads=1)
     first = np.maximum(np.array(chunk.low) * BRICK - 1, 0) - np.array(chunk.kept_low) * BRICK
     sizes = [part.stop - part.start for part in chunk.own_cells]

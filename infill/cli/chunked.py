@@ -1,4 +1,4 @@
-"""``infill smooth`` for a volume in chunks: what it writes, and what it says."""
+"""``infill smooth`` for a volume in chunks: its files, its plan and its summary."""
 
 from __future__ import annotations
 
@@ -59,10 +59,10 @@ def smooth_chunks(
             volume = open_volume(source, array=settings.array, spacing=settings.spacing)
         volume = volume if settings.roi is None else volume.crop(settings.roi)
         choices = {"threshold": settings.threshold, "between": settings.between, "otsu": settings.otsu or None}
-        given = [name for name, value in choices.items() if value is not None]
-        if len(given) > 1:
-            raise UsageError.about(tuple(given), "exclude each other; give one of them")
-        threshold = cast("Threshold", "otsu" if settings.otsu else choices[given[0]] if given else None)
+        chosen = [name for name, value in choices.items() if value is not None]
+        if len(chosen) > 1:
+            raise UsageError.about(tuple(chosen), "exclude each other; give one of them")
+        threshold = cast("Threshold", "otsu" if settings.otsu else choices[chosen[0]] if chosen else None)
         if output.dry_run:
             _show_plan(volume, request, threshold, settings, output, workers=workers, scheduler=scheduler)
             return
@@ -158,7 +158,7 @@ def _show_plan(
     workers: int | None,
     scheduler: str | None,
 ) -> None:
-    """Print what a run would cost."""
+    """Print the cost of a run."""
     from infill.smoothing.chunked_plan import plan_chunked
 
     with print_log(shown=not output.quiet):

@@ -47,7 +47,7 @@ class PieceWriter(Protocol):
         """Write the next piece."""
 
     def finish(self) -> None:
-        """Write what stands at the end."""
+        """Write the end of the file."""
 
 
 class StlPieces:

@@ -1,4 +1,4 @@
-"""Arrays in files that are not compressed: .npy, NIfTI, NRRD and TIFF, of which the system reads what is used."""
+"""Arrays in files that are not compressed: .npy, NIfTI, NRRD and TIFF, read in parts by the system."""
 
 from __future__ import annotations
 
@@ -115,8 +115,10 @@ def open_npy(path: Path) -> LazyVolume:
     with wrap_reader_errors(path):
         values = npy_format.open_memmap(path, mode="r")
         require_volume(str(path), values.shape, values.dtype)
-        first, second, third = values.shape
-        stored, axes = (values.shape, (0, 1, 2)) if values.flags.c_contiguous else ((third, second, first), (2, 1, 0))
+        along_x, along_y, along_z = values.shape
+        stored, axes = (
+            (values.shape, (0, 1, 2)) if values.flags.c_contiguous else ((along_z, along_y, along_x), (2, 1, 0))
+        )
         return LazyVolume(array=MappedArray(str(path), values.offset, stored, axes, values.dtype.str), name=str(path))
 
 

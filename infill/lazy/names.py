@@ -1,4 +1,4 @@
-"""Tell by its name what a volume is: no package is loaded for that."""
+"""Tell kinds of volumes by their names, without loading a package."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def is_url(name: str) -> bool:
 
 
 def is_zarr(name: str) -> bool:
-    """Tell by the name, or by what a folder holds, whether it is Zarr, or an array in one."""
+    """Tell by the name, or by the contents of a folder, whether it is Zarr, or an array in one."""
     if is_url(name):
         return True
     path = Path(name)

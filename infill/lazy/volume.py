@@ -58,8 +58,8 @@ class LazyVolume:
     @property
     def shape(self) -> tuple[int, int, int]:
         """Cells along each axis."""
-        first, second, third = self.array.shape
-        return first, second, third
+        along_x, along_y, along_z = self.array.shape
+        return along_x, along_y, along_z
 
     def load(self) -> Volume:
         """Read all cells; raise MemoryLimitError if they do not fit into memory."""
@@ -115,7 +115,7 @@ class BoxArray:
     def read(self, box: tuple[slice, ...]) -> NDArray[Any]:
         """Read the cells of a box."""
         return self.array.read(
-            tuple(slice(part.start + first, part.stop + first) for part, first in zip(box, self.low, strict=True))
+            tuple(slice(part.start + along_x, part.stop + along_x) for part, along_x in zip(box, self.low, strict=True))
         )
 
 

@@ -125,8 +125,8 @@ def open_zarr(name: str, array: str | None = None) -> LazyVolume:
 
 def _multiscale(attributes: Mapping[str, Any]) -> Mapping[str, Any] | None:
     """Return the first multiscale of a group, as OME-Zarr 0.4 or 0.5 has it."""
-    found = attributes.get("ome", attributes)
-    listed = found.get("multiscales") if isinstance(found, Mapping) else None
+    metadata = attributes.get("ome", attributes)
+    listed = metadata.get("multiscales") if isinstance(metadata, Mapping) else None
     return listed[0] if isinstance(listed, list) and listed and isinstance(listed[0], Mapping) else None
 
 
@@ -158,7 +158,7 @@ def _describe(name: str, array: Any, scales: Mapping[str, Any] | None, inside: s
     stored, kind = tuple(int(count) for count in array.shape), np.dtype(array.dtype)
     entry = None
     if scales is not None:
-        entry = next((one for one in scales.get("datasets", []) if str(one.get("path")) == inside), None)
+        entry = next((dataset for dataset in scales.get("datasets", []) if str(dataset.get("path")) == inside), None)
     if scales is None or entry is None:
         require_volume(name, stored, kind)
         _tell_of_missing(name, array)

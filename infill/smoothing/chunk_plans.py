@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from infill.chunks.layout import Layout
+from infill.chunks.layout import ChunkLayout
 from infill.chunks.running import Runner
 from infill.chunks.solving import bytes_of_chunk, chunk_size
 from infill.errors import ParameterError, UsageError
@@ -34,7 +34,7 @@ class ChunkPlan:
 
     Parameters
     ----------
-    layout : Layout
+    layout : ChunkLayout
     workers : int
     memory : int
         Bytes of all chunks that are worked on at once, about, at most.
@@ -42,19 +42,19 @@ class ChunkPlan:
         Bytes of cells that are read in one pass, margins included.
     """
 
-    layout: Layout
+    layout: ChunkLayout
     workers: int
     memory: int
     read: int
 
 
-def check_chunked(request: SmoothRequest, **others: Any) -> None:  # noqa: ANN401 - options of smooth_volume
+def check_chunked(request: SmoothRequest, **options: Any) -> None:  # noqa: ANN401 - options of smooth_volume
     """Raise an error for options that a volume in chunks does not have.
 
     Parameters
     ----------
     request : SmoothRequest
-    **others
+    **options
         Further options by name; those that are None or False are not given.
     """
     if request.method != "plain":
@@ -69,7 +69,7 @@ def check_chunked(request: SmoothRequest, **others: Any) -> None:  # noqa: ANN40
         raise UsageError.about("tolerance", "is not for a volume in chunks, which keeps all triangles; give 0")
     if request.despeckle:
         raise UsageError.about("despeckle", "is not for a volume in chunks; give more crumbs instead, or leave it out")
-    for name, value in others.items():
+    for name, value in options.items():
         if value is not None and value is not False:
             raise UsageError.about(name, "is not for a volume in chunks; leave it out")
 
@@ -91,11 +91,11 @@ def plan_chunks(volume: LazyVolume, request: SmoothRequest, runner: Runner, *, s
     memory = int((available_memory() or 2**32) * MEMORY_SHARE) // runner.workers if share is None else share
     largest = side or LARGEST_CELLS
     size = chunk_size(volume.shape, steps, item=item, memory=memory, largest=largest)
-    layout = Layout(shape=volume.shape, size=size, steps=steps)
+    layout = ChunkLayout(shape=volume.shape, size=size, steps=steps)
     while side is None and len(layout) < LEAST_CHUNKS * runner.workers and largest > FEWEST_CELLS:
         largest -= BRICK[2] * 2
         size = chunk_size(volume.shape, steps, item=item, memory=memory, largest=largest)
-        layout = Layout(shape=volume.shape, size=size, steps=steps)
+        layout = ChunkLayout(shape=volume.shape, size=size, steps=steps)
     cells = max(size[axis] * BRICK[axis] for axis in range(3))
     at_once = min(runner.workers, len(layout))
     read = item * sum(

@@ -2,8 +2,8 @@
 
     smooth all chunks  ─▶  level of the volume  ─▶  crumbs  ─▶  pieces of surface, one after another  ─▶  report
 
-The passes over the chunks are those of `infill.chunks.solving`; what they find is judged here as far as whole numbers
-can tell: by volume, components, cavities and tunnels. Distances from the input are not measured.
+The passes over the chunks are those of `infill.chunks.solving`; their result is judged by whole numbers alone:
+volume, components, cavities and tunnels. Distances from the input are not measured.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.chunks.layout import Layout
+from infill.chunks.layout import ChunkLayout
 from infill.chunks.running import open_runner, require_dask
 from infill.chunks.solids import SolidRule
 from infill.chunks.solving import Solver
@@ -160,7 +160,7 @@ def _load_kernels(work: Work) -> None:
     """Load the compiled loops before several threads need them at once."""
     corner = np.zeros((6, 6, 6), dtype=bool)
     corner[2:4, 2:4, 2:4] = True
-    layout = Layout(shape=(6, 6, 6), size=(1, 1, 1), steps=1)
+    layout = ChunkLayout(shape=(6, 6, 6), size=(1, 1, 1), steps=1)
     trial = replace(
         work,
         source=_ArrayReader(corner),

@@ -1,4 +1,4 @@
-"""What smoothing a volume in chunks will cost, from a few of its chunks."""
+"""The cost of smoothing a volume in chunks, from a few of its chunks."""
 
 from __future__ import annotations
 
@@ -57,9 +57,9 @@ def plan_chunked(
     seconds, triangles, crossed = 0.0, 0, 0
     for chunk in chosen:
         begin = time.perf_counter()
-        done = smooth(work, chunk)
+        smoothed = smooth(work, chunk)
         between = time.perf_counter()
-        if done.start is not None:
+        if smoothed.start is not None:
             crossed += 1
             smoothing = between - begin
             part = make_part(work, chunk, LevelTask(level=work.level or 0.0), np.zeros(0, dtype=bool))

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ChunkedStages:
-    """What is left of a volume that was smoothed in chunks.
+    """The volume that was smoothed in chunks.
 
     Parameters
     ----------

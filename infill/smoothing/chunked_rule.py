@@ -1,4 +1,4 @@
-"""What is solid in a volume in chunks, by its options or by the values of all chunks."""
+"""The solid in a volume in chunks, by its options or by the values of all chunks."""
 
 from __future__ import annotations
 
@@ -46,9 +46,11 @@ def find_rule(
         raise UsageError.about(("threshold", "label", "otsu"), "exclude each other; give one of them")
     if label is not None:
         labels = tuple(label) if isinstance(label, (tuple, list, np.ndarray)) else (label,)
-        if not labels or not all(isinstance(one, (int, np.integer)) and not isinstance(one, bool) for one in labels):
+        if not labels or not all(
+            isinstance(number, (int, np.integer)) and not isinstance(number, bool) for number in labels
+        ):
             raise ParameterError.about("label", f"is {label!r}; give one whole number, or several")
-        wholes = tuple(int(one) for one in labels)
+        wholes = tuple(int(number) for number in labels)
         return SolidRule(labels=wholes), {"method": "label", "label": list(wholes)}
     if ranged:
         for value in (low, high):
@@ -96,7 +98,7 @@ def _find_otsu(
 
 
 def _join_surveys(surveys: Sequence[ValueSurvey]) -> ValueSurvey:
-    """Join what is known of the values of chunks; raise ParameterError for values that are not finite."""
+    """Join the surveys of all chunks; raise ParameterError for values that are not finite."""
     if not all(survey.finite for survey in surveys):
         raise ParameterError(NOT_FINITE)
     ends = {end for survey in surveys for end in (survey.lowest, survey.highest)}
@@ -107,8 +109,8 @@ def _join_surveys(surveys: Sequence[ValueSurvey]) -> ValueSurvey:
 
 def require_some_solid(solver: Solver, used: SegmentationRule) -> SegmentationKeys:
     """Return the rule with the values and the solid share; raise ParameterError if no cell, or every cell, is solid."""
-    values = _join_surveys([done.values for done in solver.smoothed.values()])
-    solid = sum(done.solid for done in solver.smoothed.values())
+    values = _join_surveys([outcome.values for outcome in solver.smoothed.values()])
+    solid = sum(outcome.solid for outcome in solver.smoothed.values())
     cells = math.prod(solver.work.layout.shape)
     if solid in (0, cells):
         amount = "no cell" if solid == 0 else "every cell"

@@ -14,7 +14,7 @@ from infill.chunks.hashing import add_up, face_sums
 from infill.chunks.layout import Chunk
 from infill.chunks.shells import JoinedShells, join_shells
 from infill.chunks.solving import MeasuredSurface, Numbering, Solver
-from infill.chunks.work import Part, field_values, make_part
+from infill.chunks.work import ChunkTriangles, field_values, make_part
 from infill.errors import GeometryError
 from infill.formats.mesh_pieces import MeshPiece
 from infill.inspection.bricks import TopologyCheck
@@ -106,7 +106,7 @@ class ChunkedSurface:
                     self.progress("write", WRITING + (1 - WRITING) * number / len(chunks))
         self.seconds["write"] = time.perf_counter() - begin
 
-    def _piece(self, part: Part, number: int, place: Volume) -> MeshPiece:
+    def _piece(self, part: ChunkTriangles, number: int, place: Volume) -> MeshPiece:
         """Place a piece in space and give its vertices their numbers in the whole mesh."""
         own = len(part.vertices)
         points = place_points(np.concatenate([part.vertices, part.corners]), place)
@@ -137,8 +137,8 @@ class ChunkedSurface:
         surfaced = self.solver.surfaced
         batch = BATCH * self.plan.workers
         for first in range(0, len(chunks), batch):
-            some = chunks[first : first + batch]
-            crossed = [chunk for chunk in some if chunk.number in surfaced]
+            batch_chunks = chunks[first : first + batch]
+            crossed = [chunk for chunk in batch_chunks if chunk.number in surfaced]
             items = [(chunk, self.surface.level, self.surface.tasks[chunk.number]) for chunk in crossed]
             values = dict(
                 zip(
@@ -147,7 +147,7 @@ class ChunkedSurface:
                     strict=True,
                 )
             )
-            for chunk in some:
+            for chunk in batch_chunks:
                 box = tuple(
                     slice(part.start + low, part.stop + low)
                     for part, low in zip(chunk.own_cells, chunk.cell_low, strict=True)
@@ -162,7 +162,7 @@ class ChunkedSurface:
         return np.clip(sign - lowered, np.float32(-1), np.float32(1))
 
     def problems(self) -> list[str]:
-        """Return what is wrong with the volume, one phrase each."""
+        """Return the problems of the volume, one phrase each."""
         off = self.enclosed / self.target - 1
         if self.request.level != "volume" or abs(off) <= VOLUME_TOLERANCE:
             return []
@@ -287,7 +287,7 @@ def find_all_crumbs(
 
 def compare_counts(solver: Solver, shells: JoinedShells, marked: NDArray[np.bool_]) -> TopologyCheck:
     """Compare the connections of the data with those of the surface, without its crumbs."""
-    data = {n: done.data for n, done in solver.smoothed.items() if done.data is not None}
+    data = {n: outcome.data for n, outcome in solver.smoothed.items() if outcome.data is not None}
     before = join_shells(data, solver.cell_volume)
     return TopologyCheck(
         data=_count(before, np.zeros(len(before.volume), dtype=bool)),
