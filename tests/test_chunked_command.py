@@ -98,6 +98,7 @@ def test_files_hash_and_report_are_those_of_memory(folder: Path) -> None:
     assert report["closed"]
 
 
+@pytest.mark.longest
 def test_rows_of_obj_are_those_of_memory(folder: Path) -> None:
     run("smooth", "g.zarr", *PLAIN, "-o", "a.obj", "-q")
     run("smooth", "g.npy", *PLAIN, "-o", "b.obj", "--tolerance", "0", "-q", "--strict", "--allow-broken")
@@ -108,6 +109,7 @@ def test_rows_of_obj_are_those_of_memory(folder: Path) -> None:
     assert rows[0] == rows[1]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("choice", [("--otsu",), ("--range", "90,160"), ("--label", "131", "--label", "132")])
 def test_choices_of_the_solid(choice: tuple[str, ...], folder: Path) -> None:
     extra = ("--smooth", "plain", "--allow-broken", "--hash", "-q", *choice)
@@ -125,6 +127,7 @@ def test_a_mask_and_a_box(folder: Path) -> None:
     assert chunks.stdout == whole.stdout
 
 
+@pytest.mark.longest
 def test_other_methods_read_zarr_whole(folder: Path) -> None:
     hashes = [run("smooth", name, "--threshold", "120", "--hash", "-q").stdout for name in ("g.zarr", "g.npy")]
     assert hashes[0] == hashes[1] != ""
@@ -174,7 +177,10 @@ def test_a_dry_run_tells_the_cost(folder: Path) -> None:
         ((*PLAIN, "--otsu"), "--threshold and --otsu exclude each other"),
     ],
 )
-def test_what_a_volume_in_chunks_refuses(words: tuple[str, ...], says: str, folder: Path) -> None:
+def test_what_a_volume_in_chunks_refuses(
+    words: tuple[str, ...], says: str, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(running, "CONNECTING", 1)
     before = set(folder.iterdir())
     refused(run("smooth", "g.zarr", "-o", "a.ply", *words), says)
     assert set(folder.iterdir()) == before
@@ -327,7 +333,7 @@ def chunked_hash(inputs: Path, **options: Any) -> str:
         return surface.report()["hash"]
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize(
     "options", [{"scheduler": "processes", "workers": 2}, {"scheduler": "processes", "workers": 1}]
 )

@@ -183,15 +183,9 @@ class ChunkedSurface:
         if reasons and not self.request.allow_broken:
             raise GeometryError(f"{'; '.join(reasons)}; give fewer --steps, or --allow-broken to have it anyway")
 
-    def report(self, *, area_known: bool = True) -> ChunksReport:
-        """Return the report; the pieces have to have been read once.
-
-        Parameters
-        ----------
-        area_known : bool
-            Whether they were; if not, they are read now.
-        """
-        if not area_known or not self._sums:
+    def report(self) -> ChunksReport:
+        """Return the report; the pieces are made for it unless they were made before."""
+        if not self._sums:
             for _ in self.pieces():
                 pass
         place = self.volume.place(np.zeros((1, 1, 1), dtype=bool))
