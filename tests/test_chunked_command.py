@@ -360,6 +360,10 @@ def test_a_cluster_changes_no_bit(cluster: Any, inputs: Path, whole_hash: str) -
     with Client(cluster):  # the current client
         values = dask.array.from_zarr(str(inputs / "g.zarr"))
         found = smooth_volume(values, threshold=120, method="plain", smoothing=Smoothing(steps=6)).surface
+        with pytest.raises(
+            ParameterError, match="is persisted on a cluster, where tasks cannot read it; leave persist"
+        ):
+            smooth_volume(values.persist() + 1, threshold=120, method="plain")
     assert hash_surface(found.vertices, found.faces) == whole_hash
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.errors import InfillError
+from infill.errors import InfillError, ParameterError
 from infill.lazy.volume import read_error
 
 
@@ -17,6 +17,16 @@ def is_dask(array: object) -> bool:
     """Tell whether something is a Dask array, without loading Dask."""
     module = sys.modules.get("dask.array")
     return module is not None and isinstance(array, module.Array)
+
+
+def require_readable_anywhere(array: Any) -> None:  # noqa: ANN401 - dask.array.Array
+    """Raise ParameterError for an array that is persisted on a cluster: its tasks cannot wait for one another."""
+    for layer in array.dask.layers.values():
+        value = next(iter(getattr(layer, "mapping", {}).values()), None)
+        if type(value).__module__.startswith("distributed"):
+            raise ParameterError(
+                "the array is persisted on a cluster, where tasks cannot read it; leave persist out, or store it"
+            )
 
 
 @dataclass(frozen=True)

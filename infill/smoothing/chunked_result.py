@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from infill.errors import ParameterError
 from infill.grid import spacing_of
-from infill.lazy.dask_arrays import DaskArray, is_dask
+from infill.lazy.dask_arrays import DaskArray, is_dask, require_readable_anywhere
 from infill.lazy.opening import open_volume
 from infill.lazy.volume import LazyVolume, require_volume
 from infill.result import Result
@@ -55,6 +55,7 @@ def open_lazy(
     """
     if not is_dask(volume):
         return open_volume(cast("str | os.PathLike[str]", volume), spacing=spacing)
+    require_readable_anywhere(volume)
     array = DaskArray(volume)
     require_volume("the array", array.shape, array.dtype)
     sizes = spacing_of(1.0 if spacing is None else spacing, AXES)
