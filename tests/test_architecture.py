@@ -28,7 +28,7 @@ ROWS: tuple[tuple[str, ...], ...] = (
     ("meshes", "contours", "paths"),
     ("isosurfaces", "partition", "imaging", "drawings"),
     ("formats", "voxels", "gcode"),
-    ("planner", "inspection", "interior"),
+    ("planner", "inspection", "interior", "lazy", "chunks"),
     ("pictures", "options", "drains"),
     ("result",),
     ("smoothing", "lattices", "refilling", "projects", "samples", "timing", "verifying"),
@@ -61,6 +61,10 @@ KEPT = {
     "DracoPy": "infill.formats.gltf_reader",
     "pydicom": "infill.imaging.dicom",
     "typer": "infill.cli",
+    "zarr": "infill.lazy",
+    "h5py": "infill.lazy",
+    "distributed": "infill.chunks",
+    "dask": "infill.chunks",
     "rich": "infill.cli",
 }
 PATTERNS_TAKE = {"numpy", "shapely"}

@@ -40,7 +40,7 @@ DECLARATIONS: dict[str, type[Any]] = {
 }
 # Flags of the run and its files, which no config file has.
 RUN = {"ascii", "config", "dry_run", "force", "json", "max_memory", "output", "preview", "quiet", "save_config", "set"}
-RUN |= {"cut", "in_place", "layer", "plot", "threads", "trust", "verbose", "write"}
+RUN |= {"cut", "hash", "in_place", "layer", "plot", "scheduler", "threads", "trust", "verbose", "workers", "write"}
 PATTERN_FLAGS = {"cell", "angle", "phase", "frame", "waves", "hearts"}  # of `make`: parameters of the pattern
 ONLY_MAKE = PATTERN_FLAGS | {"allow_broken"}
 

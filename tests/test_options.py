@@ -81,6 +81,7 @@ OUT_OF_RANGE = {
         "--max-triangles": "0 -5",
         "--threads": "0 -1",
         "--max-memory": "-1G 0 nan",
+        "--workers": "0 -1",
     },
     "smooth labels": {"--range": "5,1 3000,4000 nan,5", "--label": "99", "--frame": "7"},
     "smooth mesh": {"--resolution": "0 -1"},
@@ -146,6 +147,8 @@ UNREAD = {
         "--roi": "1,2",
         "--steps": "2.5",
         "--label": "1.5",
+        "--workers": "2.5",
+        "--scheduler": "foo",
     },
     "smooth labels": {"--range": "5 1,2,3"},
     "fill": {

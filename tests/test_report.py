@@ -10,6 +10,7 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from pathlib import Path
 from typing import Any, get_args, get_origin, is_typeddict
 
+import dask.array
 import numpy as np
 import pytest
 import trimesh
@@ -146,6 +147,21 @@ def smooth_plans(folder: Path, results: Results) -> dict[str, Any]:
     )
     words["dicom"] = ["--range", "300,900"]
     return {name: printed("smooth", folder / name, *more, "--dry-run") for name, more in words.items()}
+
+
+def chunks_reports(folder: Path, results: Results) -> dict[str, Any]:
+    np.save(folder / "ball.npy", BALL)
+    words = (folder / "ball.npy", "--smooth", "plain", "--workers", "1")
+    return {
+        "array": smooth_volume(dask.array.from_array(BALL), method="plain").report,
+        "command": printed("smooth", *words, "-o", folder / "chunks.ply"),
+    }
+
+
+def chunks_plans(folder: Path, results: Results) -> dict[str, Any]:
+    np.save(folder / "ball.npy", BALL)
+    words = (folder / "ball.npy", "--smooth", "plain", "--workers", "1", "-o", folder / "chunks.ply")
+    return {"command": printed("smooth", *words, "--dry-run")}
 
 
 def labels_reports(folder: Path, results: Results) -> dict[str, Any]:
@@ -326,6 +342,8 @@ REPORTS: dict[str, Callable[[Path, Results], dict[str, Any]]] = {
     "make --density --dry-run": lattice_plans,
     "smooth": smooth_reports,
     "smooth --dry-run": smooth_plans,
+    "chunks": chunks_reports,
+    "chunks --dry-run": chunks_plans,
     "labels": labels_reports,
     "together": together_reports,
     "labels --dry-run": labels_plans,

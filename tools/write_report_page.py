@@ -116,6 +116,29 @@ CHAPTERS = (
         known=(smoothing.SolidRequest, common.GridKeys),
     ),
     Chapter(
+        title="Smooth: a volume in chunks",
+        word="chunks",
+        text="`infill smooth` prints this report of a [volume larger than the memory](scale.md), and `smooth_volume` "
+        "returns it for a Dask array. `request`, `grid`, `input.segmentation`, `solid`, `topology` and `crumbs` have "
+        "the keys of [the report of one solid](#smooth-a-volume-a-mesh-or-points).",
+        report=smoothing.ChunksReport,
+        known=(
+            smoothing.SolidRequest,
+            smoothing.SegmentationKeys,
+            smoothing.CrumbKeys,
+            common.GridKeys,
+            common.Solid,
+            common.Topology,
+        ),
+    ),
+    Chapter(
+        title="Smooth: a dry run of a volume in chunks",
+        word="chunks --dry-run",
+        text="`infill smooth … --dry-run` smooths some of the chunks, and prints the expected costs of all.",
+        report=smoothing.ChunksForecast,
+        known=(smoothing.SolidRequest, common.GridKeys),
+    ),
+    Chapter(
         title="Labels: every label of a segmentation",
         word="labels",
         text="`smooth_labels` returns this report, and `infill smooth` prints it with `{label}` in the name of an "

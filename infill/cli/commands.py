@@ -105,7 +105,9 @@ def _find_missing_input(context: typer.Context) -> Path | None:
     arguments = [option.name for option in context.command.params if option.param_type_name == "argument"]
     values = [context.params.get(str(name)) for name in arguments]
     paths = [path for value in values for path in (value if isinstance(value, (list, tuple)) else [value])]
-    return next((path for path in paths if isinstance(path, Path) and not path.exists()), None)
+    # A URL, or a dataset in a file, is not a path.
+    files = (path for path in paths if isinstance(path, Path) and ":/" not in str(path))
+    return next((path for path in files if not path.exists()), None)
 
 
 class Group(TyperGroup):

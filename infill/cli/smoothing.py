@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, BinaryIO, cast
 
 import typer
 
+from infill.cli.chunked import smooth_chunks, wants_chunks
 from infill.cli.common import (
     FILES,
     RUN,
@@ -42,8 +43,8 @@ def smooth(
         Path,
         typer.Argument(
             metavar="INPUT...",
-            help="Mesh (.stl .3mf .obj .ply .off .glb .gltf), volume (.npy .npz .tif .nrrd .nii .mha .mgz .vtk .vti, a "
-            "folder of DICOM or slices) or points (.xyz .csv .txt .npy .ply).",
+            help="Mesh (.stl .3mf .obj .ply .off .glb .gltf), volume (.npy .npz .tif .nrrd .nii .mha .mgz .vtk .vti "
+            ".zarr .h5:/PATH, a URL, a folder of DICOM or slices) or points (.xyz .csv .txt .npy .ply).",
         ),
     ],
     output: Annotated[
@@ -80,6 +81,32 @@ def smooth(
             "--dry-run", help="Only show grid, method, memory and time, and possible remedies.", rich_help_panel=RUN
         ),
     ] = False,
+    workers: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N",
+            help="Smooth a volume in chunks, N at once, without having all of it in memory; with --smooth plain. "
+            "(default: for Zarr and HDF5, one per core)",
+            rich_help_panel=RUN,
+        ),
+    ] = None,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(
+            metavar="ADDRESS",
+            help="Run the chunks on a cluster of Dask, such as tcp://host:8786; or on threads or processes of this "
+            "machine. (default: threads)",
+            rich_help_panel=RUN,
+        ),
+    ] = None,
+    show_hash: Annotated[
+        bool,
+        typer.Option(
+            "--hash",
+            help="Print the hash of the set of triangles: the same for any chunks, workers and order.",
+            rich_help_panel=RUN,
+        ),
+    ] = False,
     as_json: Json = False,
     quiet: Quiet = False,
     verbose: Verbose = False,
@@ -88,7 +115,7 @@ def smooth(
     from infill.cli.piping import with_suffix
     from infill.cli.words import parse_bytes
 
-    if not (output or preview or as_json or save_config or dry_run):
+    if not (output or preview or as_json or save_config or dry_run or show_hash):
         raise typer.BadParameter("nothing to write; give -o FILE, --json to see the report, or --dry-run")
     settings = resolve(typed, config, trust=trust)
     settings.check()
@@ -109,7 +136,7 @@ def smooth(
         quiet=quiet,
         verbose=verbose,
     )
-    if not (output or preview or as_json or dry_run):
+    if not (output or preview or as_json or dry_run or show_hash):
         _save_config(outputs)
     elif wants_every_label(
         outputs.outputs,
@@ -119,7 +146,12 @@ def smooth(
         together=settings.together,
     ):
         refuse_options(settings, outputs)
+        if workers is not None or scheduler is not None or show_hash:
+            option = "--hash" if show_hash else "--workers and --scheduler"
+            raise typer.BadParameter(f"{option} is for one surface; leave it out, or choose one label by --label")
         smooth_every_label(source, settings, outputs, options)
+    elif wants_chunks(source, settings, workers, scheduler):
+        smooth_chunks(source, settings, outputs, options, workers=workers, scheduler=scheduler, show_hash=show_hash)
     else:
         _check_formats(outputs, settings)
         outputs.check()
@@ -127,7 +159,7 @@ def smooth(
             files = filter(None, (*outputs.outputs, preview, save_config))
             show_smooth_plan(source, settings, options, files, as_json=as_json, quiet=quiet)
         else:
-            _smooth_source(source, settings, options, outputs)
+            _smooth_source(source, settings, options, outputs, show_hash=show_hash)
 
 
 def _save_config(output: SmoothOutput) -> None:
@@ -156,7 +188,9 @@ def _check_formats(output: SmoothOutput, settings: SmoothSettings) -> None:
         check_preview(output.preview)
 
 
-def _smooth_source(source: Path, settings: SmoothSettings, options: SmoothOptions, output: SmoothOutput) -> None:
+def _smooth_source(
+    source: Path, settings: SmoothSettings, options: SmoothOptions, output: SmoothOutput, *, show_hash: bool
+) -> None:
     """Smooth a file or folder, write the files and print a summary."""
     from infill.cli.piping import deliver_all
     from infill.formats.mesh_files import WRITERS, mesh_writer
@@ -191,8 +225,15 @@ def _smooth_source(source: Path, settings: SmoothSettings, options: SmoothOption
             say(component_summary(result, written, str(source)))
         else:
             say(_summary(result.report, written, str(source), verbose=output.verbose))
+    number = {}
+    if show_hash:
+        from infill.chunks.hashing import hash_surface
+
+        number = {"hash": hash_surface(result.whole.vertices, result.whole.faces)}
     if output.as_json:
-        print_json({**result.report, "files": written})
+        print_json({**result.report, **number, "files": written})
+    elif show_hash:
+        typer.echo(number["hash"])
 
 
 def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool) -> str:

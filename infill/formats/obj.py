@@ -125,6 +125,21 @@ def _corners(
 
 def write_obj(surface: Surface, file: BinaryIO) -> None:
     """Write Wavefront OBJ."""
+    write_obj_head(file)
+    write_obj_vertices(file, surface.vertices)
+    write_obj_faces(file, surface.faces)
+
+
+def write_obj_head(file: BinaryIO) -> None:
+    """Write the first lines."""
     file.write(f"# phasefill {__version__}, millimetres\no infill\n".encode())
-    write_rows(file, "v %.9g %.9g %.9g\n", surface.vertices)
-    write_rows(file, "f %d %d %d\n", surface.faces, add=1)
+
+
+def write_obj_vertices(file: BinaryIO, vertices: NDArray[np.floating]) -> None:
+    """Write a line for each vertex (V, 3)."""
+    write_rows(file, "v %.9g %.9g %.9g\n", vertices)
+
+
+def write_obj_faces(file: BinaryIO, faces: NDArray[np.integer]) -> None:
+    """Write a line for each triangle (F, 3), by the numbers of its vertices."""
+    write_rows(file, "f %d %d %d\n", faces, add=1)

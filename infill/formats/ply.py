@@ -158,6 +158,16 @@ def _to_integers(path: Path, values: NDArray[Any]) -> NDArray[np.int64]:
     return values.astype(np.int64)
 
 
+def ply_header(vertices: int, triangles: int, properties: str = "") -> bytes:
+    """Return the header of binary PLY; `properties` are lines for what faces have besides their corners."""
+    return (
+        "ply\nformat binary_little_endian 1.0\n"
+        f"comment phasefill {__version__}, millimetres\n"
+        f"element vertex {vertices}\nproperty float x\nproperty float y\nproperty float z\n"
+        f"element face {triangles}\nproperty list uchar int vertex_indices\n{properties}end_header\n"
+    ).encode()
+
+
 def write_ply(surface: Surface, file: BinaryIO) -> None:
     """Write binary PLY."""
     _write_rows(surface.vertices, surface.faces, {}, file)
@@ -181,11 +191,6 @@ def _write_rows(
     for name, column in numbers.items():
         faces[name] = column
     properties = "".join(f"property {NAMES[column.dtype.str[1:]]} {name}\n" for name, column in numbers.items())
-    file.write(
-        "ply\nformat binary_little_endian 1.0\n"
-        f"comment phasefill {__version__}, millimetres\n"
-        f"element vertex {len(vertices)}\nproperty float x\nproperty float y\nproperty float z\n"
-        f"element face {len(triangles)}\nproperty list uchar int vertex_indices\n{properties}end_header\n".encode()
-    )
+    file.write(ply_header(len(vertices), len(triangles), properties))
     file.write(vertices.astype("<f4").tobytes())
     file.write(faces.tobytes())

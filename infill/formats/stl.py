@@ -98,13 +98,23 @@ def _text_corners(path: Path, text: bytes) -> NDArray[np.floating]:
         raise format_error from error
 
 
+def stl_header(triangles: int, space: str) -> bytes:
+    """Return the 84 bytes before the triangles."""
+    named = f" SPACE={space}" if space else ""  # as 3D Slicer writes and reads it
+    text = f"phasefill {__version__} UNITS=mm{named}".encode().ljust(80)
+    return text + triangles.to_bytes(4, "little")
+
+
+def facets_of(surface: Surface) -> Iterator[tuple[NDArray[np.float32], NDArray[np.float32]]]:
+    """Yield unit normals (n, 3) and corners (n, 3, 3) of the triangles, in pieces, compiled if there are many."""
+    compiled = "numba" in sys.modules and len(surface.faces) > AT_ONCE  # else loading it takes longer
+    return _compiled_facets(surface) if compiled else _facets(surface)
+
+
 def write_stl(surface: Surface, file: BinaryIO) -> None:
     """Write binary STL: 50 bytes per triangle, 32-bit coordinates."""
-    space = f" SPACE={surface.space}" if surface.space else ""  # as 3D Slicer writes and reads it
-    file.write(f"phasefill {__version__} UNITS=mm{space}".encode().ljust(80))
-    file.write(np.uint32(len(surface.faces)).astype("<u4").tobytes())
-    compiled = "numba" in sys.modules and len(surface.faces) > AT_ONCE  # else loading it takes longer
-    for normals, corners in _compiled_facets(surface) if compiled else _facets(surface):
+    file.write(stl_header(len(surface.faces), surface.space))
+    for normals, corners in facets_of(surface):
         record = np.zeros(len(corners), dtype=RECORD)
         record["corners"] = corners
         record["normal"] = normals

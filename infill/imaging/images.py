@@ -92,6 +92,27 @@ def read_frame(header: ImageHeader, frame: int | None, read: CellReader) -> Volu
     return place_volume(header, _cells_by_frame(header, read(0, header.cells))[..., frame_index])
 
 
+@dataclass(frozen=True, kw_only=True)
+class StoredCells:
+    """Where an image that is not compressed has its cells in a file, so that a part of them can be read.
+
+    Parameters
+    ----------
+    header : ImageHeader
+        Its axes of space come first.
+    path : Path
+        The file.
+    begin : int
+        Position of the first cell, bytes.
+    kind : dtype
+    """
+
+    header: ImageHeader
+    path: Path
+    begin: int
+    kind: np.dtype[Any]
+
+
 def read_frames(header: ImageHeader, read: CellReader) -> tuple[Volume, ...]:
     """Read all volumes of an image; they may be empty."""
     values = _cells_by_frame(header, read(0, header.cells))
@@ -106,16 +127,24 @@ def _cells_by_frame(header: ImageHeader, cells: NDArray[Any]) -> NDArray[Any]:
 
 def place_volume(header: ImageHeader, values: NDArray[Any], *, varied: bool = True) -> Volume:
     """Place values [x, y, z] by the affine, which must be neither sheared nor flat; return the volume."""
+    return checked_volume(header.path, values, varied=varied, **placement(header))
+
+
+def placement(header: ImageHeader) -> dict[str, Any]:
+    """Return spacing, origin, direction and space of a volume by the affine, which must not be flat."""
     columns, centre = header.affine[:, :AXES], header.affine[:, AXES]
     spacing = np.linalg.norm(columns, axis=0)
     if not (np.isfinite(header.affine).all() and (spacing > 0).all() and np.isfinite(spacing).all()):
         raise FormatError(
             f"{header.path} has no usable place in space: its matrix is {_format_matrix(header.affine)}; save it again"
         )
-    direction = columns / spacing
     corner = centre - columns.sum(axis=1) / 2
-    place = {"spacing": tuple(spacing.tolist()), "origin": tuple(corner.tolist()), "direction": direction}
-    return checked_volume(header.path, values, varied=varied, space=header.space, **place)
+    return {
+        "spacing": tuple(spacing.tolist()),
+        "origin": tuple(corner.tolist()),
+        "direction": columns / spacing,
+        "space": header.space,
+    }
 
 
 def require_sizes(path: Path, sizes: tuple[int, ...]) -> None:

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from infill.errors import FormatError
 from infill.files.broken import error_text, wrap_reader_errors
 from infill.imaging.assumed import warn
-from infill.imaging.images import CellReader, ImageHeader, read_frame, read_frames, require_sizes
+from infill.imaging.images import CellReader, ImageHeader, StoredCells, read_frame, read_frames, require_sizes
 from infill.imaging.packed import cut_off_error, read_bytes
 from infill.plain_numbers import plain_argument
 from infill.volume import AXES, Volume
@@ -163,6 +163,31 @@ def _read_image(path: Path, read: Callable[[ImageHeader, CellReader], Content]) 
             return _scaled(path, content.view(kind), header)
 
         return read(image, read_cells)
+
+
+def locate_nifti(path: Path) -> StoredCells:
+    """Return where a file that is not compressed has its cells, of the values themselves.
+
+    Raises
+    ------
+    FormatError
+        If it is compressed, or its cells are scaled to values.
+    """
+    with wrap_reader_errors(path), np.errstate(all="ignore"), path.open("rb") as file:
+        if file.read(2) == MAGIC_OF_GZIP:
+            raise FormatError(f"{path} is compressed, so that no part of it can be read; unpack it, or save it as Zarr")
+        file.seek(0)
+        header = _parse_header(path, _read_head(path, file, packed=False))
+        slope, intercept = header.numbers("slope")
+        if math.isfinite(slope) and slope != 0 and (slope, intercept) != (1, 0):
+            raise FormatError(
+                f"{path} scales its cells by {plain_argument(slope)} to values; save the values themselves, or Zarr"
+            )
+        sizes = _sizes(path, header)
+        image = ImageHeader(
+            path=path, sizes=sizes, spatial=tuple(range(AXES)), affine=_affine(path, header, sizes), space="LPS"
+        )
+        return StoredCells(header=image, path=path, begin=_first_cell(path, header), kind=_kind(path, header))
 
 
 def _read_head(path: Path, file: BinaryIO, *, packed: bool) -> bytes:

@@ -12,7 +12,7 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import IO, BinaryIO, cast
+from typing import IO, Any, BinaryIO, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +26,7 @@ from infill.imaging.images import (
     TO_LPS,
     CellReader,
     ImageHeader,
+    StoredCells,
     read_frame,
     read_frames,
     require_sizes,
@@ -146,16 +147,44 @@ def count_nrrd_frames(path: Path) -> int:
         return _open_image(path)[0].frames
 
 
+def locate_nrrd(path: Path) -> StoredCells:
+    """Return where a file that is not compressed has its cells.
+
+    Raises
+    ------
+    FormatError
+        If it is compressed or text, or its cells lie in several files or behind lines to skip.
+    """
+    with wrap_reader_errors(path), np.errstate(all="ignore"):  # infinite places are refused
+        fields, header = _read_header(path)
+        encoding, kind, lines, skipped = _cell_type(path, fields)
+        files = _data_files(path, fields)
+        if encoding != "raw":
+            raise FormatError(
+                f"{path} is encoded as {encoding}, so that no part of it can be read; save it raw, or save it as Zarr"
+            )
+        if len(files) > 1 or lines:
+            raise FormatError(f"{path} has its cells in several files or behind lines of text; save it as one .nrrd")
+        file, begin = files[0]
+        at_end = file.stat().st_size - header.cells * kind.itemsize
+        return StoredCells(header=header, path=file, begin=at_end if skipped == -1 else begin + skipped, kind=kind)
+
+
 def _open_image(path: Path) -> tuple[ImageHeader, CellReader]:
     """Return the header of a file, and the function that reads its cells."""
+    fields, header = _read_header(path)
+    return header, _cell_reader(path, fields, header)
+
+
+def _read_header(path: Path) -> tuple[_NrrdFields, ImageHeader]:
+    """Return the fields of a file, and the header of its image."""
     fields = _parse_header(path)
     dimension = int(fields["dimension"])
     sizes = tuple(int(word) for word in fields["sizes"].split())
     if len(sizes) != dimension:
         raise ValueError(f"{len(sizes)} sizes for a dimension of {dimension}")
     require_sizes(path, sizes)
-    header = _place_image(path, fields, sizes)
-    return header, _cell_reader(path, fields, header)
+    return fields, _place_image(path, fields, sizes)
 
 
 def _parse_header(path: Path) -> _NrrdFields:
@@ -359,6 +388,17 @@ def _split_words(text: str) -> list[str]:
 
 def _cell_reader(path: Path, fields: _NrrdFields, header: ImageHeader) -> CellReader:
     """Return the function that reads the cells of a file, after checking the header."""
+    encoding, kind, lines, skipped = _cell_type(path, fields)
+    parts = _data_files(path, fields)
+    # Compressed data are skipped once unpacked, plain ones before.
+    parts_read = [
+        DataFile(path=file, begin=begin, lines=lines, skip=skipped, from_end=skipped == -1) for file, begin in parts
+    ]
+    return lambda low, high: read_data_files(path, parts_read, kind, header.cells, low, high, encoding=encoding)
+
+
+def _cell_type(path: Path, fields: _NrrdFields) -> tuple[str, np.dtype[Any], int, int]:
+    """Return the encoding and the type of the cells, and the lines and bytes to skip before them."""
     name = fields["type"].lower()
     if name not in KINDS:
         raise FormatError(f"{path} holds cells of type {name[:40]!r}; save them as integers or floats")
@@ -378,12 +418,7 @@ def _cell_reader(path: Path, fields: _NrrdFields, header: ImageHeader) -> CellRe
         raise FormatError(
             f"{path} skips {lines} lines and {skipped} bytes of {encoding} data; give 0 or more, or -1 for raw data"
         )
-    parts = _data_files(path, fields)
-    # Compressed data are skipped once unpacked, plain ones before.
-    parts_read = [
-        DataFile(path=file, begin=begin, lines=lines, skip=skipped, from_end=skipped == -1) for file, begin in parts
-    ]
-    return lambda low, high: read_data_files(path, parts_read, kind, header.cells, low, high, encoding=encoding)
+    return encoding, kind, lines, skipped
 
 
 def _data_files(path: Path, fields: _NrrdFields) -> list[tuple[Path, int]]:

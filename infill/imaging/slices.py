@@ -7,6 +7,7 @@ import logging
 import math
 import re
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -66,22 +67,75 @@ def _read_tiff_pages(path: Path, *, with_spacing: bool = True) -> tuple[NDArray[
     import tifffile
 
     with _raise_complaints(path), wrap_reader_errors(path), tifffile.TiffFile(path) as tiff:
-        series = tiff.series
-        if not series:
-            raise FormatError(f"{path} holds no pages; save it again")
-        if len(series) > 1:
-            shapes = ", ".join(str(series_item.shape) for series_item in series[:4])
-            raise FormatError(f"{path} holds pages of different kinds, {shapes}; save one stack of equal pages")
-        axes, shape = series[0].axes, series[0].shape
-        if "S" in axes or "C" in axes:
-            raise FormatError(
-                f"{path} holds colours or channels (axes {axes}, shape {shape}); save one of them as grey"
-            )
-        if len(shape) > AXES:
-            raise FormatError(f"{path} has {len(shape)} axes ({axes}, shape {shape}); save one stack of it")
-        require_memory(series[0].nbytes, None, SMALLER_VOLUME_ADVICE)
-        _require_whole_pages(path, series[0])
-        return series[0].asarray(), _tiff_spacing(path, tiff) if with_spacing else ()
+        series = _only_series(path, tiff)
+        require_memory(series.nbytes, None, SMALLER_VOLUME_ADVICE)
+        _require_whole_pages(path, series)
+        return series.asarray(), _tiff_spacing(path, tiff) if with_spacing else ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class TiffStack:
+    """The pages of a TIFF, of which none is read yet.
+
+    Parameters
+    ----------
+    shape : (z, y, x) or (y, x)
+    kind : dtype
+    spacing : (hx, hy, hz), mm
+    begin : int or None
+        Position of the first cell, bytes, if all cells follow it without compression.
+    """
+
+    shape: tuple[int, ...]
+    kind: np.dtype[Any]
+    spacing: tuple[float, ...]
+    begin: int | None
+
+
+def locate_tiff(path: Path) -> TiffStack:
+    """Return the shape of a stack of grey pages, and where its cells lie if they are not compressed.
+
+    Raises
+    ------
+    FormatError
+        As `read_tiff`.
+    """
+    import tifffile
+
+    with _raise_complaints(path), wrap_reader_errors(path), tifffile.TiffFile(path) as tiff:
+        series = _only_series(path, tiff)
+        begin = series.dataoffset if series.keyframe.is_memmappable else None
+        kind = np.dtype(f"{tiff.byteorder}{series.dtype.str[1:]}") if begin is not None else np.dtype(series.dtype)
+        return TiffStack(shape=tuple(series.shape), kind=kind, spacing=_tiff_spacing(path, tiff), begin=begin)
+
+
+def read_tiff_pages(path: Path, low: int, high: int) -> NDArray[Any]:
+    """Read pages `low` to `high - 1` of a stack, [z, y, x]; the only page of a file without a stack is page 0."""
+    import tifffile
+
+    with _raise_complaints(path), wrap_reader_errors(path), tifffile.TiffFile(path) as tiff:
+        series = _only_series(path, tiff)
+        if len(series.shape) == 2:
+            return np.asarray(series.asarray())[None]
+        if len(series.pages) == 1:  # one page holds all of the stack, as ImageJ writes it
+            return np.asarray(series.asarray()[low:high])
+        return np.stack([series.pages[number].asarray() for number in range(low, high)])
+
+
+def _only_series(path: Path, tiff: Any) -> Any:  # noqa: ANN401 - of tifffile
+    """Return the only series of grey pages of a file, checked."""
+    series = tiff.series
+    if not series:
+        raise FormatError(f"{path} holds no pages; save it again")
+    if len(series) > 1:
+        shapes = ", ".join(str(series_item.shape) for series_item in series[:4])
+        raise FormatError(f"{path} holds pages of different kinds, {shapes}; save one stack of equal pages")
+    axes, shape = series[0].axes, series[0].shape
+    if "S" in axes or "C" in axes:
+        raise FormatError(f"{path} holds colours or channels (axes {axes}, shape {shape}); save one of them as grey")
+    if len(shape) > AXES:
+        raise FormatError(f"{path} has {len(shape)} axes ({axes}, shape {shape}); save one stack of it")
+    return series[0]
 
 
 def _require_whole_pages(path: Path, series: Any) -> None:  # noqa: ANN401 - tifffile.TiffPageSeries

@@ -6,6 +6,7 @@ cells are joined by faces, void cells by faces and edges, as marching cubes join
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -21,6 +22,8 @@ from infill.kernels.threads import in_threads, thread_count
 from infill.meshes.shells import shell_volumes, vertex_components
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
+
+HIGH_BITS = 26  # of the largest value: as many add up exactly
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -275,12 +278,33 @@ def label_shells(
         )
     shell = names[surface.faces[:, 0]]
     volumes, change = face_sums(surface, rate, threads=threads)
-    volume, slope = (
-        np.bincount(shell, weights=weights, minlength=count).astype(np.float64) for weights in (volumes, change)
-    )
+    volume, slope = (sum_exactly(shell, weights, count) for weights in (volumes, change))
     used = names if names.min(initial=0) >= 0 else names[names >= 0]
     corners, sides = np.bincount(used, minlength=count), np.bincount(shell, minlength=count)
     return SurfaceShells(names=names, volume=volume, slope=slope, euler=corners - sides // 2)
+
+
+def sum_exactly(group: NDArray[np.integer], values: NDArray[np.float64], count: int) -> NDArray[np.float64]:
+    """Sum the values of each group, almost without rounding: in any order, the same to the last bit or the one before.
+
+    Each value is split in two: a multiple of 2^-26 of the largest, which add up exactly, and a rest, which is small.
+
+    Parameters
+    ----------
+    group : (n,) int
+    values : (n,) float64
+        Up to 2^27 of them.
+    count : int
+        Number of groups.
+    """
+    largest = float(np.abs(values).max(initial=0.0))
+    if not 0 < largest < math.inf:
+        return np.bincount(group, weights=values, minlength=count).astype(np.float64)
+    unit = 2.0 ** (math.frexp(largest)[1] - HIGH_BITS)
+    high = np.rint(values / unit)
+    rest = values - high * unit
+    whole, fractions = (np.bincount(group, weights=part, minlength=count).astype(np.float64) for part in (high, rest))
+    return whole * unit + fractions
 
 
 def shell_names(surface: Surface) -> tuple[NDArray[np.int32], int]:

@@ -8,8 +8,10 @@ the true surface. Components differ, so each gets a separate level.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,6 +34,9 @@ from infill.kernels.threads import in_threads, run_together, thread_count
 from infill.phasefield.profile import PLAIN_PROFILE
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
+
+Found = TypeVar("Found")
+Measured = TypeVar("Measured", bound="MeasuredLevel")
 
 # Levels lie between minus and plus this: at +-1 the distance is cut off and there is no surface, while a surface this
 # close to the limit still has cells on both sides that are not cut off.
@@ -132,6 +137,45 @@ class LevelStart:
 
     at_zero: tuple[float, float] | None = None
     first: LevelTrial | None = None
+
+
+class MeasuredLevel(Protocol):
+    """A level, the volume inside it, mm³, and its change when the level rises by one."""
+
+    @property
+    def level(self) -> float:
+        """The level."""
+
+    @property
+    def volume(self) -> float:
+        """The volume inside it, mm³."""
+
+    @property
+    def slope(self) -> float:
+        """The change of the volume when the level rises by one."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ComponentTrial(Generic[Found]):
+    """A surface on which every component has a level of its own, in parts that are connected.
+
+    Parameters
+    ----------
+    component : (s,) int64
+        The component of the data nearest to each part, -1 for none.
+    fused : (n, 2) int64
+        Pairs of components that share a part.
+    volume, slope : (s,) float64
+        Volume of each part, mm³, and its change when the level rises by one.
+    found : object
+        The surface.
+    """
+
+    component: NDArray[np.int64]
+    fused: NDArray[np.int64]
+    volume: NDArray[np.float64]
+    slope: NDArray[np.float64]
+    found: Found
 
 
 def try_level(field: SparseField, level: float, *, spacing: tuple[float, ...], threads: int) -> LevelTrial:
@@ -242,24 +286,9 @@ def surface_at_volume(
     total = float(targets.sum())
     start = start or LevelStart()
     at_zero = start.at_zero or measure_level(field, spacing=spacing, level=0.0, threads=threads)
-    level = _next_level(0.0, *at_zero, total) if at_zero is not None and at_zero[1] < 0 else 0.0
-    best: LevelTrial | None = None
-    for round_number in range(ROUNDS):
-        try:
-            trial = start.first if round_number == 0 else None
-            trial = trial or try_level(field, level, spacing=spacing, threads=threads)
-        except GeometryError:
-            level = (level - LIMIT) / 2  # nothing is left above this level
-            if level < -LIMIT + 1e-3:
-                break
-            continue
-        if best is None or abs(trial.volume - total) < abs(best.volume - total):
-            best = trial
-        if abs(trial.volume - total) <= TOLERANCE * total or trial.slope >= 0:
-            break
-        level = _next_level(trial.level, trial.volume, trial.slope, total)
-    if best is None:
-        raise GeometryError("nothing is left of the solid after smoothing, which is too thin for its voxels")
+    best = search_common_level(
+        total, lambda level: try_level(field, level, spacing=spacing, threads=threads), at_zero, start.first
+    )
     if data.count == 1:
         return LevelSurface(
             field=field,
@@ -273,6 +302,50 @@ def surface_at_volume(
             threads=threads,
         )
     return _level_components(field, data, spacing=spacing, targets=targets, common=best.level, threads=threads)
+
+
+def search_common_level(
+    total: float,
+    try_at: Callable[[float], Measured],
+    at_zero: tuple[float, float] | None,
+    first: Measured | None = None,
+) -> Measured:
+    """Search the level at which a surface encloses a volume, by Newton's method; return the best surface.
+
+    Parameters
+    ----------
+    total : float, mm³
+    try_at : callable
+        Measures the surface at a level; raises GeometryError if nothing is left above it.
+    at_zero : (float, float) or None
+        Volume and slope at level 0, if they are known.
+    first : MeasuredLevel or None
+        The surface at the level that these suggest.
+
+    Raises
+    ------
+    GeometryError
+        If nothing is left above any level.
+    """
+    level = _next_level(0.0, *at_zero, total) if at_zero is not None and at_zero[1] < 0 else 0.0
+    best: Measured | None = None
+    for round_number in range(ROUNDS):
+        try:
+            trial = first if round_number == 0 else None
+            trial = try_at(level) if trial is None else trial
+        except GeometryError:
+            level = (level - LIMIT) / 2  # nothing is left above this level
+            if level < -LIMIT + 1e-3:
+                break
+            continue
+        if best is None or abs(trial.volume - total) < abs(best.volume - total):
+            best = trial
+        if abs(trial.volume - total) <= TOLERANCE * total or trial.slope >= 0:
+            break
+        level = _next_level(trial.level, trial.volume, trial.slope, total)
+    if best is None:
+        raise GeometryError("nothing is left of the solid after smoothing, which is too thin for its voxels")
+    return best
 
 
 def _next_level(level: float, volume: float, slope: float, total: float) -> float:
@@ -291,40 +364,76 @@ def _level_components(
     threads: int,
 ) -> LevelSurface:
     """Extract the surface on which every sufficiently large component has the right volume."""
-    has_level = data.cells >= SMALLEST
-    group: NDArray[np.integer] = np.arange(data.count)  # components that fuse share a level from then on
-    levels = np.full(data.count, common)
-    low, high = np.full(data.count, -1.0), np.full(data.count, 1.0)  # levels known to be below and above the right one
-    best: LevelSurface | None = None
-    smallest_error, labels = math.inf, _label_cells(field, data, threads)
-    for _ in range(ROUNDS):
-        shifted = _lower_to_levels(field, labels, levels, common, threads)
+    labels = label_field(field, data, threads)
+
+    def try_levels(levels: NDArray[np.float64]) -> ComponentTrial[LevelSurface]:
+        """Extract and measure the surface with these levels."""
+        shifted = lower_to_levels(field, labels, levels, common, threads)
         extracted = extract_level(shifted, spacing=spacing, threads=threads)
         surface_shells = label_shells(extracted.surface, extracted.rate, threads=threads)
         shell_component, fused = _assign_components(surface_shells, extracted.surface, shifted, data, spacing)
-        merged_group = _join_groups(group, fused)
+        found = LevelSurface(
+            field=shifted,
+            height=0.0,
+            surface=extracted.surface,
+            rate=extracted.rate,
+            signs=extracted.signs,
+            common=common,
+            levels=levels,
+            threads=threads,
+        )
+        return ComponentTrial(
+            component=shell_component,
+            fused=fused,
+            volume=surface_shells.volume,
+            slope=surface_shells.slope,
+            found=found,
+        )
+
+    return search_component_levels(data.cells, targets, common, try_levels)
+
+
+def search_component_levels(
+    cells: NDArray[np.int64],
+    targets: NDArray[np.float64],
+    common: float,
+    try_levels: Callable[[NDArray[np.float64]], ComponentTrial[Found]],
+) -> Found:
+    """Search the levels at which every sufficiently large component has the right volume; return the best surface.
+
+    Parameters
+    ----------
+    cells : (b,) int64
+        Cells of each component.
+    targets : (b,) float64
+        Volume of each component, mm³.
+    common : float
+        The level of everything at first, and of what has none of its own.
+    try_levels : callable
+        Measures the surface with given levels (b,).
+    """
+    count = len(cells)
+    has_level = cells >= SMALLEST
+    group: NDArray[np.integer] = np.arange(count)  # components that fuse share a level from then on
+    levels = np.full(count, common)
+    low, high = np.full(count, -1.0), np.full(count, 1.0)  # levels known to be below and above the right one
+    best: Found | None = None
+    smallest_error = math.inf
+    for _ in range(ROUNDS):
+        trial = try_levels(levels)
+        merged_group = _join_groups(group, trial.fused)
         changed = merged_group != group
         group = merged_group
         low, high = np.where(changed, -1.0, low), np.where(changed, 1.0, high)
         volume, slope = (
-            _sums(group, _sums(shell_component, measure, data.count))
-            for measure in (surface_shells.volume, surface_shells.slope)
+            _sums(group, _sums(trial.component, measure, count)) for measure in (trial.volume, trial.slope)
         )
         target = _sums(group, targets)
         error = np.abs(volume - target)
-        heads = has_level & (group == np.arange(data.count))
-        if error[heads].sum() < smallest_error:
+        heads = has_level & (group == np.arange(count))
+        if best is None or error[heads].sum() < smallest_error:
             smallest_error = float(error[heads].sum())
-            best = LevelSurface(
-                field=shifted,
-                height=0.0,
-                surface=extracted.surface,
-                rate=extracted.rate,
-                signs=extracted.signs,
-                common=common,
-                levels=levels,
-                threads=threads,
-            )
+            best = trial.found
         wrong = has_level & (error > COMPONENT_TOLERANCE * target)
         if not wrong.any():
             break
@@ -339,7 +448,7 @@ def _level_components(
     return best
 
 
-def _label_cells(field: SparseField, data: Components, threads: int) -> NDArray[np.integer]:
+def label_field(field: SparseField, data: Components, threads: int) -> NDArray[np.integer]:
     """Return the component nearest to every cell of the field's bricks, (bricks, cells); -1 for none."""
     kind = np.int16 if data.count <= np.iinfo(np.int16).max else np.int32
     labels = np.empty((len(field.where), CELLS), dtype=kind)
@@ -360,10 +469,10 @@ def _label_cells(field: SparseField, data: Components, threads: int) -> NDArray[
     return labels
 
 
-def _lower_to_levels(
+def lower_to_levels(
     field: SparseField, labels: NDArray[np.integer], levels: NDArray[np.float64], common: float, threads: int
 ) -> SparseField:
-    """Subtract from the field the level of the nearest component: see `_label_cells`."""
+    """Subtract from the field the level of the nearest component: see `label_field`."""
     out = np.empty_like(field.values)
     in_threads(
         components_kernels.lower_to_levels,
@@ -421,9 +530,27 @@ def _assign_components(
     key, votes = np.unique(
         surface_shells.names[has_label].astype(np.int64) * count + label[has_label], return_counts=True
     )
-    shell, component = np.divmod(key, count)
+    return elect_components(key, votes, len(surface_shells.volume), data.cells)
+
+
+def elect_components(
+    key: NDArray[np.int64], votes: NDArray[np.int64], shells: int, cells: NDArray[np.int64]
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return for every shell the component with the most votes, -1 without any, and the pairs that share a shell.
+
+    Parameters
+    ----------
+    key : (n,) int64, rising
+        Shell times the number of components, plus the component.
+    votes : (n,) int64
+        Vertices of that shell nearest to that component.
+    shells : int
+    cells : (b,) int64
+        Cells of each component.
+    """
+    shell, component = np.divmod(key, max(len(cells), 1))
     order = np.argsort(votes, kind="stable")  # the last write has the most votes
-    nearest = np.full(len(surface_shells.volume), -1, dtype=np.int64)
+    nearest = np.full(shells, -1, dtype=np.int64)
     nearest[shell[order]] = component[order]
-    contested = (nearest[shell] != component) & (data.cells[component] >= SMALLEST) & (votes >= SMALLEST)
+    contested = (nearest[shell] != component) & (cells[component] >= SMALLEST) & (votes >= SMALLEST)
     return nearest, np.stack([component[contested], nearest[shell[contested]]], axis=1)

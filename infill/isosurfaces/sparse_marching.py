@@ -116,69 +116,127 @@ def extract_level(
 ) -> ExtractedLevel:
     """Extract the surface as `extract_bricks` does, with the movement of its vertices as the level rises."""
     threads = thread_count(threads)
-    cubes = cube_table()
-    values = field.values.reshape(-1, CELLS)
-    limits, bits = _level_and_tolerances(level), rows_above(field, field.values, level, threads=threads)
-    places = _crossed_bricks(field, bits, threads)
-    index = np.full(field.slots.shape, -1, dtype=np.int32)
-    index[tuple(places.T)] = np.arange(len(places))
-    masks = np.empty((len(places), kernels.ROWS, 3), dtype=np.uint16)
-    starts = np.empty(masks.shape, dtype=np.int16)
-    counts = np.zeros((len(places) + 1, 3), dtype=np.int64)  # vertices, triangles, undecided cubes
-    in_threads(
-        kernels.count_output,
-        field.slots,
-        places,
-        bits,
-        field.shape,
-        cubes.counts,
-        masks,
-        starts,
-        counts[1:],
-        threads=threads,
-    )
-    offsets = np.cumsum(counts, axis=0)
-    if offsets[-1, 0] == 0:
-        raise GeometryError(
-            f"nothing is left above the level {plain_argument(level)}: no surface; smooth less, or use finer voxels"
-        )
-    vertices = np.empty((offsets[-1, 0], 3))
-    rate = np.zeros((offsets[-1, 0], 3), dtype=np.float32)
-    faces = np.empty((offsets[-1, 1], 3), dtype=np.int32)
-    corners = np.empty((offsets[-1, 2], CORNERS), dtype=np.float32)
-    edges = np.empty((offsets[-1, 2], len(EDGES)), dtype=np.int32)
-    lowest = np.empty((offsets[-1, 2], 3), dtype=np.int32)
-    in_threads(
-        kernels.write_surface,
-        field.slots,
-        places,
-        index,
-        values,
-        bits,
-        field.shape,
-        limits,
-        cubes.counts,
-        cubes.triangles,
-        cubes.crossings,
-        masks,
-        starts,
-        offsets,
-        cubes.edges,
-        vertices,
-        rate,
-        faces,
-        corners,
-        edges,
-        lowest,
-        threads=threads,
-    )
-    if len(corners):
-        extra, extra_faces = _triangulate_undecided(corners, edges, lowest, len(vertices))
+    bits = rows_above(field, field.values, level, threads=threads)
+    bricks = count_bricks(field, bits, crossed_bricks(field, bits, threads), threads=threads)
+    if bricks.offsets[-1, 0] == 0:
+        raise nothing_left(level)
+    raw = write_bricks(field, bricks, level=level, threads=threads)
+    vertices, faces, rate = raw.vertices, raw.faces, raw.rate
+    if len(raw.corners):
+        extra, extra_faces = _triangulate_undecided(raw.corners, raw.edges, raw.lowest, len(vertices))
         vertices, faces = np.concatenate([vertices, extra]), np.concatenate([faces, extra_faces])
         rate = np.concatenate([rate, np.zeros((len(extra), 3), dtype=np.float32)])
     in_threads(kernels.scale_to_mm, vertices, rate, np.array(spacing), np.array(origin), threads=threads)
-    signs = LevelSigns(bits=bits, doubt=places[counts[1:, 2] > 0])
+    signs = LevelSigns(bits=bits, doubt=bricks.places[np.diff(bricks.offsets[:, 2]) > 0])
     return ExtractedLevel(surface=Surface(vertices=vertices, faces=faces), rate=rate, signs=signs)
+
+
+def nothing_left(level: float) -> GeometryError:
+    """Return the error for a level above which there is no solid."""
+    return GeometryError(
+        f"nothing is left above the level {plain_argument(level)}: no surface; smooth less, or use finer voxels"
+    )
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class CountedBricks:
+    """Bricks that a surface crosses, and what each of them adds to it.
+
+    Parameters
+    ----------
+    places : (n, 3) int32
+        Their places on the lattice.
+    bits, masks, starts
+        Tables of `infill.kernels.sparse_marching`.
+    offsets : (n + 1, 3) int64
+        Vertices, triangles and undecided cubes before each brick, and in all.
+    """
+
+    places: NDArray[np.int32]
+    bits: NDArray[np.uint16]
+    masks: NDArray[np.uint16]
+    starts: NDArray[np.int16]
+    offsets: NDArray[np.int64]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class RawSurface:
+    """The output of bricks, in cells from the centre of the first cell of the grid.
+
+    Parameters
+    ----------
+    vertices, faces, rate
+        As in `ExtractedLevel`.
+    corners, edges, lowest
+        Undecided cubes: the values at their corners, the vertices on their edges, and their lowest corners.
+    """
+
+    vertices: NDArray[np.float64]
+    faces: NDArray[np.int32]
+    rate: NDArray[np.float32]
+    corners: NDArray[np.float32]
+    edges: NDArray[np.int32]
+    lowest: NDArray[np.int32]
+
+
+def count_bricks(
+    field: SparseField, bits: NDArray[np.uint16], places: NDArray[np.int32], *, threads: int
+) -> CountedBricks:
+    """Count the output of the bricks at `places`, in that order, where the cells in `bits` are solid."""
+    masks = np.empty((len(places), kernels.ROWS, 3), dtype=np.uint16)
+    starts = np.empty(masks.shape, dtype=np.int16)
+    counts = np.zeros((len(places) + 1, 3), dtype=np.int64)  # vertices, triangles, undecided cubes
+    arguments = (field.slots, places, bits, field.shape, cube_table().counts, masks, starts, counts[1:])
+    in_threads(kernels.count_output, *arguments, threads=threads)
+    return CountedBricks(places=places, bits=bits, masks=masks, starts=starts, offsets=np.cumsum(counts, axis=0))
+
+
+def write_bricks(
+    field: SparseField,
+    bricks: CountedBricks,
+    *,
+    level: float,
+    first: tuple[int, ...] = (0, 0, 0),
+    threads: int,
+) -> RawSurface:
+    """Write the vertices and triangles of bricks; the first cell of the field is the cell `first` of the grid."""
+    cubes, offsets = cube_table(), bricks.offsets
+    index = np.full(field.slots.shape, -1, dtype=np.int32)
+    index[tuple(bricks.places.T)] = np.arange(len(bricks.places))
+    raw = RawSurface(
+        vertices=np.empty((offsets[-1, 0], 3)),
+        rate=np.zeros((offsets[-1, 0], 3), dtype=np.float32),
+        faces=np.empty((offsets[-1, 1], 3), dtype=np.int32),
+        corners=np.empty((offsets[-1, 2], CORNERS), dtype=np.float32),
+        edges=np.empty((offsets[-1, 2], len(EDGES)), dtype=np.int32),
+        lowest=np.empty((offsets[-1, 2], 3), dtype=np.int32),
+    )
+    in_threads(
+        kernels.write_surface,
+        field.slots,
+        bricks.places,
+        index,
+        field.values.reshape(-1, CELLS),
+        bricks.bits,
+        field.shape,
+        _level_and_tolerances(level),
+        cubes.counts,
+        cubes.triangles,
+        cubes.crossings,
+        bricks.masks,
+        bricks.starts,
+        offsets,
+        cubes.edges,
+        raw.vertices,
+        raw.rate,
+        raw.faces,
+        raw.corners,
+        raw.edges,
+        raw.lowest,
+        np.array(first, dtype=np.int64),
+        threads=threads,
+    )
+    return raw
 
 
 def measure_level(
@@ -197,7 +255,7 @@ def measure_level(
     parts = in_threads(
         kernels.measure,
         field.slots,
-        _crossed_bricks(field, bits, count),
+        crossed_bricks(field, bits, count),
         bits,
         values,
         field.shape,
@@ -229,7 +287,7 @@ def rows_above(
     return bits
 
 
-def _crossed_bricks(field: SparseField, bits: NDArray[np.uint16], threads: int | None) -> NDArray[np.int32]:
+def crossed_bricks(field: SparseField, bits: NDArray[np.uint16], threads: int | None) -> NDArray[np.int32]:
     """Return the bricks in which, or on whose upper sides, the surface around the cells in `bits` runs."""
     places = _near_surface(field.slots, field.shape)
     differs = np.empty(len(places), dtype=bool)
@@ -319,7 +377,7 @@ def raw_cube_counts() -> NDArray[np.int8]:
 def euler_number_of_bits(field: SparseField, bits: NDArray[np.uint16], *, threads: int | None = None) -> int:
     """Return the Euler number of the surface of the bricks if the cells in `bits` were +1 and all others -1."""
     return _euler_number(
-        _count_per_brick(field, bits, _crossed_bricks(field, bits, threads), raw_cube_counts(), threads)
+        _count_per_brick(field, bits, crossed_bricks(field, bits, threads), raw_cube_counts(), threads)
     )
 
 
@@ -330,7 +388,7 @@ def doubt_and_euler_number(
 
     The Euler number is None if there is such a brick.
     """
-    places = _crossed_bricks(field, bits, threads)
+    places = crossed_bricks(field, bits, threads)
     counts = _count_per_brick(field, bits, places, cube_table().counts, threads)
     doubt = places[counts[:, 2] > 0]
     return doubt, None if len(doubt) else _euler_number(counts)
@@ -360,6 +418,43 @@ def _euler_number(counts: NDArray[np.int64]) -> int:
 
 # Two opposite corners of a cube, solid in void or void in solid: either joined by a tube or not.
 _OPPOSITE = {1 << c | 1 << 7 - c for c in range(4)} | {255 ^ (1 << c | 1 << 7 - c) for c in range(4)}
+
+
+def triangulate_at(
+    raw: RawSurface, chosen: NDArray[np.bool_], numbers: NDArray[np.int64], count: int
+) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    """Triangulate some undecided cubes as `extract_level` does those of the whole surface, to the last bit.
+
+    Parameters
+    ----------
+    raw : RawSurface
+    chosen : (u,) bool
+        The cubes to triangulate.
+    numbers : (u,) int64
+        The number of each cube in the whole surface, which decides its place in a row of scikit-image.
+    count : int
+        The number of the first new vertex.
+
+    Returns
+    -------
+    points : (v, 3) float64
+        Vertices inside cubes, in cells from the centre of the first cell.
+    faces : (f, 3) int32
+    """
+    points, faces = [np.empty((0, 3))], [np.empty((0, 3), dtype=np.int32)]
+    rows = numbers // IN_A_ROW
+    for row in np.unique(rows[chosen]).tolist():
+        cubes = np.flatnonzero(chosen & (rows == row))
+        places = numbers[cubes] % IN_A_ROW
+        length = int(places.max()) + 1
+        corners = np.full((length, CORNERS), np.float32(-1))  # void beside the cubes
+        edges, lowest = np.full((length, len(EDGES)), -1, dtype=np.int32), np.zeros((length, 3), dtype=np.int32)
+        corners[places], edges[places], lowest[places] = raw.corners[cubes], raw.edges[cubes], raw.lowest[cubes]
+        inner, row_faces = _triangulate_row(corners, edges, lowest, count)
+        points.append(inner)
+        faces.append(row_faces)
+        count += len(inner)
+    return np.concatenate(points), np.concatenate(faces)
 
 
 def _triangulate_undecided(

@@ -255,10 +255,14 @@ def write_surface(
     corners,
     corner_edges,
     places_of,
+    first,
     thread,
     threads,
 ):
-    """Write vertices in cells from the first cell's centre, triangles, and the data of undecided cubes."""
+    """Write vertices in cells from the first cell's centre, triangles, and the data of undecided cubes.
+
+    The field begins at the cell `first` of the grid: vertices of a part of a grid are those of the whole.
+    """
     rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
     around = np.empty((B0 + 1, B1 + 1, B2 + 1), dtype=np.float32)
     numbered = np.empty(EDGES, dtype=np.int32)
@@ -283,9 +287,9 @@ def write_surface(
                         k = lowest_bit(remaining)
                         remaining &= remaining - 1
                         value, next_value = np.float64(around[i, j, k]), np.float64(around[i + di, j + dj, k + dk])
-                        vertices[v, 0] = p * B0 + i - 1
-                        vertices[v, 1] = q * B1 + j - 1
-                        vertices[v, 2] = r * B2 + k - 1
+                        vertices[v, 0] = first[0] + p * B0 + i - 1
+                        vertices[v, 1] = first[1] + q * B1 + j - 1
+                        vertices[v, 2] = first[2] + r * B2 + k - 1
                         vertices[v, axis] += value / (value - next_value)
                         rate[v, axis] = 1 / (next_value - value)
                         v += 1
@@ -306,7 +310,9 @@ def write_surface(
                                 faces[f, corner] = numbered[triangles[signs, t, corner]]
                             f += 1
                         continue
-                    places_of[u, 0], places_of[u, 1], places_of[u, 2] = p * B0 + i - 1, q * B1 + j - 1, r * B2 + k - 1
+                    places_of[u, 0] = first[0] + p * B0 + i - 1
+                    places_of[u, 1] = first[1] + q * B1 + j - 1
+                    places_of[u, 2] = first[2] + r * B2 + k - 1
                     for corner in range(8):
                         corners[u, corner] = around[i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2)]
                     for e in range(len(edges)):
@@ -379,15 +385,20 @@ def sixfold_volume(vertices, rate, face, middle):
 def measure(
     slots, places, bits, values, shape, numbers, triangle_counts, triangles, crossings, edges, middle, thread, threads
 ):
-    """Return six times the volume of the surface, cells, its slope over the level, and the undecided cubes' number."""
+    """Return six times the volume of the surface, cells, its slope over the level, and the undecided cubes' number.
+
+    The sums of bricks are added with the rounding error of the last addition carried along (Kahan 1965): rounding would
+    otherwise depend on the number of threads, and show in the level of a large volume.
+    """
     rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
     around = np.empty((B0 + 1, B1 + 1, B2 + 1), dtype=np.float32)
     points, moves = np.empty((EDGES, 3)), np.empty(EDGES)
-    volume, slope, undecided = 0.0, 0.0, 0
+    total_volume, total_slope, volume_error, slope_error, undecided = 0.0, 0.0, 0.0, 0.0, 0
     for n in range(thread, len(places), threads):
         p, q, r = places[n, 0], places[n, 1], places[n, 2]
         rows_around(slots, p, q, r, bits, shape, rows)
         seen = False
+        volume, slope = 0.0, 0.0
         for i in range(B0):
             for j in range(B1):
                 a, b, c, d = rows[i, j], rows[i + 1, j], rows[i, j + 1], rows[i + 1, j + 1]
@@ -424,4 +435,12 @@ def measure(
                         volume += ax * nx + ay * ny + az * nz
                         for e in (edge_a, edge_b, edge_c):
                             slope += moves[e] * (nx if e < 4 else (ny if e < 8 else nz))
-    return volume, slope, undecided
+        volume -= volume_error
+        larger = total_volume + volume
+        volume_error = (larger - total_volume) - volume
+        total_volume = larger
+        slope -= slope_error
+        larger = total_slope + slope
+        slope_error = (larger - total_slope) - slope
+        total_slope = larger
+    return total_volume, total_slope, undecided

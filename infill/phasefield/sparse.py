@@ -165,6 +165,19 @@ def brick_states(field: NDArray[np.generic], threads: int) -> tuple[Data, NDArra
     return data, state
 
 
+def kept_bricks(state: NDArray[np.int8]) -> NDArray[np.bool_]:
+    """Mark the bricks to keep before the first step: those that are mixed, or next to a brick of the other phase."""
+    is_kept: NDArray[np.bool_] = state == MIXED
+    for axis in range(3):
+        low, high = (
+            tuple(side if a == axis else slice(None) for a in range(3)) for side in (slice(None, -1), slice(1, None))
+        )
+        differs = state[low] * state[high] == -1
+        is_kept[low] |= differs
+        is_kept[high] |= differs
+    return is_kept
+
+
 class Bricks:
     """The bricks in use: their cells, their data, and copies of their faces before and after a step."""
 
@@ -184,15 +197,7 @@ class Bricks:
     @classmethod
     def around(cls, state: NDArray[np.int8], data: Data, threads: int) -> Bricks:
         """Allocate the bricks that are mixed or next to a brick of the other phase."""
-        is_kept = state == MIXED
-        for axis in range(3):
-            low, high = (
-                tuple(side if a == axis else slice(None) for a in range(3))
-                for side in (slice(None, -1), slice(1, None))
-            )
-            differs = state[low] * state[high] == -1
-            is_kept[low] |= differs
-            is_kept[high] |= differs
+        is_kept = kept_bricks(state)
         slots = np.full(state.shape, VOID_BRICK, dtype=np.int32)
         slots[state == 1] = SOLID_BRICK
         slots[state == OUTER] = OUTSIDE

@@ -38,7 +38,9 @@ class ReportForm(TypedDict):
 
     form: Annotated[int, "Version of the form of this report"]
     version: Annotated[str, "Version of phasefill"]
-    product: Annotated[str, "`make`, `smooth`, `labels`, `together`, `components`, `fill`, `refill` or `verify`"]
+    product: Annotated[
+        str, "`make`, `smooth`, `chunks`, `labels`, `together`, `components`, `fill`, `refill` or `verify`"
+    ]
 
 
 class ReportHead(ReportForm):

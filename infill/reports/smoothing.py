@@ -15,6 +15,7 @@ from infill.reports.common import (
     SmoothSeconds,
     Solid,
     Spread,
+    SurfaceKeys,
     Topology,
     Triple,
 )
@@ -420,6 +421,55 @@ class ComponentsReport(SeveralReport):
     seconds: ComponentSeconds
 
 
+class ChunksInput(TypedDict):
+    """Input of the run."""
+
+    name: Annotated[str, "Path or URL"]
+    segmentation: SegmentationKeys
+    warnings: Annotated[list[str], "Assumptions and warnings of the reader"]
+
+
+class ChunkKeys(TypedDict):
+    """Division of the volume."""
+
+    count: Annotated[int, "Number of chunks"]
+    crossed: Annotated[int, "Number of chunks that a surface may cross; the others were only looked at"]
+    cells: Annotated[list[int], 3, "Number of cells of a chunk along x, y and z, without its margin"]
+    margin: Annotated[list[int], 3, "Number of cells read beside it along x, y and z"]
+    workers: Annotated[int, "Number of chunks at work at once"]
+    passes: Annotated[int, "Number of passes over the chunks after they were smoothed, to find the level"]
+
+
+class ChunksSeconds(Seconds):
+    """Time of each stage."""
+
+    read: Annotated[float, "Passes over the values, to find what is solid, s"]
+    smooth: Annotated[float, "Smoothing of all chunks, s"]
+    surface: Annotated[float, "Search for the level, s"]
+    check: Annotated[float, "Crumbs, counts and the numbers of vertices, s"]
+    write: Annotated[float, "Triangles, made and written, s"]
+
+
+class ChunksReport(ReportHead, SurfaceKeys):
+    """The report of a volume that was smoothed in chunks. All triangles are kept."""
+
+    vertices: Annotated[int, "Number of vertices"]
+    hash: Annotated[str, "Hash of the set of triangles, 16 digits: the same for any chunks, workers and order"]
+    volume: Annotated[float, "Volume that the mesh encloses, mm³"]
+    volume_change: Annotated[float, "Relative change of the volume"]
+    components: Annotated[int, "Number of components"]
+    problems: Annotated[list[str], "Problems of the result, one phrase each; empty without problems"]
+    changes: Annotated[list[str], "Other differences that were counted, one phrase each; distances are not measured"]
+    request: SolidRequest
+    grid: GridKeys
+    input: ChunksInput
+    solid: Solid
+    topology: Topology
+    crumbs: CrumbKeys
+    chunks: ChunkKeys
+    seconds: ChunksSeconds
+
+
 class PlannedInput(KnownInput):
     """Input, as far as it is known before the run."""
 
@@ -438,6 +488,20 @@ class PlannedSeconds(TypedDict):
     """Expected time."""
 
     total: Annotated[float, "Time of the first way on this machine, right to a factor of two, s"]
+
+
+class ChunksForecast(TypedDict):
+    """The report of ``infill smooth --dry-run`` for a volume in chunks."""
+
+    request: SolidRequest
+    grid: GridKeys
+    chunks: Annotated[int, "Number of chunks"]
+    crossed: Annotated[float, "Share of the sampled chunks that a surface may cross"]
+    read: Annotated[int, "Bytes of cells to read in one pass, with margins"]
+    memory: Annotated[int, "Expected memory of all chunks at work at once, bytes"]
+    seconds: PlannedSeconds
+    triangles: Annotated[int, "Number of triangles, about"]
+    files: NotRequired[Annotated[list[str], "Names of the files that a run would write; from the command line only"]]
 
 
 class SmoothForecast(TypedDict):

@@ -22,6 +22,8 @@ from infill.formats.point_files import read_points_and_normals
 from infill.formats.units import to_surface, unit_in_mm
 from infill.grid import spacing_of
 from infill.imaging.volume_files import read_volume
+from infill.lazy.dask_arrays import is_dask
+from infill.lazy.names import is_lazy
 from infill.reports.sections import add_late_section
 from infill.result import Result
 from infill.smoothing.by_component import ComponentStages, smooth_components
@@ -59,7 +61,9 @@ def smooth_volume(
     ----------
     volume : (nx, ny, nz) array, Volume or path
         A file or folder of a volume, see `infill.read_volume`; or booleans, a mask, a phase field in [-1, 1], labels or
-        grey values, [x, y, z]. Cells that a numpy.ma.MaskedArray masks are void.
+        grey values, [x, y, z]. Cells that a numpy.ma.MaskedArray masks are void. A Dask array, or a path of Zarr or
+        HDF5, is smoothed in chunks by the method "plain", without having all of it in memory: see
+        `infill.smoothing.chunked`; the other methods read it whole.
     spacing : float or (hx, hy, hz), optional
         Cell size, mm, of an array, 1 by default; or of a file, instead of the one that it states.
     origin : (x, y, z)
@@ -127,6 +131,15 @@ def smooth_volume(
     True
     """
     request = SmoothRequest(**options)
+    if is_dask(volume) or (isinstance(volume, (str, os.PathLike)) and is_lazy(volume)):
+        from infill.smoothing.chunk_plans import check_chunked
+        from infill.smoothing.chunked_result import open_lazy, smooth_lazy
+
+        lazy = open_lazy(volume, spacing=spacing, origin=origin)
+        if request.method == "plain":
+            check_chunked(request, grey=grey, voxel=voxel)
+            return smooth_lazy(lazy, request, threshold=threshold, label=label)
+        volume = lazy.load()
     low, _ = threshold_range(threshold)
     chosen = threshold is not None or label is not None
     if isinstance(volume, (str, os.PathLike)):

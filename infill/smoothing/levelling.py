@@ -190,11 +190,11 @@ def remove_crumbs(surfaced: SurfaceAtLevel, smoothed: SmoothedInput) -> tuple[Su
     if enclosed is not None and not (np.abs(enclosed.volumes[enclosed.volumes != 0]) <= limit).any():
         crumb = small
     else:
-        remnant_share = REMNANT_SHARE if enclosed is None else 0.0
-        crumb = small & (volume > 0) & _is_debris(surfaced, smoothed, remnant_share)
+        component = component_of_shells(levelled, surfaced.components, spacing=smoothed.spacing)
         if enclosed is None:
-            crumb |= small & (np.abs(volume) <= DUST_CELLS * smooth_input.data.cell_volume)
+            crumb = find_crumbs(volume, component, surfaced.targets, limit, smooth_input.data.cell_volume)
         else:
+            crumb = small & (volume > 0) & _is_debris(volume, component, surfaced.targets, 0.0)
             crumb |= small & _is_of_large_body(levelled, smoothed, enclosed, limit)
     if not crumb.any():
         return surfaced, Crumbs(count=0, volume=0.0, limit=limit)
@@ -203,15 +203,40 @@ def remove_crumbs(surfaced: SurfaceAtLevel, smoothed: SmoothedInput) -> tuple[Su
     )
 
 
-def _is_debris(surfaced: SurfaceAtLevel, smoothed: SmoothedInput, remnant_share: float) -> NDArray[np.bool_]:
+def find_crumbs(
+    volume: NDArray[np.float64],
+    component: NDArray[np.int64],
+    targets: NDArray[np.float64],
+    limit: float,
+    cell_volume: float,
+) -> NDArray[np.bool_]:
+    """Mark the shells of a smoothed scan that are crumbs: see `remove_crumbs`.
+
+    Parameters
+    ----------
+    volume : (s,) float64, mm³
+        Of the shells, negative around cavities.
+    component : (s,) int64
+        The component of the data nearest to each, -1 for none.
+    targets : (b,) float64, mm³
+        Volume of each component.
+    limit : float, mm³
+    cell_volume : float, mm³
+    """
+    small = np.abs(volume) <= limit
+    crumbs: NDArray[np.bool_] = small & (volume > 0) & _is_debris(volume, component, targets, REMNANT_SHARE)
+    return crumbs | (small & (np.abs(volume) <= DUST_CELLS * cell_volume))
+
+
+def _is_debris(
+    volume: NDArray[np.float64], component: NDArray[np.int64], targets: NDArray[np.float64], remnant_share: float
+) -> NDArray[np.bool_]:
     """Mark the shells to drop: all but the largest of a component of the data, and those with a small share of it."""
-    volume = surfaced.levelled.shells.volume
-    component = component_of_shells(surfaced.levelled, surfaced.components, spacing=smoothed.spacing)
-    largest = np.full(surfaced.components.count, -math.inf)
+    largest = np.full(len(targets), -math.inf)
     has_component = component >= 0
     np.maximum.at(largest, component[has_component], volume[has_component])
     is_largest = np.where(has_component, largest[component], math.inf) <= volume
-    is_remnant = has_component & (volume <= remnant_share * surfaced.targets[component])
+    is_remnant = has_component & (volume <= remnant_share * targets[component])
     broken_off: NDArray[np.bool_] = ~is_largest | is_remnant
     return broken_off
 

@@ -22,6 +22,7 @@ from infill.grid import spacing_of
 from infill.imaging.dicom.sampling import SampledStack, sample_folder
 from infill.imaging.segmentations import Segmentation, read_segmentation
 from infill.imaging.volume_files import holds_dicom, read_volume
+from infill.lazy.names import is_lazy
 from infill.smoothing.request import SmoothOptions
 from infill.surface import Surface
 from infill.volume import Volume
@@ -116,6 +117,8 @@ def read_source(
     if source_kind == "volume":
         if units is not None:
             raise ParameterError.about("units", "is for meshes and points; give the spacing of a volume in mm")
+        if is_lazy(path):
+            return _load_lazy(path, array=array, series=series, frame=frame, spacing=spacing, roi=roi)
         return _resize_and_crop(
             read_volume(source, array=array, series=series, frame=frame, spacing=spacing), spacing, roi
         )
@@ -128,6 +131,25 @@ def read_source(
         points = points * unit_in_mm(source, points, units)
         return points if normals is None else np.concatenate([points, normals], axis=1)
     return read_mesh_in_mm(source, units)
+
+
+def _load_lazy(
+    path: str | os.PathLike[str],
+    *,
+    array: str | None,
+    series: str | None,
+    frame: int | None,
+    spacing: float | tuple[float, ...] | None,
+    roi: tuple[float, ...] | None,
+) -> Volume:
+    """Read a volume of Zarr or HDF5 into memory, or the part of it in a box."""
+    from infill.lazy.opening import open_volume
+
+    for name, value in (("series", series), ("frame", frame)):
+        if value is not None:
+            raise ParameterError.about(name, f"is {value!r}, and {path} has none; leave it out")
+    volume = open_volume(path, array=array, spacing=spacing)
+    return (volume if roi is None else volume.crop(roi)).load()
 
 
 def sample_source(path: str | os.PathLike[str], **reading: Any) -> SampledStack | None:  # noqa: ANN401 - of `read_source`
@@ -170,6 +192,10 @@ def read_label_source(
     """
     source = Path(path)
     source_kind = kind or _guess_kind(source)
+    if is_lazy(path):
+        raise ParameterError.about(
+            "labels", f"are not read from {path}, of Zarr or HDF5; save it as .nrrd, or give one by --label"
+        )
     if source_kind != "volume":
         raise ParameterError.about(
             "labels", f"are those of a volume, and {source} is read as {source_kind}; leave them out"
@@ -280,7 +306,7 @@ def split_options(source: Source, options: SourceOptions) -> tuple[dict[str, Any
 def _guess_kind(path: Path) -> Kind:
     """Guess the kind of data in a file by its suffix or, where that is ambiguous, by its contents."""
     suffix = path.suffix.lower()
-    if path.is_dir():
+    if path.is_dir() or is_lazy(path):
         return "volume"
     if suffix in POINT_SUFFIXES:
         return "points"

@@ -56,6 +56,18 @@ def crop(volume: Volume, roi: Box, *, varied: bool = True) -> Volume:
     >>> crop(Volume(values=np.arange(64.0).reshape(4, 4, 4)), (1, 3, 0, 4, 0, 2)).values.shape
     (2, 4, 2)
     """
+    low, high = cells_in_box(volume, roi)
+    cropped_volume = cut_cells(volume, low, high)
+    lowest, highest = cropped_volume.values.min().item(), cropped_volume.values.max().item()
+    if varied and lowest == highest:
+        raise ParameterError.about(
+            "roi", f"holds {plain_argument(lowest)} in all cells, so no surface; make it larger, or move it"
+        )
+    return cropped_volume
+
+
+def cells_in_box(volume: Volume, roi: Box) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Return the first cells of a volume with their centre in a box, and those after the last: see `crop`."""
     ends = _box_ends(roi)
     direction, size = np.asarray(volume.direction), volume.cell_size
     corners = np.array([[ends[axis, side >> axis & 1] for axis in range(AXES)] for side in range(2**AXES)])
@@ -74,13 +86,7 @@ def crop(volume: Volume, roi: Box, *, varied: bool = True) -> Volume:
             "the grid is turned by %s degrees, so that more of it is kept than lies in the roi",
             plain_argument(angle, 3),
         )
-    cropped_volume = cut_cells(volume, tuple(low.tolist()), tuple(high.tolist()))
-    lowest, highest = cropped_volume.values.min().item(), cropped_volume.values.max().item()
-    if varied and lowest == highest:
-        raise ParameterError.about(
-            "roi", f"holds {plain_argument(lowest)} in all cells, so no surface; make it larger, or move it"
-        )
-    return cropped_volume
+    return tuple(low.tolist()), tuple(high.tolist())
 
 
 def _box_ends(roi: Box) -> NDArray[np.float64]:

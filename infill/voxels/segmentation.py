@@ -164,12 +164,16 @@ def otsu_threshold(volume: Volume) -> float:
     >>> otsu_threshold(Volume(values=np.array([[[0, 1, 9, 10]]])))
     5.0
     """
-    from skimage.filters import threshold_otsu
-
     lowest, largest = _value_range(volume.values)
     if lowest == largest:
         raise ParameterError(f"all values are {plain_argument(lowest)}; there is nothing for Otsu's method to separate")
-    counts, edges = _histogram(volume.values)
+    return otsu_of_histogram(*_histogram(volume.values))
+
+
+def otsu_of_histogram(counts: NDArray[np.float64], edges: NDArray[np.float64]) -> float:
+    """Find the threshold of `otsu_threshold` by the counts of equal bins and their edges."""
+    from skimage.filters import threshold_otsu
+
     middles = (edges[:-1] + edges[1:]) / 2
     highest = threshold_otsu(hist=(counts, middles))  # type: ignore[no-untyped-call]
     boundary = int(np.searchsorted(middles, highest + (edges[1] - edges[0]) / 2))
@@ -345,17 +349,35 @@ def _value_range(values: NDArray[Any]) -> tuple[Any, Any]:
 
 def _histogram(values: NDArray[Any]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return counts and edges of equal bins over all values."""
-    lowest, highest = _value_range(values)
+    return histogram_of(values, *_value_range(values))
+
+
+def histogram_of(values: NDArray[Any], lowest: Any, highest: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:  # noqa: ANN401
+    """Count the values of a volume, or of a part of one, in equal bins; return the counts and the edges of the bins.
+
+    Parameters
+    ----------
+    values : array
+    lowest, highest : number
+        Extremes of the values of the whole volume.
+    """
     if values.dtype.kind in "iub" and highest - lowest < EXACT:
         counts = np.zeros(int(highest - lowest) + 1)
         for part in _slabs(values):
             counts += np.bincount(part.ravel(order="K").astype(np.int64) - lowest, minlength=len(counts))
-        return counts, np.arange(len(counts) + 1) + (lowest - 0.5)
-    edges: NDArray[np.float64] = np.linspace(lowest, highest, BINS + 1)
-    counts = np.zeros(BINS)
-    for part in _slabs(values):
-        counts += np.histogram(part.ravel(order="K").astype(np.float64), BINS, (lowest, highest))[0]
-    return counts, edges
+    else:
+        counts = np.zeros(BINS)
+        for part in _slabs(values):
+            counts += np.histogram(part.ravel(order="K").astype(np.float64), BINS, (lowest, highest))[0]
+    return counts, histogram_edges(values.dtype, lowest, highest)
+
+
+def histogram_edges(kind: np.dtype[Any], lowest: Any, highest: Any) -> NDArray[np.float64]:  # noqa: ANN401
+    """Return the edges of the bins of `histogram_of`, for values of a type."""
+    if kind.kind in "iub" and highest - lowest < EXACT:
+        edges: NDArray[np.float64] = np.arange(int(highest - lowest) + 2) + (lowest - 0.5)
+        return edges
+    return np.linspace(lowest, highest, BINS + 1)
 
 
 def _slabs(values: NDArray[Any]) -> Iterator[NDArray[Any]]:

@@ -1,0 +1,130 @@
+"""Volumes in chunks: time, memory and triangles of gyroid cells of any size, beside the same in memory.
+
+    python -m benchmarks.chunks write 1024 build/g1024.zarr      a synthetic volume, compressed, chunk by chunk
+    python -m benchmarks.chunks run build/g1024.zarr             smooth it in chunks, and measure
+    python -m benchmarks.chunks whole 800                        the same in memory, on an array of that side
+
+Memory is the sum over the process and its children, sampled ten times a second (Linux only).
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+
+PERIOD = 128  # voxels of a cell of the gyroid
+CHUNK = 128  # voxels of a chunk of the file
+THRESHOLD = 120
+PAGE = 4096  # bytes
+
+
+def gyroid(low, high):
+    """Return grey values of a box of gyroid cells, solid where they are bright, with a little noise."""
+    axes = [np.arange(a, b, dtype=np.float32) * np.float32(2 * np.pi / PERIOD) for a, b in zip(low, high, strict=True)]
+    (sx, sy, sz), (cx, cy, cz) = [np.sin(axis) for axis in axes], [np.cos(axis) for axis in axes]
+    level = sx[:, None, None] * cy[None, :, None] + (sy[:, None] * cz[None])[None] + cx[:, None, None] * sz[None, None]
+    noise = np.random.default_rng(list(low)).normal(0, 3, level.shape).astype(np.float32)
+    return np.clip(128 + 80 * level + noise, 0, 255).astype(np.uint8)
+
+
+def write(side, path):
+    """Write a volume as Zarr, one chunk at a time."""
+    import zarr
+
+    array = zarr.create_array(str(path), shape=(side,) * 3, chunks=(CHUNK,) * 3, dtype="u1", overwrite=True)
+    for place in np.ndindex(*(-(-side // CHUNK),) * 3):
+        low = [n * CHUNK for n in place]
+        high = [min(side, a + CHUNK) for a in low]
+        array[tuple(slice(a, b) for a, b in zip(low, high, strict=True))] = gyroid(low, high)
+
+
+def processes_of(process):
+    """Return a process and its children's children, by number."""
+    found, todo = [], [process]
+    while todo:
+        found.append(todo.pop())
+        for task in Path(f"/proc/{found[-1]}/task").glob("*/children"):
+            try:
+                todo += [int(word) for word in task.read_text().split()]
+            except OSError:
+                continue
+    return found
+
+
+def resident(process):
+    """Return the memory of a process and its children that no other shares by a file, bytes."""
+    total = 0
+    for number in processes_of(process):
+        try:
+            _, all_pages, shared, *_ = Path(f"/proc/{number}/statm").read_text().split()
+        except OSError:
+            continue
+        total += (int(all_pages) - int(shared)) * PAGE
+    return total
+
+
+def measure(words):
+    """Run `infill smooth`; return its report with the seconds and the peak of memory."""
+    begin, peak = time.perf_counter(), 0
+    with tempfile.TemporaryFile() as out:
+        process = subprocess.Popen([sys.executable, "-m", "infill.cli", "smooth", *words, "--json", "-q"], stdout=out)
+        while process.poll() is None:
+            peak = max(peak, resident(process.pid))
+            time.sleep(0.1)
+        out.seek(0)
+        text = out.read()
+    if process.returncode:
+        raise SystemExit(process.returncode)
+    return {**json.loads(text), "wall": time.perf_counter() - begin, "peak": peak}
+
+
+def show(name, report):
+    """Print one line of figures."""
+    vertices = report.get("vertices") or report["mesh"]["vertices"]
+    print(
+        f"{name}: {report['wall']:.0f} s, {report['peak'] / 2**30:.2f} GiB, {report['triangles']:,} triangles, "
+        f"{report['wall'] / vertices * 1e6:.2f} µs a vertex; closed: {report['closed']}"
+    )
+    print("   ", {stage: round(seconds, 1) for stage, seconds in report["seconds"].items()}, report.get("chunks", ""))
+
+
+def main():
+    """Write a volume, or measure one."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("what", choices=["write", "run", "whole"])
+    parser.add_argument("words", nargs="*")
+    parser.add_argument("--workers", default="2")
+    parser.add_argument("--max-memory", default="5G")
+    parser.add_argument("--output", help="mesh to write, too")
+    given = parser.parse_args()
+    plain = ("--threshold", str(THRESHOLD), "--smooth", "plain")
+    if given.what == "write":
+        write(int(given.words[0]), Path(given.words[1]))
+    elif given.what == "run":
+        more = ("-o", given.output, "--force") if given.output else ()
+        options = (*plain, "--workers", given.workers, "--max-memory", given.max_memory, *more)
+        show(given.words[0], measure((given.words[0], *options)))
+    else:
+        side = int(given.words[0])
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "whole.npy"
+            array = np.lib.format.open_memmap(path, mode="w+", dtype=np.uint8, shape=(side,) * 3)
+            for low in np.ndindex(*(-(-side // CHUNK),) * 3):
+                first = [n * CHUNK for n in low]
+                last = [min(side, a + CHUNK) for a in first]
+                array[tuple(slice(a, b) for a, b in zip(first, last, strict=True))] = gyroid(first, last)
+            array.flush()
+            more = ("-o", given.output, "--force") if given.output else ()
+            options = (*plain, "--tolerance", "0", "--strict", "--allow-broken", "--threads", given.workers, *more)
+            show(f"{side} in memory", measure((str(path), *options)))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,245 @@
+"""Run tasks on Dask: on threads, on local processes, or on a cluster. Tasks, retries and the dashboard are Dask's."""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
+from dataclasses import dataclass, field
+from functools import partial
+from importlib.util import find_spec
+from multiprocessing import get_context
+from typing import Any, TypeVar
+
+from infill.checks import check_whole_number
+from infill.errors import InfillError, MemoryLimitError, ParameterError, UsageError
+from infill.kernels.threads import run_interruptibly, thread_count
+
+Item = TypeVar("Item")
+Done = TypeVar("Done")
+
+EXTRA = "pip install dask distributed fsspec h5py zarr"
+CONNECTING = 10  # s: how long a scheduler may take to answer
+THREADS, PROCESSES = "threads", "processes"
+LOST_WORKER = (
+    "a worker ended before its chunk was done, often because memory ran out; give fewer --workers, or less "
+    "--max-memory, which makes chunks smaller"
+)
+LOST_CLUSTER = "the scheduler of the cluster does not answer; check that it runs, and give its address again"
+
+
+def require_dask() -> None:
+    """Raise ParameterError unless the packages of the extra `scale` are there."""
+    if find_spec("dask") is None:
+        raise ParameterError(f"a volume in chunks needs the extra scale: {EXTRA}")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Runner:
+    """Runs one function on many items.
+
+    Parameters
+    ----------
+    workers : int
+        Tasks at once.
+    where : str
+        "threads", "processes", or "cluster".
+    client : distributed.Client or None
+    pool : ProcessPoolExecutor or None
+    """
+
+    workers: int
+    where: str = THREADS
+    client: Any = None
+    pool: ProcessPoolExecutor | None = field(default=None, repr=False)
+
+    def memory_per_task(self) -> int | None:
+        """Return the bytes that a task on a cluster may take, None on this machine."""
+        if self.client is None:
+            return None
+        workers = self.client.scheduler_info(n_workers=-1)["workers"].values()
+        shares = [worker["memory_limit"] / worker["nthreads"] for worker in workers if worker["memory_limit"]]
+        return int(min(shares) / 2) if shares else None
+
+    def run(
+        self,
+        function: Callable[..., Done],
+        shared: Any,  # noqa: ANN401 - what all calls have in common
+        items: Sequence[tuple[Any, ...]],
+        progress: Callable[[float], None] | None = None,
+    ) -> list[Done]:
+        """Return `function(shared, *item)` for every item, in their order.
+
+        Raises
+        ------
+        MemoryLimitError
+            If a worker ends before its task does.
+        """
+        if not items:
+            return []
+        if self.client is not None:
+            return self._run_on_cluster(function, shared, items, progress)
+        return self._run_here(function, shared, items, progress)
+
+    def _run_here(
+        self,
+        function: Callable[..., Done],
+        shared: Any,  # noqa: ANN401
+        items: Sequence[tuple[Any, ...]],
+        progress: Callable[[float], None] | None,
+    ) -> list[Done]:
+        import dask
+        from dask.callbacks import Callback
+        from dask.delayed import delayed
+
+        call = delayed(partial(_call, function, shared), pure=False)
+        tasks = [call(*map(_Plain, item)) for item in items]
+        finished = 0
+
+        def count(*_: object) -> None:
+            nonlocal finished
+            finished += 1
+            if progress is not None:
+                progress(min(1.0, finished / len(items)))
+
+        options: dict[str, Any] = {"scheduler": self.where, "num_workers": self.workers}
+        if self.pool is not None:
+            options = {"scheduler": PROCESSES, "pool": self.pool}
+        try:
+            with Callback(posttask=count):  # type: ignore[no-untyped-call]
+                compute = partial(dask.compute, *tasks, optimize_graph=False, **options)  # type: ignore[attr-defined]
+                return list(run_interruptibly(compute))
+        except BrokenExecutor as error:
+            raise MemoryLimitError(LOST_WORKER) from error
+
+    def _run_on_cluster(
+        self,
+        function: Callable[..., Done],
+        shared: Any,  # noqa: ANN401
+        items: Sequence[tuple[Any, ...]],
+        progress: Callable[[float], None] | None,
+    ) -> list[Done]:
+        from distributed import KilledWorker, as_completed
+        from distributed.comm.core import CommClosedError
+
+        client = self.client
+        futures: list[Any] = []
+        try:
+            scattered = client.scatter(shared, broadcast=True, hash=False)
+            futures = [client.submit(_call_plain, function, scattered, item, pure=False) for item in items]
+            for number, _ in enumerate(as_completed(futures, loop=client.loop)):  # type: ignore[no-untyped-call]
+                if progress is not None:
+                    progress((number + 1) / len(items))
+            return list(client.gather(futures))
+        except KilledWorker as error:
+            raise MemoryLimitError(LOST_WORKER) from error
+        except (CommClosedError, TimeoutError, OSError) as error:
+            if isinstance(error, InfillError):
+                raise
+            raise InfillError(LOST_CLUSTER) from error
+        except Exception as error:
+            if type(error).__name__ in ("FutureCancelledError", "CancelledError"):
+                raise InfillError(LOST_CLUSTER) from error
+            raise
+        finally:
+            with contextlib.suppress(Exception):
+                client.cancel([future for future in futures if not future.done()])
+
+
+class _Plain:
+    """An argument that Dask does not look into."""
+
+    def __init__(self, value: Any) -> None:  # noqa: ANN401 - anything
+        self.value = value
+
+
+def _call(function: Callable[..., Done], shared: Any, *item: _Plain) -> Done:  # noqa: ANN401
+    """Call a function of plain arguments."""
+    return function(shared, *(argument.value for argument in item))
+
+
+def _call_plain(function: Callable[..., Done], shared: Any, item: tuple[Any, ...]) -> Done:  # noqa: ANN401
+    """Call a function on a worker."""
+    return function(shared, *item)
+
+
+def check_runner(workers: int | None, scheduler: str | None) -> None:
+    """Raise an error for a number of workers below 1, or a scheduler that is not an address."""
+    if workers is not None:
+        check_whole_number("workers", workers, 1)
+    if scheduler not in (None, THREADS, PROCESSES) and "://" not in str(scheduler):
+        raise UsageError.about(
+            "scheduler", f"is {scheduler!r}; give {THREADS}, {PROCESSES} or an address such as tcp://host:8786"
+        )
+
+
+@contextlib.contextmanager
+def open_runner(workers: int | None = None, scheduler: str | None = None) -> Iterator[Runner]:
+    """Yield the runner for the tasks of a volume.
+
+    Parameters
+    ----------
+    workers : int, optional
+        Chunks at once, one per core by default; not for a cluster, which has its own.
+    scheduler : str, optional
+        "threads", "processes", or the address of a scheduler of Dask. By default the current client, else threads.
+
+    Raises
+    ------
+    ParameterError
+        If a package is missing, or the scheduler does not answer.
+    """
+    require_dask()
+    check_runner(workers, scheduler)
+    client = None if scheduler in (THREADS, PROCESSES) else _current_client() if scheduler is None else None
+    if scheduler not in (None, THREADS, PROCESSES) or client is not None:
+        if workers is not None:
+            raise UsageError.about("workers", "is for this machine alone, and a cluster has its own; leave it out")
+        if client is not None:
+            yield Runner(workers=max(1, len(client.nthreads())), where="cluster", client=client)
+            return
+        with _connect(str(scheduler)) as connected:
+            yield Runner(workers=max(1, len(connected.nthreads())), where="cluster", client=connected)
+        return
+    count = thread_count(workers)
+    if scheduler == PROCESSES:
+        pool = ProcessPoolExecutor(count, mp_context=get_context("spawn"))
+        try:
+            yield Runner(workers=count, where=PROCESSES, pool=pool)
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)
+        return
+    yield Runner(workers=count)
+
+
+def _current_client() -> Any:  # noqa: ANN401 - distributed.Client
+    """Return the client that this process has opened, None without one."""
+    if "distributed" not in sys.modules:
+        return None
+    from distributed import get_client
+
+    try:
+        return get_client()
+    except ValueError:
+        return None
+
+
+@contextlib.contextmanager
+def _connect(address: str) -> Iterator[Any]:
+    """Yield a client of a scheduler; raise ParameterError if it does not answer."""
+    if find_spec("distributed") is None:
+        raise ParameterError(f"a cluster needs the extra scale: {EXTRA}")
+    from distributed import Client
+
+    try:
+        client = Client(address, timeout=CONNECTING, set_as_default=False)  # type: ignore[no-untyped-call]
+    except (OSError, ValueError, TimeoutError) as error:
+        raise UsageError.about(
+            "scheduler", f"is {address!r}, and nothing answers there; give an address such as tcp://host:8786"
+        ) from error
+    try:
+        yield client
+    finally:
+        with contextlib.suppress(Exception):
+            client.close()  # type: ignore[no-untyped-call]

@@ -1,0 +1,212 @@
+"""``infill smooth`` for a volume in chunks: its files, its plan and its summary."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING, cast
+
+import typer
+
+from infill.cli.console import format_bytes, format_table, print_json, print_log, progress_bar, say
+from infill.cli.foreseeing import format_span, format_steps
+from infill.errors import ParameterError, UsageError
+from infill.plain_numbers import count_noun, plain_size
+
+if TYPE_CHECKING:
+    from infill.cli.labelled import SmoothOutput
+    from infill.lazy.volume import LazyVolume
+    from infill.reports.smoothing import ChunksReport
+    from infill.smoothing.chunked_surface import ChunkedSurface
+    from infill.smoothing.request import SmoothOptions, SmoothRequest
+    from infill.smoothing.scans import Threshold
+    from infill.smoothing.settings import SmoothSettings
+
+ZARR = ".zarr"
+
+
+def wants_chunks(source: Path, settings: SmoothSettings, workers: int | None, scheduler: str | None) -> bool:
+    """Tell whether a run works in chunks: it is asked to, or the source is read in parts and the method can do it."""
+    from infill.lazy.names import is_lazy
+
+    return workers is not None or scheduler is not None or (settings.chosen_method == "plain" and is_lazy(source))
+
+
+def smooth_chunks(
+    source: Path,
+    settings: SmoothSettings,
+    output: SmoothOutput,
+    options: SmoothOptions,
+    *,
+    workers: int | None,
+    scheduler: str | None,
+    show_hash: bool,
+) -> None:
+    """Smooth a volume in chunks, write the files piece by piece, and print a summary; or only the plan."""
+    from infill.chunks.running import check_runner
+    from infill.lazy.opening import open_volume
+    from infill.smoothing.chunk_plans import check_chunked
+    from infill.smoothing.chunked import smooth_in_chunks
+    from infill.smoothing.request import SmoothRequest
+
+    check_runner(workers, scheduler)
+    with progress_bar(shown=not output.quiet and not output.dry_run) as progress:
+        request = SmoothRequest(**cast("SmoothOptions", {**options, "progress": progress}))
+        check_chunked(request, **_unfit(settings), preview=output.preview)
+        _check_outputs(output)
+        with print_log(shown=not output.quiet):
+            volume = open_volume(source, array=settings.array, spacing=settings.spacing)
+        volume = volume if settings.roi is None else volume.crop(settings.roi)
+        choices = {"threshold": settings.threshold, "between": settings.between, "otsu": settings.otsu or None}
+        chosen = [name for name, value in choices.items() if value is not None]
+        if len(chosen) > 1:
+            raise UsageError.about(tuple(chosen), "exclude each other; give one of them")
+        threshold = cast("Threshold", "otsu" if settings.otsu else choices[chosen[0]] if chosen else None)
+        if output.dry_run:
+            _show_plan(volume, request, threshold, settings, output, workers=workers, scheduler=scheduler)
+            return
+        with (
+            print_log(shown=not output.quiet),
+            smooth_in_chunks(
+                volume, request, threshold=threshold, label=settings.label, workers=workers, scheduler=scheduler
+            ) as surface,
+        ):
+            _write(surface, volume, output)
+            report = surface.report()
+    written = [str(path) for path in (*output.outputs, *output.saved)]
+    if not output.quiet:
+        say(_summary(report, written, str(source)))
+    if output.as_json:
+        print_json({**report, "files": written})
+    elif show_hash:
+        typer.echo(report["hash"])
+
+
+def _unfit(settings: SmoothSettings) -> dict[str, object]:
+    """Return the options that a volume in chunks does not have, by name."""
+    names = ("voxel", "resolution", "shell", "grey", "by_component", "units", "series", "frame")
+    kind = None if settings.kind in (None, "volume") else settings.kind
+    return {**{name: getattr(settings, name) for name in names}, "kind": kind}
+
+
+def _check_outputs(output: SmoothOutput) -> None:
+    """Raise an error for outputs that cannot be written piece by piece, or exist."""
+    from infill.cli.piping import is_piped
+    from infill.files.whole_files import check_targets
+    from infill.formats.mesh_pieces import check_piece_format
+    from infill.lazy.zarr_fields import check_zarr_target
+
+    for path in (*output.outputs, *output.saved):
+        if is_piped(path):
+            raise ParameterError("'-' is stdout, and a volume in chunks is written piece by piece; name a file")
+    if output.ascii_stl:
+        raise ParameterError.about("ascii_stl", "is not for a volume in chunks; leave it out")
+    for path in output.outputs:
+        if path.suffix.lower() == ZARR:
+            if not output.dry_run:
+                check_zarr_target(path, overwrite=output.force)
+        else:
+            check_piece_format(path)
+    files = [path for path in output.outputs if path.suffix.lower() != ZARR]
+    check_targets((*files, *output.saved), overwrite=output.force)
+
+
+def _write(surface: ChunkedSurface, volume: LazyVolume, output: SmoothOutput) -> None:
+    """Write all files of a run; each is complete or not there."""
+    from infill.files.whole_files import atomic_files, scratch_file, wrap_os_errors
+    from infill.formats.mesh_pieces import PIECE_WRITERS, check_piece_size
+    from infill.lazy.zarr_fields import write_zarr_field
+
+    meshes = [path for path in output.outputs if path.suffix.lower() != ZARR]
+    for path in meshes:
+        check_piece_size(path, surface.vertices, surface.triangles)
+    targets = [*meshes, *output.saved]
+    with contextlib.ExitStack() as stack:
+        files = stack.enter_context(atomic_files(targets)) if targets else []
+        writers = [
+            PIECE_WRITERS[path.suffix.lower()](
+                file,
+                stack.enter_context(scratch_file(path.absolute().parent)),
+                surface.vertices,
+                surface.triangles,
+                volume.space,
+            )
+            for path, file in zip(meshes, files, strict=False)
+        ]
+        for piece in surface.pieces():
+            for path, writer in zip(meshes, writers, strict=True):
+                with wrap_os_errors(path):
+                    writer.add(piece)
+        for path, writer in zip(meshes, writers, strict=True):
+            with wrap_os_errors(path):
+                writer.finish()
+        for save, file in zip(output.saved.values(), files[len(meshes) :], strict=True):
+            save(file)
+        for path in output.outputs:
+            if path.suffix.lower() == ZARR:
+                write_zarr_field(path, volume, surface.field_boxes())
+
+
+def _show_plan(
+    volume: LazyVolume,
+    request: SmoothRequest,
+    threshold: Threshold,
+    settings: SmoothSettings,
+    output: SmoothOutput,
+    *,
+    workers: int | None,
+    scheduler: str | None,
+) -> None:
+    """Print the cost of a run."""
+    from infill.smoothing.chunked_plan import plan_chunked
+
+    with print_log(shown=not output.quiet):
+        forecast = plan_chunked(
+            volume,
+            request,
+            threshold=threshold,
+            label=settings.label,
+            workers=workers,
+            scheduler=scheduler,
+        )
+    names = [str(path) for path in (*output.outputs, *output.saved)]
+    if output.as_json:
+        print_json({**forecast, "files": names})
+        return
+    grid = forecast["grid"]
+    rows = {
+        "grid": f"{' x '.join(map(str, grid['shape']))} voxels of {plain_size(*grid['spacing'], digits=4)}",
+        "method": f"plain: {format_steps(forecast['request'])}, all triangles",
+        "chunks": f"{forecast['chunks']:,}, of which about {forecast['crossed']:.0%} have surface",
+        "read": f"{format_bytes(forecast['read'])} of voxels in one pass, margins included",
+        "triangles": f"about {forecast['triangles']:,}",
+        "memory": f"at most about {format_bytes(forecast['memory'])}",
+        "time": f"about {format_span(forecast['seconds']['total'])} on this machine, as busy as it is",
+    }
+    if names:
+        rows["would write"] = ", ".join(names)
+    typer.echo(format_table(rows, title=f"{volume.name}: nothing is written (--dry-run)"))
+
+
+def _summary(report: ChunksReport, files: Iterable[str], name: str) -> str:
+    """Return the short table for stderr."""
+    request, grid, chunks = report["request"], report["grid"], report["chunks"]
+    result, data = report["topology"]["result"], report["topology"]["data"]
+    size = plain_size(*report["extents"], digits=4)
+    rows = {
+        "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, {size}",
+        "solid": f"{plain_size(report['volume'], digits=6, power=3)}, {report['volume_change']:+z.4%} of the data",
+        "smoothing": f"{format_steps(request)}, {' x '.join(map(str, grid['shape']))} voxels of "
+        f"{plain_size(*grid['spacing'], digits=4)}",
+        "chunks": f"{chunks['crossed']:,} of {chunks['count']:,} with surface, of "
+        f"{' x '.join(map(str, chunks['cells']))} voxels, {count_noun(chunks['workers'], 'worker')}",
+        "components": f"{result['components']:,} ({data['components']:,} in the data), "
+        f"{count_noun(result['cavities'], 'cavity', 'cavities')} ({data['cavities']:,}), "
+        f"{count_noun(result['tunnels'], 'tunnel')} ({data['tunnels']:,})",
+        "changes": "; ".join([*report["problems"], *report["changes"]]) or "none counted; distances are not measured",
+        "hash": report["hash"],
+    }
+    for path in files:
+        rows[f"wrote {path}"] = format_bytes(Path(path).stat().st_size) if Path(path).is_file() else ""
+    return format_table(rows, title=name)

@@ -1,0 +1,121 @@
+"""How a volume is divided into chunks, and the options that it does not have then."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from infill.chunks.layout import ChunkLayout
+from infill.chunks.running import Runner
+from infill.chunks.solving import bytes_of_chunk, chunk_size
+from infill.errors import ParameterError, UsageError
+from infill.kernels.sparse import BRICK
+from infill.lazy.volume import LazyVolume
+from infill.machine import available_memory
+from infill.plain_numbers import plain_size
+from infill.smoothing.request import AUTO, SmoothRequest
+from infill.voxels.slices import plan_sublayers
+
+if TYPE_CHECKING:
+    pass
+
+LEAST_CHUNKS = 2  # for each worker, so that none is idle
+FEWEST_CELLS = 128  # along a side: smaller chunks are mostly margin
+LARGEST_CELLS = 512  # along a side
+MEMORY_SHARE = 0.5  # of what is free: for all chunks at once
+
+
+@dataclass(frozen=True, kw_only=True)
+class ChunkPlan:
+    """How a volume is divided.
+
+    Parameters
+    ----------
+    layout : ChunkLayout
+    workers : int
+    memory : int
+        Bytes of all chunks that are worked on at once, about, at most.
+    read : int
+        Bytes of cells that are read in one pass, margins included.
+    """
+
+    layout: ChunkLayout
+    workers: int
+    memory: int
+    read: int
+
+
+def check_chunked(request: SmoothRequest, **options: Any) -> None:  # noqa: ANN401 - options of smooth_volume
+    """Raise an error for options that a volume in chunks does not have.
+
+    Parameters
+    ----------
+    request : SmoothRequest
+    **options
+        Further options by name; those that are None or False are not given.
+    """
+    if request.method != "plain":
+        raise UsageError.about(
+            "method",
+            f"is {request.method}, and a volume in chunks is smoothed by plain alone; give plain, or leave workers and "
+            "scheduler out for a volume that fits into memory",
+        )
+    if request.max_triangles is not None:
+        raise UsageError.about("max_triangles", "is not for a volume in chunks, which keeps all; leave it out")
+    if request.tolerance not in (AUTO, None):
+        raise UsageError.about("tolerance", "is not for a volume in chunks, which keeps all triangles; give 0")
+    if request.despeckle:
+        raise UsageError.about("despeckle", "is not for a volume in chunks; give more crumbs instead, or leave it out")
+    for name, value in options.items():
+        if value is not None and value is not False:
+            raise UsageError.about(name, "is not for a volume in chunks; leave it out")
+
+
+def plan_chunks(volume: LazyVolume, request: SmoothRequest, runner: Runner, *, side: int | None = None) -> ChunkPlan:
+    """Divide a volume so that the chunks at work fit into the memory that is allowed, or else free.
+
+    Parameters
+    ----------
+    volume : LazyVolume
+    request : SmoothRequest
+    runner : Runner
+    side : int, optional
+        Cells along the longest side of a chunk, instead.
+    """
+    require_thin(volume)
+    steps, item = request.smoothing.steps, volume.array.dtype.itemsize
+    share = runner.memory_per_task() if request.max_memory is None else request.max_memory // runner.workers
+    memory = int((available_memory() or 2**32) * MEMORY_SHARE) // runner.workers if share is None else share
+    largest = side or LARGEST_CELLS
+    size = chunk_size(volume.shape, steps, item=item, memory=memory, largest=largest)
+    layout = ChunkLayout(shape=volume.shape, size=size, steps=steps)
+    while side is None and len(layout) < LEAST_CHUNKS * runner.workers and largest > FEWEST_CELLS:
+        largest -= BRICK[2] * 2
+        size = chunk_size(volume.shape, steps, item=item, memory=memory, largest=largest)
+        layout = ChunkLayout(shape=volume.shape, size=size, steps=steps)
+    cells = max(size[axis] * BRICK[axis] for axis in range(3))
+    at_once = min(runner.workers, len(layout))
+    read = item * sum(
+        math.prod(high - low for low, high in zip(chunk.cell_low, chunk.cell_high, strict=True)) for chunk in layout
+    )
+    return ChunkPlan(
+        layout=layout,
+        workers=runner.workers,
+        memory=at_once * bytes_of_chunk(cells, steps, item, volume.shape),
+        read=read,
+    )
+
+
+def require_thin(volume: LazyVolume) -> None:
+    """Raise ParameterError for slices so thick that they would be interpolated."""
+    whole = volume.place(np.broadcast_to(np.uint8(0), volume.shape))
+    axis, count = plan_sublayers(whole)
+    if count > 1:
+        sizes = plain_size(*volume.spacing, digits=4)
+        raise ParameterError(
+            f"{volume.name} has slices {count} times as thick as its cells are wide ({sizes}), which would be "
+            f"interpolated, and are not in chunks; resample axis {'xyz'[axis]}, or smooth it in memory"
+        )

@@ -1,0 +1,86 @@
+"""The cost of smoothing a volume in chunks, from a few of its chunks."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from infill.chunks.running import open_runner, require_dask
+from infill.chunks.solids import SolidRule
+from infill.chunks.work import LevelTask, Work, make_part, smooth
+from infill.lazy.volume import LazyVolume
+from infill.reports.smoothing import ChunksForecast
+from infill.smoothing.chunk_plans import check_chunked, plan_chunks
+from infill.smoothing.chunked_rule import find_rule
+from infill.smoothing.request import SmoothRequest
+from infill.smoothing.scans import Threshold
+
+SAMPLES = 3  # chunks that are smoothed
+PASSES = 2.0  # passes over the pieces that find the level and write, in the time of the one that makes pieces
+
+
+def plan_chunked(
+    volume: LazyVolume,
+    request: SmoothRequest,
+    *,
+    threshold: Threshold = None,
+    label: int | Sequence[int] | None = None,
+    workers: int | None = None,
+    scheduler: str | None = None,
+) -> ChunksForecast:
+    """Return the plan of `infill.smoothing.chunked.smooth_in_chunks` with the same arguments, as plain numbers.
+
+    Some chunks are smoothed, evenly spaced, so that time and triangles are estimates of those of all.
+    """
+    check_chunked(request)
+    require_dask()
+    request = replace(request.for_cell(min(volume.spacing)), tolerance=None)
+    with open_runner(workers if workers is not None or scheduler else request.threads, scheduler) as runner:
+        plan = plan_chunks(volume, request, runner)
+        work = Work(
+            source=volume.array,
+            rule=SolidRule(),
+            layout=plan.layout,
+            smoothing=request.smoothing,
+            spacing=tuple(volume.spacing),
+            level=None if isinstance(request.level, str) else request.level,
+        )
+        rule, _ = find_rule(work, runner, threshold, label, lambda _: None)
+    work = replace(work, rule=rule)
+    chunks = list(plan.layout)
+    chosen = [chunks[number] for number in np.linspace(0, len(chunks) - 1, SAMPLES + 2).astype(int)[1:-1]]
+    chosen = list({chunk.number: chunk for chunk in chosen}.values())
+    smooth(replace(work, smoothing=replace(work.smoothing, steps=1)), chosen[0])  # loads what a run needs
+    seconds, triangles, crossed = 0.0, 0, 0
+    for chunk in chosen:
+        begin = time.perf_counter()
+        smoothed = smooth(work, chunk)
+        between = time.perf_counter()
+        if smoothed.start is not None:
+            crossed += 1
+            smoothing = between - begin
+            part = make_part(work, chunk, LevelTask(level=work.level or 0.0), np.zeros(0, dtype=bool))
+            triangles += len(part.faces)
+            # Without a kept field, the piece was made by smoothing once more.
+            seconds += smoothing + PASSES * max(0.0, time.perf_counter() - between - smoothing / 2)
+        else:
+            seconds += between - begin
+    times = len(chunks) / len(chosen)
+    return {
+        "request": request.facts(),
+        "grid": {
+            "shape": list(volume.shape),
+            "spacing": list(volume.spacing),
+            "origin": list(volume.origin),
+            "space": volume.space,
+        },
+        "chunks": len(chunks),
+        "crossed": crossed / len(chosen),
+        "read": plan.read,
+        "triangles": round(triangles * times),
+        "memory": plan.memory,
+        "seconds": {"total": seconds * times / min(plan.workers, len(chunks))},
+    }

@@ -1,0 +1,302 @@
+"""The smoothed surface of a volume in chunks: its pieces, its field, its crumbs, and its report."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.chunks.hashing import add_up, face_sums
+from infill.chunks.layout import Chunk
+from infill.chunks.shells import JoinedShells, join_shells
+from infill.chunks.solving import MeasuredSurface, Numbering, Solver
+from infill.chunks.work import ChunkTriangles, field_values, make_part
+from infill.errors import GeometryError
+from infill.formats.mesh_pieces import MeshPiece
+from infill.inspection.bricks import TopologyCheck
+from infill.inspection.changes import ConnectionCounts, TopologyChanges
+from infill.kernels.sparse import BRICK
+from infill.lazy.volume import LazyVolume
+from infill.plain_numbers import count_noun, plain_size
+from infill.reports.common import Topology, declare, report_head
+from infill.reports.smoothing import ChunksReport, ChunksSeconds, SegmentationKeys
+from infill.smoothing.chunk_plans import ChunkPlan
+from infill.smoothing.comparing import LOST_VOLUME, VOLUME_TOLERANCE, describe_counts
+from infill.smoothing.levelling import CRUMB_CELLS, Crumbs, find_crumbs
+from infill.smoothing.request import SmoothRequest
+from infill.surface import Surface
+from infill.volume import Volume
+
+if TYPE_CHECKING:
+    from infill.result import Progress
+
+BATCH = 4  # pieces that wait to be written, for each worker
+WRITING = 0.82  # share of the work that is done when pieces are written
+
+
+@dataclass(kw_only=True, eq=False)
+class ChunkedSurface:
+    """The smoothed surface of a volume in chunks, while its fields are kept.
+
+    Parameters
+    ----------
+    volume : LazyVolume
+    request : SmoothRequest
+        Lengths are in cells.
+    plan : ChunkPlan
+    solver : Solver
+    surface : MeasuredSurface
+    numbering : Numbering
+    crumbs : Crumbs
+    counts : TopologyCheck
+    level : (float, (b,) float64)
+        The common level of phi, and that of each component.
+    segmentation : SegmentationKeys
+    seconds : dict
+    """
+
+    volume: LazyVolume
+    request: SmoothRequest
+    plan: ChunkPlan
+    solver: Solver
+    surface: MeasuredSurface
+    numbering: Numbering
+    crumbs: Crumbs
+    counts: TopologyCheck
+    level: tuple[float, NDArray[np.float64]]
+    segmentation: SegmentationKeys
+    enclosed: float
+    target: float
+    seconds: dict[str, float]
+    progress: Progress | None = None
+    _sums: list[NDArray[np.int64]] = field(default_factory=list)
+    _corners: list[NDArray[np.float64]] = field(default_factory=list)
+
+    @property
+    def vertices(self) -> int:
+        """Number of vertices."""
+        return int(self.numbering.first_vertices[-1])
+
+    @property
+    def triangles(self) -> int:
+        """Number of triangles."""
+        return int(self.numbering.first_faces[-1])
+
+    def pieces(self) -> Iterator[MeshPiece]:
+        """Yield the pieces of the surface, in space, in order; the report needs them all."""
+        begin = time.perf_counter()
+        self._sums.clear()
+        self._corners.clear()
+        place = self.volume.place(np.zeros((1, 1, 1), dtype=bool))
+        chunks, number = self.numbering.chunks, 0
+        batch = BATCH * self.plan.workers
+        for first in range(0, len(chunks), batch):
+            items = [
+                (chunk, self.surface.tasks[chunk.number], self.numbering.removed[chunk.number])
+                for chunk in chunks[first : first + batch]
+            ]
+            for part in self.solver.runner.run(make_part, self.solver.work, items):
+                yield self._piece(part, number, place)
+                number += 1
+                if self.progress is not None:
+                    self.progress("write", WRITING + (1 - WRITING) * number / len(chunks))
+        self.seconds["write"] = time.perf_counter() - begin
+
+    def _piece(self, part: ChunkTriangles, number: int, place: Volume) -> MeshPiece:
+        """Place a piece in space and give its vertices their numbers in the whole mesh."""
+        own = len(part.vertices)
+        points = place_points(np.concatenate([part.vertices, part.corners]), place)
+        local = part.faces[:, ::-1] if place.mirrored else part.faces
+        numbers = np.concatenate(
+            [self.numbering.first_vertices[number] + np.arange(own), self.numbering.find(part.foreign)]
+        )
+        unit = float(place.cell_size.max()) ** 2
+        self._sums.append(face_sums(points, local, unit))
+        if own:
+            self._corners.append(np.array([points[:own].min(axis=0), points[:own].max(axis=0)]))
+        surface = Surface(vertices=points, faces=local.astype(np.int32), space=place.space)
+        return MeshPiece(surface=surface, own=own, faces=numbers[local])
+
+    def whole(self) -> Surface:
+        """Return the whole surface, mm, in memory."""
+        vertices, faces = [np.empty((0, 3))], [np.empty((0, 3), dtype=np.int64)]
+        for piece in self.pieces():
+            vertices.append(np.asarray(piece.surface.vertices[: piece.own], dtype=np.float64))
+            faces.append(piece.faces)
+        joined = np.concatenate(faces)
+        kind = np.int32 if self.vertices < np.iinfo(np.int32).max else np.int64
+        return Surface(vertices=np.concatenate(vertices), faces=joined.astype(kind), space=self.volume.space)
+
+    def field_boxes(self) -> Iterator[tuple[tuple[slice, ...], NDArray[np.float32]]]:
+        """Yield boxes of cells with the smoothed field in them: the distance from the surface, +-1 some cells away."""
+        chunks = [chunk for chunk in self.solver.chunks.values() if chunk.has_cells]
+        surfaced = self.solver.surfaced
+        batch = BATCH * self.plan.workers
+        for first in range(0, len(chunks), batch):
+            batch_chunks = chunks[first : first + batch]
+            crossed = [chunk for chunk in batch_chunks if chunk.number in surfaced]
+            items = [(chunk, self.surface.level, self.surface.tasks[chunk.number]) for chunk in crossed]
+            values = dict(
+                zip(
+                    [chunk.number for chunk in crossed],
+                    self.solver.runner.run(field_values, self.solver.work, items),
+                    strict=True,
+                )
+            )
+            for chunk in batch_chunks:
+                box = tuple(
+                    slice(part.start + low, part.stop + low)
+                    for part, low in zip(chunk.own_cells, chunk.cell_low, strict=True)
+                )
+                shape = tuple(part.stop - part.start for part in box)
+                yield box, values.get(chunk.number, np.full(shape, self._uniform_value(chunk), dtype=np.float32))
+
+    def _uniform_value(self, chunk: Chunk) -> np.float32:
+        """Return the value of the field in a chunk without surface."""
+        sign = np.float32(1 if self.solver.smoothed[chunk.number].solid else -1)
+        lowered = np.float32(0 if self.surface.levels is not None else self.surface.level)
+        return np.clip(sign - lowered, np.float32(-1), np.float32(1))
+
+    def problems(self) -> list[str]:
+        """Return the problems of the volume, one phrase each."""
+        off = self.enclosed / self.target - 1
+        if self.request.level != "volume" or abs(off) <= VOLUME_TOLERANCE:
+            return []
+        return [f"the volume is {abs(off):.1%} too {'large' if off > 0 else 'small'}"]
+
+    def check(self) -> None:
+        """Raise GeometryError for a result that is refused.
+
+        Raises
+        ------
+        GeometryError
+            If the volume is off by a tenth; with `strict`, for every difference.
+        """
+        off = abs(self.enclosed / self.target - 1) if self.request.level == "volume" else 0.0
+        reasons = self.problems() if off >= LOST_VOLUME else []
+        if self.request.strict:
+            reasons = [*self.problems(), *describe_counts(self.counts)]
+        if reasons and not self.request.allow_broken:
+            raise GeometryError(f"{'; '.join(reasons)}; give fewer --steps, or --allow-broken to have it anyway")
+
+    def report(self) -> ChunksReport:
+        """Return the report; the pieces are made for it unless they were made before."""
+        if not self._sums:
+            for _ in self.pieces():
+                pass
+        place = self.volume.place(np.zeros((1, 1, 1), dtype=bool))
+        number, closed, area = add_up(self._sums, float(place.cell_size.max()) ** 2)
+        corners = np.array(self._corners).reshape(-1, 2, 3)
+        bounds = np.array([corners[:, 0].min(axis=0), corners[:, 1].max(axis=0)])
+        change = self.enclosed / self.target - 1
+        common, levels = self.level
+        work, layout = self.solver.work, self.plan.layout
+        remarks = describe_counts(self.counts)
+        if self.crumbs.count:
+            remarks.append(
+                f"{count_noun(self.crumbs.count, 'crumb')} of up to {plain_size(self.crumbs.limit, power=3)} taken out"
+            )
+        report: ChunksReport = {
+            **report_head("chunks"),
+            "triangles": self.triangles,
+            "closed": closed,
+            "area": area,
+            "extents": (bounds[1] - bounds[0]).tolist(),
+            "bounds": bounds.tolist(),
+            "vertices": self.vertices,
+            "hash": number,
+            "volume": self.enclosed,
+            "volume_change": change,
+            "components": self.counts.result.components,
+            "problems": self.problems(),
+            "changes": remarks,
+            "request": self.request.facts(),
+            "grid": {
+                "shape": list(layout.shape),
+                "spacing": list(work.spacing),
+                "origin": list(self.volume.origin),
+                "space": self.volume.space,
+            },
+            "input": {
+                "name": self.volume.name,
+                "segmentation": self.segmentation,
+                "warnings": list(self.volume.warnings),
+            },
+            "solid": {
+                "volume": self.enclosed,
+                "change": change,
+                "data": self.target,
+                "level": {
+                    "method": "volume" if self.request.level == "volume" else "fixed",
+                    "common": common,
+                    "lowest": float(levels.min()),
+                    "highest": float(levels.max()),
+                    "components": len(levels),
+                },
+            },
+            "topology": declare(Topology, {"data": asdict(self.counts.data), "result": asdict(self.counts.result)}),
+            "crumbs": {"removed": self.crumbs.count, "volume": self.crumbs.volume, "limit": self.crumbs.limit},
+            "chunks": {
+                "count": len(layout),
+                "crossed": len(self.solver.surfaced),
+                "cells": [bricks * size for bricks, size in zip(layout.size, BRICK, strict=True)],
+                "margin": [bricks * size for bricks, size in zip(layout.margin, BRICK, strict=True)],
+                "workers": self.plan.workers,
+                "passes": self.solver.passes,
+            },
+            "seconds": declare(ChunksSeconds, {**self.seconds, "total": sum(self.seconds.values())}),
+        }
+        return report
+
+
+def place_points(points: NDArray[np.float64], place: Volume) -> NDArray[np.float64]:
+    """Convert points as `infill.Volume.place` does, each by itself, so that the result does not depend on others."""
+    turn, origin = np.asarray(place.direction), np.array(place.origin)
+    if (turn == np.eye(3)).all():
+        return place.place(points)
+    x, y, z = points.T
+    return np.stack(
+        [(x * turn[axis, 0] + y * turn[axis, 1] + z * turn[axis, 2]) + origin[axis] for axis in range(3)], 1
+    )
+
+
+def find_all_crumbs(
+    solver: Solver, surface: MeasuredSurface, request: SmoothRequest
+) -> tuple[Crumbs, NDArray[np.bool_]]:
+    """Mark the shells that are crumbs: see `infill.smoothing.levelling.remove_crumbs`."""
+    limit = CRUMB_CELLS * solver.cell_volume if request.crumbs is None else request.crumbs
+    volume = surface.shells.volume
+    small, marked = np.abs(volume) <= limit, np.zeros(len(volume), dtype=bool)
+    assert solver.joined is not None
+    if small.any() and not small[volume > 0].all():
+        component, _ = solver.vote(surface)
+        targets = solver.joined.volumes(solver.cell_volume)
+        marked = find_crumbs(volume, component, targets, limit, solver.cell_volume)
+    return Crumbs(count=int(marked.sum()), volume=float(np.abs(volume[marked]).sum()), limit=limit), marked
+
+
+def compare_counts(solver: Solver, shells: JoinedShells, marked: NDArray[np.bool_]) -> TopologyCheck:
+    """Compare the connections of the data with those of the surface, without its crumbs."""
+    data = {n: outcome.data for n, outcome in solver.smoothed.items() if outcome.data is not None}
+    before = join_shells(data, solver.cell_volume)
+    return TopologyCheck(
+        data=_count(before, np.zeros(len(before.volume), dtype=bool)),
+        result=_count(shells, marked),
+        changes=TopologyChanges(),
+        lost=(),
+    )
+
+
+def _count(shells: JoinedShells, marked: NDArray[np.bool_]) -> ConnectionCounts:
+    """Count the components, cavities and tunnels of a surface."""
+    volume, euler = shells.volume[~marked], shells.euler[~marked]
+    return ConnectionCounts(
+        components=int((volume > 0).sum()),
+        cavities=int((volume <= 0).sum()),
+        tunnels=int((2 - euler).sum() // 2),
+        euler_number=int(euler.sum()),
+    )
