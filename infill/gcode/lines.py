@@ -169,7 +169,7 @@ def read_compiled_lines(
     kind, code = np.zeros(lines, dtype=np.uint8), np.empty(lines, dtype=np.int8)
     values, has_word = np.empty((lines, len(WORDS))), np.zeros((lines, len(WORDS)), dtype=bool)
     numbered, behind = np.zeros(lines, dtype=bool), np.zeros(lines, dtype=bool)
-    with log_compilation("reading"):
+    with log_compilation("the reader of prints"):
         read_lines(
             text, start, _LETTERS, _PLACES[:-1], POWERS, float(FARTHEST), kind, code, numbered, values, has_word, behind
         )

@@ -201,7 +201,7 @@ def write_compiled_words(
     longest = len(head) + 1 + len(tail) + sum(len(prefix) + MOST_CHARACTERS for prefix in prefixes)
     text, start = np.empty(rows * longest, dtype=np.uint8), np.empty(rows + 1, dtype=np.int64)
     decimals = np.array([number for _, _, number in columns])
-    with log_compilation("writing"):
+    with log_compilation("the writer of prints"):
         length = write_rows(
             np.array([values for _, values, _ in columns]),
             decimals,

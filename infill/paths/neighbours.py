@@ -172,8 +172,8 @@ def project_to_beads(points: Floats, walls: BeadIndex) -> tuple[Floats, Floats]:
     certain = np.where(square < last, apart, np.inf).min(axis=1)
     among = np.where(square <= last, apart, np.inf)
     nearest = among.min(axis=1)
-    is_open = (square[:, -1:] <= last)[:, 0] | ((square == last).sum(axis=1) > (square[:, :count] == last).sum(axis=1))
-    unsure = (is_open & ~(certain <= nearest)) | ~np.isfinite(nearest)
+    is_open = (square == last).sum(axis=1) > (square[:, :count] == last).sum(axis=1)
+    unsure = (is_open & ~(certain <= nearest)) | (square[:, -1] <= last[:, 0]) | ~np.isfinite(nearest)
     # So it does where two pieces are as near, in different places.
     rows, choice = np.arange(len(points)), among.argmin(axis=1)
     chosen = places[rows, choice]
