@@ -41,12 +41,12 @@ def label_regions(free, region):
             region[x, y] = 0
             if free[x, y]:
                 pixel = x * columns + y
-                first = root(parent, pixel)  # which comes before all others of its region
-                if first == pixel:
+                root_pixel = root(parent, pixel)  # which comes before all others of its region
+                if root_pixel == pixel:
                     count += 1
                     region[x, y] = count
                 else:
-                    region[x, y] = region[first // columns, first % columns]
+                    region[x, y] = region[root_pixel // columns, root_pixel % columns]
     return count
 
 
@@ -79,30 +79,30 @@ def find_largest_squares(taken, region, largest):
             height[x, y] = min(height[x, y], height[x + 1, y] + 1)
     foot, begin = np.empty(columns, dtype=np.int64), np.empty(columns, dtype=np.int64)
     for x in range(rows):
-        last = 0
+        top = 0
         foot[0] = begin[0] = 0
         for y in range(1, columns):
-            own = height[x, y] * height[x, y]
-            while last >= 0:
-                there, at = foot[last], begin[last]
-                if (at - there) ** 2 + height[x, there] ** 2 <= (at - y) ** 2 + own:
+            squared_height = height[x, y] * height[x, y]
+            while top >= 0:
+                there, at = foot[top], begin[top]
+                if (at - there) ** 2 + height[x, there] ** 2 <= (at - y) ** 2 + squared_height:
                     break
-                last -= 1
-            if last < 0:
-                last, foot[0], begin[0] = 0, y, 0
+                top -= 1
+            if top < 0:
+                top, foot[0], begin[0] = 0, y, 0
                 continue
-            there = foot[last]
-            lower = (y * y - there * there + own - height[x, there] ** 2) // (2 * (y - there)) + 1
+            there = foot[top]
+            lower = (y * y - there * there + squared_height - height[x, there] ** 2) // (2 * (y - there)) + 1
             if lower < columns:
-                last += 1
-                foot[last], begin[last] = y, lower
+                top += 1
+                foot[top], begin[top] = y, lower
         for y in range(columns - 1, -1, -1):
-            there = foot[last]
+            there = foot[top]
             square = (y - there) ** 2 + height[x, there] ** 2
             if square > largest[region[x, y]]:
                 largest[region[x, y]] = square
-            if y == begin[last]:
-                last -= 1
+            if y == begin[top]:
+                top -= 1
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")

@@ -33,10 +33,10 @@ def _ends_number(byte):
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _skip_blanks(text, place, last):
+def _skip_blanks(text, place, final):
     """Return the first place after some spaces and tabs, of which there are few."""
     for _ in range(MOST_BLANKS):
-        byte = text[min(place, last)]
+        byte = text[min(place, final)]
         if byte != SPACE and byte != TAB:
             break
         place += 1
@@ -44,15 +44,15 @@ def _skip_blanks(text, place, last):
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _read_number(text, place, last, powers):
+def _read_number(text, place, final, powers):
     """Return the number that begins at a place, and True if it is valid."""
-    head = text[min(place, last)]
+    head = text[min(place, final)]
     negative = head == MINUS
     if negative or head == PLUS:
         place += 1
     digits, number, decimals = 0, 0, -1
     for _ in range(MAX_CHARACTERS):
-        byte = text[min(place, last)]
+        byte = text[min(place, final)]
         if _is_digit(byte):
             digits = 10 * digits + (byte - ZERO)
             number += 1
@@ -63,14 +63,42 @@ def _read_number(text, place, last, powers):
         else:
             break
         place += 1
-    if not 0 < number <= MAX_DIGITS or not _ends_number(text[min(place, last)]):
+    if not 0 < number <= MAX_DIGITS or not _ends_number(text[min(place, final)]):
         return 0.0, False
     value = float(digits) / powers[max(decimals, 0)]
     return (-value if negative else value), True
 
 
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
+def _read_words(text, place, stop, letters, places, powers, farthest, values, present):
+    """Read the words of a line from a place on; return the place behind them, and whether one is odd."""
+    final, odd = len(text) - 1, False
+    while place < stop:
+        byte = text[place]
+        if byte in (SEMICOLON, OPENING, STAR):
+            break
+        if not _is_letter(byte):
+            place += 1
+            continue
+        column, begin = letters[byte], place + 1
+        number, good = _read_number(text, begin + (text[min(begin, final)] == SPACE), final, powers)
+        if column < 0 or not good:
+            odd = True
+        if column >= 0:
+            odd = odd or present[column] or (places[column] and abs(number) > farthest)
+            present[column] = True
+            values[column] = number
+            if byte | LOWER == SMALL_E:
+                # An E behind a digit is a word, as Marlin and Klipper take it, unless it looks like an exponent.
+                front, back = text[place - 1], text[min(begin, final)]
+                if _is_digit(front) or front == POINT:
+                    odd = odd or byte == SMALL_E or back in (MINUS, PLUS)
+        place = begin
+    return place, odd
+
+
 @njit(nogil=True, cache=True, error_model="numpy")
-def read_lines(text, start, letters, places, powers, farthest, kind, code, numbered, values, given, behind):
+def read_lines(text, start, letters, places, powers, farthest, kind, code, numbered, values, present, behind):
     """Read the kind of every line, and the words of moves and arcs.
 
     Parameters
@@ -84,35 +112,35 @@ def read_lines(text, start, letters, places, powers, farthest, kind, code, numbe
         Columns of words that are places, at most `farthest` from 0.
     powers : (18,) float64
         Of ten.
-    kind, code, numbered, values, given
+    kind, code, numbered, values, present
         Written: as in `ParsedLines`; zeros on entry. A move that is odd has neither numbers nor words.
     behind : (N,) bool
         Written: the line has more than a comment behind its words, such as remarks in brackets.
     """
-    last = len(text) - 1
+    final = len(text) - 1
     columns = values.shape[1]
     for line in range(len(kind)):
-        first, stop = start[line], start[line + 1]
+        begins_at, stop = start[line], start[line + 1]
         for column in range(columns):
             values[line, column] = float("nan")
         code[line] = -1
-        blank = text[first] <= SPACE
-        place = _skip_blanks(text, first, last)
-        if text[min(place, last)] | LOWER == SMALL_N and _is_digit(text[min(place + 1, last)]):
+        blank = text[begins_at] <= SPACE
+        place = _skip_blanks(text, begins_at, final)
+        if text[min(place, final)] | LOWER == SMALL_N and _is_digit(text[min(place + 1, final)]):
             numbered[line] = True
             place += 1
             for _ in range(MOST_NUMBER_DIGITS):
-                if not _is_digit(text[min(place, last)]):
+                if not _is_digit(text[min(place, final)]):
                     break
                 place += 1
-            place = _skip_blanks(text, place, last)
-        head = text[min(place, last)]
+            place = _skip_blanks(text, place, final)
+        head = text[min(place, final)]
         if head | LOWER == SMALL_G:
-            digit, place = text[min(place + 1, last)], place + 2
-            ends = text[min(place, last)]
+            digit, place = text[min(place + 1, final)], place + 2
+            ends = text[min(place, final)]
             if digit == ZERO and _is_digit(ends):  # G01
                 digit, place = ends, place + 1
-                ends = text[min(place, last)]
+                ends = text[min(place, final)]
             if not ZERO <= digit <= ZERO + 3 or _is_digit(ends) or ends == POINT:
                 continue
             code[line] = digit - ZERO
@@ -124,28 +152,7 @@ def read_lines(text, start, letters, places, powers, farthest, kind, code, numbe
             elif blank and (head in (SPACE, TAB)):
                 kind[line] = 5
             continue
-        odd = False
-        while place < stop:
-            byte = text[place]
-            if byte in (SEMICOLON, OPENING, STAR):
-                break
-            if not _is_letter(byte):
-                place += 1
-                continue
-            column, begin = letters[byte], place + 1
-            number, good = _read_number(text, begin + (text[min(begin, last)] == SPACE), last, powers)
-            if column < 0 or not good:
-                odd = True
-            if column >= 0:
-                odd = odd or given[line, column] or (places[column] and abs(number) > farthest)
-                given[line, column] = True
-                values[line, column] = number
-                if byte | LOWER == SMALL_E:
-                    # An E behind a digit is a word, as Marlin and Klipper take it, unless it looks like an exponent.
-                    front, back = text[place - 1], text[min(begin, last)]
-                    if _is_digit(front) or front == POINT:
-                        odd = odd or byte == SMALL_E or back in (MINUS, PLUS)
-            place = begin
+        place, odd = _read_words(text, place, stop, letters, places, powers, farthest, values[line], present[line])
         while place < stop and text[place] != SEMICOLON:
             if _is_letter(text[place]):
                 behind[line] = True
@@ -156,7 +163,7 @@ def read_lines(text, start, letters, places, powers, farthest, kind, code, numbe
             kind[line] = 5
             for column in range(columns):
                 values[line, column] = float("nan")
-                given[line, column] = False
+                present[line, column] = False
 
 
 @njit(nogil=True, cache=True, error_model="numpy")

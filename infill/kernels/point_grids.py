@@ -27,11 +27,11 @@ def _square_of(place, low, cell, count):
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def _squares_around(place, distance, low, cell, count):
     """Return the first and the last square along an axis within a distance of a place; no square if it is outside."""
-    first = (place - distance - low) / cell - WIDER
-    last = (place + distance - low) / cell + WIDER
-    if not (first < count and last >= 0.0):
+    closest = (place - distance - low) / cell - WIDER
+    upper = (place + distance - low) / cell + WIDER
+    if not (closest < count and upper >= 0.0):
         return 0, -1
-    return int(max(first, 0.0)), int(min(last, count - 1.0))
+    return int(max(closest, 0.0)), int(min(upper, count - 1.0))
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
@@ -65,7 +65,7 @@ def sort_points(points, low, cell, shape, begins, number):
 def find_distance(low, cell, shape, begins, points, x, y, distance):
     """Return the distance of a place from the nearest point; infinite from `distance` on."""
     best = distance * distance
-    found = False
+    is_hit = False
     left, right = _squares_around(x, distance, low[0], cell, shape[0])
     bottom, top = _squares_around(y, distance, low[1], cell, shape[1])
     if left <= right:
@@ -74,8 +74,8 @@ def find_distance(low, cell, shape, begins, points, x, y, distance):
                 dx, dy = x - points[k, 0], y - points[k, 1]
                 square = dx * dx + dy * dy
                 if square < best:
-                    best, found = square, True
-    return math.sqrt(best) if found else math.inf
+                    best, is_hit = square, True
+    return math.sqrt(best) if is_hit else math.inf
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
@@ -103,7 +103,7 @@ def _project(x, y, mx, my, hx, hy):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def find_near_pieces(low, cell, shape, begins, points, half, places, distance, reach, near):
+def find_near_pieces(low, cell, shape, begins, points, half, places, distance, reach, is_near):
     """Tell for each place whether one of the three pieces with the nearest middles is within reach.
 
     Parameters
@@ -114,12 +114,12 @@ def find_near_pieces(low, cell, shape, begins, points, half, places, distance, r
     distance : float
         Middles as far away as this do not count.
     reach : float
-    near : (M,) bool
+    is_near : (M,) bool
         Written.
     """
     for place in range(len(places)):
         x, y = places[place, 0], places[place, 1]
-        first = second = third = distance * distance
+        closest = second = third = distance * distance
         one = two = three = -1
         left, right = _squares_around(x, distance, low[0], cell, shape[0])
         bottom, top = _squares_around(y, distance, low[1], cell, shape[1])
@@ -128,24 +128,39 @@ def find_near_pieces(low, cell, shape, begins, points, half, places, distance, r
                 for k in range(begins[row * shape[0] + left], begins[row * shape[0] + right + 1]):
                     dx, dy = x - points[k, 0], y - points[k, 1]
                     square = dx * dx + dy * dy
-                    if square < first:
-                        first, second, third = square, first, second
+                    if square < closest:
+                        closest, second, third = square, closest, second
                         one, two, three = k, one, two
                     elif square < second:
                         second, third = square, second
                         two, three = k, two
                     elif square < third:
                         third, three = square, k
-        near[place] = False
+        is_near[place] = False
         for k in (one, two, three):
             if k >= 0 and _project(x, y, points[k, 0], points[k, 1], half[k, 0], half[k, 1])[1] <= reach:
-                near[place] = True
+                is_near[place] = True
                 break
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def find_beside(
-    low, cell, shape, begins, points, half, path, along, weight, places, own, travelled, distance, reach, stretch, near
+    low,
+    cell,
+    shape,
+    begins,
+    points,
+    half,
+    path,
+    along,
+    weight,
+    places,
+    path_of,
+    travelled,
+    distance,
+    reach,
+    stretch,
+    is_near,
 ):
     """Tell for each place on a path whether a piece is within reach that is another path's, or far along its own.
 
@@ -154,19 +169,19 @@ def find_beside(
     points, half, path, along, weight : (N, …)
         Of pieces, sorted: as in `infill.paths.contact.Samples`.
     places : (M, 2) float64
-    own, travelled : (M,) int64 and float64
+    path_of, travelled : (M,) int64 and float64
         The path of each place, and how far along it is.
     distance : float
         Middles as far away as this do not count.
     reach, stretch : float
         Pieces nearer than `stretch` along its own path do not count.
-    near : (M,) bool
+    is_near : (M,) bool
         Written.
     """
     limit = distance * distance
     for place in range(len(places)):
         x, y = places[place, 0], places[place, 1]
-        near[place] = False
+        is_near[place] = False
         left, right = _squares_around(x, distance, low[0], cell, shape[0])
         bottom, top = _squares_around(y, distance, low[1], cell, shape[1])
         if left > right:
@@ -179,13 +194,13 @@ def find_beside(
                 share, apart = _project(x, y, points[k, 0], points[k, 1], half[k, 0], half[k, 1])
                 if apart > reach:
                     continue
-                if path[k] == own[place]:
+                if path[k] == path_of[place]:
                     there = along[k] + share * weight[k] / 2
                     if abs(there - travelled[place]) <= stretch:
                         continue
-                near[place] = True
+                is_near[place] = True
                 break
-            if near[place]:
+            if is_near[place]:
                 break
 
 
@@ -216,7 +231,7 @@ def join_near(low, cell, shape, begins, points, path, reach, parent):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def find_several(low, cell, shape, begins, points, number, places, distance, found, squares):
+def find_several(low, cell, shape, begins, points, number, places, distance, names, squares):
     """Find the nearest points of each place, the nearest first.
 
     Parameters
@@ -226,16 +241,16 @@ def find_several(low, cell, shape, begins, points, number, places, distance, fou
     places : (M, 2) float64
     distance : float
         Points as far away as this do not count.
-    found : (M, K) int64
+    names : (M, K) int64
         Written; -1 where fewer points count.
     squares : (M, K) float64
         Written: squares of their distances, infinite where fewer points count.
     """
-    most = found.shape[1]
+    count_sought = names.shape[1]
     for place in range(len(places)):
         x, y = places[place, 0], places[place, 1]
-        for rank in range(most):
-            found[place, rank], squares[place, rank] = -1, math.inf
+        for rank in range(count_sought):
+            names[place, rank], squares[place, rank] = -1, math.inf
         limit = distance * distance
         left, right = _squares_around(x, distance, low[0], cell, shape[0])
         bottom, top = _squares_around(y, distance, low[1], cell, shape[1])
@@ -245,12 +260,12 @@ def find_several(low, cell, shape, begins, points, number, places, distance, fou
             for k in range(begins[row * shape[0] + left], begins[row * shape[0] + right + 1]):
                 dx, dy = x - points[k, 0], y - points[k, 1]
                 square = dx * dx + dy * dy
-                if square < limit and square < squares[place, most - 1]:
-                    rank = most - 1
+                if square < limit and square < squares[place, count_sought - 1]:
+                    rank = count_sought - 1
                     while rank > 0 and square < squares[place, rank - 1]:
-                        found[place, rank], squares[place, rank] = found[place, rank - 1], squares[place, rank - 1]
+                        names[place, rank], squares[place, rank] = names[place, rank - 1], squares[place, rank - 1]
                         rank -= 1
-                    found[place, rank], squares[place, rank] = number[k], square
+                    names[place, rank], squares[place, rank] = number[k], square
 
 
 @njit(nogil=True, cache=True, error_model="numpy")

@@ -24,10 +24,10 @@ def _apart(px, py, ax, ay, bx, by):
 
 
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
-def _spread(points, chosen, last, unit, spread_length, shortest):
+def _spread(points, chosen, final, unit, spread_length, shortest):
     """Move both points of a segment apart along their legs; return how far the path moves, and the two points."""
     ax, ay, bx, by = points[chosen, 0], points[chosen, 1], points[chosen + 1, 0], points[chosen + 1, 1]
-    before, after = max(chosen - 1, 0), min(chosen + 2, last)
+    before, after = max(chosen - 1, 0), min(chosen + 2, final)
     back_x, back_y, on_x, on_y = (
         points[before, 0] - ax,
         points[before, 1] - ay,
@@ -64,7 +64,7 @@ def _set_length(points, owner, segment, count, length):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def merge_rounds(points, owner, source, least, number, unit, limits, classes, scatter):
+def merge_rounds(points, owner, source, shortest_of, number, unit, limits, classes, scatter):
     """Merge short segments until none is left that may go; return the number of points that remain, at the front.
 
     Parameters
@@ -73,7 +73,7 @@ def merge_rounds(points, owner, source, least, number, unit, limits, classes, sc
         Changed.
     owner, source : (N,) int64
         Changed: the path of each point, ascending, and what it stands for.
-    least : (M,) float64, mm
+    shortest_of : (M,) float64, mm
         Length of each path below which segments are merged.
     number : (M,) int64
         Changed: number of the points of each path.
@@ -94,7 +94,7 @@ def merge_rounds(points, owner, source, least, number, unit, limits, classes, sc
     while count > 1:
         candidates = 0
         for k in range(count - 1):
-            if length[k] < least[owner[k]] - unit / 10 and not stays[k] and number[owner[k]] != 2:
+            if length[k] < shortest_of[owner[k]] - unit / 10 and not stays[k] and number[owner[k]] != 2:
                 rank[k + 2] = math.floor(length[k] / classes) + (k * scatter) % 1.0
                 short[candidates] = k
                 candidates += 1
@@ -108,12 +108,12 @@ def merge_rounds(points, owner, source, least, number, unit, limits, classes, sc
             rank[short[n] + 2] = math.inf
         if not picked:
             break
-        dropped, last = 0, count - 1
+        dropped, final = 0, count - 1
         for n in range(picked):
             k = chosen[n]
-            before, after = max(k - 1, 0), min(k + 2, last)
+            before, after = max(k - 1, 0), min(k + 2, final)
             at_begin = k == 0 or owner[k] != owner[k - 1]
-            at_end = k + 1 == last or owner[k] != owner[after]
+            at_end = k + 1 == final or owner[k] != owner[after]
             ax, ay, bx, by = points[k, 0], points[k, 1], points[k + 1, 0], points[k + 1, 1]
             px, py, qx, qy = points[before, 0], points[before, 1], points[after, 0], points[after, 1]
             mx, my = np.rint((ax + bx) / 2 / unit) * unit, np.rint((ay + by) / 2 / unit) * unit
@@ -127,14 +127,14 @@ def merge_rounds(points, owner, source, least, number, unit, limits, classes, sc
                 error, best = without_b, 1
             if halfway < error:
                 error, best = halfway, 2
-            merged_error = error + max(moved[before], max(moved[k], moved[min(k + 1, last)]))
+            merged_error = error + max(moved[before], max(moved[k], moved[min(k + 1, final)]))
             must = math.hypot(bx - ax, by - ay) < shortest and not at_begin and not at_end
             if not must and not merged_error <= most_moved:
                 stays[k] = True
                 continue
             is_spread = False
             if must and error > hardly_bent:
-                spread_error, new_ax, new_ay, new_bx, new_by = _spread(points, k, last, unit, spread_length, shortest)
+                spread_error, new_ax, new_ay, new_bx, new_by = _spread(points, k, final, unit, spread_length, shortest)
                 if spread_error + merged_error - error <= most_spread:
                     is_spread = True
                     merged_error += spread_error - error
@@ -144,10 +144,10 @@ def merge_rounds(points, owner, source, least, number, unit, limits, classes, sc
             if is_spread:
                 points[k, 0], points[k, 1], points[k + 1, 0], points[k + 1, 1] = new_ax, new_ay, new_bx, new_by
             else:
-                kept = k + 1 if best == 0 else k
+                stay = k + 1 if best == 0 else k
                 if best == 2:
-                    points[kept, 0], points[kept, 1] = mx, my
-                goes[dropped] = 2 * k + 1 - kept
+                    points[stay, 0], points[stay, 1] = mx, my
+                goes[dropped] = 2 * k + 1 - stay
                 dropped += 1
                 number[owner[k]] -= 1
             for segment in (k - 1, k, k + 1):
