@@ -213,19 +213,19 @@ class WallMesh:
         at, to = self.points[starts[owner]], self.points[ends[owner]]
         return at + share[:, None] * (to - at), starts[owner], (owner // 3).astype(np.int32)
 
-    def _ridges(self, first: NDArray[np.int64], second: NDArray[np.int64], tolerance: float) -> NDArray[np.int64]:
+    def _ridges(self, edges: NDArray[np.int64], twins: NDArray[np.int64], tolerance: float) -> NDArray[np.int64]:
         """Choose the edges at which a wall bends, of pairs (E,) of the same edge in two triangles."""
         normals, twice = [], []
-        for edges in (first, second):
-            corners = self.points[self.triangles[edges // 3]]
+        for half in (edges, twins):
+            corners = self.points[self.triangles[half // 3]]
             normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
             twice.append(np.linalg.norm(normal, axis=1))
             normals.append(normal / np.maximum(twice[-1], 1e-300)[:, None])
         cosine = (normals[0] * normals[1]).sum(axis=1)
         rise = np.sqrt(np.maximum(0.0, 0.5 - 0.5 * cosine)) * np.minimum(*twice)
-        ends = (self.points[self.triangles[first // 3, (first + step) % 3]] for step in (0, 1))
+        ends = (self.points[self.triangles[edges // 3, (edges + step) % 3]] for step in (0, 1))
         length = np.linalg.norm(np.subtract(*ends), axis=1)
-        return np.asarray(first[rise > RIDGE_HEIGHT * tolerance * length])
+        return np.asarray(edges[rise > RIDGE_HEIGHT * tolerance * length])
 
     def sample(self, spacing: float) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
         """Return places (N, 3) spread over triangles, and the pair of each; of large meshes, a sample."""
@@ -324,14 +324,14 @@ class WallMesh:
     def crowded_points(self) -> NDArray[np.bool_]:
         """Mark the points (P,) of triangles that lie on each other, and of edges with over two triangles of a label."""
         starts, ends = edges_of(self.triangles)
-        number, first = self._number_edges()
+        number, at = self._number_edges()
         behind, before = (np.repeat(side.astype(np.int64), 3) for side in self.sides.T)
         is_inner, labels = before != OUTSIDE, int(self.sides.max(initial=0)) + 1
         uses = np.concatenate([number * labels + behind, number[is_inner] * labels + before[is_inner]])
         use, count = np.unique(uses, return_counts=True)
-        crowded = first[use[count > 2] // labels]
+        crowded = at[use[count > 2] // labels]
         of_triangle = number.reshape(-1, 3)
-        two_edges = of_triangle.min(axis=1) * len(first) + of_triangle.max(axis=1)  # no other triangle has both
+        two_edges = of_triangle.min(axis=1) * len(at) + of_triangle.max(axis=1)  # no other triangle has both
         _, same, count = np.unique(two_edges, return_inverse=True, return_counts=True)
         is_crowded = np.zeros(len(self.points), dtype=bool)
         is_crowded[starts[crowded]] = is_crowded[ends[crowded]] = True
@@ -346,8 +346,8 @@ class WallMesh:
         """Give edges (3 T,) between the same points the same number; return the numbers, and where each comes first."""
         starts, ends = edges_of(self.triangles)
         keys = np.minimum(starts, ends).astype(np.int64) * len(self.points) + np.maximum(starts, ends)
-        _, first, number = np.unique(keys, return_index=True, return_inverse=True)
-        return number, first
+        _, at, number = np.unique(keys, return_index=True, return_inverse=True)
+        return number, at
 
     def _compact(
         self,
