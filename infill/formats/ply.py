@@ -159,7 +159,7 @@ def _to_integers(path: Path, values: NDArray[Any]) -> NDArray[np.int64]:
 
 
 def ply_header(vertices: int, triangles: int, properties: str = "") -> bytes:
-    """Return the header of binary PLY; `properties` are lines for what faces have besides their corners."""
+    """Return the header of binary PLY; `properties` are lines for the values of faces besides their corners."""
     return (
         "ply\nformat binary_little_endian 1.0\n"
         f"comment phasefill {__version__}, millimetres\n"

@@ -136,7 +136,7 @@ def count_nifti_frames(path: Path) -> int:
 
 
 def _read_image(path: Path, read: Callable[[ImageHeader, CellReader], Content]) -> Content:
-    """Parse the header of a file; return what a function of it, and of a reader of its cells, returns."""
+    """Parse the header of a file; return the result of a function of it and of a reader of its cells."""
     with wrap_reader_errors(path), np.errstate(all="ignore"), path.open("rb") as file:  # infinite places are refused
         packed = file.read(2) == MAGIC_OF_GZIP
         file.seek(0)

@@ -61,7 +61,7 @@ def segmentation_of_shares(
     Parameters
     ----------
     shares : (labels, nx, ny, nz) float
-        The share of each label, 0 to 1; what is left of 1 is the space between labels. If nothing is left anywhere, the
+        The share of each label, 0 to 1; the rest of 1 is the space between labels. If nothing is left anywhere, the
         first is that space, as networks write it.
     **place
         Spacing, origin, direction and space of the `infill.Volume`.

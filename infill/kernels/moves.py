@@ -41,7 +41,7 @@ def limit_moves(
     delta, feedrate, setting
         As in `infill.planner.bounds.Moves`; the feed rate is a number.
     together : bool
-        Klipper's rule: the path limits x and y, and the extruder only what it does alone.
+        Klipper's rule: the path limits x and y, and the extruder only moves that it makes alone.
     rates : (S, 5) float64
         Of each setting: the least feed rate of travel and of others, and the acceleration of travel, of others, and of
         the extruder alone.

@@ -275,13 +275,13 @@ def mark_pinched(low, cell, shape, begins, points, number, ring, place, around, 
     Parameters
     ----------
     points, number, ring, place : (N, 2) float64, (N,) int64, (N,) int64, (N,) float64
-        Sorted: the points, what they are called, their rings, and how far along these they are.
+        Sorted: the points, their names, their rings, and how far along these they are.
     around : (R,) float64
         Length of each ring.
     reach, exempt : float
         A point is near up to `reach`; and far beyond `exempt` along the ring, either way, or on another one.
     pinched : (N,) bool
-        Written where it is true: for each point, by what it is called.
+        Written where it is true: for each point, by its name.
     """
     limit = reach * reach
     for point in range(len(points)):

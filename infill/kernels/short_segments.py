@@ -1,6 +1,6 @@
 """Short segments of paths merged with their neighbours, in rounds: tests/plain_segments.py has the same in NumPy.
 
-A round merges segments three or more apart, so that none sees what another of its round changes.
+A round merges segments three or more apart, so that none sees changes of another of its round.
 """
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201, ANN202
@@ -72,7 +72,7 @@ def merge_rounds(points, owner, source, shortest_of, number, unit, limits, class
     points : (N, 2) float64, mm
         Changed.
     owner, source : (N,) int64
-        Changed: the path of each point, ascending, and what it stands for.
+        Changed: the path of each point, ascending, and the point that it stands for.
     shortest_of : (M,) float64, mm
         Length of each path below which segments are merged.
     number : (M,) int64

@@ -1,4 +1,4 @@
-"""Points on beads in the squares of a grid: what lies near a place is found sooner there than in a tree."""
+"""Points on beads in the squares of a grid: neighbours of a place are found sooner there than in a tree."""
 
 from __future__ import annotations
 
