@@ -29,7 +29,7 @@ from infill.smoothing.request import SmoothRequest
 
 pytestmark = pytest.mark.usefixtures("compiled", "silent_compiler")
 
-SIDE = 70
+SIDE = 50
 
 
 def gyroid(side: int, period: float) -> np.ndarray[Any, np.dtype[np.uint8]]:
@@ -120,7 +120,7 @@ def test_choices_of_the_solid(choice: tuple[str, ...], folder: Path) -> None:
 
 
 def test_a_mask_and_a_box(folder: Path) -> None:
-    extra = ("--smooth", "plain", "--hash", "-q", "--roi", "5,61,10,50,3,60", "--spacing", "1")
+    extra = ("--smooth", "plain", "--hash", "-q", "--roi", "5,41,10,50,3,40", "--spacing", "1")
     chunks = run("smooth", "mask.npy", "--workers", "2", *extra)
     whole = run("smooth", "mask.npy", "--tolerance", "0", "--strict", "--allow-broken", *extra)
     assert chunks.exit_code == 0, chunks.output

@@ -146,6 +146,9 @@ def test_clocks_are_read_only_where_time_is_told() -> None:
         "cli/labelled.py",
         "making/duration.py",
         "result.py",
+        "smoothing/chunked.py",
+        "smoothing/chunked_plan.py",
+        "smoothing/chunked_surface.py",
         "smoothing/plan.py",
         "smoothing/together_plan.py",
     }
