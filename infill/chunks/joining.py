@@ -58,15 +58,15 @@ def survey_components(chunk_field: ChunkField, chunk: Chunk, labelled: Component
     lattice = np.array(chunk.lattice)
     tables = (labelled.bits, labelled.bricks, labelled.starts, labelled.names)
     where = (field.where + np.array(chunk.kept_low)).astype(np.int32)
-    own_cells, first, anywhere = np.zeros(count, dtype=np.int64), np.full(count, -1), np.full(count, -1)
+    own_cells, lowest, anywhere = np.zeros(count, dtype=np.int64), np.full(count, -1), np.full(count, -1)
     count_cells_of(where, chunk_field.own, *tables, own_cells)
-    find_first_cells(where, chunk_field.own & chunk_field.begun, *tables, lattice, first)
+    find_first_cells(where, chunk_field.own & chunk_field.begun, *tables, lattice, lowest)
     find_first_cells(where, np.ones(len(where), dtype=bool), *tables, lattice, anywhere)
     single = np.argwhere(labelled.alone >= 0)
     alone_names = labelled.names[labelled.alone[tuple(single.T)]]
-    own = chunk.owns(single)
+    is_owned = chunk.owns(single)
     places = single + np.array(chunk.kept_low)
-    np.add.at(own_cells, alone_names[own], brick_sides_on_grid(places[own], chunk.shape).prod(axis=1))
+    np.add.at(own_cells, alone_names[is_owned], brick_sides_on_grid(places[is_owned], chunk.shape).prod(axis=1))
     numbers = cell_names(np.maximum(places * BRICK, 1), chunk)  # a cell of the grid in each
     order = np.argsort(-numbers, kind="stable")
     missing = anywhere[alone_names[order]] < 0
@@ -75,7 +75,7 @@ def survey_components(chunk_field: ChunkField, chunk: Chunk, labelled: Component
     is_strange = own_cells == 0
     return ChunkComponents(
         cells=own_cells,
-        first=first,
+        first=lowest,
         seen=seen,
         seen_by=seen_by,
         strange=anywhere[is_strange],
@@ -161,8 +161,8 @@ def named_cells(names: Numbers, lattice: tuple[int, ...]) -> Numbers:
     rest, k = np.divmod(cell, BRICK[2])
     i, j = np.divmod(rest, BRICK[1])
     plane, third = np.divmod(number, lattice[2])
-    first, second = np.divmod(plane, lattice[1])
-    cells: Numbers = np.stack([first, second, third], axis=1) * BRICK + np.stack([i, j, k], axis=1)
+    lowest, second = np.divmod(plane, lattice[1])
+    cells: Numbers = np.stack([lowest, second, third], axis=1) * BRICK + np.stack([i, j, k], axis=1)
     return cells
 
 
@@ -209,15 +209,15 @@ def join_components(
     name, node = name[order], node[order]
     same = name[1:] == name[:-1]
     ends = [(node[1:][same], node[:-1][same])]
-    ends += [(own + begins[number], others + begins[other]) for number, own, other, others in answers]
+    ends += [(owned + begins[number], others + begins[other]) for number, owned, other, others in answers]
     first_ends, second_ends = (np.concatenate(side) for side in zip(*ends, strict=True))
     joined, count = label_connected(first_ends, second_ends, total)
-    cells, first = np.zeros(count, dtype=np.int64), np.full(count, np.iinfo(np.int64).max)
+    cells, lowest = np.zeros(count, dtype=np.int64), np.full(count, np.iinfo(np.int64).max)
     for number, survey in surveys.items():
-        own = joined[begins[number] : begins[number] + len(survey.cells)]
-        np.add.at(cells, own, survey.cells)
-        np.minimum.at(first, own[survey.first >= 0], survey.first[survey.first >= 0])
-    order = np.argsort(first, kind="stable")
+        owned = joined[begins[number] : begins[number] + len(survey.cells)]
+        np.add.at(cells, owned, survey.cells)
+        np.minimum.at(lowest, owned[survey.first >= 0], survey.first[survey.first >= 0])
+    order = np.argsort(lowest, kind="stable")
     rank = np.empty(count, dtype=np.int32)
     rank[order] = np.arange(count, dtype=np.int32)
     return JoinedComponents(

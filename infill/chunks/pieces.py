@@ -82,12 +82,12 @@ def count_piece(chunk_field: ChunkField, chunk: Chunk, level: float) -> tuple[Co
     field = chunk_field.field
     bits = rows_above(field, field.values, level, threads=1)
     places = crossed_bricks(field, bits, 1)
-    own = chunk.owns(places)
+    owned = chunk.owns(places)
     behind = (places + np.array(chunk.kept_low) >= np.array(chunk.low)).all(axis=1)  # no triangle takes others
-    ordered = np.concatenate([places[own], places[behind & ~own]])
-    bricks, count = count_bricks(field, bits, ordered, threads=1), int(own.sum())
+    ordered = np.concatenate([places[owned], places[behind & ~owned]])
+    bricks, count = count_bricks(field, bits, ordered, threads=1), int(owned.sum())
     cubes = np.diff(bricks.offsets[: count + 1, 2])
-    numbers = brick_numbers(places[own].astype(np.int64) + np.array(chunk.kept_low), chunk)
+    numbers = brick_numbers(places[owned].astype(np.int64) + np.array(chunk.kept_low), chunk)
     return bricks, count, UndecidedCubes(bricks=numbers[cubes > 0], counts=cubes[cubes > 0])
 
 
@@ -131,9 +131,9 @@ def make_piece(
         For each brick with undecided cubes, their number in all bricks of the whole volume before it.
     """
     bricks, own_count, cubes = counted
-    first = np.array(chunk.kept_low) * BRICK
-    raw = write_bricks(chunk_field.field, bricks, level=level, first=tuple(first.tolist()), threads=1)
-    own, own_faces, own_cubes = bricks.offsets[own_count].tolist()
+    corner = np.array(chunk.kept_low) * BRICK
+    raw = write_bricks(chunk_field.field, bricks, level=level, first=tuple(corner.tolist()), threads=1)
+    owned, own_faces, own_cubes = bricks.offsets[own_count].tolist()
     vertices, rate, faces = raw.vertices, raw.rate, raw.faces[:own_faces]
     inner = np.empty((0, 3))
     if own_cubes:
@@ -147,16 +147,16 @@ def make_piece(
         faces = np.concatenate([faces, inner_faces])
     used = np.zeros(len(vertices) + len(inner), dtype=bool)
     used[faces] = True
-    foreign = np.flatnonzero(used[: len(vertices)][own:]) + own
-    order = np.concatenate([np.arange(own), len(vertices) + np.arange(len(inner)), foreign])
+    foreign = np.flatnonzero(used[: len(vertices)][owned:]) + owned
+    order = np.concatenate([np.arange(owned), len(vertices) + np.arange(len(inner)), foreign])
     number = np.full(len(used), -1, dtype=np.int32)
     number[order] = np.arange(len(order), dtype=np.int32)
     points = np.concatenate([vertices, inner])[order]
     rates = np.concatenate([rate, np.zeros((len(inner), 3), dtype=np.float32)])[order]
-    is_shared = np.zeros(own, dtype=bool)
+    is_shared = np.zeros(owned, dtype=bool)
     for axis in range(3):
         if chunk.low[axis] > 0:
-            is_shared |= np.floor(points[:own, axis]) == chunk.low[axis] * BRICK[axis] - 1
+            is_shared |= np.floor(points[:owned, axis]) == chunk.low[axis] * BRICK[axis] - 1
     shared_at = np.flatnonzero(is_shared)
     names, foreign_names = edge_names(points[shared_at], chunk), edge_names(vertices[foreign], chunk)
     scale_to_mm(points, rates, np.array(spacing), np.zeros(3), 0, 1)
@@ -164,7 +164,7 @@ def make_piece(
         vertices=points,
         rate=rates,
         faces=number[faces],
-        own=own + len(inner),
+        own=owned + len(inner),
         foreign=foreign_names,
         shared=names,
         shared_at=shared_at,

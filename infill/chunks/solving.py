@@ -219,8 +219,8 @@ class Solver:
         parts = dict(known) or self._run(tasks, stage)
         pending = [number for number, part in parts.items() if not part.complete]
         if any(len(part.cubes.bricks) for part in parts.values()):
-            first = number_cubes(parts)
-            tasks = {number: replace(task, first_cubes=first[number]) for number, task in tasks.items()}
+            begins = number_cubes(parts)
+            tasks = {number: replace(task, first_cubes=begins[number]) for number, task in tasks.items()}
             parts |= self._run({number: tasks[number] for number in pending}, stage)
         if not sum(part.own for part in parts.values()):
             raise nothing_left(level)
@@ -286,8 +286,8 @@ class Solver:
         """Return the component of each shell, -1 for none, and pairs that share one: see `elect_components`."""
         assert self.joined is not None
         if not any(task.votes for task in surface.tasks.values()):
-            first = next(iter(surface.tasks.values()))
-            surface = self.measure(surface.level, first.lowering, votes=True, stage="check")
+            begins = next(iter(surface.tasks.values()))
+            surface = self.measure(surface.level, begins.lowering, votes=True, stage="check")
         return elect(surface, self.joined.cells)
 
     def number_vertices(self, surface: MeasuredSurface, crumbs: NDArray[np.bool_]) -> Numbering:
@@ -315,14 +315,14 @@ class Solver:
             chunks.append(self.chunks[number])
             counts.append((vertices, faces))
             shared.append((names, ranks))
-        first = np.cumsum(np.array([(0, 0), *counts], dtype=np.int64), axis=0)
+        begins = np.cumsum(np.array([(0, 0), *counts], dtype=np.int64), axis=0)
         nothing = np.empty(0, dtype=np.int64)
         names = np.concatenate([nothing, *(names for names, _ in shared)])
-        numbers = np.concatenate([nothing, *(ranks + first[n, 0] for n, (_, ranks) in enumerate(shared))])
+        numbers = np.concatenate([nothing, *(ranks + begins[n, 0] for n, (_, ranks) in enumerate(shared))])
         return Numbering(
             chunks=tuple(chunks),
-            first_vertices=first[:, 0],
-            first_faces=first[:, 1],
+            first_vertices=begins[:, 0],
+            first_faces=begins[:, 1],
             names=names,
             numbers=numbers,
             removed=removed,
@@ -352,10 +352,10 @@ def number_cubes(parts: Mapping[int, LevelParts]) -> dict[int, Numbers]:
     bricks = np.concatenate([part.cubes.bricks for part in parts.values()])
     counts = np.concatenate([part.cubes.counts for part in parts.values()])
     order = np.argsort(bricks)
-    first = np.empty(len(bricks), dtype=np.int64)
-    first[order] = np.cumsum(counts[order]) - counts[order]
+    begins = np.empty(len(bricks), dtype=np.int64)
+    begins[order] = np.cumsum(counts[order]) - counts[order]
     ends = np.cumsum([len(part.cubes.bricks) for part in parts.values()])
-    return dict(zip(parts, np.split(first, ends[:-1]), strict=True))
+    return dict(zip(parts, np.split(begins, ends[:-1]), strict=True))
 
 
 def chunk_size(
@@ -381,8 +381,8 @@ def chunk_size(
         lattice = math.ceil((count + 2) / size)
         chunks = math.ceil(lattice / max(1, side // size))
         bricks.append(math.ceil(lattice / chunks))  # chunks of about the same size
-    first, second, third = bricks
-    return first, second, third
+    begins, second, third = bricks
+    return begins, second, third
 
 
 LEAST_SIDE = 32  # cells

@@ -443,12 +443,12 @@ def make_part(work: Work, chunk: Chunk, task: LevelTask, removed: NDArray[np.boo
     piece = make_piece(lowered, chunk, counted, level=task.level, spacing=work.spacing, first_cubes=first_cubes)
     names = measure_parts(piece, chunk, work.spacing).names
     stays = (names >= 0) & ~removed[names] if len(removed) else names >= 0
-    own, foreign = stays[: piece.own], stays[piece.own :]
-    number = np.concatenate([np.cumsum(own) - 1, int(own.sum()) + np.cumsum(foreign) - 1])
+    is_owned, foreign = stays[: piece.own], stays[piece.own :]
+    number = np.concatenate([np.cumsum(is_owned) - 1, int(is_owned.sum()) + np.cumsum(foreign) - 1])
     faces = piece.faces[stays[piece.faces[:, 0]]]
-    is_left = own[piece.shared_at]
+    is_left = is_owned[piece.shared_at]
     return ChunkTriangles(
-        vertices=piece.vertices[: piece.own][own],
+        vertices=piece.vertices[: piece.own][is_owned],
         faces=number[faces],
         foreign=piece.foreign[foreign],
         corners=piece.vertices[piece.own :][foreign],
@@ -471,8 +471,8 @@ def field_values(work: Work, chunk: Chunk, level: float, lowering: LevelTask) ->
     labelled = chunk_field.components() if lowering.names is not None and lowering.lowering else None
     field = _lower(chunk_field, labelled, lowering).field
     dense = field.to_dense(threads=1)
-    first = np.maximum(np.array(chunk.low) * BRICK - 1, 0) - np.array(chunk.kept_low) * BRICK
+    corner = np.maximum(np.array(chunk.low) * BRICK - 1, 0) - np.array(chunk.kept_low) * BRICK
     sizes = [part.stop - part.start for part in chunk.own_cells]
-    values = dense[tuple(slice(a, a + n) for a, n in zip(first.tolist(), sizes, strict=True))]
+    values = dense[tuple(slice(a, a + n) for a, n in zip(corner.tolist(), sizes, strict=True))]
     values -= np.float32(level)
     return np.ascontiguousarray(values.clip(-1, 1))

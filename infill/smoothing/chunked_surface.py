@@ -22,8 +22,8 @@ from infill.inspection.changes import ConnectionCounts, TopologyChanges
 from infill.kernels.sparse import BRICK
 from infill.lazy.volume import LazyVolume
 from infill.plain_numbers import count_noun, plain_size
-from infill.reports.common import Topology, declare, report_head
-from infill.reports.smoothing import ChunksReport, ChunksSeconds, SegmentationKeys
+from infill.reports.common import GridKeys, Topology, declare, report_head
+from infill.reports.smoothing import ChunkKeys, ChunksReport, ChunksSeconds, SegmentationKeys
 from infill.smoothing.chunk_plans import ChunkPlan
 from infill.smoothing.comparing import LOST_VOLUME, VOLUME_TOLERANCE, describe_counts
 from infill.smoothing.levelling import CRUMB_CELLS, Crumbs, find_crumbs
@@ -194,7 +194,6 @@ class ChunkedSurface:
         bounds = np.array([corners[:, 0].min(axis=0), corners[:, 1].max(axis=0)])
         change = self.enclosed / self.target - 1
         common, levels = self.level
-        work, layout = self.solver.work, self.plan.layout
         remarks = describe_counts(self.counts)
         if self.crumbs.count:
             remarks.append(
@@ -215,12 +214,7 @@ class ChunkedSurface:
             "problems": self.problems(),
             "changes": remarks,
             "request": self.request.facts(),
-            "grid": {
-                "shape": list(layout.shape),
-                "spacing": list(work.spacing),
-                "origin": list(self.volume.origin),
-                "space": self.volume.space,
-            },
+            "grid": self._grid_facts(),
             "input": {
                 "name": self.volume.name,
                 "segmentation": self.segmentation,
@@ -240,17 +234,31 @@ class ChunkedSurface:
             },
             "topology": declare(Topology, {"data": asdict(self.counts.data), "result": asdict(self.counts.result)}),
             "crumbs": {"removed": self.crumbs.count, "volume": self.crumbs.volume, "limit": self.crumbs.limit},
-            "chunks": {
-                "count": len(layout),
-                "crossed": len(self.solver.surfaced),
-                "cells": [bricks * size for bricks, size in zip(layout.size, BRICK, strict=True)],
-                "margin": [bricks * size for bricks, size in zip(layout.margin, BRICK, strict=True)],
-                "workers": self.plan.workers,
-                "passes": self.solver.passes,
-            },
+            "chunks": self._chunk_facts(),
             "seconds": declare(ChunksSeconds, {**self.seconds, "total": sum(self.seconds.values())}),
         }
         return report
+
+    def _grid_facts(self) -> GridKeys:
+        """Return the grid, for the report."""
+        return {
+            "shape": list(self.plan.layout.shape),
+            "spacing": list(self.solver.work.spacing),
+            "origin": list(self.volume.origin),
+            "space": self.volume.space,
+        }
+
+    def _chunk_facts(self) -> ChunkKeys:
+        """Return the sizes and the number of chunks, for the report."""
+        layout = self.plan.layout
+        return {
+            "count": len(layout),
+            "crossed": len(self.solver.surfaced),
+            "cells": [bricks * size for bricks, size in zip(layout.size, BRICK, strict=True)],
+            "margin": [bricks * size for bricks, size in zip(layout.margin, BRICK, strict=True)],
+            "workers": self.plan.workers,
+            "passes": self.solver.passes,
+        }
 
 
 def place_points(points: NDArray[np.float64], place: Volume) -> NDArray[np.float64]:
