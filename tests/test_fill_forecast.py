@@ -21,7 +21,13 @@ PEAK = (
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("options", [(), ("--region", "z=10..20:pattern=honeycomb")], ids=["one", "two"])
+@pytest.mark.parametrize(
+    "options",
+    [
+        pytest.param((), id="one"),
+        pytest.param(("--region", "z=10..20:pattern=honeycomb"), id="two", marks=pytest.mark.longest),
+    ],
+)
 def test_the_memory_is_within_a_factor_of_two(options: tuple[str, ...], tmp_path: Path) -> None:
     """Of a process that fills a bracket, also where a second pattern takes another whole fill, and a cut."""
     part, output = tmp_path / "part.stl", tmp_path / "filled.stl"

@@ -204,6 +204,6 @@ def test_a_block_is_made_of_a_level_set(stamp: str) -> None:
 
 
 def test_what_changes_with_height_is_a_block_too() -> None:
-    block = make(SchwarzP(), size=12, height=8, density=0.3)
+    block = make(SchwarzP(), size=8, height=4, density=0.3)
     assert block.surface.closed
     assert block.report["density"] == pytest.approx(0.3, abs=0.005)

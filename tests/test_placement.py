@@ -424,7 +424,8 @@ def test_a_shell_completes_the_parameters_of_the_pattern() -> None:
 
 def test_the_page_tells_every_parameter() -> None:
     """Its name, which patterns have it, what it means and what it may be."""
-    text = (ROOT / "docs" / "refill.md").read_text(encoding="utf-8").partition("### Their parameters")[2]
+    text = (ROOT / "docs" / "refill.md").read_text(encoding="utf-8")
+    text = text.partition("### Their parameters")[2].partition("\n## ")[0]
     rows = [re.split(r"\s*\|\s*", line.strip("| ")) for line in text.splitlines() if line.startswith("| `")]
     told = {row[0].strip("`"): row for row in rows}
     having: dict[str, list[str]] = {}
