@@ -45,7 +45,7 @@ def main() -> None:
     both.save(FOLDER / "stamps.png", optimize=True)
     smooth_volume(gyroid(), spacing=0.5, tolerance=None).save(FOLDER / "smooth.png")
     save_labels(FOLDER / "labels-together.png")
-    if BRAIN.exists():  # made by `make data`
+    if BRAIN.exists():  # tools/data.toml says how to come by it
         save_brain(BRAIN, FOLDER / "brain-together.png")
     fill(bracket(), density=0.2).save(FOLDER / "fill.png")
     if not slicers.missing_prusa():

@@ -6,7 +6,6 @@ import hashlib
 import subprocess
 import sys
 import threading
-import zipfile
 from collections.abc import Iterator
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
@@ -71,37 +70,6 @@ def test_a_file_comes_once(server: str, tmp_path: Path) -> None:
     assert again.returncode == 0
     assert "1 of 1 files are in" in again.stderr
     assert "[1/1]" not in again.stderr
-
-
-@pytest.mark.slow
-def test_a_file_of_an_archive_comes_alone_and_has_to_be_the_right_one(tmp_path: Path, server: str) -> None:
-    with zipfile.ZipFile(tmp_path / "served" / "brain.whl", "w") as archive:
-        archive.writestr("brain/labels.nii", b"labels")
-        archive.writestr("brain/LICENSE", b"BSD")
-    (tmp_path / "served" / "text.whl").write_bytes(b"no archive")
-    members = {
-        "a.nii": ("brain.whl", "brain/labels.nii", b"labels"),
-        "b.nii": ("brain.whl", "brain/labels.nii", b"other labels"),
-        "c.nii": ("brain.whl", "brain/gone.nii", b"labels"),
-        "d.nii": ("text.whl", "brain/labels.nii", b"labels"),
-    }
-    table = tmp_path / "data.toml"
-    table.write_text(
-        "".join(
-            f'[[public]]\npath = "volumes/{name}"\nurl = "{server}/{archive}"\nmember = "{member}"\n'
-            f'sha256 = "{hashlib.sha256(content).hexdigest()}"\nbytes = 6\nlicence = "BSD"\n'
-            for name, (archive, member, content) in members.items()
-        )
-        + '[[other]]\npath = "models/ours.stl"\n'
-    )
-    command = [sys.executable, SCRIPT, tmp_path / "here", "--table", table]
-    run = subprocess.run(command, capture_output=True, encoding="utf-8", timeout=60)
-    assert run.returncode == 1
-    assert left(tmp_path) == ["a.nii"]
-    assert (tmp_path / "here" / "volumes" / "a.nii").read_bytes() == b"labels"
-    errors = [line for line in run.stderr.splitlines() if line.startswith("error")]
-    assert ["differs" in line for line in errors] == [True, True, False]
-    assert "text.whl is no archive" in errors[2]
 
 
 @pytest.mark.slow

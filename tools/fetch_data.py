@@ -11,9 +11,7 @@ import hashlib
 import logging
 import os
 import sys
-import tempfile
 import tomllib
-import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -33,7 +31,6 @@ class File:
     sha256: str
     bytes: int
     licence: str
-    member: str | None = None  # of a .zip or .whl at the address, to which the hash and the size belong
 
     def is_in(self, folder: Path) -> bool:
         """Return whether the file is there already, and is the right one."""
@@ -56,12 +53,7 @@ def fetch(file: File, folder: Path) -> None:
     target = folder / file.path
     try:
         target.unlink(missing_ok=True)  # what is there has another hash
-        if file.member is None:
-            pooch.retrieve(file.url, f"sha256:{file.sha256}", fname=target.name, path=target.parent)
-        else:
-            _fetch_member(file, target)
-    except zipfile.BadZipFile:
-        raise FetchError(f"{file.url} is no archive; {file.path} is left out") from None
+        pooch.retrieve(file.url, f"sha256:{file.sha256}", fname=target.name, path=target.parent)
     except ValueError:  # pooch's word for another hash
         raise FetchError(f"{file.url} is another file than it was (sha256 differs); {file.path} is left out") from None
     except requests.HTTPError as error:
@@ -70,26 +62,6 @@ def fetch(file: File, folder: Path) -> None:
         raise FetchError(f"{file.url} cannot be reached ({type(error).__name__}); is there a network?") from None
     except OSError as error:
         raise FetchError(f"{target} cannot be written: {error.strerror or error}") from None
-
-
-def _fetch_member(file: File, target: Path) -> None:
-    """Fetch an archive, and keep one file of it if that has its hash.
-
-    Raises
-    ------
-    ValueError
-        If it has another one, or is not there.
-    """
-    with tempfile.TemporaryDirectory() as folder:
-        archive = pooch.retrieve(file.url, None, fname="archive", path=folder)
-        with zipfile.ZipFile(archive) as members:
-            content = members.read(file.member) if file.member in members.namelist() else b""
-    if hashlib.sha256(content).hexdigest() != file.sha256:
-        raise ValueError(file.member)
-    target.parent.mkdir(parents=True, exist_ok=True)
-    part = target.with_name(target.name + ".part")
-    part.write_bytes(content)
-    part.replace(target)
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -138,7 +138,7 @@ def _parent_multiscale(parent: str) -> Mapping[str, Any] | None:
         return None
     try:
         group = zarr.open(parent, mode="r")
-    except Exception:  # noqa: BLE001 - no group, which is no fault
+    except (OSError, ValueError, KeyError, TypeError):  # no group, or one of another form
         return None
     return _multiscale(group.attrs) if hasattr(group, "members") else None
 
@@ -214,7 +214,7 @@ def _tell_of_missing(name: str, array: Any) -> None:  # noqa: ANN401 - zarr.Arra
         return
     try:
         missing = array.nchunks - array.nchunks_initialized
-    except Exception:  # noqa: BLE001 - a store that cannot list
+    except (OSError, ValueError, NotImplementedError):  # a store that cannot list
         return
     if missing > 0:
         warn(

@@ -15,7 +15,7 @@ import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,9 +33,6 @@ from infill.smoothing.chunked_rule import find_rule, require_some_solid
 from infill.smoothing.chunked_surface import ChunkedSurface, compare_counts, find_all_crumbs
 from infill.smoothing.request import SmoothRequest
 from infill.smoothing.scans import Threshold
-
-if TYPE_CHECKING:
-    pass
 
 SHARES = {"read": (0.0, 0.1), "smooth": (0.1, 0.6), "join": (0.6, 0.62), "surface": (0.62, 0.8), "check": (0.8, 0.82)}
 
