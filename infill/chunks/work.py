@@ -230,8 +230,8 @@ def smooth(work: Work, chunk: Chunk) -> SmoothedChunk:
         solid=count,
         bricks=int(chunk_field.own.sum()),
         components=survey_components(chunk_field, chunk, chunk_field.components()),
-        start=_measure(work, chunk, chunk_field, 0.0 if work.level is None else work.level),
-        data=_measure(work, chunk, grey, 0.0, any_numbers=True),
+        start=measure_piece(work, chunk, chunk_field, 0.0 if work.level is None else work.level),
+        data=measure_piece(work, chunk, grey, 0.0, any_numbers=True),
     )
 
 
@@ -313,11 +313,11 @@ def try_level(work: Work, chunk: Chunk, task: LevelTask) -> LevelParts:
     """Measure the surface of a chunk at a level."""
     chunk_field = open_field(work, chunk)
     labelled = chunk_field.components() if task.names is not None and (task.lowering or task.votes) else None
-    lowered = _lower(chunk_field, labelled, task)
-    return _measure(work, chunk, lowered, task.level, task=task, labelled=labelled)
+    lowered = lower_field(chunk_field, labelled, task)
+    return measure_piece(work, chunk, lowered, task.level, task=task, labelled=labelled)
 
 
-def _lower(chunk_field: ChunkField, labelled: Components | None, task: LevelTask) -> ChunkField:
+def lower_field(chunk_field: ChunkField, labelled: Components | None, task: LevelTask) -> ChunkField:
     """Subtract the levels of components from a field."""
     if task.lowering is None or labelled is None or task.names is None:
         return chunk_field
@@ -326,7 +326,7 @@ def _lower(chunk_field: ChunkField, labelled: Components | None, task: LevelTask
     return replace(chunk_field, field=lower_to_levels(chunk_field.field, labels, levels, task.lowering.common, 1))
 
 
-def _measure(
+def measure_piece(
     work: Work,
     chunk: Chunk,
     chunk_field: ChunkField,
@@ -437,7 +437,7 @@ def make_part(work: Work, chunk: Chunk, task: LevelTask, removed: NDArray[np.boo
     """Make the triangles of a chunk at a level, without the parts that `removed` (s,) marks."""
     chunk_field = open_field(work, chunk)
     labelled = chunk_field.components() if task.names is not None and task.lowering else None
-    lowered = _lower(chunk_field, labelled, task)
+    lowered = lower_field(chunk_field, labelled, task)
     counted = count_piece(lowered, chunk, task.level)
     first_cubes = np.zeros(len(counted[2].bricks), dtype=np.int64) if task.first_cubes is None else task.first_cubes
     piece = make_piece(lowered, chunk, counted, level=task.level, spacing=work.spacing, first_cubes=first_cubes)
@@ -469,7 +469,7 @@ def field_values(work: Work, chunk: Chunk, level: float, lowering: LevelTask) ->
     """Return the field of a chunk's own cells, minus its level, within +-1, as `SmoothStages.field` does."""
     chunk_field = open_field(work, chunk)
     labelled = chunk_field.components() if lowering.names is not None and lowering.lowering else None
-    field = _lower(chunk_field, labelled, lowering).field
+    field = lower_field(chunk_field, labelled, lowering).field
     dense = field.to_dense(threads=1)
     corner = np.maximum(np.array(chunk.low) * BRICK - 1, 0) - np.array(chunk.kept_low) * BRICK
     sizes = [part.stop - part.start for part in chunk.own_cells]

@@ -204,7 +204,7 @@ def _summary(report: ChunksReport, files: Iterable[str], name: str) -> str:
         "components": f"{result['components']:,} ({data['components']:,} in the data), "
         f"{count_noun(result['cavities'], 'cavity', 'cavities')} ({data['cavities']:,}), "
         f"{count_noun(result['tunnels'], 'tunnel')} ({data['tunnels']:,})",
-        "changes": "; ".join([*report["problems"], *report["changes"]]) or "none counted; distances are not measured",
+        "verdict": "; ".join([report["verdict"]["word"], *report["verdict"]["changes"]]),
         "hash": report["hash"],
     }
     for path in files:

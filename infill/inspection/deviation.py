@@ -246,7 +246,7 @@ def measure_deviation(
     given_part, result_part = (given, result) if sampled is None else sampled
     points, _, area = sample_surface(result_part, PITCH * cell)
     distance = _distances(points, given if closed is None else closed, trees[0], enough, places, threads)
-    there, added = _gap(points, distance, area, exact=exact), _patches(points, distance, area, cell)
+    there, added = _gap(points, distance, area, exact=exact), group_places(points, distance, area, cell)
     result_area = float(area.sum())
     points, faces, area = sample_surface(given_part, PITCH * cell)
     distance = _distances(points, result, trees[1], enough, places, threads)
@@ -255,7 +255,7 @@ def measure_deviation(
     thin_points = distant[kind == THIN]
     sheet, hidden = (float(area[distant[kind == code]].sum()) for code in (SHEET, HIDDEN))
     given_area = float(area.sum()) - sheet - hidden
-    thin = _patches(points[thin_points], distance[thin_points], area[thin_points], cell)
+    thin = group_places(points[thin_points], distance[thin_points], area[thin_points], cell)
     thin_distance = float(distance[thin_points].max(initial=0.0))
     counting = np.ones(len(points), dtype=bool)
     counting[distant[kind != COUNTS]] = False
@@ -266,7 +266,7 @@ def measure_deviation(
         there=there,
         back=_gap(points, distance, area, exact=exact),
         added=added,
-        lost=_patches(points, distance, area, cell),
+        lost=group_places(points, distance, area, cell),
         thin=thin,
         thin_distance=thin_distance,
         sheet=sheet,
@@ -353,16 +353,20 @@ def _gap(points: Floats, distance: Floats, area: Floats, *, exact: bool) -> Surf
     )
 
 
-def _patches(points: Floats, distance: Floats, area: Floats, cell: float) -> tuple[ChangedPatch, ...]:
-    """Group the points that lie far away into places; return them, the largest first."""
+def group_places(
+    points: Floats, distance: Floats, area: Floats, cell: float, *, apart: float | None = None
+) -> tuple[ChangedPatch, ...]:
+    """Group the points that lie far away into places; return them, the largest first.
+
+    Points up to `apart`, mm, from each other are one place; by default, twice their largest distance on the surface.
+    """
+    apart = 2 * float(area.max(initial=0.0)) ** 0.5 if apart is None else apart
     distant = np.flatnonzero(distance > LOST * cell)
     if len(distant) == 0:
         return ()
     from scipy.ndimage import label
 
-    side = max(
-        LOST * cell, 2 * float(area.max(initial=0.0)) ** 0.5, float(np.ptp(points[distant], axis=0).max()) / FINEST
-    )
+    side = max(LOST * cell, apart, float(np.ptp(points[distant], axis=0).max()) / FINEST)
     place = ((points[distant] - points[distant].min(axis=0)) / side).astype(np.int64)
     occupied = np.zeros(place.max(axis=0) + 1, dtype=bool)
     occupied[tuple(place.T)] = True

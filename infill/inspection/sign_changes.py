@@ -154,10 +154,15 @@ def has_same_connections(flips: SignChanges, before: Components, *, threads: int
 
 def has_unchanged_cells(labelled: Components, same: Bits) -> bool:
     """Tell whether every component of solid, or of void, has a cell in `same`, the cells that did not change."""
+    return bool(mark_unchanged(labelled, same).all())
+
+
+def mark_unchanged(labelled: Components, same: Bits) -> NDArray[np.bool_]:
+    """Mark the components of solid, or of void, that have a cell in `same`, the cells that did not change, (b,)."""
     marked = np.zeros(labelled.count, dtype=bool)
     mark_runs(labelled.bits, labelled.bricks, labelled.starts, labelled.names, same, marked)
     marked[labelled.names[labelled.alone[labelled.alone >= 0]]] = True
-    return bool(marked.all())
+    return marked
 
 
 def are_surfaces_near(flips: SignChanges, *, spacing: tuple[float, ...], threads: int | None = None) -> bool:
@@ -183,7 +188,7 @@ def are_surfaces_near(flips: SignChanges, *, spacing: tuple[float, ...], threads
     except GeometryError:  # one of the surfaces is absent here
         return False
     near_parts, wide_parts = (
-        [_part_in_cubes(surface, part, bits, spacing, count) for surface in surfaces]
+        [part_in_cubes(surface, part, bits, spacing, count) for surface in surfaces]
         for bits in (cube_bits, around_bits)
     )
     cell = max(spacing)
@@ -231,7 +236,7 @@ def _field_of_data(field: SparseField) -> SparseField:
     return replace(field, values=field.data.astype(np.float32))
 
 
-def _part_in_cubes(
+def part_in_cubes(
     surface: Surface, field: SparseField, bits: Bits, spacing: tuple[float, ...], threads: int
 ) -> Surface:
     """Return the triangles of a surface that lie in cubes with set bits, and their corners."""

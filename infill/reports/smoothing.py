@@ -446,7 +446,7 @@ class ChunksSeconds(Seconds):
     read: Annotated[float, "Passes over the values, to find what is solid, s"]
     smooth: Annotated[float, "Smoothing of all chunks, s"]
     surface: Annotated[float, "Search for the level, s"]
-    check: Annotated[float, "Crumbs, counts and the numbers of vertices, s"]
+    check: Annotated[float, "Crumbs, the verdict and the numbers of vertices, s"]
     write: Annotated[float, "Triangles, made and written, s"]
 
 
@@ -459,13 +459,12 @@ class ChunksReport(ReportHead, SurfaceKeys):
     volume_change: Annotated[float, "Relative change of the volume"]
     components: Annotated[int, "Number of components"]
     problems: Annotated[list[str], "Problems of the result, one phrase each; empty without problems"]
-    changes: Annotated[list[str], "Other differences that were counted, one phrase each; distances are not measured"]
+    verdict: Judgement
     request: SolidRequest
     grid: GridKeys
     input: ChunksInput
     solid: Solid
     topology: Topology
-    crumbs: CrumbKeys
     chunks: ChunkKeys
     seconds: ChunksSeconds
 

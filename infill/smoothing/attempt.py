@@ -19,7 +19,7 @@ import numpy as np
 
 from infill.errors import GeometryError, ParameterError
 from infill.inspection.bricks import TopologyCheck, check_topology, check_topology_by_signs
-from infill.inspection.deviation import KEPT, LOST, Deviation, total_area
+from infill.inspection.deviation import KEPT, Deviation, total_area
 from infill.inspection.sign_changes import SignChanges, are_surfaces_near
 from infill.inspection.thickness import thinnest_walls
 from infill.inspection.uncertain_places import UncertainPlaces
@@ -48,6 +48,7 @@ from infill.smoothing.comparing import (
     find_differences,
     subsample,
     summarise_distances,
+    verdict_facts,
     volume_error,
 )
 from infill.smoothing.levelling import CRUMB_CELLS, Crumbs, SurfaceAtLevel, extract_surface, remove_crumbs
@@ -59,12 +60,11 @@ if TYPE_CHECKING:
 
     from infill.phasefield.sparse import SparseField
     from infill.reports.common import Level
-    from infill.reports.smoothing import Judgement, ReplacedSmoothing, Simplified, SolidWalls
+    from infill.reports.smoothing import CrumbKeys, Judgement, ReplacedSmoothing, Simplified, SolidWalls
     from infill.smoothing.request import SmoothInput, SmoothRequest
     from infill.surface import Surface
     from infill.volume import Volume
 
-MAX_LISTED_PLACES = 5  # of the places that were lost or added are listed
 MAX_VOLUME_CHANGE = 0.05  # of the volume: how much simplification may change
 BYTES_PER_SURFACE_CELL = 600  # bricks, faces, labels and mesh, for every cell at the surface; a measured peak
 BYTES_TO_REFINE = 500  # three filtered fields and the last but one, on top of that
@@ -182,7 +182,7 @@ def run_attempt(smooth_input: SmoothInput, request: SmoothRequest) -> Attempt:
         thinnest=thinnest,
         deviation=deviation,
         uncertain=uncertain,
-        differences=find_differences(topology, deviation, surfaced, smoothed),
+        differences=find_differences(topology, deviation, smooth_input, volume_error(surfaced, smoothed)),
         clock=clock,
     )
 
@@ -326,7 +326,7 @@ def finish_attempt(
         if surface is not best.surface:
             uncertain = None if best.uncertain is None else best.uncertain.after_moving(moved, near=KEPT)
             deviation = compare_with_input(surface, smoothed, uncertain=uncertain)
-            differences = find_differences(topology, deviation, surfaced, smoothed)
+            differences = find_differences(topology, deviation, smooth_input, volume_error(surfaced, smoothed))
     problems = [*differences.losses, *differences.problems]
     target, simplification = float(surfaced.targets.sum()), {} if simplified is None else {"simplified": simplified}
     report: SmoothReport = {
@@ -376,19 +376,10 @@ def finish_attempt(
 
 def _verdict_facts(differences: Differences, deviation: Deviation | None, best: Attempt) -> Judgement:
     """Return the verdict with its places and areas, for the report."""
-    smoothed = best.smoothed
-    problems = [*differences.losses, *differences.problems]
-    return {
-        "word": differences.word,
-        "changes": [*problems, *differences.remarks, *_cleaning_remarks(best.crumbs, best.specks, smoothed)],
-        "lost": [patch.facts() for patch in deviation.lost[:MAX_LISTED_PLACES]] if deviation else [],
-        "added": [patch.facts() for patch in deviation.added[:MAX_LISTED_PLACES]] if deviation else [],
-        "far": LOST * smoothed.smooth_input.distance_unit,
-        "missing": total_area(deviation.lost if deviation else ()),
-        "thin": total_area(deviation.thin if deviation else ()),
-        "new": total_area(deviation.added if deviation else ()),
-        "crumbs": {"removed": best.crumbs.count, "volume": best.crumbs.volume, "limit": best.crumbs.limit},
-    }
+    smoothed, crumbs = best.smoothed, best.crumbs
+    cell, cleaned = smoothed.smooth_input.distance_unit, _cleaning_remarks(crumbs, best.specks, smoothed)
+    removed: CrumbKeys = {"removed": crumbs.count, "volume": crumbs.volume, "limit": crumbs.limit}
+    return {**verdict_facts(differences, deviation, cell, cleaned), "crumbs": removed}
 
 
 def advise_all_triangles(request: SmoothRequest) -> str:

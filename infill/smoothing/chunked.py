@@ -2,8 +2,7 @@
 
     smooth all chunks  ─▶  level of the volume  ─▶  crumbs  ─▶  pieces of surface, one after another  ─▶  report
 
-The passes over the chunks are those of `infill.chunks.solving`; their result is judged by whole numbers alone:
-volume, components, cavities and tunnels. Distances from the input are not measured.
+The passes over the chunks are those of `infill.chunks.solving`; their result is judged by `chunked_verdict`.
 """
 
 from __future__ import annotations
@@ -28,10 +27,13 @@ from infill.chunks.work import Work, smooth
 from infill.kernels.compiling import log_compilation
 from infill.lazy.volume import LazyVolume
 from infill.phasefield.profile import PLAIN_PROFILE
-from infill.smoothing.chunk_plans import check_chunked, plan_chunks
+from infill.reports.smoothing import SegmentationKeys
+from infill.smoothing.chunk_plans import ChunkPlan, check_chunked, plan_chunks
 from infill.smoothing.chunked_rule import find_rule, require_some_solid
-from infill.smoothing.chunked_surface import ChunkedSurface, compare_counts, find_all_crumbs
-from infill.smoothing.request import SmoothRequest
+from infill.smoothing.chunked_surface import ChunkedSurface, find_all_crumbs
+from infill.smoothing.chunked_verdict import judge_chunks
+from infill.smoothing.comparing import intolerable_error
+from infill.smoothing.request import SmoothInput, SmoothRequest
 from infill.smoothing.scans import Threshold
 
 SHARES = {"read": (0.0, 0.1), "smooth": (0.1, 0.6), "join": (0.6, 0.62), "surface": (0.62, 0.8), "check": (0.8, 0.82)}
@@ -101,32 +103,60 @@ def smooth_in_chunks(
             _load_kernels(work)
             solver.smooth()
             segmentation = require_some_solid(solver, used)
-        with _timed(seconds, "surface"):
-            surface, common, levels = solver.find_surface()
-        with _timed(seconds, "check"):
-            crumbs, marked = find_all_crumbs(solver, surface, request)
-            numbering = solver.number_vertices(surface, marked)
-            counts = compare_counts(solver, surface.shells, marked)
-        assert solver.joined is not None
-        to_phase = (lambda level: level) if work.level is not None else PLAIN_PROFILE.phase_level
-        chunked = ChunkedSurface(
-            volume=volume,
-            request=request,
-            plan=plan,
-            solver=solver,
-            surface=surface,
-            numbering=numbering,
-            crumbs=crumbs,
-            counts=counts,
-            level=(to_phase(common), np.array([to_phase(float(level)) for level in levels])),
-            segmentation=segmentation,
-            enclosed=float(surface.shells.volume[~marked].sum()) if marked.any() else surface.volume,
-            target=float(solver.joined.cells.sum() * solver.cell_volume),
-            seconds=seconds,
-            progress=progress,
-        )
+        chunked = _find_surface(solver, plan, volume, request, segmentation, seconds)
         chunked.check()
         yield chunked
+
+
+def _find_surface(
+    solver: Solver,
+    plan: ChunkPlan,
+    volume: LazyVolume,
+    request: SmoothRequest,
+    segmentation: SegmentationKeys,
+    seconds: dict[str, float],
+) -> ChunkedSurface:
+    """Find the surface of the smoothed chunks, without crumbs, and judge it."""
+    with _timed(seconds, "surface"):
+        surface, common, levels = solver.find_surface()
+    to_phase = PLAIN_PROFILE.phase_level if solver.work.level is None else float
+    phase_levels = np.array([to_phase(float(level)) for level in levels])
+    assert solver.joined is not None
+    target = float(solver.joined.cells.sum() * solver.cell_volume)
+    with _timed(seconds, "check"):
+        crumbs, marked = find_all_crumbs(solver, surface, request)
+        numbering = solver.number_vertices(surface, marked)
+        enclosed = float(surface.shells.volume[~marked].sum()) if marked.any() else surface.volume
+        verdict = judge_chunks(
+            solver,
+            surface,
+            marked,
+            smooth_input=_input_without_values(volume, segmentation),
+            levels=phase_levels,
+            volume_error=intolerable_error(enclosed / target - 1, request),
+        )
+    return ChunkedSurface(
+        volume=volume,
+        request=request,
+        plan=plan,
+        solver=solver,
+        surface=surface,
+        numbering=numbering,
+        crumbs=crumbs,
+        verdict=verdict,
+        level=(to_phase(common), phase_levels),
+        segmentation=segmentation,
+        enclosed=enclosed,
+        target=target,
+        seconds=seconds,
+        progress=request.progress,
+    )
+
+
+def _input_without_values(volume: LazyVolume, segmentation: SegmentationKeys) -> SmoothInput:
+    """Return the input of a verdict: the place of the cells in space, and what is known of them."""
+    nothing = volume.place(np.broadcast_to(np.False_, volume.shape))
+    return SmoothInput(data=nothing, facts={"source": "volume", "segmentation": segmentation})
 
 
 @contextlib.contextmanager

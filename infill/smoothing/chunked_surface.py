@@ -12,20 +12,18 @@ from numpy.typing import NDArray
 
 from infill.chunks.hashing import add_up, face_sums
 from infill.chunks.layout import Chunk
-from infill.chunks.shells import JoinedShells, join_shells
 from infill.chunks.solving import MeasuredSurface, Numbering, Solver
 from infill.chunks.work import ChunkTriangles, field_values, make_part
 from infill.errors import GeometryError
 from infill.formats.mesh_pieces import MeshPiece
-from infill.inspection.bricks import TopologyCheck
-from infill.inspection.changes import ConnectionCounts, TopologyChanges
 from infill.kernels.sparse import BRICK
 from infill.lazy.volume import LazyVolume
 from infill.plain_numbers import count_noun, plain_size
 from infill.reports.common import GridKeys, Topology, declare, report_head
-from infill.reports.smoothing import ChunkKeys, ChunksReport, ChunksSeconds, SegmentationKeys
+from infill.reports.smoothing import ChunkKeys, ChunksReport, ChunksSeconds, CrumbKeys, SegmentationKeys
 from infill.smoothing.chunk_plans import ChunkPlan
-from infill.smoothing.comparing import LOST_VOLUME, VOLUME_TOLERANCE, describe_counts
+from infill.smoothing.chunked_verdict import ChunkedVerdict, place_points
+from infill.smoothing.comparing import verdict_facts
 from infill.smoothing.levelling import CRUMB_CELLS, Crumbs, find_crumbs
 from infill.smoothing.request import SmoothRequest
 from infill.surface import Surface
@@ -52,7 +50,7 @@ class ChunkedSurface:
     surface : MeasuredSurface
     numbering : Numbering
     crumbs : Crumbs
-    counts : TopologyCheck
+    verdict : ChunkedVerdict
     level : (float, (b,) float64)
         The common level of phi, and that of each component.
     segmentation : SegmentationKeys
@@ -66,7 +64,7 @@ class ChunkedSurface:
     surface: MeasuredSurface
     numbering: Numbering
     crumbs: Crumbs
-    counts: TopologyCheck
+    verdict: ChunkedVerdict
     level: tuple[float, NDArray[np.float64]]
     segmentation: SegmentationKeys
     enclosed: float
@@ -161,27 +159,20 @@ class ChunkedSurface:
         lowered = np.float32(0 if self.surface.levels is not None else self.surface.level)
         return np.clip(sign - lowered, np.float32(-1), np.float32(1))
 
-    def problems(self) -> list[str]:
-        """Return the problems of the volume, one phrase each."""
-        off = self.enclosed / self.target - 1
-        if self.request.level != "volume" or abs(off) <= VOLUME_TOLERANCE:
-            return []
-        return [f"the volume is {abs(off):.1%} too {'large' if off > 0 else 'small'}"]
-
     def check(self) -> None:
         """Raise GeometryError for a result that is refused.
 
         Raises
         ------
         GeometryError
-            If the volume is off by a tenth; with `strict`, for every difference.
+            If much is lost; with `strict`, if anything broke, fused or vanished.
         """
-        off = abs(self.enclosed / self.target - 1) if self.request.level == "volume" else 0.0
-        reasons = self.problems() if off >= LOST_VOLUME else []
-        if self.request.strict:
-            reasons = [*self.problems(), *describe_counts(self.counts)]
+        reasons = self.verdict.differences.refused(strict=self.request.strict)
         if reasons and not self.request.allow_broken:
-            raise GeometryError(f"{'; '.join(reasons)}; give fewer --steps, or --allow-broken to have it anyway")
+            raise GeometryError(
+                f"{'; '.join(reasons)}; other steps are not tried in chunks: give fewer --steps, or --allow-broken to "
+                "have it anyway"
+            )
 
     def report(self) -> ChunksReport:
         """Return the report; the pieces are made for it unless they were made before."""
@@ -194,11 +185,17 @@ class ChunkedSurface:
         bounds = np.array([corners[:, 0].min(axis=0), corners[:, 1].max(axis=0)])
         change = self.enclosed / self.target - 1
         common, levels = self.level
-        remarks = describe_counts(self.counts)
-        if self.crumbs.count:
-            remarks.append(
-                f"{count_noun(self.crumbs.count, 'crumb')} of up to {plain_size(self.crumbs.limit, power=3)} taken out"
-            )
+        differences, topology, deviation = self.verdict.differences, self.verdict.topology, self.verdict.deviation
+        crumbs: CrumbKeys = {
+            "removed": self.crumbs.count,
+            "volume": self.crumbs.volume,
+            "limit": self.crumbs.limit,
+        }
+        taken_out = (
+            [f"{count_noun(self.crumbs.count, 'crumb')} of up to {plain_size(self.crumbs.limit, power=3)} taken out"]
+            if self.crumbs.count
+            else []
+        )
         report: ChunksReport = {
             **report_head("chunks"),
             "triangles": self.triangles,
@@ -210,9 +207,9 @@ class ChunkedSurface:
             "hash": number,
             "volume": self.enclosed,
             "volume_change": change,
-            "components": self.counts.result.components,
-            "problems": self.problems(),
-            "changes": remarks,
+            "components": topology.result.components,
+            "problems": [*differences.losses, *differences.problems],
+            "verdict": {**verdict_facts(differences, deviation, deviation.cell, taken_out), "crumbs": crumbs},
             "request": self.request.facts(),
             "grid": self._grid_facts(),
             "input": {
@@ -232,8 +229,7 @@ class ChunkedSurface:
                     "components": len(levels),
                 },
             },
-            "topology": declare(Topology, {"data": asdict(self.counts.data), "result": asdict(self.counts.result)}),
-            "crumbs": {"removed": self.crumbs.count, "volume": self.crumbs.volume, "limit": self.crumbs.limit},
+            "topology": declare(Topology, {"data": asdict(topology.data), "result": asdict(topology.result)}),
             "chunks": self._chunk_facts(),
             "seconds": declare(ChunksSeconds, {**self.seconds, "total": sum(self.seconds.values())}),
         }
@@ -261,17 +257,6 @@ class ChunkedSurface:
         }
 
 
-def place_points(points: NDArray[np.float64], place: Volume) -> NDArray[np.float64]:
-    """Convert points as `infill.Volume.place` does, each by itself, so that the result does not depend on others."""
-    turn, origin = np.asarray(place.direction), np.array(place.origin)
-    if (turn == np.eye(3)).all():
-        return place.place(points)
-    x, y, z = points.T
-    return np.stack(
-        [(x * turn[axis, 0] + y * turn[axis, 1] + z * turn[axis, 2]) + origin[axis] for axis in range(3)], 1
-    )
-
-
 def find_all_crumbs(
     solver: Solver, surface: MeasuredSurface, request: SmoothRequest
 ) -> tuple[Crumbs, NDArray[np.bool_]]:
@@ -285,26 +270,3 @@ def find_all_crumbs(
         targets = solver.joined.volumes(solver.cell_volume)
         marked = find_crumbs(volume, component, targets, limit, solver.cell_volume)
     return Crumbs(count=int(marked.sum()), volume=float(np.abs(volume[marked]).sum()), limit=limit), marked
-
-
-def compare_counts(solver: Solver, shells: JoinedShells, marked: NDArray[np.bool_]) -> TopologyCheck:
-    """Compare the connections of the data with those of the surface, without its crumbs."""
-    data = {n: outcome.data for n, outcome in solver.smoothed.items() if outcome.data is not None}
-    before = join_shells(data, solver.cell_volume)
-    return TopologyCheck(
-        data=_count(before, np.zeros(len(before.volume), dtype=bool)),
-        result=_count(shells, marked),
-        changes=TopologyChanges(),
-        lost=(),
-    )
-
-
-def _count(shells: JoinedShells, marked: NDArray[np.bool_]) -> ConnectionCounts:
-    """Count the components, cavities and tunnels of a surface."""
-    volume, euler = shells.volume[~marked], shells.euler[~marked]
-    return ConnectionCounts(
-        components=int((volume > 0).sum()),
-        cavities=int((volume <= 0).sum()),
-        tunnels=int((2 - euler).sum() // 2),
-        euler_number=int(euler.sum()),
-    )

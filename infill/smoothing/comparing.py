@@ -2,13 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.inspection.deviation import COUNTS, HIDDEN, SHEET, THIN, Deviation, Kinds, Word, measure_deviation
+from infill.inspection.deviation import (
+    COUNTS,
+    HIDDEN,
+    LOST,
+    SHEET,
+    THIN,
+    Deviation,
+    Kinds,
+    Word,
+    measure_deviation,
+    total_area,
+)
 from infill.inspection.facets import WALL_PER_RADIUS, find_flat_facets
 from infill.inspection.thickness import FARTHEST
 from infill.isosurfaces.components import data_bits, look_up_cells, open_by_blocks
@@ -21,10 +33,11 @@ from infill.voxels.noise import NOISY
 if TYPE_CHECKING:
     from infill.inspection.bricks import TopologyCheck
     from infill.inspection.uncertain_places import UncertainPlaces
+    from infill.phasefield.sparse import SparseField
     from infill.reports.common import Spread
-    from infill.reports.smoothing import CoarseChange, Distance, FacetKeys
+    from infill.reports.smoothing import CoarseChange, DifferenceKeys, Distance, FacetKeys
     from infill.smoothing.levelling import SurfaceAtLevel
-    from infill.smoothing.request import SmoothedInput, SmoothInput
+    from infill.smoothing.request import SmoothedInput, SmoothInput, SmoothRequest
 
 SIDE_OFFSET = 5e-5  # cells: distance from a face at which solid is looked for
 SLIT_WIDTH = 1.0  # cells: a slit as narrow as this may close
@@ -35,6 +48,7 @@ VOLUME_TOLERANCE = 0.01  # of the volume: tolerated error, because of specks tha
 COARSE_LOSS = 0.05  # of the volume: larger voxels that change the solid by more are a problem
 LOST_VOLUME = 0.1  # of the volume: a solid that is off by more is not the one that was given
 LOST_HOLES = 10  # holes that broke through, at least as many as there were before: a wall that became a sieve
+MAX_LISTED_PLACES = 5  # of the places that were lost or added are listed
 MAX_SAMPLES = 5_000  # vertices whose distance is measured
 
 
@@ -165,26 +179,41 @@ def _loss_classifier(smoothed: SmoothedInput) -> Kinds:
             return np.where((sides == COUNTS) & narrow & inside, THIN, sides)
 
         return classify_on_mesh
-    cells = THICK_IN_NOISE if _is_noisy(smooth_input) else THICK
+    cells = thickness_that_counts(smooth_input)
     data, turn = smooth_input.data, np.asarray(smooth_input.data.direction)
 
     def classify_in_voxels(points: NDArray[np.float64], faces: NDArray[np.integer]) -> NDArray[np.integer]:  # noqa: ARG001
         """Return the class of each point (N, 3), mm: whether wall and gap are more than one cell thick there."""
-        bits = data_bits(field, threads=threads)
-        solid, empty = (open_by_blocks(field, bits, void=void, cells=cells, threads=threads) for void in (False, True))
         position = (points - np.array(data.origin)) @ turn / data.cell_size
-        wall, gap = np.zeros((2, len(points)), dtype=bool)
-        for step in np.ndindex(2, 2, 2):
-            cell = np.floor(position - 0.5).astype(np.int64) + step
-            wall |= look_up_cells(field, solid, cell)
-            gap |= look_up_cells(field, empty, cell, void=True)
-        return np.where(wall & gap, COUNTS, THIN)
+        return classify_by_thickness(field, position, cells, threads=threads)
 
     return classify_in_voxels
 
 
+def thickness_that_counts(smooth_input: SmoothInput) -> int:
+    """Return the cells that solid and void of a scan must be thick, so that a loss there counts."""
+    return THICK_IN_NOISE if _is_noisy(smooth_input) else THICK
+
+
+def classify_by_thickness(
+    field: SparseField, places: NDArray[np.float64], cells: int, *, threads: int | None = None
+) -> NDArray[np.integer]:
+    """Return `COUNTS` for places (N, 3) between solid and void at least so many cells thick, else `THIN`.
+
+    Places are in cells from the lower corner of the grid.
+    """
+    bits = data_bits(field, threads=threads)
+    solid, empty = (open_by_blocks(field, bits, void=void, cells=cells, threads=threads) for void in (False, True))
+    wall, gap = np.zeros((2, len(places)), dtype=bool)
+    for step in np.ndindex(2, 2, 2):
+        cell = np.floor(places - 0.5).astype(np.int64) + step
+        wall |= look_up_cells(field, solid, cell)
+        gap |= look_up_cells(field, empty, cell, void=True)
+    return np.where(wall & gap, COUNTS, THIN)
+
+
 def find_differences(
-    topology: TopologyCheck, deviation: Deviation | None, surfaced: SurfaceAtLevel, smoothed: SmoothedInput
+    topology: TopologyCheck, deviation: Deviation | None, smooth_input: SmoothInput, off: float
 ) -> Differences:
     """Judge a result: return the verdict with its losses, problems and remarks.
 
@@ -194,10 +223,10 @@ def find_differences(
         The changes of the voxels in smoothing.
     deviation : Deviation or None
         Distances between result and input; None if they are sure to be small everywhere.
-    surfaced : SurfaceAtLevel
-    smoothed : SmoothedInput
+    smooth_input : SmoothInput
+    off : float
+        Relative error of the volume, 0 if it is tolerable: see `volume_error`.
     """
-    smooth_input = smoothed.smooth_input
     losses: list[str] = []
     remarks: list[str] = []
     if deviation:
@@ -207,7 +236,7 @@ def find_differences(
     if is_sieve or smooth_input.topology is not None:  # told in other words
         topology = replace(topology, changes=replace(topology.changes, walls_pierced=0))
     problems = [*_topology_changes(topology, smooth_input, but_tunnels=is_sieve), *topology.problems]
-    if off := volume_error(surfaced, smoothed):
+    if off:
         phrase = f"the volume is {abs(off):.1%} too {'large' if off > 0 else 'small'}"
         (losses if abs(off) >= LOST_VOLUME else problems).append(phrase)
     if is_sieve:
@@ -244,6 +273,32 @@ def find_differences(
     return Differences(
         word=word, losses=tuple(losses), problems=tuple(problems), remarks=tuple(remarks), fewer=tuple(fewer)
     )
+
+
+def verdict_facts(
+    differences: Differences, deviation: Deviation | None, cell: float, cleaned: Sequence[str] = ()
+) -> DifferenceKeys:
+    """Return a verdict with its places and areas, for the report.
+
+    Parameters
+    ----------
+    differences : Differences
+    deviation : Deviation or None
+    cell : float
+        Unit in which distances are judged, mm.
+    cleaned : sequence of str
+        What was taken out on purpose, one phrase each.
+    """
+    return {
+        "word": differences.word,
+        "changes": [*differences.losses, *differences.problems, *differences.remarks, *cleaned],
+        "lost": [patch.facts() for patch in deviation.lost[:MAX_LISTED_PLACES]] if deviation else [],
+        "added": [patch.facts() for patch in deviation.added[:MAX_LISTED_PLACES]] if deviation else [],
+        "far": LOST * cell,
+        "missing": total_area(deviation.lost if deviation else ()),
+        "thin": total_area(deviation.thin if deviation else ()),
+        "new": total_area(deviation.added if deviation else ()),
+    }
 
 
 def describe_coarsening(coarsened: CoarseChange) -> str:
@@ -343,5 +398,9 @@ def volume_error(surfaced: SurfaceAtLevel, smoothed: SmoothedInput) -> float:
     """Return the relative error of the volume; 0 if it is tolerable, or the level was fixed."""
     enclosed = smoothed.smooth_input.mesh_volumes
     target = float(surfaced.targets.sum()) if enclosed is None else enclosed.total
-    error = surfaced.volume / target - 1
-    return error if smoothed.request.level == "volume" and abs(error) > VOLUME_TOLERANCE else 0.0
+    return intolerable_error(surfaced.volume / target - 1, smoothed.request)
+
+
+def intolerable_error(error: float, request: SmoothRequest) -> float:
+    """Return the relative error of the volume; 0 if it is tolerable, or the level was fixed."""
+    return error if request.level == "volume" and abs(error) > VOLUME_TOLERANCE else 0.0

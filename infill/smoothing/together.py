@@ -26,6 +26,7 @@ from infill.reports.common import declare, report_head
 from infill.reports.sections import with_late_sections
 from infill.reports.smoothing import Distance, TogetherSeconds
 from infill.result import Clock, Result
+from infill.smoothing.comparing import verdict_facts
 from infill.smoothing.label_stages import FACES_PER_RUN, LabelPiece, field_reach
 from infill.smoothing.label_surfaces import LabelMeasures, LabelSurfaces, NumberedSurfaces
 from infill.smoothing.together_checks import (
@@ -33,7 +34,6 @@ from infill.smoothing.together_checks import (
     find_label_differences,
     label_distance,
     label_topology,
-    label_verdict,
     summarise_verdicts,
 )
 from infill.smoothing.together_stages import TogetherStages
@@ -289,7 +289,7 @@ def _judge_labels(
         differences = find_label_differences(
             topologies[number], deviations[number], change if cells >= SMALLEST else None
         )
-        verdict = label_verdict(differences, deviations[number], check.cell)
+        verdict = verdict_facts(differences, deviations[number], check.cell)
         keys = _label_keys(piece, facts, cells * volume.cell_volume, topologies[number], verdict)
         labels.append(with_late_sections(keys, distance=partial(label_distance, check, number)))
         problems += [f"{piece.name}: {problem}" for problem in (*differences.losses, *differences.problems)]

@@ -6,17 +6,16 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import TYPE_CHECKING
 
-from infill.inspection.deviation import LOST, Deviation, Word, total_area
+from infill.inspection.deviation import Deviation, Word
 from infill.plain_numbers import count_noun, list_some
 from infill.reports.common import Topology, declare
 from infill.reports.smoothing import Distance
-from infill.smoothing.attempt import MAX_LISTED_PLACES
 from infill.smoothing.comparing import LOST_HOLES, LOST_VOLUME, Differences, describe_counts, describe_thin
 
 if TYPE_CHECKING:
     from infill.inspection.bricks import TopologyCheck
     from infill.inspection.partitions import PartitionCheck
-    from infill.reports.smoothing import TogetherLabel, TogetherVerdict
+    from infill.reports.smoothing import TogetherLabel
 
 WORDS: tuple[Word, ...] = ("kept", "changed a little", "lost")  # from the best to the worst
 PRECISION = 1e-4  # of a label's volume that counts as kept
@@ -57,20 +56,6 @@ def find_label_differences(topology: TopologyCheck, deviation: Deviation | None,
         remarks.append(f"{count_noun(new, 'cavity is', 'cavities are')} new")
     word: Word = "lost" if losses else "changed a little" if problems or remarks else "kept"
     return Differences(word=word, losses=tuple(losses), problems=tuple(problems), remarks=tuple(remarks))
-
-
-def label_verdict(differences: Differences, deviation: Deviation | None, cell: float) -> TogetherVerdict:
-    """Return the verdict on a label with its places and areas, for the report; `cell` is in mm."""
-    return {
-        "word": differences.word,
-        "changes": [*differences.losses, *differences.problems, *differences.remarks],
-        "lost": [patch.facts() for patch in deviation.lost[:MAX_LISTED_PLACES]] if deviation else [],
-        "added": [patch.facts() for patch in deviation.added[:MAX_LISTED_PLACES]] if deviation else [],
-        "far": LOST * cell,
-        "missing": total_area(deviation.lost if deviation else ()),
-        "thin": total_area(deviation.thin if deviation else ()),
-        "new": total_area(deviation.added if deviation else ()),
-    }
 
 
 def label_distance(check: PartitionCheck, number: int) -> Distance:
