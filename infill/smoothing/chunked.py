@@ -1,6 +1,6 @@
-"""Smooth a volume in chunks: the plain method, with the bits of the whole, for volumes that do not fit into memory.
+"""Smooth a volume in chunks, with the bits of the whole, for volumes that do not fit into memory.
 
-    smooth all chunks  ─▶  level of the volume  ─▶  crumbs  ─▶  pieces of surface, one after another  ─▶  report
+    method  ─▶  smooth all chunks  ─▶  level of the volume  ─▶  crumbs  ─▶  pieces, one after another  ─▶  report
 
 The passes over the chunks are those of `infill.chunks.solving`; their result is judged by whole numbers alone:
 volume, components, cavities and tunnels. Distances from the input are not measured.
@@ -12,7 +12,7 @@ import contextlib
 import shutil
 import tempfile
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
@@ -22,14 +22,16 @@ from numpy.typing import NDArray
 
 from infill.chunks.layout import ChunkLayout
 from infill.chunks.running import open_runner, require_dask
-from infill.chunks.solids import SolidRule
+from infill.chunks.solids import GreyScale, SolidRule
 from infill.chunks.solving import Solver
 from infill.chunks.work import Work, smooth
 from infill.kernels.compiling import log_compilation
 from infill.lazy.volume import LazyVolume
-from infill.phasefield.profile import PLAIN_PROFILE
-from infill.smoothing.chunk_plans import check_chunked, plan_chunks
-from infill.smoothing.chunked_rule import find_rule, require_some_solid
+from infill.phasefield.profile import PLAIN_PROFILE, REFINED_PROFILE
+from infill.phasefield.schedule import MIN_STEPS
+from infill.smoothing.chunk_plans import check_chunked
+from infill.smoothing.chunked_data import choose_work
+from infill.smoothing.chunked_rule import count_specks, require_some_solid
 from infill.smoothing.chunked_surface import ChunkedSurface, compare_counts, find_all_crumbs
 from infill.smoothing.request import SmoothRequest
 from infill.smoothing.scans import Threshold
@@ -44,6 +46,7 @@ def smooth_in_chunks(
     *,
     threshold: Threshold = None,
     label: int | Sequence[int] | None = None,
+    grey: bool | None = None,
     workers: int | None = None,
     scheduler: str | None = None,
     side: int | None = None,
@@ -54,7 +57,7 @@ def smooth_in_chunks(
     ----------
     volume : LazyVolume
     request : SmoothRequest
-    threshold, label
+    threshold, label, grey
         See `infill.smooth_volume`.
     workers, scheduler
         See `infill.chunks.running.open_runner`.
@@ -74,7 +77,6 @@ def smooth_in_chunks(
     """
     check_chunked(request)
     require_dask()
-    request = replace(request.for_cell(min(volume.spacing)), tolerance=None)
     progress, seconds = request.progress, {"read": 0.0, "smooth": 0.0, "surface": 0.0, "check": 0.0}
 
     def tell(stage: str, share: float) -> None:
@@ -84,35 +86,36 @@ def smooth_in_chunks(
 
     count = workers if workers is not None or scheduler not in (None, "threads", "processes") else request.threads
     with open_runner(count, scheduler) as runner, _scratch_folder() as scratch:
-        plan = plan_chunks(volume, request, runner, side=side)
-        work = Work(
-            source=volume.array,
-            rule=SolidRule(),
-            layout=plan.layout,
-            smoothing=request.smoothing,
-            spacing=tuple(volume.spacing),
-            level=None if isinstance(request.level, str) else request.level,
-            scratch=scratch,
-        )
         with _timed(seconds, "read"):
-            rule, used = find_rule(work, runner, threshold, label, partial(tell, "read"))
-        solver = Solver(work=_with_rule(work, rule), runner=runner, tell=tell)
+            chosen = choose_work(
+                volume,
+                request,
+                runner,
+                partial(tell, "read"),
+                threshold=threshold,
+                label=label,
+                grey=grey,
+                side=side,
+                scratch=scratch,
+            )
+        request, work = chosen.request, chosen.work
+        solver = Solver(work=work, runner=runner, tell=tell)
         with _timed(seconds, "smooth"):
             _load_kernels(work)
             solver.smooth()
-            segmentation = require_some_solid(solver, used)
+            segmentation = require_some_solid(solver, chosen.used)
+            specks = count_specks(solver)
         with _timed(seconds, "surface"):
             surface, common, levels = solver.find_surface()
         with _timed(seconds, "check"):
             crumbs, marked = find_all_crumbs(solver, surface, request)
             numbering = solver.number_vertices(surface, marked)
             counts = compare_counts(solver, surface.shells, marked)
-        assert solver.joined is not None
-        to_phase = (lambda level: level) if work.level is not None else PLAIN_PROFILE.phase_level
+        to_phase = _phase_level(request)
         chunked = ChunkedSurface(
             volume=volume,
             request=request,
-            plan=plan,
+            plan=chosen.plan,
             solver=solver,
             surface=surface,
             numbering=numbering,
@@ -120,8 +123,11 @@ def smooth_in_chunks(
             counts=counts,
             level=(to_phase(common), np.array([to_phase(float(level)) for level in levels])),
             segmentation=segmentation,
+            noise=chosen.noise,
+            grey=chosen.grey,
+            specks=specks,
             enclosed=float(surface.shells.volume[~marked].sum()) if marked.any() else surface.volume,
-            target=float(solver.joined.cells.sum() * solver.cell_volume),
+            target=float(solver.targets.sum()),
             seconds=seconds,
             progress=progress,
         )
@@ -147,9 +153,12 @@ def _timed(seconds: dict[str, float], stage: str) -> Iterator[None]:
     seconds[stage] += time.perf_counter() - begin
 
 
-def _with_rule(work: Work, rule: SolidRule) -> Work:
-    """Return the work with another rule."""
-    return replace(work, rule=rule)
+def _phase_level(request: SmoothRequest) -> Callable[[float], float]:
+    """Return what converts a level of the field to one of phi."""
+    if not isinstance(request.level, str):
+        fixed = request.level
+        return lambda _: fixed
+    return (REFINED_PROFILE if request.refined else PLAIN_PROFILE).phase_level
 
 
 @log_compilation("the smoother")
@@ -157,13 +166,16 @@ def _load_kernels(work: Work) -> None:
     """Load the compiled loops before several threads need them at once."""
     corner = np.zeros((6, 6, 6), dtype=bool)
     corner[2:4, 2:4, 2:4] = True
-    layout = ChunkLayout(shape=(6, 6, 6), size=(1, 1, 1), steps=1)
+    steps = MIN_STEPS if work.refined else 1
+    layout = ChunkLayout(shape=(6, 6, 6), size=(1, 1, 1), steps=steps, refined=work.refined)
     trial = replace(
         work,
         source=_ArrayReader(corner),
         rule=SolidRule(),
+        grey=None if work.grey is None else GreyScale(level=0.5, window=1.0),
         layout=layout,
-        smoothing=replace(work.smoothing, steps=1),
+        smoothing=replace(work.smoothing, steps=steps),
+        despeckle=0.0,
         scratch="",
     )
     smooth(trial, next(iter(layout)))

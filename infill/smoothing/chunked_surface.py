@@ -21,7 +21,7 @@ from infill.inspection.bricks import TopologyCheck
 from infill.inspection.changes import ConnectionCounts, TopologyChanges
 from infill.kernels.sparse import BRICK
 from infill.lazy.volume import LazyVolume
-from infill.plain_numbers import count_noun, plain_size
+from infill.plain_numbers import count_noun, plain_number, plain_size
 from infill.reports.common import GridKeys, Topology, declare, report_head
 from infill.reports.smoothing import ChunkKeys, ChunksReport, ChunksSeconds, SegmentationKeys
 from infill.smoothing.chunk_plans import ChunkPlan
@@ -56,6 +56,12 @@ class ChunkedSurface:
     level : (float, (b,) float64)
         The common level of phi, and that of each component.
     segmentation : SegmentationKeys
+    noise : float or None
+        See `infill.voxels.noise.noise_share`; None if it was not measured.
+    grey : bool
+        Whether grey values around the threshold were kept.
+    specks : int
+        Number of specks taken out of the data.
     seconds : dict
     """
 
@@ -69,6 +75,9 @@ class ChunkedSurface:
     counts: TopologyCheck
     level: tuple[float, NDArray[np.float64]]
     segmentation: SegmentationKeys
+    noise: float | None
+    grey: bool
+    specks: int
     enclosed: float
     target: float
     seconds: dict[str, float]
@@ -157,7 +166,7 @@ class ChunkedSurface:
 
     def _uniform_value(self, chunk: Chunk) -> np.float32:
         """Return the value of the field in a chunk without surface."""
-        sign = np.float32(1 if self.solver.smoothed[chunk.number].solid else -1)
+        sign = np.float32(1 if self.solver.smoothed[chunk.number].inside else -1)
         lowered = np.float32(0 if self.surface.levels is not None else self.surface.level)
         return np.clip(sign - lowered, np.float32(-1), np.float32(1))
 
@@ -199,6 +208,9 @@ class ChunkedSurface:
             remarks.append(
                 f"{count_noun(self.crumbs.count, 'crumb')} of up to {plain_size(self.crumbs.limit, power=3)} taken out"
             )
+        if self.specks:
+            limit = plain_number(self.request.despeckle)
+            remarks.append(f"{count_noun(self.specks, 'speck')} of up to {limit} mm³ taken out beforehand")
         report: ChunksReport = {
             **report_head("chunks"),
             "triangles": self.triangles,
@@ -218,6 +230,8 @@ class ChunkedSurface:
             "input": {
                 "name": self.volume.name,
                 "segmentation": self.segmentation,
+                "noise": self.noise,
+                "grey": self.grey,
                 "warnings": list(self.volume.warnings),
             },
             "solid": {
@@ -282,8 +296,7 @@ def find_all_crumbs(
     assert solver.joined is not None
     if small.any() and not small[volume > 0].all():
         component, _ = solver.vote(surface)
-        targets = solver.joined.volumes(solver.cell_volume)
-        marked = find_crumbs(volume, component, targets, limit, solver.cell_volume)
+        marked = find_crumbs(volume, component, solver.targets, limit, solver.cell_volume)
     return Crumbs(count=int(marked.sum()), volume=float(np.abs(volume[marked]).sum()), limit=limit), marked
 
 
