@@ -20,7 +20,8 @@ from infill.voxels.noise import NOISY, count_overruled_cells, noise_share, work_
 def test_the_kernel_counts_what_the_specification_counts(shape: tuple[int, int, int], share: float, seed: int) -> None:
     slab = np.random.default_rng(seed).random(shape) < share
     counts = np.zeros(3, dtype=np.int64)
-    count_overruled(slab.view(np.uint8), np.empty(work_shape(slab), dtype=np.uint8), counts)
+    inner = (0, slab.shape[1], 0, slab.shape[2])
+    count_overruled(slab.view(np.uint8), np.empty(work_shape(slab), dtype=np.uint8), inner, counts)
     assert tuple(counts) == count_overruled_cells(slab)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -13,6 +13,8 @@ from infill.isosurfaces.components import Components, data_bits, find_components
 from infill.isosurfaces.levels import straighten_profile
 from infill.kernels.sparse import BRICK, CELLS
 from infill.phasefield.allen_cahn import Smoothing
+from infill.phasefield.dense import Data
+from infill.phasefield.refining import refine_bricks
 from infill.phasefield.sparse import SparseField, brick_states, kept_bricks, smooth_bricks
 
 
@@ -40,11 +42,12 @@ class ChunkField:
 
 
 def smooth_chunk(
-    solid: NDArray[np.bool_],
+    data: NDArray[np.bool_] | NDArray[np.float32],
     chunk: Chunk,
     smoothing: Smoothing,
     spacing: tuple[float, ...],
     *,
+    refined: bool,
     straighten: bool,
     threads: int,
 ) -> ChunkField | None:
@@ -52,20 +55,24 @@ def smooth_chunk(
 
     Parameters
     ----------
-    solid : (n0, n1, n2) bool
+    data : (n0, n1, n2) bool, True solid; or float32 in [-1, 1]
         The cells from `chunk.cell_low` to `chunk.cell_high`.
     chunk : Chunk
     smoothing : Smoothing
     spacing : (hx, hy, hz)
+    refined : bool
+        Whether to refine: see `infill.phasefield.refining.refine_bricks`.
     straighten : bool
         Whether to convert the field to a distance: see `infill.isosurfaces.levels.straighten_profile`.
     threads : int
     """
-    if not solid.any() or (solid.all() and not chunk.touches_rim):
+    sign = uniform_sign(data)
+    if sign < 0 or (sign > 0 and not chunk.touches_rim):
         return None
-    _, state = brick_states(solid, threads)
+    _, state = brick_states(data, threads)
     begun = kept_bricks(state)
-    smoothed = smooth_bricks(solid, smoothing, spacing=spacing, threads=threads)
+    smooth = refine_bricks if refined else smooth_bricks
+    smoothed = smooth(data, smoothing, spacing=spacing, threads=threads)
     low, high = (np.array(ends) - chunk.read_low for ends in (chunk.kept_low, chunk.kept_high))
     inside = ((smoothed.where >= low) & (smoothed.where < high)).all(axis=1)
     slots = smoothed.slots[tuple(slice(a, b) for a, b in zip(low, high, strict=True))].copy()
@@ -82,11 +89,39 @@ def smooth_chunk(
         slots=slots,
         where=(where - low).astype(np.int32),
         values=smoothed.values[inside],
-        data=smoothed.data[inside],
+        data=signs_of(smoothed.data[inside]),
     )
     if straighten:
         field = straighten_profile(field, out=field.values, threads=threads)
     return ChunkField(field=field, own=chunk.owns(field.where), begun=begun[tuple(where.T)])
+
+
+def uniform_sign(data: NDArray[np.bool_] | NDArray[np.float32]) -> int:
+    """Return 1 if data are solid throughout, -1 if they are void throughout, else 0; grey data are neither."""
+    if data.max() == (False if data.dtype == bool else -1):
+        return -1
+    return 1 if data.min() == 1 else 0
+
+
+def signs_of(data: Data) -> Data:
+    """Return data as 1 where they are solid, above 0, and else -1, as int8."""
+    return data if data.dtype == np.int8 else np.where(data > 0, 1, -1).astype(np.int8)
+
+
+def gather_data(chunk_field: ChunkField, chunk: Chunk, data: NDArray[np.float32]) -> ChunkField:
+    """Return the data themselves in the bricks of a chunk's field, in place of its values.
+
+    Parameters
+    ----------
+    chunk_field : ChunkField
+    chunk : Chunk
+    data : (n0, n1, n2) float32
+        The cells from `chunk.cell_low` to `chunk.cell_high`.
+    """
+    field = chunk_field.field
+    shift = np.array(chunk.kept_low) - np.array(chunk.read_low)
+    read = replace(field, where=(field.where + shift).astype(np.int32))
+    return replace(chunk_field, field=replace(field, values=read.gathered(data, threads=1)))
 
 
 def pack_field(chunk_field: ChunkField) -> dict[str, NDArray[Any]]:

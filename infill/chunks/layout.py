@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any
 
@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.kernels.sparse import BRICK
+from infill.phasefield.refining import refined_reach
 
 LEAST_MARGIN = 2  # bricks: labels reach into the brick beside the chunk, which therefore has to be whole
 
@@ -83,6 +84,14 @@ class Chunk:
         """Whether it holds cells of the grid, not only the void beyond it, in which the surface closes."""
         return all(part.stop > part.start for part in self.own_cells)
 
+    def widened(self, cells: int) -> Chunk:
+        """Return a chunk for which as many cells more are read on each side, in whole bricks."""
+        more = -(-cells // np.array(BRICK))
+        lattice = np.array(self.lattice)
+        low, high = np.maximum(self.read_low - more, 0), np.minimum(self.read_high + more, lattice)
+        cell_low, cell_high = _cells_of(low, high, lattice, self.shape)
+        return replace(self, read_low=_as_place(low), read_high=_as_place(high), cell_low=cell_low, cell_high=cell_high)
+
     def owns(self, places: NDArray[np.integer]) -> NDArray[np.bool_]:
         """Tell which bricks (N, 3), counted from the first that is kept, are its own."""
         own_places = places + np.array(self.kept_low)
@@ -102,6 +111,8 @@ class ChunkLayout:
         Bricks of a chunk along each axis; those at the upper ends may have fewer.
     steps : int
         Steps of smoothing, each of which reaches one cell.
+    refined : bool
+        Whether the field is refined: see `infill.phasefield.refining.refined_reach`.
 
     >>> [chunk.own_cells for chunk in ChunkLayout(shape=(20, 6, 14), size=(2, 1, 1), steps=3)][1]
     (slice(15, 20, None), slice(0, 6, None), slice(0, 14, None))
@@ -110,6 +121,7 @@ class ChunkLayout:
     shape: Place
     size: Place
     steps: int
+    refined: bool = False
 
     @property
     def lattice(self) -> Place:
@@ -130,8 +142,7 @@ class ChunkLayout:
     @property
     def margin(self) -> Place:
         """Bricks read beside a chunk: all cells whose values can reach its cubes."""
-        along_x, along_y, along_z = (max(LEAST_MARGIN, math.ceil((self.steps + 3) / size)) for size in BRICK)
-        return along_x, along_y, along_z
+        return margin_bricks(self.steps, refined=self.refined)
 
     def __len__(self) -> int:
         """Return the number of chunks."""
@@ -148,10 +159,7 @@ class ChunkLayout:
         low = np.array(place) * self.size
         high = np.minimum(low + self.size, lattice)
         read_low, read_high = np.maximum(low - self.margin, 0), np.minimum(high + self.margin, lattice)
-        bricks, shape = np.array(BRICK), np.array(self.shape)
-        cell_low = read_low * bricks
-        # Cut there, the lattice of the part ends with the same brick.
-        cell_high = np.where(read_high == lattice, shape, read_high * bricks - 2)
+        cell_low, cell_high = _cells_of(read_low, read_high, lattice, self.shape)
         return Chunk(
             number=number,
             low=_as_place(low),
@@ -160,11 +168,31 @@ class ChunkLayout:
             kept_high=_as_place(np.minimum(high + 1, lattice)),
             read_low=_as_place(read_low),
             read_high=_as_place(read_high),
-            cell_low=_as_place(cell_low),
-            cell_high=_as_place(cell_high),
+            cell_low=cell_low,
+            cell_high=cell_high,
             lattice=self.lattice,
             shape=self.shape,
         )
+
+
+def margin_bricks(steps: int, *, refined: bool) -> Place:
+    """Return the bricks to read beside a chunk along each axis, for a number of steps.
+
+    The outermost cell of the part that is read, next to which the grid seems to end, is wrong after one step, and the
+    cells of a brick at the end of the part lack one or two: hence one more cell, and two more above.
+    """
+    reach = refined_reach(steps) if refined else steps + 2
+    along_x, along_y, along_z = (max(LEAST_MARGIN, math.ceil((reach + 1) / size)) for size in BRICK)
+    return along_x, along_y, along_z
+
+
+def _cells_of(
+    read_low: NDArray[Any], read_high: NDArray[Any], lattice: NDArray[Any], shape: Place
+) -> tuple[Place, Place]:
+    """Return the cells to read for bricks: cut there, the lattice of the part begins and ends with the same bricks."""
+    bricks = np.array(BRICK)
+    ends = np.where(read_high == lattice, np.array(shape), read_high * bricks - 2)
+    return _as_place(read_low * bricks), _as_place(ends)
 
 
 def _as_place(numbers: NDArray[Any]) -> Place:

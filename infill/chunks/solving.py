@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.chunks.joining import ChunkComponents, JoinedComponents, join_components
-from infill.chunks.layout import Chunk
+from infill.chunks.layout import Chunk, margin_bricks
 from infill.chunks.running import Runner
 from infill.chunks.shells import JoinedShells, find_names, join_shells
 from infill.chunks.work import (
@@ -123,6 +123,7 @@ class Solver:
     smoothed: dict[int, SmoothedChunk] = field(default_factory=dict)
     chunks: dict[int, Chunk] = field(default_factory=dict)
     joined: JoinedComponents | None = None
+    targets: NDArray[np.float64] = field(default_factory=lambda: np.empty(0))
     passes: int = 0
 
     @property
@@ -243,9 +244,9 @@ class Solver:
         """
         joined = self.join_components()
         count = len(joined.cells)
+        self.targets = targets = self.find_targets(joined)
         if self.work.level is not None:
             return self.measure_start(), self.work.level, np.full(count, self.work.level)
-        targets = joined.volumes(self.cell_volume)
         total = float(targets.sum())
         start: MeasuredSurface | None = None
         try:
@@ -281,6 +282,27 @@ class Solver:
         best = search_component_levels(joined.cells, targets, common, try_levels)
         assert best.levels is not None
         return best, common, best.levels
+
+    def find_targets(self, joined: JoinedComponents) -> NDArray[np.float64]:
+        """Return the volume of each component of the data (b,), mm³: of its cells, or inside the grey surface.
+
+        Raises
+        ------
+        GeometryError
+            If nothing of grey data is above 0.
+        """
+        cells, count = joined.volumes(self.cell_volume), len(joined.cells)
+        if self.work.grey is None:
+            return cells
+        tasks = {
+            number: LevelTask(level=0.0, names=joined.names.get(number), components=count, votes=True, unsmoothed=True)
+            for number in self.surfaced
+        }
+        surface = self._measure(tasks, {}, 0.0, "join")
+        component, _ = elect(surface, joined.cells)
+        is_member = component >= 0
+        volume = np.bincount(component[is_member], weights=surface.shells.volume[is_member], minlength=count)
+        return np.where(volume > 0, volume, cells)
 
     def vote(self, surface: MeasuredSurface) -> tuple[Numbers, Numbers]:
         """Return the component of each shell, -1 for none, and pairs that share one: see `elect_components`."""
@@ -359,7 +381,7 @@ def number_cubes(parts: Mapping[int, LevelParts]) -> dict[int, Numbers]:
 
 
 def chunk_size(
-    shape: tuple[int, ...], steps: int, *, item: int, memory: int, largest: int = 512
+    shape: tuple[int, ...], steps: int, *, item: int, memory: int, largest: int = 512, refined: bool = False
 ) -> tuple[int, int, int]:
     """Return the bricks of a chunk along each axis, so that one chunk takes at most `memory` bytes.
 
@@ -372,9 +394,11 @@ def chunk_size(
     memory : int
     largest : int
         Cells along the longest side at most.
+    refined : bool
+        Whether the field is refined.
     """
     side = largest
-    while side > LEAST_SIDE and bytes_of_chunk(side, steps, item, shape) > memory:
+    while side > LEAST_SIDE and bytes_of_chunk(side, steps, item, shape, refined=refined) > memory:
         side -= LEAST_SIDE
     bricks = []
     for count, size in zip(shape, BRICK, strict=True):
@@ -386,15 +410,15 @@ def chunk_size(
 
 
 LEAST_SIDE = 32  # cells
+BYTES_TO_REFINE = 24  # the same, on top of that, for the filtered fields
 BYTES_PER_CELL = (
     16  # of a chunk with its margin, if a surface runs everywhere: bricks and their copies, a measured peak
 )
 
 
-def bytes_of_chunk(side: int, steps: int, item: int, shape: tuple[int, ...]) -> int:
+def bytes_of_chunk(side: int, steps: int, item: int, shape: tuple[int, ...], *, refined: bool = False) -> int:
     """Return the memory that a chunk of a side takes, bytes, at most."""
     cells = 1
-    for count, size in zip(shape, BRICK, strict=True):
-        margin = size * max(2, -(-(steps + 3) // size))
-        cells *= min(count, side + 2 * margin)
-    return cells * (BYTES_PER_CELL + item)
+    for count, size, bricks in zip(shape, BRICK, margin_bricks(steps, refined=refined), strict=True):
+        cells *= min(count, side + 2 * size * bricks)
+    return cells * (BYTES_PER_CELL + item + BYTES_TO_REFINE * refined)

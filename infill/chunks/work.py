@@ -20,7 +20,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.chunks.fields import ChunkField, pack_field, smooth_chunk, unpack_field
+from infill.chunks.fields import ChunkField, gather_data, pack_field, smooth_chunk, uniform_sign, unpack_field
 from infill.chunks.joining import ChunkComponents, look_up, named_cells, survey_components, survey_solid
 from infill.chunks.layout import Chunk, ChunkLayout
 from infill.chunks.pieces import (
@@ -32,7 +32,8 @@ from infill.chunks.pieces import (
     measure_parts,
     vertex_places,
 )
-from infill.chunks.solids import SolidRule
+from infill.chunks.solids import GreyScale, SolidRule
+from infill.chunks.specks import SpeckCount, remove_specks
 from infill.isosurfaces.components import Components
 from infill.isosurfaces.levels import REACH, label_field, lower_to_levels
 from infill.kernels.sparse import BRICK
@@ -67,9 +68,15 @@ class Work:
     smoothing : Smoothing
     spacing : (hx, hy, hz), mm
     level : float or None
-        The level of phi at which the surface lies; None if it is found, by the distance from the surface.
+        The level of the field at which the surface lies; None if it is found, by the distance from the surface.
     scratch : str
         Folder in which fields are kept; "" for none.
+    refined : bool
+        Whether fields are refined. They are distances then, not phi.
+    grey : GreyScale or None
+        The scale of grey values, which are smoothed instead of the solid cells.
+    despeckle : float
+        Components of the data up to this volume are taken out first, mm³.
     """
 
     source: CellReader
@@ -79,6 +86,19 @@ class Work:
     spacing: tuple[float, ...]
     level: float | None
     scratch: str = ""
+    refined: bool = False
+    grey: GreyScale | None = None
+    despeckle: float = 0.0
+
+    @property
+    def cell_volume(self) -> float:
+        """Volume of a cell, mm³."""
+        return float(np.prod(np.array(self.spacing)))
+
+    @property
+    def speck_cells(self) -> int:
+        """Cells of the largest speck that is taken out, or one more."""
+        return int(self.despeckle / self.cell_volume) + 1 if self.despeckle else 0
 
     def read(self, chunk: Chunk) -> NDArray[Any]:
         """Read the cells of a chunk with its margin."""
@@ -92,6 +112,49 @@ class Work:
                 for part, low in zip(chunk.own_cells, chunk.cell_low, strict=True)
             )
         )
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ChunkData:
+    """What is read for a chunk.
+
+    Parameters
+    ----------
+    data : (n0, n1, n2) bool or float32
+        Its cells with their margin: solid or not, or grey values in [-1, 1]; without specks.
+    values : ValueSurvey
+        The values of its own cells.
+    solid : int
+        Solid ones among its own cells, specks included.
+    specks : SpeckCount
+    """
+
+    data: NDArray[np.bool_] | NDArray[np.float32]
+    values: ValueSurvey
+    solid: int
+    specks: SpeckCount
+
+
+def read_data(work: Work, chunk: Chunk) -> ChunkData:
+    """Read the cells of a chunk, and find their data."""
+    widened = chunk.widened(work.speck_cells) if work.despeckle else chunk
+    values = work.read(widened)
+    own_values = values[widened.own_cells]
+    survey = _survey(own_values if chunk.has_cells else values)
+    solid = np.ascontiguousarray(work.rule.mark(values))
+    count = count_solid_cells(np.ascontiguousarray(solid[widened.own_cells]))
+    data: NDArray[np.bool_] | NDArray[np.float32] = solid
+    if work.grey is not None:
+        data = work.grey.scale(np.ascontiguousarray(values))
+    del values, own_values, solid
+    specks = SpeckCount()
+    if work.despeckle:
+        data, specks = remove_specks(data, widened, work.despeckle, work.cell_volume)
+        low = np.array(chunk.cell_low) - np.array(widened.cell_low)
+        sizes = np.array(chunk.cell_high) - np.array(chunk.cell_low)
+        box = tuple(slice(a, a + n) for a, n in zip(low, sizes, strict=True))
+        data = np.require(data[box], data.dtype, "C")
+    return ChunkData(data=data, values=survey, solid=count, specks=specks)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -192,7 +255,10 @@ class SmoothedChunk:
     values : ValueSurvey
         Of its own cells.
     solid : int
-        Solid ones among its own cells.
+        Solid ones among its own cells, specks included.
+    inside : bool
+        Whether a chunk without surface lies inside the solid.
+    specks : SpeckCount
     bricks : int
         Own bricks that are kept.
     components : ChunkComponents or None
@@ -200,11 +266,13 @@ class SmoothedChunk:
     start : LevelParts or None
         At level 0, or at the given level; None if no surface can cross the chunk.
     data : LevelParts or None
-        Of the surface of the data.
+        Of the surface of the data as solid and void.
     """
 
     values: ValueSurvey
     solid: int
+    inside: bool
+    specks: SpeckCount
     bricks: int
     components: ChunkComponents | None
     start: LevelParts | None
@@ -213,31 +281,37 @@ class SmoothedChunk:
 
 def smooth(work: Work, chunk: Chunk) -> SmoothedChunk:
     """Smooth a chunk, keep its field, and measure its surface at the first level."""
-    values = work.read(chunk)
-    own_values = values[chunk.own_cells]
-    survey = _survey(own_values if chunk.has_cells else values)
-    solid = np.ascontiguousarray(work.rule.mark(values))
-    count = count_solid_cells(np.ascontiguousarray(solid[chunk.own_cells]))
-    del values, own_values
-    chunk_field = _smooth(work, chunk, solid)
+    read = read_data(work, chunk)
+    facts: dict[str, Any] = {"values": read.values, "solid": read.solid, "specks": read.specks}
+    chunk_field = _smooth(work, chunk, read.data)
     if chunk_field is None:
-        components = survey_solid(chunk) if count else None
-        return SmoothedChunk(values=survey, solid=count, bricks=0, components=components, start=None, data=None)
+        inside = chunk.has_cells and uniform_sign(read.data) > 0
+        components = survey_solid(chunk) if inside else None
+        return SmoothedChunk(**facts, inside=inside, bricks=0, components=components, start=None, data=None)
+    del read
     _keep(work, chunk, chunk_field)
-    grey = replace(chunk_field, field=replace(chunk_field.field, values=chunk_field.field.data.astype(np.float32)))
+    solid = replace(chunk_field, field=replace(chunk_field.field, values=chunk_field.field.data.astype(np.float32)))
     return SmoothedChunk(
-        values=survey,
-        solid=count,
+        **facts,
+        inside=False,
         bricks=int(chunk_field.own.sum()),
         components=survey_components(chunk_field, chunk, chunk_field.components()),
         start=measure_piece(work, chunk, chunk_field, 0.0 if work.level is None else work.level),
-        data=measure_piece(work, chunk, grey, 0.0, any_numbers=True),
+        data=measure_piece(work, chunk, solid, 0.0, any_numbers=True),
     )
 
 
-def _smooth(work: Work, chunk: Chunk, solid: NDArray[np.bool_]) -> ChunkField | None:
+def _smooth(work: Work, chunk: Chunk, data: NDArray[np.bool_] | NDArray[np.float32]) -> ChunkField | None:
     """Smooth the cells of a chunk."""
-    return smooth_chunk(solid, chunk, work.smoothing, work.spacing, straighten=work.level is None, threads=1)
+    return smooth_chunk(
+        data,
+        chunk,
+        work.smoothing,
+        work.spacing,
+        refined=work.refined,
+        straighten=work.level is None and not work.refined,
+        threads=1,
+    )
 
 
 def _path(work: Work, chunk: Chunk) -> Path | None:
@@ -269,10 +343,18 @@ def open_field(work: Work, chunk: Chunk) -> ChunkField:
     if path is not None:
         with contextlib.suppress(OSError), np.load(path) as arrays:
             return unpack_field(dict(arrays))
-    chunk_field = _smooth(work, chunk, np.ascontiguousarray(work.rule.mark(work.read(chunk))))
+    chunk_field = _smooth(work, chunk, read_data(work, chunk).data)
     assert chunk_field is not None  # it was not when it was smoothed first
     _keep(work, chunk, chunk_field)
     return chunk_field
+
+
+def unsmoothed_field(work: Work, chunk: Chunk, chunk_field: ChunkField) -> ChunkField:
+    """Return the data in the bricks of a chunk's field, in place of its values; grey ones are read again."""
+    if work.grey is None:
+        field = chunk_field.field
+        return replace(chunk_field, field=replace(field, values=field.data.astype(np.float32)))
+    return gather_data(chunk_field, chunk, read_data(work, chunk).data.astype(np.float32, copy=False))
 
 
 def look_up_components(work: Work, chunk: Chunk, names: Numbers) -> NDArray[np.int32]:
@@ -299,6 +381,8 @@ class LevelTask:
         See `infill.chunks.pieces.make_piece`.
     votes : bool
         Whether to count the components nearest to the vertices.
+    unsmoothed : bool
+        Whether the surface is that of the grey data themselves.
     """
 
     level: float
@@ -307,12 +391,15 @@ class LevelTask:
     components: int = 1
     first_cubes: Numbers | None = None
     votes: bool = False
+    unsmoothed: bool = False
 
 
 def try_level(work: Work, chunk: Chunk, task: LevelTask) -> LevelParts:
     """Measure the surface of a chunk at a level."""
     chunk_field = open_field(work, chunk)
     labelled = chunk_field.components() if task.names is not None and (task.lowering or task.votes) else None
+    if task.unsmoothed:
+        chunk_field = unsmoothed_field(work, chunk, chunk_field)
     lowered = lower_field(chunk_field, labelled, task)
     return measure_piece(work, chunk, lowered, task.level, task=task, labelled=labelled)
 

@@ -11,7 +11,7 @@ import typer
 
 from infill.cli.console import format_bytes, format_table, print_json, print_log, progress_bar, say
 from infill.cli.foreseeing import format_span, format_steps
-from infill.errors import ParameterError, UsageError
+from infill.errors import MemoryLimitError, ParameterError, UsageError
 from infill.plain_numbers import count_noun, plain_size
 
 if TYPE_CHECKING:
@@ -26,11 +26,55 @@ if TYPE_CHECKING:
 ZARR = ".zarr"
 
 
-def wants_chunks(source: Path, settings: SmoothSettings, workers: int | None, scheduler: str | None) -> bool:
-    """Tell whether a run works in chunks: it is asked to, or the source is read in parts and the method can do it."""
+def wants_chunks(
+    source: Path,
+    settings: SmoothSettings,
+    options: SmoothOptions,
+    output: SmoothOutput,
+    *,
+    workers: int | None,
+    scheduler: str | None,
+) -> bool:
+    """Tell whether a run works in chunks: it is asked to, or the source is read in parts and is too large otherwise."""
     from infill.lazy.names import is_lazy
 
-    return workers is not None or scheduler is not None or (settings.chosen_method == "plain" and is_lazy(source))
+    if workers is not None or scheduler is not None:
+        return True
+    if not is_lazy(source):
+        return False
+    if settings.chosen_method == "plain":
+        return True
+    if not can_take_chunks(source, settings, options, output):
+        return False
+    try:
+        _open(source, settings).require_room(options.get("max_memory"))
+    except MemoryLimitError:
+        return True
+    return False
+
+
+def can_take_chunks(source: Path, settings: SmoothSettings, options: SmoothOptions, output: SmoothOutput) -> bool:
+    """Tell whether a source that does not fit into memory can be smoothed in chunks with the same options."""
+    from infill.lazy.names import is_lazy
+    from infill.smoothing.chunk_plans import check_chunked
+    from infill.smoothing.request import SmoothRequest
+
+    if not is_lazy(source):
+        return False
+    try:
+        check_chunked(SmoothRequest(**options), **_unfit(settings), preview=output.preview)
+        _check_outputs(output)
+    except ParameterError:
+        return False
+    return True
+
+
+def _open(source: Path, settings: SmoothSettings) -> LazyVolume:
+    """Open the volume, or the part of it that is requested."""
+    from infill.lazy.opening import open_volume
+
+    volume = open_volume(source, array=settings.array, spacing=settings.spacing)
+    return volume if settings.roi is None else volume.crop(settings.roi)
 
 
 def smooth_chunks(
@@ -45,7 +89,6 @@ def smooth_chunks(
 ) -> None:
     """Smooth a volume in chunks, write the files piece by piece, and print a summary; or only the plan."""
     from infill.chunks.running import check_runner
-    from infill.lazy.opening import open_volume
     from infill.smoothing.chunk_plans import check_chunked
     from infill.smoothing.chunked import smooth_in_chunks
     from infill.smoothing.request import SmoothRequest
@@ -56,8 +99,7 @@ def smooth_chunks(
         check_chunked(request, **_unfit(settings), preview=output.preview)
         _check_outputs(output)
         with print_log(shown=not output.quiet):
-            volume = open_volume(source, array=settings.array, spacing=settings.spacing)
-        volume = volume if settings.roi is None else volume.crop(settings.roi)
+            volume = _open(source, settings)
         choices = {"threshold": settings.threshold, "between": settings.between, "otsu": settings.otsu or None}
         chosen = [name for name, value in choices.items() if value is not None]
         if len(chosen) > 1:
@@ -69,7 +111,13 @@ def smooth_chunks(
         with (
             print_log(shown=not output.quiet),
             smooth_in_chunks(
-                volume, request, threshold=threshold, label=settings.label, workers=workers, scheduler=scheduler
+                volume,
+                request,
+                threshold=threshold,
+                label=settings.label,
+                grey=settings.grey,
+                workers=workers,
+                scheduler=scheduler,
             ) as surface,
         ):
             _write(surface, volume, output)
@@ -85,7 +133,7 @@ def smooth_chunks(
 
 def _unfit(settings: SmoothSettings) -> dict[str, object]:
     """Return the options that a volume in chunks does not have, by name."""
-    names = ("voxel", "resolution", "shell", "grey", "by_component", "units", "series", "frame")
+    names = ("voxel", "resolution", "shell", "by_component", "units", "series", "frame")
     kind = None if settings.kind in (None, "volume") else settings.kind
     return {**{name: getattr(settings, name) for name in names}, "kind": kind}
 
@@ -167,6 +215,7 @@ def _show_plan(
             request,
             threshold=threshold,
             label=settings.label,
+            grey=settings.grey,
             workers=workers,
             scheduler=scheduler,
         )
@@ -177,7 +226,7 @@ def _show_plan(
     grid = forecast["grid"]
     rows = {
         "grid": f"{' x '.join(map(str, grid['shape']))} voxels of {plain_size(*grid['spacing'], digits=4)}",
-        "method": f"plain: {format_steps(forecast['request'])}, all triangles",
+        "method": f"{forecast['request']['method']}: {format_steps(forecast['request'])}, all triangles",
         "chunks": f"{forecast['chunks']:,}, of which about {forecast['crossed']:.0%} have surface",
         "read": f"{format_bytes(forecast['read'])} of voxels in one pass, margins included",
         "triangles": f"about {forecast['triangles']:,}",

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, BinaryIO, cast
 
 import typer
 
-from infill.cli.chunked import smooth_chunks, wants_chunks
+from infill.cli.chunked import can_take_chunks, smooth_chunks, wants_chunks
 from infill.cli.common import (
     FILES,
     RUN,
@@ -29,6 +29,8 @@ from infill.cli.console import format_bytes, format_table, print_json, print_log
 from infill.cli.declared import takes_options
 from infill.cli.foreseeing import format_steps, show_smooth_plan
 from infill.cli.labelled import SmoothOutput, refuse_options, smooth_every_label, wants_every_label
+from infill.errors import MemoryLimitError
+from infill.machine import available_memory
 from infill.plain_numbers import choose_unit, count_noun, plain_argument, plain_number, plain_size
 from infill.smoothing.settings import SmoothSettings, resolve
 
@@ -85,8 +87,8 @@ def smooth(
         int | None,
         typer.Option(
             metavar="N",
-            help="Smooth a volume in chunks, N at once, without having all of it in memory; with --smooth plain. "
-            "(default: for Zarr and HDF5, one per core)",
+            help="Smooth a volume in chunks, N at once, without having all of it in memory. "
+            "(default: for Zarr and HDF5 that do not fit into memory, one per core)",
             rich_help_panel=RUN,
         ),
     ] = None,
@@ -150,16 +152,32 @@ def smooth(
             option = "--hash" if show_hash else "--workers and --scheduler"
             raise typer.BadParameter(f"{option} is for one surface; leave it out, or choose one label by --label")
         smooth_every_label(source, settings, outputs, options)
-    elif wants_chunks(source, settings, workers, scheduler):
+    elif wants_chunks(source, settings, options, outputs, workers=workers, scheduler=scheduler):
         smooth_chunks(source, settings, outputs, options, workers=workers, scheduler=scheduler, show_hash=show_hash)
     else:
         _check_formats(outputs, settings)
         outputs.check()
-        if dry_run:
-            files = filter(None, (*outputs.outputs, preview, save_config))
-            show_smooth_plan(source, settings, options, files, as_json=as_json, quiet=quiet)
+        try:
+            _smooth_or_plan(source, settings, options, outputs, show_hash=show_hash)
+        except MemoryLimitError:
+            if not can_take_chunks(source, settings, options, outputs):
+                raise
         else:
-            _smooth_source(source, settings, options, outputs, show_hash=show_hash)
+            return
+        smooth_chunks(source, settings, outputs, options, workers=None, scheduler=None, show_hash=show_hash)
+
+
+def _smooth_or_plan(
+    source: Path, settings: SmoothSettings, options: SmoothOptions, output: SmoothOutput, *, show_hash: bool
+) -> None:
+    """Smooth a file or folder in memory, or print the plan of that."""
+    if not output.dry_run:
+        _smooth_source(source, settings, options, output, show_hash=show_hash)
+        return
+    if can_take_chunks(source, settings, options, output):  # the plan ends where the run would
+        options = {**options, "max_memory": options.get("max_memory") or available_memory()}
+    files = filter(None, (*output.outputs, output.preview, *output.saved))
+    show_smooth_plan(source, settings, options, files, as_json=output.as_json, quiet=output.quiet)
 
 
 def _save_config(output: SmoothOutput) -> None:

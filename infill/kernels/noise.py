@@ -41,12 +41,14 @@ def count_votes(solid, rows, planes, counts):
 
 
 @njit(nogil=True, cache=True)
-def count_overruled(slab, room, counts):
+def count_overruled(slab, room, inner, counts):
     """Add the numbers of 1s and of 0s that a majority overrules, and of the cells at the resulting surface.
 
-    `room` is work space for three slabs and a layer, (3 n0 + 1, n1, n2) uint8, shared by many slabs.
+    `room` is work space for three slabs and a layer, (3 n0 + 1, n1, n2) uint8, shared by many slabs. Only cells in the
+    rows and columns `inner` (j0, j1, k0, k1) are counted.
     """
-    n0, n1, n2 = slab.shape
+    j0, j1, k0, k1 = inner
+    n0 = len(slab)
     planes, majority, again, rows = room[:n0], room[n0 : 2 * n0], room[2 * n0 : 3 * n0], room[3 * n0]
     count_votes(slab, rows, planes, majority)
     flat = majority.reshape(-1)
@@ -56,9 +58,9 @@ def count_overruled(slab, room, counts):
     begin, end = (OVERLAP_LAYERS, n0 - OVERLAP_LAYERS) if n0 > 2 * OVERLAP_LAYERS else (0, n0)
     taken = added = surface = 0
     for i in range(begin, end):
-        for j in range(n1):  # row by row: vector code
-            line, majority_line, vote_line = slab[i, j], majority[i, j], again[i, j]
-            for k in range(n2):
+        for j in range(j0, j1):  # row by row: vector code
+            line, majority_line, vote_line = slab[i, j, k0:k1], majority[i, j, k0:k1], again[i, j, k0:k1]
+            for k in range(k1 - k0):
                 taken += line[k] > majority_line[k]
                 added += line[k] < majority_line[k]
                 surface += np.uint8(vote_line[k] - np.uint8(1)) < np.uint8(VOTERS - 1)

@@ -13,6 +13,7 @@ from infill.machine import require_memory
 from infill.volume import AXES, Volume
 from infill.voxels.cropping import cells_in_box, cut_cells
 
+BYTES_PER_CELL = 5  # besides the cells themselves: the mask of solid cells, and grey values as 32-bit numbers
 EXTRA = "pip install dask distributed fsspec h5py zarr"
 ADVICE = "give --smooth plain, which works in chunks, or a coarser level of it"
 
@@ -61,10 +62,19 @@ class LazyVolume:
         along_x, along_y, along_z = self.array.shape
         return along_x, along_y, along_z
 
-    def load(self) -> Volume:
-        """Read all cells; raise MemoryLimitError if they do not fit into memory."""
+    @property
+    def cell_volume(self) -> float:
+        """Volume of a cell, mm³."""
+        return float(np.prod(np.array(self.spacing)))
+
+    def require_room(self, limit: int | None = None) -> None:
+        """Raise MemoryLimitError if the cells and what is made of them need more bytes than a limit, or are free."""
         cells = int(np.prod(np.array(self.shape, dtype=np.float64)))
-        require_memory(cells * (self.array.dtype.itemsize + 1), None, ADVICE)
+        require_memory(cells * (self.array.dtype.itemsize + BYTES_PER_CELL), limit, ADVICE)
+
+    def load(self, limit: int | None = None) -> Volume:
+        """Read all cells; raise MemoryLimitError if they do not fit into memory, or a limit, bytes."""
+        self.require_room(limit)
         values = self.array.read(tuple(slice(0, count) for count in self.shape))
         return self.place(values)
 

@@ -35,7 +35,7 @@ from infill.meshes.simplification import SAFE, restore_volume, simplify_surface
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.refining import refine_bricks
 from infill.phasefield.sparse import smooth_bricks
-from infill.plain_numbers import count_noun, plain_argument, plain_number, plain_size
+from infill.plain_numbers import plain_argument, plain_number, plain_size
 from infill.reports.common import Topology, declare, mesh_keys, report_head, surface_keys
 from infill.reports.sections import with_late_sections
 from infill.reports.smoothing import Distance, SmoothReport, SolidChanges, SolidMesh, SolidSeconds
@@ -51,7 +51,7 @@ from infill.smoothing.comparing import (
     verdict_facts,
     volume_error,
 )
-from infill.smoothing.levelling import CRUMB_CELLS, Crumbs, SurfaceAtLevel, extract_surface, remove_crumbs
+from infill.smoothing.levelling import Crumbs, SurfaceAtLevel, describe_cleaning, extract_surface, remove_crumbs
 from infill.smoothing.request import SmoothedInput
 from infill.smoothing.stages import SmoothStages, place_surface
 
@@ -60,7 +60,7 @@ if TYPE_CHECKING:
 
     from infill.phasefield.sparse import SparseField
     from infill.reports.common import Level
-    from infill.reports.smoothing import CrumbKeys, Judgement, ReplacedSmoothing, Simplified, SolidWalls
+    from infill.reports.smoothing import Judgement, ReplacedSmoothing, Simplified, SolidWalls
     from infill.smoothing.request import SmoothInput, SmoothRequest
     from infill.surface import Surface
     from infill.volume import Volume
@@ -70,7 +70,6 @@ BYTES_PER_SURFACE_CELL = 600  # bricks, faces, labels and mesh, for every cell a
 BYTES_TO_REFINE = 500  # three filtered fields and the last but one, on top of that
 SAMPLED_LAYERS = 16  # layers that are sampled to estimate the surface
 FACES_PER_CROSSING = 1.5  # along two of the three axes
-LEAST_CRUMBS = 0.1  # of the largest crumb: less than this, of all crumbs together, is not worth its digits
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -377,9 +376,8 @@ def finish_attempt(
 def _verdict_facts(differences: Differences, deviation: Deviation | None, best: Attempt) -> Judgement:
     """Return the verdict with its places and areas, for the report."""
     smoothed, crumbs = best.smoothed, best.crumbs
-    cell, cleaned = smoothed.smooth_input.distance_unit, _cleaning_remarks(crumbs, best.specks, smoothed)
-    removed: CrumbKeys = {"removed": crumbs.count, "volume": crumbs.volume, "limit": crumbs.limit}
-    return {**verdict_facts(differences, deviation, cell, cleaned), "crumbs": removed}
+    cell, cleaned = smoothed.smooth_input.distance_unit, describe_cleaning(crumbs, best.specks, smoothed.request)
+    return {**verdict_facts(differences, deviation, cell, cleaned), "crumbs": crumbs.facts()}
 
 
 def advise_all_triangles(request: SmoothRequest) -> str:
@@ -453,20 +451,3 @@ def _wall_facts(best: Attempt) -> SolidWalls:
         "thinnest": {"data": data_thickness, "result": result_thickness},
         "lost": [{"voxels": piece.voxels, "at": place(piece.at[None])[0].tolist()} for piece in best.topology.lost],
     }
-
-
-def _cleaning_remarks(crumbs: Crumbs, specks: int, smoothed: SmoothedInput) -> list[str]:
-    """Describe crumbs and specks that were removed on purpose, one phrase each."""
-    phrases = []
-    if crumbs.count:
-        limit = (
-            f"{plain_argument(CRUMB_CELLS)} voxels"
-            if smoothed.request.crumbs is None
-            else plain_size(crumbs.limit, power=3)
-        )
-        in_all = f", {plain_size(crumbs.volume, power=3)} in all" if crumbs.volume > LEAST_CRUMBS * crumbs.limit else ""
-        phrases.append(f"{count_noun(crumbs.count, 'crumb')} of up to {limit} taken out{in_all}")
-    if specks:
-        limit = plain_number(smoothed.request.despeckle)
-        phrases.append(f"{count_noun(specks, 'speck')} of up to {limit} mm³ taken out beforehand")
-    return phrases

@@ -22,7 +22,7 @@ from infill.chunks.fields import ChunkField
 from infill.chunks.joining import ChunkComponents, look_up, survey_components
 from infill.chunks.layout import Chunk
 from infill.chunks.pieces import count_piece, make_piece, measure_parts
-from infill.chunks.work import LevelParts, LevelTask, Work, lower_field, measure_piece, open_field
+from infill.chunks.work import LevelParts, LevelTask, Work, lower_field, measure_piece, open_field, unsmoothed_field
 from infill.errors import GeometryError
 from infill.inspection.deviation import COUNTS, KEPT, LOST, PITCH, sample_surface
 from infill.inspection.sign_changes import (
@@ -148,7 +148,7 @@ def compare_chunk(
     result, crumbs = _extract(field, work.spacing, task.level), np.empty((0, 3), dtype=np.int64)
     if result is not None and removed.any():
         result, crumbs = _without_crumbs(result, chunk_field, chunk, work, task, removed)
-    data = _extract(replace(field, values=field.data.astype(np.float32)), work.spacing, 0.0)
+    data = _extract(unsmoothed_field(work, chunk, chunk_field).field, work.spacing, 0.0)
     chunk_bits = np.where(chunk_field.own[:, None], FULL, 0).astype(np.uint16) * np.ones(ROWS, dtype=np.uint16)
     data_area, result_area = (_area_in_cubes(part, field, chunk_bits, work.spacing) for part in (data, result))
     cubes = _uncertain_cubes(field, flips, crumbs) & chunk_bits

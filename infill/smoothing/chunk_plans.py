@@ -15,7 +15,7 @@ from infill.errors import ParameterError, UsageError
 from infill.kernels.sparse import BRICK
 from infill.lazy.volume import LazyVolume
 from infill.machine import available_memory
-from infill.plain_numbers import plain_size
+from infill.plain_numbers import plain_argument, plain_size
 from infill.smoothing.request import AUTO, SmoothRequest
 from infill.voxels.slices import plan_sublayers
 
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 LEAST_CHUNKS = 2  # for each worker, so that none is idle
 FEWEST_CELLS = 128  # along a side: smaller chunks are mostly margin
 LARGEST_CELLS = 512  # along a side
+MOST_SPECK_CELLS = 128  # which is also how far beside a chunk cells are read to find specks
 MEMORY_SHARE = 0.5  # of what is free: for all chunks at once
 
 
@@ -57,21 +58,33 @@ def check_chunked(request: SmoothRequest, **options: Any) -> None:  # noqa: ANN4
     **options
         Further options by name; those that are None or False are not given.
     """
-    if request.method != "plain":
-        raise UsageError.about(
-            "method",
-            f"is {request.method}, and a volume in chunks is smoothed by plain alone; give plain, or leave workers and "
-            "scheduler out for a volume that fits into memory",
-        )
     if request.max_triangles is not None:
         raise UsageError.about("max_triangles", "is not for a volume in chunks, which keeps all; leave it out")
     if request.tolerance not in (AUTO, None):
         raise UsageError.about("tolerance", "is not for a volume in chunks, which keeps all triangles; give 0")
-    if request.despeckle:
-        raise UsageError.about("despeckle", "is not for a volume in chunks; give more crumbs instead, or leave it out")
     for name, value in options.items():
         if value is not None and value is not False:
             raise UsageError.about(name, "is not for a volume in chunks; leave it out")
+
+
+def suits_chunks(request: SmoothRequest, **options: Any) -> bool:  # noqa: ANN401 - options of smooth_volume
+    """Tell whether a volume in chunks has all these options: see `check_chunked`."""
+    try:
+        check_chunked(request, **options)
+    except ParameterError:
+        return False
+    return True
+
+
+def check_speck_size(request: SmoothRequest, cell_volume: float) -> None:
+    """Raise ParameterError for specks so large that chunks would have to read too many cells beside them."""
+    largest = MOST_SPECK_CELLS * cell_volume
+    if request.despeckle > largest:
+        raise ParameterError.about(
+            "despeckle",
+            f"is {plain_argument(request.despeckle)} mm³, and a volume in chunks takes out specks of up to "
+            f"{MOST_SPECK_CELLS} voxels; give at most {plain_argument(largest)}",
+        )
 
 
 def plan_chunks(volume: LazyVolume, request: SmoothRequest, runner: Runner, *, side: int | None = None) -> ChunkPlan:
@@ -86,16 +99,17 @@ def plan_chunks(volume: LazyVolume, request: SmoothRequest, runner: Runner, *, s
         Cells along the longest side of a chunk, instead.
     """
     require_thin(volume)
-    steps, item = request.smoothing.steps, volume.array.dtype.itemsize
+    steps, refined = request.smoothing.steps, request.refined
+    item = volume.array.dtype.itemsize
     share = runner.memory_per_task() if request.max_memory is None else request.max_memory // runner.workers
     memory = int((available_memory() or 2**32) * MEMORY_SHARE) // runner.workers if share is None else share
     largest = side or LARGEST_CELLS
-    size = chunk_size(volume.shape, steps, item=item, memory=memory, largest=largest)
-    layout = ChunkLayout(shape=volume.shape, size=size, steps=steps)
+    size = chunk_size(volume.shape, steps, item=item, memory=memory, largest=largest, refined=refined)
+    layout = ChunkLayout(shape=volume.shape, size=size, steps=steps, refined=refined)
     while side is None and len(layout) < LEAST_CHUNKS * runner.workers and largest > FEWEST_CELLS:
         largest -= BRICK[2] * 2
-        size = chunk_size(volume.shape, steps, item=item, memory=memory, largest=largest)
-        layout = ChunkLayout(shape=volume.shape, size=size, steps=steps)
+        size = chunk_size(volume.shape, steps, item=item, memory=memory, largest=largest, refined=refined)
+        layout = ChunkLayout(shape=volume.shape, size=size, steps=steps, refined=refined)
     cells = max(size[axis] * BRICK[axis] for axis in range(3))
     at_once = min(runner.workers, len(layout))
     read = item * sum(
@@ -104,7 +118,7 @@ def plan_chunks(volume: LazyVolume, request: SmoothRequest, runner: Runner, *, s
     return ChunkPlan(
         layout=layout,
         workers=runner.workers,
-        memory=at_once * bytes_of_chunk(cells, steps, item, volume.shape),
+        memory=at_once * bytes_of_chunk(cells, steps, item, volume.shape, refined=refined),
         read=read,
     )
 

@@ -1,6 +1,6 @@
-"""Smooth a volume in chunks: the plain method, with the bits of the whole, for volumes that do not fit into memory.
+"""Smooth a volume in chunks, with the bits of the whole, for volumes that do not fit into memory.
 
-    smooth all chunks  ─▶  level of the volume  ─▶  crumbs  ─▶  pieces of surface, one after another  ─▶  report
+    method  ─▶  smooth all chunks  ─▶  level of the volume  ─▶  crumbs  ─▶  pieces, one after another  ─▶  report
 
 The passes over the chunks are those of `infill.chunks.solving`; their result is judged by `chunked_verdict`.
 """
@@ -11,7 +11,7 @@ import contextlib
 import shutil
 import tempfile
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
@@ -21,15 +21,17 @@ from numpy.typing import NDArray
 
 from infill.chunks.layout import ChunkLayout
 from infill.chunks.running import open_runner, require_dask
-from infill.chunks.solids import SolidRule
+from infill.chunks.solids import GreyScale, SolidRule
 from infill.chunks.solving import Solver
 from infill.chunks.work import Work, smooth
 from infill.kernels.compiling import log_compilation
 from infill.lazy.volume import LazyVolume
-from infill.phasefield.profile import PLAIN_PROFILE
+from infill.phasefield.profile import PLAIN_PROFILE, REFINED_PROFILE
+from infill.phasefield.schedule import MIN_STEPS
 from infill.reports.smoothing import SegmentationKeys
-from infill.smoothing.chunk_plans import ChunkPlan, check_chunked, plan_chunks
-from infill.smoothing.chunked_rule import find_rule, require_some_solid
+from infill.smoothing.chunk_plans import check_chunked
+from infill.smoothing.chunked_data import ChosenWork, choose_work
+from infill.smoothing.chunked_rule import count_specks, require_some_solid
 from infill.smoothing.chunked_surface import ChunkedSurface, find_all_crumbs
 from infill.smoothing.chunked_verdict import judge_chunks
 from infill.smoothing.comparing import intolerable_error
@@ -46,6 +48,7 @@ def smooth_in_chunks(
     *,
     threshold: Threshold = None,
     label: int | Sequence[int] | None = None,
+    grey: bool | None = None,
     workers: int | None = None,
     scheduler: str | None = None,
     side: int | None = None,
@@ -56,7 +59,7 @@ def smooth_in_chunks(
     ----------
     volume : LazyVolume
     request : SmoothRequest
-    threshold, label
+    threshold, label, grey
         See `infill.smooth_volume`.
     workers, scheduler
         See `infill.chunks.running.open_runner`.
@@ -76,7 +79,6 @@ def smooth_in_chunks(
     """
     check_chunked(request)
     require_dask()
-    request = replace(request.for_cell(min(volume.spacing)), tolerance=None)
     progress, seconds = request.progress, {"read": 0.0, "smooth": 0.0, "surface": 0.0, "check": 0.0}
 
     def tell(stage: str, share: float) -> None:
@@ -86,43 +88,39 @@ def smooth_in_chunks(
 
     count = workers if workers is not None or scheduler not in (None, "threads", "processes") else request.threads
     with open_runner(count, scheduler) as runner, _scratch_folder() as scratch:
-        plan = plan_chunks(volume, request, runner, side=side)
-        work = Work(
-            source=volume.array,
-            rule=SolidRule(),
-            layout=plan.layout,
-            smoothing=request.smoothing,
-            spacing=tuple(volume.spacing),
-            level=None if isinstance(request.level, str) else request.level,
-            scratch=scratch,
-        )
         with _timed(seconds, "read"):
-            rule, used = find_rule(work, runner, threshold, label, partial(tell, "read"))
-        solver = Solver(work=_with_rule(work, rule), runner=runner, tell=tell)
+            chosen = choose_work(
+                volume,
+                request,
+                runner,
+                partial(tell, "read"),
+                threshold=threshold,
+                label=label,
+                grey=grey,
+                side=side,
+                scratch=scratch,
+            )
+        request, work = chosen.request, chosen.work
+        solver = Solver(work=work, runner=runner, tell=tell)
         with _timed(seconds, "smooth"):
             _load_kernels(work)
             solver.smooth()
-            segmentation = require_some_solid(solver, used)
-        chunked = _find_surface(solver, plan, volume, request, segmentation, seconds)
+            segmentation = require_some_solid(solver, chosen.used)
+        chunked = _find_surface(solver, chosen, volume, segmentation, seconds)
         chunked.check()
         yield chunked
 
 
 def _find_surface(
-    solver: Solver,
-    plan: ChunkPlan,
-    volume: LazyVolume,
-    request: SmoothRequest,
-    segmentation: SegmentationKeys,
-    seconds: dict[str, float],
+    solver: Solver, chosen: ChosenWork, volume: LazyVolume, segmentation: SegmentationKeys, seconds: dict[str, float]
 ) -> ChunkedSurface:
     """Find the surface of the smoothed chunks, without crumbs, and judge it."""
+    request = chosen.request
     with _timed(seconds, "surface"):
         surface, common, levels = solver.find_surface()
-    to_phase = PLAIN_PROFILE.phase_level if solver.work.level is None else float
+    to_phase = _phase_level(request)
     phase_levels = np.array([to_phase(float(level)) for level in levels])
-    assert solver.joined is not None
-    target = float(solver.joined.cells.sum() * solver.cell_volume)
+    target = float(solver.targets.sum())
     with _timed(seconds, "check"):
         crumbs, marked = find_all_crumbs(solver, surface, request)
         numbering = solver.number_vertices(surface, marked)
@@ -131,14 +129,14 @@ def _find_surface(
             solver,
             surface,
             marked,
-            smooth_input=_input_without_values(volume, segmentation),
+            smooth_input=_input_without_values(volume, segmentation, chosen.noise),
             levels=phase_levels,
             volume_error=intolerable_error(enclosed / target - 1, request),
         )
     return ChunkedSurface(
         volume=volume,
         request=request,
-        plan=plan,
+        plan=chosen.plan,
         solver=solver,
         surface=surface,
         numbering=numbering,
@@ -146,6 +144,9 @@ def _find_surface(
         verdict=verdict,
         level=(to_phase(common), phase_levels),
         segmentation=segmentation,
+        noise=chosen.noise,
+        grey=chosen.grey,
+        specks=count_specks(solver),
         enclosed=enclosed,
         target=target,
         seconds=seconds,
@@ -153,10 +154,10 @@ def _find_surface(
     )
 
 
-def _input_without_values(volume: LazyVolume, segmentation: SegmentationKeys) -> SmoothInput:
+def _input_without_values(volume: LazyVolume, segmentation: SegmentationKeys, noise: float) -> SmoothInput:
     """Return the input of a verdict: the place of the cells in space, and what is known of them."""
     nothing = volume.place(np.broadcast_to(np.False_, volume.shape))
-    return SmoothInput(data=nothing, facts={"source": "volume", "segmentation": segmentation})
+    return SmoothInput(data=nothing, facts={"source": "volume", "segmentation": segmentation, "noise": noise})
 
 
 @contextlib.contextmanager
@@ -177,9 +178,12 @@ def _timed(seconds: dict[str, float], stage: str) -> Iterator[None]:
     seconds[stage] += time.perf_counter() - begin
 
 
-def _with_rule(work: Work, rule: SolidRule) -> Work:
-    """Return the work with another rule."""
-    return replace(work, rule=rule)
+def _phase_level(request: SmoothRequest) -> Callable[[float], float]:
+    """Return what converts a level of the field to one of phi."""
+    if not isinstance(request.level, str):
+        fixed = request.level
+        return lambda _: fixed
+    return (REFINED_PROFILE if request.refined else PLAIN_PROFILE).phase_level
 
 
 @log_compilation("the smoother")
@@ -187,13 +191,16 @@ def _load_kernels(work: Work) -> None:
     """Load the compiled loops before several threads need them at once."""
     corner = np.zeros((6, 6, 6), dtype=bool)
     corner[2:4, 2:4, 2:4] = True
-    layout = ChunkLayout(shape=(6, 6, 6), size=(1, 1, 1), steps=1)
+    steps = MIN_STEPS if work.refined else 1
+    layout = ChunkLayout(shape=(6, 6, 6), size=(1, 1, 1), steps=steps, refined=work.refined)
     trial = replace(
         work,
         source=_ArrayReader(corner),
         rule=SolidRule(),
+        grey=None if work.grey is None else GreyScale(level=0.5, window=1.0),
         layout=layout,
-        smoothing=replace(work.smoothing, steps=1),
+        smoothing=replace(work.smoothing, steps=steps),
+        despeckle=0.0,
         scratch="",
     )
     smooth(trial, next(iter(layout)))

@@ -9,12 +9,12 @@ from dataclasses import replace
 import numpy as np
 
 from infill.chunks.running import open_runner, require_dask
-from infill.chunks.solids import SolidRule
-from infill.chunks.work import LevelTask, Work, make_part, smooth
+from infill.chunks.work import LevelTask, make_part, smooth
 from infill.lazy.volume import LazyVolume
+from infill.phasefield.schedule import MIN_STEPS
 from infill.reports.smoothing import ChunksForecast
-from infill.smoothing.chunk_plans import check_chunked, plan_chunks
-from infill.smoothing.chunked_rule import find_rule
+from infill.smoothing.chunk_plans import check_chunked
+from infill.smoothing.chunked_data import choose_work
 from infill.smoothing.request import SmoothRequest
 from infill.smoothing.scans import Threshold
 
@@ -28,6 +28,7 @@ def plan_chunked(
     *,
     threshold: Threshold = None,
     label: int | Sequence[int] | None = None,
+    grey: bool | None = None,
     workers: int | None = None,
     scheduler: str | None = None,
 ) -> ChunksForecast:
@@ -37,25 +38,16 @@ def plan_chunked(
     """
     check_chunked(request)
     require_dask()
-    request = replace(request.for_cell(min(volume.spacing)), tolerance=None)
     with open_runner(workers if workers is not None or scheduler else request.threads, scheduler) as runner:
-        plan = plan_chunks(volume, request, runner)
-        work = Work(
-            source=volume.array,
-            rule=SolidRule(),
-            layout=plan.layout,
-            smoothing=request.smoothing,
-            spacing=tuple(volume.spacing),
-            level=None if isinstance(request.level, str) else request.level,
-        )
-        rule, _ = find_rule(work, runner, threshold, label, lambda _: None)
-    work = replace(work, rule=rule)
+        chosen = choose_work(volume, request, runner, lambda _: None, threshold=threshold, label=label, grey=grey)
+    request, plan, work = chosen.request, chosen.plan, chosen.work
     chunks = list(plan.layout)
-    chosen = [chunks[number] for number in np.linspace(0, len(chunks) - 1, SAMPLES + 2).astype(int)[1:-1]]
-    chosen = list({chunk.number: chunk for chunk in chosen}.values())
-    smooth(replace(work, smoothing=replace(work.smoothing, steps=1)), chosen[0])  # loads what a run needs
+    numbers = np.linspace(0, len(chunks) - 1, SAMPLES + 2).astype(int)[1:-1].tolist()
+    samples = [chunks[number] for number in dict.fromkeys(numbers)]
+    fewest = MIN_STEPS if work.refined else 1
+    smooth(replace(work, smoothing=replace(work.smoothing, steps=fewest)), samples[0])  # loads what a run needs
     seconds, triangles, crossed = 0.0, 0, 0
-    for chunk in chosen:
+    for chunk in samples:
         begin = time.perf_counter()
         smoothed = smooth(work, chunk)
         between = time.perf_counter()
@@ -68,7 +60,7 @@ def plan_chunked(
             seconds += smoothing + PASSES * max(0.0, time.perf_counter() - between - smoothing / 2)
         else:
             seconds += between - begin
-    times = len(chunks) / len(chosen)
+    times = len(chunks) / len(samples)
     return {
         "request": request.facts(),
         "grid": {
@@ -78,7 +70,7 @@ def plan_chunked(
             "space": volume.space,
         },
         "chunks": len(chunks),
-        "crossed": crossed / len(chosen),
+        "crossed": crossed / len(samples),
         "read": plan.read,
         "triangles": round(triangles * times),
         "memory": plan.memory,

@@ -14,7 +14,7 @@ from infill.chunks.solids import SolidRule
 from infill.chunks.solving import Solver
 from infill.chunks.work import ValueSurvey, Work, count_values, survey_values
 from infill.errors import ParameterError, UsageError
-from infill.plain_numbers import plain_argument
+from infill.plain_numbers import plain_argument, plain_number, plain_size
 from infill.reports.smoothing import SegmentationKeys, SegmentationRule
 from infill.smoothing.scans import Threshold, threshold_range
 from infill.voxels.segmentation import SIGNS, histogram_edges, otsu_of_histogram
@@ -66,17 +66,14 @@ def find_rule(
     chunks = list(work.layout)
     half = 0.5 if otsu else 1.0
     surveys = runner.run(survey_values, work, [(chunk,) for chunk in chunks], lambda share: tell(half * share))
-    values = _join_surveys(surveys)
+    values = join_surveys(surveys)
     if otsu:
         return _find_otsu(work, runner, chunks, values, tell)
     lowest, highest = values.lowest, values.highest
     if values.two and (lowest == 0 < highest or (lowest, highest) == SIGNS):
         return SolidRule(low=highest, high=highest), {"method": "mask"}
     if work.source.dtype.kind == "f" and -1 <= lowest < 0 < highest <= 1:
-        raise ParameterError(
-            f"the values go from {plain_argument(lowest)} to {plain_argument(highest)}, a phase field, which is not "
-            "smoothed in chunks; give --threshold 0, or a volume that fits into memory"
-        )
+        return SolidRule(phase=True), {"method": "phase", "low": 0.0}
     raise ParameterError(
         f"the values go from {plain_argument(lowest)} to {plain_argument(highest)} and do not say what is solid; give "
         "--threshold X, --range LOW,HIGH, --label N or --otsu"
@@ -97,7 +94,7 @@ def _find_otsu(
     return SolidRule(low=low), {"method": "otsu", "low": low}
 
 
-def _join_surveys(surveys: Sequence[ValueSurvey]) -> ValueSurvey:
+def join_surveys(surveys: Sequence[ValueSurvey]) -> ValueSurvey:
     """Join the surveys of all chunks; raise ParameterError for values that are not finite."""
     if not all(survey.finite for survey in surveys):
         raise ParameterError(NOT_FINITE)
@@ -109,7 +106,7 @@ def _join_surveys(surveys: Sequence[ValueSurvey]) -> ValueSurvey:
 
 def require_some_solid(solver: Solver, used: SegmentationRule) -> SegmentationKeys:
     """Return the rule with the values and the solid share; raise ParameterError if no cell, or every cell, is solid."""
-    values = _join_surveys([outcome.values for outcome in solver.smoothed.values()])
+    values = join_surveys([outcome.values for outcome in solver.smoothed.values()])
     solid = sum(outcome.solid for outcome in solver.smoothed.values())
     cells = math.prod(solver.work.layout.shape)
     if solid in (0, cells):
@@ -121,3 +118,16 @@ def require_some_solid(solver: Solver, used: SegmentationRule) -> SegmentationKe
         parameter = {"label": "label", "range": "threshold"}.get(used["method"])
         raise ParameterError(f"the volume {problem}") if parameter is None else ParameterError.about(parameter, problem)
     return {**used, "values": [+values.lowest, +values.highest], "solid": solid / cells}
+
+
+def count_specks(solver: Solver) -> int:
+    """Return the number of specks that were taken out; raise ParameterError if nothing else is there."""
+    outcomes = list(solver.smoothed.values())
+    if solver.work.despeckle and not any(outcome.components is not None for outcome in outcomes):
+        largest = max(outcome.specks.largest for outcome in outcomes)
+        raise ParameterError.about(
+            "despeckle",
+            f"is {plain_number(solver.work.despeckle)} mm³ and the largest component has "
+            f"{plain_size(largest * solver.work.cell_volume, power=3)}; give less",
+        )
+    return sum(outcome.specks.removed for outcome in outcomes)

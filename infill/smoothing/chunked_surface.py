@@ -18,13 +18,12 @@ from infill.errors import GeometryError
 from infill.formats.mesh_pieces import MeshPiece
 from infill.kernels.sparse import BRICK
 from infill.lazy.volume import LazyVolume
-from infill.plain_numbers import count_noun, plain_size
 from infill.reports.common import GridKeys, Topology, declare, report_head
-from infill.reports.smoothing import ChunkKeys, ChunksReport, ChunksSeconds, CrumbKeys, SegmentationKeys
+from infill.reports.smoothing import ChunkKeys, ChunksReport, ChunksSeconds, SegmentationKeys
 from infill.smoothing.chunk_plans import ChunkPlan
 from infill.smoothing.chunked_verdict import ChunkedVerdict, place_points
 from infill.smoothing.comparing import verdict_facts
-from infill.smoothing.levelling import CRUMB_CELLS, Crumbs, find_crumbs
+from infill.smoothing.levelling import CRUMB_CELLS, Crumbs, describe_cleaning, find_crumbs
 from infill.smoothing.request import SmoothRequest
 from infill.surface import Surface
 from infill.volume import Volume
@@ -54,6 +53,12 @@ class ChunkedSurface:
     level : (float, (b,) float64)
         The common level of phi, and that of each component.
     segmentation : SegmentationKeys
+    noise : float
+        See `infill.voxels.noise.noise_share`.
+    grey : bool
+        Whether grey values around the threshold were kept.
+    specks : int
+        Number of specks taken out of the data.
     seconds : dict
     """
 
@@ -67,6 +72,9 @@ class ChunkedSurface:
     verdict: ChunkedVerdict
     level: tuple[float, NDArray[np.float64]]
     segmentation: SegmentationKeys
+    noise: float
+    grey: bool
+    specks: int
     enclosed: float
     target: float
     seconds: dict[str, float]
@@ -155,7 +163,7 @@ class ChunkedSurface:
 
     def _uniform_value(self, chunk: Chunk) -> np.float32:
         """Return the value of the field in a chunk without surface."""
-        sign = np.float32(1 if self.solver.smoothed[chunk.number].solid else -1)
+        sign = np.float32(1 if self.solver.smoothed[chunk.number].inside else -1)
         lowered = np.float32(0 if self.surface.levels is not None else self.surface.level)
         return np.clip(sign - lowered, np.float32(-1), np.float32(1))
 
@@ -186,16 +194,7 @@ class ChunkedSurface:
         change = self.enclosed / self.target - 1
         common, levels = self.level
         differences, topology, deviation = self.verdict.differences, self.verdict.topology, self.verdict.deviation
-        crumbs: CrumbKeys = {
-            "removed": self.crumbs.count,
-            "volume": self.crumbs.volume,
-            "limit": self.crumbs.limit,
-        }
-        taken_out = (
-            [f"{count_noun(self.crumbs.count, 'crumb')} of up to {plain_size(self.crumbs.limit, power=3)} taken out"]
-            if self.crumbs.count
-            else []
-        )
+        cleaned = describe_cleaning(self.crumbs, self.specks, self.request)
         report: ChunksReport = {
             **report_head("chunks"),
             "triangles": self.triangles,
@@ -209,12 +208,17 @@ class ChunkedSurface:
             "volume_change": change,
             "components": topology.result.components,
             "problems": [*differences.losses, *differences.problems],
-            "verdict": {**verdict_facts(differences, deviation, deviation.cell, taken_out), "crumbs": crumbs},
+            "verdict": {
+                **verdict_facts(differences, deviation, deviation.cell, cleaned),
+                "crumbs": self.crumbs.facts(),
+            },
             "request": self.request.facts(),
             "grid": self._grid_facts(),
             "input": {
                 "name": self.volume.name,
                 "segmentation": self.segmentation,
+                "noise": self.noise,
+                "grey": self.grey,
                 "warnings": list(self.volume.warnings),
             },
             "solid": {
@@ -267,6 +271,5 @@ def find_all_crumbs(
     assert solver.joined is not None
     if small.any() and not small[volume > 0].all():
         component, _ = solver.vote(surface)
-        targets = solver.joined.volumes(solver.cell_volume)
-        marked = find_crumbs(volume, component, targets, limit, solver.cell_volume)
+        marked = find_crumbs(volume, component, solver.targets, limit, solver.cell_volume)
     return Crumbs(count=int(marked.sum()), volume=float(np.abs(volume[marked]).sum()), limit=limit), marked

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Literal, Unpack, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
+from infill.errors import MemoryLimitError
 from infill.formats.point_files import read_points_and_normals
 from infill.formats.units import to_surface, unit_in_mm
 from infill.grid import spacing_of
@@ -32,7 +33,7 @@ from infill.smoothing.meshes import mesh_ways
 from infill.smoothing.points import compare_with_points, points_ways
 from infill.smoothing.remedies import first_sound
 from infill.smoothing.request import SmoothOptions, SmoothRequest
-from infill.smoothing.scans import has_grey_values, surface_value, threshold_range, volume_ways
+from infill.smoothing.scans import Threshold, has_grey_values, surface_value, threshold_range, volume_ways
 from infill.smoothing.stages import SmoothStages
 from infill.surface import Surface
 from infill.volume import Volume
@@ -63,7 +64,7 @@ def smooth_volume(
         A file or folder of a volume, see `infill.read_volume`; or booleans, a mask, a phase field in [-1, 1], labels or
         grey values, [x, y, z]. Cells that a numpy.ma.MaskedArray masks are void. A Dask array, or a path of Zarr or
         HDF5, is smoothed in chunks by the method "plain", without having all of it in memory: see
-        `infill.smoothing.chunked`; the other methods read it whole.
+        `infill.smoothing.chunked`; the other methods read it whole, if it fits into memory or `max_memory`.
     spacing : float or (hx, hy, hz), optional
         Cell size, mm, of an array, 1 by default; or of a file, instead of the one that it states.
     origin : (x, y, z)
@@ -132,14 +133,20 @@ def smooth_volume(
     """
     request = SmoothRequest(**options)
     if is_dask(volume) or (isinstance(volume, (str, os.PathLike)) and is_lazy(volume)):
-        from infill.smoothing.chunk_plans import check_chunked
+        from infill.smoothing.chunk_plans import check_chunked, suits_chunks
         from infill.smoothing.chunked_result import open_lazy, smooth_lazy
 
         lazy = open_lazy(volume, spacing=spacing, origin=origin)
-        if request.method == "plain":
-            check_chunked(request, grey=grey, voxel=voxel)
-            return smooth_lazy(lazy, request, threshold=threshold, label=label)
-        volume = lazy.load()
+        if request.method != "plain":
+            try:
+                return _smooth_whole(
+                    lazy.load(request.max_memory), request, threshold=threshold, label=label, grey=grey, voxel=voxel
+                )
+            except MemoryLimitError:
+                if not suits_chunks(request, voxel=voxel):
+                    raise
+        check_chunked(request, voxel=voxel)
+        return smooth_lazy(lazy, request, threshold=threshold, label=label, grey=grey)
     low, _ = threshold_range(threshold)
     chosen = threshold is not None or label is not None
     if isinstance(volume, (str, os.PathLike)):
@@ -147,6 +154,19 @@ def smooth_volume(
     elif not isinstance(volume, Volume):
         values = fill_masked_with_void(np.asanyarray(volume), low, chosen=chosen)
         volume = Volume(values=values, spacing=spacing_of(1.0 if spacing is None else spacing, 3), origin=origin)
+    return _smooth_whole(volume, request, threshold=threshold, label=label, grey=grey, voxel=voxel)
+
+
+def _smooth_whole(
+    volume: Volume,
+    request: SmoothRequest,
+    *,
+    threshold: Threshold,
+    label: int | Sequence[int] | None,
+    grey: bool | None,
+    voxel: float | None,
+) -> Result[SmoothStages, SmoothReport]:
+    """Smooth a volume in memory: see `smooth_volume`."""
     ways = volume_ways(volume, request, threshold=threshold, label=label, grey=grey, voxel=voxel)
     result = first_sound(ways, request)
     rule = result.report["input"]["segmentation"]

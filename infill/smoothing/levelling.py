@@ -22,12 +22,14 @@ from infill.isosurfaces.levels import (
 )
 from infill.meshes.distance import TriangleTree
 from infill.phasefield.profile import PLAIN_PROFILE, REFINED_PROFILE
+from infill.plain_numbers import count_noun, plain_argument, plain_number, plain_size
 from infill.smoothing.stages import place_surface
 from infill.surface import Surface
 
 if TYPE_CHECKING:
     from infill.phasefield.sparse import SparseField
-    from infill.smoothing.request import SmoothedInput
+    from infill.reports.smoothing import CrumbKeys
+    from infill.smoothing.request import SmoothedInput, SmoothRequest
     from infill.volume import Volume
     from infill.voxels.partial import EnclosedVolumes
 
@@ -37,6 +39,7 @@ MIN_AREA_SHARE = 0.02
 REMNANT_SHARE = 0.25  # of its volume: a small piece that has less of a component is what is left where it vanished
 DUST_CELLS = 0.125  # cells, a block of half a cell: no component of the data is as small
 VOTERS = 500  # vertices of a shell, about, that say which mesh component it belongs to
+LEAST_CRUMBS = 0.1  # of the largest crumb: less than this, of all crumbs together, is not worth its digits
 CRUMB_CELLS = 8.0  # cells, a block of 2 x 2 x 2: pieces of this size remain of a wall that breaks up
 
 
@@ -83,6 +86,10 @@ class Crumbs:
     count: int
     volume: float
     limit: float
+
+    def facts(self) -> CrumbKeys:
+        """Return the numbers by name, for the report."""
+        return {"removed": self.count, "volume": self.volume, "limit": self.limit}
 
 
 def extract_surface(smoothed: SmoothedInput) -> SurfaceAtLevel:
@@ -278,3 +285,16 @@ def _without_shells(levelled: LevelSurface, removed: NDArray[np.bool_]) -> Level
         space=levelled.surface.space,
     )
     return replace(levelled, surface=surface, rate=levelled.rate[vertices], total=None)
+
+
+def describe_cleaning(crumbs: Crumbs, specks: int, request: SmoothRequest) -> list[str]:
+    """Describe crumbs and specks that were removed on purpose, one phrase each."""
+    phrases = []
+    if crumbs.count:
+        limit = f"{plain_argument(CRUMB_CELLS)} voxels" if request.crumbs is None else plain_size(crumbs.limit, power=3)
+        in_all = f", {plain_size(crumbs.volume, power=3)} in all" if crumbs.volume > LEAST_CRUMBS * crumbs.limit else ""
+        phrases.append(f"{count_noun(crumbs.count, 'crumb')} of up to {limit} taken out{in_all}")
+    if specks:
+        limit = plain_number(request.despeckle)
+        phrases.append(f"{count_noun(specks, 'speck')} of up to {limit} mm³ taken out beforehand")
+    return phrases

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -172,28 +172,21 @@ def scan_ways(
     ParameterError
         If grey levels are requested without a threshold.
     """
-    level = used.get("low") if used.get("high") is None else None
-    if grey is False and request.method == "grey":
-        raise UsageError.about("grey", "is left out, and method is grey; leave one of them out")
-    if (grey or request.method == "grey") and level is None:
-        raise ParameterError("grey levels are kept around one threshold; give one, or otsu")
+    level = single_threshold(used)
+    check_grey(request, grey, level)
     noise = noise_share(np.asarray(solid.values), threads=request.threads)
-    method, despeckle, paper = request.method, request.despeckle, False
-    if method == AUTO:
-        keeps_grey = (
-            grey is not False
-            and level is not None
-            and not phase
-            and has_grey_values(np.asarray(scan.values), used["values"])
-        )
-        paper = request.level != "volume" or request.smoothing.steps < MIN_STEPS
-        method = "plain" if noise > NOISY or paper else "grey" if grey or keeps_grey else "refine"
-        despeckle = despeckle or (SPECK_CELLS * scan.cell_volume if noise > NOISY and not paper else 0.0)
+    first = choose_method(
+        request,
+        noise,
+        grey=grey,
+        has_grey=lambda: level is not None and not phase and has_grey_values(np.asarray(scan.values), used["values"]),
+        cell_volume=scan.cell_volume,
+    )
+    method, paper = first.method, request.method == AUTO and is_for_plain(request)
     grey = grey is True or method == "grey"
     data = scan if phase else scale_grey_values(scan, surface_value(scan, used)) if grey else solid
     smooth_input = _scan_input(data, solid, {**facts, "noise": noise, "grey": grey}, request.threads)
     smooth_input = smooth_input if volume is None else replace(smooth_input, volume=volume)
-    first = replace(request, method=method, refine=None, despeckle=despeckle)
     ways = [Way(name=method, data=smooth_input, request=first)]
     if request.method == AUTO and method == "plain" and not paper:
         ways.append(Way(name="refine", data=smooth_input, request=replace(first, method="refine"), cost=2))
@@ -206,6 +199,51 @@ def scan_ways(
         ways.append(Way(name="plain", data=smooth_input, request=replace(first, method="plain"), cost=0.5))
     gentlest = replace(first, smoothing=replace(first.smoothing, steps=steps), radius=None)
     return [*ways, *_remedies(gentlest if steps < request.smoothing.steps else first, smooth_input)]
+
+
+def single_threshold(used: Mapping[str, Any]) -> float | None:
+    """Return the value from which on cells are solid, None if there is no such value, or values have an upper end."""
+    return used.get("low") if used.get("high") is None else None
+
+
+def check_grey(request: SmoothRequest, grey: bool | None, level: float | None) -> None:
+    """Raise ParameterError if grey levels are requested and refused, or requested without one threshold `level`."""
+    if grey is False and request.method == "grey":
+        raise UsageError.about("grey", "is left out, and method is grey; leave one of them out")
+    if (grey or request.method == "grey") and level is None:
+        raise ParameterError("grey levels are kept around one threshold; give one, or otsu")
+
+
+def is_for_plain(request: SmoothRequest) -> bool:
+    """Tell whether a fixed level, or few steps, ask for the paper's way."""
+    return request.level != "volume" or request.smoothing.steps < MIN_STEPS
+
+
+def choose_method(
+    request: SmoothRequest, noise: float, *, grey: bool | None, has_grey: Callable[[], bool], cell_volume: float
+) -> SmoothRequest:
+    """Return the request with the method that suits the data instead of "auto", and with specks to take out of noise.
+
+    Parameters
+    ----------
+    request : SmoothRequest
+    noise : float
+        See `infill.voxels.noise.noise_share`.
+    grey : bool, optional
+        Whether grey levels are requested, or refused.
+    has_grey : callable
+        Tells whether there are grey values around one threshold.
+    cell_volume : float, mm³
+    """
+    if request.method != AUTO:
+        return replace(request, refine=None)
+    if is_for_plain(request):
+        return replace(request, method="plain", refine=None)
+    if noise > NOISY:
+        despeckle = request.despeckle or SPECK_CELLS * cell_volume
+        return replace(request, method="plain", refine=None, despeckle=despeckle)
+    keeps_grey = grey or (grey is not False and has_grey())
+    return replace(request, method="grey" if keeps_grey else "refine", refine=None)
 
 
 def _remedies(request: SmoothRequest, smooth_input: SmoothInput) -> list[Way]:
@@ -241,16 +279,27 @@ def surface_value(scan: Volume, used: Mapping[str, Any]) -> float:
     >>> surface_value(whole, {"method": "range", "low": 3.0}), surface_value(whole, {"method": "otsu", "low": 2.5})
     (2.5, 2.5)
     """
-    low, values = float(used["low"]), np.asarray(scan.values)
-    if used["method"] != "range" or not low.is_integer():
-        return low
-    is_whole = values.dtype.kind in "iu" or not (np.mod(_sample_layers(values), 1) != 0).any()
-    return low - 0.5 if is_whole else low
+    values = np.asarray(scan.values)
+    return level_at_surface(
+        used, lambda: values.dtype.kind in "iu" or not (np.mod(_sample_layers(values), 1) != 0).any()
+    )
+
+
+def level_at_surface(used: Mapping[str, Any], are_whole: Callable[[], bool]) -> float:
+    """Return the value at the surface; `are_whole` tells whether sampled values are whole: see `surface_value`."""
+    low = float(used["low"])
+    is_exact = used["method"] != "range" or not low.is_integer()
+    return low if is_exact or not are_whole() else low - 0.5
+
+
+def layer_stride(layers: int) -> int:
+    """Return the number of layers from one that is sampled to the next."""
+    return max(1, layers // SAMPLED_LAYERS)
 
 
 def _sample_layers(values: NDArray[Any]) -> NDArray[Any]:
     """Return some layers of a volume, evenly spaced."""
-    return values[:: max(1, len(values) // SAMPLED_LAYERS)]
+    return values[:: layer_stride(len(values))]
 
 
 def has_grey_values(values: NDArray[Any], ends: list[float]) -> bool:

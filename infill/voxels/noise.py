@@ -37,9 +37,7 @@ def noise_share(solid: NDArray[Any], *, threads: int | None = None) -> float:
     >>> noise_share(np.indices((40, 40, 40)).sum(axis=0) < 60) < 0.1
     True
     """
-    from infill.kernels.noise import count_overruled
-
-    starts = sorted(set(np.linspace(0, max(0, len(solid) - LAYERS), SLABS).astype(int).tolist()))
+    starts = slab_starts(len(solid))
     count = min(thread_count(threads), len(starts))
 
     def count_in_slabs(thread: int) -> NDArray[np.int64]:
@@ -48,14 +46,46 @@ def noise_share(solid: NDArray[Any], *, threads: int | None = None) -> float:
         work = np.empty(work_shape(solid[:LAYERS]), dtype=np.uint8)
         for start in starts[thread::count]:
             slab = solid[start : start + LAYERS]
-            slab = np.ascontiguousarray(slab if slab.dtype == bool else slab > 0).view(np.uint8)
-            slab.flags.writeable = False  # compiled once, whether or not the array is writable
-            count_overruled(slab, work, tally)
+            count_in_slab(slab if slab.dtype == bool else slab > 0, work, tally)
         return tally
 
     counts = np.array(run_together(*(partial(count_in_slabs, thread) for thread in range(count)), threads=count))
+    return share_of_counts(counts)
+
+
+def slab_starts(length: int) -> list[int]:
+    """Return the first layer of each stretch of `LAYERS` layers that is examined, of a number of layers."""
+    return sorted(set(np.linspace(0, max(0, length - LAYERS), SLABS).astype(int).tolist()))
+
+
+def count_in_slab(
+    slab: NDArray[np.bool_],
+    work: NDArray[np.uint8],
+    tally: NDArray[np.int64],
+    inner: tuple[int, int, int, int] | None = None,
+) -> None:
+    """Add to `tally` (3,) the solid and the void cells that a majority overrules, and the surface cells after the vote.
+
+    Parameters
+    ----------
+    slab : (n0, n1, n2) bool
+    work : uint8
+        Of the shape `work_shape(slab)`.
+    tally : (3,) int64
+    inner : (j0, j1, k0, k1), optional
+        Only cells in these rows and columns are counted: with two more around them, as if the slab had no border there.
+    """
+    from infill.kernels.noise import count_overruled
+
+    cells = np.ascontiguousarray(slab).view(np.uint8)
+    cells.flags.writeable = False  # compiled once, whether or not the array is writable
+    count_overruled(cells, work, inner or (0, slab.shape[1], 0, slab.shape[2]), tally)
+
+
+def share_of_counts(counts: NDArray[np.int64]) -> float:
+    """Return the noise from the tallies (n, 3) of all slabs."""
     solid_overruled, void_overruled, surface = counts.sum(axis=0).tolist()
-    return 2 * min(solid_overruled, void_overruled) / surface if surface >= FEWEST else 0.0
+    return float(2 * min(solid_overruled, void_overruled) / surface) if surface >= FEWEST else 0.0
 
 
 def work_shape(slab: NDArray[Any]) -> tuple[int, int, int]:

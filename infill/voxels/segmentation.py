@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from infill.errors import LabelChoiceError, ParameterError, UsageError
 from infill.kernels.threads import in_threads, thread_count
 from infill.plain_numbers import plain_argument
 from infill.volume import Volume
+from infill.voxels.exact_sums import exact_sum, sums_by_side
 from infill.voxels.labels import LABEL_ADVICE, describe_labels, is_label_map
 
 if TYPE_CHECKING:
@@ -214,18 +216,27 @@ def scale_grey_values(volume: Volume, level: float, window: float | None = None)
     >>> scale_grey_values(Volume(values=np.array([[[0, 25, 100]]])), 50, 100).values.tolist()
     [[[-1.0, -0.5, 1.0]]]
     """
-    lowest, highest = _value_range(volume.values)
     level = check_range("level", level, -math.inf, math.inf)
+    require_level_between(level, *_value_range(volume.values))
+    width = edge_window(volume, level) if window is None else check_positive("window", window)
+    return replace(volume, values=scale_values(volume.values, level, width))
+
+
+def require_level_between(level: float, lowest: float, highest: float) -> None:
+    """Raise ParameterError unless a level lies between the extremes of the values."""
     if not lowest <= level < highest:
         raise ParameterError.about(
             "level",
             f"is {plain_argument(level)} and the values go from {plain_argument(lowest)} to "
             f"{plain_argument(highest)}; choose within them",
         )
-    width = edge_window(volume, level) if window is None else check_positive("window", window)
-    field = np.subtract(volume.values, np.float32(level), dtype=np.float32, casting="unsafe")
+
+
+def scale_values(values: NDArray[Any], level: float, width: float) -> NDArray[np.float32]:
+    """Return clip((v - level) / (width / 2), -1, 1) for a volume or a part of one: see `scale_grey_values`."""
+    field: NDArray[np.float32] = np.subtract(values, np.float32(level), dtype=np.float32, casting="unsafe")
     field *= np.float32(2 / width)
-    return replace(volume, values=np.clip(field, -1, 1, out=field))
+    return np.clip(field, -1, 1, out=field)
 
 
 def edge_window(volume: Volume, level: float) -> float:
@@ -238,14 +249,10 @@ def edge_window(volume: Volume, level: float) -> float:
     >>> edge_window(Volume(values=np.array([[[0, 0, 255, 255]]])), 127.5)
     255.0
     """
-    sums, cells = np.zeros(2), np.zeros(2)
-    for part in _slabs(volume.values):
-        above = part > level
-        for side, side_mask in enumerate((~above, above)):
-            sums[side] += part.sum(where=side_mask, dtype=np.float64)
-            cells[side] += np.count_nonzero(side_mask)
-    below, solid = sums / np.maximum(cells, 1)
-    return min(contrast(volume, level) / STRAIGHT, float(solid - below))
+    sums = EdgeSums.of(volume.values, level)
+    if sums.pairs == 0:
+        raise _no_surface(volume, level)
+    return sums.window
 
 
 def contrast(volume: Volume, level: float) -> float:
@@ -263,9 +270,93 @@ def contrast(volume: Volume, level: float) -> float:
     60.0
     """
     values: NDArray[Any] = _in_memory_order(volume.values)
-    total, pairs = 0.0, 0
+    total, pairs = _steps_across(values, level, values.shape)
+    if pairs == 0:
+        raise _no_surface(volume, level)
+    return float(total / pairs)
+
+
+def _no_surface(volume: Volume, level: float) -> ParameterError:
+    """Return the error for a level that lies between no two neighbours."""
+    lowest, highest = _value_range(volume.values)
+    return ParameterError(
+        f"no surface lies at {plain_argument(level)}; the values go from {plain_argument(lowest)} to "
+        f"{plain_argument(highest)}"
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class EdgeSums:
+    """What `edge_window` is found from: of a volume, or of a part of one, whose sums add up to those of the whole.
+
+    Parameters
+    ----------
+    values, cells : (number, number)
+        Sum of the values that are not above the level, and above it, without rounding; and their cells.
+    steps : number
+        Sum of the differences between neighbours on opposite sides of the level, without rounding.
+    pairs : int
+        Number of such neighbours.
+    """
+
+    values: tuple[Fraction, Fraction]
+    cells: tuple[int, int]
+    steps: Fraction
+    pairs: int
+
+    @classmethod
+    def of(cls, values: NDArray[Any], level: float, own: Sequence[int] | None = None) -> EdgeSums:
+        """Sum over the first `own` (3,) cells along each axis of some values, by default all, and the pairs they begin.
+
+        Parameters
+        ----------
+        values : (nx, ny, nz)
+        level : float
+        own : (3,) int, optional
+            Cells along each axis that count; of the others, the first along each axis is the end of a pair.
+        """
+        sums, cells = [Fraction(0), Fraction(0)], [0, 0]
+        order = _axes_in_memory(values)
+        values, count = values.transpose(order), [(values.shape if own is None else own)[axis] for axis in order]
+        for part in _slabs(values[tuple(map(slice, count))]):
+            above = part > level
+            for side, total in enumerate(sums_by_side(part, above)):
+                sums[side] += total
+            inside = int(np.count_nonzero(above))
+            cells[0] += part.size - inside
+            cells[1] += inside
+        steps, pairs = _steps_across(values, level, count)
+        return cls(values=(sums[0], sums[1]), cells=(cells[0], cells[1]), steps=steps, pairs=pairs)
+
+    def __add__(self, other: EdgeSums) -> EdgeSums:
+        """Return the sums of two parts together."""
+        (below, above), (other_below, other_above) = self.values, other.values
+        return EdgeSums(
+            values=(below + other_below, above + other_above),
+            cells=(self.cells[0] + other.cells[0], self.cells[1] + other.cells[1]),
+            steps=self.steps + other.steps,
+            pairs=self.pairs + other.pairs,
+        )
+
+    @property
+    def window(self) -> float:
+        """The change of values over one cell perpendicular to the surface: see `edge_window`."""
+        below, solid = (float(total) / max(cells, 1) for total, cells in zip(self.values, self.cells, strict=True))
+        return min(float(self.steps / self.pairs) / STRAIGHT, solid - below)
+
+
+def _steps_across(values: NDArray[Any], level: float, own: Sequence[int]) -> tuple[Fraction, int]:
+    """Sum the differences of values over all pairs of neighbours with the level between; return the number of pairs.
+
+    Only pairs count whose first cell is among the first `own` (3,) cells along each axis. The sum is not rounded.
+    """
+    total, pairs = Fraction(0), 0
     for axis in range(values.ndim):
-        along = np.moveaxis(values, axis, 0)
+        end = list(own)
+        end[axis] = min(end[axis] + 1, values.shape[axis])
+        along = np.moveaxis(values[tuple(map(slice, end))], axis, 0)
+        if along.size == 0:
+            continue
         rows = max(1, SLAB * len(along) // along.size)
         for start in range(0, len(along) - 1, rows):
             part = along[start : start + rows + 1]
@@ -273,14 +364,8 @@ def contrast(volume: Volume, level: float) -> float:
             across = above[1:] != above[:-1]
             # Only the pairs at the surface are copied: they are few, and unsigned types need more room.
             step = part[1:][across].astype(np.float64) - part[:-1][across].astype(np.float64)
-            total, pairs = total + float(np.abs(step).sum()), pairs + step.size
-    if pairs == 0:
-        lowest, highest = _value_range(values)
-        raise ParameterError(
-            f"no surface lies at {plain_argument(level)}; the values go from {plain_argument(lowest)} to "
-            f"{plain_argument(highest)}"
-        )
-    return total / pairs
+            total, pairs = total + exact_sum(np.abs(step)), pairs + step.size
+    return total, pairs
 
 
 def _interpret_values(volume: Volume, lowest: float, highest: float) -> tuple[NDArray[Any], SegmentationRule]:
@@ -390,7 +475,12 @@ def _slabs(values: NDArray[Any]) -> Iterator[NDArray[Any]]:
 
 def _in_memory_order(values: NDArray[Any]) -> NDArray[Any]:
     """Return a view with the axes ordered from the widest step in memory to the smallest."""
-    return values.transpose(np.argsort([-abs(step) for step in values.strides], kind="stable"))
+    return values.transpose(_axes_in_memory(values))
+
+
+def _axes_in_memory(values: NDArray[Any]) -> list[int]:
+    """Return the axes from the widest step in memory to the smallest."""
+    return [int(axis) for axis in np.argsort([-abs(step) for step in values.strides], kind="stable")]
 
 
 def _labels(values: NDArray[Any]) -> str:
