@@ -426,9 +426,7 @@ class ChunksInput(TypedDict):
 
     name: Annotated[str, "Path or URL"]
     segmentation: SegmentationKeys
-    noise: Annotated[
-        float | None, "Share of surface cells that their neighbours overrule; null if the method was given"
-    ]
+    noise: Annotated[float, "Share of surface cells that their neighbours overrule"]
     grey: Annotated[bool, "Whether grey values around the threshold were kept"]
     warnings: Annotated[list[str], "Assumptions and warnings of the reader"]
 
