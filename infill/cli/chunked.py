@@ -41,6 +41,7 @@ def smooth_chunks(
     *,
     workers: int | None,
     scheduler: str | None,
+    resume: Path | None,
     show_hash: bool,
 ) -> None:
     """Smooth a volume in chunks, write the files piece by piece, and print a summary; or only the plan."""
@@ -69,7 +70,13 @@ def smooth_chunks(
         with (
             print_log(shown=not output.quiet),
             smooth_in_chunks(
-                volume, request, threshold=threshold, label=settings.label, workers=workers, scheduler=scheduler
+                volume,
+                request,
+                threshold=threshold,
+                label=settings.label,
+                workers=workers,
+                scheduler=scheduler,
+                resume=resume,
             ) as surface,
         ):
             _write(surface, volume, output)

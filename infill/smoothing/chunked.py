@@ -9,8 +9,7 @@ volume, components, cavities and tunnels. Distances from the input are not measu
 from __future__ import annotations
 
 import contextlib
-import shutil
-import tempfile
+import os
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -33,6 +32,7 @@ from infill.smoothing.chunked_rule import find_rule, require_some_solid
 from infill.smoothing.chunked_surface import ChunkedSurface, compare_counts, find_all_crumbs
 from infill.smoothing.request import SmoothRequest
 from infill.smoothing.scans import Threshold
+from infill.smoothing.work_folders import open_work_folder, run_facts
 
 SHARES = {"read": (0.0, 0.1), "smooth": (0.1, 0.6), "join": (0.6, 0.62), "surface": (0.62, 0.8), "check": (0.8, 0.82)}
 
@@ -47,6 +47,7 @@ def smooth_in_chunks(
     workers: int | None = None,
     scheduler: str | None = None,
     side: int | None = None,
+    resume: str | os.PathLike[str] | None = None,
 ) -> Iterator[ChunkedSurface]:
     """Smooth a volume in chunks; yield its surface, whose fields are kept on disk as long as the block lasts.
 
@@ -60,6 +61,9 @@ def smooth_in_chunks(
         See `infill.chunks.running.open_runner`.
     side : int, optional
         See `plan_chunks`.
+    resume : str or Path, optional
+        Folder for finished work, from which a run that was interrupted goes on; removed when the block has ended
+        without an error.
 
     Raises
     ------
@@ -83,8 +87,14 @@ def smooth_in_chunks(
             progress(stage, begin + share * (end - begin))
 
     count = workers if workers is not None or scheduler not in (None, "threads", "processes") else request.threads
-    with open_runner(count, scheduler) as runner, _scratch_folder() as scratch:
-        plan = plan_chunks(volume, request, runner, side=side)
+    choice = {"threshold": threshold, "label": label}
+    with (
+        open_runner(count, scheduler) as opened,
+        open_work_folder(resume, run_facts(volume, request, choice)) as folder,
+    ):
+        runner = replace(opened, kept=folder.results)
+        plan = plan_chunks(volume, request, runner, side=side, size=folder.size)
+        folder.begin(plan.layout.size)
         work = Work(
             source=volume.array,
             rule=SolidRule(),
@@ -92,7 +102,7 @@ def smooth_in_chunks(
             smoothing=request.smoothing,
             spacing=tuple(volume.spacing),
             level=None if isinstance(request.level, str) else request.level,
-            scratch=scratch,
+            scratch=folder.fields,
         )
         with _timed(seconds, "read"):
             rule, used = find_rule(work, runner, threshold, label, partial(tell, "read"))
@@ -127,16 +137,6 @@ def smooth_in_chunks(
         )
         chunked.check()
         yield chunked
-
-
-@contextlib.contextmanager
-def _scratch_folder() -> Iterator[str]:
-    """Yield a folder for fields, which is gone afterwards."""
-    folder = tempfile.mkdtemp(prefix="infill-chunks-")
-    try:
-        yield folder
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
 
 
 @contextlib.contextmanager

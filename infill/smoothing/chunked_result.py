@@ -69,6 +69,7 @@ def smooth_lazy(
     threshold: Threshold = None,
     label: int | Sequence[int] | None = None,
     side: int | None = None,
+    resume: str | os.PathLike[str] | None = None,
 ) -> Result[SmoothStages, SmoothReport]:
     """Smooth a volume in chunks, on the current client of Dask or else on threads; return its surface in memory.
 
@@ -76,7 +77,7 @@ def smooth_lazy(
     ----------
     volume : LazyVolume
     request : SmoothRequest
-    threshold, label, side
+    threshold, label, side, resume
         See `infill.smoothing.chunked.smooth_in_chunks`.
 
     Returns
@@ -84,7 +85,7 @@ def smooth_lazy(
     Result
         Its report is a `infill.reports.smoothing.ChunksReport`: distances are not measured.
     """
-    with smooth_in_chunks(volume, request, threshold=threshold, label=label, side=side) as chunked:
+    with smooth_in_chunks(volume, request, threshold=threshold, label=label, side=side, resume=resume) as chunked:
         surface = chunked.whole()
         report = chunked.report()
     result: Any = Result(surfaces={"solid": surface}, report=report, stages=ChunkedStages(volume=volume))
