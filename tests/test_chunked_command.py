@@ -396,3 +396,13 @@ def test_sixty_four_chunks_are_closed(workers: int, tmp_path: Path) -> None:
     # 32-bit coordinates of 200 cells
     assert solid.volume() == pytest.approx(report["volume"], rel=1e-5)
     assert report["closed"]
+
+
+def test_an_array_that_is_written_anew_is_read_anew(tmp_path: Path) -> None:
+    for side in (20, 12):
+        array = zarr.create_array(
+            str(tmp_path / "g.zarr"), shape=(side,) * 3, chunks=(8,) * 3, dtype="u1", overwrite=True
+        )
+        array[:] = side
+        volume = open_volume(tmp_path / "g.zarr")
+        assert volume.array.read((slice(0, side),) * 3).tolist() == np.full((side,) * 3, side).tolist()

@@ -40,7 +40,8 @@ DECLARATIONS: dict[str, type[Any]] = {
 }
 # Flags of the run and its files, which no config file has.
 RUN = {"ascii", "config", "dry_run", "force", "json", "max_memory", "output", "preview", "quiet", "save_config", "set"}
-RUN |= {"cut", "hash", "in_place", "layer", "plot", "scheduler", "threads", "trust", "verbose", "workers", "write"}
+RUN |= {"cut", "hash", "in_place", "layer", "plot", "resume", "scheduler", "threads", "trust", "verbose", "workers"}
+RUN |= {"write"}
 PATTERN_FLAGS = {"cell", "angle", "phase", "frame", "waves", "hearts"}  # of `make`: parameters of the pattern
 ONLY_MAKE = PATTERN_FLAGS | {"allow_broken"}
 
@@ -226,7 +227,7 @@ def test_the_keywords_of_smooth_are_its_options() -> None:
     assert {spelled.get(name, name) for name in common} <= declared
     functions = (infill.smooth_volume, infill.smooth_mesh, infill.smooth_points, infill.smooth_labels)
     python = {name for function in functions for name in keywords(function)}
-    inputs = {"volume", "mesh", "points", "origin", "normals", "labels", "table", "segmentation"}
+    inputs = {"volume", "mesh", "points", "origin", "normals", "labels", "table", "segmentation", "resume"}
     assert python - inputs <= declared
     reading = set(settings.reading) | {"labels", "each_label"}
     assert declared <= python | {spelled.get(name, name) for name in common} | reading | {

@@ -13,6 +13,7 @@ from multiprocessing import get_context
 from typing import Any, TypeVar
 
 from infill.checks import check_whole_number
+from infill.chunks.keeping import NOT_KEPT, ResultFolder
 from infill.errors import InfillError, MemoryLimitError, ParameterError, UsageError
 from infill.kernels.threads import run_interruptibly, thread_count
 
@@ -47,12 +48,15 @@ class Runner:
         "threads", "processes", or "cluster".
     client : distributed.Client or None
     pool : ProcessPoolExecutor or None
+    kept : ResultFolder or None
+        Where the results of tasks are kept, and found by a later run.
     """
 
     workers: int
     where: str = THREADS
     client: Any = None
     pool: ProcessPoolExecutor | None = field(default=None, repr=False)
+    kept: ResultFolder | None = None
 
     def memory_per_task(self) -> int | None:
         """Return the bytes that a task on a cluster may take, None on this machine."""
@@ -68,19 +72,52 @@ class Runner:
         shared: Any,  # noqa: ANN401 - what all calls have in common
         items: Sequence[tuple[Any, ...]],
         progress: Callable[[float], None] | None = None,
+        *,
+        keep: bool = True,
     ) -> list[Done]:
         """Return `function(shared, *item)` for every item, in their order.
+
+        Results that are kept in a folder are taken from there, and the others are kept there, each once it is done;
+        not with `keep=False`, for large ones.
 
         Raises
         ------
         MemoryLimitError
             If a worker ends before its task does.
         """
+        keys = self.kept.keys(function, shared, items) if self.kept is not None and keep else None
+        if self.kept is None or keys is None:
+            return self._run(function, shared, items, progress, lambda _number, _result: None)
+        kept = self.kept
+        results = [kept.find(key) for key in keys]
+        missing = [number for number, result in enumerate(results) if result is NOT_KEPT]
+
+        def tell(share: float) -> None:
+            if progress is not None:
+                progress(1 - (1 - share) * len(missing) / len(items))
+
+        def put_by(number: int, result: Done) -> None:
+            kept.keep(keys[missing[number]], result)
+
+        done = self._run(function, shared, [items[number] for number in missing], tell, put_by)
+        for number, result in zip(missing, done, strict=True):
+            results[number] = result
+        return results
+
+    def _run(
+        self,
+        function: Callable[..., Done],
+        shared: Any,  # noqa: ANN401
+        items: Sequence[tuple[Any, ...]],
+        progress: Callable[[float], None] | None,
+        put_by: Callable[[int, Done], None],
+    ) -> list[Done]:
+        """Run all items; `put_by` is called with the number and the result of each, once it is done."""
         if not items:
             return []
         if self.client is not None:
-            return self._run_on_cluster(function, shared, items, progress)
-        return self._run_here(function, shared, items, progress)
+            return self._run_on_cluster(function, shared, items, progress, put_by)
+        return self._run_here(function, shared, items, progress, put_by)
 
     def _run_here(
         self,
@@ -88,6 +125,7 @@ class Runner:
         shared: Any,  # noqa: ANN401
         items: Sequence[tuple[Any, ...]],
         progress: Callable[[float], None] | None,
+        put_by: Callable[[int, Done], None],
     ) -> list[Done]:
         import dask
         from dask.callbacks import Callback
@@ -95,11 +133,14 @@ class Runner:
 
         call = delayed(partial(_call, function, shared), pure=False)
         tasks = [call(*map(_Plain, item)) for item in items]
+        numbers = {task.key: number for number, task in enumerate(tasks)}
         finished = 0
 
-        def count(*_: object) -> None:
+        def count(key: Any, result: Any, *_: object) -> None:  # noqa: ANN401 - of Dask
             nonlocal finished
             finished += 1
+            if key in numbers:
+                put_by(numbers[key], result)
             if progress is not None:
                 progress(min(1.0, finished / len(items)))
 
@@ -119,6 +160,7 @@ class Runner:
         shared: Any,  # noqa: ANN401
         items: Sequence[tuple[Any, ...]],
         progress: Callable[[float], None] | None,
+        put_by: Callable[[int, Done], None],
     ) -> list[Done]:
         from distributed import KilledWorker, as_completed
         from distributed.comm.core import CommClosedError
@@ -128,10 +170,16 @@ class Runner:
         try:
             scattered = client.scatter(shared, broadcast=True, hash=False)
             futures = [client.submit(_call_plain, function, scattered, item, pure=False) for item in items]
-            for number, _ in enumerate(as_completed(futures, loop=client.loop)):  # type: ignore[no-untyped-call]
+            numbers = {future.key: number for number, future in enumerate(futures)}
+            results: dict[int, Done] = {}
+            finished = as_completed(futures, loop=client.loop, with_results=True)  # type: ignore[no-untyped-call]
+            for future, result in finished:
+                number = numbers[future.key]
+                results[number] = result
+                put_by(number, result)
                 if progress is not None:
-                    progress((number + 1) / len(items))
-            return list(client.gather(futures))
+                    progress(len(results) / len(items))
+            return [results[number] for number in range(len(items))]
         except KilledWorker as error:
             raise MemoryLimitError(LOST_WORKER) from error
         except (CommClosedError, TimeoutError, OSError) as error:

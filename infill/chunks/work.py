@@ -13,9 +13,10 @@ import contextlib
 import math
 import os
 import shutil
+import zipfile
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,6 +41,7 @@ from infill.kernels.sparse import BRICK
 from infill.phasefield.allen_cahn import Smoothing
 from infill.voxels.segmentation import count_solid_cells, histogram_edges, histogram_of
 
+DAMAGED = (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile)  # of a file that is missing or not whole
 FREE_SPACE = 0.1  # of the disk of the scratch folder: it stays free
 
 Numbers = NDArray[np.int64]
@@ -78,6 +80,8 @@ class Work:
     despeckle : float
         Components of the data up to this volume are taken out first, mm³.
     """
+
+    unkeyed: ClassVar = ("source", "scratch")  # they do not tell one task from another: see `digest_data`
 
     source: CellReader
     rule: SolidRule
@@ -341,7 +345,7 @@ def open_field(work: Work, chunk: Chunk) -> ChunkField:
     """Return the field of a chunk that a surface may cross: kept, or computed again."""
     path = _path(work, chunk)
     if path is not None:
-        with contextlib.suppress(OSError), np.load(path) as arrays:
+        with contextlib.suppress(*DAMAGED), np.load(path) as arrays:
             return unpack_field(dict(arrays))
     chunk_field = _smooth(work, chunk, read_data(work, chunk).data)
     assert chunk_field is not None  # it was not when it was smoothed first

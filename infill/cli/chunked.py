@@ -85,6 +85,7 @@ def smooth_chunks(
     *,
     workers: int | None,
     scheduler: str | None,
+    resume: Path | None,
     show_hash: bool,
 ) -> None:
     """Smooth a volume in chunks, write the files piece by piece, and print a summary; or only the plan."""
@@ -118,6 +119,7 @@ def smooth_chunks(
                 grey=settings.grey,
                 workers=workers,
                 scheduler=scheduler,
+                resume=resume,
             ) as surface,
         ):
             _write(surface, volume, output)

@@ -101,6 +101,15 @@ def smooth(
             rich_help_panel=RUN,
         ),
     ] = None,
+    resume: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FOLDER",
+            help="Keep the finished work on a volume in chunks in a folder, and go on from there; the folder is "
+            "removed once the output stands.",
+            rich_help_panel=RUN,
+        ),
+    ] = None,
     show_hash: Annotated[
         bool,
         typer.Option(
@@ -148,12 +157,21 @@ def smooth(
         together=settings.together,
     ):
         refuse_options(settings, outputs)
-        if workers is not None or scheduler is not None or show_hash:
-            option = "--hash" if show_hash else "--workers and --scheduler"
+        if workers is not None or scheduler is not None or resume is not None or show_hash:
+            option = "--hash" if show_hash else "--resume" if resume is not None else "--workers and --scheduler"
             raise typer.BadParameter(f"{option} is for one surface; leave it out, or choose one label by --label")
         smooth_every_label(source, settings, outputs, options)
-    elif wants_chunks(source, settings, options, outputs, workers=workers, scheduler=scheduler):
-        smooth_chunks(source, settings, outputs, options, workers=workers, scheduler=scheduler, show_hash=show_hash)
+    elif resume is not None or wants_chunks(source, settings, options, outputs, workers=workers, scheduler=scheduler):
+        smooth_chunks(
+            source,
+            settings,
+            outputs,
+            options,
+            workers=workers,
+            scheduler=scheduler,
+            resume=resume,
+            show_hash=show_hash,
+        )
     else:
         _check_formats(outputs, settings)
         outputs.check()
@@ -164,7 +182,9 @@ def smooth(
                 raise
         else:
             return
-        smooth_chunks(source, settings, outputs, options, workers=None, scheduler=None, show_hash=show_hash)
+        smooth_chunks(
+            source, settings, outputs, options, workers=None, scheduler=None, resume=resume, show_hash=show_hash
+        )
 
 
 def _smooth_or_plan(

@@ -87,7 +87,14 @@ def check_speck_size(request: SmoothRequest, cell_volume: float) -> None:
         )
 
 
-def plan_chunks(volume: LazyVolume, request: SmoothRequest, runner: Runner, *, side: int | None = None) -> ChunkPlan:
+def plan_chunks(
+    volume: LazyVolume,
+    request: SmoothRequest,
+    runner: Runner,
+    *,
+    side: int | None = None,
+    size: tuple[int, int, int] | None = None,
+) -> ChunkPlan:
     """Divide a volume so that the chunks at work fit into the memory that is allowed, or else free.
 
     Parameters
@@ -97,28 +104,40 @@ def plan_chunks(volume: LazyVolume, request: SmoothRequest, runner: Runner, *, s
     runner : Runner
     side : int, optional
         Cells along the longest side of a chunk, instead.
+    size : (3,) int, optional
+        Bricks of a chunk, those of a run that is resumed.
     """
     require_thin(volume)
     steps, refined = request.smoothing.steps, request.refined
     item = volume.array.dtype.itemsize
     share = runner.memory_per_task() if request.max_memory is None else request.max_memory // runner.workers
     memory = int((available_memory() or 2**32) * MEMORY_SHARE) // runner.workers if share is None else share
-    largest = side or LARGEST_CELLS
+    resumed, largest = size, side or LARGEST_CELLS
     size = chunk_size(volume.shape, steps, item=item, memory=memory, largest=largest, refined=refined)
     layout = ChunkLayout(shape=volume.shape, size=size, steps=steps, refined=refined)
     while side is None and len(layout) < LEAST_CHUNKS * runner.workers and largest > FEWEST_CELLS:
         largest -= BRICK[2] * 2
         size = chunk_size(volume.shape, steps, item=item, memory=memory, largest=largest, refined=refined)
         layout = ChunkLayout(shape=volume.shape, size=size, steps=steps, refined=refined)
+    if resumed is not None:
+        size, layout = resumed, ChunkLayout(shape=volume.shape, size=resumed, steps=steps, refined=refined)
     cells = max(size[axis] * BRICK[axis] for axis in range(3))
     at_once = min(runner.workers, len(layout))
+    needed = at_once * bytes_of_chunk(cells, steps, item, volume.shape, refined=refined)
+    if resumed is not None and request.max_memory is not None and needed > request.max_memory:
+        mebibytes = math.ceil(needed / 2**20)
+        raise ParameterError.about(
+            "max_memory",
+            f"is {request.max_memory / 2**20:.0f} MiB, and the chunks of the run that is resumed may take {mebibytes}; "
+            f"give {mebibytes}M, or fewer workers",
+        )
     read = item * sum(
         math.prod(high - low for low, high in zip(chunk.cell_low, chunk.cell_high, strict=True)) for chunk in layout
     )
     return ChunkPlan(
         layout=layout,
         workers=runner.workers,
-        memory=at_once * bytes_of_chunk(cells, steps, item, volume.shape, refined=refined),
+        memory=needed,
         read=read,
     )
 

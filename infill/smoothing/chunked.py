@@ -8,8 +8,7 @@ The passes over the chunks are those of `infill.chunks.solving`; their result is
 from __future__ import annotations
 
 import contextlib
-import shutil
-import tempfile
+import os
 import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -37,6 +36,7 @@ from infill.smoothing.chunked_verdict import judge_chunks
 from infill.smoothing.comparing import intolerable_error
 from infill.smoothing.request import SmoothInput, SmoothRequest
 from infill.smoothing.scans import Threshold
+from infill.smoothing.work_folders import open_work_folder, run_facts
 
 SHARES = {"read": (0.0, 0.1), "smooth": (0.1, 0.6), "join": (0.6, 0.62), "surface": (0.62, 0.8), "check": (0.8, 0.82)}
 
@@ -52,6 +52,7 @@ def smooth_in_chunks(
     workers: int | None = None,
     scheduler: str | None = None,
     side: int | None = None,
+    resume: str | os.PathLike[str] | None = None,
 ) -> Iterator[ChunkedSurface]:
     """Smooth a volume in chunks; yield its surface, whose fields are kept on disk as long as the block lasts.
 
@@ -65,6 +66,9 @@ def smooth_in_chunks(
         See `infill.chunks.running.open_runner`.
     side : int, optional
         See `plan_chunks`.
+    resume : str or Path, optional
+        Folder for finished work, from which a run that was interrupted goes on; removed when the block has ended
+        without an error.
 
     Raises
     ------
@@ -87,7 +91,12 @@ def smooth_in_chunks(
             progress(stage, begin + share * (end - begin))
 
     count = workers if workers is not None or scheduler not in (None, "threads", "processes") else request.threads
-    with open_runner(count, scheduler) as runner, _scratch_folder() as scratch:
+    choice = {"threshold": threshold, "label": label, "grey": grey}
+    with (
+        open_runner(count, scheduler) as opened,
+        open_work_folder(resume, run_facts(volume, request, choice)) as folder,
+    ):
+        runner = replace(opened, kept=folder.results)
         with _timed(seconds, "read"):
             chosen = choose_work(
                 volume,
@@ -98,9 +107,11 @@ def smooth_in_chunks(
                 label=label,
                 grey=grey,
                 side=side,
-                scratch=scratch,
+                size=folder.size,
+                scratch=folder.fields,
             )
-        request, work = chosen.request, chosen.work
+        folder.begin(chosen.plan.layout.size)
+        work = chosen.work
         solver = Solver(work=work, runner=runner, tell=tell)
         with _timed(seconds, "smooth"):
             _load_kernels(work)
@@ -158,16 +169,6 @@ def _input_without_values(volume: LazyVolume, segmentation: SegmentationKeys, no
     """Return the input of a verdict: the place of the cells in space, and what is known of them."""
     nothing = volume.place(np.broadcast_to(np.False_, volume.shape))
     return SmoothInput(data=nothing, facts={"source": "volume", "segmentation": segmentation, "noise": noise})
-
-
-@contextlib.contextmanager
-def _scratch_folder() -> Iterator[str]:
-    """Yield a folder for fields, which is gone afterwards."""
-    folder = tempfile.mkdtemp(prefix="infill-chunks-")
-    try:
-        yield folder
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
 
 
 @contextlib.contextmanager

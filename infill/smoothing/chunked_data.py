@@ -65,6 +65,7 @@ def choose_work(
     label: int | Sequence[int] | None = None,
     grey: bool | None = None,
     side: int | None = None,
+    size: tuple[int, int, int] | None = None,
     scratch: str = "",
 ) -> ChosenWork:
     """Find the solid, the method and the scale of grey values by the values of all chunks, and divide the volume.
@@ -78,7 +79,7 @@ def choose_work(
         Called with the share of these passes that is done.
     threshold, label, grey
         See `infill.smooth_volume`.
-    side
+    side, size
         See `plan_chunks`.
     scratch
         See `infill.chunks.work.Work`.
@@ -123,7 +124,7 @@ def choose_work(
         window = measure_window(work, runner, surface_level, partial(_tell_part, tell, WINDOW))
         scale = GreyScale(level=surface_level, window=window)
     request = replace(chosen.for_cell(min(spacing)), tolerance=None)
-    plan = plan_chunks(volume, request, runner, side=side)
+    plan = plan_chunks(volume, request, runner, side=side, size=size)
     fixed = None if isinstance(request.level, str) else request.level
     return ChosenWork(
         work=replace(

@@ -70,6 +70,7 @@ def smooth_lazy(
     label: int | Sequence[int] | None = None,
     grey: bool | None = None,
     side: int | None = None,
+    resume: str | os.PathLike[str] | None = None,
 ) -> Result[SmoothStages, SmoothReport]:
     """Smooth a volume in chunks, on the current client of Dask or else on threads; return its surface in memory.
 
@@ -77,7 +78,7 @@ def smooth_lazy(
     ----------
     volume : LazyVolume
     request : SmoothRequest
-    threshold, label, grey, side
+    threshold, label, grey, side, resume
         See `infill.smoothing.chunked.smooth_in_chunks`.
 
     Returns
@@ -85,7 +86,9 @@ def smooth_lazy(
     Result
         Its report is a `infill.reports.smoothing.ChunksReport`: distances are not measured.
     """
-    with smooth_in_chunks(volume, request, threshold=threshold, label=label, grey=grey, side=side) as chunked:
+    with smooth_in_chunks(
+        volume, request, threshold=threshold, label=label, grey=grey, side=side, resume=resume
+    ) as chunked:
         surface = chunked.whole()
         report = chunked.report()
     result: Any = Result(surfaces={"solid": surface}, report=report, stages=ChunkedStages(volume=volume))

@@ -105,7 +105,7 @@ class ChunkedSurface:
                 (chunk, self.surface.tasks[chunk.number], self.numbering.removed[chunk.number])
                 for chunk in chunks[first : first + batch]
             ]
-            for part in self.solver.runner.run(make_part, self.solver.work, items):
+            for part in self.solver.runner.run(make_part, self.solver.work, items, keep=False):
                 yield self._piece(part, number, place)
                 number += 1
                 if self.progress is not None:
@@ -149,7 +149,7 @@ class ChunkedSurface:
             values = dict(
                 zip(
                     [chunk.number for chunk in crossed],
-                    self.solver.runner.run(field_values, self.solver.work, items),
+                    self.solver.runner.run(field_values, self.solver.work, items, keep=False),
                     strict=True,
                 )
             )

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Literal, Unpack, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from infill.errors import MemoryLimitError
+from infill.errors import MemoryLimitError, UsageError
 from infill.formats.point_files import read_points_and_normals
 from infill.formats.units import to_surface, unit_in_mm
 from infill.grid import spacing_of
@@ -54,6 +54,7 @@ def smooth_volume(
     label: int | Sequence[int] | None = None,
     grey: bool | None = None,
     voxel: float | None = None,
+    resume: str | os.PathLike[str] | None = None,
     **options: Unpack[SmoothOptions],
 ) -> Result[SmoothStages, SmoothReport]:
     """Return a smooth surface around the solid in a volume.
@@ -80,6 +81,8 @@ def smooth_volume(
     voxel : float, optional
         Larger cells than those of the volume, mm: each has the mean of the cells it covers. Smaller features are gone
         before anything is compared.
+    resume : path, optional
+        Of a volume in chunks: folder for finished work, from which a run that was interrupted goes on.
     smoothing : Smoothing
         By default 20 steps, which the paper uses for complex models; it uses 30 for medical data.
     method : {"auto", "plain", "refine", "grey"}
@@ -137,7 +140,7 @@ def smooth_volume(
         from infill.smoothing.chunked_result import open_lazy, smooth_lazy
 
         lazy = open_lazy(volume, spacing=spacing, origin=origin)
-        if request.method != "plain":
+        if request.method != "plain" and resume is None:
             try:
                 return _smooth_whole(
                     lazy.load(request.max_memory), request, threshold=threshold, label=label, grey=grey, voxel=voxel
@@ -146,7 +149,9 @@ def smooth_volume(
                 if not suits_chunks(request, voxel=voxel):
                     raise
         check_chunked(request, voxel=voxel)
-        return smooth_lazy(lazy, request, threshold=threshold, label=label, grey=grey)
+        return smooth_lazy(lazy, request, threshold=threshold, label=label, grey=grey, resume=resume)
+    if resume is not None:
+        raise UsageError.about("resume", "is for a volume in chunks, a Dask array, Zarr or HDF5; leave it out")
     low, _ = threshold_range(threshold)
     chosen = threshold is not None or label is not None
     if isinstance(volume, (str, os.PathLike)):
