@@ -85,7 +85,8 @@ def smooth(
         int | None,
         typer.Option(
             metavar="N",
-            help="Smooth a volume in chunks, N at once, without having all of it in memory; with --smooth plain. "
+            help="Smooth a volume in chunks, N at once, without having all of it in memory, with --smooth plain; or "
+            "its labels, each by itself. "
             "(default: for Zarr and HDF5, one per core)",
             rich_help_panel=RUN,
         ),
@@ -146,10 +147,9 @@ def smooth(
         together=settings.together,
     ):
         refuse_options(settings, outputs)
-        if workers is not None or scheduler is not None or show_hash:
-            option = "--hash" if show_hash else "--workers and --scheduler"
-            raise typer.BadParameter(f"{option} is for one surface; leave it out, or choose one label by --label")
-        smooth_every_label(source, settings, outputs, options)
+        if show_hash:
+            raise typer.BadParameter("--hash is for one surface; leave it out, or choose one label by --label")
+        smooth_every_label(source, settings, outputs, options, workers=workers, scheduler=scheduler)
     elif wants_chunks(source, settings, workers, scheduler):
         smooth_chunks(source, settings, outputs, options, workers=workers, scheduler=scheduler, show_hash=show_hash)
     else:
