@@ -10,14 +10,14 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import accumulate
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO, Generic, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, BinaryIO, Generic, Protocol, TypeVar, cast
 
 import numpy as np
 
 from infill.errors import OutputError
 from infill.files.whole_files import atomic_file
 from infill.formats.mesh_files import PART_WRITERS, mesh_writer, parts_writer
-from infill.formats.parts import Part
+from infill.formats.parts import LatePart, Part
 from infill.imaging.label_tables import Colour
 from infill.meshes.split_components import concatenate_surfaces
 from infill.pictures.picturable import Picturable
@@ -152,6 +152,11 @@ class Result(Picturable, Generic[Stages, Told]):
 
 def parts_of(result: Result[Any, Any]) -> list[Part]:
     """Return the surfaces of a result with their names and colours, as files hold them."""
+    if not isinstance(result.surfaces, dict):  # each is made or read when it is asked for
+        late = [
+            LatePart(surfaces=result.surfaces, name=name, colour=result.colours.get(name)) for name in result.surfaces
+        ]
+        return cast("list[Part]", late)
     return [
         Part(surface=surface, name=name, colour=result.colours.get(name)) for name, surface in result.surfaces.items()
     ]

@@ -143,7 +143,8 @@ CHAPTERS = (
         word="labels",
         text="`smooth_labels` returns this report, and `infill smooth` prints it with `{label}` in the name of an "
         "output or with `--each-label`. `request` has the keys of [the report of one "
-        "solid](#smooth-a-volume-a-mesh-or-points), and so has each `labels[].report`.",
+        "solid](#smooth-a-volume-a-mesh-or-points), and so has each `labels[].report`; that of a label in chunks has "
+        "those of [a volume in chunks](#smooth-a-volume-in-chunks).",
         report=smoothing.LabelsReport,
         known=(smoothing.SolidRequest, smoothing.SmoothReport),
     ),

@@ -240,7 +240,7 @@ def open_runner(workers: int | None = None, scheduler: str | None = None) -> Ite
     """
     require_dask()
     check_runner(workers, scheduler)
-    client = None if scheduler in (THREADS, PROCESSES) else _current_client() if scheduler is None else None
+    client = None if scheduler in (THREADS, PROCESSES) else current_client() if scheduler is None else None
     if scheduler not in (None, THREADS, PROCESSES) or client is not None:
         if workers is not None:
             raise UsageError.about("workers", "is for this machine alone, and a cluster has its own; leave it out")
@@ -261,7 +261,7 @@ def open_runner(workers: int | None = None, scheduler: str | None = None) -> Ite
     yield Runner(workers=count)
 
 
-def _current_client() -> Any:  # noqa: ANN401 - distributed.Client
+def current_client() -> Any:  # noqa: ANN401 - distributed.Client
     """Return the client that this process has opened, None without one."""
     if "distributed" not in sys.modules:
         return None

@@ -18,6 +18,7 @@ from infill.plain_numbers import list_some, plain_number, plain_size
 if TYPE_CHECKING:
     from infill.imaging.label_tables import Segment
     from infill.imaging.segmentations import Segmentation
+    from infill.lazy.volume import LazyVolume
     from infill.reports.smoothing import TetrahedraKeys, TogetherLabel
     from infill.result import Result
     from infill.smoothing.label_stages import LabelStages
@@ -87,8 +88,17 @@ def refuse_options(settings: SmoothSettings, output: SmoothOutput) -> None:
         raise typer.BadParameter(f"--{option} does not go with {labels}; leave one of them out")
 
 
-def smooth_every_label(source: Path, settings: SmoothSettings, output: SmoothOutput, options: SmoothOptions) -> None:
+def smooth_every_label(
+    source: Path,
+    settings: SmoothSettings,
+    output: SmoothOutput,
+    options: SmoothOptions,
+    *,
+    workers: int | None = None,
+    scheduler: str | None = None,
+) -> None:
     """Smooth every label, write the files and print a summary."""
+    from infill.chunks.running import check_runner
     from infill.cli.piping import check_outputs, deliver_all
     from infill.files.file_names import is_template
     from infill.formats.mesh_files import TETRAHEDRA, WALL_WRITERS, mesh_writer, parts_writer
@@ -101,26 +111,21 @@ def smooth_every_label(source: Path, settings: SmoothSettings, output: SmoothOut
         mesh_writer(path, ascii=output.ascii_stl, more=more if path in single else ())
         if path in single:
             parts_writer(path, more=more)
+    check_runner(workers, scheduler)
+    if settings.together and (workers is not None or scheduler is not None):
+        option = "--workers" if scheduler is None else "--scheduler"
+        raise typer.BadParameter(f"{option} does not go with --together, which has all labels in memory; leave it out")
+    tasks = {"workers": workers, "scheduler": scheduler}
     text = next(iter(output.saved), None)
     check_outputs(single, text=text, overwrite=output.force, as_json=output.as_json, dry_run=output.dry_run)
     if output.dry_run:
-        _show_label_plan(source, settings, output, options)
+        _show_label_plan(source, settings, output, options, tasks)
         return
     with progress_bar(shown=not output.quiet) as progress, print_log(shown=not output.quiet):
-        from infill.smoothing.labels import smooth_labels
-
         if progress is not None:
             progress("read", 0.0)
-        segmentation, segments = _read_labels(source, settings)
         label_options: SmoothOptions = {**options, "progress": _scaled_progress(progress)}
-        choice: dict[str, Any] = {"keep_going": settings.keep_going, "together": settings.together}
-        result = smooth_labels(
-            segmentation,
-            label=settings.label,
-            table=segments,
-            **choice,
-            **label_options,
-        )
+        result = _smooth_labels(source, settings, label_options, tasks)
         if progress is not None:
             progress("write", 0.9)
         report = {**result.report, **_tetrahedra_section(result, single)}
@@ -137,6 +142,41 @@ def smooth_every_label(source: Path, settings: SmoothSettings, output: SmoothOut
         raise typer.Exit(1)
 
 
+def _smooth_labels(
+    source: Path, settings: SmoothSettings, options: SmoothOptions, tasks: Mapping[str, Any]
+) -> Result[Any, Any]:
+    """Smooth the labels of a source: all of it in memory, or each part of it when it is needed."""
+    choice: dict[str, Any] = {"label": settings.label, "keep_going": settings.keep_going}
+    if _is_read_in_parts(source, settings, tasks):
+        from infill.smoothing.lazy_labels import smooth_lazy_labels
+
+        volume, in_file, table = _open_labels(source, settings)
+        return smooth_lazy_labels(volume, segments=in_file, table=table, **choice, **tasks, **options)
+    from infill.smoothing.labels import smooth_labels
+
+    segmentation, table = _read_labels(source, settings)
+    choice["together"] = settings.together
+    result: Result[Any, Any] = smooth_labels(segmentation, table=table, **choice, **options)
+    return result
+
+
+def _is_read_in_parts(source: Path, settings: SmoothSettings, tasks: Mapping[str, Any]) -> bool:
+    """Tell whether each label is read by itself: from Zarr and HDF5, or if it is asked for."""
+    from infill.lazy.names import is_lazy
+
+    return not settings.together and (is_lazy(source) or any(value is not None for value in tasks.values()))
+
+
+def _open_labels(source: Path, settings: SmoothSettings) -> tuple[LazyVolume, tuple[Segment, ...], tuple[Segment, ...]]:
+    """Open a volume of labels; return the names and colours in it, and those of another file if there is one."""
+    from infill.imaging.label_tables import read_labels
+    from infill.smoothing.sources import open_label_source
+
+    table = () if settings.labels is None else tuple(read_labels(settings.labels))
+    reading = {name: value for name, value in settings.reading.items() if name != "units"}
+    return *open_label_source(source, **reading), table
+
+
 def _read_labels(source: Path, settings: SmoothSettings) -> tuple[Segmentation, tuple[Segment, ...]]:
     """Read a segmentation, and the names and colours of another file if there is one."""
     from infill.imaging.label_tables import read_labels
@@ -147,7 +187,9 @@ def _read_labels(source: Path, settings: SmoothSettings) -> tuple[Segmentation, 
     return read_label_source(source, **reading), segments
 
 
-def _show_label_plan(source: Path, settings: SmoothSettings, output: SmoothOutput, options: SmoothOptions) -> None:
+def _show_label_plan(
+    source: Path, settings: SmoothSettings, output: SmoothOutput, options: SmoothOptions, tasks: Mapping[str, Any]
+) -> None:
     """Print the labels that would be smoothed, and the files that would be written."""
     from infill.formats.mesh_files import TETRAHEDRA
     from infill.smoothing.plan import plan_labels
@@ -155,13 +197,19 @@ def _show_label_plan(source: Path, settings: SmoothSettings, output: SmoothOutpu
 
     begin = time.perf_counter()
     with print_log(shown=not output.quiet):
-        segmentation, segments = _read_labels(source, settings)
-        choice: dict[str, Any] = {"begin": begin, "label": settings.label, "table": segments}
-        if settings.together:
+        choice: dict[str, Any] = {"begin": begin, "label": settings.label}
+        if _is_read_in_parts(source, settings, tasks):
+            from infill.smoothing.lazy_labels import plan_lazy_labels
+
+            volume, in_file, table = _open_labels(source, settings)
+            plan = plan_lazy_labels(volume, segments=in_file, table=table, **choice, **tasks, **options)
+        elif settings.together:
+            segmentation, table = _read_labels(source, settings)
             wants_tetrahedra = any(path.suffix.lower() == TETRAHEDRA for path in output.outputs)
-            plan = plan_together(segmentation, tetrahedra=wants_tetrahedra, **choice, **options)
+            plan = plan_together(segmentation, tetrahedra=wants_tetrahedra, table=table, **choice, **options)
         else:
-            plan = plan_labels(segmentation, **choice, **options)
+            segmentation, table = _read_labels(source, settings)
+            plan = plan_labels(segmentation, table=table, **choice, **options)
     labels = plan["labels"]
     files = [
         str(path)
@@ -269,7 +317,10 @@ def _summary(report: Mapping[str, Any], files: Sequence[str], name: str) -> str:
             rows[f"{label['number']} {label['name']}"] = _together_text(label)
             continue
         part = label["report"]
-        verdict = "; ".join([part["verdict"]["word"], *part["verdict"]["changes"]])
+        if "verdict" in part:
+            verdict = "; ".join([part["verdict"]["word"], *part["verdict"]["changes"]])
+        else:  # in chunks
+            verdict = "; ".join(part["changes"]) or "none counted; distances are not measured"
         rows[f"{label['number']} {label['name']}"] = (
             f"{part['triangles']:,} triangles, {plain_size(part['volume'], digits=6, power=3)}, "
             f"{part['volume_change']:+z.4%} of the data; {verdict}"

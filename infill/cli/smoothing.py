@@ -87,8 +87,8 @@ def smooth(
         int | None,
         typer.Option(
             metavar="N",
-            help="Smooth a volume in chunks, N at once, without having all of it in memory. "
-            "(default: for Zarr and HDF5 that do not fit into memory, one per core)",
+            help="Smooth a volume in chunks, N at once, without having all of it in memory; or its labels, each by "
+            "itself. (default: for Zarr and HDF5 that do not fit into memory, one per core)",
             rich_help_panel=RUN,
         ),
     ] = None,
@@ -157,10 +157,10 @@ def smooth(
         together=settings.together,
     ):
         refuse_options(settings, outputs)
-        if workers is not None or scheduler is not None or resume is not None or show_hash:
-            option = "--hash" if show_hash else "--resume" if resume is not None else "--workers and --scheduler"
+        if resume is not None or show_hash:
+            option = "--hash" if show_hash else "--resume"
             raise typer.BadParameter(f"{option} is for one surface; leave it out, or choose one label by --label")
-        smooth_every_label(source, settings, outputs, options)
+        smooth_every_label(source, settings, outputs, options, workers=workers, scheduler=scheduler)
     elif resume is not None or wants_chunks(source, settings, options, outputs, workers=workers, scheduler=scheduler):
         smooth_chunks(
             source,

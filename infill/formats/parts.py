@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from infill.imaging.label_tables import Colour
@@ -24,6 +25,28 @@ class Part:
     surface: Surface
     name: str = ""
     colour: Colour | None = None
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class LatePart:
+    """One mesh among several, which is made when it is asked for; otherwise as `Part`.
+
+    Parameters
+    ----------
+    surfaces : mapping of str to Surface
+    name : str
+        Of its surface among these.
+    colour : (red, green, blue), optional
+    """
+
+    surfaces: Mapping[str, Surface]
+    name: str
+    colour: Colour | None = None
+
+    @property
+    def surface(self) -> Surface:
+        """The surface, mm."""
+        return self.surfaces[self.name]
 
 
 def hex_colour(colour: Colour) -> str:

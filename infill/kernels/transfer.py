@@ -195,8 +195,8 @@ def artanh_of_values(bricks, clip, scale, out, thread, threads):
 
 
 @njit(nogil=True, cache=True)
-def extend_boxes(numbers, first, low, high, runs):
-    """Extend the box of every number to the cells that have it, and count its runs along the last axis.
+def extend_boxes(numbers, first, low, high, runs, cells):
+    """Extend the box of every number to the cells that have it; count these, and its runs along the last axis.
 
     Parameters
     ----------
@@ -206,7 +206,7 @@ def extend_boxes(numbers, first, low, high, runs):
         Place of the first layer along the first axis.
     low, high : (L, 3) int64
         The boxes so far, `high` without its end; `low` above `high` for a number without a cell.
-    runs : (L,) int64
+    runs, cells : (L,) int64
     """
     n0, n1, n2 = numbers.shape
     for i in range(n0):
@@ -220,4 +220,5 @@ def extend_boxes(numbers, first, low, high, runs):
                 low[number, 1], high[number, 1] = min(low[number, 1], j), max(high[number, 1], j + 1)
                 low[number, 2], high[number, 2] = min(low[number, 2], begin), max(high[number, 2], end)
                 runs[number] += 1
+                cells[number] += end - begin
                 begin = end

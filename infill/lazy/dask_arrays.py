@@ -51,6 +51,11 @@ class DaskArray:
         kind: np.dtype[Any] = np.dtype(self.array.dtype)
         return kind
 
+    @property
+    def grain(self) -> tuple[int, ...]:
+        """Cells of a chunk along each axis."""
+        return tuple(int(count) for count in self.array.chunksize)
+
     def read(self, box: tuple[slice, ...]) -> NDArray[Any]:
         """Compute the cells of a box, in the task that asks for it."""
         try:

@@ -41,6 +41,14 @@ class Hdf5Array:
         """Type of the cells."""
         return np.dtype(self.kind)
 
+    @property
+    def grain(self) -> tuple[int, ...]:
+        """Cells of a chunk along each axis; of a layer without chunks."""
+        import h5py
+
+        with h5py.File(self.path, "r") as file:
+            return file[self.dataset].chunks or (1, *self.shape[1:])
+
     def read(self, box: tuple[slice, ...]) -> NDArray[Any]:
         """Read the cells of a box."""
         import h5py

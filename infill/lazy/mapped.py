@@ -53,6 +53,11 @@ class MappedArray:
         """Type of the cells."""
         return np.dtype(self.kind).newbyteorder("=")
 
+    @property
+    def grain(self) -> tuple[int, ...]:
+        """Cells of a layer across the slowest axis."""
+        return tuple(1 if axis == 0 else self.stored[axis] for axis in self.axes)
+
     def read(self, box: tuple[slice, ...]) -> NDArray[Any]:
         """Read the cells of a box."""
         with wrap_read_errors(Path(self.path)):
@@ -88,6 +93,11 @@ class TiffArray:
     def dtype(self) -> np.dtype[Any]:
         """Type of the cells."""
         return np.dtype(self.kind)
+
+    @property
+    def grain(self) -> tuple[int, ...]:
+        """Cells of a page."""
+        return (*self.shape[:2], 1)
 
     def read(self, box: tuple[slice, ...]) -> NDArray[Any]:
         """Read the cells of a box."""

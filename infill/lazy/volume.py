@@ -81,8 +81,11 @@ class LazyVolume:
     def crop(self, roi: tuple[float, ...]) -> LazyVolume:
         """Return the part of the volume in a box: see `infill.voxels.cropping.crop`; no cell is read."""
         whole = self.place(np.broadcast_to(np.uint8(0), self.shape))
-        low, high = cells_in_box(whole, roi)
-        corner = cut_cells(whole, low, high).origin
+        return self.cut(*cells_in_box(whole, roi))
+
+    def cut(self, low: tuple[int, ...], high: tuple[int, ...]) -> LazyVolume:
+        """Return the cells from `low` up to but without `high`, in the same place; no cell is read."""
+        corner = cut_cells(self.place(np.broadcast_to(np.uint8(0), self.shape)), low, high).origin
         return replace(self, array=BoxArray(self.array, low, high), origin=corner)
 
     def place(self, values: NDArray[Any]) -> Volume:
@@ -121,6 +124,11 @@ class BoxArray:
     def dtype(self) -> np.dtype[Any]:
         """Type of the cells."""
         return self.array.dtype
+
+    @property
+    def grain(self) -> tuple[int, ...] | None:
+        """Cells of a chunk of the other array."""
+        return getattr(self.array, "grain", None)
 
     def read(self, box: tuple[slice, ...]) -> NDArray[Any]:
         """Read the cells of a box."""

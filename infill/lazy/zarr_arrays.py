@@ -55,6 +55,12 @@ class ZarrArray:
         """Type of the cells."""
         return np.dtype(self.kind)
 
+    @property
+    def grain(self) -> tuple[int, ...]:
+        """Cells of a chunk along x, y and z."""
+        chunks = _open_array(self.name).chunks
+        return tuple(int(chunks[axis]) for axis in self.axes)
+
     def read(self, box: tuple[slice, ...]) -> NDArray[Any]:
         """Read the cells of a box."""
         stored_box: list[Any] = [0] * len(self.stored)

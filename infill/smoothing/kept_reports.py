@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, cast
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class _PackedSolid:
+class PackedSolid:
     """A solid on a grid, a bit for each cell near its surface, and what it takes to measure the distance from it.
 
     Parameters
@@ -64,11 +64,20 @@ def keep_report(result: Result[SmoothStages, SmoothReport], request: SmoothReque
     Instead, it holds a bit for every cell near the surface. Distances from thick slices, whose cells are grey, are
     measured at once.
     """
+    known, solid = pack_report(result)
+    return known if solid is None else late_report(known, partial(solid.distance, result.surface, request))
+
+
+def pack_report(result: Result[SmoothStages, SmoothReport]) -> tuple[SmoothReport, PackedSolid | None]:
+    """Return the report of a scan without its distances, and the solid from which to measure them.
+
+    Distances from thick slices, whose cells are grey, are measured at once; no solid is needed then.
+    """
     report, field = result.report, result.stages.levelled.field
     if field.data.dtype != np.int8:
-        return report.copy()
+        return report.copy(), None
     data = result.stages.data
-    solid = _PackedSolid(
+    solid = PackedSolid(
         field=replace(field, where=field.where.copy(), values=field.values[:0].copy(), data=field.data[:0].copy()),
         bits=data_bits(field, threads=1),
         place=replace(data, values=np.broadcast_to(np.False_, data.values.shape)),
@@ -76,4 +85,9 @@ def keep_report(result: Result[SmoothStages, SmoothReport], request: SmoothReque
     )
     sections: Mapping[str, Any] = report
     known = {name: None if name == "distance" else sections[name] for name in sections}
-    return with_late_sections(cast("SmoothReport", known), distance=partial(solid.distance, result.surface, request))
+    return cast("SmoothReport", known), solid
+
+
+def late_report(known: SmoothReport, measure: Callable[[], Distance]) -> SmoothReport:
+    """Return a report of `pack_report` whose distances are measured when they are first read."""
+    return with_late_sections(known, distance=measure)

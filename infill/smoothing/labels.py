@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Literal, Unpack, overload
+from typing import TYPE_CHECKING, Literal, TypeVar, Unpack, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,6 +17,8 @@ from infill.imaging.label_tables import Segment
 from infill.imaging.segmentations import Segmentation, read_segmentation, segmentation_of_shares
 from infill.kernels.compiling import log_compilation
 from infill.kernels.sparse import BRICK
+from infill.lazy.dask_arrays import is_dask
+from infill.lazy.names import is_lazy
 from infill.plain_numbers import list_some
 from infill.reports.common import report_head
 from infill.reports.smoothing import LabelSeconds
@@ -28,15 +30,18 @@ from infill.smoothing.label_stages import LabelPiece, LabelStages, field_reach
 from infill.smoothing.request import SmoothOptions, SmoothRequest
 from infill.volume import AXES, Volume
 from infill.voxels.cropping import cut_cells
-from infill.voxels.labels import is_label_map, label_extents
+from infill.voxels.labels import LabelExtent, is_label_map, label_extents
 
 if TYPE_CHECKING:
     from infill.reports.smoothing import LabelsReport, SmoothReport, TogetherReport
     from infill.result import Progress
+    from infill.smoothing.stages import SmoothStages
     from infill.smoothing.together_stages import TogetherStages
     from infill.surface import Surface
 
     _Outcome = tuple[Surface, SmoothReport]
+
+Outcome = TypeVar("Outcome")
 
 MOST_UNNAMED = 64  # values without names that are taken for labels even if they do not fill regions
 MAX_LISTED_LABELS = 12  # labels in a message
@@ -86,7 +91,8 @@ def smooth_labels(
     volume : (nx, ny, nz) array, Volume, Segmentation or path
         A file or folder of labels, see `infill.read_segmentation`; or whole numbers [x, y, z], 0 for cells without a
         label; or, with `together`, the share of every cell that each label has, [label, x, y, z]: partial volumes, or
-        probabilities of a network. See `infill.imaging.segmentations.segmentation_of_shares`.
+        probabilities of a network. See `infill.imaging.segmentations.segmentation_of_shares`. Of a Dask array, or a
+        path of Zarr or HDF5, each label is read by itself (`infill.smoothing.lazy_labels`); with `together`, all of it.
     spacing, origin
         See `infill.smooth_volume`.
     label : int or tuple of int, optional
@@ -130,6 +136,14 @@ def smooth_labels(
     {'label_1': True, 'label_2': True}
     """
     request = SmoothRequest(**options)  # so that a mistake in the options is not reported for the first label
+    if is_dask(volume) or (isinstance(volume, (str, os.PathLike)) and is_lazy(volume)):
+        from infill.smoothing.chunked_result import open_lazy
+        from infill.smoothing.lazy_labels import smooth_lazy_labels
+
+        lazy = open_lazy(volume, spacing=spacing, origin=origin)
+        if not together:
+            return smooth_lazy_labels(lazy, label=label, table=table, keep_going=keep_going, **options)
+        volume = lazy.load()
     if isinstance(volume, (str, os.PathLike)):
         segmentation = read_segmentation(volume, spacing=spacing)
     else:
@@ -137,7 +151,7 @@ def smooth_labels(
     clock = Clock(request.progress)
     with clock.stage("labels", 0.0):
         pieces = find_pieces(segmentation, label, tuple(table))
-        absent = _absent_names(segmentation, pieces) if label is None else []
+        absent = absent_names(segmentation.segments, pieces) if label is None else []
     if not together:
         refuse_shares(segmentation)
     else:
@@ -147,29 +161,56 @@ def smooth_labels(
 
         volume = segmentation.layers[pieces[0].segment.layer]
         return smooth_together(volume, pieces, request, absent, segmentation.shares)
-    surfaces: dict[str, Surface] = {}
-    reports: dict[str, SmoothReport] = {}
-    failed: dict[str, str] = {}
     with clock.stage("smooth", 0.0):
-        for piece, outcome in zip(
-            pieces, _smooth_pieces(segmentation, pieces, request, options, keep_going), strict=True
-        ):
-            if isinstance(outcome, InfillError):
-                error = outcome.within(_title(piece))
-                if not keep_going:
-                    raise error from outcome
-                failed[piece.name] = str(outcome)
-                if len(failed) == len(pieces):
-                    raise type(outcome)(f"no label can be smoothed; {error}") from outcome
-            elif outcome is not None:
-                surfaces[piece.name], reports[piece.name] = outcome
+        outcomes = _smooth_pieces(segmentation, pieces, request, options, keep_going)
+        done, failed = split_outcomes(pieces, outcomes, keep_going=keep_going)
+    surfaces = {name: surface for name, (surface, _) in done.items()}
+    reports = {name: report for name, (_, report) in done.items()}
+    return labels_result(pieces, surfaces, reports, failed, absent, request, clock)
+
+
+def split_outcomes(
+    pieces: Sequence[LabelPiece], outcomes: Sequence[Outcome | InfillError | None], *, keep_going: bool
+) -> tuple[dict[str, Outcome], dict[str, str]]:
+    """Return what was made of labels, by name, and why others failed.
+
+    Raises
+    ------
+    InfillError
+        The first of the outcomes unless `keep_going`, else the last if there is nothing else.
+    """
+    done: dict[str, Outcome] = {}
+    failed: dict[str, str] = {}
+    for piece, outcome in zip(pieces, outcomes, strict=True):
+        if isinstance(outcome, InfillError):
+            error = outcome.within(title_of(piece))
+            if not keep_going:
+                raise error from outcome
+            failed[piece.name] = str(outcome)
+            if len(failed) == len(pieces):
+                raise type(outcome)(f"no label can be smoothed; {error}") from outcome
+        elif outcome is not None:
+            done[piece.name] = outcome
+    return done, failed
+
+
+def labels_result(
+    pieces: Sequence[LabelPiece],
+    surfaces: Mapping[str, Surface],
+    reports: Mapping[str, SmoothReport],
+    failed: Mapping[str, str],
+    absent: Sequence[str],
+    request: SmoothRequest,
+    clock: Clock,
+) -> Result[LabelStages, LabelsReport]:
+    """Return the result of labels that were smoothed each by itself."""
     smoothed_pieces, failed_pieces = (
         [piece for piece in pieces if piece.name in names] for names in (surfaces, failed)
     )
     return Result(
         surfaces=surfaces,
         report=_report(request, smoothed_pieces, reports, failed_pieces, failed, absent, clock),
-        stages=LabelStages(segments={piece.name: piece.segment for piece in pieces}, failed=failed),
+        stages=LabelStages(segments={piece.name: piece.segment for piece in pieces}, failed=dict(failed)),
         colours={piece.name: piece.segment.colour for piece in smoothed_pieces if piece.segment.colour is not None},
     )
 
@@ -197,12 +238,40 @@ def find_pieces(
     segmentation: Segmentation, label: int | tuple[int, ...] | None, table: tuple[Segment, ...]
 ) -> list[LabelPiece]:
     """Return the labels to smooth, each with a unique name."""
+    return name_pieces(
+        [label_extents(volume) for volume in segmentation.layers],
+        lambda: any(is_label_map(volume) for volume in segmentation.layers),
+        segmentation.segments,
+        label,
+        table,
+    )
+
+
+def name_pieces(
+    layers: Sequence[Sequence[LabelExtent]],
+    fill_regions: Callable[[], bool],
+    segments: Sequence[Segment],
+    label: int | tuple[int, ...] | None,
+    table: tuple[Segment, ...],
+) -> list[LabelPiece]:
+    """Return the labels to smooth by the extents of those in each layer, each with a unique name.
+
+    Parameters
+    ----------
+    layers : sequence of sequence of LabelExtent
+    fill_regions : callable
+        Tells whether the values fill regions, as labels do, and grey values do not.
+    segments : sequence of Segment
+        Of the file.
+    label, table
+        See `smooth_labels`.
+    """
     requested = None if label is None else label if isinstance(label, tuple) else (label,)
-    file_segments = {(segment.layer, segment.value): segment for segment in segmentation.segments}
+    file_segments = {(segment.layer, segment.value): segment for segment in segments}
     table_segments = {segment.value: segment for segment in table}
     present = []
-    for layer, volume in enumerate(segmentation.layers):
-        for extent in label_extents(volume):
+    for layer, extents in enumerate(layers):
+        for extent in extents:
             template = (
                 table_segments.get(extent.value)
                 or file_segments.get((layer, extent.value))
@@ -210,8 +279,8 @@ def find_pieces(
             )
             present.append((replace(template, layer=layer), extent))
     values = sorted({segment.value for segment, _ in present})
-    are_unnamed = requested is None and not table and not segmentation.segments and len(values) > MOST_UNNAMED
-    if are_unnamed and not any(is_label_map(volume) for volume in segmentation.layers):
+    are_unnamed = requested is None and not table and not segments and len(values) > MOST_UNNAMED
+    if are_unnamed and not fill_regions():
         raise ParameterError(
             f"the volume holds {len(values)} values that change from voxel to voxel, as grey levels do, and not "
             "labels; give --threshold X or --otsu, without {label}, or --label N,M for those that are labels"
@@ -245,10 +314,10 @@ def _unique_name(segment: Segment, used_names: set[str]) -> str:
     return unused[0]
 
 
-def _absent_names(segmentation: Segmentation, pieces: Sequence[LabelPiece]) -> list[str]:
+def absent_names(segments: Sequence[Segment], pieces: Sequence[LabelPiece]) -> list[str]:
     """Return the names of the segments that hold no cell."""
     present = {(piece.segment.layer, piece.segment.value) for piece in pieces}
-    return [segment.name for segment in segmentation.segments if (segment.layer, segment.value) not in present]
+    return [segment.name for segment in segments if (segment.layer, segment.value) not in present]
 
 
 def _smooth_pieces(
@@ -281,19 +350,31 @@ def _smooth_pieces(
 
 def _smooth_piece(volume: Volume, piece: LabelPiece, request: SmoothRequest, options: SmoothOptions) -> _Outcome:
     """Smooth one label in its part of the volume, whose sides lie between bricks of the whole volume."""
+    box = cut_cells(volume, *box_of(piece, request, volume.values.shape))
+    result = smooth_box(box, piece, options)
+    return result.surface, keep_report(result, request)
+
+
+def box_of(
+    piece: LabelPiece, request: SmoothRequest, shape: tuple[int, ...]
+) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Return the part of a volume of this shape in which a label is smoothed: from `low` up to but without `high`."""
     margin = field_reach(request.smoothing.interface)
     low = tuple(max(0, (at - margin) // size * size) for at, size in zip(piece.extent.low, BRICK, strict=True))
     high = tuple(
         min(count, -(-(at + margin) // size) * size)
-        for at, size, count in zip(piece.extent.high, BRICK, volume.values.shape, strict=True)
+        for at, size, count in zip(piece.extent.high, BRICK, shape, strict=True)
     )
-    box = cut_cells(volume, low, high)
+    return low, high
+
+
+def smooth_box(box: Volume, piece: LabelPiece, options: SmoothOptions) -> Result[SmoothStages, SmoothReport]:
+    """Smooth one label in its part of the volume; one thread does what is small."""
     chosen: SmoothOptions = {**options, "threads": 1} if box.values.size < SMALL else options
-    result = smooth_volume(box, label=piece.segment.value, **chosen)
-    return result.surface, keep_report(result, request)
+    return smooth_volume(box, label=piece.segment.value, **chosen)
 
 
-def _title(piece: LabelPiece) -> str:
+def title_of(piece: LabelPiece) -> str:
     """Return the number of a label and its name, if it has one."""
     number = f"label {piece.segment.value}"
     return number if piece.name == f"label_{piece.segment.value}" else f"{number} ({piece.name})"

@@ -28,6 +28,7 @@ from infill.phasefield.schedule import MIN_STEPS
 from infill.reports.common import declare
 from infill.reports.smoothing import InputKeys, LabelsForecast, PlannedInput, PlannedLabel, SmoothForecast
 from infill.smoothing.attempt import bytes_per_surface_cell
+from infill.smoothing.label_stages import LabelPiece
 from infill.smoothing.labels import find_pieces, refuse_shares
 from infill.smoothing.meshes import BYTES_PER_CELL as MESH_BYTES_PER_CELL
 from infill.smoothing.meshes import MARGIN, mesh_ways
@@ -39,7 +40,6 @@ from infill.surface import Surface
 from infill.volume import Volume
 from infill.voxels.from_mesh import estimate_solid_cells, grid_around
 from infill.voxels.from_points import grid_around_points, voxelise_points
-from infill.voxels.labels import count_labels
 
 TRIANGLES_PER_VERTEX = 2  # triangles
 BALL_RADIUS = 16.0  # cells: the radius of the ball on which the time per triangle is measured
@@ -187,27 +187,60 @@ def plan_labels(
     request = SmoothRequest(**options)
     refuse_shares(segmentation)
     pieces = find_pieces(segmentation, label, tuple(table))
-    sizes = [dict(count_labels(volume)) for volume in segmentation.layers]
     smallest = min(segmentation.layers, key=lambda volume: float(volume.cell_size.min()))
-    cell_request = request.for_cell(float(smallest.cell_size.min()))
     grid = Grid(shape=smallest.values.shape, spacing=tuple(smallest.cell_size.tolist()), origin=smallest.origin)
-    _load_smoother(cell_request, grid)
+    cell_request = request.for_cell(float(grid.cell_size.min()))
+    return forecast_labels(
+        pieces,
+        [layer.cell_volume for layer in segmentation.layers],
+        grid,
+        cell_request,
+        memory=max(piece.work(cell_request).memory for piece in pieces),
+        begin=begin,
+    )
+
+
+def forecast_labels(
+    pieces: Sequence[LabelPiece],
+    cell_volumes: Sequence[float],
+    grid: Grid,
+    request: SmoothRequest,
+    *,
+    memory: int,
+    begin: float,
+) -> LabelsForecast:
+    """Return the plan for labels that are smoothed each by itself.
+
+    Parameters
+    ----------
+    pieces : sequence of LabelPiece
+    cell_volumes : sequence of float, mm³
+        Of the layers.
+    grid : Grid
+        Of the layer with the smallest cells.
+    request : SmoothRequest
+        For these cells.
+    memory : int
+        Bytes for the label that takes most.
+    begin : float
+        Start of reading, by `time.perf_counter`.
+    """
+    _load_smoother(request, grid)
     loaded = time.perf_counter()
     triangles = sum(piece.triangles for piece in pieces)
     labels: list[PlannedLabel] = [
         {
             **piece.place,
-            "data": segmentation.layers[piece.segment.layer].cell_volume
-            * sizes[piece.segment.layer][piece.segment.value],
+            "data": cell_volumes[piece.segment.layer] * piece.extent.cells,
             "triangles_before": piece.triangles,
         }
         for piece in pieces
     ]
     return {
-        "request": cell_request.facts(),
+        "request": request.facts(),
         "labels": labels,
-        "memory": round(BYTES_BEFORE + max(piece.work(cell_request).memory for piece in pieces)),
-        "seconds": {"total": loaded - begin + _seconds_per_triangle(cell_request, grid) * triangles},
+        "memory": round(BYTES_BEFORE + memory),
+        "seconds": {"total": loaded - begin + _seconds_per_triangle(request, grid) * triangles},
     }
 
 

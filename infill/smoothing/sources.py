@@ -20,9 +20,11 @@ from infill.formats.point_files import read_points_and_normals
 from infill.formats.units import check_units, read_mesh_in_mm, unit_in_mm
 from infill.grid import spacing_of
 from infill.imaging.dicom.sampling import SampledStack, sample_folder
-from infill.imaging.segmentations import Segmentation, read_segmentation
+from infill.imaging.label_tables import Segment, segments_of_nrrd
+from infill.imaging.segmentations import NRRD_SUFFIXES, Segmentation, read_segmentation
 from infill.imaging.volume_files import holds_dicom, read_volume
 from infill.lazy.names import is_lazy
+from infill.lazy.opening import open_volume
 from infill.smoothing.request import SmoothOptions
 from infill.surface import Surface
 from infill.volume import Volume
@@ -31,6 +33,7 @@ from infill.voxels.from_mesh import voxel_size
 from infill.voxels.labels import LABEL_ADVICE, describe_labels
 
 if TYPE_CHECKING:
+    from infill.lazy.volume import LazyVolume
     from infill.reports.smoothing import ComponentsReport, SmoothReport
     from infill.result import Result
     from infill.smoothing.by_component import ComponentStages
@@ -143,8 +146,6 @@ def _load_lazy(
     roi: tuple[float, ...] | None,
 ) -> Volume:
     """Read a volume of Zarr or HDF5 into memory, or the part of it in a box."""
-    from infill.lazy.opening import open_volume
-
     for name, value in (("series", series), ("frame", frame)):
         if value is not None:
             raise ParameterError.about(name, f"is {value!r}, and {path} has none; leave it out")
@@ -193,9 +194,8 @@ def read_label_source(
     source = Path(path)
     source_kind = kind or _guess_kind(source)
     if is_lazy(path):
-        raise ParameterError.about(
-            "labels", f"are not read from {path}, of Zarr or HDF5; save it as .nrrd, or give one by --label"
-        )
+        volume = _load_lazy(path, array=array, series=series, frame=frame, spacing=spacing, roi=roi)
+        return Segmentation(layers=(volume,))
     if source_kind != "volume":
         raise ParameterError.about(
             "labels", f"are those of a volume, and {source} is read as {source_kind}; leave them out"
@@ -209,6 +209,40 @@ def read_label_source(
     return replace(
         segmentation, layers=tuple(_resize_and_crop(layer, spacing, roi, varied=False) for layer in segmentation.layers)
     )
+
+
+def open_label_source(
+    path: str | os.PathLike[str],
+    *,
+    kind: str | None = None,
+    spacing: float | tuple[float, ...] | None = None,
+    array: str | None = None,
+    series: str | None = None,
+    frame: int | None = None,
+    roi: tuple[float, ...] | None = None,
+) -> tuple[LazyVolume, tuple[Segment, ...]]:
+    """Open the labels of a file or folder without reading them; return their names and colours where it has them.
+
+    Parameters
+    ----------
+    path, kind, spacing, array, series, frame, roi
+        See `read_source`.
+
+    Raises
+    ------
+    ParameterError
+        For an option that does not apply.
+    FormatError
+        If it cannot be opened, or not in parts.
+    """
+    for name, value in (("kind", None if kind == "volume" else kind), ("series", series), ("frame", frame)):
+        if value is not None:
+            raise ParameterError.about(name, f"is {value!r}, and {path} is read in parts; leave it out")
+    volume = open_volume(path, array=array, spacing=spacing)
+    source = Path(path)
+    is_nrrd = source.suffix.lower() in NRRD_SUFFIXES and not is_lazy(path)
+    segments = segments_of_nrrd(source) if is_nrrd else ()
+    return volume if roi is None else volume.crop(roi), segments
 
 
 def _resize_and_crop(

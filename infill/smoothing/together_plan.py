@@ -24,7 +24,7 @@ from infill.smoothing.request import SmoothOptions, SmoothRequest
 from infill.smoothing.together import needed_memory, refuse_layers, refuse_unfit, smooth_together
 from infill.smoothing.together_stages import BYTES_PER_CELL
 from infill.volume import Volume
-from infill.voxels.labels import count_labels, label_extents
+from infill.voxels.labels import label_extents
 
 if TYPE_CHECKING:
     from infill.reports.smoothing import LabelsForecast
@@ -68,7 +68,6 @@ def plan_together(
     pieces = find_pieces(segmentation, label, tuple(table))
     refuse_layers(pieces)
     volume = segmentation.layers[pieces[0].segment.layer]
-    sizes = dict(count_labels(volume))
     cells, faces = volume.values.size, count_faces(pieces)
     loaded = time.perf_counter()
     seconds = _expected_seconds(cells, faces, volume, request, tetrahedra=tetrahedra)
@@ -79,7 +78,7 @@ def plan_together(
         "labels": [
             {
                 **piece.place,
-                "data": volume.cell_volume * sizes[piece.segment.value],
+                "data": volume.cell_volume * piece.extent.cells,
                 "triangles_before": round(TRIANGLES_PER_FACE * count_faces([piece])),
             }
             for piece in pieces

@@ -37,12 +37,14 @@ class LabelExtent:
     runs : int
         Rows of neighbouring cells with this label, along the axis that lies together in memory: a measure of its
         surface, which has about six faces of cells for each.
+    cells : int
     """
 
     value: int
     low: tuple[int, ...]
     high: tuple[int, ...]
     runs: int
+    cells: int
 
 
 def label_extents(volume: Volume) -> tuple[LabelExtent, ...]:
@@ -56,16 +58,10 @@ def label_extents(volume: Volume) -> tuple[LabelExtent, ...]:
     >>> [extent.value for extent in label_extents(Volume(values=np.array([[[0, 7, 3, 7]]])))]
     [3, 7]
     """
-    values = _whole_numbers(volume.values)
+    values = as_whole_numbers(volume.values)
     order = np.argsort([-abs(step) for step in values.strides], kind="stable")
-    ordered = values.transpose(order)  # as it lies in memory
-    lowest, highest = int(ordered.min()), int(ordered.max())
-    if lowest < 0 or highest > DIRECT:
-        names, numbers = np.unique(ordered, return_inverse=True)
-        index = numbers.reshape(ordered.shape)
-    else:
-        names, index = np.arange(highest + 1), ordered
-    low, high, runs = _boxes(index, len(names))
+    names, index = number_values(values.transpose(order))  # as it lies in memory
+    low, high, runs, cells = find_boxes(index, len(names))
     present = np.flatnonzero((runs > 0) & (names != 0))
     if len(present) > MOST_LABELS:
         raise ParameterError(
@@ -80,23 +76,37 @@ def label_extents(volume: Volume) -> tuple[LabelExtent, ...]:
             low=tuple(low[number, axes].tolist()),
             high=tuple(high[number, axes].tolist()),
             runs=int(runs[number]),
+            cells=int(cells[number]),
         )
         for number in present
     )
 
 
-def _boxes(index: NDArray[Any], count: int) -> tuple[NDArray[np.int64], ...]:
-    """Return the lower and upper ends of the box of each number below `count`, (count, 3), and its runs, (count,)."""
+def number_values(values: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Return names of values, of which some may not occur, and for each cell the place of its value among them.
+
+    >>> [part.tolist() for part in number_values(np.array([[[-5, 7, -5]]]))]
+    [[-5, 7], [[[0, 1, 0]]]]
+    """
+    lowest, highest = int(values.min()), int(values.max())
+    if lowest >= 0 and highest <= DIRECT:
+        return np.arange(highest + 1), values
+    names, numbers = np.unique(values, return_inverse=True)
+    return names, numbers.reshape(values.shape)
+
+
+def find_boxes(index: NDArray[Any], count: int) -> tuple[NDArray[np.int64], ...]:
+    """Return the lower and upper ends of the box of each number below `count`, (count, 3); its runs, its cells."""
     from infill.kernels.transfer import extend_boxes
 
     low, high = np.full((count, 3), np.iinfo(np.int64).max), np.zeros((count, 3), dtype=np.int64)
-    runs = np.zeros(count, dtype=np.int64)
+    runs, cells = (np.zeros(count, dtype=np.int64) for _ in range(2))
     first = 0
     for part in _slabs(index, BOX_SLAB):
         # A copy of one type, whatever that of the labels is: the kernel is compiled once.
-        extend_boxes(np.array(part, dtype=np.int32, order="C"), first, low, high, runs)
+        extend_boxes(np.array(part, dtype=np.int32, order="C"), first, low, high, runs, cells)
         first += len(part)
-    return low, high, runs
+    return low, high, runs, cells
 
 
 def is_label_map(volume: Volume) -> bool:
@@ -108,7 +118,7 @@ def is_label_map(volume: Volume) -> bool:
     (False, True, False)
     """
     try:
-        values = _whole_numbers(volume.values)
+        values = as_whole_numbers(volume.values)
     except ParameterError:
         return False
     if values.min() < 0 or values.max() < 2:  # 0 and 1 are a mask
@@ -123,7 +133,12 @@ def is_label_map(volume: Volume) -> bool:
         labelled = (first != 0) | (second != 0)
         pairs += int(labelled.sum())
         alike += int(((first == second) & labelled).sum())
-    return len(found - {0}) > 1 and alike >= ALIKE * pairs
+    return seem_labels(labels=len(found - {0}), pairs=pairs, alike=alike)
+
+
+def seem_labels(*, labels: int, pairs: int, alike: int) -> bool:
+    """Tell whether values fill regions: their number, pairs of neighbours without those of zeros, and equal pairs."""
+    return labels > 1 and alike >= ALIKE * pairs
 
 
 def describe_labels(layers: Iterable[Volume], names: Mapping[tuple[int, int], str] | None = None) -> str:
@@ -147,14 +162,14 @@ def describe_labels(layers: Iterable[Volume], names: Mapping[tuple[int, int], st
 def count_labels(volume: Volume) -> Iterator[tuple[int, int]]:
     """Yield each label and the number of its cells."""
     counts: dict[int, int] = {}
-    for part in _slabs(_whole_numbers(volume.values)):
+    for part in _slabs(as_whole_numbers(volume.values)):
         for value, count in zip(*np.unique(part, return_counts=True), strict=True):
             counts[int(value)] = counts.get(int(value), 0) + int(count)
     counts.pop(0, None)
     yield from sorted(counts.items())
 
 
-def _whole_numbers(values: NDArray[Any]) -> NDArray[Any]:
+def as_whole_numbers(values: NDArray[Any]) -> NDArray[Any]:
     """Convert values to whole numbers, or raise ParameterError."""
     if values.dtype == bool:
         return values.view(np.uint8)
