@@ -26,7 +26,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from benchmarks.slicer_cases import DELI_PYTHON, MODES, NEWER, PARTS, Case, cases, quick, width_of
+from benchmarks.slicer_cases import DELI_PYTHON, MODES, NEWER, PARTS, Case, cases, mesh_of, quick, width_of
 from benchmarks.slicer_page import write_page
 from benchmarks.slicer_runs import run_case
 
@@ -59,6 +59,10 @@ def main() -> None:
     os.environ[DELI_PYTHON] = given.deli
     results = read_results(given.results)
     if not given.page:
+        with tempfile.TemporaryDirectory() as folder:
+            absent = next((path for part in PARTS if not (path := mesh_of(part, Path(folder))).exists()), None)
+        if absent is not None:
+            words.error(f"there is no {absent}; set INFILL_DATA to the folder of the test data")
         os.nice(5)
         fill(results, given)
     write_page(PAGE, results, total=len(list(cases())), code=code_of())
