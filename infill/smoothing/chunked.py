@@ -29,12 +29,20 @@ from infill.lazy.volume import LazyVolume
 from infill.phasefield.profile import PLAIN_PROFILE
 from infill.smoothing.chunk_plans import check_chunked, plan_chunks
 from infill.smoothing.chunked_rule import find_rule, require_some_solid
-from infill.smoothing.chunked_surface import ChunkedSurface, compare_counts, find_all_crumbs
+from infill.smoothing.chunked_simplified import check_tolerance
+from infill.smoothing.chunked_surface import WRITING, ChunkedSurface, compare_counts, find_all_crumbs
 from infill.smoothing.request import SmoothRequest
 from infill.smoothing.scans import Threshold
 from infill.smoothing.work_folders import open_work_folder, run_facts
 
-SHARES = {"read": (0.0, 0.1), "smooth": (0.1, 0.6), "join": (0.6, 0.62), "surface": (0.62, 0.8), "check": (0.8, 0.82)}
+SHARES = {
+    "read": (0.0, 0.05),
+    "smooth": (0.05, 0.4),
+    "join": (0.4, 0.41),
+    "surface": (0.41, 0.56),
+    "check": (0.56, 0.57),
+    "simplify": (0.57, WRITING),
+}
 
 
 @contextlib.contextmanager
@@ -78,8 +86,10 @@ def smooth_in_chunks(
     """
     check_chunked(request)
     require_dask()
-    request = replace(request.for_cell(min(volume.spacing)), tolerance=None)
-    progress, seconds = request.progress, {"read": 0.0, "smooth": 0.0, "surface": 0.0, "check": 0.0}
+    request = request.for_cell(min(volume.spacing))
+    assert not isinstance(request.tolerance, str)  # `for_cell` has made it a number
+    check_tolerance(request.tolerance, volume.spacing)
+    progress, seconds = request.progress, {"read": 0.0, "smooth": 0.0, "surface": 0.0, "check": 0.0, "simplify": 0.0}
 
     def tell(stage: str, share: float) -> None:
         if progress is not None:
@@ -136,6 +146,9 @@ def smooth_in_chunks(
             progress=progress,
         )
         chunked.check()
+        if request.tolerance is not None:
+            with _timed(seconds, "simplify"):
+                chunked.simplify(request.tolerance, folder.pieces, partial(tell, "simplify"))
         yield chunked
 
 

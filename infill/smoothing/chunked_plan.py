@@ -37,7 +37,7 @@ def plan_chunked(
     """
     check_chunked(request)
     require_dask()
-    request = replace(request.for_cell(min(volume.spacing)), tolerance=None)
+    request = request.for_cell(min(volume.spacing))
     with open_runner(workers if workers is not None or scheduler else request.threads, scheduler) as runner:
         plan = plan_chunks(volume, request, runner)
         work = Work(
