@@ -102,9 +102,10 @@ def main():
     parser.add_argument("words", nargs="*")
     parser.add_argument("--workers", default="2")
     parser.add_argument("--max-memory", default="5G")
+    parser.add_argument("--tolerance", default="0", help="mm")
     parser.add_argument("--output", help="mesh to write, too")
     given = parser.parse_args()
-    plain = ("--threshold", str(THRESHOLD), "--smooth", "plain")
+    plain = ("--threshold", str(THRESHOLD), "--smooth", "plain", "--tolerance", given.tolerance)
     if given.what == "write":
         write(int(given.words[0]), Path(given.words[1]))
     elif given.what == "run":
@@ -122,7 +123,7 @@ def main():
                 array[tuple(slice(a, b) for a, b in zip(first, last, strict=True))] = gyroid(first, last)
             array.flush()
             more = ("-o", given.output, "--force") if given.output else ()
-            options = (*plain, "--tolerance", "0", "--strict", "--allow-broken", "--threads", given.workers, *more)
+            options = (*plain, "--strict", "--allow-broken", "--threads", given.workers, *more)
             show(f"{side} in memory", measure((str(path), *options)))
 
 

@@ -60,7 +60,7 @@ def folder(inputs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
     return tmp_path
 
 
-PLAIN = ("--threshold", "120", "--smooth", "plain")
+PLAIN = ("--threshold", "120", "--smooth", "plain", "--tolerance", "0")
 
 
 def test_files_hash_and_report_are_those_of_memory(folder: Path) -> None:
@@ -77,8 +77,6 @@ def test_files_hash_and_report_are_those_of_memory(folder: Path) -> None:
         "b.ply",
         "-o",
         "b.obj",
-        "--tolerance",
-        "0",
         "--hash",
         "-q",
         "--strict",
@@ -101,7 +99,7 @@ def test_files_hash_and_report_are_those_of_memory(folder: Path) -> None:
 @pytest.mark.longest
 def test_rows_of_obj_are_those_of_memory(folder: Path) -> None:
     run("smooth", "g.zarr", *PLAIN, "-o", "a.obj", "-q")
-    run("smooth", "g.npy", *PLAIN, "-o", "b.obj", "--tolerance", "0", "-q", "--strict", "--allow-broken")
+    run("smooth", "g.npy", *PLAIN, "-o", "b.obj", "-q", "--strict", "--allow-broken")
     rows = [
         sorted(line for line in Path(name).read_text().splitlines() if line.startswith("v"))
         for name in ("a.obj", "b.obj")
@@ -161,10 +159,10 @@ def test_a_dry_run_tells_the_cost(folder: Path) -> None:
         (("--threshold", "120", "--workers", "2"), "method is auto, and a volume in chunks is smoothed by plain alone"),
         (("--threshold", "120", "--refine", "--workers", "2"), "is refine, and a volume in chunks"),
         (
-            (*PLAIN, "--tolerance", "0.1"),
-            "--tolerance is not for a volume in chunks, which keeps all triangles; give 0",
+            (*PLAIN[:4], "--tolerance", "2"),
+            "--tolerance is 2 mm, and a volume in chunks is simplified by at most a voxel",
         ),
-        ((*PLAIN, "--max-triangles", "9"), "--max-triangles is not for a volume in chunks"),
+        ((*PLAIN, "--max-triangles", "9"), "--max-triangles is not for a volume in chunks; give a tolerance instead"),
         ((*PLAIN, "--despeckle", "9"), "--despeckle is not for a volume in chunks"),
         ((*PLAIN, "--voxel", "2"), "--voxel is not for a volume in chunks; leave it out"),
         ((*PLAIN, "--grey"), "--grey is not for a volume in chunks; leave it out"),
@@ -272,7 +270,7 @@ def test_a_worker_that_dies_is_one_line(where: str) -> None:
     from infill.lazy.volume import LazyVolume
 
     volume = LazyVolume(array=Dying(os.getpid()))
-    request = SmoothRequest(method="plain", smoothing=Smoothing(steps=2))
+    request = SmoothRequest(method="plain", smoothing=Smoothing(steps=2), tolerance=None)
     with (
         pytest.raises(MemoryLimitError, match="a worker ended before its chunk was done"),
         smooth_in_chunks(volume, request, threshold=120, workers=1, scheduler=where, side=32),
@@ -328,7 +326,7 @@ def whole_hash() -> str:
 
 
 def chunked_hash(inputs: Path, **options: Any) -> str:
-    request = SmoothRequest(method="plain", smoothing=Smoothing(steps=6))
+    request = SmoothRequest(method="plain", smoothing=Smoothing(steps=6), tolerance=None)
     with smooth_in_chunks(open_volume(inputs / "g.zarr"), request, threshold=120, side=32, **options) as surface:
         return surface.report()["hash"]
 
@@ -359,7 +357,9 @@ def test_a_cluster_changes_no_bit(cluster: Any, inputs: Path, whole_hash: str) -
         chunked_hash(inputs, scheduler=cluster.scheduler_address, workers=2)
     with Client(cluster):  # the current client
         values = dask.array.from_zarr(str(inputs / "g.zarr"))
-        found = smooth_volume(values, threshold=120, method="plain", smoothing=Smoothing(steps=6)).surface
+        found = smooth_volume(
+            values, threshold=120, method="plain", smoothing=Smoothing(steps=6), tolerance=None
+        ).surface
         with pytest.raises(
             ParameterError, match="is persisted on a cluster, where tasks cannot read it; leave persist"
         ):
@@ -382,7 +382,7 @@ def test_sixty_four_chunks_are_closed(workers: int, tmp_path: Path) -> None:
     values = gyroid(200, 37)
     array = zarr.create_array(str(tmp_path / "g.zarr"), shape=values.shape, chunks=(50, 64, 41), dtype="u1")
     array[:] = values
-    request = SmoothRequest(method="plain")
+    request = SmoothRequest(method="plain", tolerance=None)
     with smooth_in_chunks(
         open_volume(tmp_path / "g.zarr"), request, threshold=120, workers=workers, side=64
     ) as surface:

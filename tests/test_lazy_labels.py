@@ -284,9 +284,9 @@ def test_an_error_names_the_label() -> None:
 def test_a_label_that_does_not_fit_is_named_or_smoothed_in_chunks(balls: NDArray[np.uint16]) -> None:
     needed = plan_lazy_labels(lazily(balls), begin=time.perf_counter(), method="plain")["memory"] - 300_000_000
     with pytest.raises(MemoryLimitError, match=r"^label 2: its part of the volume, \d+ x 40 x 44 voxels, needs about"):
-        smooth_lazy_labels(lazily(balls), max_memory=needed // 2)
+        smooth_lazy_labels(lazily(balls), max_memory=needed // 2, max_triangles=5000)
     with pytest.raises(MemoryLimitError, match="which works in chunks then"):
-        plan_lazy_labels(lazily(balls), begin=time.perf_counter(), max_memory=needed // 2)
+        plan_lazy_labels(lazily(balls), begin=time.perf_counter(), max_memory=needed // 2, max_triangles=5000)
     options: dict[str, Any] = {"method": "plain", "tolerance": None, "max_memory": needed // 2}
     result = smooth_lazy_labels(lazily(balls), **options)
     for name, surface in result.surfaces.items():

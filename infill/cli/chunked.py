@@ -17,7 +17,7 @@ from infill.plain_numbers import count_noun, plain_size
 if TYPE_CHECKING:
     from infill.cli.labelled import SmoothOutput
     from infill.lazy.volume import LazyVolume
-    from infill.reports.smoothing import ChunksReport
+    from infill.reports.smoothing import ChunksReport, ChunksSimplified
     from infill.smoothing.chunked_surface import ChunkedSurface
     from infill.smoothing.request import SmoothOptions, SmoothRequest
     from infill.smoothing.scans import Threshold
@@ -228,16 +228,26 @@ def _show_plan(
     grid = forecast["grid"]
     rows = {
         "grid": f"{' x '.join(map(str, grid['shape']))} voxels of {plain_size(*grid['spacing'], digits=4)}",
-        "method": f"{forecast['request']['method']}: {format_steps(forecast['request'])}, all triangles",
+        "method": f"{forecast['request']['method']}: {format_steps(forecast['request'])}",
         "chunks": f"{forecast['chunks']:,}, of which about {forecast['crossed']:.0%} have surface",
         "read": f"{format_bytes(forecast['read'])} of voxels in one pass, margins included",
-        "triangles": f"about {forecast['triangles']:,}",
+        "triangles": f"about {forecast['triangles']:,}, before they are simplified",
         "memory": f"at most about {format_bytes(forecast['memory'])}",
         "time": f"about {format_span(forecast['seconds']['total'])} on this machine, as busy as it is",
     }
     if names:
         rows["would write"] = ", ".join(names)
     typer.echo(format_table(rows, title=f"{volume.name}: nothing is written (--dry-run)"))
+
+
+def _simplified_row(simplified: ChunksSimplified | None) -> dict[str, str]:
+    """Return the row about simplification, if there was any."""
+    if simplified is None:
+        return {}
+    return {
+        "simplified": f"from {simplified['triangles_before']:,} triangles, by {plain_size(simplified['tolerance'])} at "
+        f"most, volume {simplified['volume_change']:+z.4%} by that"
+    }
 
 
 def _summary(report: ChunksReport, files: Iterable[str], name: str) -> str:
@@ -247,6 +257,7 @@ def _summary(report: ChunksReport, files: Iterable[str], name: str) -> str:
     size = plain_size(*report["extents"], digits=4)
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, {size}",
+        **_simplified_row(report["simplified"]),
         "solid": f"{plain_size(report['volume'], digits=6, power=3)}, {report['volume_change']:+z.4%} of the data",
         "smoothing": f"{format_steps(request)}, {' x '.join(map(str, grid['shape']))} voxels of "
         f"{plain_size(*grid['spacing'], digits=4)}",

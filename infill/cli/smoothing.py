@@ -114,7 +114,8 @@ def smooth(
         bool,
         typer.Option(
             "--hash",
-            help="Print the hash of the set of triangles: the same for any chunks, workers and order.",
+            help="Print the hash of the set of triangles: the same for any chunks, workers and order. In chunks, of "
+            "the triangles before they are simplified.",
             rich_help_panel=RUN,
         ),
     ] = False,

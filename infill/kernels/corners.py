@@ -98,6 +98,73 @@ def split_fans(start, twin, count, name):
     return total
 
 
+@njit(nogil=True, cache=True, error_model="numpy")
+def pair_open_edges(start, count, twin):
+    """Set the twin of each corner, -1 at the border of the mesh; return True if no edge has more than one.
+
+    Parameters
+    ----------
+    start, count, twin
+        See `pair_edges`.
+    """
+    begin = np.zeros(count + 1, dtype=np.int64)
+    for c in range(len(start)):
+        begin[start[c] + 1] += 1
+    for v in range(count):
+        begin[v + 1] += begin[v]
+    leaving, filled = np.empty(len(start), dtype=np.int32), begin[:-1].copy()
+    for c in range(len(start)):
+        leaving[filled[start[c]]] = c
+        filled[start[c]] += 1
+    for c in range(len(start)):
+        a, b = start[c], start[next_corner(c)]
+        if a == b:
+            return False
+        match = NO_CORNER
+        for at in range(begin[b], begin[b + 1]):
+            if start[next_corner(leaving[at])] == a:
+                if match >= 0:
+                    return False
+                match = leaving[at]
+        for at in range(begin[a], begin[a + 1]):
+            if leaving[at] != c and start[next_corner(leaving[at])] == b:
+                return False
+        twin[c] = match
+    return True
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def split_open_fans(start, twin, count, name):
+    """Give each additional fan of faces around a vertex a vertex of its own, also where fans end at the border.
+
+    Parameters
+    ----------
+    start, twin, count, name
+        See `split_fans`.
+    """
+    seen, is_used = np.zeros(len(start), dtype=np.bool_), np.zeros(count, dtype=np.bool_)
+    for v in range(count):
+        name[v] = v
+    total = count
+    for c in range(len(start)):
+        if seen[c]:
+            continue
+        first = c
+        while twin[first] >= 0 and next_corner(twin[first]) != c:  # back to where the fan begins
+            first = next_corner(twin[first])
+        v = start[c]
+        fan_vertex = v
+        if is_used[v]:
+            fan_vertex, name[total], total = total, v, total + 1
+        is_used[v] = True
+        at = first
+        while at >= 0 and not seen[at]:
+            seen[at] = True
+            start[at] = fan_vertex
+            at = twin[previous_corner(at)]
+    return total
+
+
 @njit(from_python=False, nogil=True, cache=True, error_model="numpy")
 def corners_of(vertex, twin, leaving, ring):
     """Set the corners of a vertex; return their number, or -1 if there are too many."""

@@ -43,13 +43,14 @@ class CornerTable:
     vertices : (V, 3) float64, mm
         About their centre; copies of vertices at which several fans of faces meet come last.
     start, twin : (3 F,) int32
-        The vertex of each corner, and the same edge of the neighbour.
+        The vertex of each corner, and the same edge of the neighbour, -1 at the border of an open mesh.
     leaving : (V,) int32
         One corner of each vertex.
     name : (V,) int32
         The vertex of the surface that each vertex stands for.
     fixed : (V,) bool
-        Vertices at which several fans meet.
+        Vertices that stay: those at which several fans meet, and those of an open mesh at its border, with their
+        neighbours.
     into : (W,) int32
         The vertex that each vertex of the original table has become.
     centre : (3,) float64, mm
@@ -65,16 +66,27 @@ class CornerTable:
     centre: Floats
 
     @classmethod
-    def of(cls, surface: Surface) -> CornerTable | None:
-        """Build the table of a surface; return None if not every edge is shared by exactly two triangles."""
-        from infill.kernels.corners import pair_edges, split_fans
+    def of(cls, surface: Surface, pinned: NDArray[np.bool_] | None = None) -> CornerTable | None:
+        """Build the table of a surface; return None if not every edge is shared by exactly two triangles.
 
+        With a mask of vertices (V,) that stay, edges between these may have one triangle alone.
+        """
         start = np.array(surface.faces, dtype=np.int32).ravel()
-        twin, name = np.empty(len(start), dtype=np.int32), np.empty(len(start), dtype=np.int32)
-        if not pair_edges(start, len(surface.vertices), twin):
+        paired = _pair_and_split(start, len(surface.vertices), is_open=pinned is not None)
+        if paired is None:
             return None
-        count = split_fans(start, twin, len(surface.vertices), name)
-        name = name[:count]
+        twin, name = paired
+        count = len(name)
+        stays = np.zeros(count, dtype=bool)
+        if pinned is not None:
+            corner = np.flatnonzero(twin < 0)
+            border = np.zeros(count, dtype=bool)
+            border[start[corner]] = border[np.roll(start.reshape(-1, 3), -1, axis=1).ravel()[corner]] = True
+            if not pinned[name[border]].all():
+                return None
+            faces = start.reshape(-1, 3)
+            stays[faces[border[faces].any(axis=1)]] = True  # their neighbours: no walk around a vertex meets the border
+            stays |= pinned[name]
         leaving = np.full(count, -1, dtype=np.int32)
         leaving[start] = np.arange(len(start), dtype=np.int32)
         centre = surface.bounds.mean(axis=0).astype(np.float64)
@@ -84,7 +96,7 @@ class CornerTable:
             twin=twin,
             leaving=leaving,
             name=name,
-            fixed=np.bincount(name, minlength=len(surface.vertices))[name] > 1,
+            fixed=stays | (np.bincount(name, minlength=len(surface.vertices))[name] > 1),
             into=np.arange(count, dtype=np.int32),
             centre=centre,
         )
@@ -158,7 +170,7 @@ class CornerTable:
             self,
             vertices=vertices[used_vertices],
             start=start,
-            twin=place[twin[kept_corners]],
+            twin=_renumber(place, twin[kept_corners]),
             leaving=leaving,
             name=self.name[used_vertices],
             fixed=self.fixed[used_vertices],
@@ -168,8 +180,6 @@ class CornerTable:
 
     def restore(self, original: CornerTable, restored: NDArray[np.bool_]) -> CornerTable | None:
         """Restore some vertices (V,) and the faces around them; return None if the table would no longer be closed."""
-        from infill.kernels.corners import pair_edges, split_fans
-
         back = restored[self.into]
         rank = np.cumsum(~restored, dtype=np.int32) - 1
         kept_count = int(rank[-1]) + 1
@@ -177,10 +187,15 @@ class CornerTable:
         faces = into[original.start].reshape(-1, 3)
         proper = (faces != np.roll(faces, 1, axis=1)).all(axis=1)
         start = np.ascontiguousarray(faces[proper]).ravel()
-        twin, name = np.empty(len(start), dtype=np.int32), np.empty(len(start), dtype=np.int32)
         count = kept_count + int(back.sum())
-        as_closed = pair_edges(start, count, twin) and split_fans(start, twin, count, name) == count
-        if not as_closed or len(start) // 3 - 2 * count != len(original.start) // 3 - 2 * len(original.vertices):
+        paired = _pair_and_split(start, count, is_open=bool((original.twin < 0).any()))
+        if paired is None or len(paired[1]) != count:
+            return None
+        twin = paired[0]
+        borders = int((twin < 0).sum()), int((original.twin < 0).sum())
+        if borders[0] != borders[1] or len(start) // 3 - 2 * count != len(original.start) // 3 - 2 * len(
+            original.vertices
+        ):
             return None
         leaving = np.empty(count, dtype=np.int32)
         leaving[start] = np.arange(len(start), dtype=np.int32)
@@ -197,14 +212,28 @@ class CornerTable:
 
     def to_surface(self, surface: Surface) -> Surface:
         """Return the surface of the table, with the frame and number type of the surface that it came from."""
+        return self.to_surface_and_pins(surface, None)[0]
+
+    def to_surface_and_pins(
+        self, surface: Surface, pinned: NDArray[np.bool_] | None
+    ) -> tuple[Surface, NDArray[np.bool_] | None]:
+        """Return the surface of the table, and the mask of its pinned vertices.
+
+        Vertices are in the order of those of the surface that it came from, and the pinned ones the same to the bit.
+        """
         vertex_names, faces = np.unique(self.name[self.start], return_inverse=True)
         vertices = np.empty((len(vertex_names), 3))
         vertices[np.searchsorted(vertex_names, self.name)] = self.vertices
-        return replace(
+        vertices += self.centre
+        stays = None if pinned is None else pinned[vertex_names]
+        if stays is not None:
+            vertices[stays] = np.asarray(surface.vertices)[vertex_names[stays]]
+        fewer = replace(
             surface,
-            vertices=vertices + self.centre,
+            vertices=vertices,
             faces=faces.reshape(-1, 3).astype(np.asarray(surface.faces).dtype),
         )
+        return fewer, stays
 
     def watched_points(self, tolerance: float) -> tuple[Floats, Corners]:
         """Return the points that have to stay near, vertices first, and the corner or edge on which each lies."""
@@ -222,6 +251,35 @@ class CornerTable:
         points, edges = np.empty((count, 3)), np.empty(count, dtype=np.int32)
         edge_points(*arguments, points, edges)
         return np.concatenate([self.vertices, points]), np.concatenate([self.leaving, edges])
+
+
+def _pair_and_split(start: Corners, count: int, *, is_open: bool) -> tuple[Corners, Corners] | None:
+    """Pair the edges of faces, and give each fan its own vertex, in place; return twins and names, None if unpaired.
+
+    Parameters
+    ----------
+    start : (3 F,) int32
+    count : int
+        Vertices.
+    is_open : bool
+        Whether an edge may have one face alone.
+    """
+    from infill.kernels.corners import pair_edges, pair_open_edges, split_fans, split_open_fans
+
+    twin, name = np.empty(len(start), dtype=np.int32), np.empty(max(len(start), count), dtype=np.int32)
+    pair, split = (pair_open_edges, split_open_fans) if is_open else (pair_edges, split_fans)
+    if not pair(start, count, twin):
+        return None
+    total = split(start, twin, count, name)
+    return twin, name[:total]
+
+
+def _renumber(place: Corners, twin: Corners) -> Corners:
+    """Return the new numbers of twins, -1 at the border of an open mesh."""
+    renumbered = place[twin]
+    if len(twin) and twin.min() < 0:
+        renumbered[twin < 0] = -1
+    return renumbered
 
 
 def _collapse_within_patches(
@@ -305,7 +363,7 @@ def _collapse_patch(
     rank[patch_vertices] = np.arange(len(patch_vertices), dtype=np.int32)
     begin = rank[table.start[corners]]
     neighbour = table.twin[corners] // 3
-    within = patch[neighbour] == patch[faces[0]]
+    within = (patch[neighbour] == patch[faces[0]]) & (table.twin[corners] >= 0)
     local_twin = np.where(within, 3 * local[neighbour] + table.twin[corners] % 3, -1).astype(np.int32)
     leaving = np.empty(len(patch_vertices), dtype=np.int32)
     leaving[begin] = np.arange(len(begin), dtype=np.int32)
@@ -335,6 +393,8 @@ def collapse_edges(
     triangles: int = 4,
     threads: int | None = None,
     progress: Callable[[float], None] | None = None,
+    pinned: NDArray[np.bool_] | None = None,
+    original: Surface | None = None,
 ) -> Surface | None:
     """Collapse edges, cheapest first; return None if not every edge is shared by two triangles.
 
@@ -350,6 +410,12 @@ def collapse_edges(
         Used to measure distances; see `infill.kernels.threads.thread_count`.
     progress : callable, optional
         Called with the share done, 0 to 1, as far as it is known: half after the first collapse.
+    pinned : (V,) bool, optional
+        Vertices that stay, to the last bit, with the triangles between them; in the result they come first, in their
+        order. The surface may be open between them. Every vertex has to have triangles.
+    original : Surface, mm, optional
+        The surface from which distances are measured, if it is another: it reaches further than the vertices that are
+        free, and no further than this surface.
 
     Notes
     -----
@@ -363,35 +429,36 @@ def collapse_edges(
     around the place come back. Before all this, small triangles collapse as far as their planes allow, by a share of
     the tolerance, without any distance being measured.
     """
-    table = CornerTable.of(surface)
+    table = CornerTable.of(surface, pinned)
     if table is None:
         return None
     if tolerance is None:
-        return table.without_edges(math.inf, triangles).to_surface(surface)
+        return _pinned_first(*table.without_edges(math.inf, triangles).to_surface_and_pins(surface, pinned))
     tolerance *= SAMPLED_SHARE
     tell = progress or (lambda _: None)
-    tree, aim, samples, fewer = TriangleTree.of(surface), triangles, None, table
+    target = surface if original is None else original
+    tree, aim, samples, fewer = TriangleTree.of(target), triangles, None, table
     for attempt in range(ATTEMPTS):
         if fewer is table:
             low, high = 1 - 0.5**attempt, 1 - 0.5 ** (attempt + 1)
             fewer = table.without_edges(
                 (BLIND_SHARE * tolerance) ** 2,
                 triangles,
-                order=tree.order,
+                order=tree.order if original is None else None,
                 threads=threads,
                 progress=_progress_between(tell, low, (low + high) / 2),
             )
             fewer = fewer.without_edges(tolerance**2, aim, near=tolerance)
         tell(1 - 0.5 ** (attempt + 1))
-        candidate = fewer.to_surface(surface)
-        places, excess = crossing_corners(candidate, threads), 0
+        candidate, stays = fewer.to_surface_and_pins(surface, pinned)
+        places, excess = crossing_corners(candidate, threads, stays), 0
         if not len(places) or attempt == ATTEMPTS - 1:  # the slowest check comes last
             candidate, places, samples = project_back(
-                candidate, surface, tree, tolerance, known=samples, threads=threads
+                candidate, target, tree, tolerance, known=samples, pinned=stays, threads=threads
             )
             excess = len(candidate.faces) - triangles
             if not len(places) and (excess <= 0 or 3 * aim < len(fewer.start)):
-                return candidate
+                return _pinned_first(candidate, stays)
         aim -= max(0, excess)
         if not len(places):
             fewer = table
@@ -405,4 +472,16 @@ def collapse_edges(
         restored = np.zeros(len(fewer.vertices), dtype=bool)
         restored[fewer.into[blocked]] = True
         fewer = fewer.restore(table, restored) or table
-    return surface if len(places) else candidate
+    return _pinned_first(surface, pinned) if len(places) else _pinned_first(candidate, stays)
+
+
+def _pinned_first(surface: Surface, pinned: NDArray[np.bool_] | None) -> Surface:
+    """Put the pinned vertices (P,) of a surface first; others may follow those that the mask is about."""
+    if pinned is None:
+        return surface
+    marked = np.zeros(len(surface.vertices), dtype=bool)
+    marked[: len(pinned)] = pinned
+    order = np.argsort(~marked, kind="stable")
+    rank = np.empty(len(order), dtype=np.asarray(surface.faces).dtype)
+    rank[order] = np.arange(len(order))
+    return replace(surface, vertices=np.asarray(surface.vertices)[order], faces=rank[surface.faces])

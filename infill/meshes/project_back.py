@@ -5,12 +5,15 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from infill.arrays import Floats, Integers
 from infill.meshes.distance import TriangleTree, barycentric, nearest_on_triangles
 from infill.meshes.hausdorff_samples import HausdorffSamples, aligned_faces, find_strays, sample_original
 from infill.meshes.intersections import intersecting_pairs
 from infill.surface import Surface
+
+Mask = NDArray[np.bool_]
 
 ROUNDS = 12
 NEAR_EDGE = 0.15  # of a triangle: a place nearer to an edge than this is mended on the edge
@@ -30,6 +33,7 @@ def project_back(
     tolerance: float,
     *,
     known: HausdorffSamples | None = None,
+    pinned: Mask | None = None,
     threads: int | None = None,
 ) -> tuple[Surface, Floats, HausdorffSamples]:
     """Bend a surface until it lies near another, adding vertices; return it, the places that failed, and the samples.
@@ -46,6 +50,8 @@ def project_back(
         closer together than the vertices of the given surface.
     known : HausdorffSamples, optional
         Samples measured for a surface that shares many faces and lies near the same given one.
+    pinned : (V,) bool, optional
+        Vertices of the candidate that stay, with the triangles between them, which are not looked at.
     threads : int, optional
         See `infill.kernels.threads.thread_count`.
 
@@ -64,8 +70,11 @@ def project_back(
     for n in range(ROUNDS):
         if n > 0:
             samples = samples.remeasure(candidate, tolerance, threads)
+        still = find_pinned_faces(candidate, pinned)
         changed, owner, points = samples.unsure, samples.owner, samples.points
         missed = np.flatnonzero(samples.away > tolerance)
+        if still is not None:
+            changed, missed = changed[~still[changed]], missed[~still[owner[missed]]]
         assumed_near = np.concatenate([assumed_near, np.zeros(len(candidate.faces) - len(assumed_near), dtype=bool)])
         own = TriangleTree.of(candidate)
         assumed_near[changed] = aligned_faces(candidate, tolerance, faces=changed, tree=own, threads=threads)
@@ -76,10 +85,10 @@ def project_back(
             bent_vertices = np.union1d(bent_vertices, candidate.faces[changed])
         if not len(missed) and not len(strays.points):
             samples = replace(samples, unsure=np.empty(0, dtype=np.int64))
-            crossing = intersecting_pairs(candidate, tree=own, threads=threads)
+            crossing = _drop_pinned(intersecting_pairs(candidate, tree=own, threads=threads), still)
             if len(crossing):
                 failed = _corners_of_faces(candidate, crossing)
-                candidate, changed = _push_apart(candidate, crossing, tolerance)
+                candidate, changed = _push_apart(candidate, crossing, tolerance, pinned)
                 if not len(changed):
                     break
                 samples = replace(samples, unsure=changed)
@@ -88,6 +97,7 @@ def project_back(
                 return candidate, np.empty((0, 3)), samples
             beside = np.isin(candidate.faces, bent_vertices).any(axis=1)  # pieces of them were aligned before
             bent = np.flatnonzero(assumed_near | beside)
+            bent = bent if still is None else bent[~still[bent]]
             bent = bent[~aligned_faces(candidate, tolerance, faces=bent, tree=own, threads=threads)]
             assumed_near[bent] = False
             strays = find_strays(tree, candidate, bent, side, tolerance, own=own, threads=threads)
@@ -101,7 +111,7 @@ def project_back(
         worst = _worst_of_each(faces, distance)
         failed = sources[worst]
         candidate, changed = _bend_to_targets(
-            candidate, faces[worst], failed, targets[worst], NEAR_CORNER[n >= FIRST_ROUNDS]
+            candidate, faces[worst], failed, targets[worst], NEAR_CORNER[n >= FIRST_ROUNDS], pinned
         )
         samples = replace(samples, unsure=changed)
     return candidate, failed, replace(samples, found=candidate)
@@ -125,15 +135,31 @@ def _project_to_faces(surface: Surface, faces: Integers, places: Floats) -> Floa
     return nearest_on_triangles(np.asarray(surface.vertices, dtype=np.float64)[surface.faces[faces]], places)
 
 
+def find_pinned_faces(surface: Surface, pinned: Mask | None) -> Mask | None:
+    """Mark the faces (F,) whose corners are all pinned, (V,) or fewer; None without pinned vertices."""
+    return None if pinned is None else _pad(pinned, len(surface.vertices))[surface.faces].all(axis=1)
+
+
+def _pad(pinned: Mask, count: int) -> Mask:
+    """Return a mask of vertices with those that came later, which are not pinned."""
+    return np.concatenate([pinned, np.zeros(count - len(pinned), dtype=bool)])
+
+
+def _drop_pinned(pairs: Integers, still: Mask | None) -> Integers:
+    """Return the pairs (N, 2) of faces of which at least one is not pinned."""
+    return pairs if still is None else pairs[~still[pairs].all(axis=1)]
+
+
 def _bend_to_targets(
-    surface: Surface, face: Integers, sources: Floats, targets: Floats, close: float
+    surface: Surface, face: Integers, sources: Floats, targets: Floats, close: float, pinned: Mask | None = None
 ) -> tuple[Surface, Integers]:
     """Turn a place on each of some faces into a vertex and move it; return the surface and the faces that changed."""
-    from infill.kernels.corners import pair_edges
+    from infill.kernels.corners import pair_edges, pair_open_edges
 
     start = np.array(surface.faces, dtype=np.int32).ravel()
     twin = np.empty(len(start), dtype=np.int32)
-    pair_edges(start, len(surface.vertices), twin)
+    (pair_edges if pinned is None else pair_open_edges)(start, len(surface.vertices), twin)
+    stays = None if pinned is None else _pad(pinned, len(surface.vertices))
     vertices, faces = [np.asarray(surface.vertices, dtype=np.float64)], surface.faces.copy()
     moved, count, new_faces = vertices[0].copy(), len(surface.vertices), []
     touched = np.zeros(len(faces), dtype=bool)
@@ -144,6 +170,8 @@ def _bend_to_targets(
         small_shares = np.flatnonzero(share < NEAR_EDGE)
         if share.max() > 1 - close:
             vertex = surface.faces[index, int(share.argmax())]
+            if stays is not None and stays[vertex]:
+                continue
             fan_faces = order[fan_start[vertex] : fan_start[vertex + 1]] // 3  # of all fans, where several meet
             if not touched[fan_faces].any():
                 moved[vertex] = target
@@ -151,6 +179,8 @@ def _bend_to_targets(
             continue
         k = int(share.argmin())
         opposite = 3 * index + (k + 1) % 3  # the edge across from the corner with the least share
+        if stays is not None and len(small_shares) and stays[np.delete(surface.faces[index], k)].all():
+            continue  # the neighbour is pinned, or there is none
         neighbour = int(twin[opposite]) // 3 if len(small_shares) else index
         if touched[index] or touched[neighbour]:
             continue
@@ -172,7 +202,9 @@ def _bend_to_targets(
     return replace(surface, vertices=np.concatenate(vertices), faces=np.concatenate([faces, appended])), changed
 
 
-def _push_apart(surface: Surface, pairs: Integers, tolerance: float) -> tuple[Surface, Integers]:
+def _push_apart(
+    surface: Surface, pairs: Integers, tolerance: float, pinned: Mask | None = None
+) -> tuple[Surface, Integers]:
     """Push crossing triangles apart; return the surface and the faces that changed.
 
     Of each pair (N, 2), one corner goes to the other side of the other triangle's plane: of the corners alone on their
@@ -192,14 +224,18 @@ def _push_apart(surface: Surface, pairs: Integers, tolerance: float) -> tuple[Su
     best = shallow + len(pairs) * deep[:, shallow].argmin(axis=0)
     vertex, shift = surface.faces[ordered_pairs[best, 0], k[best]], above[best, k[best]]
     shift += np.copysign(GAP * tolerance, shift)
+    if pinned is not None:
+        free = ~_pad(pinned, len(vertices))[vertex]
+        vertex, shift, best = vertex[free], shift[free], best[free]
     moved, pair_index = np.unique(vertex, return_index=True)
     vertices[moved] -= shift[pair_index, None] * normal[best[pair_index]]
     return replace(surface, vertices=vertices), np.flatnonzero(np.isin(surface.faces, moved).any(axis=1))
 
 
-def crossing_corners(surface: Surface, threads: int | None = None) -> Floats:
-    """Return the corners (N, 3) of the triangles that pass through each other, mm."""
-    return _corners_of_faces(surface, intersecting_pairs(surface, threads=threads))
+def crossing_corners(surface: Surface, threads: int | None = None, pinned: Mask | None = None) -> Floats:
+    """Return the corners (N, 3) of the triangles that pass through each other, mm; not of two that are both pinned."""
+    pairs = _drop_pinned(intersecting_pairs(surface, threads=threads), find_pinned_faces(surface, pinned))
+    return _corners_of_faces(surface, pairs)
 
 
 def _corners_of_faces(surface: Surface, faces: Integers) -> Floats:

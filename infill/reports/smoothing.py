@@ -442,6 +442,14 @@ class ChunkKeys(TypedDict):
     passes: Annotated[int, "Number of passes over the chunks after they were smoothed, to find the level"]
 
 
+class ChunksSimplified(TypedDict):
+    """Simplification of the surface; None if all triangles are kept."""
+
+    triangles_before: Annotated[int, "Number of triangles before"]
+    tolerance: Annotated[float, "Largest distance between the surfaces before and after, mm"]
+    volume_change: Annotated[float, "Relative change of the volume by it"]
+
+
 class ChunksSeconds(Seconds):
     """Time of each stage."""
 
@@ -449,14 +457,17 @@ class ChunksSeconds(Seconds):
     smooth: Annotated[float, "Smoothing of all chunks, s"]
     surface: Annotated[float, "Search for the level, s"]
     check: Annotated[float, "Crumbs, the verdict and the numbers of vertices, s"]
+    simplify: Annotated[float, "Simplification, s"]
     write: Annotated[float, "Triangles, made and written, s"]
 
 
 class ChunksReport(ReportHead, SurfaceKeys):
-    """The report of a volume that was smoothed in chunks. All triangles are kept."""
+    """The report of a volume that was smoothed in chunks."""
 
     vertices: Annotated[int, "Number of vertices"]
-    hash: Annotated[str, "Hash of the set of triangles, 16 digits: the same for any chunks, workers and order"]
+    hash: Annotated[
+        str, "Hash of all triangles before they are simplified, 16 digits: the same for any chunks and order"
+    ]
     volume: Annotated[float, "Volume that the mesh encloses, mm³"]
     volume_change: Annotated[float, "Relative change of the volume"]
     components: Annotated[int, "Number of components"]
@@ -468,6 +479,7 @@ class ChunksReport(ReportHead, SurfaceKeys):
     solid: Solid
     topology: Topology
     chunks: ChunkKeys
+    simplified: ChunksSimplified | None
     seconds: ChunksSeconds
 
 
@@ -501,7 +513,7 @@ class ChunksForecast(TypedDict):
     read: Annotated[int, "Bytes of cells to read in one pass, with margins"]
     memory: Annotated[int, "Expected memory of all chunks at work at once, bytes"]
     seconds: PlannedSeconds
-    triangles: Annotated[int, "Number of triangles, about"]
+    triangles: Annotated[int, "Number of triangles before they are simplified, about"]
     files: NotRequired[Annotated[list[str], "Names of the files that a run would write; from the command line only"]]
 
 

@@ -16,7 +16,7 @@ from infill.kernels.sparse import BRICK
 from infill.lazy.volume import LazyVolume
 from infill.machine import available_memory
 from infill.plain_numbers import plain_argument, plain_size
-from infill.smoothing.request import AUTO, SmoothRequest
+from infill.smoothing.request import SmoothRequest
 from infill.voxels.slices import plan_sublayers
 
 if TYPE_CHECKING:
@@ -59,9 +59,7 @@ def check_chunked(request: SmoothRequest, **options: Any) -> None:  # noqa: ANN4
         Further options by name; those that are None or False are not given.
     """
     if request.max_triangles is not None:
-        raise UsageError.about("max_triangles", "is not for a volume in chunks, which keeps all; leave it out")
-    if request.tolerance not in (AUTO, None):
-        raise UsageError.about("tolerance", "is not for a volume in chunks, which keeps all triangles; give 0")
+        raise UsageError.about("max_triangles", "is not for a volume in chunks; give a tolerance instead")
     for name, value in options.items():
         if value is not None and value is not False:
             raise UsageError.about(name, "is not for a volume in chunks; leave it out")

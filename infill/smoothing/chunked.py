@@ -31,14 +31,22 @@ from infill.reports.smoothing import SegmentationKeys
 from infill.smoothing.chunk_plans import check_chunked
 from infill.smoothing.chunked_data import ChosenWork, choose_work
 from infill.smoothing.chunked_rule import count_specks, require_some_solid
-from infill.smoothing.chunked_surface import ChunkedSurface, find_all_crumbs
+from infill.smoothing.chunked_simplified import check_tolerance
+from infill.smoothing.chunked_surface import WRITING, ChunkedSurface, find_all_crumbs
 from infill.smoothing.chunked_verdict import judge_chunks
 from infill.smoothing.comparing import intolerable_error
 from infill.smoothing.request import SmoothInput, SmoothRequest
 from infill.smoothing.scans import Threshold
 from infill.smoothing.work_folders import open_work_folder, run_facts
 
-SHARES = {"read": (0.0, 0.1), "smooth": (0.1, 0.6), "join": (0.6, 0.62), "surface": (0.62, 0.8), "check": (0.8, 0.82)}
+SHARES = {
+    "read": (0.0, 0.05),
+    "smooth": (0.05, 0.4),
+    "join": (0.4, 0.41),
+    "surface": (0.41, 0.56),
+    "check": (0.56, 0.57),
+    "simplify": (0.57, WRITING),
+}
 
 
 @contextlib.contextmanager
@@ -83,7 +91,10 @@ def smooth_in_chunks(
     """
     check_chunked(request)
     require_dask()
-    progress, seconds = request.progress, {"read": 0.0, "smooth": 0.0, "surface": 0.0, "check": 0.0}
+    tolerance = request.for_cell(min(volume.spacing)).tolerance
+    assert not isinstance(tolerance, str)  # `for_cell` has made it a number
+    check_tolerance(tolerance, volume.spacing)
+    progress, seconds = request.progress, {"read": 0.0, "smooth": 0.0, "surface": 0.0, "check": 0.0, "simplify": 0.0}
 
     def tell(stage: str, share: float) -> None:
         if progress is not None:
@@ -119,6 +130,9 @@ def smooth_in_chunks(
             segmentation = require_some_solid(solver, chosen.used)
         chunked = _find_surface(solver, chosen, volume, segmentation, seconds)
         chunked.check()
+        if tolerance is not None:
+            with _timed(seconds, "simplify"):
+                chunked.simplify(tolerance, folder.pieces, partial(tell, "simplify"))
         yield chunked
 
 

@@ -123,7 +123,7 @@ def choose_work(
         require_level_between(surface_level, *samples.ends())
         window = measure_window(work, runner, surface_level, partial(_tell_part, tell, WINDOW))
         scale = GreyScale(level=surface_level, window=window)
-    request = replace(chosen.for_cell(min(spacing)), tolerance=None)
+    request = chosen.for_cell(min(spacing))
     plan = plan_chunks(volume, request, runner, side=side, size=size)
     fixed = None if isinstance(request.level, str) else request.level
     return ChosenWork(

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING
 
@@ -11,7 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.chunks.hashing import add_up, face_sums
+from infill.chunks.keeping import ResultFolder
 from infill.chunks.layout import Chunk
+from infill.chunks.placing import place_points
 from infill.chunks.solving import MeasuredSurface, Numbering, Solver
 from infill.chunks.work import ChunkTriangles, field_values, make_part
 from infill.errors import GeometryError
@@ -19,9 +22,10 @@ from infill.formats.mesh_pieces import MeshPiece
 from infill.kernels.sparse import BRICK
 from infill.lazy.volume import LazyVolume
 from infill.reports.common import GridKeys, Topology, declare, report_head
-from infill.reports.smoothing import ChunkKeys, ChunksReport, ChunksSeconds, SegmentationKeys
+from infill.reports.smoothing import ChunkKeys, ChunksReport, ChunksSeconds, ChunksSimplified, SegmentationKeys
 from infill.smoothing.chunk_plans import ChunkPlan
-from infill.smoothing.chunked_verdict import ChunkedVerdict, place_points
+from infill.smoothing.chunked_simplified import SimplifiedSurface
+from infill.smoothing.chunked_verdict import ChunkedVerdict
 from infill.smoothing.comparing import verdict_facts
 from infill.smoothing.levelling import CRUMB_CELLS, Crumbs, describe_cleaning, find_crumbs
 from infill.smoothing.request import SmoothRequest
@@ -79,25 +83,55 @@ class ChunkedSurface:
     target: float
     seconds: dict[str, float]
     progress: Progress | None = None
+    simplified: SimplifiedSurface | None = None
     _sums: list[NDArray[np.int64]] = field(default_factory=list)
     _corners: list[NDArray[np.float64]] = field(default_factory=list)
+    _volumes: list[float] = field(default_factory=list)
 
     @property
     def vertices(self) -> int:
         """Number of vertices."""
-        return int(self.numbering.first_vertices[-1])
+        return self.all_vertices if self.simplified is None else self.simplified.vertices
 
     @property
     def triangles(self) -> int:
         """Number of triangles."""
+        return self.all_triangles if self.simplified is None else self.simplified.triangles
+
+    @property
+    def all_vertices(self) -> int:
+        """Number of vertices before it is simplified."""
+        return int(self.numbering.first_vertices[-1])
+
+    @property
+    def all_triangles(self) -> int:
+        """Number of triangles before it is simplified."""
         return int(self.numbering.first_faces[-1])
+
+    def simplify(self, tolerance: float, folder: ResultFolder, tell: Callable[[float], None]) -> None:
+        """Simplify the surface within a tolerance, mm; its fragments are kept in a folder."""
+        self.simplified = SimplifiedSurface(
+            solver=self.solver,
+            surface=self.surface,
+            numbering=self.numbering,
+            tolerance=tolerance,
+            folder=folder,
+            place=self.volume.place(np.zeros((1, 1, 1), dtype=bool)),
+            tell=tell,
+        )
+        self.simplified.simplify()
 
     def pieces(self) -> Iterator[MeshPiece]:
         """Yield the pieces of the surface, in space, in order; the report needs them all."""
         begin = time.perf_counter()
         self._sums.clear()
         self._corners.clear()
+        self._volumes.clear()
         place = self.volume.place(np.zeros((1, 1, 1), dtype=bool))
+        if self.simplified is not None:
+            yield from self._simplified_pieces(self.simplified, place)
+            self.seconds["write"] = time.perf_counter() - begin
+            return
         chunks, number = self.numbering.chunks, 0
         batch = BATCH * self.plan.workers
         for first in range(0, len(chunks), batch):
@@ -120,6 +154,24 @@ class ChunkedSurface:
         numbers = np.concatenate(
             [self.numbering.first_vertices[number] + np.arange(own), self.numbering.find(part.foreign)]
         )
+        return self._placed_piece(points, local, own, numbers, place)
+
+    def _simplified_pieces(self, simplified: SimplifiedSurface, place: Volume) -> Iterator[MeshPiece]:
+        """Yield the pieces of the simplified surface, in space."""
+        count = len(simplified.fragments)
+        middle = np.array(self.plan.layout.shape) * np.array(self.solver.work.spacing) / 2
+        for number, (points, faces, own, numbers) in enumerate(simplified.pieces()):
+            a, b, c = (points[faces[:, corner]] - middle for corner in range(3))
+            self._volumes.append(float(np.einsum("fk,fk->", a, np.cross(b, c))) / 6)
+            local = faces[:, ::-1] if place.mirrored else faces
+            yield self._placed_piece(place_points(points, place), local, own, numbers, place)
+            if self.progress is not None:
+                self.progress("write", WRITING + (1 - WRITING) * (number + 1) / count)
+
+    def _placed_piece(
+        self, points: NDArray[np.float64], local: NDArray[np.int64], own: int, numbers: NDArray[np.int64], place: Volume
+    ) -> MeshPiece:
+        """Add a piece to the sums, and return it."""
         unit = float(place.cell_size.max()) ** 2
         self._sums.append(face_sums(points, local, unit))
         if own:
@@ -191,7 +243,10 @@ class ChunkedSurface:
         number, closed, area = add_up(self._sums, float(place.cell_size.max()) ** 2)
         corners = np.array(self._corners).reshape(-1, 2, 3)
         bounds = np.array([corners[:, 0].min(axis=0), corners[:, 1].max(axis=0)])
-        change = self.enclosed / self.target - 1
+        enclosed = self.enclosed if self.simplified is None else math.fsum(self._volumes)
+        if self.simplified is not None:
+            number = add_up(self.simplified.sums, float(place.cell_size.max()) ** 2)[0]
+        change = enclosed / self.target - 1
         common, levels = self.level
         differences, topology, deviation = self.verdict.differences, self.verdict.topology, self.verdict.deviation
         cleaned = describe_cleaning(self.crumbs, self.specks, self.request)
@@ -204,7 +259,7 @@ class ChunkedSurface:
             "bounds": bounds.tolist(),
             "vertices": self.vertices,
             "hash": number,
-            "volume": self.enclosed,
+            "volume": enclosed,
             "volume_change": change,
             "components": topology.result.components,
             "problems": [*differences.losses, *differences.problems],
@@ -223,7 +278,7 @@ class ChunkedSurface:
             },
             "solid": {
                 "volume": self.enclosed,
-                "change": change,
+                "change": self.enclosed / self.target - 1,
                 "data": self.target,
                 "level": {
                     "method": "volume" if self.request.level == "volume" else "fixed",
@@ -235,9 +290,20 @@ class ChunkedSurface:
             },
             "topology": declare(Topology, {"data": asdict(topology.data), "result": asdict(topology.result)}),
             "chunks": self._chunk_facts(),
+            "simplified": self._simplification(enclosed),
             "seconds": declare(ChunksSeconds, {**self.seconds, "total": sum(self.seconds.values())}),
         }
         return report
+
+    def _simplification(self, enclosed: float) -> ChunksSimplified | None:
+        """Return what simplification did, for the report; None without one."""
+        if self.simplified is None:
+            return None
+        return {
+            "triangles_before": self.all_triangles,
+            "tolerance": self.simplified.tolerance,
+            "volume_change": enclosed / self.enclosed - 1,
+        }
 
     def _grid_facts(self) -> GridKeys:
         """Return the grid, for the report."""

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from infill.chunks.joining import JoinedComponents, join_components, survey_solid
 from infill.chunks.layout import Chunk
+from infill.chunks.placing import place_points
 from infill.chunks.shells import JoinedShells, join_shells
 from infill.chunks.solving import MeasuredSurface, Solver
 from infill.inspection.bricks import (
@@ -33,7 +34,6 @@ from infill.inspection.deviation import PITCH, Deviation, SurfaceGap, group_plac
 from infill.smoothing.chunk_changes import ComparedChunk, FarPoints, MatchedChunk, compare_chunk, match_chunk
 from infill.smoothing.comparing import Differences, find_differences, thickness_that_counts
 from infill.smoothing.request import SmoothInput
-from infill.volume import Volume
 
 Numbers = NDArray[np.int64]
 
@@ -262,15 +262,4 @@ def count_connections(shells: JoinedShells, marked: NDArray[np.bool_]) -> Connec
         cavities=int((volume <= 0).sum()),
         tunnels=int((2 - euler).sum() // 2),
         euler_number=int(euler.sum()),
-    )
-
-
-def place_points(points: NDArray[np.float64], place: Volume) -> NDArray[np.float64]:
-    """Convert points as `infill.Volume.place` does, each by itself, so that the result does not depend on others."""
-    turn, origin = np.asarray(place.direction), np.array(place.origin)
-    if (turn == np.eye(3)).all():
-        return place.place(points)
-    x, y, z = points.T
-    return np.stack(
-        [(x * turn[axis, 0] + y * turn[axis, 1] + z * turn[axis, 2]) + origin[axis] for axis in range(3)], 1
     )
