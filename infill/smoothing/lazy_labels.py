@@ -381,11 +381,11 @@ def _find_large(
         large[number] = None
         try:
             check_chunked(task.request)
-        except UsageError:
+        except UsageError as refusal:
             error = large[number] = MemoryLimitError(
                 f"its part of the volume, {' x '.join(map(str, task.cut(piece).shape))} voxels, needs about "
-                f"{needed / GIB:.2f} GiB of memory and {allowed / GIB:.2f} GiB are allowed; give --smooth plain, which "
-                "works in chunks then, or a coarser level of the volume"
+                f"{needed / GIB:.2f} GiB of memory and {allowed / GIB:.2f} GiB are allowed; it would be smoothed in "
+                f"chunks, but {refusal}, or take a coarser level of the volume"
             )
             if not keep_going:
                 raise error.within(title_of(piece)) from None
