@@ -257,7 +257,7 @@ def test_python_resumes(source: Path, tmp_path: Path, monkeypatch: pytest.Monkey
 
 @pytest.mark.longest
 def test_processes_resume(source: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    request = SmoothRequest(method="plain", tolerance=None)
+    request = SmoothRequest(method="plain", tolerance=None, allow_broken=True)
 
     def smoothed(**options: Any) -> str:
         with smooth_in_chunks(open_volume(source), request, threshold=120, side=32, workers=2, **options) as surface:
