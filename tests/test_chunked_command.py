@@ -290,7 +290,7 @@ def slow(*words):
     print("writing", flush=True)
     time.sleep(60)
 surface.make_part = slow
-sys.argv = ["infill", "smooth", "g.zarr", "--threshold", "120", "--smooth", "plain", "-o", "a.ply", "-q"]
+sys.argv = ["infill", "smooth", "g.zarr", "--threshold", "120", "--smooth", "plain", "--tolerance", "0", "-o", "a.ply", "-q"]
 program()
 """
 

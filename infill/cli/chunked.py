@@ -122,7 +122,7 @@ def smooth_chunks(
                 resume=resume,
             ) as surface,
         ):
-            _write(surface, volume, output)
+            _write(surface, volume, output, segment=_segment(settings))
             report = surface.report()
     written = [str(path) for path in (*output.outputs, *output.saved)]
     if not output.quiet:
@@ -140,12 +140,19 @@ def _unfit(settings: SmoothSettings) -> dict[str, object]:
     return {**{name: getattr(settings, name) for name in names}, "kind": kind}
 
 
+def _segment(settings: SmoothSettings) -> int:
+    """Return the number of the segment in tiles: the label, if there is one alone, else 1."""
+    labels = settings.label or ()
+    return labels[0] if len(labels) == 1 and labels[0] > 0 else 1
+
+
 def _check_outputs(output: SmoothOutput) -> None:
     """Raise an error for outputs that cannot be written piece by piece, or exist."""
     from infill.cli.piping import is_piped
     from infill.files.whole_files import check_targets
+    from infill.files.whole_folders import check_folder_target
     from infill.formats.mesh_pieces import check_piece_format
-    from infill.lazy.zarr_fields import check_zarr_target
+    from infill.formats.precomputed import INFO, SUFFIX
 
     for path in (*output.outputs, *output.saved):
         if is_piped(path):
@@ -153,28 +160,31 @@ def _check_outputs(output: SmoothOutput) -> None:
     if output.ascii_stl:
         raise ParameterError.about("ascii_stl", "is not for a volume in chunks; leave it out")
     for path in output.outputs:
-        if path.suffix.lower() == ZARR:
+        if path.suffix.lower() in (ZARR, SUFFIX):
             if not output.dry_run:
-                check_zarr_target(path, overwrite=output.force)
+                check_folder_target(path, overwrite=output.force, mark="" if path.suffix.lower() == ZARR else INFO)
         else:
             check_piece_format(path)
-    files = [path for path in output.outputs if path.suffix.lower() != ZARR]
+    files = [path for path in output.outputs if path.suffix.lower() not in (ZARR, SUFFIX)]
     check_targets((*files, *output.saved), overwrite=output.force)
 
 
-def _write(surface: ChunkedSurface, volume: LazyVolume, output: SmoothOutput) -> None:
+def _write(surface: ChunkedSurface, volume: LazyVolume, output: SmoothOutput, *, segment: int) -> None:
     """Write all files of a run; each is complete or not there."""
     from infill.files.whole_files import atomic_files, scratch_file, wrap_os_errors
-    from infill.formats.mesh_pieces import PIECE_WRITERS, check_piece_size
+    from infill.files.whole_folders import whole_folder
+    from infill.formats.mesh_pieces import PIECE_WRITERS, PieceWriter, check_piece_size
+    from infill.formats.precomputed import SUFFIX, PrecomputedPieces
     from infill.lazy.zarr_fields import write_zarr_field
 
-    meshes = [path for path in output.outputs if path.suffix.lower() != ZARR]
+    tiles = [path for path in output.outputs if path.suffix.lower() == SUFFIX]
+    meshes = [path for path in output.outputs if path.suffix.lower() not in (ZARR, SUFFIX)]
     for path in meshes:
         check_piece_size(path, surface.vertices, surface.triangles)
     targets = [*meshes, *output.saved]
     with contextlib.ExitStack() as stack:
         files = stack.enter_context(atomic_files(targets)) if targets else []
-        writers = [
+        writers: list[PieceWriter] = [
             PIECE_WRITERS[path.suffix.lower()](
                 file,
                 stack.enter_context(scratch_file(path.absolute().parent)),
@@ -184,11 +194,15 @@ def _write(surface: ChunkedSurface, volume: LazyVolume, output: SmoothOutput) ->
             )
             for path, file in zip(meshes, files, strict=False)
         ]
-        for piece in surface.pieces():
-            for path, writer in zip(meshes, writers, strict=True):
+        folders = [stack.enter_context(whole_folder(path)) for path in tiles]
+        for path, folder in zip(tiles, folders, strict=True):
+            with wrap_os_errors(path):
+                writers.append(PrecomputedPieces(folder, segment))
+        for piece in surface.pieces() if writers else ():
+            for path, writer in zip((*meshes, *tiles), writers, strict=True):
                 with wrap_os_errors(path):
                     writer.add(piece)
-        for path, writer in zip(meshes, writers, strict=True):
+        for path, writer in zip((*meshes, *tiles), writers, strict=True):
             with wrap_os_errors(path):
                 writer.finish()
         for save, file in zip(output.saved.values(), files[len(meshes) :], strict=True):

@@ -56,7 +56,8 @@ def smooth(
             "--output",
             metavar="FILE",
             help="Mesh to write, by suffix: .stl .3mf .obj .ply .glb; of labels together also .vtp and, as tetrahedra, "
-            ".vtu; or the field: .npz .nrrd; - for an STL on stdout, -.3mf for others. May be given again.",
+            ".vtu; or the field: .npz .nrrd; of a volume in chunks .precomputed or .zarr; - for an STL on stdout, "
+            "-.3mf for others. May be given again.",
             rich_help_panel=FILES,
         ),
     ] = None,

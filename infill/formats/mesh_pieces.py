@@ -113,7 +113,7 @@ def check_piece_format(path: Path) -> None:
     if path.suffix.lower() not in PIECE_WRITERS:
         raise FormatError(
             f"{path.name!r} cannot be written piece by piece, as a volume in chunks is; use one of "
-            f"{', '.join(PIECE_WRITERS)}, or .zarr for the field"
+            f"{', '.join(PIECE_WRITERS)}, .precomputed for tiles, or .zarr for the field"
         )
 
 
