@@ -126,7 +126,7 @@ def choose_work(
         window = measure_window(work, runner, surface_level, partial(_tell_part, tell, WINDOW))
         scale = GreyScale(level=surface_level, window=window)
     request = replace(chosen.for_cell(min(spacing)), tolerance=None)
-    plan = plan_chunks(volume, request, runner, side=side)
+    plan = plan_chunks(volume, request, runner, grey=scale is not None, side=side)
     fixed = None if isinstance(request.level, str) else request.level
     return ChosenWork(
         work=replace(
