@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import resource
 import subprocess
 import sys
 import tempfile
@@ -71,8 +72,8 @@ def resident(process):
 
 
 def measure(words):
-    """Run `infill smooth`; return its report with the seconds and the peak of memory."""
-    begin, peak = time.perf_counter(), 0
+    """Run `infill smooth`; return its report with the seconds, those of all processors, and the peak of memory."""
+    begin, peak, before = time.perf_counter(), 0, resource.getrusage(resource.RUSAGE_CHILDREN)
     with tempfile.TemporaryFile() as out:
         process = subprocess.Popen([sys.executable, "-m", "infill.cli", "smooth", *words, "--json", "-q"], stdout=out)
         while process.poll() is None:
@@ -82,14 +83,17 @@ def measure(words):
         text = out.read()
     if process.returncode:
         raise SystemExit(process.returncode)
-    return {**json.loads(text), "wall": time.perf_counter() - begin, "peak": peak}
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return {**json.loads(text), "wall": time.perf_counter() - begin, "cpu": cpu, "peak": peak}
 
 
 def show(name, report):
     """Print one line of figures."""
     vertices = report.get("vertices") or report["mesh"]["vertices"]
     print(
-        f"{name}: {report['wall']:.0f} s, {report['peak'] / 2**30:.2f} GiB, {report['triangles']:,} triangles, "
+        f"{name}: {report['request']['method']}, {report['wall']:.0f} s, {report['cpu']:.0f} s of processors, "
+        f"{report['peak'] / 2**30:.2f} GiB, {report['triangles']:,} triangles, "
         f"{report['wall'] / vertices * 1e6:.2f} µs a vertex; closed: {report['closed']}"
     )
     print("   ", {stage: round(seconds, 1) for stage, seconds in report["seconds"].items()}, report.get("chunks", ""))
@@ -104,13 +108,14 @@ def main():
     parser.add_argument("--max-memory", default="5G")
     parser.add_argument("--tolerance", default="0", help="mm")
     parser.add_argument("--output", help="mesh to write, too")
+    parser.add_argument("--smooth", default="plain", choices=["plain", "refine", "grey", "auto"])
     given = parser.parse_args()
-    plain = ("--threshold", str(THRESHOLD), "--smooth", "plain", "--tolerance", given.tolerance)
+    method = ("--threshold", str(THRESHOLD), "--smooth", given.smooth, "--tolerance", given.tolerance)
     if given.what == "write":
         write(int(given.words[0]), Path(given.words[1]))
     elif given.what == "run":
         more = ("-o", given.output, "--force") if given.output else ()
-        options = (*plain, "--workers", given.workers, "--max-memory", given.max_memory, *more)
+        options = (*method, "--workers", given.workers, "--max-memory", given.max_memory, *more)
         show(given.words[0], measure((given.words[0], *options)))
     else:
         side = int(given.words[0])
@@ -123,7 +128,7 @@ def main():
                 array[tuple(slice(a, b) for a, b in zip(first, last, strict=True))] = gyroid(first, last)
             array.flush()
             more = ("-o", given.output, "--force") if given.output else ()
-            options = (*plain, "--strict", "--allow-broken", "--threads", given.workers, *more)
+            options = (*method, "--strict", "--allow-broken", "--threads", given.workers, *more)
             show(f"{side} in memory", measure((str(path), *options)))
 
 

@@ -71,9 +71,12 @@ def smooth_chunk(
         return None
     _, state = brick_states(data, threads)
     begun = kept_bricks(state)
-    smooth = refine_bricks if refined else smooth_bricks
-    smoothed = smooth(data, smoothing, spacing=spacing, threads=threads)
     low, high = (np.array(ends) - chunk.read_low for ends in (chunk.kept_low, chunk.kept_high))
+    if refined:
+        core = chunk.own_bricks
+        smoothed = refine_bricks(data, smoothing, spacing=spacing, core=core, threads=threads)
+    else:
+        smoothed = smooth_bricks(data, smoothing, spacing=spacing, threads=threads)
     inside = ((smoothed.where >= low) & (smoothed.where < high)).all(axis=1)
     slots = smoothed.slots[tuple(slice(a, b) for a, b in zip(low, high, strict=True))].copy()
     number = np.cumsum(inside, dtype=np.int32) - np.int32(1)

@@ -80,6 +80,12 @@ class Chunk:
         )
 
     @property
+    def own_bricks(self) -> tuple[Place, Place]:
+        """The first of its own bricks, and the end of them, counted from the first that is read."""
+        first = np.array(self.read_low)
+        return _as_place(np.array(self.low) - first), _as_place(np.array(self.high) - first)
+
+    @property
     def has_cells(self) -> bool:
         """Whether it holds cells of the grid, not only the void beyond it, in which the surface closes."""
         return all(part.stop > part.start for part in self.own_cells)

@@ -9,7 +9,6 @@ number vertices   how many vertices and triangles each chunk writes
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
@@ -17,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.chunks.joining import ChunkComponents, JoinedComponents, join_components
-from infill.chunks.layout import Chunk, margin_bricks
+from infill.chunks.layout import Chunk
 from infill.chunks.running import Runner
 from infill.chunks.shells import JoinedShells, find_names, join_shells
 from infill.chunks.work import (
@@ -39,7 +38,7 @@ from infill.isosurfaces.levels import (
     search_component_levels,
 )
 from infill.isosurfaces.sparse_marching import LARGE, nothing_left
-from infill.kernels.sparse import BRICK, CELLS
+from infill.kernels.sparse import CELLS
 
 Numbers = NDArray[np.int64]
 
@@ -378,47 +377,3 @@ def number_cubes(parts: Mapping[int, LevelParts]) -> dict[int, Numbers]:
     begins[order] = np.cumsum(counts[order]) - counts[order]
     ends = np.cumsum([len(part.cubes.bricks) for part in parts.values()])
     return dict(zip(parts, np.split(begins, ends[:-1]), strict=True))
-
-
-def chunk_size(
-    shape: tuple[int, ...], steps: int, *, item: int, memory: int, largest: int = 512, refined: bool = False
-) -> tuple[int, int, int]:
-    """Return the bricks of a chunk along each axis, so that one chunk takes at most `memory` bytes.
-
-    Parameters
-    ----------
-    shape : (nx, ny, nz)
-    steps : int
-    item : int
-        Bytes of a cell in the file.
-    memory : int
-    largest : int
-        Cells along the longest side at most.
-    refined : bool
-        Whether the field is refined.
-    """
-    side = largest
-    while side > LEAST_SIDE and bytes_of_chunk(side, steps, item, shape, refined=refined) > memory:
-        side -= LEAST_SIDE
-    bricks = []
-    for count, size in zip(shape, BRICK, strict=True):
-        lattice = math.ceil((count + 2) / size)
-        chunks = math.ceil(lattice / max(1, side // size))
-        bricks.append(math.ceil(lattice / chunks))  # chunks of about the same size
-    begins, second, third = bricks
-    return begins, second, third
-
-
-LEAST_SIDE = 32  # cells
-BYTES_TO_REFINE = 24  # the same, on top of that, for the filtered fields
-BYTES_PER_CELL = (
-    16  # of a chunk with its margin, if a surface runs everywhere: bricks and their copies, a measured peak
-)
-
-
-def bytes_of_chunk(side: int, steps: int, item: int, shape: tuple[int, ...], *, refined: bool = False) -> int:
-    """Return the memory that a chunk of a side takes, bytes, at most."""
-    cells = 1
-    for count, size, bricks in zip(shape, BRICK, margin_bricks(steps, refined=refined), strict=True):
-        cells *= min(count, side + 2 * size * bricks)
-    return cells * (BYTES_PER_CELL + item + BYTES_TO_REFINE * refined)

@@ -69,13 +69,20 @@ def step(
     numbers,
     momentum,
     shape,
+    number,
+    needed,
     thread,
     threads,
 ):
-    """Do one step of all bricks in place, as `infill.kernels.sparse.step` does, leaving the old values in `before`."""
+    """Do one step of all bricks in place, as `infill.kernels.sparse.step` does, leaving the old values in `before`.
+
+    The step has a number, from 0 on; bricks are left out of which `needed` (n,) says that they need no more steps.
+    """
     w0, w1, w2, decay, rest, _ = numbers
     wide = np.zeros(WIDE, dtype=np.float32)
     for s in range(thread, count, threads):
+        if number >= needed[s]:
+            continue
         edge = at_edge(where[s], shape)
         # What was noted two steps ago, and is about to be replaced, is what is known of the field before the last step.
         changing = ALL if edge else movable_rows(s, rows, next_rows, beside[s])

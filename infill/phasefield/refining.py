@@ -40,7 +40,7 @@ from numpy.typing import NDArray
 from infill.arrays import Field
 from infill.grid import spacing_of
 from infill.kernels import refining as kernels
-from infill.kernels.sparse import BRICK, CELLS
+from infill.kernels.sparse import BRICK, CELLS, VOID_BRICK
 from infill.kernels.threads import in_threads, thread_count
 from infill.phasefield.allen_cahn import STEEPNESS, Smoothing, diffuse, react
 from infill.phasefield.dense import StepCoefficients, on_three_axes, step_coefficients
@@ -52,6 +52,8 @@ from infill.phasefield.sparse import LATER_GROWTH, Bricks, SparseField, brick_st
 # far, one by interpolation and two by the blur. From these 6 cells, in 2 coarse cells of 4, the outer gate needs no
 # third one to interpolate, and two by the blur: 4 coarse cells in all.
 GATE_REACH = 16
+Core = tuple[tuple[int, int, int], tuple[int, int, int]]
+
 TINY_WEIGHT = 1e-6  # of a weight, added where no surface is near and the means are 0
 
 
@@ -145,6 +147,7 @@ def refine_bricks(
     *,
     spacing: float | tuple[float, ...] = 1.0,
     exact: bool = False,
+    core: Core | None = None,
     threads: int | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> SparseField:
@@ -161,6 +164,10 @@ def refine_bricks(
         Averages are taken over cells, and distances measured in units of the shortest cell side.
     exact : bool
         The data are distances from the surface themselves, put on the profile of the equation: `phase_from_distance`.
+    core : (low, high), optional
+        The bricks, from `low` up to but without `high`, in which the field is needed, and in the cells beside them.
+        Only bricks that decide it are smoothed, as many steps as they do, and some with wrong values are returned. Not
+        with exact data.
     threads : int, optional
         See `infill.kernels.threads.thread_count`.
     progress : callable, optional
@@ -184,7 +191,7 @@ def refine_bricks(
     times the memory of `infill.phasefield.sparse.smooth_bricks`.
     """
     threads = thread_count(threads)
-    mild, middle, strong = filter_bricks(f, smoothing, spacing=spacing, threads=threads, progress=progress)
+    mild, middle, strong = filter_bricks(f, smoothing, spacing=spacing, core=core, threads=threads, progress=progress)
     result = replace(strong, values=REFINED_PROFILE.distance(strong.values, threads=threads))
     unit = cut_off_distance(smoothing.interface)
     for milder, limits in ((middle, OUTER_GATE), (mild, INNER_GATE)):
@@ -241,6 +248,7 @@ def filter_bricks(
     smoothing: Smoothing,
     *,
     spacing: float | tuple[float, ...] = 1.0,
+    core: Core | None = None,
     threads: int | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> tuple[SparseField, SparseField, SparseField]:
@@ -256,27 +264,50 @@ def filter_bricks(
     bricks.gather(data, data)
     previous, known_count = bricks.phi[: bricks.count].copy(), bricks.count
     sums = [_WeightedSum(weights) for weights in schedule.weights]
+    needed = np.empty(0, dtype=np.int64)
     for k in range(schedule.last):
         if progress is not None:
             progress(k / schedule.last)
         bricks.activate()
         previous, known_count = _extend_to_new_bricks(previous, known_count, bricks), bricks.count
-        _step(bricks, previous, numbers, schedule.momentum(k))
+        if len(needed) < bricks.count:
+            needed = _needed_steps(bricks, core, schedule.last)
+        _step(bricks, previous, numbers, schedule.momentum(k), k, needed)
         for weighted_sum in sums:
             weighted_sum.add(bricks, k + 1)
     del previous
     shape = data.shape
+    chosen, slots = slice(bricks.count), bricks.slots
+    if core is not None:
+        chosen = np.flatnonzero(_needed_steps(bricks, core, schedule.last) == schedule.last)
+        slots = np.where(slots >= 0, VOID_BRICK, slots)
+        slots[tuple(bricks.where[chosen].T)] = np.arange(len(chosen), dtype=np.int32)
     field = SparseField(
         shape=(shape[0], shape[1], shape[2]),
-        slots=bricks.slots,
-        where=bricks.where[: bricks.count],
+        slots=slots,
+        where=bricks.where[chosen],
         values=np.empty((0, *BRICK), dtype=np.float32),
-        data=bricks.held[: bricks.count].reshape(-1, *BRICK),
+        data=bricks.held[chosen].reshape(-1, *BRICK),
     )
     mild, middle, strong = (
-        replace(field, values=weighted_sum.whole(bricks).reshape(-1, *BRICK)) for weighted_sum in sums
+        replace(field, values=weighted_sum.whole(bricks)[chosen].reshape(-1, *BRICK)) for weighted_sum in sums
     )
     return mild, middle, strong
+
+
+def _needed_steps(bricks: Bricks, core: Core | None, last: int) -> NDArray[np.int64]:
+    """Return the number of steps, of `last`, after which no cell of a brick can reach the gates of the core, (n,).
+
+    A step carries a change to the six cells beside one, so that the distance is the sum of those along the axes.
+    """
+    if core is None:
+        return np.full(bricks.count, last, dtype=np.int64)
+    size, (low, high) = np.array(BRICK), core
+    first = bricks.where[: bricks.count].astype(np.int64) * size
+    begin, end = np.array(low) * size - GATE_REACH, np.array(high) * size + GATE_REACH  # brick by brick
+    gap = np.maximum(begin - (first + size - 1), 0) + np.maximum(first - (end - 1), 0)
+    needed: NDArray[np.int64] = last - gap.sum(axis=1)
+    return needed
 
 
 class _WeightedSum:
@@ -328,8 +359,15 @@ def _extend_to_new_bricks(previous: Field, known_count: int, bricks: Bricks) -> 
     return previous
 
 
-def _step(bricks: Bricks, previous: Field, numbers: StepCoefficients, momentum: float) -> None:
-    """Do one step in place; `previous` receives the old field."""
+def _step(
+    bricks: Bricks,
+    previous: Field,
+    numbers: StepCoefficients,
+    momentum: float,
+    number: int,
+    needed: NDArray[np.int64],
+) -> None:
+    """Do a step in place, in the bricks that need it; `previous` receives the old field."""
     in_threads(
         kernels.step,
         bricks.phi,
@@ -346,6 +384,8 @@ def _step(bricks: Bricks, previous: Field, numbers: StepCoefficients, momentum: 
         numbers,
         np.float32(momentum),
         bricks.shape,
+        number,
+        needed,
         threads=bricks.threads,
     )
     bricks.swap()

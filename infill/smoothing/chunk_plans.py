@@ -10,7 +10,7 @@ import numpy as np
 
 from infill.chunks.layout import ChunkLayout
 from infill.chunks.running import Runner
-from infill.chunks.solving import bytes_of_chunk, chunk_size
+from infill.chunks.sizing import ChunkMemory
 from infill.errors import ParameterError, UsageError
 from infill.kernels.sparse import BRICK
 from infill.lazy.volume import LazyVolume
@@ -90,6 +90,7 @@ def plan_chunks(
     request: SmoothRequest,
     runner: Runner,
     *,
+    grey: bool = False,
     side: int | None = None,
     size: tuple[int, int, int] | None = None,
 ) -> ChunkPlan:
@@ -100,28 +101,37 @@ def plan_chunks(
     volume : LazyVolume
     request : SmoothRequest
     runner : Runner
+    grey : bool
+        Whether grey values are smoothed.
     side : int, optional
         Cells along the longest side of a chunk, instead.
     size : (3,) int, optional
         Bricks of a chunk, those of a run that is resumed.
     """
     require_thin(volume)
-    steps, refined = request.smoothing.steps, request.refined
-    item = volume.array.dtype.itemsize
+    steps, refined, item = request.smoothing.steps, request.refined, volume.array.dtype.itemsize
+    needs = ChunkMemory(
+        shape=volume.shape,
+        steps=steps,
+        item=item,
+        refined=refined,
+        grey=grey,
+        speck_cells=math.ceil(request.despeckle / volume.cell_volume),
+    )
     share = runner.memory_per_task() if request.max_memory is None else request.max_memory // runner.workers
     memory = int((available_memory() or 2**32) * MEMORY_SHARE) // runner.workers if share is None else share
     resumed, largest = size, side or LARGEST_CELLS
-    size = chunk_size(volume.shape, steps, item=item, memory=memory, largest=largest, refined=refined)
+    size = needs.size_within(memory, largest)
     layout = ChunkLayout(shape=volume.shape, size=size, steps=steps, refined=refined)
     while side is None and len(layout) < LEAST_CHUNKS * runner.workers and largest > FEWEST_CELLS:
         largest -= BRICK[2] * 2
-        size = chunk_size(volume.shape, steps, item=item, memory=memory, largest=largest, refined=refined)
+        size = needs.size_within(memory, largest)
         layout = ChunkLayout(shape=volume.shape, size=size, steps=steps, refined=refined)
     if resumed is not None:
         size, layout = resumed, ChunkLayout(shape=volume.shape, size=resumed, steps=steps, refined=refined)
     cells = max(size[axis] * BRICK[axis] for axis in range(3))
     at_once = min(runner.workers, len(layout))
-    needed = at_once * bytes_of_chunk(cells, steps, item, volume.shape, refined=refined)
+    needed = at_once * needs.of_side(cells)
     if resumed is not None and request.max_memory is not None and needed > request.max_memory:
         mebibytes = math.ceil(needed / 2**20)
         raise ParameterError.about(

@@ -124,7 +124,7 @@ def choose_work(
         window = measure_window(work, runner, surface_level, partial(_tell_part, tell, WINDOW))
         scale = GreyScale(level=surface_level, window=window)
     request = chosen.for_cell(min(spacing))
-    plan = plan_chunks(volume, request, runner, side=side, size=size)
+    plan = plan_chunks(volume, request, runner, grey=scale is not None, side=side, size=size)
     fixed = None if isinstance(request.level, str) else request.level
     return ChosenWork(
         work=replace(
