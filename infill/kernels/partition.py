@@ -20,11 +20,12 @@ from infill.kernels.compiling import njit
 from infill.kernels.lanes import count_ones
 from infill.kernels.rows import copy_row
 from infill.kernels.sparse import B0, B1, B2
-from infill.kernels.winners import INSIDE
+from infill.kernels.winners import INSIDE, place_hash
 
 NONE = -1  # no label: beyond the lattice
 ABSENT = -2  # slot of a label that is void throughout a brick
 LEAST_SHARE = 1e-3  # of an edge: points lie no nearer to its ends
+HIGH, LOW = 2.0**16, 2.0**36  # parts of a cell, and of one of these: sums in whole numbers are exact in any order
 LEAST_WEIGHT = 0.02  # of a corner of a face or a tetrahedron in a point inside it
 
 
@@ -272,7 +273,7 @@ def value_at(label, i, j, k, shape, entries, labels, slots, values, offsets):
 
 @njit(inline="always", cache=True)
 def axis_place(i, count):
-    """Return the place of a point of the lattice along an axis, cells."""
+    """Return the place of a point of the whole lattice along an axis, cells."""
     return np.float64(0.0) if i == 0 else np.float64(count) if i == count + 1 else i - 0.5
 
 
@@ -296,9 +297,15 @@ def chain_of_slot(slot, slots_at, faces, tetrahedra, chain):
 @njit(nogil=True, cache=True)
 def place_points(
     winners, steps, faces, tetrahedra, slots_at, row_starts, bases, masks, starts,
-    entries, labels, slots, values, offsets, points, thread, threads,
+    entries, labels, slots, values, offsets, place, points, thread, threads,
 ):  # fmt: skip
-    """Write the place of every point, (P, 3), in cells of the grid."""
+    """Write the place of every point, (P, 3), in cells of the whole grid.
+
+    Parameters
+    ----------
+    place : (2, 3) int64
+        The first cell of this part of the grid, and the cells of the whole.
+    """
     shape = winners.shape
     m0, m1 = shape[0] + 2, shape[1] + 2
     corner = np.empty(8, dtype=np.int64)
@@ -349,13 +356,13 @@ def place_points(
                                 )
                         weigh_corners(matrix, count, weight)
                     for axis in range(3):
-                        at_base = (i, j, k)[axis]
+                        at_base = (i, j, k)[axis] + place[0, axis]
                         total = 0.0
-                        low = high = axis_place(at_base, shape[axis])
+                        low = high = axis_place(at_base, place[1, axis])
                         for corner_at in range(count):
-                            place = axis_place(at_base + steps[chain[corner_at], axis], shape[axis])
-                            total += weight[corner_at] * place
-                            low, high = min(low, place), max(high, place)
+                            corner_place = axis_place(at_base + steps[chain[corner_at], axis], place[1, axis])
+                            total += weight[corner_at] * corner_place
+                            low, high = min(low, corner_place), max(high, corner_place)
                         # Rounding must not move a point off the side of the box.
                         points[point, axis] = min(max(total, low), high)
                     point += 1
@@ -508,7 +515,7 @@ def name_points(masks, starts, names):
 
 @njit(nogil=True, cache=True)
 def add_volumes(points, triangles, sides, scale, volumes, thread, threads):
-    """Add six times the volume of every label: volumes (threads, labels) float64."""
+    """Add six times the volume of every label in whole parts, `HIGH` and `LOW`: volumes (threads, labels, 2) int64."""
     count = len(triangles)
     for t in range(count * thread // threads, count * (thread + 1) // threads):
         a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
@@ -516,7 +523,23 @@ def add_volumes(points, triangles, sides, scale, volumes, thread, threads):
         bx, by, bz = points[b, 0] * scale[0], points[b, 1] * scale[1], points[b, 2] * scale[2]
         cx, cy, cz = points[c, 0] * scale[0], points[c, 1] * scale[1], points[c, 2] * scale[2]
         six = ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)
+        whole = np.rint(six * HIGH)
+        high, low = np.int64(whole), np.int64(np.rint((six * HIGH - whole) * LOW))
         behind, before = sides[t, 0], sides[t, 1]
-        volumes[thread, behind] += six
+        volumes[thread, behind, 0] += high
+        volumes[thread, behind, 1] += low
         if before != NONE:
-            volumes[thread, before] -= six
+            volumes[thread, before, 0] -= high
+            volumes[thread, before, 1] -= low
+
+
+@njit(nogil=True, cache=True)
+def sample_triangles(bits, triangles, stride, sample):
+    """List one of `stride` triangles, by the place of their first point, whose bits are (P, 3) uint32; count them."""
+    count = 0
+    for t in range(len(triangles)):
+        point = triangles[t, 0]
+        if place_hash(bits[point, 0], bits[point, 1], bits[point, 2]) % stride == 0 and count < len(sample):
+            sample[count] = t
+            count += 1
+    return count

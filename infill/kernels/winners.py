@@ -10,6 +10,12 @@ import numpy as np
 from infill.kernels.compiling import njit
 from infill.kernels.sparse import B0, B1, B2
 
+PARTS = 2.0**30  # of a cell, in which shares of cells are counted: sums are exact in any order
+I_FACTOR, J_FACTOR, K_FACTOR = (
+    np.uint64(0x9E3779B97F4A7C15),
+    np.uint64(0xC2B2AE3D27D4EB4F),
+    np.uint64(0x165667B19E3779F9),
+)
 INSIDE = -1  # slot of a brick that lies whole inside its label
 # Value beyond the interface of a label, where it never wins, whatever its offset: a small label with a large offset
 # would else come back at the walls of others.
@@ -68,17 +74,31 @@ def choose_winners(entries, labels, slots, values, offsets, numbers, winners, th
                             winners[i, j, k] = best
 
 
+@njit(inline="always", cache=True)
+def place_hash(i, j, k):
+    """Return a number that depends on a place alone, and not evenly."""
+    number = np.uint64(i) * I_FACTOR ^ np.uint64(j) * J_FACTOR ^ np.uint64(k) * K_FACTOR
+    number ^= number >> np.uint64(29)
+    number *= I_FACTOR
+    return number ^ (number >> np.uint64(32))
+
+
 @njit(nogil=True, cache=True)
-def count_margins(entries, labels, slots, values, numbers, bins, thread, threads):
+def count_margins(entries, labels, slots, values, numbers, own, bins, thread, threads):
     """Count by how much the value of every label exceeds the highest other one in its cells.
 
-    `bins` is (threads, labels, n): margins from -2 to 2 fall into n bins.
+    Parameters
+    ----------
+    own : (2, 3) int64
+        The first brick whose cells count, and the one after the last.
+    bins : (threads, labels, n) int64
+        Added to: margins from -2 to 2 fall into n bins.
     """
     n0, n1, n2 = numbers.shape
     largest = bins.shape[2] - 1
-    for p in range(thread, entries.shape[0], threads):
-        for q in range(entries.shape[1]):
-            for r in range(entries.shape[2]):
+    for p in range(own[0, 0] + thread, own[1, 0], threads):
+        for q in range(own[0, 1], own[1, 1]):
+            for r in range(own[0, 2], own[1, 2]):
                 begin, end = entries[p, q, r, 0], entries[p, q, r, 1]
                 for a in range(B0):
                     for b in range(B1):
@@ -101,8 +121,10 @@ def count_margins(entries, labels, slots, values, numbers, bins, thread, threads
 
 
 @njit(nogil=True, cache=True)
-def share_cells(entries, labels, slots, values, offsets, numbers, ramp, stride, shares, pairs, thread, threads):
-    """Share every cell between the two labels with the highest values; return how many cells both have a part of.
+def share_cells(
+    entries, labels, slots, values, offsets, numbers, own, corner, ramp, stride, shares, pairs, thread, threads
+):
+    """Share every cell between the two labels with the highest values; return the number of samples.
 
     A cell is the winner's from a lead of `ramp` on, and half its own without a lead: summed along a wall, shares are
     the volume behind it, and they change without jumps.
@@ -111,25 +133,29 @@ def share_cells(entries, labels, slots, values, offsets, numbers, ramp, stride, 
     ----------
     entries, labels, slots, values, offsets, numbers
         As for `choose_winners`.
+    own : (2, 3) int64
+        See `count_margins`.
+    corner : (3,) int64
+        The first cell, in the whole grid.
     ramp : float
-    stride : int
-        Of the shared cells, every `stride`-th is a sample.
-    shares : (threads, labels) float64
-        Added to.
+    stride : uint64
+        One of so many shared cells is a sample, by its place in the whole grid.
+    shares : (threads, labels) int64
+        Added to: parts of cells, see `PARTS`.
     pairs : (threads, K) uint32
         The two labels of samples, winner first: the first has the higher 16 bits.
     """
     n0, n1, n2 = numbers.shape
-    shared = 0
-    for p in range(thread, entries.shape[0], threads):
-        for q in range(entries.shape[1]):
-            for r in range(entries.shape[2]):
+    samples, whole = 0, np.int64(PARTS)
+    for p in range(own[0, 0] + thread, own[1, 0], threads):
+        for q in range(own[0, 1], own[1, 1]):
+            for r in range(own[0, 2], own[1, 2]):
                 begin, end = entries[p, q, r, 0], entries[p, q, r, 1]
                 i0, i1 = max(p * B0 - 1, 0), min(p * B0 + B0 - 1, n0)
                 j0, j1 = max(q * B1 - 1, 0), min(q * B1 + B1 - 1, n1)
                 k0, k1 = max(r * B2 - 1, 0), min(r * B2 + B2 - 1, n2)
                 if end - begin == 1:
-                    shares[thread, labels[begin]] += max(i1 - i0, 0) * max(j1 - j0, 0) * max(k1 - k0, 0)
+                    shares[thread, labels[begin]] += whole * max(i1 - i0, 0) * max(j1 - j0, 0) * max(k1 - k0, 0)
                     continue
                 for i in range(i0, i1):
                     for j in range(j0, j1):
@@ -147,15 +173,18 @@ def share_cells(entries, labels, slots, values, offsets, numbers, ramp, stride, 
                                     second, second_value = label, value
                             lead = best_value - second_value
                             if lead >= ramp:
-                                shares[thread, best] += 1.0
+                                shares[thread, best] += whole
                                 continue
-                            share = 0.5 + 0.5 * lead / ramp
+                            share = np.int64((0.5 + 0.5 * lead / ramp) * PARTS)
                             shares[thread, best] += share
-                            shares[thread, second] += 1.0 - share
-                            if shared % stride == 0 and shared // stride < pairs.shape[1]:
-                                pairs[thread, shared // stride] = (np.uint32(best) << 16) | np.uint32(second)
-                            shared += 1
-    return shared
+                            shares[thread, second] += whole - share
+                            name = place_hash(i + corner[0], j + corner[1], k + corner[2])
+                            if name % stride != 0:
+                                continue
+                            if samples < pairs.shape[1]:
+                                pairs[thread, samples] = (np.uint32(best) << 16) | np.uint32(second)
+                                samples += 1
+    return samples
 
 
 @njit(nogil=True, cache=True)

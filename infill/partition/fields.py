@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,8 +12,11 @@ from scipy import sparse
 
 from infill.kernels.sparse import BRICK, CELLS, SOLID_BRICK
 from infill.kernels.threads import in_order, in_threads, thread_count
-from infill.kernels.winners import INSIDE, choose_winners, count_margins, find_uniform, share_cells
-from infill.phasefield.sparse import SparseField
+from infill.kernels.winners import INSIDE, PARTS, choose_winners, count_margins, find_uniform, share_cells
+from infill.phasefield.allen_cahn import Smoothing
+from infill.phasefield.profile import PLAIN_PROFILE, REFINED_PROFILE
+from infill.phasefield.refining import refine_bricks
+from infill.phasefield.sparse import SparseField, smooth_bricks
 
 SAMPLED_BRICKS, STEEP = 20_000, 0.9  # where the row crosses the surface about at right angles
 SAMPLES = 2**21  # of cells that two labels share, at most, of each thread
@@ -40,6 +43,12 @@ class PartitionFields:
         The label of each entry and the place of its brick in `values`, or `infill.kernels.winners.INSIDE`.
     values : (b, 1024) float32
         Cells of bricks, in [-1, 1].
+    corner : (3,) int
+        The first cell, if this is a part of a grid.
+    whole : (3,) int, optional
+        Cells of the whole grid.
+    own : (2, 3) int, optional
+        The first brick that counts, and the one after the last; by default, all do.
     """
 
     numbers: NDArray[np.uint16]
@@ -48,20 +57,54 @@ class PartitionFields:
     labels: NDArray[np.int32]
     slots: NDArray[np.int32]
     values: NDArray[np.float32]
+    corner: tuple[int, ...] = (0, 0, 0)
+    whole: tuple[int, ...] | None = None
+    own: NDArray[np.int64] | None = None
 
-    def slope(self) -> float:
-        """Return the slope of a field at its surface, in units a cell, from the steepest of neighbours on a row."""
-        rows = self.values[:: max(1, len(self.values) // SAMPLED_BRICKS)].reshape(-1, BRICK[-1])
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Cells of the whole grid."""
+        return self.numbers.shape if self.whole is None else self.whole
+
+    @property
+    def place(self) -> NDArray[np.int64]:
+        """The first cell, and the cells of the whole grid, (2, 3)."""
+        return np.array([self.corner, self.shape], dtype=np.int64)
+
+    @property
+    def bricks(self) -> NDArray[np.int64]:
+        """The first brick that counts, and the one after the last, (2, 3)."""
+        return np.array([(0, 0, 0), self.entries.shape[:3]], dtype=np.int64) if self.own is None else self.own
+
+    def own_slots(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Return the bricks that count and have values: their label and place, (n, 4), and their slots, (n,)."""
+        counts = (self.entries[..., 1] - self.entries[..., 0]).ravel()
+        place = np.stack(np.unravel_index(np.repeat(np.arange(len(counts)), counts), self.entries.shape[:3]), axis=1)
+        low, high = self.bricks
+        chosen = (self.slots != INSIDE) & ((place >= low) & (place < high)).all(axis=1)
+        first = np.array(self.corner) // BRICK
+        return np.column_stack([self.labels[chosen], place[chosen] + first]), self.slots[chosen].astype(np.int64)
+
+    def rises(self, stride: int) -> NDArray[np.float32]:
+        """Return the differences of neighbours on rows across surfaces, of one of `stride` bricks."""
+        names, slots = self.own_slots()
+        if stride > 1:
+            slots = slots[hash_names(names) % np.uint64(stride) == 0]
+        rows = self.values[slots].reshape(-1, BRICK[-1])
         low, high = rows[:, :-1], rows[:, 1:]
         crosses = (low > 0) != (high > 0)
-        return float(np.quantile(np.abs(high[crosses] - low[crosses]), STEEP)) if crosses.any() else 1.0
+        return np.asarray(np.abs(high[crosses] - low[crosses]))
+
+    def slope(self) -> float:
+        """Return the slope of a field at its surface, in units a cell: see `slope_of`."""
+        return slope_of(self.rises(brick_stride(len(self.values))))
 
     def margins(self, bins: int, *, threads: int | None = None) -> NDArray[np.int64]:
         """Count the cells of every label by how much it exceeds the highest other one: (labels, bins) from -2 to 2."""
         count = thread_count(threads)
         sums = np.zeros((count, self.count, bins), dtype=np.int64)
         fields = self.entries, self.labels, self.slots, self.values, self.numbers
-        in_threads(count_margins, *fields, sums, threads=count)
+        in_threads(count_margins, *fields, self.bricks, sums, threads=count)
         return np.asarray(sums.sum(axis=0))
 
     def shares(
@@ -84,16 +127,19 @@ class PartitionFields:
         changes : (labels, labels) sparse float64
             Cells that the label of a row wins from that of a column for a unit of its offset.
         """
+        return volumes_of_shares(*self.count_shares(offsets, ramp, threads=threads), ramp, self.shape)
+
+    def count_shares(
+        self, offsets: NDArray[np.floating], ramp: float, *, threads: int | None = None
+    ) -> tuple[NDArray[np.int64], NDArray[np.uint32], NDArray[np.int64]]:
+        """Count the parts of cells that labels have, (labels,), the pairs that share samples of cells, and these."""
         count = thread_count(threads)
-        stride = -(-self.numbers.size // SAMPLES)
-        sums, pairs = np.zeros((count, self.count)), np.empty((count, SAMPLES), dtype=np.uint32)
+        sums, pairs = np.zeros((count, self.count), dtype=np.int64), np.empty((count, SAMPLES), dtype=np.uint32)
         fields = self.entries, self.labels, self.slots, self.values, np.asarray(offsets, dtype=np.float32)
-        shared = in_threads(share_cells, *fields, self.numbers, ramp, stride, sums, pairs, threads=count)
-        samples = np.concatenate([pairs[thread, : -(-cells // stride)] for thread, cells in enumerate(shared)])
-        pair, number = np.unique(samples, return_counts=True)
-        ends = (pair >> 16).astype(np.int64), (pair & 0xFFFF).astype(np.int64)
-        changes = sparse.csr_array((number * (stride / (2 * ramp)), ends), shape=(self.count, self.count))
-        return sums.sum(axis=0), sparse.csr_array(changes + changes.T)
+        within = self.numbers, self.bricks, self.place[0], ramp, np.uint64(share_stride(self.shape))
+        samples = in_threads(share_cells, *fields, *within, sums, pairs, threads=count)
+        listed = np.concatenate([pairs[thread, :number] for thread, number in enumerate(samples)])
+        return sums.sum(axis=0), *np.unique(listed, return_counts=True)
 
     def winners(self, offsets: NDArray[np.floating], *, threads: int | None = None) -> NDArray[np.uint16]:
         """Return the label with the highest value plus offset in every cell; ties go to the given label."""
@@ -110,6 +156,53 @@ class PartitionFields:
             threads=thread_count(threads),
         )
         return winners
+
+
+def smooth_to_distance(
+    data: NDArray[np.generic], smoothing: Smoothing, *, spacing: tuple[float, ...], plain: bool, threads: int
+) -> SparseField:
+    """Smooth the cells of a label to distances from its surface, which change evenly, as walls of labels assume."""
+    smoother, profile = (smooth_bricks, PLAIN_PROFILE) if plain else (refine_bricks, REFINED_PROFILE)
+    field = smoother(data, smoothing, spacing=spacing, threads=threads)
+    return replace(field, values=profile.distance(field.values, out=field.values, threads=threads))
+
+
+def hash_names(names: NDArray[np.int64]) -> NDArray[np.uint64]:
+    """Return numbers that depend on whole numbers (n, k) alone, and not evenly."""
+    number = np.zeros(len(names), dtype=np.uint64)
+    for column in names.T:
+        number = (number ^ column.astype(np.uint64)) * np.uint64(0x9E3779B97F4A7C15)
+        number ^= number >> np.uint64(29)
+    return number
+
+
+def brick_stride(bricks: int) -> int:
+    """Return how many bricks there are for each from which the slope is taken."""
+    return max(1, bricks // SAMPLED_BRICKS)
+
+
+def slope_of(rises: NDArray[np.float32]) -> float:
+    """Return the slope of fields at their surfaces from differences of neighbours: the steepest, across the row."""
+    return float(np.quantile(rises, STEEP)) if len(rises) else 1.0
+
+
+def share_stride(shape: tuple[int, ...]) -> int:
+    """Return how many shared cells there are for each that is a sample, at least."""
+    return -(-math.prod(shape) // SAMPLES)
+
+
+def volumes_of_shares(
+    sums: NDArray[np.int64],
+    pairs: NDArray[np.uint32],
+    samples: NDArray[np.int64],
+    ramp: float,
+    shape: tuple[int, ...],
+) -> tuple[NDArray[np.float64], sparse.csr_array]:
+    """Return the volumes, and how they change, from `PartitionFields.count_shares`: see `PartitionFields.shares`."""
+    ends = (pairs >> 16).astype(np.int64), (pairs & 0xFFFF).astype(np.int64)
+    each = share_stride(shape) / (2 * ramp)
+    changes = sparse.csr_array((samples * each, ends), shape=(len(sums), len(sums)))
+    return sums / PARTS, sparse.csr_array(changes + changes.T)
 
 
 def smooth_fields(

@@ -24,10 +24,12 @@ TAKEN_BACK_ROUNDS = 5  # of taking back moves, each with a ring of points more
 ROOM = 1 << 10  # pairs of each thread, at first
 
 
-def smooth_junctions(graph: WallGraph, walls: Walls, *, threads: int | None = None) -> Shifts:
+def smooth_junctions(
+    graph: WallGraph, walls: Walls, *, shape: tuple[int, ...] | None = None, threads: int | None = None
+) -> Shifts:
     """Return shifts of points by which the lines where labels meet, and what lies beside them, become smooth.
 
-    Points on the sides of the box stay where they are.
+    Points on the sides of the box, which has `shape` cells if the graph is that of a part, stay where they are.
     """
     count, triangles = thread_count(threads), walls.triangles
     is_junction = _find_junctions(graph)
@@ -35,7 +37,7 @@ def smooth_junctions(graph: WallGraph, walls: Walls, *, threads: int | None = No
     for _ in range(RINGS):
         near = _add_ring(near, triangles, count)
     moved = np.flatnonzero(near)
-    moved = moved[~on_side(walls.points[moved], graph.winners.shape).any(axis=1)]
+    moved = moved[~on_side(walls.points[moved], shape or graph.winners.shape).any(axis=1)]
     place = np.full(len(near), -1, dtype=np.int32)
     place[moved] = np.arange(len(moved))
     chosen = _touched(place >= 0, triangles, count)
@@ -67,15 +69,13 @@ def take_back_crossings(
     scale : (3,) float
         Sides of a cell.
     """
-    count, triangles, points = thread_count(threads), walls.triangles, walls.points
+    triangles, points = walls.triangles, walls.points
     changed = shifts.points
     for number in range(TAKEN_BACK_ROUNDS + 1):
-        pairs = _find_crossings_beside(points, triangles, changed, scale, count)
+        pairs = find_crossings_beside(points, triangles, changed, scale, threads=threads)
         if not len(pairs) or number == TAKEN_BACK_ROUNDS:
             break
-        crossing = np.zeros(len(points), dtype=bool)
-        crossing[triangles[np.unique(pairs)]] = True
-        is_taken = _add_ring(crossing, triangles, count)[shifts.points]
+        is_taken = mark_crossing(triangles, pairs, len(points), threads=threads)[shifts.points]
         changed = shifts.points[is_taken]
         if points is walls.points:
             points = points.copy()  # once: it is as large as all walls
@@ -84,19 +84,30 @@ def take_back_crossings(
     return shifts, len(pairs)
 
 
-def _find_crossings_beside(
+def mark_crossing(
+    triangles: NDArray[np.integer], pairs: NDArray[np.int64], points: int, *, threads: int | None = None
+) -> NDArray[np.bool_]:
+    """Mark the points (P,) of triangles that pass through others, pairs (N, 2), and those beside them."""
+    crossing = np.zeros(points, dtype=bool)
+    crossing[triangles[np.unique(pairs)]] = True
+    return _add_ring(crossing, triangles, thread_count(threads))
+
+
+def find_crossings_beside(
     points: NDArray[np.float32],
     triangles: NDArray[np.integer],
     moved: NDArray[np.int64],
     scale: tuple[float, ...],
-    threads: int,
+    *,
+    threads: int | None = None,
 ) -> NDArray[np.int64]:
-    """Return the pairs of triangles that may pass through each other after points were moved."""
+    """Return the pairs of triangles that pass through each other beside moved points: see `find_crossings`."""
+    count = thread_count(threads)
     is_moved = np.zeros(len(points), dtype=bool)
     is_moved[moved] = True
     # What a moved triangle may run into lies beside it.
-    chosen = _touched(_add_ring(is_moved, triangles, threads), triangles, threads)
-    return find_crossings(points, triangles, chosen, scale, threads=threads)
+    chosen = _touched(_add_ring(is_moved, triangles, count), triangles, count)
+    return find_crossings(points, triangles, chosen, scale, threads=count)
 
 
 def find_crossings(
@@ -127,6 +138,7 @@ def find_crossings(
     count = thread_count(threads)
     boxes, widest = np.empty((len(chosen), 2, 3), dtype=np.float32), np.zeros((count, 3), dtype=np.int64)
     in_threads(line_kernels.box_triangles, points, triangles, chosen, boxes, widest, threads=count)
+    boxes -= np.floor(boxes[:, 0].min(axis=0))  # exact, and rows far from the origin need no room
     cells = boxes[:, 0].max(axis=0).astype(np.int64) + 1
     # One more plane: where rows begin is counted two places further on.
     starts, order = np.zeros((cells[0] + 1, max(cells[1], 2)), dtype=np.int64), np.empty(len(chosen), dtype=np.int64)

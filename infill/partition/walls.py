@@ -158,15 +158,28 @@ def place_walls(
     scale : (3,) float
         Sides of a cell, in which volumes and areas are measured.
     """
-    count = thread_count(threads)
+    points = place_wall_points(graph, fields, offsets, shifts=shifts, threads=threads)
+    volumes = measure_volumes(graph, points, fields.count, scale=scale, threads=threads)
+    return Walls(points=points, triangles=graph.triangles, sides=graph.sides, volumes=volumes)
+
+
+def place_wall_points(
+    graph: WallGraph,
+    fields: PartitionFields,
+    offsets: NDArray[np.floating],
+    *,
+    shifts: Shifts | None = None,
+    threads: int | None = None,
+) -> NDArray[np.float32]:
+    """Return the places of the points of walls, (P, 3) in cells of the whole grid: see `place_walls`."""
     points = np.empty((graph.point_count, 3), dtype=np.float32)
     added = np.asarray(offsets, dtype=np.float32)
-    values = fields.entries, fields.labels, fields.slots, fields.values, added
+    values = fields.entries, fields.labels, fields.slots, fields.values, added, fields.place
+    count = thread_count(threads)
     in_threads(kernels.place_points, graph.winners, *CUTTING, SLOTS_AT, *graph.rows, *values, points, threads=count)
     if shifts is not None:
         points[shifts.points] += shifts.vectors
-    volumes = measure_volumes(graph, points, fields.count, scale=scale, threads=threads)
-    return Walls(points=points, triangles=graph.triangles, sides=graph.sides, volumes=volumes)
+    return points
 
 
 def measure_volumes(
@@ -178,12 +191,31 @@ def measure_volumes(
     threads: int | None = None,
 ) -> NDArray[np.float64]:
     """Measure the volume of every label within points, (labels,) in cells of `scale`; 0 has the rest of the box."""
+    sums = sum_volumes(points, graph.triangles, graph.sides, labels, scale=scale, threads=threads)
+    return volumes_of_sums(sums, graph.winners.shape, scale)
+
+
+def sum_volumes(
+    points: NDArray[np.float32],
+    triangles: NDArray[np.integer],
+    sides: NDArray[np.integer],
+    labels: int,
+    *,
+    scale: tuple[float, ...] = (1.0, 1.0, 1.0),
+    threads: int | None = None,
+) -> NDArray[np.int64]:
+    """Sum six times the volume of every label in whole numbers, (labels, 2), which parts of walls add up to."""
     count = thread_count(threads)
-    sums = np.zeros((count, labels))
-    sides = np.array(scale, dtype=np.float64)
-    in_threads(kernels.add_volumes, points, graph.triangles, graph.sides, sides, sums, threads=count)
-    volumes: NDArray[np.float64] = sums.sum(axis=0) / 6
-    volumes[0] = np.prod(np.multiply(graph.winners.shape, scale)) - volumes[1:].sum()
+    sums = np.zeros((count, labels, 2), dtype=np.int64)
+    lengths = np.array(scale, dtype=np.float64)
+    in_threads(kernels.add_volumes, points, triangles, sides, lengths, sums, threads=count)
+    return np.asarray(sums.sum(axis=0))
+
+
+def volumes_of_sums(sums: NDArray[np.int64], shape: tuple[int, ...], scale: tuple[float, ...]) -> NDArray[np.float64]:
+    """Return the volume of every label from `sum_volumes`, (labels,) in cells of `scale`; 0 has the rest of the box."""
+    volumes: NDArray[np.float64] = (sums[:, 0] + sums[:, 1] / kernels.LOW) / (6 * kernels.HIGH)
+    volumes[0] = np.prod(np.multiply(shape, scale)) - volumes[1:].sum()
     return volumes
 
 

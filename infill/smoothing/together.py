@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, BinaryIO
 
@@ -15,12 +14,9 @@ from infill.formats.mesh_files import TETRAHEDRA, WALL_WRITERS
 from infill.formats.parts import hex_colour
 from infill.inspection.partitions import PartitionCheck
 from infill.machine import require_memory
-from infill.partition.fields import PartitionFields, smooth_fields
+from infill.partition.fields import PartitionFields, smooth_fields, smooth_to_distance
 from infill.partition.simplifying import simplify_partition
 from infill.partition.volumes import SMALLEST, VolumePartition, keep_volumes
-from infill.phasefield.profile import PLAIN_PROFILE, REFINED_PROFILE
-from infill.phasefield.refining import refine_bricks
-from infill.phasefield.sparse import SparseField, smooth_bricks
 from infill.plain_numbers import count_noun
 from infill.reports.common import declare, report_head
 from infill.reports.sections import with_late_sections
@@ -40,6 +36,7 @@ from infill.smoothing.together_stages import TogetherStages
 
 if TYPE_CHECKING:
     from infill.inspection.bricks import TopologyCheck
+    from infill.phasefield.sparse import SparseField
     from infill.reports.smoothing import TogetherLabel, TogetherReport, TogetherVerdict, Verdicts
     from infill.smoothing.request import SmoothRequest
     from infill.volume import Volume
@@ -188,13 +185,10 @@ def _smooth_fields(
     """Smooth the field of every label, and of the space between them; `shares` are those of the pieces."""
     spacing = tuple(volume.cell_size.tolist())
     is_plain = request.method == "plain"
-    smoother, profile = (smooth_bricks, PLAIN_PROFILE) if is_plain else (refine_bricks, REFINED_PROFILE)
 
     def smooth_data(data: NDArray[np.generic], threads: int) -> SparseField:
         """Smooth the cells of a label to distances from its surface."""
-        field = smoother(data, request.smoothing, spacing=spacing, threads=threads)
-        # Distances change evenly from cell to cell, as walls between them assume.
-        return replace(field, values=profile.distance(field.values, out=field.values, threads=threads))
+        return smooth_to_distance(data, request.smoothing, spacing=spacing, plain=is_plain, threads=threads)
 
     def phase_of_shares(number: int, box: tuple[slice, ...]) -> NDArray[np.float32]:
         """Return the shares of a label, or of the space between all, as a phase field."""
