@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from infill import Smoothing, Volume
+from infill import Smoothing, Volume, smooth_volume
+from infill.chunks.hashing import hash_surface
 from infill.errors import GeometryError
 from infill.lazy.volume import LazyVolume
 from infill.smoothing import chunked_verdict
@@ -116,10 +118,12 @@ def test_a_plate_that_is_lost_is_found() -> None:
 
 def test_a_loss_is_refused_and_named() -> None:
     values = block_with_a_plate(2, 31)
-    request = replace(plain(30), allow_broken=False)
-    with pytest.raises(GeometryError, match=r"is missing.*fewer --steps, or --allow-broken"):
+    request = replace(plain(60, strict=True), allow_broken=False)
+    with pytest.raises(
+        GeometryError, match=r"is missing.*leave out --strict, so that other ways are tried, or give --al"
+    ):
         in_chunks(values, request, None, spacing=SPACING)
-    assert in_chunks(values, replace(request, smoothing=Smoothing(steps=2)), None, spacing=SPACING)  # the remedy
+    assert in_chunks(values, replace(request, strict=False), None, spacing=SPACING).word != "lost"  # the remedy
 
 
 def test_what_is_kept_is_said_to_be_kept(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -173,3 +177,22 @@ def test_workers_change_nothing() -> None:
         with smooth_in_chunks(volume, request, threshold=case.threshold, side=16, workers=workers) as surface:
             reports.append(surface.report()["verdict"])
     assert reports[0] == reports[1]
+
+
+def test_gentler_steps_are_tried_as_in_memory() -> None:
+    # A plate two voxels thick: 30 steps lose it, fewer do not.
+    values = block_with_a_plate(2, 31)
+    request = replace(plain(30), allow_broken=False)
+    volume = LazyVolume(array=Arranged(values), spacing=SPACING, origin=(0.0, 0.0, 0.0))
+    with smooth_in_chunks(volume, request, side=16) as surface:
+        report, solver = surface.report(), surface.solver
+        assert list(Path(solver.work.scratch).iterdir())
+        assert (
+            len([folder for folder in Path(solver.work.scratch).parent.glob("fields*") if any(folder.iterdir())]) == 1
+        )
+    whole = smooth_volume(values, method="plain", smoothing=Smoothing(steps=30), spacing=SPACING, tolerance=None)
+    for key in ("word", "tried", "taken", "instead_of"):
+        assert report["verdict"][key] == whole.report["verdict"][key]
+    assert report["verdict"]["instead_of"] == {"steps": 30, "radius": None}
+    assert report["request"]["steps"] == whole.report["request"]["steps"]
+    assert report["hash"] == hash_surface(whole.surface.vertices, whole.surface.faces)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, cast
 import typer
 
 from infill.cli.console import format_bytes, format_table, print_json, print_log, progress_bar, say
-from infill.cli.foreseeing import format_span, format_steps
+from infill.cli.foreseeing import format_replaced, format_span, format_steps
 from infill.errors import MemoryLimitError, ParameterError, UsageError
 from infill.plain_numbers import count_noun, plain_size
 
@@ -273,7 +273,8 @@ def _summary(report: ChunksReport, files: Iterable[str], name: str) -> str:
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, {size}",
         **_simplified_row(report["simplified"]),
         "solid": f"{plain_size(report['volume'], digits=6, power=3)}, {report['volume_change']:+z.4%} of the data",
-        "smoothing": f"{format_steps(request)}, {' x '.join(map(str, grid['shape']))} voxels of "
+        "smoothing": f"{format_steps(request)}{format_replaced(report['verdict']['instead_of'])}, "
+        f"{' x '.join(map(str, grid['shape']))} voxels of "
         f"{plain_size(*grid['spacing'], digits=4)}",
         "chunks": f"{chunks['crossed']:,} of {chunks['count']:,} with surface, of "
         f"{' x '.join(map(str, chunks['cells']))} voxels, {count_noun(chunks['workers'], 'worker')}",

@@ -13,10 +13,10 @@ import typer
 from infill.cli.console import format_bytes, format_table, print_json, print_log
 from infill.errors import InfillError
 from infill.machine import available_memory
-from infill.plain_numbers import plain_number, plain_size
+from infill.plain_numbers import plain_argument, plain_number, plain_size
 
 if TYPE_CHECKING:
-    from infill.reports.smoothing import PlannedInput, SolidRequest
+    from infill.reports.smoothing import PlannedInput, ReplacedSmoothing, SolidRequest
     from infill.smoothing.plan import SmoothPlan
     from infill.smoothing.request import SmoothOptions
     from infill.smoothing.settings import SmoothSettings
@@ -84,6 +84,14 @@ def _plan_table(plan: SmoothPlan, files: list[str], name: str) -> str:
 def format_steps(request: SolidRequest) -> str:
     """Write how many steps a run takes, in the words of the plan and of the summary."""
     return f"{request['steps']} steps{', refined' if request['refine'] else ''}"
+
+
+def format_replaced(asked: ReplacedSmoothing | None) -> str:
+    """Describe the smoothing that was asked for, if another was taken instead."""
+    if asked is None:
+        return ""
+    radius = "" if asked["radius"] is None else f" of --smooth-radius {plain_argument(asked['radius'])}"
+    return f", instead of the {asked['steps']}{radius}, with which more changed"
 
 
 def _source_text(facts: PlannedInput) -> str:

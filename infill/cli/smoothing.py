@@ -27,7 +27,7 @@ from infill.cli.common import (
 from infill.cli.components import check_fields, component_summary, component_writer
 from infill.cli.console import format_bytes, format_table, print_json, print_log, progress_bar, say
 from infill.cli.declared import takes_options
-from infill.cli.foreseeing import format_steps, show_smooth_plan
+from infill.cli.foreseeing import format_replaced, format_steps, show_smooth_plan
 from infill.cli.labelled import SmoothOutput, refuse_options, smooth_every_label, wants_every_label
 from infill.errors import MemoryLimitError
 from infill.machine import available_memory
@@ -287,7 +287,7 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
         f", {level['lowest']:.3f} to {level['highest']:.3f} for its components" if level["components"] > 1 else ""
     )
     voxels = "voxels of the mesh" if report["input"]["source"] == "mesh" else "data"
-    steps = f"{format_steps(request)}{_replaced_text(report)}"
+    steps = f"{format_steps(request)}{format_replaced(report['verdict']['instead_of'])}"
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, {size}",
         "solid": f"{plain_size(report['volume'], digits=6, power=3)}, {report['volume_change']:+z.4%} of the data",
@@ -334,15 +334,6 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
     for path in files:
         rows[f"wrote {path}"] = format_bytes(Path(path).stat().st_size) if Path(path).is_file() else ""
     return format_table(rows, title=name)
-
-
-def _replaced_text(report: SmoothReport) -> str:
-    """Describe the smoothing that was asked for, if another was taken instead."""
-    asked = report["verdict"]["instead_of"]
-    if asked is None:
-        return ""
-    radius = "" if asked["radius"] is None else f" of --smooth-radius {plain_argument(asked['radius'])}"
-    return f", instead of the {asked['steps']}{radius}, with which more changed"
 
 
 def _facet_text(facets: FacetKeys, voxel: float, wall: float | None) -> str:

@@ -472,7 +472,7 @@ class ChunksReport(ReportHead, SurfaceKeys):
     volume_change: Annotated[float, "Relative change of the volume"]
     components: Annotated[int, "Number of components"]
     problems: Annotated[list[str], "Problems of the result, one phrase each; empty without problems"]
-    verdict: Judgement
+    verdict: VerdictKeys
     request: SolidRequest
     grid: GridKeys
     input: ChunksInput

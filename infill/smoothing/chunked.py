@@ -34,8 +34,9 @@ from infill.smoothing.chunked_rule import count_specks, require_some_solid
 from infill.smoothing.chunked_simplified import check_tolerance
 from infill.smoothing.chunked_surface import WRITING, ChunkedSurface, find_all_crumbs
 from infill.smoothing.chunked_verdict import judge_chunks
+from infill.smoothing.chunked_ways import ChunkedWay, find_sound_way, list_ways
 from infill.smoothing.comparing import intolerable_error
-from infill.smoothing.request import SmoothInput, SmoothRequest
+from infill.smoothing.request import AUTO, SmoothInput, SmoothRequest
 from infill.smoothing.scans import Threshold
 from infill.smoothing.work_folders import open_work_folder, run_facts
 
@@ -43,9 +44,9 @@ SHARES = {
     "read": (0.0, 0.05),
     "smooth": (0.05, 0.4),
     "join": (0.4, 0.41),
-    "surface": (0.41, 0.56),
-    "check": (0.56, 0.57),
-    "simplify": (0.57, WRITING),
+    "surface": (0.41, 0.52),
+    "check": (0.52, 0.6),
+    "simplify": (0.6, WRITING),
 }
 
 
@@ -83,7 +84,7 @@ def smooth_in_chunks(
     ParameterError
         For options that a volume in chunks does not have, or that do not determine the solid.
     GeometryError
-        If nothing is left, or the volume is off by a tenth.
+        If nothing is left, or something is lost in every way that was tried.
     FormatError
         If cells cannot be read.
     MemoryLimitError
@@ -122,25 +123,27 @@ def smooth_in_chunks(
                 scratch=folder.fields,
             )
         folder.begin(chosen.plan.layout.size)
-        work = chosen.work
-        solver = Solver(work=work, runner=runner, tell=tell)
-        with _timed(seconds, "smooth"):
-            _load_kernels(work)
-            solver.smooth()
-            segmentation = require_some_solid(solver, chosen.used)
-        chunked = _find_surface(solver, chosen, volume, segmentation, seconds)
-        chunked.check()
+        ways = list(list_ways(chosen, is_auto=request.method == AUTO))
+
+        def smooth_way(number: int, way: ChunkedWay) -> ChunkedSurface:
+            work = replace(way.chosen.work, scratch=folder.fields_of(number))
+            solver = Solver(work=work, runner=runner, tell=tell)
+            return _find_surface(solver, replace(way.chosen, work=work), volume, seconds)
+
+        chunked = find_sound_way(ways, smooth_way)
         if tolerance is not None:
             with _timed(seconds, "simplify"):
                 chunked.simplify(tolerance, folder.pieces, partial(tell, "simplify"))
         yield chunked
 
 
-def _find_surface(
-    solver: Solver, chosen: ChosenWork, volume: LazyVolume, segmentation: SegmentationKeys, seconds: dict[str, float]
-) -> ChunkedSurface:
-    """Find the surface of the smoothed chunks, without crumbs, and judge it."""
+def _find_surface(solver: Solver, chosen: ChosenWork, volume: LazyVolume, seconds: dict[str, float]) -> ChunkedSurface:
+    """Smooth the chunks, find their surface, without crumbs, and judge it."""
     request = chosen.request
+    with _timed(seconds, "smooth"):
+        _load_kernels(solver.work)
+        solver.smooth()
+        segmentation = require_some_solid(solver, chosen.used)
     with _timed(seconds, "surface"):
         surface, common, levels = solver.find_surface()
     to_phase = _phase_level(request)

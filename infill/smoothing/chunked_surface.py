@@ -22,12 +22,20 @@ from infill.formats.mesh_pieces import MeshPiece
 from infill.kernels.sparse import BRICK
 from infill.lazy.volume import LazyVolume
 from infill.reports.common import GridKeys, Topology, declare, report_head
-from infill.reports.smoothing import ChunkKeys, ChunksReport, ChunksSeconds, ChunksSimplified, SegmentationKeys
+from infill.reports.smoothing import (
+    ChunkKeys,
+    ChunksReport,
+    ChunksSeconds,
+    ChunksSimplified,
+    ReplacedSmoothing,
+    SegmentationKeys,
+)
 from infill.smoothing.chunk_plans import ChunkPlan
 from infill.smoothing.chunked_simplified import SimplifiedSurface
 from infill.smoothing.chunked_verdict import ChunkedVerdict
 from infill.smoothing.comparing import verdict_facts
 from infill.smoothing.levelling import CRUMB_CELLS, Crumbs, describe_cleaning, find_crumbs
+from infill.smoothing.remedies import STRICT_ADVICE
 from infill.smoothing.request import SmoothRequest
 from infill.surface import Surface
 from infill.volume import Volume
@@ -64,6 +72,8 @@ class ChunkedSurface:
     specks : int
         Number of specks taken out of the data.
     seconds : dict
+    tried, taken, instead_of
+        See `infill.reports.smoothing.VerdictKeys`.
     """
 
     volume: LazyVolume
@@ -83,6 +93,9 @@ class ChunkedSurface:
     target: float
     seconds: dict[str, float]
     progress: Progress | None = None
+    tried: list[str] = field(default_factory=list)
+    taken: str = ""
+    instead_of: ReplacedSmoothing | None = None
     simplified: SimplifiedSurface | None = None
     _sums: list[NDArray[np.int64]] = field(default_factory=list)
     _corners: list[NDArray[np.float64]] = field(default_factory=list)
@@ -219,20 +232,19 @@ class ChunkedSurface:
         lowered = np.float32(0 if self.surface.levels is not None else self.surface.level)
         return np.clip(sign - lowered, np.float32(-1), np.float32(1))
 
-    def check(self) -> None:
-        """Raise GeometryError for a result that is refused.
+    def check(self, in_vain: str = "") -> None:
+        """Raise GeometryError for a result that is refused; `in_vain` lists the other ways that were tried.
 
         Raises
         ------
         GeometryError
             If much is lost; with `strict`, if anything broke, fused or vanished.
         """
-        reasons = self.verdict.differences.refused(strict=self.request.strict)
+        strict = self.request.strict
+        reasons = self.verdict.differences.refused(strict=strict)
         if reasons and not self.request.allow_broken:
-            raise GeometryError(
-                f"{'; '.join(reasons)}; other steps are not tried in chunks: give fewer --steps, or --allow-broken to "
-                "have it anyway"
-            )
+            advice = f"{STRICT_ADVICE}, or give --allow-broken" if strict else "give --allow-broken"
+            raise GeometryError(f"{'; '.join(reasons)}{in_vain}; {advice} to have it anyway")
 
     def report(self) -> ChunksReport:
         """Return the report; the pieces are made for it unless they were made before."""
@@ -266,6 +278,9 @@ class ChunkedSurface:
             "verdict": {
                 **verdict_facts(differences, deviation, deviation.cell, cleaned),
                 "crumbs": self.crumbs.facts(),
+                "tried": self.tried,
+                "taken": self.taken,
+                "instead_of": self.instead_of,
             },
             "request": self.request.facts(),
             "grid": self._grid_facts(),

@@ -30,7 +30,7 @@ from infill.inspection.bricks import (
 )
 from infill.inspection.changes import ConnectionCounts, TopologyChanges
 from infill.inspection.component_matching import Overlaps, compare_components, sum_overlaps
-from infill.inspection.deviation import PITCH, Deviation, SurfaceGap, group_places
+from infill.inspection.deviation import PITCH, Deviation, SurfaceGap, Word, group_places, total_area
 from infill.smoothing.chunk_changes import ComparedChunk, FarPoints, MatchedChunk, compare_chunk, match_chunk
 from infill.smoothing.comparing import Differences, find_differences, thickness_that_counts
 from infill.smoothing.request import SmoothInput
@@ -50,11 +50,31 @@ class ChunkedVerdict:
         Changes of voids are not known: they are counted as none.
     deviation : Deviation
     differences : Differences
+    volume_error : float
+        Relative error of the volume, 0 if it is tolerable.
     """
 
     topology: TopologyCheck
     deviation: Deviation
     differences: Differences
+    volume_error: float
+
+    @property
+    def word(self) -> Word:
+        """`kept`, `changed a little` or `lost`."""
+        return self.differences.word
+
+    @property
+    def is_sound(self) -> bool:
+        """Whether another way could not improve: nothing is lost, broken or fused, and the volume is right."""
+        changes = self.topology.changes
+        return self.word != "lost" and not (changes.broken or changes.fused or changes.vanished or self.volume_error)
+
+    @property
+    def rank(self) -> tuple[bool, int, float]:
+        """Sort key of ways: the lowest is the best."""
+        area = total_area((*self.deviation.lost, *self.deviation.added))
+        return self.word == "lost", len(self.differences.losses) + len(self.differences.problems), area
 
 
 def judge_chunks(
@@ -106,6 +126,7 @@ def judge_chunks(
         topology=topology,
         deviation=deviation,
         differences=find_differences(topology, deviation, smooth_input, volume_error),
+        volume_error=volume_error,
     )
 
 

@@ -2,6 +2,7 @@
 
     manifest.json    input, settings and version of the run, and the size of its chunks
     fields/          smoothed fields, a file for each chunk
+    fields-1/ ...    those of further ways
     results/         results of finished tasks: see `infill.chunks.keeping`
     pieces/          simplified pieces of the surface
     lock             held by the run at work
@@ -62,8 +63,15 @@ class WorkFolder:
 
     @property
     def fields(self) -> str:
-        """Folder of the smoothed fields."""
+        """Folder of the smoothed fields of the way that is tried first."""
         return str(self.path / "fields")
+
+    def fields_of(self, number: int) -> str:
+        """Make the folder of the smoothed fields of a way, by its number, and return it."""
+        path = self.path / f"fields-{number}" if number else self.path / "fields"
+        with wrap_os_errors(self.path):
+            path.mkdir(exist_ok=True)
+        return str(path)
 
     @property
     def results(self) -> ResultFolder | None:
@@ -132,15 +140,16 @@ def open_work_folder(resume: str | os.PathLike[str] | None, facts: Mapping[str, 
         path.mkdir(exist_ok=True)
         _make_folders(path)
     with _locked(path):
-        _drop_damaged_fields(path / "fields")
+        for fields in path.glob("fields*"):
+            _drop_damaged_fields(fields)
         yield WorkFolder(path=path, lasting=True, facts=facts, size=size)
         remove_work_folder(path)
 
 
 def remove_work_folder(path: Path) -> None:
     """Remove the files of a run, and the folder if nothing else is in it."""
-    for name in FOLDERS:
-        shutil.rmtree(path / name, ignore_errors=True)
+    for part in (*(path / name for name in FOLDERS), *path.glob("fields-*")):
+        shutil.rmtree(part, ignore_errors=True)
     with contextlib.suppress(OSError):
         (path / MANIFEST).unlink(missing_ok=True)
         (path / LOCK).unlink(missing_ok=True)
