@@ -130,13 +130,16 @@ def chunked(case: Case) -> Iterator[ChunkedSurface]:
 def check_case(case: Case) -> None:
     """Compare with the first way that memory takes: surface, counts, targets and levels, or the same error."""
     scan = Volume(values=case.values, spacing=case.spacing)
+    failed: InfillError | None = None
     try:
         way = volume_ways(scan, case.request, threshold=case.threshold, grey=case.grey)[0]
         attempt = run_attempt(way.data, way.request)  # type: ignore[arg-type]
     except InfillError as error:
-        with pytest.raises(type(error)) as caught, chunked(case):
+        failed = error
+    if failed is not None:
+        with pytest.raises(type(failed)) as caught, chunked(case):
             pass
-        assert str(caught.value)[:25] == str(error)[:25]
+        assert str(caught.value)[:25] == str(failed)[:25]
         return
     with chunked(case) as surface:
         found, report = surface.whole(), surface.report()
@@ -252,18 +255,24 @@ def test_refined_fields_are_those_of_the_whole(blur: float, steps: int, size: tu
     check_fields((gaussian_filter(values, blur) if blur else values) > 0, steps, size)
 
 
-@pytest.mark.parametrize("axis", [0, 1, 2])
-def test_a_refined_margin_one_brick_narrower_is_not_enough(axis: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    shape = np.array([17, 17, 33])
-    shape[axis] = [90, 90, 100][axis]
-    data = np.random.default_rng(3).random(tuple(shape)) < 0.5
-    size = (3, 3, 3)
-    check_fields(data, 4, size)
-    margin = ChunkLayout(shape=data.shape, size=size, steps=4, refined=True).margin  # type: ignore[arg-type]
+@pytest.mark.parametrize(("axis", "seeds"), [(0, (8, 110, 152)), (2, (3,))])
+def test_a_refined_margin_one_brick_narrower_is_not_enough(
+    axis: int, seeds: tuple[int, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What comes from afar is weak by then: along the first axes, one volume in twenty shows it, in single cells."""
+    cases = []
+    for seed in seeds:
+        rng = np.random.default_rng(seed)
+        values = rng.normal(size=(96, 17, 17))
+        cases.append(np.moveaxis(gaussian_filter(values, rng.choice([0.7, 1, 1.5, 2.5])) > 0, 0, axis).copy())
+    size = ((1, 3, 3), (3, 1, 3), (3, 3, 1))[axis]
+    check_fields(cases[0], 4, size)
+    margin = ChunkLayout(shape=cases[0].shape, size=size, steps=4, refined=True).margin  # type: ignore[arg-type]
     narrow = tuple(bricks - (n == axis) for n, bricks in enumerate(margin))
     monkeypatch.setattr(ChunkLayout, "margin", property(lambda self: narrow))
     with pytest.raises(AssertionError):
-        check_fields(data, 4, size)
+        for data in cases:
+            check_fields(data, 4, size)
 
 
 # --- what is global --------------------------------------------------------------------------------------

@@ -47,7 +47,6 @@ def inputs(tmp_path_factory: pytest.TempPathFactory) -> Path:
     array[:] = values
     np.save(folder / "g.npy", values)
     np.save(folder / "mask.npy", values > 120)
-    np.save(folder / "phase.npy", np.tanh((values.astype(np.float32) - 120) / 40))
     np.save(folder / "labels.npy", (values // 64).astype(np.uint8))
     return folder
 
@@ -156,16 +155,12 @@ def test_a_dry_run_tells_the_cost(folder: Path) -> None:
 @pytest.mark.parametrize(
     ("words", "says"),
     [
-        (("--threshold", "120", "--workers", "2"), "method is auto, and a volume in chunks is smoothed by plain alone"),
-        (("--threshold", "120", "--refine", "--workers", "2"), "is refine, and a volume in chunks"),
         (
             (*PLAIN[:4], "--tolerance", "2"),
             "--tolerance is 2 mm, and a volume in chunks is simplified by at most a voxel",
         ),
         ((*PLAIN, "--max-triangles", "9"), "--max-triangles is not for a volume in chunks; give a tolerance instead"),
-        ((*PLAIN, "--despeckle", "9"), "--despeckle is not for a volume in chunks"),
         ((*PLAIN, "--voxel", "2"), "--voxel is not for a volume in chunks; leave it out"),
-        ((*PLAIN, "--grey"), "--grey is not for a volume in chunks; leave it out"),
         ((*PLAIN, "--preview", "a.png"), "--preview is not for a volume in chunks; leave it out"),
         ((*PLAIN, "--workers", "0"), "--workers is 0"),
         ((*PLAIN, "--scheduler", "tcp://127.0.0.1:9"), "--scheduler is 'tcp://127.0.0.1:9', and nothing answers there"),
@@ -187,11 +182,6 @@ def test_what_a_volume_in_chunks_refuses(
 @pytest.mark.parametrize(
     ("name", "words", "says"),
     [
-        (
-            "phase.npy",
-            ("--smooth", "plain", "--workers", "1"),
-            "a phase field, which is not smoothed in chunks; give --thr",
-        ),
         ("labels.npy", ("--smooth", "plain", "--workers", "1"), "do not say what is solid"),
         ("g.zarr", (*PLAIN, "--hash", "-o", "-"), "'-' is stdout, and a volume in chunks is written piece by piece"),
         ("g.zarr", (*PLAIN, "-o", "a.3mf"), "cannot be written piece by piece"),

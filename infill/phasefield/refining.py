@@ -277,11 +277,12 @@ def filter_bricks(
             weighted_sum.add(bricks, k + 1)
     del previous
     shape = data.shape
-    chosen, slots = slice(bricks.count), bricks.slots
+    chosen: slice | NDArray[np.int64] = slice(bricks.count)
+    slots = bricks.slots
     if core is not None:
-        chosen = np.flatnonzero(_needed_steps(bricks, core, schedule.last) == schedule.last)
+        chosen = near = np.flatnonzero(_needed_steps(bricks, core, schedule.last) == schedule.last)
         slots = np.where(slots >= 0, VOID_BRICK, slots)
-        slots[tuple(bricks.where[chosen].T)] = np.arange(len(chosen), dtype=np.int32)
+        slots[tuple(bricks.where[near].T)] = np.arange(len(near), dtype=np.int32)
     field = SparseField(
         shape=(shape[0], shape[1], shape[2]),
         slots=slots,
