@@ -86,7 +86,7 @@ def smooth(
         typer.Option(
             metavar="N",
             help="Smooth a volume in chunks, N at once, without having all of it in memory, with --smooth plain; or "
-            "its labels, each by itself. "
+            "its labels. "
             "(default: for Zarr and HDF5, one per core)",
             rich_help_panel=RUN,
         ),

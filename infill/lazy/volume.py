@@ -15,6 +15,7 @@ from infill.voxels.cropping import cells_in_box, cut_cells
 
 EXTRA = "pip install dask distributed fsspec h5py zarr"
 ADVICE = "give --smooth plain, which works in chunks, or a coarser level of it"
+TOGETHER_ADVICE = "give --workers N, which smooths labels together in chunks, or a coarser level of it"
 
 
 class LazyArray(Protocol):
@@ -61,10 +62,10 @@ class LazyVolume:
         along_x, along_y, along_z = self.array.shape
         return along_x, along_y, along_z
 
-    def load(self) -> Volume:
-        """Read all cells; raise MemoryLimitError if they do not fit into memory."""
+    def load(self, advice: str = ADVICE) -> Volume:
+        """Read all cells; raise MemoryLimitError with advice if they do not fit into memory."""
         cells = int(np.prod(np.array(self.shape, dtype=np.float64)))
-        require_memory(cells * (self.array.dtype.itemsize + 1), None, ADVICE)
+        require_memory(cells * (self.array.dtype.itemsize + 1), None, advice)
         values = self.array.read(tuple(slice(0, count) for count in self.shape))
         return self.place(values)
 
