@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 from test_command_line import refused, run
 
-from infill import ParameterError, Segment, Volume, smooth_labels, smooth_volume
+from infill import ParameterError, Segment, UsageError, Volume, smooth_labels, smooth_volume
 from infill.errors import FormatError, GeometryError, MemoryLimitError
 from infill.lazy.dask_arrays import DaskArray
 from infill.lazy.grain import whole_boxes
@@ -210,6 +210,11 @@ def test_labels_of_files(form: str, balls: NDArray[np.uint16], tmp_path: Path) -
 def test_a_dask_array(balls: NDArray[np.uint16]) -> None:
     array: Any = dask.array.from_array(balls, chunks=(50, 20, 44))
     require_same(smooth_labels(array, label=(2, 300), **PLACE), smooth_labels(balls, label=(2, 300), **PLACE))
+    options: dict[str, Any] = {"together": True, "method": "plain", "tolerance": None, **PLACE}
+    together, whole = smooth_labels(array, **options), smooth_labels(balls, **options)
+    assert np.array_equal(together.stages.written.points, whole.stages.written.points)
+    with pytest.raises(UsageError, match="keep_going does not go with labels together"):
+        smooth_labels(array, together=True, keep_going=True)
 
 
 @pytest.mark.parametrize("scheduler", ["threads", pytest.param("processes", marks=pytest.mark.slow)])
@@ -367,8 +372,6 @@ def test_together_reads_all_of_a_zarr(folder: Path) -> None:
     ("words", "says"),
     [
         ("a.zarr --each-label --hash -o a.3mf", "--hash is for one surface"),
-        ("a.zarr --together --workers 2 -o a.3mf", "--workers does not go with --together"),
-        ("a.zarr --together --scheduler threads -o a.3mf", "--scheduler does not go with --together"),
         ("a.npy --each-label --workers 0 -o a.3mf", "--workers is 0"),
         ("a.npy --each-label --workers 1 --frame 2 -o a.3mf", "--frame is 2, and a.npy is read in parts"),
         ("a.zarr --each-label --as mesh -o a.3mf", "--as is 'mesh', and a.zarr is read in parts"),

@@ -158,6 +158,14 @@ CHAPTERS = (
         known=(smoothing.SolidRequest, smoothing.Topology, smoothing.Distance, smoothing.Place),
     ),
     Chapter(
+        title="Labels together in chunks",
+        word="together in chunks",
+        text="`infill smooth --together` prints this report with `--workers` or `--scheduler`. `request` has the keys "
+        "of [the report of one solid](#smooth-a-volume-a-mesh-or-points).",
+        report=smoothing.PartedReport,
+        known=(smoothing.SolidRequest,),
+    ),
+    Chapter(
         title="Labels: a dry run",
         word="labels --dry-run",
         text="`infill smooth … --dry-run` over labels prints the request, the labels, and the expected costs.",

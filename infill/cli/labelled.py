@@ -13,6 +13,7 @@ import typer
 
 from infill.cli.console import format_bytes, format_table, print_json, print_log, progress_bar, say
 from infill.cli.foreseeing import format_span
+from infill.errors import UsageError
 from infill.plain_numbers import list_some, plain_number, plain_size
 
 if TYPE_CHECKING:
@@ -112,10 +113,9 @@ def smooth_every_label(
         if path in single:
             parts_writer(path, more=more)
     check_runner(workers, scheduler)
-    if settings.together and (workers is not None or scheduler is not None):
-        option = "--workers" if scheduler is None else "--scheduler"
-        raise typer.BadParameter(f"{option} does not go with --together, which has all labels in memory; leave it out")
     tasks = {"workers": workers, "scheduler": scheduler}
+    if _is_read_in_parts(source, settings, tasks) and settings.together:
+        _refuse_tetrahedra(single)
     text = next(iter(output.saved), None)
     check_outputs(single, text=text, overwrite=output.force, as_json=output.as_json, dry_run=output.dry_run)
     if output.dry_run:
@@ -149,9 +149,14 @@ def _smooth_labels(
     choice: dict[str, Any] = {"label": settings.label, "keep_going": settings.keep_going}
     if _is_read_in_parts(source, settings, tasks):
         from infill.smoothing.lazy_labels import smooth_lazy_labels
+        from infill.smoothing.together_chunks import smooth_together_in_chunks
 
         volume, in_file, table = _open_labels(source, settings)
-        return smooth_lazy_labels(volume, segments=in_file, table=table, **choice, **tasks, **options)
+        if not settings.together:
+            return smooth_lazy_labels(volume, segments=in_file, table=table, **choice, **tasks, **options)
+        if choice.pop("keep_going"):
+            raise UsageError.about("keep_going", "does not go with labels together; leave it out")
+        return smooth_together_in_chunks(volume, segments=in_file, table=table, **choice, **tasks, **options)
     from infill.smoothing.labels import smooth_labels
 
     segmentation, table = _read_labels(source, settings)
@@ -161,10 +166,19 @@ def _smooth_labels(
 
 
 def _is_read_in_parts(source: Path, settings: SmoothSettings, tasks: Mapping[str, Any]) -> bool:
-    """Tell whether each label is read by itself: from Zarr and HDF5, or if it is asked for."""
+    """Tell whether the source is read in parts: if it is asked for, or a Zarr or HDF5 of labels each by itself."""
     from infill.lazy.names import is_lazy
 
-    return not settings.together and (is_lazy(source) or any(value is not None for value in tasks.values()))
+    return any(value is not None for value in tasks.values()) or (is_lazy(source) and not settings.together)
+
+
+def _refuse_tetrahedra(outputs: Sequence[Path]) -> None:
+    """Raise BadParameter for tetrahedra, which are made of a volume in memory."""
+    from infill.formats.mesh_files import TETRAHEDRA
+
+    for path in outputs:
+        if path.suffix.lower() == TETRAHEDRA:
+            raise typer.BadParameter(f"{path} is not made in chunks; leave --workers and --scheduler out")
 
 
 def _open_labels(source: Path, settings: SmoothSettings) -> tuple[LazyVolume, tuple[Segment, ...], tuple[Segment, ...]]:
@@ -200,9 +214,11 @@ def _show_label_plan(
         choice: dict[str, Any] = {"begin": begin, "label": settings.label}
         if _is_read_in_parts(source, settings, tasks):
             from infill.smoothing.lazy_labels import plan_lazy_labels
+            from infill.smoothing.together_chunks import plan_together_in_chunks
 
             volume, in_file, table = _open_labels(source, settings)
-            plan = plan_lazy_labels(volume, segments=in_file, table=table, **choice, **tasks, **options)
+            plan_parts = plan_together_in_chunks if settings.together else plan_lazy_labels
+            plan = plan_parts(volume, segments=in_file, table=table, **choice, **tasks, **options)
         elif settings.together:
             segmentation, table = _read_labels(source, settings)
             wants_tetrahedra = any(path.suffix.lower() == TETRAHEDRA for path in output.outputs)
@@ -285,12 +301,14 @@ def _write_surface(
 
 
 def _together_text(label: TogetherLabel) -> str:
-    """Return the row of a label that was smoothed together with others."""
-    verdict = label["verdict"]
-    return (
+    """Return the row of a label that was smoothed together with others; in chunks, without a verdict."""
+    text = (
         f"{label['triangles']:,} triangles, {plain_size(label['volume'], digits=6, power=3)}, "
-        f"{label['volume_change']:+z.4%} of the data; {'; '.join([verdict['word'], *verdict['changes']])}"
+        f"{label['volume_change']:+z.4%} of the data"
     )
+    if "verdict" not in label:
+        return text
+    return "; ".join([text, label["verdict"]["word"], *label["verdict"]["changes"]])
 
 
 def _tetrahedra_section(result: Result[Any, Any], outputs: Sequence[Path]) -> dict[str, Any]:

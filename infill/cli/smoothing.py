@@ -88,8 +88,8 @@ def smooth(
         int | None,
         typer.Option(
             metavar="N",
-            help="Smooth a volume in chunks, N at once, without having all of it in memory; or its labels, each by "
-            "itself. (default: for Zarr and HDF5 that do not fit into memory, one per core)",
+            help="Smooth a volume in chunks, N at once, without having all of it in memory; or its labels. "
+            "(default: for Zarr and HDF5 that do not fit into memory, one per core)",
             rich_help_panel=RUN,
         ),
     ] = None,

@@ -15,7 +15,8 @@ from infill.voxels.cropping import cells_in_box, cut_cells
 
 BYTES_PER_CELL = 5  # besides the cells themselves: the mask of solid cells, and grey values as 32-bit numbers
 EXTRA = "pip install dask distributed fsspec h5py zarr"
-ADVICE = "give --smooth plain, which works in chunks, or a coarser level of it"
+ADVICE = "give --workers N, which works in chunks, or a coarser level of it"
+TOGETHER_ADVICE = "give --workers N, which smooths labels together in chunks, or a coarser level of it"
 
 
 class LazyArray(Protocol):
@@ -67,14 +68,14 @@ class LazyVolume:
         """Volume of a cell, mm³."""
         return float(np.prod(np.array(self.spacing)))
 
-    def require_room(self, limit: int | None = None) -> None:
+    def require_room(self, limit: int | None = None, advice: str = ADVICE) -> None:
         """Raise MemoryLimitError if the cells and what is made of them need more bytes than a limit, or are free."""
         cells = int(np.prod(np.array(self.shape, dtype=np.float64)))
-        require_memory(cells * (self.array.dtype.itemsize + BYTES_PER_CELL), limit, ADVICE)
+        require_memory(cells * (self.array.dtype.itemsize + BYTES_PER_CELL), limit, advice)
 
-    def load(self, limit: int | None = None) -> Volume:
-        """Read all cells; raise MemoryLimitError if they do not fit into memory, or a limit, bytes."""
-        self.require_room(limit)
+    def load(self, limit: int | None = None, advice: str = ADVICE) -> Volume:
+        """Read all cells; raise MemoryLimitError with advice if they do not fit into memory, or a limit, bytes."""
+        self.require_room(limit, advice)
         values = self.array.read(tuple(slice(0, count) for count in self.shape))
         return self.place(values)
 

@@ -357,6 +357,46 @@ class TogetherSeconds(Seconds):
     check: Annotated[float, "Comparison with the voxels, s"]
 
 
+class PartedLabel(LabelName):
+    """Labels with a surface, in order; neighbours share their walls."""
+
+    colour: Annotated[str | None, "Colour as `#RRGGBB`, if the table has one"]
+    triangles: Annotated[int, "Number of triangles, those of shared walls included"]
+    closed: Annotated[bool, "Whether every edge is shared by two of its triangles"]
+    data: Annotated[float, "Volume of its cells, mm³"]
+    volume: Annotated[float, "Volume of its surface, mm³"]
+    volume_change: Annotated[float, "Relative difference of both"]
+
+
+class PartedChunks(TypedDict):
+    """Division of the volume."""
+
+    count: Annotated[int, "Number of chunks"]
+    cells: Annotated[list[int], 3, "Number of cells of a chunk along x, y and z, without its margin"]
+    margin: Annotated[list[int], 3, "Number of cells read beside it along x, y and z"]
+    workers: Annotated[int, "Number of chunks at work at once"]
+
+
+class PartedSeconds(Seconds):
+    """Time of each stage."""
+
+    labels: Annotated[float, "Search for the place of each label, s"]
+    smooth: Annotated[float, "Fields of all labels in all chunks, s"]
+    volumes: Annotated[float, "Search for walls with which every label keeps its volume, s"]
+    surface: Annotated[float, "Walls of all chunks joined, and surfaces of all labels, s"]
+
+
+class PartedReport(SeveralReport):
+    """The report of labels that were smoothed together in chunks. `triangles` counts shared walls once."""
+
+    labels: list[PartedLabel]
+    failed: list[FailedLabel]
+    absent: Annotated[list[str], "Names in the file without a cell"]
+    rounds: Annotated[int, "How often volumes were measured until they were right"]
+    chunks: PartedChunks
+    seconds: PartedSeconds
+
+
 class TetrahedraKeys(TypedDict):
     """Tetrahedra that fill the labels, face to face; null unless the command writes a .vtu."""
 

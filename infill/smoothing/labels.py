@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Literal, TypeVar, Unpack, overload
+from typing import TYPE_CHECKING, Any, Literal, TypeVar, Unpack, cast, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,6 +19,7 @@ from infill.kernels.compiling import log_compilation
 from infill.kernels.sparse import BRICK
 from infill.lazy.dask_arrays import is_dask
 from infill.lazy.names import is_lazy
+from infill.lazy.volume import TOGETHER_ADVICE
 from infill.plain_numbers import list_some
 from infill.reports.common import report_head
 from infill.reports.smoothing import LabelSeconds
@@ -92,7 +93,8 @@ def smooth_labels(
         A file or folder of labels, see `infill.read_segmentation`; or whole numbers [x, y, z], 0 for cells without a
         label; or, with `together`, the share of every cell that each label has, [label, x, y, z]: partial volumes, or
         probabilities of a network. See `infill.imaging.segmentations.segmentation_of_shares`. Of a Dask array, or a
-        path of Zarr or HDF5, each label is read by itself (`infill.smoothing.lazy_labels`); with `together`, all of it.
+        path of Zarr or HDF5, each label is read by itself (`infill.smoothing.lazy_labels`); with `together`, a Dask
+        array is smoothed in chunks, without simplification (`infill.smoothing.together_chunks`), a file is read whole.
     spacing, origin
         See `infill.smooth_volume`.
     label : int or tuple of int, optional
@@ -139,11 +141,16 @@ def smooth_labels(
     if is_dask(volume) or (isinstance(volume, (str, os.PathLike)) and is_lazy(volume)):
         from infill.smoothing.chunked_result import open_lazy
         from infill.smoothing.lazy_labels import smooth_lazy_labels
+        from infill.smoothing.together_chunks import smooth_together_in_chunks
 
         lazy = open_lazy(volume, spacing=spacing, origin=origin)
         if not together:
             return smooth_lazy_labels(lazy, label=label, table=table, keep_going=keep_going, **options)
-        volume = lazy.load()
+        if is_dask(volume):
+            _refuse_going_on(keep_going)
+            parted: Any = smooth_together_in_chunks(lazy, label=label, table=table, **options)
+            return cast("Result[TogetherStages, TogetherReport]", parted)
+        volume = lazy.load(advice=TOGETHER_ADVICE)
     if isinstance(volume, (str, os.PathLike)):
         segmentation = read_segmentation(volume, spacing=spacing)
     else:
@@ -155,8 +162,7 @@ def smooth_labels(
     if not together:
         refuse_shares(segmentation)
     else:
-        if keep_going:
-            raise UsageError.about("keep_going", "does not go with labels together; leave it out")
+        _refuse_going_on(keep_going)
         from infill.smoothing.together import smooth_together
 
         volume = segmentation.layers[pieces[0].segment.layer]
@@ -226,6 +232,12 @@ def _as_segmentation(
     if not isinstance(volume, Volume):
         volume = Volume(values=np.asarray(volume), spacing=spacing_of(spacing, AXES), origin=origin)
     return Segmentation(layers=(volume,))
+
+
+def _refuse_going_on(keep_going: bool) -> None:
+    """Raise UsageError if labels together should go on without one of them."""
+    if keep_going:
+        raise UsageError.about("keep_going", "does not go with labels together; leave it out")
 
 
 def refuse_shares(segmentation: Segmentation) -> None:

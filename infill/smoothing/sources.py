@@ -25,6 +25,7 @@ from infill.imaging.segmentations import NRRD_SUFFIXES, Segmentation, read_segme
 from infill.imaging.volume_files import holds_dicom, read_volume
 from infill.lazy.names import is_lazy
 from infill.lazy.opening import open_volume
+from infill.lazy.volume import ADVICE, TOGETHER_ADVICE
 from infill.smoothing.request import SmoothOptions
 from infill.surface import Surface
 from infill.volume import Volume
@@ -144,13 +145,14 @@ def _load_lazy(
     frame: int | None,
     spacing: float | tuple[float, ...] | None,
     roi: tuple[float, ...] | None,
+    advice: str = ADVICE,
 ) -> Volume:
     """Read a volume of Zarr or HDF5 into memory, or the part of it in a box."""
     for name, value in (("series", series), ("frame", frame)):
         if value is not None:
             raise ParameterError.about(name, f"is {value!r}, and {path} has none; leave it out")
     volume = open_volume(path, array=array, spacing=spacing)
-    return (volume if roi is None else volume.crop(roi)).load()
+    return (volume if roi is None else volume.crop(roi)).load(advice=advice)
 
 
 def sample_source(path: str | os.PathLike[str], **reading: Any) -> SampledStack | None:  # noqa: ANN401 - of `read_source`
@@ -194,7 +196,9 @@ def read_label_source(
     source = Path(path)
     source_kind = kind or _guess_kind(source)
     if is_lazy(path):
-        volume = _load_lazy(path, array=array, series=series, frame=frame, spacing=spacing, roi=roi)
+        volume = _load_lazy(
+            path, array=array, series=series, frame=frame, spacing=spacing, roi=roi, advice=TOGETHER_ADVICE
+        )
         return Segmentation(layers=(volume,))
     if source_kind != "volume":
         raise ParameterError.about(

@@ -68,11 +68,19 @@ def plan_together(
     pieces = find_pieces(segmentation, label, tuple(table))
     refuse_layers(pieces)
     volume = segmentation.layers[pieces[0].segment.layer]
-    cells, faces = volume.values.size, count_faces(pieces)
+    cells = volume.values.size
     loaded = time.perf_counter()
-    seconds = _expected_seconds(cells, faces, volume, request, tetrahedra=tetrahedra)
+    seconds = loaded - begin + expected_seconds(cells, pieces, volume, request, tetrahedra=tetrahedra)
     memory = needed_memory(cells, pieces, request)
     memory += 0 if segmentation.shares is None else 2 * segmentation.shares.nbytes
+    memory = max(memory, cells * BYTES_PER_CELL if tetrahedra else 0)
+    return plan_labels_together(pieces, volume, request, memory=memory, seconds=seconds)
+
+
+def plan_labels_together(
+    pieces: Sequence[LabelPiece], volume: Volume, request: SmoothRequest, *, memory: int, seconds: float
+) -> LabelsForecast:
+    """Return the plan for labels, with the bytes and the seconds that they take."""
     return {
         "request": request.for_cell(float(volume.cell_size.min())).facts(),
         "labels": [
@@ -83,8 +91,8 @@ def plan_together(
             }
             for piece in pieces
         ],
-        "memory": round(BYTES_BEFORE + max(memory, cells * BYTES_PER_CELL if tetrahedra else 0)),
-        "seconds": {"total": loaded - begin + seconds},
+        "memory": round(BYTES_BEFORE + memory),
+        "seconds": {"total": seconds},
     }
 
 
@@ -94,8 +102,11 @@ def count_faces(pieces: Sequence[LabelPiece]) -> int:
 
 
 @log_compilation("the smoother")
-def _expected_seconds(cells: int, faces: int, volume: Volume, request: SmoothRequest, *, tetrahedra: bool) -> float:
+def expected_seconds(
+    cells: int, pieces: Sequence[LabelPiece], volume: Volume, request: SmoothRequest, *, tetrahedra: bool
+) -> float:
     """Estimate the time of a run by two scenes with the same labels, in a small grid and a larger one."""
+    faces = count_faces(pieces)
     spacing = tuple(volume.cell_size.tolist())
     shortest = replace(request, smoothing=replace(request.smoothing, steps=min(request.smoothing.steps, MIN_STEPS)))
     _time_scene(SCENE, spacing, shortest, tetrahedra=tetrahedra)  # loads what a run needs

@@ -28,27 +28,22 @@ ADVICE = "give --roi for a part of the volume, or a volume of larger voxels"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class TogetherStages(LabelStages):
-    """The stages of `infill.smooth_labels` with `together`.
+class WallStages(LabelStages):
+    """Walls that labels share.
 
     Parameters
     ----------
-    partition : VolumePartition
-        The walls with all triangles, in cells.
     written : Walls
         The walls as they are written, in cells.
     volume : Volume
-        The labels.
+        The labels, or their place in space alone.
     values : tuple of int
         The value of the label with each number; 0 comes first, for all others.
-    max_memory : int or None, bytes
     """
 
-    partition: VolumePartition
     written: Walls
     volume: Volume
     values: tuple[int, ...]
-    max_memory: int | None = None
 
     @property
     def walls(self) -> LabelWalls:
@@ -65,6 +60,21 @@ class TogetherStages(LabelStages):
     def write_walls(self, write: Callable[[LabelWalls, BinaryIO], None], file: BinaryIO) -> None:
         """Write the walls of all labels with a writer of a format."""
         write(self.walls, file)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class TogetherStages(WallStages):
+    """The stages of `infill.smooth_labels` with `together`.
+
+    Parameters
+    ----------
+    partition : VolumePartition
+        The walls with all triangles, in cells.
+    max_memory : int or None, bytes
+    """
+
+    partition: VolumePartition
+    max_memory: int | None = None
 
     @cached_property
     def tetrahedra(self) -> LabelTetrahedra:
