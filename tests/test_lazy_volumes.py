@@ -103,7 +103,7 @@ def test_a_box_of_cells_is_that_of_the_array(name: str, tmp_path: Path) -> None:
         np.testing.assert_array_equal(copy.array.read(box), cells)
 
 
-def test_an_array_that_is_written_anew_is_opened_again(tmp_path: Path) -> None:
+def test_an_array_that_is_overwritten_is_opened_again(tmp_path: Path) -> None:
     path = write_zarr(tmp_path / "a.zarr")
     box = tuple(slice(0, count) for count in SHAPE)
     np.testing.assert_array_equal(open_volume(path).array.read(box), VALUES)

@@ -75,7 +75,7 @@ class ZarrArray:
 
 
 def _open_array(name: str) -> Any:  # noqa: ANN401 - zarr.Array
-    """Open an array once in every process, and again when it was written anew."""
+    """Open an array once in every process, and again when it was written again."""
     path = Path(name).absolute()
     stamps = [] if is_url(name) else [(path / mark).stat() for mark in MARKS if (path / mark).is_file()]
     state = tuple((stamp.st_ino, stamp.st_mtime_ns, stamp.st_size) for stamp in stamps)
