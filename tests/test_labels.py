@@ -125,7 +125,7 @@ def test_the_surface_is_that_of_the_whole_volume(options: dict[str, Any]) -> Non
 def test_a_margin_too_small_would_be_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("infill.smoothing.label_stages.REACH_IN_INTERFACES", 0)
     monkeypatch.setattr("infill.smoothing.label_stages.REFINING_MARGIN", 0)
-    monkeypatch.setattr("infill.smoothing.labels.BRICK", (1, 1, 1))
+    monkeypatch.setattr("infill.smoothing.label_pieces.BRICK", (1, 1, 1))
     values = bones()
     surface = smooth_labels(values, label=3, tolerance=None).surface
     whole = smooth_volume(values, label=3, tolerance=None).surface

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import pickle
 import time
+import weakref
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -264,9 +265,9 @@ def test_surfaces_are_not_in_memory_at_once(balls: NDArray[np.uint16]) -> None:
     assert len(list(folder.iterdir())) == 9
     surface = result.surfaces["label_7"]
     assert result.surfaces["label_7"] is surface
-    assert list(result.surfaces._used) == ["label_7"]
+    used = weakref.ref(surface)
     del surface
-    assert not result.surfaces._used
+    assert used() is None
     del result
     assert not folder.exists()
 

@@ -103,6 +103,15 @@ def test_a_box_of_cells_is_that_of_the_array(name: str, tmp_path: Path) -> None:
         np.testing.assert_array_equal(copy.array.read(box), cells)
 
 
+def test_an_array_that_is_overwritten_is_opened_again(tmp_path: Path) -> None:
+    path = write_zarr(tmp_path / "a.zarr")
+    box = tuple(slice(0, count) for count in SHAPE)
+    np.testing.assert_array_equal(open_volume(path).array.read(box), VALUES)
+    array = zarr.create_array(path, shape=SHAPE, chunks=(11, 7, 5), dtype="f4", overwrite=True)
+    array[:] = 0.5
+    assert (open_volume(path).array.read(box) == 0.5).all()
+
+
 @pytest.mark.parametrize("name", ["c.npy", "plain.tif", "imagej.tif", "slices", "place.nii", "place.nrrd"])
 def test_the_place_is_that_of_read_volume(name: str, tmp_path: Path) -> None:
     path = WRITERS[name](tmp_path / name)

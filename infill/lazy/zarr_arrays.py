@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from infill.errors import FormatError, ParameterError
 from infill.imaging.assumed import keep_warnings, warn
 from infill.imaging.images import CELL_SIZE_PHRASE, scales_of
-from infill.lazy.names import is_url, is_zarr
+from infill.lazy.names import MARKS, is_url, is_zarr
 from infill.lazy.volume import EXTRA, LazyVolume, read_error, require_volume
 from infill.volume import AXES
 
@@ -74,9 +74,17 @@ class ZarrArray:
         return np.ascontiguousarray(cells.transpose(order), dtype=self.dtype)
 
 
-@lru_cache(maxsize=8)
 def _open_array(name: str) -> Any:  # noqa: ANN401 - zarr.Array
-    """Open an array once in every process."""
+    """Open an array once in every process, and again when it was written again."""
+    path = Path(name).absolute()
+    stamps = [] if is_url(name) else [(path / mark).stat() for mark in MARKS if (path / mark).is_file()]
+    state = tuple((stamp.st_ino, stamp.st_mtime_ns, stamp.st_size) for stamp in stamps)
+    return _open_once(name if is_url(name) else str(path), state)
+
+
+@lru_cache(maxsize=8)
+def _open_once(name: str, state: tuple[tuple[int, ...], ...]) -> Any:  # noqa: ANN401, ARG001 - zarr.Array
+    """Open an array in a certain state."""
     import zarr
 
     return zarr.open_array(name, mode="r")

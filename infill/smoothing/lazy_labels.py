@@ -37,9 +37,7 @@ from infill.smoothing.chunk_plans import check_chunked
 from infill.smoothing.chunked import smooth_in_chunks
 from infill.smoothing.job import smooth_volume
 from infill.smoothing.kept_reports import PackedSolid, late_report, pack_report
-from infill.smoothing.label_runs import LabelWork, run_labels
-from infill.smoothing.label_stages import LabelPiece, LabelStages
-from infill.smoothing.labels import (
+from infill.smoothing.label_pieces import (
     absent_names,
     box_of,
     labels_result,
@@ -48,6 +46,8 @@ from infill.smoothing.labels import (
     split_outcomes,
     title_of,
 )
+from infill.smoothing.label_runs import LabelWork, run_labels
+from infill.smoothing.label_stages import LabelPiece, LabelStages
 from infill.smoothing.plan import forecast_labels
 from infill.smoothing.request import SmoothOptions, SmoothRequest
 from infill.surface import Surface

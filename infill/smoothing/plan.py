@@ -28,8 +28,8 @@ from infill.phasefield.schedule import MIN_STEPS
 from infill.reports.common import declare
 from infill.reports.smoothing import InputKeys, LabelsForecast, PlannedInput, PlannedLabel, SmoothForecast
 from infill.smoothing.attempt import bytes_per_surface_cell
+from infill.smoothing.label_pieces import find_pieces, refuse_shares
 from infill.smoothing.label_stages import LabelPiece
-from infill.smoothing.labels import find_pieces, refuse_shares
 from infill.smoothing.meshes import BYTES_PER_CELL as MESH_BYTES_PER_CELL
 from infill.smoothing.meshes import MARGIN, mesh_ways
 from infill.smoothing.remedies import first_sound

@@ -36,9 +36,9 @@ from infill.plain_numbers import count_noun
 from infill.reports.common import report_head
 from infill.reports.smoothing import PartedSeconds
 from infill.result import Clock, Result
+from infill.smoothing.label_pieces import absent_names
 from infill.smoothing.label_stages import LabelPiece, field_reach
 from infill.smoothing.label_surfaces import LabelSurfaces
-from infill.smoothing.labels import absent_names
 from infill.smoothing.lazy_labels import load_smoother, name_lazy_pieces, survey_labels
 from infill.smoothing.request import AUTO, SmoothOptions, SmoothRequest
 from infill.smoothing.together import NOTHING_LEFT, refuse_unfit, scale_of

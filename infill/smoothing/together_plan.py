@@ -17,8 +17,8 @@ from infill.imaging.label_tables import Segment
 from infill.imaging.segmentations import Segmentation
 from infill.kernels.compiling import log_compilation
 from infill.phasefield.schedule import MIN_STEPS
+from infill.smoothing.label_pieces import find_pieces
 from infill.smoothing.label_stages import FACES_PER_RUN, LabelPiece
-from infill.smoothing.labels import find_pieces
 from infill.smoothing.plan import BYTES_BEFORE
 from infill.smoothing.request import SmoothOptions, SmoothRequest
 from infill.smoothing.together import needed_memory, refuse_layers, refuse_unfit, smooth_together
