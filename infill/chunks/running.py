@@ -27,6 +27,7 @@ LOST_WORKER = (
     "a worker ended before its chunk was done, often because memory ran out; give fewer --workers, or less "
     "--max-memory, which makes chunks smaller"
 )
+LOST = ("cancelled", "lost")  # states of a task whose worker or scheduler went away
 LOST_CLUSTER = "the scheduler of the cluster does not answer; check that it runs, and give its address again"
 
 
@@ -174,6 +175,8 @@ class Runner:
             results: dict[int, Done] = {}
             finished = as_completed(futures, loop=client.loop, with_results=True)  # type: ignore[no-untyped-call]
             for future, result in finished:
+                if future.status in LOST:
+                    raise InfillError(LOST_CLUSTER)
                 number = numbers[future.key]
                 results[number] = result
                 put_by(number, result)
