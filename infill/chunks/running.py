@@ -147,7 +147,7 @@ class Runner:
 
         options: dict[str, Any] = {"scheduler": self.where, "num_workers": self.workers}
         if self.pool is not None:
-            options = {"scheduler": PROCESSES, "pool": self.pool}
+            options = {"scheduler": PROCESSES, "pool": self.pool, "chunksize": 1}  # each result once it is there
         try:
             with Callback(posttask=count):  # type: ignore[no-untyped-call]
                 compute = partial(dask.compute, *tasks, optimize_graph=False, **options)  # type: ignore[attr-defined]
@@ -175,8 +175,7 @@ class Runner:
             results: dict[int, Done] = {}
             finished = as_completed(futures, loop=client.loop, with_results=True)  # type: ignore[no-untyped-call]
             for future, result in finished:
-                if future.status in LOST:
-                    raise InfillError(LOST_CLUSTER)
+                _require_result(future)
                 number = numbers[future.key]
                 results[number] = result
                 put_by(number, result)
@@ -196,6 +195,12 @@ class Runner:
         finally:
             with contextlib.suppress(Exception):
                 client.cancel([future for future in futures if not future.done()])
+
+
+def _require_result(future: Any) -> None:  # noqa: ANN401 - distributed.Future
+    """Raise InfillError for a task whose result went away with its scheduler."""
+    if future.status in LOST:
+        raise InfillError(LOST_CLUSTER)
 
 
 class _Plain:
