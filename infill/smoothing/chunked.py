@@ -1,6 +1,6 @@
 """Smooth a volume in chunks: the plain method, with the bits of the whole, for volumes that do not fit into memory.
 
-    smooth all chunks  ─▶  level of the volume  ─▶  crumbs  ─▶  pieces of surface, one after another  ─▶  report
+    smooth all chunks  ─▶  level of the volume  ─▶  crumbs  ─▶  fewer triangles  ─▶  pieces, one by one  ─▶  report
 
 The passes over the chunks are those of `infill.chunks.solving`; their result is judged by whole numbers alone:
 volume, components, cavities and tunnels. Distances from the input are not measured.
