@@ -281,3 +281,38 @@ def test_distances_are_measured_from_another_surface() -> None:
     assert farthest(twice.vertices, whole) <= 0.1
     assert farthest(whole.vertices, twice) <= 0.1
     assert max(farthest(whole.vertices, loose), farthest(loose.vertices, whole)) > 0.1  # the comparison can fail
+
+
+@given(seed=st.integers(0, 2**32 - 1), share=st.floats(0.0, 1.0))
+def test_open_meshes_are_paired_as_a_dictionary_does(seed: int, share: float) -> None:
+    """Some faces of a closed mesh, with vertices at which several fans meet."""
+    from infill.graph import label_connected
+    from infill.kernels.corners import pair_open_edges, split_open_fans
+
+    whole = small_mesh()
+    faces = whole.faces[np.random.default_rng(seed).random(len(whole.faces)) < share]
+    start, count = faces.astype(np.int32).ravel(), len(whole.vertices)
+    twin, name = np.empty(len(start), dtype=np.int32), np.empty(len(start) + count, dtype=np.int32)
+    assert pair_open_edges(start, count, twin)
+    ends = np.roll(faces, -1, axis=1).ravel()
+    corner_of = {(a, b): corner for corner, (a, b) in enumerate(zip(start.tolist(), ends.tolist(), strict=True))}
+    assert twin.tolist() == [corner_of.get((b, a), -1) for a, b in corner_of]
+    before = start.copy()
+    total = split_open_fans(start, twin, count, name)
+    np.testing.assert_array_equal(name[start], before)
+    # Corners at one vertex are in one fan if an edge between them has two faces.
+    corner = np.flatnonzero(twin >= 0)
+    following = twin[corner] - twin[corner] % 3 + (twin[corner] % 3 + 1) % 3  # starts at the same vertex
+    fans, fan_count = label_connected(corner, following, len(start))
+    assert len(np.unique(np.stack([start, fans]), axis=1).T) == fan_count == len(np.unique(start))
+    assert total == count + fan_count - len(np.unique(before))
+    if len(faces):  # an edge with two faces on the same side
+        twice = np.concatenate([faces, faces[:1]]).astype(np.int32).ravel()
+        assert not pair_open_edges(twice, count, np.empty(len(twice), dtype=np.int32))
+
+
+def small_mesh() -> Surface:
+    import trimesh
+
+    ball = trimesh.creation.icosphere(subdivisions=2)
+    return Surface(vertices=ball.vertices, faces=np.array(ball.faces, dtype=np.int32))

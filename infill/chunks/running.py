@@ -27,6 +27,7 @@ LOST_WORKER = (
     "a worker ended before its chunk was done, often because memory ran out; give fewer --workers, or less "
     "--max-memory, which makes chunks smaller"
 )
+LOST = ("cancelled", "lost")  # states of a task whose worker or scheduler went away
 LOST_CLUSTER = "the scheduler of the cluster does not answer; check that it runs, and give its address again"
 
 
@@ -146,7 +147,7 @@ class Runner:
 
         options: dict[str, Any] = {"scheduler": self.where, "num_workers": self.workers}
         if self.pool is not None:
-            options = {"scheduler": PROCESSES, "pool": self.pool}
+            options = {"scheduler": PROCESSES, "pool": self.pool, "chunksize": 1}  # each result once it is there
         try:
             with Callback(posttask=count):  # type: ignore[no-untyped-call]
                 compute = partial(dask.compute, *tasks, optimize_graph=False, **options)  # type: ignore[attr-defined]
@@ -174,6 +175,7 @@ class Runner:
             results: dict[int, Done] = {}
             finished = as_completed(futures, loop=client.loop, with_results=True)  # type: ignore[no-untyped-call]
             for future, result in finished:
+                _require_result(future)
                 number = numbers[future.key]
                 results[number] = result
                 put_by(number, result)
@@ -193,6 +195,12 @@ class Runner:
         finally:
             with contextlib.suppress(Exception):
                 client.cancel([future for future in futures if not future.done()])
+
+
+def _require_result(future: Any) -> None:  # noqa: ANN401 - distributed.Future
+    """Raise InfillError for a task whose result went away with its scheduler."""
+    if future.status in LOST:
+        raise InfillError(LOST_CLUSTER)
 
 
 class _Plain:

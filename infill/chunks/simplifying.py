@@ -123,13 +123,8 @@ def simplify_chunk(
     numbers = np.concatenate([first + np.arange(len(part.vertices)), foreign])
     whole = Fragment(numbers=numbers, points=points, faces=part.faces.astype(np.int32))
     plan = SeamPlan(layout=work.layout)
-    spacing = np.array(work.spacing)
-    cells = points / spacing
-    corners = cells[whole.faces]
-    box = plan.box_of(chunk)
-    cube = np.clip(np.floor(corners.min(axis=1)) + 0.5, np.array(box.low) + 0.5, np.array(box.high) - 0.5)
-    part_of = plan.parts_of(cube)
-    near = plan.near_seams(cells)[whole.faces].any(axis=1)
+    part_of = split_faces(whole, chunk, plan, work.spacing)
+    near = plan.near_seams(points / np.array(work.spacing))[whole.faces].any(axis=1)
     parts = []
     for count, number in enumerate(np.unique(part_of)):
         chosen = part_of == number
@@ -138,6 +133,14 @@ def simplify_chunk(
         simple = simplify_fragment(fragment, fragment.border, None, tolerance, base)
         parts.append(SimplifiedPart(fragment=simple, original=whole.select(chosen & near)))
     return parts, sums
+
+
+def split_faces(whole: Fragment, chunk: Chunk, plan: SeamPlan, spacing: tuple[float, ...]) -> Numbers:
+    """Return the part of the volume to which each face (F,) of a chunk belongs."""
+    corners = (whole.points / np.array(spacing))[whole.faces]
+    box = plan.box_of(chunk)
+    cube = np.clip(np.floor(corners.min(axis=1)) + 0.5, np.array(box.low) + 0.5, np.array(box.high) - 0.5)
+    return plan.parts_of(cube)
 
 
 def simplify_fragment(

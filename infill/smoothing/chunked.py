@@ -1,6 +1,6 @@
 """Smooth a volume in chunks, with the bits of the whole, for volumes that do not fit into memory.
 
-    method  ─▶  smooth all chunks  ─▶  level of the volume  ─▶  crumbs  ─▶  pieces, one after another  ─▶  report
+    method  ─▶  smooth all chunks  ─▶  level  ─▶  crumbs  ─▶  verdict  ─▶  fewer triangles  ─▶  pieces  ─▶  report
 
 The passes over the chunks are those of `infill.chunks.solving`; their result is judged by `chunked_verdict`.
 """

@@ -111,7 +111,7 @@ class SimplifiedSurface:
     def _simplify_chunks(self) -> None:
         """Simplify the parts of all chunks."""
         numbering, work = self.numbering, self.solver.work
-        common = digest_data("chunk", work, self.tolerance)
+        common = digest_data("chunk", work.layout, self.tolerance)
         batch, chunks = BATCH * self.solver.runner.workers, numbering.chunks
         for begin in range(0, len(chunks), batch):
             keys, items = [], []
@@ -142,7 +142,7 @@ class SimplifiedSurface:
 
     def _simplify_boxes(self, boxes: list[Box], before: int, total: int) -> None:
         """Simplify the surface in the boxes of one round; all see it as it was before the round."""
-        common = digest_data("box", self.solver.work, self.tolerance, [stored.name for stored in self.fragments])
+        common = digest_data("box", self.solver.work.layout, self.tolerance, [stored.name for stored in self.fragments])
         base = len(self.solver.work.layout) * PARTS + before
         batch = BATCH * self.solver.runner.workers
         added: list[Stored] = []
