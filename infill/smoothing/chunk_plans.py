@@ -121,7 +121,6 @@ def plan_chunks(
         largest -= BRICK[2] * 2
         size = needs.size_within(memory, largest)
         layout = ChunkLayout(shape=volume.shape, size=size, steps=steps, refined=refined)
-    cells = max(size[axis] * BRICK[axis] for axis in range(3))
     at_once = min(runner.workers, len(layout))
     read = item * sum(
         math.prod(high - low for low, high in zip(chunk.cell_low, chunk.cell_high, strict=True)) for chunk in layout
@@ -129,7 +128,7 @@ def plan_chunks(
     return ChunkPlan(
         layout=layout,
         workers=runner.workers,
-        memory=at_once * needs.of_side(cells),
+        memory=at_once * needs.of_chunk(size),
         read=read,
     )
 

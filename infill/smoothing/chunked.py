@@ -86,7 +86,7 @@ def smooth_in_chunks(
 
     count = workers if workers is not None or scheduler not in (None, "threads", "processes") else request.threads
     with open_runner(count, scheduler) as runner, _scratch_folder() as scratch:
-        with _timed(seconds, "read"):
+        with _timed(seconds, "read"), log_compilation("the smoother"):
             chosen = choose_work(
                 volume,
                 request,
