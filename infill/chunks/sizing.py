@@ -39,11 +39,12 @@ class ChunkMemory:
     grey: bool = False
     speck_cells: int = 0
 
-    def of_side(self, side: int) -> int:
-        """Return the memory that a chunk of a side, in cells, takes, bytes, at most."""
+    def of_chunk(self, size: Place) -> int:
+        """Return the memory that a chunk of some bricks along each axis takes, bytes, at most."""
         cells = 1
-        for count, size, bricks in zip(self.shape, BRICK, margin_bricks(self.steps, refined=self.refined), strict=True):
-            cells *= min(count, side + 2 * size * (bricks + math.ceil(self.speck_cells / size)))
+        margin = margin_bricks(self.steps, refined=self.refined)
+        for count, brick, bricks, beside in zip(self.shape, BRICK, size, margin, strict=True):
+            cells *= min(count, brick * (bricks + 2 * (beside + math.ceil(self.speck_cells / brick))))
         own = GREY if self.grey else REFINED if self.refined else PLAIN
         return cells * (self.item + max(own, NOISY if self.speck_cells else 0))
 
@@ -57,12 +58,16 @@ class ChunkMemory:
             Cells along the longest side at most.
         """
         side = largest
-        while side > LEAST_SIDE and self.of_side(side) > memory:
-            side -= LEAST_SIDE
+        while side > LEAST_SIDE and self.of_chunk(self._bricks(side)) > memory:
+            side -= BRICK[0]
+        return self._bricks(side)
+
+    def _bricks(self, side: int) -> Place:
+        """Return the bricks of chunks of about the same size, with at most so many cells along a side."""
         bricks = []
         for count, size in zip(self.shape, BRICK, strict=True):
             lattice = math.ceil((count + 2) / size)
             chunks = math.ceil(lattice / max(1, side // size))
-            bricks.append(math.ceil(lattice / chunks))  # chunks of about the same size
+            bricks.append(math.ceil(lattice / chunks))
         first, second, third = bricks
         return first, second, third

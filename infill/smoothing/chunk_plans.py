@@ -129,9 +129,8 @@ def plan_chunks(
         layout = ChunkLayout(shape=volume.shape, size=size, steps=steps, refined=refined)
     if resumed is not None:
         size, layout = resumed, ChunkLayout(shape=volume.shape, size=resumed, steps=steps, refined=refined)
-    cells = max(size[axis] * BRICK[axis] for axis in range(3))
     at_once = min(runner.workers, len(layout))
-    needed = at_once * needs.of_side(cells)
+    needed = at_once * needs.of_chunk(size)
     if resumed is not None and request.max_memory is not None and needed > request.max_memory:
         mebibytes = math.ceil(needed / 2**20)
         raise ParameterError.about(

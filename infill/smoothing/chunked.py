@@ -109,7 +109,7 @@ def smooth_in_chunks(
         open_work_folder(resume, run_facts(volume, request, choice)) as folder,
     ):
         runner = replace(opened, kept=folder.results)
-        with _timed(seconds, "read"):
+        with _timed(seconds, "read"), log_compilation("the smoother"):
             chosen = choose_work(
                 volume,
                 request,
