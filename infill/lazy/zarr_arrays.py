@@ -118,7 +118,6 @@ def open_zarr(name: str, array: str | None = None) -> LazyVolume:
     array : str, optional
         Name of the array in a group.
     """
-    _open_array.cache_clear()  # a path may hold another array than before
     opened = _open(name)
     if array is not None:
         if not hasattr(opened, "members"):
