@@ -173,7 +173,7 @@ UNREAD = {
     },
     "verify": {"--changed": "foo perimeter,foo", "--allow": "foo speed,foo", "--material-limit": "much"},
 }
-NAMES = {"FILE", "NAME", "UID", "keep|auto|NAME|FILE"}  # metavars of what may be any word
+NAMES = {"FILE", "FOLDER", "NAME", "UID", "keep|auto|NAME|FILE"}  # metavars of what may be any word
 
 
 def run(*words: str) -> Any:

@@ -191,6 +191,18 @@ def together_reports(folder: Path, results: Results) -> dict[str, Any]:
     }
 
 
+def together_in_chunks_reports(folder: Path, results: Results) -> dict[str, Any]:
+    speck = LABELS.copy()
+    speck[0, 0, 0] = 5
+    np.save(folder / "labels.npy", LABELS)
+    np.save(folder / "speck.npy", speck)
+    words = ["--spacing", 1, "--together", "--workers", 1, "--tolerance", 0]
+    return {
+        "command": printed("smooth", folder / "labels.npy", *words, "-o", folder / "a.3mf"),
+        "speck": printed("smooth", folder / "speck.npy", *words, "-o", folder / "b.3mf"),
+    }
+
+
 def labels_plans(folder: Path, results: Results) -> dict[str, Any]:
     np.save(folder / "labels.npy", LABELS)
     words = ["--spacing", 1, "--each-label", "-o", folder / "a.3mf", "--dry-run"]
@@ -346,6 +358,7 @@ REPORTS: dict[str, Callable[[Path, Results], dict[str, Any]]] = {
     "chunks --dry-run": chunks_plans,
     "labels": labels_reports,
     "together": together_reports,
+    "together in chunks": together_in_chunks_reports,
     "labels --dry-run": labels_plans,
     "components": components_reports,
     "fill": fill_reports,
