@@ -25,6 +25,8 @@ from infill.chunks.solving import Solver
 from infill.chunks.work import Work, smooth
 from infill.kernels.compiling import log_compilation
 from infill.lazy.volume import LazyVolume
+from infill.meshes.compile_simplification import make_ring
+from infill.meshes.edge_collapse import collapse_edges
 from infill.phasefield.profile import PLAIN_PROFILE, REFINED_PROFILE
 from infill.phasefield.schedule import MIN_STEPS
 from infill.reports.smoothing import SegmentationKeys
@@ -133,6 +135,7 @@ def smooth_in_chunks(
         chunked = find_sound_way(ways, smooth_way)
         if tolerance is not None:
             with _timed(seconds, "simplify"):
+                _load_simplification()
                 chunked.simplify(tolerance, folder.pieces, partial(tell, "simplify"))
         yield chunked
 
@@ -222,6 +225,13 @@ def _load_kernels(work: Work) -> None:
         scratch="",
     )
     smooth(trial, next(iter(layout)))
+
+
+@log_compilation("simplification")
+def _load_simplification() -> None:
+    """Load its compiled loops before several threads need them at once."""
+    ring = make_ring()
+    collapse_edges(ring, tolerance=0.01, threads=1, pinned=np.asarray(ring.vertices)[:, 0] < 0)
 
 
 @dataclass(frozen=True)
