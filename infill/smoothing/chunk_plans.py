@@ -123,7 +123,8 @@ def plan_chunks(
         layout = ChunkLayout(shape=volume.shape, size=size, steps=steps, refined=refined)
     at_once = min(runner.workers, len(layout))
     read = item * sum(
-        math.prod(high - low for low, high in zip(chunk.cell_low, chunk.cell_high, strict=True)) for chunk in layout
+        math.prod(high - low for low, high in zip(chunk.cell_low, chunk.cell_high, strict=True))
+        for chunk in (chunk.widened(needs.speck_cells) for chunk in layout)
     )
     return ChunkPlan(
         layout=layout,
