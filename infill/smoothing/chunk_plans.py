@@ -139,7 +139,8 @@ def plan_chunks(
             f"give {mebibytes}M, or fewer workers",
         )
     read = item * sum(
-        math.prod(high - low for low, high in zip(chunk.cell_low, chunk.cell_high, strict=True)) for chunk in layout
+        math.prod(high - low for low, high in zip(chunk.cell_low, chunk.cell_high, strict=True))
+        for chunk in (chunk.widened(needs.speck_cells) for chunk in layout)
     )
     return ChunkPlan(
         layout=layout,
