@@ -91,7 +91,7 @@ def test_folders_that_exist(folder: Path, monkeypatch: pytest.MonkeyPatch) -> No
     Path("a.precomputed/letter.txt").unlink()
     assert run(*words, "--force").exit_code == 0
     before = {path.name: path.read_bytes() for path in Path("a.precomputed").iterdir()}
-    from infill.formats.precomputed import PrecomputedPieces
+    from infill.formats.mesh_pieces import PrecomputedPieces
 
     def fail(self: object) -> None:
         raise OSError(28, "No space left on device")

@@ -26,9 +26,8 @@ from test_command_line import refused, run
 from infill import ParameterError, Segment, UsageError, Volume, smooth_labels, smooth_volume
 from infill.errors import FormatError, GeometryError, MemoryLimitError
 from infill.lazy.dask_arrays import DaskArray
-from infill.lazy.grain import whole_boxes
 from infill.lazy.opening import open_volume
-from infill.lazy.volume import LazyVolume
+from infill.lazy.volume import LazyVolume, whole_boxes
 from infill.smoothing.label_runs import LabelWork
 from infill.smoothing.lazy_labels import (
     LabelTask,

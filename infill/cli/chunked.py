@@ -151,8 +151,7 @@ def _check_outputs(output: SmoothOutput) -> None:
     from infill.cli.piping import is_piped
     from infill.files.whole_files import check_targets
     from infill.files.whole_folders import check_folder_target
-    from infill.formats.mesh_pieces import check_piece_format
-    from infill.formats.precomputed import INFO, SUFFIX
+    from infill.formats.mesh_pieces import TILES, TILES_INFO, check_piece_format
 
     for path in (*output.outputs, *output.saved):
         if is_piped(path):
@@ -160,12 +159,14 @@ def _check_outputs(output: SmoothOutput) -> None:
     if output.ascii_stl:
         raise ParameterError.about("ascii_stl", "is not for a volume in chunks; leave it out")
     for path in output.outputs:
-        if path.suffix.lower() in (ZARR, SUFFIX):
+        if path.suffix.lower() in (ZARR, TILES):
             if not output.dry_run:
-                check_folder_target(path, overwrite=output.force, mark="" if path.suffix.lower() == ZARR else INFO)
+                check_folder_target(
+                    path, overwrite=output.force, mark="" if path.suffix.lower() == ZARR else TILES_INFO
+                )
         else:
             check_piece_format(path)
-    files = [path for path in output.outputs if path.suffix.lower() not in (ZARR, SUFFIX)]
+    files = [path for path in output.outputs if path.suffix.lower() not in (ZARR, TILES)]
     check_targets((*files, *output.saved), overwrite=output.force)
 
 
@@ -173,12 +174,11 @@ def _write(surface: ChunkedSurface, volume: LazyVolume, output: SmoothOutput, *,
     """Write all files of a run; each is complete or not there."""
     from infill.files.whole_files import atomic_files, scratch_file, wrap_os_errors
     from infill.files.whole_folders import whole_folder
-    from infill.formats.mesh_pieces import PIECE_WRITERS, PieceWriter, check_piece_size
-    from infill.formats.precomputed import SUFFIX, PrecomputedPieces
+    from infill.formats.mesh_pieces import PIECE_WRITERS, TILES, PieceWriter, PrecomputedPieces, check_piece_size
     from infill.lazy.zarr_fields import write_zarr_field
 
-    tiles = [path for path in output.outputs if path.suffix.lower() == SUFFIX]
-    meshes = [path for path in output.outputs if path.suffix.lower() not in (ZARR, SUFFIX)]
+    tiles = [path for path in output.outputs if path.suffix.lower() == TILES]
+    meshes = [path for path in output.outputs if path.suffix.lower() not in (ZARR, TILES)]
     for path in meshes:
         check_piece_size(path, surface.vertices, surface.triangles)
     targets = [*meshes, *output.saved]

@@ -149,6 +149,7 @@ def smooth(
         quiet=quiet,
         verbose=verbose,
     )
+    in_chunks = partial(smooth_chunks, source, settings, outputs, options, show_hash=show_hash)
     if not (output or preview or as_json or dry_run or show_hash):
         _save_config(outputs)
     elif wants_every_label(
@@ -164,16 +165,7 @@ def smooth(
             raise typer.BadParameter(f"{option} is for one surface; leave it out, or choose one label by --label")
         smooth_every_label(source, settings, outputs, options, workers=workers, scheduler=scheduler)
     elif resume is not None or wants_chunks(source, settings, options, outputs, workers=workers, scheduler=scheduler):
-        smooth_chunks(
-            source,
-            settings,
-            outputs,
-            options,
-            workers=workers,
-            scheduler=scheduler,
-            resume=resume,
-            show_hash=show_hash,
-        )
+        in_chunks(workers=workers, scheduler=scheduler, resume=resume)
     else:
         _check_formats(outputs, settings)
         outputs.check()
@@ -184,9 +176,7 @@ def smooth(
                 raise
         else:
             return
-        smooth_chunks(
-            source, settings, outputs, options, workers=None, scheduler=None, resume=resume, show_hash=show_hash
-        )
+        in_chunks(workers=None, scheduler=None, resume=None)
 
 
 def _smooth_or_plan(

@@ -1,7 +1,8 @@
-"""STL, PLY and OBJ written piece by piece: only one piece of the mesh is in memory, and the counts are known before."""
+"""STL, PLY, OBJ and tiles, written piece by piece: one piece alone is in memory, and the counts are known before."""
 
 from __future__ import annotations
 
+import json
 import shutil
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -19,6 +20,9 @@ from infill.surface import Surface
 
 MOST_VERTICES = 2**31 - 1  # of a PLY, whose faces have 32-bit numbers
 MOST_TRIANGLES = 2**32 - 1  # of an STL
+TILES = ".precomputed"  # suffix of a folder of tiles for Neuroglancer
+TILES_INFO = "info"  # a file that every such folder has
+NANOMETRES = 1e6  # in a mm
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -125,3 +129,40 @@ def check_piece_size(path: Path, vertices: int, triangles: int) -> None:
             f"{path} would hold {vertices:,} vertices and {triangles:,} triangles, more than {suffix} can count; "
             "use .obj"
         )
+
+
+class PrecomputedPieces:
+    """Fragments of one segment, one for each piece, in the precomputed format of Neuroglancer, of one resolution.
+
+        info          {"@type": "neuroglancer_legacy_mesh"}
+        1:0           {"fragments": ["1:0:0", "1:0:1", …]}, the fragments of segment 1
+        1:0:0         number of vertices, uint32; vertices, nm, float32; triangles, uint32; all little-endian
+
+    The format: https://github.com/google/neuroglancer/blob/master/src/datasource/precomputed/meshes.md
+
+    Parameters
+    ----------
+    folder : Path
+        It is made.
+    segment : int
+    """
+
+    def __init__(self, folder: Path, segment: int = 1) -> None:
+        self.folder, self.segment = folder, segment
+        self.names: list[str] = []
+        folder.mkdir()
+
+    def add(self, piece: MeshPiece) -> None:
+        """Write a piece with all its vertices: those that another piece has too are the same there, to the bit."""
+        points = (np.asarray(piece.surface.vertices, dtype=np.float64) * NANOMETRES).astype("<f4")
+        name = f"{self.segment}:0:{len(self.names)}"
+        with (self.folder / name).open("xb") as file:
+            file.write(np.array([len(points)], dtype="<u4").tobytes())
+            file.write(points.tobytes())
+            file.write(np.asarray(piece.surface.faces).astype("<u4").tobytes())
+        self.names.append(name)
+
+    def finish(self) -> None:
+        """Write the list of the fragments, and what the folder is."""
+        (self.folder / f"{self.segment}:0").write_text(json.dumps({"fragments": self.names}), encoding="utf-8")
+        (self.folder / TILES_INFO).write_text(json.dumps({"@type": "neuroglancer_legacy_mesh"}), encoding="utf-8")

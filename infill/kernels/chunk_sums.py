@@ -18,6 +18,10 @@ from infill.kernels.sparse_marching import ROWS, sixfold_volume
 
 HIGH, LOW = 16, 36  # bits
 FIRST, SECOND, THIRD = np.uint64(0x9E3779B97F4A7C15), np.uint64(0xBF58476D1CE4E5B9), np.uint64(0x94D049BB133111EB)
+EXPONENTS = 2048  # of double precision
+MANTISSA_BITS = 52
+MANTISSA_LOW_BITS = 26  # of the mantissa; its parts, of 27 and 26 bits, add up without overflow for 2^36 numbers
+MANTISSA, MANTISSA_LOW = np.int64(2**MANTISSA_BITS - 1), np.int64(2**MANTISSA_LOW_BITS - 1)
 
 
 @njit(nogil=True, cache=True)
@@ -117,3 +121,21 @@ def count_cells_of(where, chosen, bits, bricks, starts, names, cells):
                     if not (k and row_bits >> (k - 1) & 1):
                         run += 1
                     cells[names[bricks[s] + starts[s, row] + run]] += 1
+
+
+@njit(nogil=True, cache=True)
+def add_by_exponent(bits, side, sums):
+    """Add the mantissas of numbers to those of their side and exponent: `sums` (2, EXPONENTS, 2), high and low parts.
+
+    `bits` (n,) are float64 seen as int64, finite; `side` (n,) is 0 or 1.
+    """
+    for t in range(len(bits)):
+        exponent = (bits[t] >> MANTISSA_BITS) & (EXPONENTS - 1)
+        mantissa = bits[t] & MANTISSA
+        if exponent > 0:
+            mantissa |= MANTISSA + 1
+        high, low = mantissa >> MANTISSA_LOW_BITS, mantissa & MANTISSA_LOW
+        if bits[t] < 0:
+            high, low = -high, -low
+        sums[side[t], exponent, 0] += high
+        sums[side[t], exponent, 1] += low

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from itertools import product
 from typing import Any, Protocol
 
 import numpy as np
@@ -17,6 +20,8 @@ BYTES_PER_CELL = 5  # besides the cells themselves: the mask of solid cells, and
 EXTRA = "pip install dask distributed fsspec h5py zarr"
 ADVICE = "give --workers N, which works in chunks, or a coarser level of it"
 TOGETHER_ADVICE = "give --workers N, which smooths labels together in chunks, or a coarser level of it"
+
+Box = tuple[tuple[int, int, int], tuple[int, int, int]]  # low, and high
 
 
 class LazyArray(Protocol):
@@ -153,3 +158,26 @@ def read_error(name: str, box: tuple[slice, ...], error: Exception) -> FormatErr
         return MemoryLimitError(f"{name} needs more memory for its cells {cells} than there is; {ADVICE}")
     text = " ".join(str(error).split())[:200] or type(error).__name__
     return FormatError(f"{name} is damaged: its cells {cells} cannot be read ({text}); copy or save it again")
+
+
+def grain_of(array: LazyArray) -> tuple[int, ...]:
+    """Return the sides of the boxes of cells that are read at once, whatever is asked for: chunks, pages or layers."""
+    sides = getattr(array, "grain", None) or (64, 64, array.shape[2])
+    return tuple(max(1, min(side, count)) for side, count in zip(sides, array.shape, strict=True))
+
+
+def whole_boxes(array: LazyArray, most: int) -> Iterator[Box]:
+    """Yield boxes (low, high) that make up an array, of up to `most` cells, of whole grains where these are smaller.
+
+    They are as long as possible along z, then y, then x: rows along z are seldom divided.
+    """
+    sides = list(grain_of(array))
+    for axis in (0, 1):  # grains larger than that are read in parts
+        sides[axis] = max(1, min(sides[axis], most // max(1, math.prod(sides) // sides[axis])))
+    sides[2] = max(1, min(sides[2], most // (sides[0] * sides[1])))
+    for axis in (2, 1, 0):
+        times = max(1, most // math.prod(sides))
+        sides[axis] = min(array.shape[axis], sides[axis] * times)
+    for low in product(*(range(0, count, side) for count, side in zip(array.shape, sides, strict=True))):
+        high = tuple(min(begin + side, count) for begin, side, count in zip(low, sides, array.shape, strict=True))
+        yield low, high  # type: ignore[misc]

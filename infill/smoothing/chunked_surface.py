@@ -21,7 +21,7 @@ from infill.errors import GeometryError
 from infill.formats.mesh_pieces import MeshPiece
 from infill.kernels.sparse import BRICK
 from infill.lazy.volume import LazyVolume
-from infill.reports.common import GridKeys, Topology, declare, report_head
+from infill.reports.common import GridKeys, Level, Topology, declare, report_head
 from infill.reports.smoothing import (
     ChunkKeys,
     ChunksReport,
@@ -259,7 +259,6 @@ class ChunkedSurface:
         if self.simplified is not None:
             number = add_up(self.simplified.sums, float(place.cell_size.max()) ** 2)[0]
         change = enclosed / self.target - 1
-        common, levels = self.level
         differences, topology, deviation = self.verdict.differences, self.verdict.topology, self.verdict.deviation
         cleaned = describe_cleaning(self.crumbs, self.specks, self.request)
         report: ChunksReport = {
@@ -295,13 +294,7 @@ class ChunkedSurface:
                 "volume": self.enclosed,
                 "change": self.enclosed / self.target - 1,
                 "data": self.target,
-                "level": {
-                    "method": "volume" if self.request.level == "volume" else "fixed",
-                    "common": common,
-                    "lowest": float(levels.min()),
-                    "highest": float(levels.max()),
-                    "components": len(levels),
-                },
+                "level": self._level_facts(),
             },
             "topology": declare(Topology, {"data": asdict(topology.data), "result": asdict(topology.result)}),
             "chunks": self._chunk_facts(),
@@ -309,6 +302,17 @@ class ChunkedSurface:
             "seconds": declare(ChunksSeconds, {**self.seconds, "total": sum(self.seconds.values())}),
         }
         return report
+
+    def _level_facts(self) -> Level:
+        """Return the levels of phi, for the report."""
+        common, levels = self.level
+        return {
+            "method": "volume" if self.request.level == "volume" else "fixed",
+            "common": common,
+            "lowest": float(levels.min()),
+            "highest": float(levels.max()),
+            "components": len(levels),
+        }
 
     def _simplification(self, enclosed: float) -> ChunksSimplified | None:
         """Return what simplification did, for the report; None without one."""

@@ -29,8 +29,7 @@ from infill.grid import Grid
 from infill.imaging.label_tables import Segment
 from infill.kernels.compiling import log_compilation
 from infill.kernels.threads import in_order, thread_count
-from infill.lazy.grain import whole_boxes
-from infill.lazy.volume import LazyArray, LazyVolume
+from infill.lazy.volume import LazyArray, LazyVolume, whole_boxes
 from infill.machine import GIB, available_memory
 from infill.result import Clock, Result
 from infill.smoothing.chunk_plans import check_chunked

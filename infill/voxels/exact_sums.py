@@ -27,7 +27,7 @@ def sums_by_side(values: NDArray[Any], side: NDArray[np.bool_]) -> tuple[Fractio
     if values.dtype.kind in "iub" and values.dtype.itemsize <= LARGEST_ITEM:
         whole, above = values.sum(dtype=np.int64), values.sum(where=side, dtype=np.int64)
         return Fraction(int(whole - above)), Fraction(int(above))
-    from infill.kernels.exact_sums import EXPONENTS, LOW_BITS, add_by_exponent
+    from infill.kernels.chunk_sums import EXPONENTS, MANTISSA_LOW_BITS, add_by_exponent
 
     numbers = np.ascontiguousarray(values, dtype=np.float64).reshape(-1)
     tables = np.zeros((2, EXPONENTS, 2), dtype=np.int64)
@@ -36,7 +36,7 @@ def sums_by_side(values: NDArray[Any], side: NDArray[np.bool_]) -> tuple[Fractio
     for table in tables:
         used = np.flatnonzero(table.any(axis=1)).tolist()
         parts = ((table[n].tolist(), max(n, 1)) for n in used)  # exponent 0 is that of subnormal numbers
-        total = sum(((high << LOW_BITS) + low) << exponent for (high, low), exponent in parts)
+        total = sum(((high << MANTISSA_LOW_BITS) + low) << exponent for (high, low), exponent in parts)
         totals.append(Fraction(total, 1 << BIAS))
     return totals[0], totals[1]
 
