@@ -291,8 +291,10 @@ def test_a_label_that_does_not_fit_is_named_or_smoothed_in_chunks(balls: NDArray
     needed = plan_lazy_labels(lazily(balls), begin=time.perf_counter(), method="plain")["memory"] - 300_000_000
     with pytest.raises(MemoryLimitError, match=r"^label 2: its part of the volume, \d+ x 40 x 44 voxels, needs about"):
         smooth_lazy_labels(lazily(balls), max_memory=needed // 2)
-    with pytest.raises(MemoryLimitError, match="which works in chunks then"):
+    with pytest.raises(MemoryLimitError, match="give --smooth plain, so that it is smoothed in chunks"):
         plan_lazy_labels(lazily(balls), begin=time.perf_counter(), max_memory=needed // 2)
+    with pytest.raises(MemoryLimitError, match="leave --tolerance, --despeckle and --max-triangles out"):
+        smooth_lazy_labels(lazily(balls), method="plain", tolerance=0.3, max_memory=needed // 2)
     options: dict[str, Any] = {"method": "plain", "tolerance": None, "max_memory": needed // 2}
     result = smooth_lazy_labels(lazily(balls), **options)
     for name, surface in result.surfaces.items():

@@ -382,10 +382,12 @@ def _find_large(
         try:
             check_chunked(task.request)
         except UsageError:
+            is_plain = task.request.method == "plain"
+            remedy = "leave --tolerance, --despeckle and --max-triangles out" if is_plain else "give --smooth plain"
             error = large[number] = MemoryLimitError(
                 f"its part of the volume, {' x '.join(map(str, task.cut(piece).shape))} voxels, needs about "
-                f"{needed / GIB:.2f} GiB of memory and {allowed / GIB:.2f} GiB are allowed; give --smooth plain, which "
-                "works in chunks then, or a coarser level of the volume"
+                f"{needed / GIB:.2f} GiB of memory and {allowed / GIB:.2f} GiB are allowed; {remedy}, so that it is "
+                "smoothed in chunks, or give a coarser level of the volume"
             )
             if not keep_going:
                 raise error.within(title_of(piece)) from None
