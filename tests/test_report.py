@@ -35,9 +35,11 @@ from infill import (
     verify,
 )
 from infill.cli.app import build_app
+from infill.lazy.opening import open_volume
 from infill.reports.checking import FailedCheck
 from infill.reports.common import FORM
 from infill.reports.timing import MotionReports
+from infill.smoothing.together_chunks import smooth_together_in_chunks
 from tests.handmade_prints import Dialect, written
 from tools import write_report_page
 from tools.write_report_page import CHAPTERS, PAGE, Chapter, Key, is_union, read_key, read_keys, write_page
@@ -191,12 +193,18 @@ def together_reports(folder: Path, results: Results) -> dict[str, Any]:
     }
 
 
-def together_in_chunks_reports(folder: Path, results: Results) -> dict[str, Any]:
+def parted_reports(folder: Path, results: Results) -> dict[str, Any]:
+    segments = (Segment(value=3, name="ball", colour=(1.0, 0.0, 0.0)), Segment(value=9, name="none"))
     specks = LABELS.copy()
     specks[0, 0, 0], specks[2, 20, 2] = 5, 6
-    np.save(folder / "specks.npy", specks)
-    words = ["--spacing", 1, "--together", "--workers", 1, "--tolerance", 0, "--refine", "--steps", 30]
-    return {"command": printed("smooth", folder / "specks.npy", *words, "-o", folder / "a.3mf", status=1)}
+    np.save(folder / "labels.npy", specks)
+    words = ["--spacing", 1, "--together", "--smooth", "plain", "--workers", 1, "-o", folder / "a.3mf"]
+    volume = open_volume(folder / "labels.npy")
+    options: dict[str, Any] = {"method": "refine", "smoothing": Smoothing(steps=30)}
+    return {
+        "absent": smooth_together_in_chunks(volume, segments=segments, **options).report,
+        "command": printed("smooth", folder / "labels.npy", *words),
+    }
 
 
 def labels_plans(folder: Path, results: Results) -> dict[str, Any]:
@@ -354,7 +362,7 @@ REPORTS: dict[str, Callable[[Path, Results], dict[str, Any]]] = {
     "chunks --dry-run": chunks_plans,
     "labels": labels_reports,
     "together": together_reports,
-    "together in chunks": together_in_chunks_reports,
+    "together in chunks": parted_reports,
     "labels --dry-run": labels_plans,
     "components": components_reports,
     "fill": fill_reports,

@@ -35,7 +35,8 @@ def write_glb_parts(parts: Sequence[Part], file: BinaryIO) -> None:
     FormatError
         If the file would exceed 4 GiB.
     """
-    sizes = [size for part in parts for size in (12 * len(part.surface.vertices), 12 * len(part.surface.faces))]
+    surfaces = (part.surface for part in parts)  # each may be made when it is asked for
+    sizes = [size for surface in surfaces for size in (12 * len(surface.vertices), 12 * len(surface.faces))]
     description = _describe(parts, sizes)
     text = json.dumps(description, separators=(",", ":")).encode()
     text += b" " * (-len(text) % 4)
@@ -48,7 +49,8 @@ def write_glb_parts(parts: Sequence[Part], file: BinaryIO) -> None:
     file.write(struct.pack("<I4s", len(text), b"JSON") + text)
     file.write(struct.pack("<I4s", sum(sizes), b"BIN\0"))
     for part in parts:
-        file.write(part.surface.vertices.astype("<f4").tobytes() + part.surface.faces.astype("<u4").tobytes())
+        surface = part.surface
+        file.write(surface.vertices.astype("<f4").tobytes() + surface.faces.astype("<u4").tobytes())
 
 
 def _describe(parts: Sequence[Part], sizes: Sequence[int]) -> dict[str, Any]:

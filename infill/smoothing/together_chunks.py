@@ -53,8 +53,7 @@ if TYPE_CHECKING:
 PLAIN_MARGIN, REFINED_MARGIN = 3, 12  # cells, more than there are steps: averages of refining look as far
 BYTES_PER_CELL = 48  # of a chunk with its margin: numbers, fields of several labels and their walls, a measured peak
 BYTES_PER_RUN = 3000  # of the walls of a label, joined: 30 triangles, about, and what it takes to sort them
-LARGEST, LEAST = 256, 32  # cells along the sides of a chunk
-LEAST_CHUNKS = 2  # for each worker
+LARGEST, LEAST = 512, 32  # cells along the sides of a chunk
 MEMORY_SHARE = 0.5  # of what is free: for all chunks at once
 
 
@@ -233,16 +232,11 @@ def plan_partition(
         )
     share = runner.memory_per_task() if request.max_memory is None else request.max_memory // runner.workers
     memory = int((allowed or 2**32) * MEMORY_SHARE) // runner.workers if share is None else share
-    side = LARGEST
-    layout = _layout(volume.shape, size or _bricks(volume.shape, side), steps)
-    while (
-        size is None
-        and side > LEAST
-        and (_bytes_of(layout) > memory or len(layout) < LEAST_CHUNKS * runner.workers)
-        and math.prod(volume.shape) > LEAST**3
-    ):
-        side -= LEAST
-        layout = _layout(volume.shape, _bricks(volume.shape, side), steps)
+    sizes = [_bricks(volume.shape, side) for side in range(LEAST, LARGEST + 1, LEAST)] if size is None else [size]
+    layouts = [ChunkLayout(shape=volume.shape, size=bricks, steps=steps) for bricks in dict.fromkeys(sizes)]
+    fitting = [layout for layout in layouts if _bytes_of(layout) <= memory] or layouts[:1]
+    # Margins are wide: few large chunks take less work than there are workers to share it.
+    layout = min(fitting, key=lambda one: math.ceil(len(one) / runner.workers) * _bytes_of(one))
     read = sum(
         math.prod(high - low for low, high in zip(chunk.cell_low, chunk.cell_high, strict=True)) for chunk in layout
     )
@@ -250,11 +244,6 @@ def plan_partition(
     return PartitionPlan(
         layout=layout, workers=runner.workers, memory=max(walls, at_once * _bytes_of(layout)), read=read
     )
-
-
-def _layout(shape: tuple[int, int, int], size: tuple[int, int, int], steps: int) -> ChunkLayout:
-    """Return a layout whose fields reach, and whose halo, are `steps` cells."""
-    return ChunkLayout(shape=shape, size=size, steps=steps)
 
 
 def _bricks(shape: tuple[int, int, int], side: int) -> tuple[int, int, int]:
