@@ -92,7 +92,7 @@ def test_sixty_four_chunks_are_simplified() -> None:
 
 
 @pytest.mark.longest
-@settings(max_examples=20)
+@settings(max_examples=10)
 @given(case=cases(largest=70))
 def test_any_volume_is_simplified(case: Case) -> None:
     low, high = np.quantile(case.values, [0, case.share])
