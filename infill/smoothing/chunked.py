@@ -147,6 +147,7 @@ def _find_surface(solver: Solver, chosen: ChosenWork, volume: LazyVolume, second
         _load_kernels(solver.work)
         solver.smooth()
         segmentation = require_some_solid(solver, chosen.used)
+        specks = count_specks(solver)
     with _timed(seconds, "surface"):
         surface, common, levels = solver.find_surface()
     to_phase = _phase_level(request)
@@ -177,7 +178,7 @@ def _find_surface(solver: Solver, chosen: ChosenWork, volume: LazyVolume, second
         segmentation=segmentation,
         noise=chosen.noise,
         grey=chosen.grey,
-        specks=count_specks(solver),
+        specks=specks,
         enclosed=enclosed,
         target=target,
         seconds=seconds,
