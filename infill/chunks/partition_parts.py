@@ -82,15 +82,15 @@ class PartitionWork:
     def number(self, cells: NDArray[Any]) -> NDArray[np.uint16]:
         """Return the numbers of labels in cells."""
         order = np.argsort(self.values)
-        known = np.array(self.values)[order]
+        values_there = np.array(self.values)[order]
         present, place = np.unique(cells, return_inverse=True)
-        at = np.searchsorted(known, present).clip(max=len(known) - 1)
-        numbers = np.where(known[at] == present, order[at] + 1, 0).astype(np.uint16)
+        at = np.searchsorted(values_there, present).clip(max=len(values_there) - 1)
+        numbers = np.where(values_there[at] == present, order[at] + 1, 0).astype(np.uint16)
         return np.ascontiguousarray(numbers[place.reshape(cells.shape)])
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Lines:
+class CellLines:
     """The shifts of points by which lines where labels meet become smooth.
 
     Parameters
@@ -113,12 +113,12 @@ class WallTask:
     ----------
     held, offsets : (labels,) float64
         Offsets that decide which label wins in a cell, and those that place walls.
-    lines : Lines or None
+    lines : CellLines or None
     """
 
     held: NDArray[np.float64]
     offsets: NDArray[np.float64]
-    lines: Lines | None
+    lines: CellLines | None
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -285,7 +285,9 @@ def point_places(graph: WallGraph, corner: tuple[int, ...]) -> tuple[NDArray[np.
     return np.repeat(place, per_base, axis=0) + np.array(corner, dtype=np.int64), slots
 
 
-def _open_shifts(work: PartitionWork, chunk: Chunk, fields: PartitionFields, graph: WallGraph, lines: Lines) -> Shifts:
+def _open_shifts(
+    work: PartitionWork, chunk: Chunk, fields: PartitionFields, graph: WallGraph, lines: CellLines
+) -> Shifts:
     """Return the shifts of a chunk: kept, or computed again."""
     path = _path(work, chunk, "lines")
     if path is not None:
@@ -350,9 +352,9 @@ def _smooth_part(
     shape = np.array(chunk.shape)
     begin = low * BRICK
     until = np.where(high == chunk.lattice, shape, high * BRICK - 2)
-    own = tuple(slice(a - c, b - c) for a, b, c in zip(begin, until, chunk.cell_low, strict=True))
+    inside = tuple(slice(a - c, b - c) for a, b, c in zip(begin, until, chunk.cell_low, strict=True))
     return {
-        "numbers": np.ascontiguousarray(numbers[own]),
+        "numbers": np.ascontiguousarray(numbers[inside]),
         "entries": np.stack([ends - counts, ends], axis=-1).reshape(entries.shape),
         "labels": present[whole.labels[chosen]].astype(np.int32),
         "slots": slots,

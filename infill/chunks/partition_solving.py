@@ -13,7 +13,7 @@ from scipy import sparse
 
 from infill.chunks.layout import Chunk
 from infill.chunks.partition_parts import (
-    Lines,
+    CellLines,
     Names,
     PartitionWork,
     PartSurvey,
@@ -103,7 +103,7 @@ class ChunkedPartition:
         return volumes_of_shares(sums, pairs, samples, ramp, self.work.layout.shape)
 
     def extract(
-        self, offsets: NDArray[np.float64], *, held: NDArray[np.float64] | None = None, shifts: Lines | None = None
+        self, offsets: NDArray[np.float64], *, held: NDArray[np.float64] | None = None, shifts: CellLines | None = None
     ) -> tuple[NDArray[np.float64], MeasuredWalls]:
         """Measure the walls between labels; they are held by the offsets that decide which label wins in a cell."""
         held = offsets if held is None else held
@@ -119,11 +119,11 @@ class ChunkedPartition:
         """Return the areas between labels."""
         return walls.areas
 
-    def smooth_lines(self, graph: NDArray[np.float64], walls: MeasuredWalls) -> Lines:  # noqa: ARG002 - as in memory
+    def smooth_lines(self, graph: NDArray[np.float64], walls: MeasuredWalls) -> CellLines:  # noqa: ARG002 - as in memory
         """Return the shifts by which lines become smooth; each chunk makes them when it needs them."""
-        return Lines(offsets=walls.task.offsets, taken=np.empty(0, dtype=np.int64))
+        return CellLines(offsets=walls.task.offsets, taken=np.empty(0, dtype=np.int64))
 
-    def take_back(self, walls: MeasuredWalls, shifts: Lines) -> tuple[Lines, int]:
+    def take_back(self, walls: MeasuredWalls, shifts: CellLines) -> tuple[CellLines, int]:
         """Take back shifts of crossing triangles: see `infill.partition.junctions.take_back_crossings`."""
         taken: list[Names] = []
         for number in range(TAKEN_BACK_ROUNDS + 1):
@@ -134,7 +134,7 @@ class ChunkedPartition:
             taken.append(np.concatenate([part[1] for part in parts]))
         if not taken:
             return shifts, pairs
-        return Lines(offsets=shifts.offsets, taken=np.concatenate([shifts.taken, *taken])), pairs
+        return CellLines(offsets=shifts.offsets, taken=np.concatenate([shifts.taken, *taken])), pairs
 
     def join(self, walls: MeasuredWalls) -> Walls:
         """Join the walls of all chunks; points and triangles have the order of those in memory."""

@@ -121,23 +121,23 @@ def simplify_chunk(
     faces = part.faces[:, ::-1] if place.mirrored else part.faces
     sums = face_sums(placed, faces, float(place.cell_size.max()) ** 2)
     numbers = np.concatenate([first + np.arange(len(part.vertices)), foreign])
-    whole = Fragment(numbers=numbers, points=points, faces=part.faces.astype(np.int32))
+    complete = Fragment(numbers=numbers, points=points, faces=part.faces.astype(np.int32))
     plan = SeamPlan(layout=work.layout)
-    part_of = split_faces(whole, chunk, plan, work.spacing)
-    near = plan.near_seams(points / np.array(work.spacing))[whole.faces].any(axis=1)
+    part_of = split_faces(complete, chunk, plan, work.spacing)
+    around = plan.near_seams(points / np.array(work.spacing))[complete.faces].any(axis=1)
     parts = []
     for count, number in enumerate(np.unique(part_of)):
         chosen = part_of == number
-        fragment = whole.select(chosen)
+        fragment = complete.select(chosen)
         base = NUMBERS * (1 + chunk.number * PARTS + count)
         simple = simplify_fragment(fragment, fragment.border, None, tolerance, base)
-        parts.append(SimplifiedPart(fragment=simple, original=whole.select(chosen & near)))
+        parts.append(SimplifiedPart(fragment=simple, original=complete.select(chosen & around)))
     return parts, sums
 
 
-def split_faces(whole: Fragment, chunk: Chunk, plan: SeamPlan, spacing: tuple[float, ...]) -> Numbers:
+def split_faces(complete: Fragment, chunk: Chunk, plan: SeamPlan, spacing: tuple[float, ...]) -> Numbers:
     """Return the part of the volume to which each face (F,) of a chunk belongs."""
-    corners = (whole.points / np.array(spacing))[whole.faces]
+    corners = (complete.points / np.array(spacing))[complete.faces]
     box = plan.box_of(chunk)
     cube = np.clip(np.floor(corners.min(axis=1)) + 0.5, np.array(box.low) + 0.5, np.array(box.high) - 0.5)
     return plan.parts_of(cube)
@@ -200,22 +200,22 @@ def simplify_box(
     base : int
         Number of the first new vertex.
     """
-    now, was = join_fragments(fragments), join_fragments(originals)
+    current, was = join_fragments(fragments), join_fragments(originals)
     sizes = np.array(spacing)
-    outside = ~box.holds(now.points / sizes)[now.faces].all(axis=1)
-    pinned = np.zeros(len(now.points), dtype=bool)
-    pinned[now.faces[outside]] = True
-    pinned |= now.border
-    nothing = SimplifiedBox(fragment=now.select(np.zeros(len(now.faces), dtype=bool)), removed=[])
+    outside = ~box.holds(current.points / sizes)[current.faces].all(axis=1)
+    pinned = np.zeros(len(current.points), dtype=bool)
+    pinned[current.faces[outside]] = True
+    pinned |= current.border
+    nothing = SimplifiedBox(fragment=current.select(np.zeros(len(current.faces), dtype=bool)), removed=[])
     if pinned.all() or not len(was.faces):
         return nothing
     chosen = was.select(np.asarray(box.holds(was.points / sizes, ORIGINAL)[was.faces].any(axis=1)))
     original = Surface(vertices=chosen.points, faces=chosen.faces)
-    simple = simplify_fragment(now, pinned, original, tolerance, base)
-    if len(simple.faces) >= len(now.faces):
+    simple = simplify_fragment(current, pinned, original, tolerance, base)
+    if len(simple.faces) >= len(current.faces):
         return nothing
     stays = int(pinned.sum())
-    gone, begin, removed = np.asarray(~pinned[now.faces].all(axis=1)), 0, []
+    gone, begin, removed = np.asarray(~pinned[current.faces].all(axis=1)), 0, []
     for fragment in fragments:
         removed.append(np.flatnonzero(gone[begin : begin + len(fragment.faces)]))
         begin += len(fragment.faces)

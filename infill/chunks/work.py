@@ -462,17 +462,17 @@ def measure_piece(
 
 def _no_parts(cubes: UndecidedCubes) -> LevelParts:
     """Return the undecided cubes alone."""
-    none, few = np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int32)
-    shells = ShellParts(names=few, sums=np.empty((0, 4), dtype=np.int64), vertices=none, faces=none)
+    none, no_parts = np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int32)
+    shells = ShellParts(names=no_parts, sums=np.empty((0, 4), dtype=np.int64), vertices=none, faces=none)
     return LevelParts(
         cubes=cubes,
         complete=False,
         own=0,
         shells=shells,
         foreign=none,
-        foreign_in=few,
+        foreign_in=no_parts,
         shared=none,
-        shared_in=few,
+        shared_in=no_parts,
         shared_rank=none,
         voters=none,
         votes=none,

@@ -84,7 +84,7 @@ def place_hash(i, j, k):
 
 
 @njit(nogil=True, cache=True)
-def count_margins(entries, labels, slots, values, numbers, own, bins, thread, threads):
+def count_margins(entries, labels, slots, values, numbers, box, bins, thread, threads):
     """Count by how much the value of every label exceeds the highest other one in its cells.
 
     Parameters
@@ -96,9 +96,9 @@ def count_margins(entries, labels, slots, values, numbers, own, bins, thread, th
     """
     n0, n1, n2 = numbers.shape
     largest = bins.shape[2] - 1
-    for p in range(own[0, 0] + thread, own[1, 0], threads):
-        for q in range(own[0, 1], own[1, 1]):
-            for r in range(own[0, 2], own[1, 2]):
+    for p in range(box[0, 0] + thread, box[1, 0], threads):
+        for q in range(box[0, 1], box[1, 1]):
+            for r in range(box[0, 2], box[1, 2]):
                 begin, end = entries[p, q, r, 0], entries[p, q, r, 1]
                 for a in range(B0):
                     for b in range(B1):
@@ -122,7 +122,7 @@ def count_margins(entries, labels, slots, values, numbers, own, bins, thread, th
 
 @njit(nogil=True, cache=True)
 def share_cells(
-    entries, labels, slots, values, offsets, numbers, own, corner, ramp, stride, shares, pairs, thread, threads
+    entries, labels, slots, values, offsets, numbers, box, corner, ramp, stride, shares, pairs, thread, threads
 ):
     """Share every cell between the two labels with the highest values; return the number of samples.
 
@@ -147,9 +147,9 @@ def share_cells(
     """
     n0, n1, n2 = numbers.shape
     samples, whole = 0, np.int64(PARTS)
-    for p in range(own[0, 0] + thread, own[1, 0], threads):
-        for q in range(own[0, 1], own[1, 1]):
-            for r in range(own[0, 2], own[1, 2]):
+    for p in range(box[0, 0] + thread, box[1, 0], threads):
+        for q in range(box[0, 1], box[1, 1]):
+            for r in range(box[0, 2], box[1, 2]):
                 begin, end = entries[p, q, r, 0], entries[p, q, r, 1]
                 i0, i1 = max(p * B0 - 1, 0), min(p * B0 + B0 - 1, n0)
                 j0, j1 = max(q * B1 - 1, 0), min(q * B1 + B1 - 1, n1)

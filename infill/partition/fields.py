@@ -252,9 +252,9 @@ def smooth_fields(
         is_kept = uniform == 0
         inside = np.concatenate([np.argwhere(field.slots == SOLID_BRICK), field.where[uniform == 1]])
         places = np.concatenate([field.where[is_kept].astype(np.int64), inside]) + shift
-        kept = values[is_kept]
-        slots = np.concatenate([np.arange(len(kept)), np.full(len(inside), INSIDE)]).astype(np.int32)
-        return np.ravel_multi_index(tuple(places.T), lattice), slots, kept
+        kept_values = values[is_kept]
+        slots = np.concatenate([np.arange(len(kept_values)), np.full(len(inside), INSIDE)]).astype(np.int32)
+        return np.ravel_multi_index(tuple(places.T), lattice), slots, kept_values
 
     places, labels, slots, start = [], [], [], 0
     values = np.empty((0, CELLS), dtype=np.float32)

@@ -270,13 +270,13 @@ def _far_points(
     return FarPoints(points=points, distance=distance, area=area)
 
 
-def _furthest(far: FarPoints, cell: float) -> FarPoints:
+def _furthest(distant: FarPoints, cell: float) -> FarPoints:
     """Return the points that are further than `LOST`, and the furthest one, even if it is near."""
-    if not len(far.distance):
-        return far
-    chosen = far.distance > LOST * cell
-    chosen[far.distance.argmax()] = True
-    return far.take(chosen)
+    if not len(distant.distance):
+        return distant
+    chosen = distant.distance > LOST * cell
+    chosen[distant.distance.argmax()] = True
+    return distant.take(chosen)
 
 
 def _keeps_connections(flips: SignChanges, chunk: Chunk, work: Work) -> bool:

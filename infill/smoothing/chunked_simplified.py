@@ -187,12 +187,12 @@ class SimplifiedSurface:
             if not box.meets(entry.low, entry.high, AROUND):
                 continue
             fragment = self._load(entry)
-            near = near_box(fragment, box, spacing)
+            is_around = near_box(fragment, box, spacing)
             for faces in removed.get(number, ()):
-                near[faces] = False
-            if near.any():
-                pieces.append(fragment.select(near))
-                indices.append((number, np.flatnonzero(near)))
+                is_around[faces] = False
+            if is_around.any():
+                pieces.append(fragment.select(is_around))
+                indices.append((number, np.flatnonzero(is_around)))
         return pieces, indices
 
     def _finish(self, keys: list[str], items: list[Any], run: Callable[[list[str], list[Any]], None]) -> list[Any]:

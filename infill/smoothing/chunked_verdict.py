@@ -151,10 +151,11 @@ def _join_distances(
     added, lost, thin = (
         FarPoints.join([getattr(part, name) for part in compared.values()]) for name in ("added", "lost", "thin")
     )
-    added, lost, thin = (replace(far, points=place(far.points)) for far in (added, lost, thin))
+    added, lost, thin = (replace(distant, points=place(distant.points)) for distant in (added, lost, thin))
     apart = 2 * PITCH * cell
     new, missing, faint = (
-        group_places(far.points, far.distance, far.area, cell, apart=apart) for far in (added, lost, thin)
+        group_places(distant.points, distant.distance, distant.area, cell, apart=apart)
+        for distant in (added, lost, thin)
     )
     return Deviation(
         there=_furthest_gap(added),
@@ -172,13 +173,13 @@ def _join_distances(
     )
 
 
-def _furthest_gap(far: FarPoints) -> SurfaceGap:
+def _furthest_gap(distant: FarPoints) -> SurfaceGap:
     """Return the furthest point as a gap."""
-    if not len(far.distance):
+    if not len(distant.distance):
         return SurfaceGap(mean=0.0, rms=0.0, p95=0.0, max=0.0, at=(0.0, 0.0, 0.0))
-    worst = int(far.distance.argmax())
-    x, y, z = far.points[worst].tolist()
-    furthest = float(far.distance[worst])
+    worst = int(distant.distance.argmax())
+    x, y, z = distant.points[worst].tolist()
+    furthest = float(distant.distance[worst])
     return SurfaceGap(mean=furthest, rms=furthest, p95=furthest, max=furthest, at=(x, y, z))
 
 

@@ -328,11 +328,11 @@ def survey_labels(
     survey_box(np.zeros((1, 1, 1), dtype=np.uint8), (0, 0, 0))  # loads the kernel, before several threads need it
     if runner is not None:
         return join_surveys(runner.run(_survey, volume.array, boxes))
-    found: LabelSurvey | None = None
+    joined: LabelSurvey | None = None
     for _, survey in in_order(lambda box: _survey(volume.array, *box), boxes, threads=thread_count(threads)):
-        found = survey if found is None else join_surveys([found, survey])
-    assert found is not None  # a volume has cells
-    return found
+        joined = survey if joined is None else join_surveys([joined, survey])
+    assert joined is not None  # a volume has cells
+    return joined
 
 
 def _survey(array: LazyArray, low: tuple[int, ...], high: tuple[int, ...]) -> LabelSurvey:
@@ -409,7 +409,7 @@ def _smooth_others(
         def smooth_one(number: int, threads: int, progress: Progress | None) -> StoredLabel | InfillError:
             return _stored(task, smooth_label(task, pieces[numbers[number]], threads, progress))
 
-        found = run_labels(
+        results = run_labels(
             smooth_one,
             works,
             stop_early=stop,
@@ -417,16 +417,16 @@ def _smooth_others(
             max_memory=request.max_memory,
             progress=request.progress,
         )
-        for number, outcome in zip(numbers, found, strict=True):
+        for number, outcome in zip(numbers, results, strict=True):
             outcomes[number] = outcome
         return outcomes
     allowed = None if runner.client is not None else _allowed_memory(request, runner)
     load_smoother()
     finished = 0
-    for part, beside in split_by_memory(works, runner.workers, allowed):
+    for part, at_once in split_by_memory(works, runner.workers, allowed):
         share = partial(_tell, request.progress, finished / len(works), len(part) / len(works))
         chosen = [numbers[at] for at in part]
-        made = replace(runner, workers=beside).run(smooth_label, task, [(pieces[number],) for number in chosen], share)
+        made = replace(runner, workers=at_once).run(smooth_label, task, [(pieces[number],) for number in chosen], share)
         for number, smoothed in zip(chosen, made, strict=True):
             outcomes[number] = _stored(task, smoothed)
         finished += len(part)
@@ -452,10 +452,10 @@ def split_by_memory(works: Sequence[LabelWork], workers: int, allowed: int | Non
     begin = 0
     while begin < len(order):
         largest = works[order[begin]].memory
-        beside = workers if allowed is None else max(1, min(workers, allowed // max(1, largest)))
+        at_once = workers if allowed is None else max(1, min(workers, allowed // max(1, largest)))
         # As many at once as there are workers: then a pool of them does no more either.
-        count = beside if beside < workers else AT_ONCE * workers
-        yield order[begin : begin + count], beside
+        count = at_once if at_once < workers else AT_ONCE * workers
+        yield order[begin : begin + count], at_once
         begin += count
 
 

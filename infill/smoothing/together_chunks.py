@@ -18,10 +18,11 @@ from functools import partial
 from typing import TYPE_CHECKING, BinaryIO, Unpack
 
 import numpy as np
+from numpy.typing import NDArray
 
 from infill.chunks.layout import ChunkLayout
-from infill.chunks.partition_parts import HALO, PartitionWork
-from infill.chunks.partition_solving import ChunkedPartition
+from infill.chunks.partition_parts import HALO, CellLines, PartitionWork
+from infill.chunks.partition_solving import ChunkedPartition, MeasuredWalls
 from infill.chunks.running import Runner, open_runner, require_dask
 from infill.errors import GeometryError, MemoryLimitError, UsageError
 from infill.formats.mesh_files import WALL_WRITERS
@@ -30,7 +31,8 @@ from infill.imaging.label_tables import Segment
 from infill.kernels.sparse import BRICK
 from infill.lazy.volume import LazyVolume
 from infill.machine import GIB, available_memory
-from infill.partition.volumes import SMALLEST, find_offsets
+from infill.partition.volumes import SMALLEST, FoundOffsets, find_offsets
+from infill.partition.walls import Walls
 from infill.phasefield.schedule import Schedule
 from infill.plain_numbers import count_noun
 from infill.reports.common import report_head
@@ -124,47 +126,24 @@ def smooth_together_in_chunks(
             pieces = name_lazy_pieces(volume, survey, segments, label, tuple(table))
             absent = absent_names(segments, pieces) if label is None else []
             plan = plan_partition(volume, pieces, request, runner, size=size)
-        scratch = tempfile.mkdtemp(prefix="infill-together-")
-        try:
-            load_smoother()
-            partition = ChunkedPartition(
-                work=make_work(volume, pieces, request, plan, scratch),
-                runner=runner,
-                tell=lambda share: clock.tell("smooth", 0.05 + 0.4 * share),
-            )
-            with clock.stage("smooth", 0.05):
-                _ = partition.survey
-            with clock.stage("volumes", 0.45):
-                cells = np.array([0, *(piece.extent.cells for piece in pieces)], dtype=np.float64)
-                cells[0] = math.prod(volume.shape) - cells.sum()
-                scale = partition.work.scale
-                found = find_offsets(
-                    partition,
-                    cells * float(np.prod(scale)),
-                    scale=scale,
-                    progress=lambda share: clock.tell("volumes", 0.45 + 0.4 * share),
-                )
-            with clock.stage("surface", 0.85):
-                walls = partition.join(found.walls)
-        finally:
-            shutil.rmtree(scratch, ignore_errors=True)
+        offsets, walls = _solve_partition(volume, pieces, request, plan, runner, clock)
     place = volume.place(np.broadcast_to(np.uint8(0), volume.shape))
     with clock.stage("surface", 0.9):
         surfaces = LabelSurfaces.of(walls, place, [piece.name for piece in pieces], threads=request.threads)
     if not surfaces:
         raise GeometryError("no label is left after smoothing; give fewer steps")
-    left, gone = ([piece for piece in pieces if (piece.name in surfaces) is kept] for kept in (True, False))
-    labels = [_label_keys(piece, surfaces, place.cell_volume) for piece in left]
+    remaining, gone = ([piece for piece in pieces if (piece.name in surfaces) is kept] for kept in (True, False))
+    labels = [_label_keys(piece, surfaces, place.cell_volume) for piece in remaining]
     report: PartedReport = {
         **report_head("together"),
         "triangles": len(walls.triangles),
         "closed": all(keys["closed"] for keys in labels),
-        "problems": _problems(labels, left, gone, found.crossings),
+        "problems": _problems(labels, remaining, gone, offsets.crossings),
         "request": request.facts(),
         "labels": labels,
         "failed": [{**piece.place, "error": NOTHING_LEFT} for piece in gone],
         "absent": absent,
-        "rounds": found.rounds,
+        "rounds": offsets.rounds,
         "chunks": {
             "count": len(plan.layout),
             "cells": [size * side for size, side in zip(plan.layout.size, BRICK, strict=True)],
@@ -183,8 +162,43 @@ def smooth_together_in_chunks(
     writers: dict[str, Callable[[BinaryIO], None]] = {
         suffix: partial(stages.write_walls, write) for suffix, write in WALL_WRITERS.items()
     }
-    colours = {piece.name: piece.segment.colour for piece in left if piece.segment.colour is not None}
+    colours = {piece.name: piece.segment.colour for piece in remaining if piece.segment.colour is not None}
     return Result(surfaces=surfaces, report=report, stages=stages, colours=colours, writers=writers)
+
+
+def _solve_partition(
+    volume: LazyVolume,
+    pieces: Sequence[LabelPiece],
+    request: SmoothRequest,
+    plan: PartitionPlan,
+    runner: Runner,
+    clock: Clock,
+) -> tuple[FoundOffsets[NDArray[np.float64], MeasuredWalls, CellLines], Walls]:
+    """Smooth the fields of all chunks and find the offsets of the labels; return them and the walls, joined."""
+    scratch = tempfile.mkdtemp(prefix="infill-together-")
+    try:
+        load_smoother()
+        partition = ChunkedPartition(
+            work=make_work(volume, pieces, request, plan, scratch),
+            runner=runner,
+            tell=lambda share: clock.tell("smooth", 0.05 + 0.4 * share),
+        )
+        with clock.stage("smooth", 0.05):
+            _ = partition.survey
+        with clock.stage("volumes", 0.45):
+            cells = np.array([0, *(piece.extent.cells for piece in pieces)], dtype=np.float64)
+            cells[0] = math.prod(volume.shape) - cells.sum()
+            scale = partition.work.scale
+            offsets = find_offsets(
+                partition,
+                cells * float(np.prod(scale)),
+                scale=scale,
+                progress=lambda share: clock.tell("volumes", 0.45 + 0.4 * share),
+            )
+        with clock.stage("surface", 0.85):
+            return offsets, partition.join(offsets.walls)
+    finally:
+        shutil.rmtree(scratch, ignore_errors=True)
 
 
 def check_request(request: Request, volume: LazyVolume) -> Request:
@@ -297,12 +311,12 @@ def _label_keys(piece: LabelPiece, surfaces: LabelSurfaces, cell_volume: float) 
 
 
 def _problems(
-    labels: Sequence[PartedLabel], left: Sequence[LabelPiece], gone: Sequence[LabelPiece], crossings: int
+    labels: Sequence[PartedLabel], remaining: Sequence[LabelPiece], gone: Sequence[LabelPiece], crossings: int
 ) -> list[str]:
     """Return the problems, one phrase each: volumes that changed, open surfaces, labels gone, and crossings."""
     problems = [
         f"{keys['name']}: its volume changes by {keys['volume_change']:+z.2%}"
-        for keys, piece in zip(labels, left, strict=True)
+        for keys, piece in zip(labels, remaining, strict=True)
         if piece.extent.cells >= SMALLEST and abs(keys["volume_change"]) > PRECISION
     ]
     problems += [f"{keys['name']}: its surface is not closed" for keys in labels if not keys["closed"]]
