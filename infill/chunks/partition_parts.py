@@ -43,7 +43,7 @@ Names = NDArray[np.int64]
 
 @dataclass(frozen=True, kw_only=True)
 class PartitionWork:
-    """What is the same for all chunks of a partition.
+    """The settings that all chunks of a partition share.
 
     Parameters
     ----------

@@ -57,7 +57,7 @@ class Box:
 
 @dataclass(frozen=True, kw_only=True)
 class SeamPlan:
-    """The parts of a volume, and the boxes around what lies between them.
+    """The parts of a volume, and the boxes around their borders.
 
     Parameters
     ----------

@@ -164,7 +164,7 @@ def simplify_fragment(
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class SimplifiedBox:
-    """What a box around a seam changes.
+    """The changes in a box around a seam.
 
     Parameters
     ----------

@@ -17,7 +17,7 @@ NOISY = 56  # the same where specks are looked for, of which there are many in n
 
 @dataclass(frozen=True, kw_only=True)
 class ChunkMemory:
-    """What the memory of a chunk depends on.
+    """The quantities on which the memory of a chunk depends.
 
     Parameters
     ----------

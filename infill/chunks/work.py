@@ -120,7 +120,7 @@ class Work:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ChunkData:
-    """What is read for a chunk.
+    """The cells that are read for a chunk.
 
     Parameters
     ----------

@@ -163,6 +163,6 @@ class PrecomputedPieces:
         self.names.append(name)
 
     def finish(self) -> None:
-        """Write the list of the fragments, and what the folder is."""
+        """Write the list of the fragments, and the kind of the folder."""
         (self.folder / f"{self.segment}:0").write_text(json.dumps({"fragments": self.names}), encoding="utf-8")
         (self.folder / TILES_INFO).write_text(json.dumps({"@type": "neuroglancer_legacy_mesh"}), encoding="utf-8")

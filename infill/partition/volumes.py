@@ -84,7 +84,7 @@ Moved = TypeVar("Moved")
 
 
 class WallSource(Protocol[Graph, Placed, Moved]):
-    """What the search for offsets asks of a partition, which may be in memory or in chunks."""
+    """The questions of the search for offsets to a partition, which may be in memory or in chunks."""
 
     @property
     def count(self) -> int:
@@ -316,13 +316,13 @@ def keep_volumes(
         Called with the share of rounds done.
     """
     source = WholePartition(fields=fields, scale=scale, threads=threads)
-    found = find_offsets(source, volumes, scale=scale, progress=progress)
+    solution = find_offsets(source, volumes, scale=scale, progress=progress)
     return VolumePartition(
-        graph=found.graph,
-        walls=found.walls,
-        offsets=found.offsets,
-        rounds=found.rounds,
-        crossings=found.crossings,
+        graph=solution.graph,
+        walls=solution.walls,
+        offsets=solution.offsets,
+        rounds=solution.rounds,
+        crossings=solution.crossings,
     )
 
 

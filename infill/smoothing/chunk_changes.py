@@ -1,9 +1,9 @@
-"""What smoothing changed in one chunk, in parts that add up to the changes of the whole volume.
+"""The changes by smoothing in one chunk, in parts that add up to those of the whole volume.
 
 compare_chunk     do the cells that changed sign keep all connections? How far apart are the surfaces?
-match_chunk       components of walls, of the result and of what is gone, and the cells that they share
+match_chunk       components of walls, of the result and of lost walls, and the cells that they share
 
-A chunk looks at its own cells and cubes; the brick around it shows what lies beside them. Distances are exact up to
+A chunk looks at its own cells and cubes; the brick around it shows the cells beside them. Distances are exact up to
 `SEARCH` cells, and no less than that beyond.
 """
 
@@ -237,9 +237,9 @@ def _uncertain_cubes(field: SparseField, flips: SignChanges, crumbs: Numbers) ->
     inside = ((place >= 0) & (place < field.slots.shape)).all(axis=1)
     place, cell = place[inside], cell[inside]
     slot = field.slots[tuple(place.T)]
-    kept = slot >= 0
-    bit = np.uint16(1) << cell[kept, 2].astype(np.uint16)
-    np.bitwise_or.at(bits, (slot[kept], cell[kept, 0] * BRICK[1] + cell[kept, 1]), bit)
+    is_stored = slot >= 0
+    bit = np.uint16(1) << cell[is_stored, 2].astype(np.uint16)
+    np.bitwise_or.at(bits, (slot[is_stored], cell[is_stored, 0] * BRICK[1] + cell[is_stored, 1]), bit)
     doubtful = field.slots[tuple(flips.doubt.T)]
     bits[doubtful[doubtful >= 0]] = FULL
     return bits
@@ -262,10 +262,10 @@ def _far_points(
     points, _, area = sample_surface(part, PITCH * max(spacing))
     limit = SEARCH * min(spacing)
     distance = np.full(len(points), limit)
-    beside = None if target is None else part_in_cubes(target, field, around, spacing, 1)
-    if beside is not None and len(beside.faces):
+    target_part = None if target is None else part_in_cubes(target, field, around, spacing, 1)
+    if target_part is not None and len(target_part.faces):
         order = morton_order(points)
-        nearest, _ = TriangleTree.of(beside).nearest(points[order], enough=KEPT * max(spacing), threads=1)
+        nearest, _ = TriangleTree.of(target_part).nearest(points[order], enough=KEPT * max(spacing), threads=1)
         distance[order] = np.minimum(nearest, limit)
     return FarPoints(points=points, distance=distance, area=area)
 

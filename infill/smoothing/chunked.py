@@ -187,7 +187,7 @@ def _find_surface(solver: Solver, chosen: ChosenWork, volume: LazyVolume, second
 
 
 def _input_without_values(volume: LazyVolume, segmentation: SegmentationKeys, noise: float) -> SmoothInput:
-    """Return the input of a verdict: the place of the cells in space, and what is known of them."""
+    """Return the input of a verdict: the place of the cells in space, and the facts about them."""
     nothing = volume.place(np.broadcast_to(np.False_, volume.shape))
     return SmoothInput(data=nothing, facts={"source": "volume", "segmentation": segmentation, "noise": noise})
 
@@ -201,7 +201,7 @@ def _timed(seconds: dict[str, float], stage: str) -> Iterator[None]:
 
 
 def _phase_level(request: SmoothRequest) -> Callable[[float], float]:
-    """Return what converts a level of the field to one of phi."""
+    """Return the function that converts a level of the field to one of phi."""
     if not isinstance(request.level, str):
         fixed = request.level
         return lambda _: fixed

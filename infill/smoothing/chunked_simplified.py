@@ -99,7 +99,7 @@ class SimplifiedSurface:
         return SeamPlan(layout=self.solver.work.layout)
 
     def simplify(self) -> None:
-        """Simplify all parts, then what lies between them."""
+        """Simplify all parts, then the boxes between them."""
         self._simplify_chunks()
         rounds = list(self.plan.rounds())
         total, done = sum(map(len, rounds)), 0
@@ -161,7 +161,7 @@ class SimplifiedSurface:
         self.fragments += added
 
     def _run_boxes(self, keys: list[str], items: list[Any]) -> None:
-        """Simplify boxes, and write what they change."""
+        """Simplify boxes, and write the fragments that change."""
         tasks, sources = [], []
         for box, base in items:
             fragments, indices = self._near(box, self.fragments, self.removed)
@@ -180,7 +180,7 @@ class SimplifiedSurface:
     def _near(
         self, box: Box, stored: Sequence[Stored], removed: dict[int, list[Numbers]]
     ) -> tuple[list[Fragment], list[tuple[int, Numbers]]]:
-        """Return what is near a box of each fragment, and the numbers of fragments and their faces."""
+        """Return the part of each fragment near a box, and the numbers of fragments and their faces."""
         pieces, indices = [], []
         spacing = tuple(self.solver.work.spacing)
         for number, entry in enumerate(stored):
@@ -230,7 +230,7 @@ class SimplifiedSurface:
         return fragment
 
     def _left(self, number: int) -> Fragment:
-        """Return what is left of a fragment."""
+        """Return the rest of a fragment."""
         fragment = self._load(self.fragments[number])
         stays = np.ones(len(fragment.faces), dtype=bool)
         for faces in self.removed.get(number, ()):

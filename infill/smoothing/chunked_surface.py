@@ -161,36 +161,41 @@ class ChunkedSurface:
 
     def _piece(self, part: ChunkTriangles, number: int, place: Volume) -> MeshPiece:
         """Place a piece in space and give its vertices their numbers in the whole mesh."""
-        own = len(part.vertices)
+        own_count = len(part.vertices)
         points = place_points(np.concatenate([part.vertices, part.corners]), place)
         local = part.faces[:, ::-1] if place.mirrored else part.faces
         numbers = np.concatenate(
-            [self.numbering.first_vertices[number] + np.arange(own), self.numbering.find(part.foreign)]
+            [self.numbering.first_vertices[number] + np.arange(own_count), self.numbering.find(part.foreign)]
         )
-        return self._placed_piece(points, local, own, numbers, place)
+        return self._placed_piece(points, local, own_count, numbers, place)
 
     def _simplified_pieces(self, simplified: SimplifiedSurface, place: Volume) -> Iterator[MeshPiece]:
         """Yield the pieces of the simplified surface, in space."""
         count = len(simplified.fragments)
         middle = np.array(self.plan.layout.shape) * np.array(self.solver.work.spacing) / 2
-        for number, (points, faces, own, numbers) in enumerate(simplified.pieces()):
+        for number, (points, faces, own_count, numbers) in enumerate(simplified.pieces()):
             a, b, c = (points[faces[:, corner]] - middle for corner in range(3))
             self._volumes.append(float(np.einsum("fk,fk->", a, np.cross(b, c))) / 6)
             local = faces[:, ::-1] if place.mirrored else faces
-            yield self._placed_piece(place_points(points, place), local, own, numbers, place)
+            yield self._placed_piece(place_points(points, place), local, own_count, numbers, place)
             if self.progress is not None:
                 self.progress("write", WRITING + (1 - WRITING) * (number + 1) / count)
 
     def _placed_piece(
-        self, points: NDArray[np.float64], local: NDArray[np.int64], own: int, numbers: NDArray[np.int64], place: Volume
+        self,
+        points: NDArray[np.float64],
+        local: NDArray[np.int64],
+        own_count: int,
+        numbers: NDArray[np.int64],
+        place: Volume,
     ) -> MeshPiece:
         """Add a piece to the sums, and return it."""
         unit = float(place.cell_size.max()) ** 2
         self._sums.append(face_sums(points, local, unit))
-        if own:
-            self._corners.append(np.array([points[:own].min(axis=0), points[:own].max(axis=0)]))
+        if own_count:
+            self._corners.append(np.array([points[:own_count].min(axis=0), points[:own_count].max(axis=0)]))
         surface = Surface(vertices=points, faces=local.astype(np.int32), space=place.space)
-        return MeshPiece(surface=surface, own=own, faces=numbers[local])
+        return MeshPiece(surface=surface, own=own_count, faces=numbers[local])
 
     def whole(self) -> Surface:
         """Return the whole surface, mm, in memory."""
@@ -315,7 +320,7 @@ class ChunkedSurface:
         }
 
     def _simplification(self, enclosed: float) -> ChunksSimplified | None:
-        """Return what simplification did, for the report; None without one."""
+        """Return the effect of simplification, for the report; None without one."""
         if self.simplified is None:
             return None
         return {

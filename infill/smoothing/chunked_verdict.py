@@ -1,6 +1,6 @@
-"""The verdict on a volume in chunks: what its chunks changed, joined, and judged by the rules of a volume in memory.
+"""The verdict on a volume in chunks: the changes in its chunks, joined, and judged by the rules of a volume in memory.
 
-Components of the solid are matched before and after, walls with what is left of them, and distances are measured both
+Components of the solid are matched before and after, walls with their remains, and distances are measured both
 ways wherever the surfaces may be more than a voxel apart. Voids are counted, not matched.
 """
 
@@ -42,7 +42,7 @@ NAMES = ("after", "walls", "gone")
 
 @dataclass(frozen=True, kw_only=True)
 class ChunkedVerdict:
-    """The verdict on a volume in chunks, and what it rests on.
+    """The verdict on a volume in chunks, and its reasons.
 
     Parameters
     ----------

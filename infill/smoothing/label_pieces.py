@@ -147,7 +147,7 @@ def smooth_box(box: Volume, piece: LabelPiece, options: SmoothOptions) -> Result
 def split_outcomes(
     pieces: Sequence[LabelPiece], outcomes: Sequence[Outcome | InfillError | None], *, keep_going: bool
 ) -> tuple[dict[str, Outcome], dict[str, str]]:
-    """Return what was made of labels, by name, and why others failed.
+    """Return the results of labels, by name, and why others failed.
 
     Raises
     ------

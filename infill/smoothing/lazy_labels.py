@@ -265,9 +265,9 @@ def smooth_lazy_labels(
             for number, refusal in large.items():
                 chunked = partial(_smooth_in_chunks, task, pieces[number], workers, scheduler)
                 outcomes[number] = refusal or chunked()
-    done, failed = split_outcomes(pieces, outcomes, keep_going=keep_going)
-    surfaces = StoredSurfaces(labels=done, folder=folder)
-    reports = {name: surfaces.report(name, request) for name in done}
+    stored, failed = split_outcomes(pieces, outcomes, keep_going=keep_going)
+    surfaces = StoredSurfaces(labels=stored, folder=folder)
+    reports = {name: surfaces.report(name, request) for name in stored}
     return labels_result(pieces, surfaces, reports, failed, absent, request, clock)
 
 
@@ -435,10 +435,10 @@ def _smooth_others(
     return outcomes
 
 
-def _tell(progress: Progress | None, done: float, more: float, share: float) -> None:
+def _tell(progress: Progress | None, begin: float, more: float, share: float) -> None:
     """Report the progress of a part of the labels."""
     if progress is not None:
-        progress("smooth", done + more * share)
+        progress("smooth", begin + more * share)
 
 
 def split_by_memory(works: Sequence[LabelWork], workers: int, allowed: int | None) -> Iterator[tuple[list[int], int]]:

@@ -175,30 +175,30 @@ def scan_ways(
     level = single_threshold(used)
     check_grey(request, grey, level)
     noise = noise_share(np.asarray(solid.values), threads=request.threads)
-    first = choose_method(
+    preferred = choose_method(
         request,
         noise,
         grey=grey,
         has_grey=lambda: level is not None and not phase and has_grey_values(np.asarray(scan.values), used["values"]),
         cell_volume=scan.cell_volume,
     )
-    method, paper = first.method, request.method == AUTO and is_for_plain(request)
+    method, paper = preferred.method, request.method == AUTO and is_for_plain(request)
     grey = grey is True or method == "grey"
     data = scan if phase else scale_grey_values(scan, surface_value(scan, used)) if grey else solid
     smooth_input = _scan_input(data, solid, {**facts, "noise": noise, "grey": grey}, request.threads)
     smooth_input = smooth_input if volume is None else replace(smooth_input, volume=volume)
-    ways = [Way(name=method, data=smooth_input, request=first)]
+    ways = [Way(name=method, data=smooth_input, request=preferred)]
     if request.method == AUTO and method == "plain" and not paper:
-        ways.append(Way(name="refine", data=smooth_input, request=replace(first, method="refine"), cost=2))
+        ways.append(Way(name="refine", data=smooth_input, request=replace(preferred, method="refine"), cost=2))
     steps = request.smoothing.steps
     while steps > MIN_STEPS:
         steps = max(MIN_STEPS, steps // 2)
-        fewer = replace(first, smoothing=replace(first.smoothing, steps=steps), radius=None)
+        fewer = replace(preferred, smoothing=replace(preferred.smoothing, steps=steps), radius=None)
         ways.append(Way(name=f"{method}, {steps} steps", data=smooth_input, request=fewer))
     if request.method == AUTO and method != "plain":
-        ways.append(Way(name="plain", data=smooth_input, request=replace(first, method="plain"), cost=0.5))
-    gentlest = replace(first, smoothing=replace(first.smoothing, steps=steps), radius=None)
-    return [*ways, *_remedies(gentlest if steps < request.smoothing.steps else first, smooth_input)]
+        ways.append(Way(name="plain", data=smooth_input, request=replace(preferred, method="plain"), cost=0.5))
+    gentlest = replace(preferred, smoothing=replace(preferred.smoothing, steps=steps), radius=None)
+    return [*ways, *_remedies(gentlest if steps < request.smoothing.steps else preferred, smooth_input)]
 
 
 def single_threshold(used: Mapping[str, Any]) -> float | None:

@@ -282,7 +282,7 @@ def _bytes_of(layout: ChunkLayout) -> int:
 def make_work(
     volume: LazyVolume, pieces: Sequence[LabelPiece], request: Request, plan: PartitionPlan, scratch: str
 ) -> PartitionWork:
-    """Return what the work on all chunks has in common."""
+    """Return the settings that the work on all chunks shares."""
     return PartitionWork(
         source=volume.array,
         values=tuple(piece.segment.value for piece in pieces),

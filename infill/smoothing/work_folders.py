@@ -95,7 +95,7 @@ class WorkFolder:
 
 
 def run_facts(volume: LazyVolume, request: SmoothRequest, choice: Mapping[str, object]) -> dict[str, str]:
-    """Return what decides the fields of a run, by name, for the manifest."""
+    """Return the settings that decide the fields of a run, by name, for the manifest."""
     facts = {key: str(value) for key, value in request.facts().items() if key not in LATER}
     place = {
         "spacing": tuple(map(float, volume.spacing)),

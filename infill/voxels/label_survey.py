@@ -1,4 +1,4 @@
-"""The labels of a volume that is read box by box: what each box holds, and what all of them hold together."""
+"""The labels of a volume that is read box by box: the labels in each box, and in all of them."""
 
 from __future__ import annotations
 

@@ -123,17 +123,17 @@ def is_label_map(volume: Volume) -> bool:
         return False
     if values.min() < 0 or values.max() < 2:  # 0 and 1 are a mask
         return False
-    found: set[int] = set()
+    distinct: set[int] = set()
     pairs = alike = 0
     for part in _slabs(values.transpose(np.argsort([-abs(step) for step in values.strides], kind="stable"))):
-        found.update(np.unique(part).tolist())
-        if len(found) > MOST_LABELS:
+        distinct.update(np.unique(part).tolist())
+        if len(distinct) > MOST_LABELS:
             return False
         first, second = part[..., :-1], part[..., 1:]
         labelled = (first != 0) | (second != 0)
         pairs += int(labelled.sum())
         alike += int(((first == second) & labelled).sum())
-    return seem_labels(labels=len(found - {0}), pairs=pairs, alike=alike)
+    return seem_labels(labels=len(distinct - {0}), pairs=pairs, alike=alike)
 
 
 def seem_labels(*, labels: int, pairs: int, alike: int) -> bool:
