@@ -149,6 +149,12 @@ def test_a_dry_run_tells_the_cost(folder: Path) -> None:
     assert plan["triangles"] == pytest.approx(report["triangles"], rel=0.7)
     assert plan["read"] >= SIDE**3
     assert plan["seconds"]["total"] > 0
+    assert plan["memory_per_worker"] * 2 >= plan["memory"]
+    assert plan["tasks"] > 5 * plan["chunks"]
+    assert plan["sent"] > 1000 * plan["chunks"]
+    hours = [fleet["hours"] for fleet in plan["hours"]]
+    assert [fleet["workers"] for fleet in plan["hours"]] == [1, 10, 100]
+    assert hours == sorted(hours, reverse=True)
     assert not Path("a.ply").exists()
 
 

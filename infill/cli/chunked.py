@@ -245,9 +245,15 @@ def _show_plan(
         "method": f"{forecast['request']['method']}: {format_steps(forecast['request'])}",
         "chunks": f"{forecast['chunks']:,}, of which about {forecast['crossed']:.0%} have surface",
         "read": f"{format_bytes(forecast['read'])} of voxels in one pass, margins included",
+        "tasks": f"about {forecast['tasks']:,}, which send back {format_bytes(forecast['sent'])} besides triangles",
         "triangles": f"about {forecast['triangles']:,}, before they are simplified",
-        "memory": f"at most about {format_bytes(forecast['memory'])}",
+        "memory": f"at most about {format_bytes(forecast['memory'])}, "
+        f"{format_bytes(forecast['memory_per_worker'])} for each worker",
         "time": f"about {format_span(forecast['seconds']['total'])} on this machine, as busy as it is",
+        "elsewhere": "; ".join(
+            f"{count_noun(fleet['workers'], 'core')} like these: {format_span(3600 * fleet['hours'])}"
+            for fleet in forecast["hours"]
+        ),
     }
     if names:
         rows["would write"] = ", ".join(names)

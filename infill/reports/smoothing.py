@@ -543,6 +543,13 @@ class PlannedSeconds(TypedDict):
     total: Annotated[float, "Time of the first way on this machine, right to a factor of two, s"]
 
 
+class FleetHours(TypedDict):
+    """Time with some number of workers."""
+
+    workers: Annotated[int, "Number of workers, of one core each"]
+    hours: Annotated[float, "Expected time, h"]
+
+
 class ChunksForecast(TypedDict):
     """The report of ``infill smooth --dry-run`` for a volume in chunks."""
 
@@ -551,7 +558,11 @@ class ChunksForecast(TypedDict):
     chunks: Annotated[int, "Number of chunks"]
     crossed: Annotated[float, "Share of the sampled chunks that a surface may cross"]
     read: Annotated[int, "Bytes of cells to read in one pass, with margins"]
+    sent: Annotated[int, "Bytes that tasks send back, besides the triangles that are written, about"]
+    tasks: Annotated[int, "Number of tasks, about"]
     memory: Annotated[int, "Expected memory of all chunks at work at once, bytes"]
+    memory_per_worker: Annotated[int, "Expected memory of one of them, bytes"]
+    hours: list[FleetHours]
     seconds: PlannedSeconds
     triangles: Annotated[int, "Number of triangles before they are simplified, about"]
     files: NotRequired[Annotated[list[str], "Names of the files that a run would write; from the command line only"]]
