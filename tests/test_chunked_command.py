@@ -135,6 +135,7 @@ def test_the_field_is_written_as_zarr(folder: Path) -> None:
     assert run("smooth", "g.npy", *PLAIN, "-o", "f.npz", "-q", "--strict", "--allow-broken").exit_code == 0
     np.testing.assert_array_equal(open_volume("f.zarr").load().values, np.load("f.npz")["values"])
     refused(run("smooth", "g.zarr", *PLAIN, "-o", "f.zarr"), "f.zarr exists; give another name, or --force")
+    refused(run("smooth", "g.zarr", *PLAIN, "-o", "new.zarr", "-o", "./new.zarr"), "new.zarr is named twice")
     assert run("smooth", "g.zarr", *PLAIN, "-o", "f.zarr", "-q", "--force").exit_code == 0
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
@@ -99,6 +100,8 @@ def smooth_chunks(
         request = SmoothRequest(**cast("SmoothOptions", {**options, "progress": progress}))
         check_chunked(request, **_unfit(settings), preview=output.preview)
         _check_outputs(output)
+        if not output.as_json and all(path.suffix.lower() == ZARR for path in output.outputs):
+            request = replace(request, tolerance=None)  # no triangles are written
         with print_log(shown=not output.quiet):
             volume = _open(source, settings)
         choices = {"threshold": settings.threshold, "between": settings.between, "otsu": settings.otsu or None}
@@ -153,6 +156,7 @@ def _check_outputs(output: SmoothOutput) -> None:
     from infill.files.whole_folders import check_folder_target
     from infill.formats.mesh_pieces import TILES, TILES_INFO, check_piece_format
 
+    folders: set[Path] = set()
     for path in (*output.outputs, *output.saved):
         if is_piped(path):
             raise ParameterError("'-' is stdout, and a volume in chunks is written piece by piece; name a file")
@@ -160,10 +164,12 @@ def _check_outputs(output: SmoothOutput) -> None:
         raise ParameterError.about("ascii_stl", "is not for a volume in chunks; leave it out")
     for path in output.outputs:
         if path.suffix.lower() in (ZARR, TILES):
+            if path.resolve() in folders:
+                raise OutputError(f"{path} is named twice; give every output a name of its own")
+            folders.add(path.resolve())
             if not output.dry_run:
-                check_folder_target(
-                    path, overwrite=output.force, mark="" if path.suffix.lower() == ZARR else TILES_INFO
-                )
+                mark = "" if path.suffix.lower() == ZARR else TILES_INFO
+                check_folder_target(path, overwrite=output.force, mark=mark)
         else:
             check_piece_format(path)
     files = [path for path in output.outputs if path.suffix.lower() not in (ZARR, TILES)]
