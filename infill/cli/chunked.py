@@ -12,7 +12,7 @@ import typer
 
 from infill.cli.console import format_bytes, format_table, print_json, print_log, progress_bar, say
 from infill.cli.foreseeing import format_replaced, format_span, format_steps
-from infill.errors import OutputError, ParameterError, UsageError
+from infill.errors import MemoryLimitError, OutputError, ParameterError, UsageError
 from infill.plain_numbers import count_noun, plain_size
 
 if TYPE_CHECKING:
