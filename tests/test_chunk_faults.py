@@ -195,7 +195,7 @@ def test_an_interrupted_run_goes_on(folder: Path) -> None:
     done = subprocess.run([sys.executable, "-c", INTERRUPTED, *words], capture_output=True, text=True, check=False)
     assert done.returncode == 130
     assert done.stderr.count("\n") <= 1
-    assert len(list(Path("kept/results").rglob("*.kept"))) == 4
+    assert len(list(Path("kept/fields").glob("*.npz"))) == 4
     assert not Path("a.ply").exists()
     assert not list(Path("kept").rglob("*.part"))
     assert limited(0, *words[:6], "-o", "a.ply", "--resume", "kept").returncode == 0

@@ -150,6 +150,7 @@ def test_clocks_are_read_only_where_time_is_told() -> None:
         "smoothing/chunked_plan.py",
         "smoothing/chunked_surface.py",
         "smoothing/plan.py",
+        "smoothing/together_chunks.py",
         "smoothing/together_plan.py",
     }
 
