@@ -243,8 +243,10 @@ def part_in_cubes(
     inside = np.zeros(len(surface.faces), dtype=bool)
     arguments = (surface.vertices, surface.faces, np.array(spacing), field.slots, bits, inside)
     in_threads(kernels.mark_faces_in, *arguments, threads=threads)
-    used, faces = np.unique(surface.faces[inside], return_inverse=True)
-    return replace(surface, vertices=surface.vertices[used], faces=faces.reshape(-1, 3))
+    faces, used = surface.faces[inside], np.zeros(len(surface.vertices), dtype=bool)
+    used[faces] = True
+    numbers = np.cumsum(used) - 1
+    return replace(surface, vertices=surface.vertices[used], faces=numbers[faces])
 
 
 def _is_near(part: Surface, reference: Surface, cell: float, threads: int) -> bool:
