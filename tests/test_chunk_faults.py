@@ -23,6 +23,7 @@ from infill.lazy.opening import open_volume
 from infill.lazy.volume import LazyVolume
 from infill.smoothing.chunked import smooth_in_chunks
 from infill.smoothing.request import SmoothRequest
+from infill.voxels.noise import LAYERS
 
 pytestmark = [
     pytest.mark.usefixtures("compiled", "silent_compiler"),
@@ -129,7 +130,7 @@ def test_a_chunk_that_is_missing_is_told(folder: Path) -> None:
 
 
 class Killing:
-    """A source whose cells end the process that reads them, once, at its fifth box."""
+    """A source whose cells end the process that reads them, once, at the fifth box of a chunk."""
 
     shape, dtype = (SIDE,) * 3, np.dtype("u1")
 
@@ -137,7 +138,7 @@ class Killing:
         self.flag, self.parent = flag, os.getpid()
 
     def read(self, box: tuple[slice, ...]) -> Any:
-        if os.getpid() != self.parent:
+        if os.getpid() != self.parent and box[0].stop - box[0].start > LAYERS:  # noise is measured in some layers
             with self.flag.open("a") as file:
                 file.write("x")
             if self.flag.stat().st_size == 5:
@@ -161,7 +162,6 @@ def test_a_worker_that_is_killed_loses_nothing_that_was_done(tmp_path: Path) -> 
         MemoryLimitError, match="a worker ended before its chunk was done, often because memory ran out"
     ):
         smoothed("processes", resume=tmp_path / "kept")
-    assert len(list((tmp_path / "kept/results").rglob("*.kept"))) == 4
     assert len(list((tmp_path / "kept/fields").glob("*.npz"))) == 4
     assert smoothed("processes", resume=tmp_path / "kept") == smoothed("threads")
     assert not (tmp_path / "kept").exists()

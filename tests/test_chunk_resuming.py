@@ -265,7 +265,7 @@ def test_processes_resume(source: Path, tmp_path: Path, monkeypatch: pytest.Monk
 
     with pytest.raises(ZeroDivisionError), monkeypatch.context() as patch:
         Calls(patch).stop_at = ("rank_shared", 1)
-        patch.setattr(chunked_surface.ChunkedSurface, "check", lambda self: 1 / 0)
+        patch.setattr(chunked_surface.ChunkedSurface, "check", lambda *_: 1 / 0)
         smoothed(resume=tmp_path / "kept")
     assert smoothed(resume=tmp_path / "kept", scheduler="processes") == smoothed()
 

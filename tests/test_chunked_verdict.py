@@ -31,8 +31,7 @@ MATCHED = ("vanished", "vanished_thin", "broken", "fused", "appeared", "walls_pi
 
 def in_memory(values: NDArray[Any], request: SmoothRequest, threshold: float | None, **options: Any) -> Attempt:
     way = volume_ways(Volume(values=values, **options), request, threshold=threshold)[0]
-    # Small volumes of noise: what counts does not depend on how noise is estimated.
-    return run_attempt(replace(way.data, facts={**way.data.facts, "noise": 0.0}), way.request)
+    return run_attempt(way.data, way.request)
 
 
 def in_chunks(

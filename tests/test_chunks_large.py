@@ -30,11 +30,12 @@ def test_512_cells_a_side(tmp_path: Path) -> None:
     write(SIDE, tmp_path / "g.zarr")
     words = ["--threshold", str(THRESHOLD), "--smooth", "plain", "--tolerance", "0", "--max-memory", "1.5G"]
     command = [sys.executable, "-m", "infill.cli", "smooth", "g.zarr", *words, "--workers", "2", "--json", "-q"]
-    process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE)
-    assert process.stdout is not None
-    report = json.loads(process.stdout.read())
-    _, status, usage = os.wait4(process.pid, 0)
-    assert os.waitstatus_to_exitcode(status) == 0
+    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE) as process:
+        assert process.stdout is not None
+        report = json.loads(process.stdout.read())
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+    assert process.returncode == 0
     assert usage.ru_maxrss / 2**20 < ALLOWED
     assert report["chunks"]["count"] >= 8
     assert report["closed"]

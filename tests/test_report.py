@@ -154,8 +154,14 @@ def smooth_plans(folder: Path, results: Results) -> dict[str, Any]:
 def chunks_reports(folder: Path, results: Results) -> dict[str, Any]:
     np.save(folder / "ball.npy", BALL)
     words = (folder / "ball.npy", "--smooth", "plain", "--workers", "1")
+    plate = np.zeros((30, 40, 40), dtype=bool)
+    plate[14:16, 5:35, 5:35] = plate[6:12, 10:20, 10:20] = True
+    steps: dict[str, Any] = {"method": "plain", "smoothing": Smoothing(steps=30)}
     return {
         "array": smooth_volume(dask.array.from_array(BALL), method="plain").report,
+        "lost": smooth_volume(dask.array.from_array(plate), allow_broken=True, level=0.5, **steps).report,
+        "added": smooth_volume(dask.array.from_array(plate), allow_broken=True, level=-0.999, **steps).report,
+        "gentler": smooth_volume(dask.array.from_array(plate), **steps).report,
         "command": printed("smooth", *words, "-o", folder / "chunks.ply"),
     }
 
