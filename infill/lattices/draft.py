@@ -6,6 +6,7 @@ are left out. What stays the same from draft to draft, the depth of the cells of
 
 from __future__ import annotations
 
+import math
 from collections.abc import MutableMapping
 from dataclasses import dataclass, replace
 
@@ -13,9 +14,10 @@ import numpy as np
 
 from infill.errors import GeometryError
 from infill.interior.interior import Interior, compute_interior
+from infill.lattices.bodies import Fields
 from infill.lattices.density_search import LEAST, find_sizes, make_voids
 from infill.lattices.modifiers import add_modifiers
-from infill.lattices.request import FillSpec, has_bars
+from infill.lattices.request import FillSpec, Size, has_bars
 from infill.lattices.sizing import choose_sizes, coarsest_voxel
 from infill.lattices.task import FillTask
 from infill.lattices.void_meshes import VoidMeshes
@@ -25,8 +27,9 @@ from infill.result import Clock, Progress
 from infill.surface import Surface
 
 CELLS, MOST_CELLS = 64, 80  # along the longest side of the part, if neither voxel nor resolution is requested
-OFF = 0.04  # of the density: a draft further off is drawn a second time
-RESCALED = (0.25, 4.0)  # times that the second drawing changes a size
+OFF = 0.05  # of the density: a draft further off is drawn again
+REDRAWN = 2  # times, at most
+RESCALED = (0.25, 4.0)  # times that a second drawing changes a size
 MOST_SPACES = 4  # that are kept
 Spaces = MutableMapping[tuple[object, ...], Interior]
 
@@ -107,13 +110,8 @@ def draft_fill(
             layout, varied, known = find_sizes(task, layout, varied)
     with clock.stage("voids", 0.6):
         hollow, known = make_voids(task, layout, known)
-        density = task.request.density
-        if varied and density is not None and grading is None and abs(hollow.density / density - 1) > OFF:
-            clock.tell("voids", 0.8)
-            power = 0.5 if has_bars(task.request.kind) and varied[-1] == "width" else 1.0
-            times = float(np.clip(density / max(hollow.density, LEAST), *RESCALED)) ** power
-            scaled = layout.scale(times, varied[-1])
-            hollow = min(hollow, make_voids(task, scaled, known)[0], key=lambda made: abs(made.density - density))
+        if varied and grading is None:
+            hollow = _correct_density(task, layout, hollow, known, varied[-1])
     if not hollow.surfaces:
         raise GeometryError(
             f"the pattern leaves no void inside walls of {plain_argument(task.request.wall)} mm; give larger cells, "
@@ -142,3 +140,24 @@ def _find_space(task: FillTask, spaces: Spaces) -> Interior:
             max_memory=task.max_memory,
         )
     return spaces[key]
+
+
+def _correct_density(
+    task: FillTask, layout: Layout, hollow: VoidMeshes, known: Fields | None, vary: Size
+) -> VoidMeshes:
+    """Draw voids again, twice at most, until their density is near the requested one: the grid swallows thin walls."""
+    density = task.request.density or LEAST
+    power = 0.5 if has_bars(task.request.kind) and vary == "width" else 1.0
+    total = 1.0
+    for _ in range(REDRAWN):
+        if abs(hollow.density / density - 1) <= OFF:
+            break
+        task.clock.tell("voids", 0.8)
+        times = total * float(np.clip(density / max(hollow.density, LEAST), *RESCALED)) ** power
+        candidate, known = make_voids(task, layout.scale(times, vary), known)
+        if abs(candidate.density - density) > abs(hollow.density - density):
+            # Too much of a change: take the middle of both.
+            times = math.sqrt(times * total)
+            candidate, known = make_voids(task, layout.scale(times, vary), known)
+        hollow, total = min(((hollow, total), (candidate, times)), key=lambda made: abs(made[0].density - density))
+    return hollow
