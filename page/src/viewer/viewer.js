@@ -52,7 +52,7 @@ export function createViewer(element, { label = "3D view" } = {}) {
 }
 
 /** @typedef {{mesh: Mesh, material: MeshLambertMaterial, section: Section | null, origin: Uint32Array,
- *   values: Uint8Array | null, triangles: number, opacity: number}} Shown */
+ *   values: Uint8Array | null, triangles: number, opacity: number, colour: Color}} Shown */
 
 class Viewer {
   /**
@@ -117,7 +117,7 @@ class Viewer {
       const old = before.get(surface.name);
       if (old) {
         shown.mesh.visible = old.mesh.visible;
-        shown.material.color.copy(old.material.color);
+        paint(shown, old.colour);
         fade(shown, old.opacity);
       }
       this.shown.set(surface.name, shown);
@@ -188,7 +188,7 @@ class Viewer {
   addLines(name, segments, colours, options = {}) {
     this.removeLines(name);
     const lines = makeBeads(segments, colours, options);
-    lines.group.userData.bounds = boundsOf(segments);
+    lines.group.userData = { bounds: boundsOf(segments), points: segments };
     this.lines.set(name, lines);
     this.scene.add(lines.group);
     this.changed();
@@ -224,6 +224,26 @@ class Viewer {
   fit() {
     this.orbit.fit();
     this.moved();
+  }
+
+  /**
+   * Show everything from a side: "front", "right", "top", or else from the front, the right and above.
+   *
+   * @param {string} side
+   */
+  lookFrom(side) {
+    this.orbit.lookFrom(side);
+    this.fit();
+  }
+
+  /**
+   * Return the colour of a surface as CSS writes it, undefined for an unknown one.
+   *
+   * @param {string} name
+   */
+  getColour(name) {
+    const shown = this.shown.get(name);
+    return shown && `#${shown.colour.getHexString()}`;
   }
 
   /** Return the camera, a copy. */
@@ -315,10 +335,12 @@ class Viewer {
       new Vector3(...surface.low),
       new Vector3(...surface.low).add(new Vector3(...surface.size)),
     );
+    mesh.userData.points = surface.positions;
     const triangles = surface.indices.length / 3;
-    const shown = { mesh, material, section, origin, values: surface.values, triangles, opacity: 1 };
     const own = surface.colour && new Color().setRGB(...surface.colour, "srgb");
-    paint(shown, own ?? new Color(COLOURS[number % COLOURS.length]));
+    const colour = own ?? new Color(COLOURS[number % COLOURS.length]);
+    const shown = { mesh, material, section, origin, values: surface.values, triangles, opacity: 1, colour };
+    paint(shown, colour);
     return shown;
   }
 
@@ -335,17 +357,20 @@ class Viewer {
 
   /** Find the bounds again after surfaces or lines changed; fit the view to the first of them. */
   changed() {
-    const all = [...this.shown.values()].map((shown) => shown.mesh);
+    const all = [...[...this.shown.values()].map((shown) => shown.mesh), ...this.linesGroups()];
     const bounds = new Box3();
-    for (const { userData } of [...all, ...[...this.lines.values()].map((lines) => lines.group)]) {
-      if (userData.bounds && !userData.bounds.isEmpty()) bounds.union(userData.bounds);
-    }
+    for (const { userData } of all) if (!userData.bounds.isEmpty()) bounds.union(userData.bounds);
     if (bounds.isEmpty()) return;
     this.bounds = bounds;
-    this.orbit.setBounds(bounds.min.toArray(), bounds.max.toArray());
+    const points = all.map(({ userData }) => userData.points);
+    this.orbit.setBounds(bounds.min.toArray(), bounds.max.toArray(), points);
     if (this.empty) this.orbit.fit();
     this.empty = false;
     this.invalidate();
+  }
+
+  linesGroups() {
+    return [...this.lines.values()].map((lines) => lines.group);
   }
 
   moved() {
@@ -419,6 +444,7 @@ function fade(shown, opacity) {
  * @param {Color} colour
  */
 function paint(shown, colour) {
+  shown.colour = colour;
   shown.section?.material.color.copy(colour).lerp(WHITE, 0.3);
   if (shown.values === null) {
     shown.material.color.copy(colour);
