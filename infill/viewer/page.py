@@ -151,9 +151,7 @@ def _table(numbers: Sequence[tuple[str, str]]) -> str:
     """Return rows of names and values as a table; nothing without rows."""
     if not numbers:
         return ""
-    rows = [
-        f"<tr><th scope=row>{html.escape(name)}</th><td>{html.escape(value)}</td></tr>" for name, value in numbers
-    ]
+    rows = [f"<tr><th scope=row>{html.escape(name)}</th><td>{html.escape(value)}</td></tr>" for name, value in numbers]
     return f'<h2 id="numbers">Numbers</h2><table aria-labelledby="numbers">{"".join(rows)}</table>'
 
 
