@@ -35,7 +35,7 @@ async function start() {
   for (const [number, view] of views.entries()) {
     const data = await readData(view.dataset.source ?? "");
     if (settings.kind === "print") showPrint(viewers, number, data);
-    else showSurfaces(viewers[number], decodeMesh(data));
+    else showSurfaces(viewers[number], decodeMesh(data), settings.cut ?? "");
   }
   await Promise.all(viewers.map((viewer) => viewer.frame()));
   Object.assign(globalThis, { viewers });
