@@ -1,6 +1,7 @@
 """Volumes in chunks: time, memory and triangles of gyroid cells of any size, beside the same in memory.
 
     python -m benchmarks.chunks write 1024 build/g1024.zarr      a synthetic volume, compressed, chunk by chunk
+    python -m benchmarks.chunks write 4096 build/g4096.zarr --cell 1024     larger cells; each is written once, and linked
     python -m benchmarks.chunks run build/g1024.zarr             smooth it in chunks, and measure
     python -m benchmarks.chunks whole 800                        the same in memory, on an array of that side
 
@@ -20,30 +21,36 @@ from pathlib import Path
 
 import numpy as np
 
-PERIOD = 128  # voxels of a cell of the gyroid
 CHUNK = 128  # voxels of a chunk of the file
 THRESHOLD = 120
 PAGE = 4096  # bytes
 
 
-def gyroid(low, high):
+def gyroid(low, high, cell):
     """Return grey values of a box of gyroid cells, solid where they are bright, with a little noise."""
-    axes = [np.arange(a, b, dtype=np.float32) * np.float32(2 * np.pi / PERIOD) for a, b in zip(low, high, strict=True)]
+    axes = [np.arange(a, b, dtype=np.float32) * np.float32(2 * np.pi / cell) for a, b in zip(low, high, strict=True)]
     (sx, sy, sz), (cx, cy, cz) = [np.sin(axis) for axis in axes], [np.cos(axis) for axis in axes]
     level = sx[:, None, None] * cy[None, :, None] + (sy[:, None] * cz[None])[None] + cx[:, None, None] * sz[None, None]
     noise = np.random.default_rng(list(low)).normal(0, 3, level.shape).astype(np.float32)
     return np.clip(128 + 80 * level + noise, 0, 255).astype(np.uint8)
 
 
-def write(side, path):
-    """Write a volume as Zarr, one chunk at a time."""
+def write(side, path, cell):
+    """Write a volume as Zarr, one chunk at a time; cells of several chunks are the same files under several names."""
     import zarr
 
     array = zarr.create_array(str(path), shape=(side,) * 3, chunks=(CHUNK,) * 3, dtype="u1", overwrite=True)
+    period = cell // CHUNK if cell > CHUNK and not cell % CHUNK and not side % cell else side
     for place in np.ndindex(*(-(-side // CHUNK),) * 3):
+        first = tuple(n % period for n in place)
+        if first != place:
+            link = path.joinpath("c", *map(str, place))
+            link.parent.mkdir(parents=True, exist_ok=True)
+            link.hardlink_to(path.joinpath("c", *map(str, first)))
+            continue
         low = [n * CHUNK for n in place]
         high = [min(side, a + CHUNK) for a in low]
-        array[tuple(slice(a, b) for a, b in zip(low, high, strict=True))] = gyroid(low, high)
+        array[tuple(slice(a, b) for a, b in zip(low, high, strict=True))] = gyroid(low, high, cell)
 
 
 def processes_of(process):
@@ -104,6 +111,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("what", choices=["write", "run", "whole"])
     parser.add_argument("words", nargs="*")
+    parser.add_argument("--cell", type=int, default=128, help="voxels of a cell of the gyroid")
     parser.add_argument("--workers", default="2")
     parser.add_argument("--max-memory", default="5G")
     parser.add_argument("--tolerance", default="0", help="mm")
@@ -112,7 +120,7 @@ def main():
     given = parser.parse_args()
     method = ("--threshold", str(THRESHOLD), "--smooth", given.smooth, "--tolerance", given.tolerance)
     if given.what == "write":
-        write(int(given.words[0]), Path(given.words[1]))
+        write(int(given.words[0]), Path(given.words[1]), given.cell)
     elif given.what == "run":
         more = ("-o", given.output, "--force") if given.output else ()
         options = (*method, "--workers", given.workers, "--max-memory", given.max_memory, *more)
@@ -125,7 +133,7 @@ def main():
             for low in np.ndindex(*(-(-side // CHUNK),) * 3):
                 first = [n * CHUNK for n in low]
                 last = [min(side, a + CHUNK) for a in first]
-                array[tuple(slice(a, b) for a, b in zip(first, last, strict=True))] = gyroid(first, last)
+                array[tuple(slice(a, b) for a, b in zip(first, last, strict=True))] = gyroid(first, last, given.cell)
             array.flush()
             more = ("-o", given.output, "--force") if given.output else ()
             options = (*method, "--strict", "--allow-broken", "--threads", given.workers, *more)
