@@ -29,7 +29,7 @@ ROWS: tuple[tuple[str, ...], ...] = (
     ("isosurfaces", "partition", "imaging", "drawings"),
     ("formats", "voxels", "gcode"),
     ("planner", "inspection", "interior", "lazy", "chunks"),
-    ("pictures", "options", "drains"),
+    ("pictures", "options", "drains", "viewer"),
     ("result",),
     ("smoothing", "lattices", "refilling", "projects", "samples", "timing", "verifying"),
     ("making",),
