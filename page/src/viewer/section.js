@@ -34,16 +34,18 @@ export function cutPlane(cut) {
 
 export class Section {
   /**
-   * @param {import("three").BufferGeometry} geometry Of a closed surface.
+   * @param {import("three").BufferGeometry[]} geometries Of closed surfaces that bound one solid together.
    * @param {number} order Every section is drawn before the next one begins.
    */
-  constructor(geometry, order) {
+  constructor(geometries, order) {
     this.group = new Group();
     this.counters = [counter(BackSide, IncrementWrapStencilOp), counter(FrontSide, DecrementWrapStencilOp)];
-    for (const material of this.counters) {
-      const mesh = new Mesh(geometry, material);
-      mesh.renderOrder = order;
-      this.group.add(mesh);
+    for (const geometry of geometries) {
+      for (const material of this.counters) {
+        const mesh = new Mesh(geometry, material);
+        mesh.renderOrder = order;
+        this.group.add(mesh);
+      }
     }
     this.material = new MeshBasicMaterial({
       side: DoubleSide,

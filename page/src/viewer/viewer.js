@@ -33,6 +33,7 @@ const LOST = new Color("#d03a2b"); // values below 128
 const ADDED = new Color("#2f6fde"); // values above 128
 const WHITE = new Color("white");
 const UNCHANGED = 128;
+const SECTION_WHITE = 0.3; // share of white in the colour of a section
 const IDLE = 400; // ms between two frames that do not belong together
 const MOST_PIXELS = 2; // of the screen, a CSS pixel
 
@@ -51,7 +52,7 @@ export function createViewer(element, { label = "3D view" } = {}) {
   return new Viewer(element, label);
 }
 
-/** @typedef {{mesh: Mesh, material: MeshLambertMaterial, section: Section | null, origin: Uint32Array,
+/** @typedef {{mesh: Mesh, material: MeshLambertMaterial, section: Section | null, members: Shown[], origin: Uint32Array,
  *   values: Uint8Array | null, triangles: number, opacity: number}} Shown */
 
 class Viewer {
@@ -118,13 +119,40 @@ class Viewer {
       if (old) {
         shown.mesh.visible = old.mesh.visible;
         shown.material.color.copy(old.material.color);
-        fade(shown, old.opacity);
       }
       this.shown.set(surface.name, shown);
     });
-    for (const old of before.values()) this.remove(old);
+    this.addSections(decoded.surfaces);
+    for (const [name, old] of before) {
+      this.remove(old);
+      const shown = this.shown.get(name);
+      if (shown) fade(shown, old.opacity);
+    }
     this.changed();
     this.setCut(cut);
+  }
+
+  /**
+   * Make a section for every solid: of one closed surface, or of several that bound it together. It has the colour of
+   * the last of them.
+   *
+   * @param {import("./mesh.js").Surface[]} surfaces
+   */
+  addSections(surfaces) {
+    /** @type {Map<string, Shown[]>} */
+    const solids = new Map();
+    for (const { name, closed, solid } of surfaces) {
+      const shown = this.shown.get(name);
+      if (closed && shown) solids.set(solid ?? name, [...(solids.get(solid ?? name) ?? []), shown]);
+    }
+    [...solids.values()].forEach((members, number) => {
+      const shown = members[members.length - 1];
+      const geometries = members.map(({ mesh }) => mesh.geometry);
+      shown.section = new Section(geometries, number + 1);
+      shown.members = members;
+      shown.section.material.color.copy(shown.material.color).lerp(WHITE, SECTION_WHITE);
+      this.scene.add(shown.section.group);
+    });
   }
 
   /**
@@ -171,7 +199,7 @@ class Viewer {
     const planes = cut === null ? null : [cutPlane(cut)];
     for (const shown of this.shown.values()) {
       shown.material.clippingPlanes = planes;
-      shown.section?.set(shown.mesh.visible ? cut : null, this.bounds);
+      shown.section?.set(shown.members.some(({ mesh }) => mesh.visible) ? cut : null, this.bounds);
     }
     for (const { material } of this.lines.values()) material.clippingPlanes = planes;
     this.invalidate();
@@ -307,16 +335,15 @@ class Viewer {
     geometry.computeBoundingSphere();
     const material = new MeshLambertMaterial({ side: surface.closed ? FrontSide : DoubleSide });
     const mesh = new Mesh(geometry, material);
-    const section = surface.closed ? new Section(geometry, number + 1) : null;
     this.scene.add(mesh);
-    if (section) this.scene.add(section.group);
     mesh.renderOrder = number + 1.2;
     mesh.userData.bounds = new Box3(
       new Vector3(...surface.low),
       new Vector3(...surface.low).add(new Vector3(...surface.size)),
     );
     const triangles = surface.indices.length / 3;
-    const shown = { mesh, material, section, origin, values: surface.values, triangles, opacity: 1 };
+    /** @type {Shown} */
+    const shown = { mesh, material, section: null, members: [], origin, values: surface.values, triangles, opacity: 1 };
     const own = surface.colour && new Color().setRGB(...surface.colour, "srgb");
     paint(shown, own ?? new Color(COLOURS[number % COLOURS.length]));
     return shown;
@@ -419,7 +446,7 @@ function fade(shown, opacity) {
  * @param {Color} colour
  */
 function paint(shown, colour) {
-  shown.section?.material.color.copy(colour).lerp(WHITE, 0.3);
+  shown.section?.material.color.copy(colour).lerp(WHITE, SECTION_WHITE);
   if (shown.values === null) {
     shown.material.color.copy(colour);
     return;
