@@ -18,12 +18,14 @@ SOURCES = $(shell find infill patterns -name '*.py')
 ## make quick     the suite without what is slow
 ## make oldest    the suite on the oldest dependencies that are allowed
 ## make fuzz      mutated files of every format, for an hour; FUZZ="--minutes 300 --only meshes" says how
-## make lint      ruff, the words, and the schemas of workflows, issue forms and CITATION.cff
+## make lint      ruff, the words, the schemas of workflows, issue forms and CITATION.cff, and page/ where npm is
 ## make types     mypy --strict
 ## make docs      the site, in build/docs
 ## make check     what CI runs: lint, types, docs, test, longest
 ## make wheel     sdist and wheel in dist/, and the wheel tried alone
 ## make slicers   PrusaSlicer and CuraEngine, on Debian, for the tests that slice
+## make browsers  chromium, on Debian, for the tests of the pages
+## make page      the pages that the package brings, bundled anew from page/ (needs node and npm)
 ## make data      real meshes and scans for the tests, in data/
 ## make bench     the promised speeds
 ## make slicer-report  refill against the slicers, hours of slicing, and docs/slicer-report.md
@@ -35,7 +37,7 @@ SOURCES = $(shell find infill patterns -name '*.py')
 
 .DELETE_ON_ERROR:
 FUZZ ?= --minutes 60
-.PHONY: demo test longest coverage quick fuzz oldest lint types docs wheel check slicers data bench slicer-report smooth-report paper pictures gallery help clean
+.PHONY: demo test longest coverage quick fuzz oldest lint types docs wheel check slicers browsers page data bench slicer-report smooth-report paper pictures gallery help clean
 
 # Real meshes and scans for the tests: what `make data` fetched, unless a folder is named.
 ifneq ($(wildcard data),)
@@ -86,6 +88,7 @@ lint: .venv/lint
 	@$(BIN)/check-jsonschema --quiet --builtin-schema vendor.github-issue-forms $(ISSUE_FORMS)
 	@$(BIN)/check-jsonschema --quiet --builtin-schema vendor.readthedocs .readthedocs.yaml
 	@$(BIN)/check-jsonschema --quiet --builtin-schema vendor.citation-file-format CITATION.cff
+	@$(MAKE) --no-print-directory lint-page
 
 types: .venv/lint .venv/test
 	@$(BIN)/mypy
@@ -151,9 +154,10 @@ help:
 	@sed -n 's/^## //p' Makefile
 
 clean:
-	@rm -rf .venv .venv-oldest build dist $(DEMO) .slicers .coverage .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	@rm -rf .venv .venv-oldest build dist $(DEMO) .slicers .coverage .pytest_cache .mypy_cache .ruff_cache .hypothesis page/node_modules
 
 include tools/slicers.mk
+include tools/page.mk
 
 .venv/pip:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' \

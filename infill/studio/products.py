@@ -1,0 +1,148 @@
+"""The products of the studio: each request is one call of a public function of `infill`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from infill.errors import UsageError
+from infill.studio.frames import ANSWER, Frame
+from infill.studio.mesh_frames import mesh_frame
+from infill.studio.numbers import Number, grams_by_material
+from infill.studio.reading import Content
+
+if TYPE_CHECKING:
+    from infill.result import Progress
+    from infill.surface import Surface
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Order:
+    """A request to a product, checked.
+
+    Parameters
+    ----------
+    options : dict
+        By key, as on the command line, with names of files in the folder of the page.
+    own : dict
+        The pattern's own parameters by name.
+    content : Content or None
+        The file that it is for.
+    coarse : bool
+        Whether a quick look is enough.
+    layer : int or None
+        Of a print, counted from 1.
+    progress : callable
+    memory : int
+        Bytes.
+    """
+
+    options: Mapping[str, Any]
+    own: Mapping[str, Any]
+    content: Content | None
+    coarse: bool
+    layer: int | None
+    progress: Progress
+    memory: int
+
+    def need(self, *kinds: str) -> Content:
+        """Return the file, or raise UsageError if it is missing or of another kind."""
+        if self.content is None or self.content.kind not in kinds:
+            raise UsageError(f"this needs a {' or a '.join(kinds)}; choose a file first")
+        return self.content
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Made:
+    """What a product made.
+
+    Parameters
+    ----------
+    result : any
+        Of the library, for files.
+    report : mapping
+    numbers : list of Number
+    surfaces : mapping of str to Surface
+        To be shown.
+    colours : mapping
+    frames : tuple of Frame
+        Further ones, such as a layer of a print.
+    volume : float or None
+        Of material, mm³.
+    """
+
+    result: Any
+    report: Mapping[str, Any]
+    numbers: list[Number]
+    surfaces: Mapping[str, Surface] = field(default_factory=dict)
+    colours: Mapping[str, Any] = field(default_factory=dict)
+    frames: tuple[Frame, ...] = ()
+    volume: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Product:
+    """A product: its options, how it is made, and as what files it can be had.
+
+    Parameters
+    ----------
+    module : str
+        In `infill.studio`: it has `DECLARATION`, `LEFT_OUT`, `make` and `write`.
+    downloads : tuple of str
+        Formats.
+    """
+
+    module: str
+    downloads: tuple[str, ...]
+
+    @property
+    def code(self) -> Any:  # noqa: ANN401 - a module
+        """The module of the product."""
+        import importlib
+
+        return importlib.import_module(f"infill.studio.{self.module}")
+
+
+PRODUCTS: Mapping[str, Product] = {
+    "fill": Product(module="fill_product", downloads=("stl", "3mf", "obj", "ply", "glb", "project")),
+}
+
+
+def find_product(name: object) -> Product:
+    """Return the product of a name, or raise UsageError."""
+    product = PRODUCTS.get(str(name))
+    if product is None:
+        raise UsageError(f"there is no product {str(name)[:40]!r}; choose from {', '.join(PRODUCTS)}")
+    return product
+
+
+def describe_product(name: str) -> list[dict[str, Any]]:
+    """Return the options of a product as plain values."""
+    from infill.studio.option_forms import describe_options
+
+    code = PRODUCTS[name].code
+    return describe_options(code.DECLARATION, code.LEFT_OUT)
+
+
+def answer_frames(
+    name: str, made: Made, again: Mapping[str, str], result: str | None, warnings: list[str]
+) -> Iterator[Frame]:
+    """Yield the answer of a product: numbers, warnings, the report, how to make it again, and what to show."""
+    answer = {
+        "product": name,
+        "result": result,
+        "numbers": [number.facts() for number in made.numbers],
+        "grams": {} if made.volume is None else grams_by_material(made.volume),
+        "warnings": [*made.report.get("problems", ()), *warnings],
+        "report": dict(made.report),
+        **again,
+        "downloads": list(PRODUCTS[name].downloads) if result is not None else [],
+    }
+    yield Frame.of_json(ANSWER, answer)
+    if made.surfaces:
+        yield mesh_frame(made.surfaces, made.colours)
+    yield from made.frames
+
+
+Writer = Callable[[Made, str], None]
