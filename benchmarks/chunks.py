@@ -21,6 +21,7 @@ from pathlib import Path
 
 import numpy as np
 
+FAR = 30  # grey values that noise does not reach
 CHUNK = 128  # voxels of a chunk of the file
 THRESHOLD = 120
 PAGE = 4096  # bytes
@@ -31,8 +32,11 @@ def gyroid(low, high, cell):
     axes = [np.arange(a, b, dtype=np.float32) * np.float32(2 * np.pi / cell) for a, b in zip(low, high, strict=True)]
     (sx, sy, sz), (cx, cy, cz) = [np.sin(axis) for axis in axes], [np.cos(axis) for axis in axes]
     level = sx[:, None, None] * cy[None, :, None] + (sy[:, None] * cz[None])[None] + cx[:, None, None] * sz[None, None]
+    level = 128 + np.float32(80 * cell / 128) * level
+    if level.max() < -FAR or level.min() > 255 + FAR:  # no noise reaches the edge
+        return np.full(level.shape, 0 if level.max() < 0 else 255, np.uint8)
     noise = np.random.default_rng(list(low)).normal(0, 3, level.shape).astype(np.float32)
-    return np.clip(128 + 80 * cell / 128 * level + noise, 0, 255).astype(np.uint8)
+    return np.clip(level + noise, 0, 255).astype(np.uint8)
 
 
 def write(side, path, cell):
