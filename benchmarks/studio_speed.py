@@ -132,7 +132,8 @@ def main() -> int:
     print(f"server answers after    {figures['up']:.2f} s   (at most {UP} s)")
     print(f"page paints after       {figures['paint']:.2f} s   (at most {PAINT} s)")
     print(
-        f"slider to picture       {middle:.2f} s   median of {len(figures['times'])}, slowest {slowest:.2f} s (at most {PICTURE} s)"
+        f"slider to picture       {middle:.2f} s   median of {len(figures['times'])}, "
+        f"slowest {slowest:.2f} s (at most {PICTURE} s)"
     )
     print(f"500,000 triangles turn  {figures['rate']:.1f} pictures a second, drawn by the processor")
     return int(figures["up"] > UP or figures["paint"] > PAINT or middle > PICTURE)

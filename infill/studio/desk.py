@@ -56,18 +56,20 @@ class Desk:
 
         steps: tuple[Callable[[], object], ...] = (
             lambda: find_product("fill").code,
-            lambda: self._fill_box(trimesh.creation.box((12.0, 12.0, 12.0))),
+            lambda: self._draft_box(trimesh.creation.box((12.0, 12.0, 12.0))),
         )
         for step in steps:
             if is_awaited():
                 return
             step()
 
-    def _fill_box(self, box: Any) -> None:  # noqa: ANN401 - a Trimesh
-        """Fill a small box."""
-        from infill.lattices.job import fill
+    def _draft_box(self, box: Any) -> None:  # noqa: ANN401 - a Trimesh
+        """Draft a small box."""
+        from infill.lattices.draft import draft_fill
+        from infill.lattices.request import check_request
+        from infill.meshes.merging import surface_of
 
-        fill(box, density=0.3, voxel=0.6, tolerance=0.0)
+        draft_fill(surface_of(box), check_request(pattern="gyroid", own={}, density=0.3))
 
     def content(self, file_id: str, message: Mapping[str, Any], progress: Progress) -> Content:
         """Return the content of a file; read it if this process has not yet."""

@@ -6,19 +6,16 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from infill.lattices.settings import FillOptions
-from infill.studio.numbers import fill_numbers
+from infill.studio.numbers import draft_numbers, fill_numbers
 from infill.studio.products import Made, Order
 
 if TYPE_CHECKING:
+    from infill.studio.reading import Content
     from infill.surface import Surface
 
 DECLARATION = FillOptions
 LEFT_OUT = ("units", "for", "as")
-COARSE_CELLS = 64  # along the longest side of the part
-COARSE_TRIANGLES = 60_000
 
 
 def keywords(options: dict[str, Any], own: dict[str, Any]) -> dict[str, Any]:
@@ -34,13 +31,13 @@ def keywords(options: dict[str, Any], own: dict[str, Any]) -> dict[str, Any]:
 
 
 def make(order: Order) -> Made:
-    """Fill a part; a coarse one on a coarser grid, and with all triangles."""
+    """Fill a part; coarsely, draft it."""
     from infill.lattices.job import fill
 
     content = order.need("part")
     arguments = keywords(dict(order.options), dict(order.own))
-    if order.coarse:
-        arguments = coarsen(arguments, content.data)
+    if order.coarse and (draft := _draft(order, content, arguments)) is not None:
+        return draft
     result = fill(content.data, **arguments, max_memory=order.memory, progress=order.progress)
     return Made(
         result=result,
@@ -51,13 +48,32 @@ def make(order: Order) -> Made:
     )
 
 
-def coarsen(arguments: dict[str, Any], part: Surface) -> dict[str, Any]:
-    """Return arguments for a quick look: larger voxels, unless they are requested, and no simplification."""
-    quick = {"tolerance": 0.0, **{name: value for name, value in arguments.items() if name != "max_triangles"}}
-    quick["tolerance"] = 0.0
-    if "resolution" not in quick and "voxel" not in quick:
-        quick["voxel"] = float(np.ptp(part.bounds, axis=0).max()) / COARSE_CELLS
-    return quick
+def _draft(order: Order, content: Content, arguments: dict[str, Any]) -> Made | None:
+    """Draft a fill; return None for what only the whole fill can show."""
+    from infill.lattices.draft import draft_fill
+    from infill.lattices.request import check_request
+
+    names = ("as_", "for_")
+    values = {name: value for name, value in arguments.items() if name not in names}
+    declared = set(FillOptions.__dataclass_fields__) - {"seed"}
+    own = {name: values.pop(name) for name in list(values) if name not in declared}
+    request = check_request(pattern=values.pop("pattern", "gyroid"), own=own, **{**values, "max_triangles": None})
+    if request.wall == 0 or any(region.kind is not None for region in request.regions):
+        return None
+    draft = draft_fill(
+        content.data,
+        request,
+        spaces=content.kept.setdefault("spaces", {}),
+        max_memory=order.memory,
+        progress=order.progress,
+    )
+    return Made(
+        result=None,
+        report={},
+        numbers=list(draft_numbers(draft)),
+        surfaces={"part": draft.part, "infill": draft.walls_inside},
+        volume=draft.volume,
+    )
 
 
 def shown_surfaces(result: Any) -> dict[str, Surface]:  # noqa: ANN401 - a Result

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from infill.studio.catalogue import MATERIALS
+
+if TYPE_CHECKING:
+    from infill.lattices.draft import FillDraft
 
 MM3_PER_CM3 = 1000.0
 
@@ -70,3 +73,19 @@ def fill_numbers(report: Mapping[str, Any]) -> Iterator[Number]:
         if report["drains"]["count"]:
             yield Number(name="drains", value=report["drains"]["count"])
     yield Number(name="closed", value=report["closed"], help="Whether the mesh encloses its inside without a gap")
+
+
+def draft_numbers(draft: FillDraft) -> Iterator[Number]:
+    """Yield the numbers of a draft of a fill, which are near those of the result."""
+    hollow = draft.hollow
+    yield Number(
+        name="solid share",
+        value=draft.volume / draft.part.volume,
+        unit="%",
+        help="Volume of the result over that of the part",
+    )
+    yield Number(name="density", value=hollow.density, unit="%", help="Solid share of the space inside the walls")
+    yield Number(name="volume", value=draft.volume, unit="mm³")
+    yield Number(name="cell", value=hollow.cell, unit="mm", help="Period of the pattern")
+    yield Number(name="line width", value=hollow.width, unit="mm", help="Width of walls, or diameter of bars")
+    yield Number(name="voids", value=hollow.count)

@@ -42,7 +42,7 @@ class Content:
         A Surface, a Volume or an Inspection of a print, by kind.
     facts : dict
         What the page gets to know, beside kind and name.
-    numbers : list of Number
+    numbers : tuple of Number
     """
 
     kind: Kind
@@ -51,6 +51,7 @@ class Content:
     data: Any = None
     facts: Mapping[str, Any] = field(default_factory=dict)
     numbers: tuple[Number, ...] = ()
+    kept: dict[str, Any] = field(default_factory=dict)  # what quick looks use again
 
     def frames(self, file_id: str, warnings: list[str]) -> Iterator[Frame]:
         """Yield the answer to an upload."""

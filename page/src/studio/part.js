@@ -312,7 +312,9 @@ export function createPartView(studio) {
       answer = null;
       empty.hidden = true;
       const { low, high } = boundsOf(file.part.bounds);
-      head.show(file.name, `${low.map((value, i) => plain(high[i] - value)).join(" × ")} mm`);
+      const { volume, triangles } = file.part;
+      const size = `${low.map((value, i) => plain(high[i] - value)).join(" × ")} mm`;
+      head.show(file.name, size, `${plain(volume)} mm³ · ${plain(triangles)} triangles`);
       cut.setBounds({ low, high });
       if (mesh) showMesh(mesh);
       viewer.fit();

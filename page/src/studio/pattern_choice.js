@@ -2,7 +2,7 @@
  * The chosen pattern as a picture that opens the gallery, and the pattern's own parameters.
  */
 
-import { freshId, h, replaceChildren } from "./dom.js";
+import { h, replaceChildren } from "./dom.js";
 import { optionControl } from "./form.js";
 import { createPicker, sentenceOf } from "./gallery.js";
 
@@ -18,13 +18,11 @@ export function createPatternChoice({ patterns, product, keep, onChoose, onTile 
   const [title, sentence] = [h("strong", {}), h("span", {})];
   const picker = createPicker({ patterns, product, onChoose: ({ name }) => onChoose(name), onTile });
   let chosen = "";
-  const id = freshId("pattern");
   const button = h(
     "button",
     {
       type: "button",
       class: "pattern-choice",
-      "aria-labelledby": id,
       "aria-haspopup": "dialog",
       onclick: () => picker.open(chosen),
     },
@@ -32,7 +30,7 @@ export function createPatternChoice({ patterns, product, keep, onChoose, onTile 
     h(
       "span",
       { class: "pattern-words" },
-      h("span", { id, class: "pattern-title" }, h("span", { class: "hidden-text" }, "Pattern: "), title),
+      h("span", { class: "pattern-title" }, h("span", { class: "hidden-text" }, "Pattern: "), title),
       sentence,
       h("span", { class: "change", "aria-hidden": "true" }, "Choose another"),
     ),

@@ -2,7 +2,7 @@
  * What the views of a part, a print and a scan share: their layout, and how options change.
  */
 
-import { h, icon } from "./dom.js";
+import { h, icon, replaceChildren } from "./dom.js";
 import { isAbort, StatedError } from "./server.js";
 
 /** @typedef {import("./store.js").Source} Source */
@@ -56,12 +56,12 @@ export function createFileHead({ accept, title, open }) {
     ),
     /**
      * @param {string} text
-     * @param {string} [more]
+     * @param {...string} more lines of facts
      */
-    show(text, more = "") {
+    show(text, ...more) {
       name.textContent = text;
       name.title = text;
-      facts.textContent = more;
+      replaceChildren(facts, ...more.flatMap((line, i) => [i ? h("br") : null, line]));
     },
   };
 }
