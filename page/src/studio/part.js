@@ -172,7 +172,7 @@ export function createPartView(studio) {
       form.fail(null);
       stage.fail(null);
       answer = reply.answer;
-      if (reply.mesh) showMesh(reply.mesh);
+      const drawn = reply.mesh ? showMesh(reply.mesh) : undefined;
       showNumbers();
       again.show(answer);
       numbers.setStale(quality === "coarse");
@@ -186,6 +186,7 @@ export function createPartView(studio) {
             .join(", ")}`,
         );
       }
+      return drawn;
     },
     fail: (error) => {
       const stated = describeError(error);
@@ -246,7 +247,7 @@ export function createPartView(studio) {
     if (names.length > 1 && names.includes(SHELL)) viewer.setOpacity(SHELL, isGhost ? GHOST : 1);
     viewer.setCut(cut.plane);
     // For those who measure the page: when the picture of a mesh has been drawn.
-    viewer.frame()?.then(() => performance.mark("picture"));
+    return viewer.frame().then(() => void performance.mark("picture"));
   }
 
   /** @param {string} name */
