@@ -6,6 +6,9 @@ padded to 4 bytes. The header lists the surfaces; offsets of their arrays count 
 positions : (V, 3) uint16, of which `low + size * position / 65535` is the vertex, mm
 indices : (F, 3) uint32, each minus the one before it, modulo 2³²
 values : (V,) uint8, or nothing
+
+A compact surface has `symbols`, `named` and `places` instead of positions and indices, each as an offset and a number
+of bytes: see `infill.viewer.compact`.
 """
 
 from __future__ import annotations
@@ -24,6 +27,7 @@ from infill.surface import Surface
 MAGIC: Final = b"IFM1"
 STEPS: Final = 65535  # of a position, from one end of the bounds to the other
 ALIGNMENT: Final = 4  # bytes
+LEAST_COMPACT: Final = 20_000  # triangles: fewer are small enough, and need no compiler
 
 
 def pack_surfaces(
@@ -31,6 +35,7 @@ def pack_surfaces(
     *,
     colours: Mapping[str, Colour] | None = None,
     values: Mapping[str, NDArray[np.uint8]] | None = None,
+    compact: bool = False,
 ) -> bytes:
     """Pack named surfaces for a browser.
 
@@ -41,7 +46,11 @@ def pack_surfaces(
     colours : mapping of str to (red, green, blue), optional
         Of surfaces that have one, from 0 to 1, sRGB.
     values : mapping of str to (V,) uint8, optional
-        A number for every vertex of a surface, such as a distance, which the page shows as a colour.
+        A number for every vertex of a surface, which the page shows as a colour: 128 leaves that of the surface, less
+        is red, more is blue.
+    compact : bool
+        Whether surfaces of 20 thousand triangles or more become smaller: a third when they are compressed, which takes
+        longer. Triangles and vertices come in another order then.
 
     Returns
     -------
@@ -52,39 +61,71 @@ def pack_surfaces(
     ParameterError
         If the values of a surface are not as many as its vertices.
     """
-    arrays: list[bytes] = []
-    entries = []
-    end = 0
-
-    def place(array: NDArray[Any]) -> int:
-        """Append an array; return its offset."""
-        nonlocal end
-        data = _pad(array.tobytes(), b"\0")
-        arrays.append(data)
-        end += len(data)
-        return end - len(data)
-
+    packing = _Packing()
     for name, surface in surfaces.items():
-        low, size, positions = quantise(surface.vertices)
         value = None if values is None else values.get(name)
         if value is not None and value.shape != (len(surface.vertices),):
             raise ParameterError.about("values", f"are {value.shape}, and {name} has {len(surface.vertices)} vertices")
-        entries.append(
-            {
-                "name": name,
-                "vertices": len(surface.vertices),
-                "triangles": len(surface.faces),
-                "low": low.tolist(),
-                "size": size.tolist(),
-                "closed": bool(surface.closed),
-                "colour": None if colours is None or name not in colours else list(colours[name]),
-                "positions": place(positions),
-                "indices": place(subtract_previous(surface.faces)),
-                "values": None if value is None else place(value.astype("<u1")),
-            }
-        )
-    header = _pad(json.dumps({"surfaces": entries}, separators=(",", ":")).encode(), b" ")
-    return b"".join([MAGIC, len(header).to_bytes(4, "little"), header, *arrays])
+        colour = None if colours is None or name not in colours else list(colours[name])
+        packing.add(name, surface, colour, value, compact=compact and len(surface.faces) >= LEAST_COMPACT)
+    return packing.finish()
+
+
+class _Packing:
+    """The header and the arrays of packed surfaces, while they are added."""
+
+    def __init__(self) -> None:
+        self._arrays: list[bytes] = []
+        self._end = 0
+        self._entries: list[dict[str, Any]] = []
+
+    def add(
+        self, name: str, surface: Surface, colour: list[float] | None, value: NDArray[np.uint8] | None, *, compact: bool
+    ) -> None:
+        """Add a surface."""
+        low, size, steps = quantise(surface.vertices)
+        entry: dict[str, Any] = {
+            "name": name,
+            "vertices": len(steps),
+            "triangles": len(surface.faces),
+            "low": low.tolist(),
+            "size": size.tolist(),
+            "closed": bounds_solid(surface),
+            "colour": colour,
+        }
+        if compact:
+            from infill.viewer.compact import encode_compact
+
+            coded = encode_compact(surface.faces, steps)
+            value = None if value is None else value[coded.origin]
+            entry["vertices"] = len(coded.origin)
+            entry |= {key: [self._place(array), len(array)] for key, array in coded.arrays().items()}
+        else:
+            entry |= {"positions": self._place(steps), "indices": self._place(subtract_previous(surface.faces))}
+        entry["values"] = None if value is None else self._place(value.astype("<u1"))
+        self._entries.append(entry)
+
+    def _place(self, array: NDArray[Any]) -> int:
+        """Append an array; return its offset."""
+        data = _pad(array.tobytes(), b"\0")
+        self._arrays.append(data)
+        self._end += len(data)
+        return self._end - len(data)
+
+    def finish(self) -> bytes:
+        """Return the header and the arrays."""
+        header = _pad(json.dumps({"surfaces": self._entries}, separators=(",", ":")).encode(), b" ")
+        return b"".join([MAGIC, len(header).to_bytes(4, "little"), header, *self._arrays])
+
+
+def bounds_solid(surface: Surface) -> bool:
+    """Tell whether a cut through a surface can be filled: as many triangles run along every edge one way as the other.
+
+    >>> bounds_solid(Surface(vertices=np.eye(3), faces=np.array([[0, 1, 2]])))
+    False
+    """
+    edges = None if surface.closed else surface.edges
+    return surface.closed or (edges is not None and not edges.surplus.any())
 
 
 def quantise(

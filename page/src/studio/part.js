@@ -172,7 +172,7 @@ export function createPartView(studio) {
       form.fail(null);
       stage.fail(null);
       answer = reply.answer;
-      const drawn = reply.mesh ? showMesh(reply.mesh) : undefined;
+      const drawn = reply.mesh ? showMesh(reply.mesh, quality === "coarse") : undefined;
       showNumbers();
       again.show(answer);
       numbers.setStale(quality === "coarse");
@@ -232,12 +232,15 @@ export function createPartView(studio) {
   const hiddenSurfaces = {};
   let isGhost = false;
 
-  /** @param {ArrayBuffer} bytes */
-  function showMesh(bytes) {
+  /**
+   * @param {ArrayBuffer} bytes
+   * @param {boolean} flat
+   */
+  function showMesh(bytes, flat) {
     const mesh = decodeMesh(bytes);
     // Skin and voids bound the walls together: a cut goes through both.
     for (const surface of mesh.surfaces) surface.solid = SHELL;
-    viewer.setMesh(mesh);
+    viewer.setMesh(mesh, { flat });
     const names = mesh.surfaces.map(({ name }) => name);
     for (const name of names) viewer.setColour(name, COLOURS[/** @type {"part"} */ (name)] ?? COLOURS.part);
     surfaces.replaceChildren();
@@ -317,7 +320,7 @@ export function createPartView(studio) {
       const size = `${low.map((value, i) => plain(high[i] - value)).join(" × ")} mm`;
       head.show(file.name, size, `${plain(volume)} mm³ · ${plain(triangles)} triangles`);
       cut.setBounds({ low, high });
-      if (mesh) showMesh(mesh);
+      if (mesh) showMesh(mesh, false);
       viewer.fit();
       stage.fail(null);
       form.fail(null);

@@ -15,6 +15,8 @@
  * @typedef {{surfaces: Surface[]}} Decoded
  */
 
+import { decodeCompact } from "./compact.js";
+
 const STEPS = 65535;
 
 /**
@@ -52,8 +54,7 @@ export function readHeader(buffer, magic) {
  * @returns {Surface}
  */
 function decodeSurface(buffer, start, entry) {
-  const steps = new Uint16Array(buffer, start + entry.positions, 3 * entry.vertices);
-  const differences = new Uint32Array(buffer, start + entry.indices, 3 * entry.triangles);
+  const { steps, indices } = entry.symbols ? readCompact(buffer, start, entry) : readPlain(buffer, start, entry);
   return {
     name: entry.name,
     closed: entry.closed !== false,
@@ -61,9 +62,34 @@ function decodeSurface(buffer, start, entry) {
     low: entry.low,
     size: entry.size,
     positions: restorePositions(steps, entry.low, entry.size),
-    indices: addPrevious(differences),
+    indices,
     values: entry.values === null ? null : new Uint8Array(buffer, start + entry.values, entry.vertices),
   };
+}
+
+/**
+ * @param {ArrayBuffer} buffer
+ * @param {number} start
+ * @param {any} entry
+ */
+function readPlain(buffer, start, entry) {
+  const differences = new Uint32Array(buffer, start + entry.indices, 3 * entry.triangles);
+  return {
+    steps: new Uint16Array(buffer, start + entry.positions, 3 * entry.vertices),
+    indices: addPrevious(differences),
+  };
+}
+
+/**
+ * @param {ArrayBuffer} buffer
+ * @param {number} start
+ * @param {any} entry
+ */
+function readCompact(buffer, start, entry) {
+  const [symbols, named, places] = [entry.symbols, entry.named, entry.places].map(
+    ([offset, length]) => new Uint8Array(buffer, start + offset, length),
+  );
+  return decodeCompact(symbols, named, places, entry.vertices, entry.triangles);
 }
 
 /**
