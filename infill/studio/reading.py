@@ -37,9 +37,9 @@ class Content:
     name : str
         In the folder of the page.
     path : str
-        What the library reads: the file, or the folder of an archive that was unpacked.
+        What the library reads: the file, or what was unpacked of it.
     data : any
-        A Surface, a Volume or an Inspection of a print, by kind.
+        A Surface, a Volume or a ReadPrint, by kind.
     facts : dict
         What the page gets to know, beside kind and name.
     numbers : tuple of Number
@@ -119,7 +119,17 @@ def read_content(name: str, requested: str, progress: Progress, memory: int) -> 
         return _read_tile(name)
     if kind == "field":
         return Content(kind="field", name=name, path=name)
-    raise FormatError(f"{name} is a {kind}, which this studio cannot read yet")
+    if kind == "print":
+        from infill.studio.print_reading import read_print
+
+        read = read_print(name)
+        return Content(kind="print", name=name, path=name, data=read, facts=read.facts(), numbers=read.numbers)
+    from infill.studio.scan_reading import describe_scan, read_scan, unpack_scan
+
+    path = unpack_scan(name, memory) if name.lower().endswith(".zip") else name
+    volume, segments = read_scan(path)
+    facts, numbers = describe_scan(volume, segments)
+    return Content(kind="scan", name=name, path=path, data=volume, facts=facts, numbers=numbers)
 
 
 def _read_part(name: str) -> Content:
