@@ -17,11 +17,12 @@ import { createFileHead, describeError, dropAgain, forServer, layout, withOption
 
 /** @typedef {import("./store.js").Section} Section */
 /** @typedef {import("./layer.js").Layer} Layer */
-/** @typedef {{file: string, kind: string, name: string, numbers: any[], print: {slicer: string, layers: {z: number, height: number}[], features: string[], time_s: number, filament_mm: number}}} OpenPrint */
+/** @typedef {{name: string, role: string, seconds: number, filament: number, length: number}} Feature */
+/** @typedef {{file: string, kind: string, name: string, numbers: any[], print: {slicer: string, layers: {z: number|null, height: number}[], features: Feature[], time_s: number, filament_mm: number}}} OpenPrint */
 
 const PRODUCT = "refill";
 const KEEP = "keep";
-const HIDDEN = ["layers", "printer", "klipper", "as"];
+const HIDDEN = ["printer"];
 
 /**
  * Make the view.
@@ -130,7 +131,7 @@ export function createPrintView(studio) {
           file: open?.file ?? null,
           options: forServer(section.options),
           quality,
-          layer: layerIndex(),
+          layer: layerIndex() + 1,
         },
         { signal, onProgress: (progress) => stage.progress(progress) },
       ),
@@ -189,11 +190,11 @@ export function createPrintView(studio) {
     control.abort();
     control = new AbortController();
     const { signal } = control;
-    const index = layerIndex();
+    const number = layerIndex() + 1;
     try {
       const [first, second] = await Promise.all([
-        server.layer(open.file, index, null, signal),
-        result ? server.layer(open.file, index, result, signal) : null,
+        server.layer(open.file, number, null, signal),
+        result ? server.layer(open.file, number, result, signal) : null,
       ]);
       shown.before = first;
       if (result) shown.after = second;
@@ -279,7 +280,7 @@ export function createPrintView(studio) {
       const index = layerIndex();
       layerRange.value = String(index + 1);
       layerRange.style.setProperty("--share", `${(index / Math.max(1, open.print.layers.length - 1)) * 100}%`);
-      layerWords.textContent = `${index + 1} of ${open.print.layers.length} · z ${open.print.layers[index].z.toFixed(2)} mm`;
+      layerWords.textContent = `${index + 1} of ${open.print.layers.length} · z ${heightWords(open.print.layers[index].z)}`;
       layerRange.setAttribute("aria-valuetext", layerWords.textContent);
       const wanted = JSON.stringify(options);
       if (wanted === asked) {
@@ -310,6 +311,11 @@ export function createPrintView(studio) {
     },
     stop: () => live.stop(),
   };
+}
+
+/** @param {number|null} z */
+function heightWords(z) {
+  return z === null ? "unknown" : `${z.toFixed(2)} mm`;
 }
 
 /** @param {Layer|null} layer */

@@ -20,13 +20,13 @@ import { createStage } from "./stage.js";
 import { createFileHead, describeError, dropAgain, forServer, layout, withOption } from "./view.js";
 
 /** @typedef {import("./store.js").Section} Section */
-/** @typedef {{value: number, name: string, colour: number[]|string|null}} Label */
+/** @typedef {{value: number, name: string, colour: number[]|null}} Label */
 /** @typedef {{file: string, kind: string, name: string, numbers: any[], part?: any, scan?: {shape: number[], spacing: number[],
  *   least: number, most: number, histogram: {edges: number[], counts: number[]}, otsu: number|null, labels: Label[]|null}}} OpenScan */
 
 const SMOOTH = "smooth";
 const LABELS = "labels";
-const BEFORE = "before";
+const BEFORE = "voxels"; // name of the surface before smoothing
 const HIDDEN = [
   "as",
   "units",
@@ -395,8 +395,8 @@ export function createScanView(studio) {
   };
 }
 
-/** @param {number[]|string|null} colour */
+/** @param {number[]|null} colour sRGB, from 0 to 1 */
 function cssColour(colour) {
   if (!colour) return "#999";
-  return typeof colour === "string" ? colour : `rgb(${colour.slice(0, 3).join(" ")})`;
+  return `rgb(${colour.map((share) => Math.round(255 * share)).join(" ")})`;
 }

@@ -49,7 +49,7 @@ export function createSlices({ server, onFail }) {
         while (isWanted) {
           isWanted = false;
           const place = { axis, index: Number(range.value), low: scan.least, high: scan.most };
-          const image = await server.slice(file, place, control.signal);
+          const image = await upright(await server.slice(file, place, control.signal), axis);
           slice = { ...greyValues(image), image };
           draw();
         }
@@ -121,6 +121,15 @@ export function createSlices({ server, onFail }) {
       for (const view of views) view.draw();
     },
   };
+}
+
+/**
+ * A slice with z upwards; one from above stays as it is, with y downwards, as doctors look at it.
+ * @param {ImageBitmap} image
+ * @param {string} axis
+ */
+function upright(image, axis) {
+  return axis === "z" ? image : createImageBitmap(image, { imageOrientation: "flipY" });
 }
 
 /** @param {ImageBitmap} image */
