@@ -73,12 +73,12 @@ class Page:
         ready = threading.Event()
 
         def listen() -> None:
-            with contextlib.suppress(httpx.HTTPError, ValueError, AttributeError):
-                with httpx.stream("GET", self.url("alive"), timeout=None) as response:
-                    self._stream = response
-                    for piece in response.iter_raw():
-                        self.life.append(piece)
-                        ready.set()
+            gone = contextlib.suppress(httpx.HTTPError, ValueError, AttributeError)
+            with gone, httpx.stream("GET", self.url("alive"), timeout=None) as response:
+                self._stream = response
+                for piece in response.iter_raw():
+                    self.life.append(piece)
+                    ready.set()
 
         self._thread = threading.Thread(target=listen, daemon=True)
         self._thread.start()

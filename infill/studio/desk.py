@@ -128,9 +128,8 @@ class Desk:
         product = find_product(name)
         order = self._order(message, progress, message["options"], result)
         made = product.code.make(order)
-        file = product.file_name(
-            name, None if order.content is None else order.content.name, (*product.downloads, "stl")[0]
-        )
+        stored = None if order.content is None else order.content.name
+        file = product.file_name(stored, (*product.downloads, "stl")[0])
         if result is not None:
             self._keep(result, made)
         yield from answer_frames(name, made, product.code.again(order, file), result, warnings)
@@ -152,8 +151,7 @@ class Desk:
     def _download(self, message: Mapping[str, Any], progress: Progress, warnings: list[str]) -> Iterator[Frame]:  # noqa: ARG002 - as all actions
         """Write the file of a result."""
         request, wanted = message["request"], message["format"]
-        name = request["product"]
-        product = find_product(name)
+        product = find_product(request["product"])
         if wanted not in product.downloads:
             listed = ", ".join(product.downloads) or "none"
             raise FormatError(f"there is no format {str(wanted)[:20]!r}; choose from {listed}")
