@@ -54,6 +54,7 @@ export function createScanView(studio) {
   let asked = "";
   /** @type {any} */
   let meshBefore = null;
+  let isFresh = true; // whether the first mesh of a file is awaited, to which the view is fitted
 
   const head = createFileHead({
     accept: ".nrrd,.nhdr,.nii,.gz,.mha,.mhd,.npz,.npy,.tif,.tiff,.zip,.stl,.ply,.obj",
@@ -280,6 +281,8 @@ export function createScanView(studio) {
     pair.classList.toggle("single", !meshBefore);
     if (meshBefore) before.setMesh(meshBefore);
     if (fresh.length) after.setMesh({ ...mesh, surfaces: fresh });
+    if (isFresh) requestAnimationFrame(() => after.fit());
+    isFresh = false;
     setCuts();
   }
 
@@ -319,6 +322,7 @@ export function createScanView(studio) {
       open = file;
       asked = "";
       meshBefore = null;
+      isFresh = true;
       empty.hidden = true;
       numbers.show(file.numbers ?? []);
       const { scan } = file;
