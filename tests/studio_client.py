@@ -158,8 +158,8 @@ def run_studio(folder: Path, *words: str) -> Iterator[Studio]:
     command = [sys.executable, "-m", "infill.cli", "studio", "--no-browser", *words]
     begin = time.perf_counter()
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment)
+    assert process.stdout is not None
     try:
-        assert process.stdout is not None
         address = process.stdout.readline().strip()
         seconds = time.perf_counter() - begin
         assert address.startswith("http://"), address
@@ -167,3 +167,4 @@ def run_studio(folder: Path, *words: str) -> Iterator[Studio]:
     finally:
         process.kill()
         process.wait()
+        process.stdout.close()

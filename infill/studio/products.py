@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, cast
 
 from infill.errors import UsageError
-from infill.studio.frames import ANSWER, Frame
-from infill.studio.mesh_frames import mesh_frame
+from infill.studio.frames import ANSWER, MESH, Frame
 from infill.studio.numbers import Number, grams_by_material
+from infill.viewer.packing import pack_surfaces
 
 if TYPE_CHECKING:
     from infill.result import Progress
@@ -180,5 +180,5 @@ def answer_frames(
     }
     yield Frame.of_json(ANSWER, answer)
     if made.surfaces:
-        yield mesh_frame(made.surfaces, made.colours)
+        yield Frame(kind=MESH, payload=pack_surfaces(made.surfaces, colours=made.colours))
     yield from made.frames

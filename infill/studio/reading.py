@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from infill.errors import FormatError
 from infill.files.suffixes import MESHES, PRINTS
-from infill.studio.frames import ANSWER, Frame
-from infill.studio.mesh_frames import mesh_frame
+from infill.studio.frames import ANSWER, MESH, Frame
 from infill.studio.numbers import Number
+from infill.viewer.packing import pack_surfaces
 
 if TYPE_CHECKING:
     from infill.result import Progress
@@ -65,7 +65,7 @@ class Content:
         }
         yield Frame.of_json(ANSWER, answer)
         if self.kind == "part":
-            yield mesh_frame({"part": self.data})
+            yield Frame(kind=MESH, payload=pack_surfaces({"part": self.data}))
 
 
 def guess_kind(name: str, requested: str = "") -> Kind:
