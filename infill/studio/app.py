@@ -385,7 +385,7 @@ async def send_result(studio: Studio, request: Request) -> Response:
         made["path"],
         media_type="application/octet-stream",
         headers={"content-disposition": disposition},
-        background=BackgroundTask(_remove, Path(made["path"])),
+        background=BackgroundTask(_remove, Path(made["path"]).parent),
     )
 
 

@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
-import contextlib
+import secrets
 from collections import OrderedDict
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from infill.errors import FormatError, UsageError
-from infill.studio.frames import FILE, Frame
+from infill.studio.frames import FILE, PICTURE, Frame
 from infill.studio.option_forms import SETS, name_files
 from infill.studio.products import Made, Order, answer_frames, find_product
 from infill.studio.reading import Content, read_content
+from infill.studio.upload_names import split_suffix
 
 if TYPE_CHECKING:
     from infill.result import Progress
 
+MADE, DOWNLOADS = "made", "downloads"  # folders for files
+MORE_OPTIONS = ("pattern", "for", "as")  # that a request may have, whatever the form shows
 MOST_RESULTS = 3  # kept in memory; others are made again when they are asked for
 
 
@@ -36,6 +40,7 @@ class Desk:
         self.memory = memory
         self._contents: dict[str, Content] = {}
         self._results: OrderedDict[str, Made] = OrderedDict()
+        self._plans: dict[str, Any] = {}  # of the refilled print that is looked at
 
     def answer(self, message: Mapping[str, Any], progress: Progress, warnings: list[str]) -> Iterator[Frame]:
         """Answer one request in frames."""
@@ -43,6 +48,8 @@ class Desk:
             "read": self._read,
             "make": self._make,
             "download": self._download,
+            "slice": self._slice,
+            "layer": self._layer,
         }
         return actions[message["action"]](message, progress, warnings)
 
@@ -87,42 +94,45 @@ class Desk:
         self._contents[file_id] = content
         yield from content.frames(file_id, warnings)
 
-    def _order(self, message: Mapping[str, Any], progress: Progress, options: Mapping[str, Any]) -> Order:
+    def _order(
+        self, message: Mapping[str, Any], progress: Progress, options: Mapping[str, Any], result: str | None
+    ) -> Order:
         """Return a checked request."""
+        from infill.options.declaration import declared_options
         from patterns import PATTERNS
 
         product = find_product(message["product"])
         files = {file_id: facts["name"] for file_id, facts in message["files"].items()}
-        code = product.code
-        from infill.options.declaration import declared_options
-
-        known = set(declared_options(code.DECLARATION)) - set(code.LEFT_OUT) | {"pattern", "for", "as"}
+        known = set(declared_options(product.code.DECLARATION)) - set(product.code.LEFT_OUT) | {*MORE_OPTIONS}
         named = name_files(options, files, known, PATTERNS)
         own = named.pop(SETS, {})
         if not isinstance(own, dict):
             raise UsageError("the parameters of a pattern are names and values")
         content = None if message["file"] is None else self.content(message["file"], message, progress)
         layer = message.get("layer")
+        suffix = ".gcode" if content is None else split_suffix(content.name)[1]
         return Order(
             options=named,
             own=own,
             content=content,
             coarse=message["quality"] == "coarse",
-            layer=layer if isinstance(layer, int) else None,
+            layer=layer if isinstance(layer, int) and layer > 0 else None,
+            target=self.folder / MADE / f"{result or 'layer'}{suffix}",
             progress=progress,
             memory=self.memory,
         )
 
     def _make(self, message: Mapping[str, Any], progress: Progress, warnings: list[str]) -> Iterator[Frame]:
         """Make a product."""
-        product = find_product(message["product"])
-        order = self._order(message, progress, message["options"])
+        name, result = message["product"], message["result"]
+        product = find_product(name)
+        order = self._order(message, progress, message["options"], result)
         made = product.code.make(order)
-        again: dict[str, str] = {}
-        result = message["result"]
+        stored = None if order.content is None else order.content.name
+        file = product.file_name(stored, (*product.downloads, "stl")[0])
         if result is not None:
             self._keep(result, made)
-        yield from answer_frames(message["product"], made, again, result, warnings)
+        yield from answer_frames(name, made, product.code.again(order, file), result, warnings)
 
     def _keep(self, result: str, made: Made) -> None:
         """Keep a result, the newest ones only."""
@@ -130,27 +140,59 @@ class Desk:
         while len(self._results) > MOST_RESULTS:
             self._results.popitem(last=False)
 
-    def _download(self, message: Mapping[str, Any], progress: Progress, warnings: list[str]) -> Iterator[Frame]:  # noqa: ARG002
+    def _made(self, message: Mapping[str, Any], progress: Progress) -> Made:
+        """Return a result; make it again if it is not kept any more."""
+        request, result = {**message["request"], "files": message["files"]}, message["result"]
+        if result not in self._results:
+            order = self._order(request, progress, request["options"], result)
+            self._keep(result, find_product(request["product"]).code.make(order))
+        return self._results[result]
+
+    def _download(self, message: Mapping[str, Any], progress: Progress, warnings: list[str]) -> Iterator[Frame]:  # noqa: ARG002 - as all actions
         """Write the file of a result."""
-        request = {**message["request"], "files": message["files"]}
+        request, wanted = message["request"], message["format"]
         product = find_product(request["product"])
-        wanted = message["format"]
         if wanted not in product.downloads:
-            raise FormatError(f"there is no format {str(wanted)[:20]!r}; choose from {', '.join(product.downloads)}")
-        options, result = dict(request["options"]), message["result"]
-        suffix = f".{wanted}"
-        made = self._results.get(result)
+            listed = ", ".join(product.downloads) or "none"
+            raise FormatError(f"there is no format {str(wanted)[:20]!r}; choose from {listed}")
         if wanted == "project":
-            options["for"], suffix, made = message.get("slicer") or "prusaslicer", ".3mf", None
-        if made is None:
-            made = product.code.make(self._order(request, progress, options))
-            if wanted != "project":
-                self._keep(result, made)
-        stem = Path(message["files"][request["file"]]["name"]).stem if request["file"] else "block"
-        folder = self.folder / "downloads"
-        folder.mkdir(exist_ok=True)
-        path = folder / f"{stem}-{request['product']}{suffix}"
-        with contextlib.suppress(OSError):
-            path.unlink()
+            options = {**request["options"], "for": message.get("slicer") or "prusaslicer"}
+            order = self._order({**request, "files": message["files"]}, progress, options, None)
+            made = product.code.make(replace(order, coarse=False))
+        else:
+            made = self._made(message, progress)
+        stored = message["files"].get(request["file"])
+        folder = self.folder / DOWNLOADS / secrets.token_hex(8)
+        folder.mkdir(parents=True)
+        path = folder / product.file_name(stored and stored["name"], wanted)
         product.code.write(made, path)
         yield Frame.of_json(FILE, {"path": str(path), "name": path.name})
+
+    def _slice(self, message: Mapping[str, Any], progress: Progress, warnings: list[str]) -> Iterator[Frame]:  # noqa: ARG002
+        """Draw a slice of a scan."""
+        from infill.studio.scan_reading import draw_slice
+
+        content = self.content(message["file"], message, progress)
+        if content.kind != "scan":
+            raise UsageError(f"{content.name} is no scan")
+        words = [message.get(key) for key in ("axis", "index", "low", "high")]
+        picture = draw_slice(content.data, str(words[0]), str(words[1]), words[2], words[3])
+        yield Frame(kind=PICTURE, payload=picture)
+
+    def _layer(self, message: Mapping[str, Any], progress: Progress, warnings: list[str]) -> Iterator[Frame]:  # noqa: ARG002
+        """Return a layer of a print, or of a refilled one."""
+        from infill.studio.print_layers import layer_frame, plan_print
+
+        content, result = self.content(message["file"], message, progress), message.get("result")
+        if content.kind != "print":
+            raise UsageError(f"{content.name} is no print")
+        number = str(message["layer"])
+        if not number.isdecimal():
+            raise UsageError.about("layer", "is no number; layers are counted from 1")
+        planned = content.data.planned
+        if result is not None:
+            if result not in self._plans:
+                self._plans.clear()
+                self._plans[result] = plan_print(self._made(message, progress).result.path)
+            planned = self._plans[result]
+        yield layer_frame(planned, int(number))

@@ -6,7 +6,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from infill.lattices.settings import FillOptions
+from infill.lattices.settings import FillOptions, resolve
+from infill.studio.equivalents import Call, assignments, join_words, plain_own, write_command, write_value
 from infill.studio.numbers import draft_numbers, fill_numbers
 from infill.studio.products import Made, Order
 
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
     from infill.surface import Surface
 
 DECLARATION = FillOptions
-LEFT_OUT = ("units", "for", "as")
+LEFT_OUT: tuple[str, ...] = ("units", "for", "as")
 
 
 def keywords(options: dict[str, Any], own: dict[str, Any]) -> dict[str, Any]:
@@ -27,7 +28,7 @@ def keywords(options: dict[str, Any], own: dict[str, Any]) -> dict[str, Any]:
     renamed = {names.get(name, name): value for name, value in values.items()}
     if "for_" in renamed:
         (renamed["for_"],) = renamed["for_"]
-    return {**renamed, **own}
+    return {**renamed, **plain_own(own)}
 
 
 def make(order: Order) -> Made:
@@ -94,3 +95,22 @@ def write(made: Made, path: Path) -> None:
         save_project(made.result, path)
         return
     made.result.save(path)
+
+
+def again(order: Order, file: str) -> dict[str, str]:
+    """Return how to make the file of a fill again."""
+    content, options = order.need("part"), dict(order.options)
+    arguments = keywords(options, {})
+    arguments["regions"] = tuple(region.text for region in arguments.get("regions", ()))
+    named = {name: value for name, value in arguments.items() if name != "pattern" and value != ()}
+    is_project = "for_" in arguments
+    call = Call(
+        function="fill",
+        positional=(content.path, arguments.get("pattern", "gyroid")),
+        keywords={**named, **plain_own(order.own)},
+        imports=("save_project",) if is_project else (),
+        save=f"save_project(result, {write_value(file)})" if is_project else f"result.save({write_value(file)})",
+    )
+    words = write_command("fill", [content.path], FillOptions, options, order.own)
+    settings = resolve(options, list(assignments(order.own)))
+    return {"command": join_words([*words, "-o", file]), "python": call.to_python(), "toml": settings.to_toml()}

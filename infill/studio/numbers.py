@@ -89,3 +89,75 @@ def draft_numbers(draft: FillDraft) -> Iterator[Number]:
     yield Number(name="cell", value=hollow.cell, unit="mm", help="Period of the pattern")
     yield Number(name="line width", value=hollow.width, unit="mm", help="Width of walls, or diameter of bars")
     yield Number(name="voids", value=hollow.count)
+
+
+def block_numbers(report: Mapping[str, Any]) -> Iterator[Number]:
+    """Yield the numbers of a block."""
+    yield Number(name="density", value=report["density"], unit="%", help="Volume over that of the full block")
+    yield Number(name="volume", value=report["volume"], unit="mm³")
+    yield Number(name="triangles", value=report["triangles"])
+    yield Number(name="components", value=report["components"])
+    if "wall_width" in report:
+        yield Number(name="wall width", value=report["wall_width"]["mean"], unit="mm", help="Mean, as measured")
+    else:
+        yield Number(name="cell", value=report["infill"]["cell"], unit="mm", help="Period of the pattern")
+        yield Number(name="line width", value=report["infill"]["line_width"], unit="mm")
+    yield Number(name="closed", value=report["closed"], help="Whether the mesh encloses its inside without a gap")
+
+
+def smooth_numbers(report: Mapping[str, Any]) -> Iterator[Number]:
+    """Yield the numbers of a smoothed solid."""
+    before, after = report["topology"]["data"], report["topology"]["result"]
+    yield Number(name="verdict", value=report["verdict"]["word"], help="Whether something of the input was lost")
+    yield Number(name="volume", value=report["volume"], unit="mm³")
+    yield Number(name="volume change", value=report["volume_change"], unit="%", help="Against the data")
+    yield Number(name="triangles", value=report["triangles"])
+    for name in ("components", "cavities", "tunnels"):
+        yield Number(name=name, value=after[name])
+        yield Number(name=f"{name} before", value=before[name])
+    yield Number(name="steps", value=report["request"]["steps"])
+    yield Number(name="voxel", value=max(report["grid"]["spacing"]), unit="mm")
+    yield Number(name="closed", value=report["closed"], help="Whether the mesh encloses its inside without a gap")
+
+
+def label_numbers(report: Mapping[str, Any]) -> Iterator[Number]:
+    """Yield the numbers of smoothed labels: the volume of each, and what failed."""
+    yield Number(name="labels", value=len(report["labels"]))
+    for label in report["labels"]:
+        volume = label["report"]["volume"] if "report" in label else label["volume"]
+        yield Number(name=f"volume of {label['name']}", value=volume, unit="mm³")
+    if report["failed"]:
+        yield Number(name="failed", value=len(report["failed"]))
+
+
+def refill_numbers(report: Mapping[str, Any]) -> Iterator[Number]:
+    """Yield the numbers of a refilled print, before and after."""
+    if "sections" not in report:
+        yield Number(name="sections", value=0, help="The print was refilled before")
+        return
+    sections, time, filament = report["sections"], report["time"], report["filament"]
+    yield Number(name="sections refilled", value=sections["replaced"])
+    yield Number(name="sections", value=sections["all"], help="Runs of sparse infill in the print")
+    for name, key in (("time of the print", "print"), ("time of the infill", "infill")):
+        yield Number(name=f"{name} before", value=time[f"{key}_before_s"], unit="s")
+        yield Number(name=name, value=time[f"{key}_after_s"], unit="s")
+    unit = "mm" if filament["print_after_g"] is None else "g"
+    yield Number(name="filament before", value=filament[f"print_before_{unit}"], unit=unit)
+    yield Number(name="filament", value=filament[f"print_after_{unit}"], unit=unit)
+    contact = report["contact"]
+    if contact["measured_mm"]:
+        yield Number(
+            name="supported before", value=contact["supported_before"], unit="%", help="Share on the layer below"
+        )
+        yield Number(name="supported", value=contact["supported_after"], unit="%", help="Share on the layer below")
+
+
+def motion_numbers(report: Mapping[str, Any]) -> Iterator[Number]:
+    """Yield the numbers of a print."""
+    yield Number(name="time", value=report["seconds"], unit="s", help="As the printer's firmware plans the moves")
+    if report["estimate"] is not None:
+        yield Number(name="time as the slicer says", value=report["estimate"], unit="s")
+    yield Number(name="layers", value=report["layers"])
+    yield Number(name="filament", value=report["filament"], unit="mm")
+    yield Number(name="travel", value=report["travel"], unit="mm")
+    yield Number(name="retractions", value=report["retractions"])

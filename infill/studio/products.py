@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+import importlib
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol, cast
 
 from infill.errors import UsageError
-from infill.studio.frames import ANSWER, Frame
-from infill.studio.mesh_frames import mesh_frame
+from infill.studio.frames import ANSWER, MESH, Frame
 from infill.studio.numbers import Number, grams_by_material
-from infill.studio.reading import Content
+from infill.viewer.packing import pack_surfaces
 
 if TYPE_CHECKING:
     from infill.result import Progress
+    from infill.studio.reading import Content
     from infill.surface import Surface
 
 
@@ -33,6 +35,8 @@ class Order:
         Whether a quick look is enough.
     layer : int or None
         Of a print, counted from 1.
+    target : Path
+        File that the call may write, for products that write files; its suffix is that of the input.
     progress : callable
     memory : int
         Bytes.
@@ -43,6 +47,7 @@ class Order:
     content: Content | None
     coarse: bool
     layer: int | None
+    target: Path
     progress: Progress
     memory: int
 
@@ -81,31 +86,65 @@ class Made:
     volume: float | None = None
 
 
+class ProductCode(Protocol):
+    """A module of a product."""
+
+    DECLARATION: type[Any]
+    LEFT_OUT: tuple[str, ...]  # options that it does not have here
+
+    def make(self, order: Order) -> Made:
+        """Make it."""
+        ...
+
+    def write(self, made: Made, path: Path) -> None:
+        """Write its file."""
+        ...
+
+    def again(self, order: Order, file: str) -> dict[str, str]:
+        """Return how to make a file again: "command", "python" and "toml"."""
+        ...
+
+
 @dataclass(frozen=True, kw_only=True)
 class Product:
-    """A product: its options, how it is made, and as what files it can be had.
+    """A product and the files that it can be had as.
 
     Parameters
     ----------
     module : str
-        In `infill.studio`: it has `DECLARATION`, `LEFT_OUT`, `make` and `write`.
+        In `infill.studio`: see `ProductCode`.
     downloads : tuple of str
-        Formats.
+        Formats, the usual one first.
+    word : str
+        What the names of its files have after that of the input.
     """
 
     module: str
     downloads: tuple[str, ...]
+    word: str = ""
 
     @property
-    def code(self) -> Any:  # noqa: ANN401 - a module
+    def code(self) -> ProductCode:
         """The module of the product."""
-        import importlib
+        return cast("ProductCode", importlib.import_module(f"infill.studio.{self.module}"))
 
-        return importlib.import_module(f"infill.studio.{self.module}")
+    def file_name(self, stored: str | None, wanted: str) -> str:
+        """Return the name of a file in a format, made of an input with a name, or of none."""
+        from infill.studio.upload_names import split_suffix
+
+        stem, suffix = (self.word, "") if stored is None else split_suffix(stored)
+        own = {"project": ".3mf", "gcode": suffix}
+        return f"{stem if stored is None else f'{stem}-{self.word}'}{own.get(wanted, f'.{wanted}')}"
 
 
+MESHES = ("stl", "3mf", "obj", "ply", "glb")
 PRODUCTS: Mapping[str, Product] = {
-    "fill": Product(module="fill_product", downloads=("stl", "3mf", "obj", "ply", "glb", "project")),
+    "fill": Product(module="fill_product", downloads=(*MESHES, "project"), word="filled"),
+    "make": Product(module="make_product", downloads=MESHES, word="block"),
+    "smooth": Product(module="smooth_product", downloads=MESHES, word="smooth"),
+    "labels": Product(module="labels_product", downloads=("3mf", "glb"), word="labels"),
+    "refill": Product(module="refill_product", downloads=("gcode",), word="refilled"),
+    "motion": Product(module="motion_product", downloads=()),
 }
 
 
@@ -141,8 +180,5 @@ def answer_frames(
     }
     yield Frame.of_json(ANSWER, answer)
     if made.surfaces:
-        yield mesh_frame(made.surfaces, made.colours)
+        yield Frame(kind=MESH, payload=pack_surfaces(made.surfaces, colours=made.colours))
     yield from made.frames
-
-
-Writer = Callable[[Made, str], None]

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from infill.errors import FormatError
 from infill.files.suffixes import MESHES, PRINTS
-from infill.studio.frames import ANSWER, Frame
-from infill.studio.mesh_frames import mesh_frame
+from infill.studio.frames import ANSWER, MESH, Frame
 from infill.studio.numbers import Number
+from infill.viewer.packing import pack_surfaces
 
 if TYPE_CHECKING:
     from infill.result import Progress
@@ -37,9 +37,9 @@ class Content:
     name : str
         In the folder of the page.
     path : str
-        What the library reads: the file, or the folder of an archive that was unpacked.
+        What the library reads: the file, or what was unpacked of it.
     data : any
-        A Surface, a Volume or an Inspection of a print, by kind.
+        A Surface, a Volume or a ReadPrint, by kind.
     facts : dict
         What the page gets to know, beside kind and name.
     numbers : tuple of Number
@@ -65,7 +65,7 @@ class Content:
         }
         yield Frame.of_json(ANSWER, answer)
         if self.kind == "part":
-            yield mesh_frame({"part": self.data})
+            yield Frame(kind=MESH, payload=pack_surfaces({"part": self.data}))
 
 
 def guess_kind(name: str, requested: str = "") -> Kind:
@@ -119,7 +119,17 @@ def read_content(name: str, requested: str, progress: Progress, memory: int) -> 
         return _read_tile(name)
     if kind == "field":
         return Content(kind="field", name=name, path=name)
-    raise FormatError(f"{name} is a {kind}, which this studio cannot read yet")
+    if kind == "print":
+        from infill.studio.print_reading import read_print
+
+        read = read_print(name)
+        return Content(kind="print", name=name, path=name, data=read, facts=read.facts(), numbers=read.numbers)
+    from infill.studio.scan_reading import describe_scan, read_scan, unpack_scan
+
+    path = unpack_scan(name, memory) if name.lower().endswith(".zip") else name
+    volume, segments = read_scan(path)
+    facts, numbers = describe_scan(volume, segments)
+    return Content(kind="scan", name=name, path=path, data=volume, facts=facts, numbers=numbers)
 
 
 def _read_part(name: str) -> Content:

@@ -90,7 +90,7 @@ class _Packing:
             "triangles": len(surface.faces),
             "low": low.tolist(),
             "size": size.tolist(),
-            "closed": bool(surface.closed),
+            "closed": bounds_solid(surface),
             "colour": colour,
         }
         if compact:
@@ -116,6 +116,16 @@ class _Packing:
         """Return the header and the arrays."""
         header = _pad(json.dumps({"surfaces": self._entries}, separators=(",", ":")).encode(), b" ")
         return b"".join([MAGIC, len(header).to_bytes(4, "little"), header, *self._arrays])
+
+
+def bounds_solid(surface: Surface) -> bool:
+    """Tell whether a cut through a surface can be filled: as many triangles run along every edge one way as the other.
+
+    >>> bounds_solid(Surface(vertices=np.eye(3), faces=np.array([[0, 1, 2]])))
+    False
+    """
+    edges = None if surface.closed else surface.edges
+    return surface.closed or (edges is not None and not edges.surplus.any())
 
 
 def quantise(

@@ -57,8 +57,8 @@ export function createAgain() {
   const element = h(
     "section",
     { class: "again", hidden: true },
-    h("h2", {}, "Do it again"),
-    h("div", { class: "again-head" }, tabs, copy),
+    h("div", { class: "again-head" }, h("h2", {}, "Do it again"), copy),
+    tabs,
     text,
   );
 

@@ -12,7 +12,7 @@ const REST = 350; // ms without a change, after which the exact answer is asked 
 /**
  * @typedef {object} Work
  * @property {(quality: "coarse"|"exact", signal: AbortSignal) => Promise<any>} ask
- * @property {(reply: any, quality: "coarse"|"exact") => void} show
+ * @property {(reply: any, quality: "coarse"|"exact") => Promise<void>|void} show resolves when it has been drawn
  * @property {(error: unknown) => void} fail
  * @property {(busy: "coarse"|"exact"|null) => void} busy
  */
@@ -45,7 +45,8 @@ export function createLive({ ask, show, fail, busy }) {
     busy(quality);
     try {
       const reply = await ask(quality, control.signal);
-      if (!control.signal.aborted) show(reply, quality);
+      // What follows waits until the picture is there, which needs the processor, too.
+      if (!control.signal.aborted) await show(reply, quality);
     } catch (error) {
       if (!isAbort(error) && !control.signal.aborted) {
         // A coarse answer may fail where the exact one does not: the exact one has the word.

@@ -172,7 +172,7 @@ export function createPartView(studio) {
       form.fail(null);
       stage.fail(null);
       answer = reply.answer;
-      if (reply.mesh) showMesh(reply.mesh);
+      const drawn = reply.mesh ? showMesh(reply.mesh, quality === "coarse") : undefined;
       showNumbers();
       again.show(answer);
       numbers.setStale(quality === "coarse");
@@ -186,6 +186,7 @@ export function createPartView(studio) {
             .join(", ")}`,
         );
       }
+      return drawn;
     },
     fail: (error) => {
       const stated = describeError(error);
@@ -231,12 +232,15 @@ export function createPartView(studio) {
   const hiddenSurfaces = {};
   let isGhost = false;
 
-  /** @param {ArrayBuffer} bytes */
-  function showMesh(bytes) {
+  /**
+   * @param {ArrayBuffer} bytes
+   * @param {boolean} flat
+   */
+  function showMesh(bytes, flat) {
     const mesh = decodeMesh(bytes);
     // Skin and voids bound the walls together: a cut goes through both.
     for (const surface of mesh.surfaces) surface.solid = SHELL;
-    viewer.setMesh(mesh);
+    viewer.setMesh(mesh, { flat });
     const names = mesh.surfaces.map(({ name }) => name);
     for (const name of names) viewer.setColour(name, COLOURS[/** @type {"part"} */ (name)] ?? COLOURS.part);
     surfaces.replaceChildren();
@@ -246,7 +250,7 @@ export function createPartView(studio) {
     if (names.length > 1 && names.includes(SHELL)) viewer.setOpacity(SHELL, isGhost ? GHOST : 1);
     viewer.setCut(cut.plane);
     // For those who measure the page: when the picture of a mesh has been drawn.
-    viewer.frame()?.then(() => performance.mark("picture"));
+    return viewer.frame().then(() => void performance.mark("picture"));
   }
 
   /** @param {string} name */
@@ -316,7 +320,7 @@ export function createPartView(studio) {
       const size = `${low.map((value, i) => plain(high[i] - value)).join(" × ")} mm`;
       head.show(file.name, size, `${plain(volume)} mm³ · ${plain(triangles)} triangles`);
       cut.setBounds({ low, high });
-      if (mesh) showMesh(mesh);
+      if (mesh) showMesh(mesh, false);
       viewer.fit();
       stage.fail(null);
       form.fail(null);

@@ -5,10 +5,11 @@
 import { createAgain, createDownloads } from "./again.js";
 import { slider } from "./controls.js";
 import { createDensity } from "./density.js";
-import { announce, h, plain } from "./dom.js";
+import { announce, h, icon, plain, replaceChildren } from "./dom.js";
 import { createForm } from "./form.js";
+import { layerBounds } from "./layer.js";
 import { createLive } from "./live.js";
-import { createNumbers, valueText } from "./numbers.js";
+import { createNumbers, timeText, valueText } from "./numbers.js";
 import { createPatternChoice, showOwnParameters } from "./pattern_choice.js";
 import { createLegend, createPlot, speedRange } from "./plot.js";
 import { isAbort } from "./server.js";
@@ -17,11 +18,13 @@ import { createFileHead, describeError, dropAgain, forServer, layout, withOption
 
 /** @typedef {import("./store.js").Section} Section */
 /** @typedef {import("./layer.js").Layer} Layer */
-/** @typedef {{file: string, kind: string, name: string, numbers: any[], print: {slicer: string, layers: {z: number, height: number}[], features: string[], time_s: number, filament_mm: number}}} OpenPrint */
+/** @typedef {{name: string, role: string, seconds: number, filament: number, length: number}} Feature */
+/** @typedef {{file: string, kind: string, name: string, numbers: any[], print: {slicer: string, layers: {z: number|null, height: number}[], features: Feature[], time_s: number, filament_mm: number}}} OpenPrint */
 
 const PRODUCT = "refill";
 const KEEP = "keep";
-const HIDDEN = ["layers", "printer", "klipper", "as"];
+const WIDE = 1.2; // width for height of a layer
+const HIDDEN = ["printer"];
 
 /**
  * Make the view.
@@ -69,8 +72,19 @@ export function createPrintView(studio) {
     oninput: () => change({ ...section, layer: Number(layerRange.value) }, false),
     onchange: () => change({ ...section, layer: Number(layerRange.value) }, true),
   });
-  const fit = h("button", { type: "button", class: "quiet", onclick: () => after.fit() }, "Fit");
+  const fit = h(
+    "button",
+    {
+      type: "button",
+      class: "quiet small",
+      "aria-label": "Fit the layer",
+      title: "Fit (F)",
+      onclick: () => after.fit(),
+    },
+    icon("fit"),
+  );
   const numbers = createNumbers();
+  const features = h("section", { class: "features", hidden: true });
   const again = createAgain();
   const downloads = createDownloads({ server, slicers: [] });
 
@@ -130,7 +144,7 @@ export function createPrintView(studio) {
           file: open?.file ?? null,
           options: forServer(section.options),
           quality,
-          layer: layerIndex(),
+          layer: layerIndex() + 1,
         },
         { signal, onProgress: (progress) => stage.progress(progress) },
       ),
@@ -189,11 +203,11 @@ export function createPrintView(studio) {
     control.abort();
     control = new AbortController();
     const { signal } = control;
-    const index = layerIndex();
+    const number = layerIndex() + 1;
     try {
       const [first, second] = await Promise.all([
-        server.layer(open.file, index, null, signal),
-        result ? server.layer(open.file, index, result, signal) : null,
+        server.layer(open.file, number, null, signal),
+        result ? server.layer(open.file, number, result, signal) : null,
       ]);
       shown.before = first;
       if (result) shown.after = second;
@@ -210,6 +224,9 @@ export function createPrintView(studio) {
   }
 
   function draw() {
+    const box = shown.before && layerBounds(shown.before);
+    // A wide layer is larger with one picture above the other.
+    if (box) pair.classList.toggle("stacked", box[2] - box[0] > WIDE * (box[3] - box[1]));
     const range = speedRange([shown.before, shown.after]);
     before.show(shown.before, range);
     after.show(shown.after, range);
@@ -238,7 +255,7 @@ export function createPrintView(studio) {
           fit,
         ),
       ],
-      side: [numbers.element, downloads.element, again.element],
+      side: [numbers.element, features, downloads.element, again.element],
     }),
     /** @param {OpenPrint} file */
     opened(file) {
@@ -250,6 +267,7 @@ export function createPrintView(studio) {
       layerRange.max = String(file.print.layers.length);
       head.show(file.name, [file.print.slicer, `${file.print.layers.length} layers`].filter(Boolean).join(" · "));
       numbers.show(file.numbers ?? []);
+      showFeatures(features, file.print.features);
       stage.fail(null);
       form.fail(null);
       downloads.show(null);
@@ -279,7 +297,7 @@ export function createPrintView(studio) {
       const index = layerIndex();
       layerRange.value = String(index + 1);
       layerRange.style.setProperty("--share", `${(index / Math.max(1, open.print.layers.length - 1)) * 100}%`);
-      layerWords.textContent = `${index + 1} of ${open.print.layers.length} · z ${open.print.layers[index].z.toFixed(2)} mm`;
+      layerWords.textContent = `${index + 1} of ${open.print.layers.length} · z ${heightWords(open.print.layers[index].z)}`;
       layerRange.setAttribute("aria-valuetext", layerWords.textContent);
       const wanted = JSON.stringify(options);
       if (wanted === asked) {
@@ -310,6 +328,35 @@ export function createPrintView(studio) {
     },
     stop: () => live.stop(),
   };
+}
+
+/**
+ * Show how long each feature of the print takes, the longest first.
+ * @param {HTMLElement} place
+ * @param {Feature[]} features
+ */
+function showFeatures(place, features) {
+  const longest = Math.max(...features.map(({ seconds }) => seconds), 1e-9);
+  const rows = features.filter(({ seconds }) => seconds > 0).sort((a, b) => b.seconds - a.seconds);
+  place.hidden = !rows.length;
+  replaceChildren(
+    place,
+    h("h2", {}, "Time by feature, before"),
+    h(
+      "ul",
+      {},
+      rows.map(({ name, seconds }) => {
+        const bar = h("span", { class: "share", "aria-hidden": "true" });
+        bar.style.inlineSize = `${(100 * seconds) / longest}%`;
+        return h("li", {}, h("span", {}, name), h("span", { class: "feature-time" }, timeText(seconds)), bar);
+      }),
+    ),
+  );
+}
+
+/** @param {number|null} z */
+function heightWords(z) {
+  return z === null ? "unknown" : `${z.toFixed(2)} mm`;
 }
 
 /** @param {Layer|null} layer */

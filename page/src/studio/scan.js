@@ -20,13 +20,13 @@ import { createStage } from "./stage.js";
 import { createFileHead, describeError, dropAgain, forServer, layout, withOption } from "./view.js";
 
 /** @typedef {import("./store.js").Section} Section */
-/** @typedef {{value: number, name: string, colour: number[]|string|null}} Label */
+/** @typedef {{value: number, name: string, colour: number[]|null}} Label */
 /** @typedef {{file: string, kind: string, name: string, numbers: any[], part?: any, scan?: {shape: number[], spacing: number[],
  *   least: number, most: number, histogram: {edges: number[], counts: number[]}, otsu: number|null, labels: Label[]|null}}} OpenScan */
 
 const SMOOTH = "smooth";
 const LABELS = "labels";
-const BEFORE = "before";
+const BEFORE = "voxels"; // name of the surface before smoothing
 const HIDDEN = [
   "as",
   "units",
@@ -54,6 +54,7 @@ export function createScanView(studio) {
   let asked = "";
   /** @type {any} */
   let meshBefore = null;
+  let isFresh = true; // whether the first mesh of a file is awaited, to which the view is fitted
 
   const head = createFileHead({
     accept: ".nrrd,.nhdr,.nii,.gz,.mha,.mhd,.npz,.npy,.tif,.tiff,.zip,.stl,.ply,.obj",
@@ -280,6 +281,8 @@ export function createScanView(studio) {
     pair.classList.toggle("single", !meshBefore);
     if (meshBefore) before.setMesh(meshBefore);
     if (fresh.length) after.setMesh({ ...mesh, surfaces: fresh });
+    if (isFresh) requestAnimationFrame(() => after.fit());
+    isFresh = false;
     setCuts();
   }
 
@@ -319,6 +322,7 @@ export function createScanView(studio) {
       open = file;
       asked = "";
       meshBefore = null;
+      isFresh = true;
       empty.hidden = true;
       numbers.show(file.numbers ?? []);
       const { scan } = file;
@@ -395,8 +399,8 @@ export function createScanView(studio) {
   };
 }
 
-/** @param {number[]|string|null} colour */
+/** @param {number[]|null} colour sRGB, from 0 to 1 */
 function cssColour(colour) {
   if (!colour) return "#999";
-  return typeof colour === "string" ? colour : `rgb(${colour.slice(0, 3).join(" ")})`;
+  return `rgb(${colour.map((share) => Math.round(255 * share)).join(" ")})`;
 }

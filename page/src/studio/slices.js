@@ -9,6 +9,7 @@ import { isAbort } from "./server.js";
 /** @typedef {{shape: number[], spacing: number[], least: number, most: number}} Scan */
 
 const AXES = /** @type {const} */ (["x", "y", "z"]);
+const PICTURE = 480; // pixels along the longer side
 const TITLES = { x: "From the side", y: "From the front", z: "From above" };
 
 /**
@@ -49,7 +50,7 @@ export function createSlices({ server, onFail }) {
         while (isWanted) {
           isWanted = false;
           const place = { axis, index: Number(range.value), low: scan.least, high: scan.most };
-          const image = await server.slice(file, place, control.signal);
+          const image = await upright(await server.slice(file, place, control.signal), axis);
           slice = { ...greyValues(image), image };
           draw();
         }
@@ -62,11 +63,13 @@ export function createSlices({ server, onFail }) {
     function draw() {
       if (!slice) return;
       const { values, width, height, image } = slice;
-      const zoom = Math.max(1, Math.round(360 / Math.max(width, height)));
-      canvas.width = width * zoom;
-      canvas.height = height * zoom;
       const [across, up] = AXES.filter((other) => other !== axis).map((other) => AXES.indexOf(other));
-      canvas.style.aspectRatio = `${width * scan.spacing[across]} / ${height * scan.spacing[up]}`;
+      // Pixels of the picture are square, voxels need not be.
+      const [wide, high] = [width * scan.spacing[across], height * scan.spacing[up]];
+      const size = PICTURE / Math.max(wide, high);
+      canvas.width = Math.round(wide * size);
+      canvas.height = Math.round(high * size);
+      const [zoomX, zoomY] = [canvas.width / width, canvas.height / height];
       const context = canvas.getContext("2d");
       if (!context) return;
       context.imageSmoothingEnabled = true;
@@ -78,8 +81,8 @@ export function createSlices({ server, onFail }) {
       context.lineWidth = 1.5;
       context.beginPath();
       for (let at = 0; at < segments.length; at += 4) {
-        context.moveTo(segments[at] * zoom, segments[at + 1] * zoom);
-        context.lineTo(segments[at + 2] * zoom, segments[at + 3] * zoom);
+        context.moveTo(segments[at] * zoomX, segments[at + 1] * zoomY);
+        context.lineTo(segments[at + 2] * zoomX, segments[at + 3] * zoomY);
       }
       context.stroke();
     }
@@ -121,6 +124,15 @@ export function createSlices({ server, onFail }) {
       for (const view of views) view.draw();
     },
   };
+}
+
+/**
+ * A slice with z upwards; one from above stays as it is, with y downwards, as doctors look at it.
+ * @param {ImageBitmap} image
+ * @param {string} axis
+ */
+function upright(image, axis) {
+  return axis === "z" ? image : createImageBitmap(image, { imageOrientation: "flipY" });
 }
 
 /** @param {ImageBitmap} image */

@@ -24,7 +24,8 @@ const TABS = /** @type {const} */ ([
   ["patterns", "Patterns"],
 ]);
 const MAKERS = { part: createPartView, print: createPrintView, scan: createScanView };
-const SAMPLES = { part: "part", print: "print", scan: "scan" };
+// What a sample is best seen with.
+const SAMPLES = { part: {}, print: {}, scan: { threshold: 226 } };
 
 async function begin() {
   const main = /** @type {HTMLElement} */ (document.getElementById("main"));
@@ -50,8 +51,7 @@ async function begin() {
     /** @param {File} file */
     open: (file) => load(file, { name: file.name }),
     /** @param {string} sample */
-    openSample: (sample) =>
-      load({ sample }, { sample }, /** @type {"part"} */ (SAMPLES[/** @type {"part"} */ (sample)])),
+    openSample: (sample) => load({ sample }, { sample }, /** @type {"part"|"print"|"scan"} */ (sample)),
   };
 
   const start = createStartView(studio, { choosePattern, showGallery: () => go("patterns") });
@@ -163,7 +163,8 @@ async function begin() {
       );
       const isSame = JSON.stringify(state[view].source) === JSON.stringify(source);
       // Another file begins with the options that were set, except for what belongs to one scan alone.
-      const section = isSame || view !== "scan" ? state[view] : { ...state[view], options: {} };
+      const kept = isSame || view !== "scan" ? state[view].options : {};
+      const section = { ...state[view], options: source.sample ? { ...SAMPLES[view], ...kept } : kept };
       const fresh = view === "print" && !isSame ? { ...section, layer: null } : section;
       store.replace({ ...state, view, [view]: { ...fresh, source } }, { record: false, cause: "view" });
       viewOf(view).opened({ ...answer, name: answer.name ?? name }, mesh);

@@ -12,9 +12,16 @@ import { PerspectiveCamera, Vector3 } from "three";
 
 const FIELD = 30; // degrees, of the shorter side of the view
 const STEEPEST = Math.PI / 2 - 1e-3;
-const MARGIN = 1.06; // of the distance, around what is fitted
+const MOST_POINTS = 20_000; // of a surface that are looked at to fit the view
+const MARGIN = 1.08; // of the distance, around what is fitted
 const KEY_TURN = Math.PI / 24;
 const KEY_ZOOM = 1.15;
+/** @type {Record<string, {azimuth: number, elevation: number}>} */
+const SIDES = {
+  front: { azimuth: 0, elevation: 0 },
+  right: { azimuth: Math.PI / 2, elevation: 0 },
+  top: { azimuth: 0, elevation: STEEPEST },
+};
 const FRONT_RIGHT = { azimuth: Math.PI / 5, elevation: Math.PI / 6 };
 
 export class OrbitCamera {
@@ -25,7 +32,8 @@ export class OrbitCamera {
     this.state = { target: [0, 0, 0], distance: 100, ...FRONT_RIGHT };
     this.radius = 50; // mm, of what is shown
     this.centre = [0, 0, 0];
-    this.half = [25, 25, 25];
+    /** @type {ArrayLike<number>[]} */
+    this.points = [];
   }
 
   /**
@@ -59,36 +67,44 @@ export class OrbitCamera {
   }
 
   /**
-   * Say in which box everything is.
+   * Say where everything is.
    *
-   * @param {number[]} low
+   * @param {number[]} low Lower corner of a box around it.
    * @param {number[]} high
+   * @param {ArrayLike<number>[]} points x, y, z of points that are to be seen.
    */
-  setBounds(low, high) {
+  setBounds(low, high, points) {
     this.centre = low.map((value, axis) => (value + high[axis]) / 2);
-    this.half = low.map((value, axis) => (high[axis] - value) / 2);
-    this.radius = Math.max(Math.hypot(...this.half), 1e-3);
+    this.radius = Math.max(Math.hypot(...low.map((value, axis) => (high[axis] - value) / 2)), 1e-3);
+    this.points = points;
   }
 
-  /** Show the box as a whole, from the side where the camera is. */
+  /** Show all points, from the side where the camera is. */
   fit() {
-    const { azimuth, elevation } = this.state;
-    const { back, right, up } = axesOf(azimuth, elevation);
+    const { back, right, up } = axesOf(this.state.azimuth, this.state.elevation);
     const upwards = Math.tan((this.camera.fov * Math.PI) / 360);
     const sidewards = upwards * this.camera.aspect;
-    this.state.target = /** @type {[number, number, number]} */ ([...this.centre]);
-    this.state.distance = 0;
-    for (let corner = 0; corner < 8; corner++) {
-      const offset = this.half.map((value, axis) => ((corner >> axis) & 1 ? value : -value));
-      const needed = Math.max(Math.abs(dot(offset, right)) / sidewards, Math.abs(dot(offset, up)) / upwards);
-      this.state.distance = Math.max(this.state.distance, dot(offset, back) + needed);
+    const [x, y, z] = this.centre;
+    let distance = this.radius / 100;
+    for (const points of this.points) {
+      const stride = 3 * Math.ceil(points.length / 3 / MOST_POINTS);
+      for (let i = 0; i < points.length; i += stride) {
+        const offset = [points[i] - x, points[i + 1] - y, points[i + 2] - z];
+        const needed = Math.max(Math.abs(dot(offset, right)) / sidewards, Math.abs(dot(offset, up)) / upwards);
+        distance = Math.max(distance, dot(offset, back) + needed);
+      }
     }
-    this.state.distance = Math.max(MARGIN * this.state.distance, 1e-3);
+    this.state.target = [x, y, z];
+    this.state.distance = MARGIN * distance;
   }
 
-  /** Turn back to the view from the front and the right. */
-  reset() {
-    Object.assign(this.state, FRONT_RIGHT);
+  /**
+   * Turn to a side.
+   *
+   * @param {string} side One of `SIDES`, else that of the beginning.
+   */
+  lookFrom(side) {
+    Object.assign(this.state, SIDES[side] ?? FRONT_RIGHT);
   }
 
   /** @param {number} aspect Width of the view by its height. */

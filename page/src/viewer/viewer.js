@@ -52,8 +52,8 @@ export function createViewer(element, { label = "3D view" } = {}) {
   return new Viewer(element, label);
 }
 
-/** @typedef {{mesh: Mesh, material: MeshLambertMaterial, section: Section | null, members: Shown[], origin: Uint32Array,
- *   values: Uint8Array | null, triangles: number, opacity: number}} Shown */
+/** @typedef {{mesh: Mesh, material: MeshLambertMaterial, section: Section | null, members: Shown[],
+ *   origin: Uint32Array, values: Uint8Array | null, triangles: number, opacity: number, colour: Color}} Shown */
 
 class Viewer {
   /**
@@ -108,17 +108,18 @@ class Viewer {
    * Show surfaces in place of those shown before; names that stay keep what is set for them. The first ones are fitted.
    *
    * @param {import("./mesh.js").Decoded} decoded
+   * @param {{flat?: boolean}} [how] A flat one shows its triangles, and is there in a third of the time.
    */
-  setMesh(decoded) {
+  setMesh(decoded, { flat = false } = {}) {
     const before = this.shown;
     const cut = this.cut;
     this.shown = new Map();
     decoded.surfaces.forEach((surface, number) => {
-      const shown = this.show(surface, number);
+      const shown = this.show(surface, number, flat);
       const old = before.get(surface.name);
       if (old) {
         shown.mesh.visible = old.mesh.visible;
-        shown.material.color.copy(old.material.color);
+        paint(shown, old.colour);
       }
       this.shown.set(surface.name, shown);
     });
@@ -150,7 +151,7 @@ class Viewer {
       const geometries = members.map(({ mesh }) => mesh.geometry);
       shown.section = new Section(geometries, number + 1);
       shown.members = members;
-      shown.section.material.color.copy(shown.material.color).lerp(WHITE, SECTION_WHITE);
+      shown.section.material.color.copy(shown.colour).lerp(WHITE, SECTION_WHITE);
       this.scene.add(shown.section.group);
     });
   }
@@ -216,7 +217,7 @@ class Viewer {
   addLines(name, segments, colours, options = {}) {
     this.removeLines(name);
     const lines = makeBeads(segments, colours, options);
-    lines.group.userData.bounds = boundsOf(segments);
+    lines.group.userData = { bounds: boundsOf(segments), points: segments };
     this.lines.set(name, lines);
     this.scene.add(lines.group);
     this.changed();
@@ -252,6 +253,26 @@ class Viewer {
   fit() {
     this.orbit.fit();
     this.moved();
+  }
+
+  /**
+   * Show everything from a side: "front", "right", "top", or else from the front, the right and above.
+   *
+   * @param {string} side
+   */
+  lookFrom(side) {
+    this.orbit.lookFrom(side);
+    this.fit();
+  }
+
+  /**
+   * Return the colour of a surface as CSS writes it, undefined for an unknown one.
+   *
+   * @param {string} name
+   */
+  getColour(name) {
+    const shown = this.shown.get(name);
+    return shown && `#${shown.colour.getHexString()}`;
   }
 
   /** Return the camera, a copy. */
@@ -324,16 +345,25 @@ class Viewer {
   /**
    * @param {import("./mesh.js").Surface} surface
    * @param {number} number
+   * @param {boolean} flat
    * @returns {Shown}
    */
-  show(surface, number) {
-    const { positions, normals, indices, origin } = computeNormals(surface.positions, surface.indices);
+  show(surface, number, flat) {
     const geometry = new BufferGeometry();
-    geometry.setAttribute("position", new BufferAttribute(positions, 3));
-    geometry.setAttribute("normal", new BufferAttribute(normals, 3));
-    geometry.setIndex(new BufferAttribute(indices, 1));
+    /** @type {Uint32Array} */
+    let origin = Uint32Array.from(surface.values?.keys() ?? []);
+    if (flat) {
+      geometry.setAttribute("position", new BufferAttribute(surface.positions, 3));
+      geometry.setIndex(new BufferAttribute(surface.indices, 1));
+    } else {
+      const split = computeNormals(surface.positions, surface.indices);
+      origin = split.origin;
+      geometry.setAttribute("position", new BufferAttribute(split.positions, 3));
+      geometry.setAttribute("normal", new BufferAttribute(split.normals, 3));
+      geometry.setIndex(new BufferAttribute(split.indices, 1));
+    }
     geometry.computeBoundingSphere();
-    const material = new MeshLambertMaterial({ side: surface.closed ? FrontSide : DoubleSide });
+    const material = new MeshLambertMaterial({ side: surface.closed ? FrontSide : DoubleSide, flatShading: flat });
     const mesh = new Mesh(geometry, material);
     this.scene.add(mesh);
     mesh.renderOrder = number + 1.2;
@@ -341,11 +371,14 @@ class Viewer {
       new Vector3(...surface.low),
       new Vector3(...surface.low).add(new Vector3(...surface.size)),
     );
+    mesh.userData.points = surface.positions;
     const triangles = surface.indices.length / 3;
-    /** @type {Shown} */
-    const shown = { mesh, material, section: null, members: [], origin, values: surface.values, triangles, opacity: 1 };
     const own = surface.colour && new Color().setRGB(...surface.colour, "srgb");
-    paint(shown, own ?? new Color(COLOURS[number % COLOURS.length]));
+    const colour = own ?? new Color(COLOURS[number % COLOURS.length]);
+    const { values } = surface;
+    /** @type {Shown} */
+    const shown = { mesh, material, section: null, members: [], origin, values, triangles, opacity: 1, colour };
+    paint(shown, colour);
     return shown;
   }
 
@@ -362,17 +395,20 @@ class Viewer {
 
   /** Find the bounds again after surfaces or lines changed; fit the view to the first of them. */
   changed() {
-    const all = [...this.shown.values()].map((shown) => shown.mesh);
+    const all = [...[...this.shown.values()].map((shown) => shown.mesh), ...this.linesGroups()];
     const bounds = new Box3();
-    for (const { userData } of [...all, ...[...this.lines.values()].map((lines) => lines.group)]) {
-      if (userData.bounds && !userData.bounds.isEmpty()) bounds.union(userData.bounds);
-    }
+    for (const { userData } of all) if (!userData.bounds.isEmpty()) bounds.union(userData.bounds);
     if (bounds.isEmpty()) return;
     this.bounds = bounds;
-    this.orbit.setBounds(bounds.min.toArray(), bounds.max.toArray());
+    const points = all.map(({ userData }) => userData.points);
+    this.orbit.setBounds(bounds.min.toArray(), bounds.max.toArray(), points);
     if (this.empty) this.orbit.fit();
     this.empty = false;
     this.invalidate();
+  }
+
+  linesGroups() {
+    return [...this.lines.values()].map((lines) => lines.group);
   }
 
   moved() {
@@ -446,6 +482,7 @@ function fade(shown, opacity) {
  * @param {Color} colour
  */
 function paint(shown, colour) {
+  shown.colour = colour;
   shown.section?.material.color.copy(colour).lerp(WHITE, SECTION_WHITE);
   if (shown.values === null) {
     shown.material.color.copy(colour);
