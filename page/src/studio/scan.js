@@ -4,7 +4,7 @@
  */
 
 import { decodeMesh } from "../viewer/mesh.js";
-import { createViewer } from "../viewer/viewer.js";
+import { createViewer, COLOURS as LABEL_COLOURS } from "../viewer/viewer.js";
 import { createAgain, createDownloads } from "./again.js";
 import { followTheme } from "./colours.js";
 import { choices, slider } from "./controls.js";
@@ -27,6 +27,8 @@ import { createFileHead, describeError, dropAgain, forServer, layout, withOption
 const SMOOTH = "smooth";
 const LABELS = "labels";
 const BEFORE = "voxels"; // name of the surface before smoothing
+const SOLID_NAME = "solid"; // of the surface that is not of a label
+const COLOURS = { voxels: "#b4c0c8", solid: "#d3bf98" };
 const HIDDEN = [
   "as",
   "units",
@@ -279,10 +281,19 @@ export function createScanView(studio) {
     if (old.length) meshBefore = { ...mesh, surfaces: old };
     figureBefore.hidden = !meshBefore;
     pair.classList.toggle("single", !meshBefore);
-    if (meshBefore) before.setMesh(meshBefore);
+    if (meshBefore) {
+      before.setMesh(meshBefore);
+      before.setColour(BEFORE, COLOURS.voxels);
+    }
     if (fresh.length) after.setMesh({ ...mesh, surfaces: fresh });
-    if (isFresh) requestAnimationFrame(() => after.fit());
-    isFresh = false;
+    after.setColour(SOLID_NAME, COLOURS.solid);
+    cut.setBounds(boundsOfSurfaces(mesh.surfaces));
+    // Once both stand in their places, they are seen from the same one.
+    requestAnimationFrame(() => {
+      if (isFresh) after.fit();
+      isFresh = false;
+      before.setCamera(after.getCamera());
+    });
     setCuts();
   }
 
@@ -294,14 +305,14 @@ export function createScanView(studio) {
   function showLabels(labels) {
     replaceChildren(
       labelList,
-      ...labels.map((label) => {
+      ...labels.map((label, i) => {
         const input = h("input", {
           type: "checkbox",
           checked: true,
           onchange: () => after.setVisible(label.name, input.checked),
         });
         const swatch = h("span", { class: "swatch", "aria-hidden": "true" });
-        swatch.style.background = cssColour(label.colour);
+        swatch.style.background = cssColour(label.colour) ?? LABEL_COLOURS[i % LABEL_COLOURS.length];
         return h("label", { class: "tick" }, input, swatch, h("span", {}, label.name || `Label ${label.value}`));
       }),
     );
@@ -332,8 +343,6 @@ export function createScanView(studio) {
       slices.element.hidden = !scan;
       method.element.querySelectorAll("label")[3]?.toggleAttribute("hidden", !scan);
       if (scan) {
-        const high = scan.shape.map((count, i) => count * scan.spacing[i]);
-        cut.setBounds({ low: [0, 0, 0], high });
         slices.open(file.file, scan);
         const labels = scan.labels ?? [];
         mode.element.hidden = labels.length > 0;
@@ -399,8 +408,20 @@ export function createScanView(studio) {
   };
 }
 
+/**
+ * The box around surfaces.
+ * @param {import("../viewer/mesh.js").Surface[]} surfaces
+ */
+function boundsOfSurfaces(surfaces) {
+  const axes = [0, 1, 2];
+  return {
+    low: axes.map((i) => Math.min(...surfaces.map(({ low }) => low[i]))),
+    high: axes.map((i) => Math.max(...surfaces.map(({ low, size }) => low[i] + size[i]))),
+  };
+}
+
 /** @param {number[]|null} colour sRGB, from 0 to 1 */
 function cssColour(colour) {
-  if (!colour) return "#999";
+  if (!colour) return null;
   return `rgb(${colour.map((share) => Math.round(255 * share)).join(" ")})`;
 }

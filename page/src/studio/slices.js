@@ -77,8 +77,8 @@ export function createSlices({ server, onFail }) {
       if (!ends.length) return;
       const grey = (/** @type {number} */ value) => ((value - scan.least) / (scan.most - scan.least || 1)) * 255;
       const segments = outline(values, width, height, grey(ends[0]), ends.length > 1 ? grey(ends[1]) : undefined);
-      context.strokeStyle = "#ffb347";
-      context.lineWidth = 1.5;
+      context.strokeStyle = "#ffa02e";
+      context.lineWidth = 3.5;
       context.beginPath();
       for (let at = 0; at < segments.length; at += 4) {
         context.moveTo(segments[at] * zoomX, segments[at + 1] * zoomY);

@@ -251,6 +251,7 @@ class Viewer {
 
   /** Show everything, from where the camera stands. */
   fit() {
+    this.resize(); // the observer comes later, if the element has just changed
     this.orbit.fit();
     this.moved();
   }
@@ -402,7 +403,10 @@ class Viewer {
     this.bounds = bounds;
     const points = all.map(({ userData }) => userData.points);
     this.orbit.setBounds(bounds.min.toArray(), bounds.max.toArray(), points);
-    if (this.empty) this.orbit.fit();
+    if (this.empty) {
+      this.resize();
+      this.orbit.fit();
+    }
     this.empty = false;
     this.invalidate();
   }
