@@ -64,8 +64,13 @@ def choose_file(page: Any, file: Path) -> None:
 def wait_until_exact(page: Any) -> dict[str, str]:
     """Wait for the exact answer; return its numbers as they are shown."""
     page.wait_for_selector(EXACT, timeout=LONG)
+    return read_numbers(page)
+
+
+def read_numbers(page: Any) -> dict[str, str]:
+    """Return the numbers as they are shown, without those from before."""
     rows = page.locator(".numbers > div").all_inner_texts()
-    return dict(row.split("\n") for row in rows)
+    return dict(row.split("\n")[:2] for row in rows)
 
 
 def save(page: Any, words: str, folder: Path) -> Path:
@@ -196,14 +201,108 @@ def test_no_view_has_a_serious_fault_of_access_or_overflows(
 ) -> None:
     faults: list[str] = []
     with open_view(studio, "start", width=width, dark=dark) as page:
-        for view in ("start", "patterns", "part"):
-            if view == "part":
-                page.get_by_role("link", name="Part", exact=True).click()
-                choose_file(page, samples["part"])
-                wait_until_exact(page)
-            elif view == "patterns":
+        for view in ("start", "patterns", "part", "print", "scan"):
+            if view == "patterns":
                 page.get_by_role("link", name="Patterns", exact=True).click()
+            elif view != "start":
+                page.get_by_role("link", name=view.capitalize(), exact=True).click()
+                choose_file(page, samples[view])
+                page.wait_for_selector(".numbers > div", timeout=LONG)
             faults += [f"{view}: {fault}" for fault in find_serious(page)]
             if page.evaluate("document.documentElement.scrollWidth > innerWidth"):
                 faults.append(f"{view}: wider than {width} pixels")
     assert faults == []
+
+
+# --- a print -----------------------------------------------------------------------------------------------------
+
+
+def test_a_print_is_refilled_saved_and_the_same_when_opened_again(
+    studio: str, samples: dict[str, Path], tmp_path: Path
+) -> None:
+    with open_view(studio, "print", samples["print"]) as page:
+        page.wait_for_selector(".plot canvas")
+        page.get_by_role("button", name="Pattern:").click()
+        page.get_by_role("searchbox").fill("gyroid")
+        page.get_by_role("button", name="Gyroid Alike").first.click()
+        page.get_by_role("slider", name="Density", exact=True).fill("30")
+        page.get_by_role("slider", name="Layer").fill("12")
+        page.wait_for_url(re.compile("layer=12"))
+        numbers = wait_until_exact(page)
+        assert "density=30%25" in page.url
+        assert "infill refill plate.gcode" in page.get_by_label("How to do this again").inner_text()
+        changed = page.evaluate(DIFFERENT)
+        assert changed > 0.02  # of the pixels: another pattern
+        file = save(page, "G-code", tmp_path)
+        choose_file(page, file)
+        page.wait_for_selector(".features li")
+        again = read_numbers(page)
+    assert again["Time"] == numbers["Time of the print"]
+    assert file.read_bytes() != samples["print"].read_bytes()
+
+
+# Share of the pixels of the plots before and after that differ.
+DIFFERENT = """() => {
+  const [a, b] = [...document.querySelectorAll(".plot canvas")].map((canvas) =>
+    canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data);
+  let count = 0;
+  for (let i = 0; i < Math.min(a.length, b.length); i += 4) count += a[i + 3] !== b[i + 3];
+  return count / (a.length / 4);
+}"""
+
+
+def test_layers_share_one_camera(studio: str, samples: dict[str, Path]) -> None:
+    with open_view(studio, "print", samples["print"]) as page:
+        wait_until_exact(page)
+        before, after = page.locator(".plot").all()
+        first = before.screenshot()
+        after.focus()
+        for key in ("+", "+", "ArrowLeft"):
+            page.keyboard.press(key)
+        page.wait_for_timeout(200)
+        assert before.screenshot() != first
+        page.keyboard.press("f")
+        page.wait_for_timeout(200)
+        assert before.screenshot() == first
+
+
+# --- a scan ------------------------------------------------------------------------------------------------------
+
+
+def test_a_scan_is_smoothed_cut_saved_and_the_same_when_opened_again(
+    studio: str, samples: dict[str, Path], tmp_path: Path
+) -> None:
+    with open_view(studio, "scan", samples["scan"]) as page:
+        threshold = page.get_by_role("slider", name="Threshold", exact=True)
+        threshold.fill("226")
+        threshold.press("ArrowRight")
+        page.get_by_role("slider", name="Smoothing").fill("15")
+        choose(page, "Cut open", "Z")
+        page.wait_for_url(re.compile("steps=15.*cut=z"))
+        numbers = wait_until_exact(page)
+        assert numbers["Verdict"] == "kept"
+        assert numbers["Steps"] == "15"
+        assert page.locator(".pair figure:visible").count() == 2
+        file = save(page, "STL", tmp_path)
+        choose_file(page, file)
+        facts = page.locator(".file-facts").inner_text()
+        assert facts.startswith(numbers["Triangles"])
+    assert trimesh.load(file).volume == pytest.approx(number(numbers["Volume"]), rel=0.01)
+
+
+def test_the_threshold_is_dragged_on_the_histogram(studio: str, samples: dict[str, Path]) -> None:
+    with open_view(studio, "scan", samples["scan"]) as page:
+        picture = page.locator(".histogram svg")
+        box = picture.bounding_box()
+        assert box
+        page.mouse.move(box["x"] + 0.3 * box["width"], box["y"] + 20)
+        page.mouse.down()
+        page.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + 20, steps=5)
+        page.mouse.up()
+        page.wait_for_url(re.compile("threshold="))
+        least, most = (
+            number(text) if text[0] != "-" else -number(text[1:])
+            for text in page.locator(".axis span").all_inner_texts()
+        )
+        value = float(page.get_by_role("slider", name="Threshold", exact=True).input_value())
+        assert value == pytest.approx((least + most) / 2, abs=0.02 * (most - least))

@@ -7,7 +7,8 @@
 
 import { freshId, h, plain } from "./dom.js";
 
-/** @typedef {{element: HTMLElement, set: (value: any) => void, fail: (message: string|null) => void}} Control */
+/** @typedef {{element: HTMLElement, set: (value: any) => void, fail: (message: string|null) => void,
+ *   rename?: (label: string) => void}} Control */
 /** @typedef {(value: any, resting: boolean) => void} OnChange */
 
 /**
@@ -58,6 +59,7 @@ export function slider({
     step: String(step),
     value: String(start),
   });
+  const title = h("label", { htmlFor: id }, label);
   const number = h("input", {
     type: "number",
     class: "number",
@@ -79,7 +81,7 @@ export function slider({
       label: h(
         "div",
         { class: "field-head" },
-        h("label", { htmlFor: id }, label),
+        title,
         h(
           "span",
           { class: "value" },
@@ -125,7 +127,13 @@ export function slider({
     else choose(number.value === "" ? null : Number(number.value), true);
   });
   set(auto ? null : start);
-  return { element, set, fail };
+  /** @param {string} text */
+  function rename(text) {
+    title.textContent = text;
+    number.setAttribute("aria-label", unit ? `${text}, ${unit === "%" ? "percent" : unit}` : text);
+  }
+
+  return { element, set, fail, rename };
 }
 
 /**

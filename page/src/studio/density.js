@@ -9,13 +9,17 @@ import { percents } from "./view.js";
 const EVEN = "";
 const FILE = "file";
 const WAYS = [
-  { value: EVEN, text: "the same everywhere" },
-  { value: "z", text: "changes with height (z)" },
-  { value: "x", text: "changes from left to right (x)" },
-  { value: "y", text: "changes from front to back (y)" },
-  { value: "skin", text: "changes from the skin inwards" },
-  { value: "roofs", text: "changes towards roofs" },
+  { value: EVEN, text: "not at all", ends: ["Density", ""] },
+  { value: "z", text: "with height (z)", ends: ["Density at the bottom", "Density at the top"] },
+  { value: "x", text: "from left to right (x)", ends: ["Density on the left", "Density on the right"] },
+  { value: "y", text: "from front to back (y)", ends: ["Density in front", "Density at the back"] },
+  { value: "skin", text: "from the skin inwards", ends: ["Density at the skin", "Density deep inside"] },
 ];
+const BY_FILE = {
+  value: FILE,
+  text: "by a file (CSV, VTU, picture)",
+  ends: ["Density at the least value", "Density at the greatest"],
+};
 
 /**
  * Make the controls.
@@ -36,7 +40,7 @@ export function createDensity({ start, auto = null, ways, onChange, onField }) {
     onChange: (value, resting) => change({ ...now, ends: [value, ...now.ends.slice(1)] }, resting),
   });
   const second = slider({
-    label: "Density at the other end",
+    label: "Density at the top",
     unit: "%",
     least: 3,
     most: 80,
@@ -45,7 +49,7 @@ export function createDensity({ start, auto = null, ways, onChange, onField }) {
     onChange: (value, resting) => change({ ...now, ends: [now.ends[0], value] }, resting),
   });
   const list = WAYS.filter(({ value }) => !ways || value === EVEN || ways.includes(value));
-  if (onField) list.push({ value: FILE, text: "follows a file (CSV, VTU, picture)" });
+  if (onField) list.push(BY_FILE);
   const input = h("input", {
     type: "file",
     class: "hidden-text",
@@ -55,7 +59,7 @@ export function createDensity({ start, auto = null, ways, onChange, onField }) {
     onchange: () => input.files?.[0] && onField?.(input.files[0]),
   });
   const way = select({
-    label: "Changes",
+    label: "Varies",
     choices: list,
     onChange: (value) => {
       if (value === FILE) return input.click();
@@ -81,6 +85,9 @@ export function createDensity({ start, auto = null, ways, onChange, onField }) {
   /** @param {typeof now} next */
   function show(next) {
     now = next;
+    const [firstName, secondName] = (WAYS.find(({ value }) => value === now.by) ?? BY_FILE).ends;
+    first.rename?.(firstName);
+    second.rename?.(secondName || "Density at the top");
     first.set(now.ends[0]);
     second.element.hidden = now.ends.length < 2;
     if (now.ends.length > 1) second.set(now.ends[1]);
