@@ -33,7 +33,8 @@ ROWS: tuple[tuple[str, ...], ...] = (
     ("result",),
     ("smoothing", "lattices", "refilling", "projects", "samples", "timing", "verifying"),
     ("making",),
-    ("cli", "studio"),
+    ("studio",),
+    ("cli",),
 )
 FLOOR = {room: floor for floor, rooms in enumerate(ROWS) for room in rooms}
 HALL = {
@@ -51,7 +52,7 @@ HALL = {
     "surface",
     "drawing",
 }
-MOST_FLOORS = 12
+MOST_FLOORS = 13
 
 # Packages of others that only some may import: a room, or one module.
 KEPT = {
@@ -65,6 +66,8 @@ KEPT = {
     "h5py": "infill.lazy",
     "distributed": "infill.chunks",
     "dask": "infill.chunks",
+    "starlette": "infill.studio",
+    "uvicorn": "infill.studio",
     "rich": "infill.cli",
 }
 PATTERNS_TAKE = {"numpy", "shapely"}

@@ -28,10 +28,11 @@ COMMANDS: dict[str, tuple[str, str, str]] = {
     "verify": ("verifying", "verify", "infill verify before.gcode after.gcode"),
     "view": ("viewing", "view", "infill view part.stl"),
     "sample": ("sampling", "sample", "infill sample part scan print"),
+    "studio": ("studio", "studio", "infill studio part.stl"),
 }
 
 FILE_COMMANDS = ("smooth", "fill", "refill")  # which take several files
-LISTING = ("list", "sample")  # commands that list things when nothing is given
+LISTING = ("list", "sample", "studio")  # commands that do something when nothing is given
 
 
 def build_app(command_name: str = "") -> typer.Typer:

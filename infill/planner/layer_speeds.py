@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.arrays import Floats
-from infill.errors import FormatError, ParameterError
+from infill.errors import FormatError, MemoryLimitError, ParameterError
 from infill.gcode.dialect import role_of
 from infill.gcode.sliced_file import open_sliced
 from infill.gcode.stream import LAYER_TAG, batches
@@ -23,6 +23,86 @@ from infill.planner.timeline import Steps
 PIECE_LENGTH: Final = 0.4  # mm, of a layer
 COARSE_LENGTH: Final = 1.0  # mm, of a print
 SPEED_STEP: Final = 4.0  # mm/s: neighbouring pieces of a print whose speeds differ by less may become one
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlannedLayers:
+    """The moves of all layers of a print, planned once.
+
+    Parameters
+    ----------
+    steps : Steps
+    plan : MotionPlan
+    features : tuple of bytes
+        Names of features; the first is that of none.
+    """
+
+    steps: Steps
+    plan: MotionPlan
+    features: tuple[bytes, ...]
+
+    @property
+    def count(self) -> int:
+        """Number of layers."""
+        return int(self.steps.layer[-1]) if len(self.steps) else 0
+
+    def layer(self, number: int) -> LayerSpeeds:
+        """Return the moves of one layer, in pieces; it is counted from 1.
+
+        Raises
+        ------
+        ParameterError
+            If there is no such layer.
+        """
+        begin, end = np.searchsorted(self.steps.layer, (number, number + 1))  # layers only ever rise
+        if begin == end:
+            raise ParameterError.about("layer", f"is {number}; the print has moves in layers 1 to {self.count}")
+        rows = slice(int(begin), int(end))
+        return _find_piece_speeds(slice_rows(self.steps, rows), slice_rows(self.plan, rows), list(self.features))
+
+    def heights(self) -> Floats:
+        """Return the z of each layer, (count,) mm: where most of its filament is laid; NaN without any."""
+        draws = (self.steps.moves.delta[:, 3] > 0) & (self.steps.layer > 0)
+        layer, z = self.steps.layer[draws], self.steps.start[draws, 2] + self.steps.moves.delta[draws, 2]
+        heights = np.full(self.count + 1, np.nan)
+        order = np.argsort(layer, kind="stable")
+        bounds = np.searchsorted(layer[order], np.arange(self.count + 2))
+        for number, (begin, end) in enumerate(zip(bounds[:-1].tolist(), bounds[1:].tolist(), strict=True)):
+            if end > begin:
+                heights[number] = np.median(z[order[begin:end]])
+        return heights[1:]
+
+
+def plan_layers(path: str | os.PathLike[str], plate: int | None = None, *, most: int | None = None) -> PlannedLayers:
+    """Plan a file as `motion` does; return the moves of all layers.
+
+    Parameters
+    ----------
+    path : path
+    plate : int, optional
+        Plate of an archive; by default the first that has G-code.
+    most : int, optional
+        Moves that are kept, at most.
+
+    Raises
+    ------
+    FormatError
+        If the file is not G-code, or has no moves.
+    MemoryLimitError
+        If it has too many moves.
+    """
+    all_steps, all_plans, count = list[Steps](), list[MotionPlan](), 0
+    with open_sliced(Path(path)) as file, open_timeline(file, file.part_of_plate(plate), collect_given()) as timeline:
+        for steps, plan in timeline:
+            count += len(steps)
+            if most is not None and count > most:
+                raise MemoryLimitError(f"{Path(path).name} has more than {most:,} moves; use the command line for it")
+            all_steps.append(steps)
+            all_plans.append(plan)
+        features = tuple(timeline.features)
+    if not count:
+        raise FormatError(f"{Path(path).name} has no moves")
+    return PlannedLayers(steps=concatenate_rows(all_steps), plan=concatenate_rows(all_plans), features=features)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,0 +1,1 @@
+"""The studio: a page in the browser, and a server on this machine that answers it by calls of the library."""
