@@ -1,7 +1,7 @@
 """A draft of a fill: its voids on a coarse grid, in a fraction of a second, without the checks of the result.
 
 The density is near the requested one, and the walls have about their width; drains, ties and other patterns in regions
-are left out. What stays the same from draft to draft, the depth of the cells of the grid, is kept by the caller.
+are left out. The depth of the cells of the grid stays the same from draft to draft: the caller keeps it.
 """
 
 from __future__ import annotations
@@ -105,13 +105,13 @@ def draft_fill(
         grading = task.request.grading
         local = None if grading is None else grading.widths_in(space, task.pattern.widths)
         layout = Layout(space=space, cell=cell, width=width, local=local, threads=threads)
-        varied, known = task.request.varied, None
+        varied, fields = task.request.varied, None
         if isinstance(task.pattern, Periodic):  # others take long to draw
-            layout, varied, known = find_sizes(task, layout, varied)
+            layout, varied, fields = find_sizes(task, layout, varied)
     with clock.stage("voids", 0.6):
-        hollow, known = make_voids(task, layout, known)
+        hollow, fields = make_voids(task, layout, fields)
         if varied and grading is None:
-            hollow = _correct_density(task, layout, hollow, known, varied[-1])
+            hollow = _correct_density(task, layout, hollow, fields, varied[-1])
     if not hollow.surfaces:
         raise GeometryError(
             f"the pattern leaves no void inside walls of {plain_argument(task.request.wall)} mm; give larger cells, "
@@ -121,7 +121,7 @@ def draft_fill(
 
 
 def _find_space(task: FillTask, spaces: Spaces) -> Interior:
-    """Return the space inside the walls: a known one, or a new one, which is kept."""
+    """Return the space inside the walls: a fields one, or a new one, which is kept."""
     request = task.request
     assert request.voxel is not None
     key = (request.wall, request.voxel, request.open_, request.beyond, tuple(region.text for region in request.regions))
@@ -143,7 +143,7 @@ def _find_space(task: FillTask, spaces: Spaces) -> Interior:
 
 
 def _correct_density(
-    task: FillTask, layout: Layout, hollow: VoidMeshes, known: Fields | None, vary: Size
+    task: FillTask, layout: Layout, hollow: VoidMeshes, fields: Fields | None, vary: Size
 ) -> VoidMeshes:
     """Draw voids again, twice at most, until their density is near the requested one: the grid swallows thin walls."""
     density = task.request.density or LEAST
@@ -154,10 +154,10 @@ def _correct_density(
             break
         task.clock.tell("voids", 0.8)
         times = total * float(np.clip(density / max(hollow.density, LEAST), *RESCALED)) ** power
-        candidate, known = make_voids(task, layout.scale(times, vary), known)
+        candidate, fields = make_voids(task, layout.scale(times, vary), fields)
         if abs(candidate.density - density) > abs(hollow.density - density):
             # Too much of a change: take the middle of both.
             times = math.sqrt(times * total)
-            candidate, known = make_voids(task, layout.scale(times, vary), known)
+            candidate, fields = make_voids(task, layout.scale(times, vary), fields)
         hollow, total = min(((hollow, total), (candidate, times)), key=lambda made: abs(made[0].density - density))
     return hollow

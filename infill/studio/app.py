@@ -1,4 +1,4 @@
-"""The addresses of the studio: its page, what it can do, and what a page asks for."""
+"""The addresses of the studio: its page, its abilities, and the requests of pages."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ from infill.errors import InfillError
 from infill.plain_numbers import plain_size
 from infill.samples.catalogue import find_sample, write_sample
 from infill.studio.answering import StreamedAnswer, beat
-from infill.studio.frames import ANSWER, ERROR, FILE, Frame
+from infill.studio.frames import ANSWER, ERROR, FILE, AnswerFrame
 from infill.studio.guard import Guard, make_token
-from infill.studio.limits import Limits
+from infill.studio.limits import StudioLimits
 from infill.studio.pages import Page, Pages, StoredFile
 from infill.studio.upload_names import choose_name
 
@@ -51,13 +51,13 @@ class Studio:
     Parameters
     ----------
     pages : Pages
-    limits : Limits
+    limits : StudioLimits
     opened : Path, optional
         The file or folder that was named on the command line.
     """
 
     pages: Pages
-    limits: Limits
+    limits: StudioLimits
     opened: Path | None = None
     made: dict[str, bytes] = field(default_factory=dict)  # answers that stay the same
 
@@ -200,16 +200,17 @@ async def receive_file(studio: Studio, request: Request) -> StreamedAnswer:
     page, limits = _find_page(studio, request), studio.limits
     if len(page.files) >= limits.files:
         raise RequestError(f"this page holds {limits.files} files; load it again", STATUS_OF_TOO_MUCH)
-    given = request.query_params.get("given") and studio.opened
-    sample = request.query_params.get("sample")
-    wanted = given.name if given else find_sample(sample).file if sample else request.query_params.get("name", "")
-    name = choose_name(wanted, {stored.name for stored in page.files.values()})
+    query = request.query_params
+    opened = studio.opened if query.get("given") else None
+    sample = None if opened else query.get("sample")
+    requested = opened.name if opened else find_sample(sample).file if sample else query.get("name", "")
+    name = choose_name(requested, {stored.name for stored in page.files.values()})
     file_id, path = page.new_name("f"), page.folder / name
     stored = StoredFile(name=name, size=0)
     page.files[file_id] = stored
     try:
-        if given:
-            await run_in_threadpool(_copy, given, path)
+        if opened:
+            await run_in_threadpool(_copy, opened, path)
         elif sample:
             await run_in_threadpool(write_sample, sample, path)
         else:
@@ -254,22 +255,22 @@ def _remove(path: Path) -> None:
         path.unlink(missing_ok=True)
 
 
-async def _store(request: Request, path: Path, limits: Limits, page: Page) -> None:
+async def _store(request: Request, path: Path, limits: StudioLimits, page: Page) -> None:
     """Write the body of a request to a file, up to the limits."""
-    most = min(limits.upload_bytes, limits.page_bytes - page.stored_bytes)
+    limit = min(limits.upload_bytes, limits.page_bytes - page.stored_bytes)
     too_large = RequestError(
-        f"this file is larger than {plain_bytes(most)}, the most that the studio takes; use the command line for it",
+        f"this file is larger than {plain_bytes(limit)}, the most that the studio takes; use the command line for it",
         STATUS_OF_TOO_MUCH,
     )
     length = request.headers.get("content-length", "")
-    if length.isdecimal() and int(length) > most:
+    if length.isdecimal() and int(length) > limit:
         raise too_large
     size = 0
     try:
         with open(path, "xb") as file:
             async for piece in request.stream():
                 size += len(piece)
-                if size > most:
+                if size > limit:
                     raise too_large
                 await run_in_threadpool(file.write, piece)
     except ClientDisconnect:
@@ -293,20 +294,20 @@ def plain_bytes(count: float) -> str:
 
 
 def _describe(page: Page, message: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a message to the worker with what it needs to know of the files of the page."""
+    """Return a message to the worker with names and kinds of the files of the page."""
     return {**message, "files": {name: stored.facts() for name, stored in page.files.items()}}
 
 
-async def _ask(page: Page, message: Mapping[str, Any], lane: str | None) -> AsyncGenerator[Frame, None]:
+async def _ask(page: Page, message: Mapping[str, Any], lane: str | None) -> AsyncGenerator[AnswerFrame, None]:
     """Yield the frames of a request; an error of the server's becomes one too."""
     try:
         async for frame in page.run(_describe(page, message), lane):
             yield frame
     except InfillError as error:
-        yield Frame.of_json(ERROR, {"message": str(error), "parameter": error.parameter})
+        yield AnswerFrame.of_json(ERROR, {"message": str(error), "parameter": error.parameter})
 
 
-async def _read_json(request: Request, limits: Limits) -> dict[str, Any]:
+async def _read_json(request: Request, limits: StudioLimits) -> dict[str, Any]:
     """Return the JSON of a request, an object."""
     body = b""
     async for piece in request.stream():
@@ -352,7 +353,7 @@ async def answer_request(studio: Studio, request: Request) -> StreamedAnswer:
     }
 
     async def frames() -> AsyncGenerator[bytes, None]:
-        """Yield the frames of the answer, and remember what made the result."""
+        """Yield the frames of the answer, and remember the request of the result."""
         async for frame in _ask(page, message, str(wish.get("lane", product))):
             if frame.kind == ANSWER and result is not None:
                 page.results[result] = message
@@ -361,7 +362,7 @@ async def answer_request(studio: Studio, request: Request) -> StreamedAnswer:
     return StreamedAnswer(pieces=frames())
 
 
-async def _take_one(page: Page, message: Mapping[str, Any]) -> Frame:
+async def _take_one(page: Page, message: Mapping[str, Any]) -> AnswerFrame:
     """Return the one frame that answers a request; raise its error."""
     async for frame in _ask(page, message, None):
         if frame.kind == ERROR:

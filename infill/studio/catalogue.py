@@ -1,4 +1,4 @@
-"""What the studio offers: products with their options, materials, slicers, and patterns with pictures and facts."""
+"""The offer of the studio: products with their options, materials, slicers, and patterns with pictures and facts."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ FACTS = "facts.json"
 
 
 def describe_studio(limits: dict[str, float], opened: str | None) -> dict[str, Any]:
-    """Return what the studio can do, as plain values."""
+    """Return the abilities of the studio, as plain values."""
     from infill.lattices.settings import Slicer
     from infill.studio.products import PRODUCTS, describe_product
 
@@ -88,7 +88,7 @@ def find_products(name: str) -> list[str]:
     from infill.refilling.placement import resolve_paths
     from patterns import PatternError
 
-    found = []
+    products = []
     for product in ("fill", "make", "refill"):
         try:
             if product == "refill":
@@ -97,8 +97,8 @@ def find_products(name: str) -> list[str]:
                 resolve_pattern(name, product)
         except (InfillError, PatternError):
             continue
-        found.append(product)
-    return found
+        products.append(product)
+    return products
 
 
 def draw_pattern(name: str) -> bytes | None:

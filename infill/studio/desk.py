@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from infill.errors import FormatError, UsageError
-from infill.studio.frames import FILE, PICTURE, Frame
+from infill.studio.frames import FILE, PICTURE, AnswerFrame
 from infill.studio.option_forms import SETS, name_files
 from infill.studio.products import Made, Order, answer_frames, find_product
 from infill.studio.reading import Content, read_content
@@ -42,9 +42,9 @@ class Desk:
         self._results: OrderedDict[str, Made] = OrderedDict()
         self._plans: dict[str, Any] = {}  # of the refilled print that is looked at
 
-    def answer(self, message: Mapping[str, Any], progress: Progress, warnings: list[str]) -> Iterator[Frame]:
+    def answer(self, message: Mapping[str, Any], progress: Progress, warnings: list[str]) -> Iterator[AnswerFrame]:
         """Answer one request in frames."""
-        actions: dict[str, Callable[[Mapping[str, Any], Progress, list[str]], Iterator[Frame]]] = {
+        actions: dict[str, Callable[[Mapping[str, Any], Progress, list[str]], Iterator[AnswerFrame]]] = {
             "read": self._read,
             "make": self._make,
             "download": self._download,
@@ -80,13 +80,13 @@ class Desk:
 
     def content(self, file_id: str, message: Mapping[str, Any], progress: Progress) -> Content:
         """Return the content of a file; read it if this process has not yet."""
-        known = self._contents.get(file_id)
-        if known is None:
+        content = self._contents.get(file_id)
+        if content is None:
             facts = message["files"][file_id]
-            known = self._contents[file_id] = read_content(facts["name"], facts["kind"], progress, self.memory)
-        return known
+            content = self._contents[file_id] = read_content(facts["name"], facts["kind"], progress, self.memory)
+        return content
 
-    def _read(self, message: Mapping[str, Any], progress: Progress, warnings: list[str]) -> Iterator[Frame]:
+    def _read(self, message: Mapping[str, Any], progress: Progress, warnings: list[str]) -> Iterator[AnswerFrame]:
         """Read an uploaded file."""
         file_id = message["file"]
         name = message["files"][file_id]["name"]
@@ -103,17 +103,22 @@ class Desk:
 
         product = find_product(message["product"])
         files = {file_id: facts["name"] for file_id, facts in message["files"].items()}
-        known = set(declared_options(product.code.DECLARATION)) - set(product.code.LEFT_OUT) | {*MORE_OPTIONS}
-        named = name_files(options, files, known, PATTERNS)
-        own = named.pop(SETS, {})
-        if not isinstance(own, dict):
+        allowed = set(declared_options(product.code.DECLARATION)) - set(product.code.LEFT_OUT) | {*MORE_OPTIONS}
+        named = name_files(options, files, allowed, PATTERNS)
+        parameters = named.pop(SETS, {})
+        if not isinstance(parameters, dict):
             raise UsageError("the parameters of a pattern are names and values")
+        parameters = dict(parameters)
+        for key in (
+            parameters.keys() & allowed - named.keys()
+        ):  # a pattern's parameter that the product has as an option
+            named[key] = parameters.pop(key)
         content = None if message["file"] is None else self.content(message["file"], message, progress)
         layer = message.get("layer")
         suffix = ".gcode" if content is None else split_suffix(content.name)[1]
         return Order(
             options=named,
-            own=own,
+            parameters=parameters,
             content=content,
             coarse=message["quality"] == "coarse",
             layer=layer if isinstance(layer, int) and layer > 0 else None,
@@ -122,7 +127,7 @@ class Desk:
             memory=self.memory,
         )
 
-    def _make(self, message: Mapping[str, Any], progress: Progress, warnings: list[str]) -> Iterator[Frame]:
+    def _make(self, message: Mapping[str, Any], progress: Progress, warnings: list[str]) -> Iterator[AnswerFrame]:
         """Make a product."""
         name, result = message["product"], message["result"]
         product = find_product(name)
@@ -148,14 +153,14 @@ class Desk:
             self._keep(result, find_product(request["product"]).code.make(order))
         return self._results[result]
 
-    def _download(self, message: Mapping[str, Any], progress: Progress, warnings: list[str]) -> Iterator[Frame]:  # noqa: ARG002 - as all actions
+    def _download(self, message: Mapping[str, Any], progress: Progress, warnings: list[str]) -> Iterator[AnswerFrame]:  # noqa: ARG002 - as all actions
         """Write the file of a result."""
-        request, wanted = message["request"], message["format"]
+        request, file_format = message["request"], message["format"]
         product = find_product(request["product"])
-        if wanted not in product.downloads:
+        if file_format not in product.downloads:
             listed = ", ".join(product.downloads) or "none"
-            raise FormatError(f"there is no format {str(wanted)[:20]!r}; choose from {listed}")
-        if wanted == "project":
+            raise FormatError(f"there is no format {str(file_format)[:20]!r}; choose from {listed}")
+        if file_format == "project":
             options = {**request["options"], "for": message.get("slicer") or "prusaslicer"}
             order = self._order({**request, "files": message["files"]}, progress, options, None)
             made = product.code.make(replace(order, coarse=False))
@@ -164,31 +169,31 @@ class Desk:
         stored = message["files"].get(request["file"])
         folder = self.folder / DOWNLOADS / secrets.token_hex(8)
         folder.mkdir(parents=True)
-        path = folder / product.file_name(stored and stored["name"], wanted)
+        path = folder / product.file_name(stored and stored["name"], file_format)
         product.code.write(made, path)
-        yield Frame.of_json(FILE, {"path": str(path), "name": path.name})
+        yield AnswerFrame.of_json(FILE, {"path": str(path), "name": path.name})
 
-    def _slice(self, message: Mapping[str, Any], progress: Progress, warnings: list[str]) -> Iterator[Frame]:  # noqa: ARG002
+    def _slice(self, message: Mapping[str, Any], progress: Progress, warnings: list[str]) -> Iterator[AnswerFrame]:  # noqa: ARG002
         """Draw a slice of a scan."""
         from infill.studio.scan_reading import draw_slice
 
         content = self.content(message["file"], message, progress)
         if content.kind != "scan":
-            raise UsageError(f"{content.name} is no scan")
+            raise UsageError(f"{content.name} is not a scan")
         words = [message.get(key) for key in ("axis", "index", "low", "high")]
         picture = draw_slice(content.data, str(words[0]), str(words[1]), words[2], words[3])
-        yield Frame(kind=PICTURE, payload=picture)
+        yield AnswerFrame(kind=PICTURE, payload=picture)
 
-    def _layer(self, message: Mapping[str, Any], progress: Progress, warnings: list[str]) -> Iterator[Frame]:  # noqa: ARG002
+    def _layer(self, message: Mapping[str, Any], progress: Progress, warnings: list[str]) -> Iterator[AnswerFrame]:  # noqa: ARG002
         """Return a layer of a print, or of a refilled one."""
         from infill.studio.print_layers import layer_frame, plan_print
 
         content, result = self.content(message["file"], message, progress), message.get("result")
         if content.kind != "print":
-            raise UsageError(f"{content.name} is no print")
+            raise UsageError(f"{content.name} is not a print")
         number = str(message["layer"])
         if not number.isdecimal():
-            raise UsageError.about("layer", "is no number; layers are counted from 1")
+            raise UsageError.about("layer", "must be a number; layers are counted from 1")
         planned = content.data.planned
         if result is not None:
             if result not in self._plans:

@@ -69,7 +69,11 @@ def write_value(value: object) -> str:
 
 
 def write_command(
-    name: str, positional: Sequence[str], declaration: type[Any], options: Mapping[str, Any], own: Mapping[str, Any]
+    name: str,
+    positional: Sequence[str],
+    declaration: type[Any],
+    options: Mapping[str, Any],
+    parameters: Mapping[str, Any],
 ) -> list[str]:
     """Return the words of a command without its output.
 
@@ -80,14 +84,14 @@ def write_command(
     positional : sequence of str
     declaration : type
         Of its options.
-    options, own : mapping
-        By key, and the pattern's own parameters by name, as the page sent them.
+    options, parameters : mapping
+        By key, and parameters of the pattern by name, as the page sent them.
     """
     declared = declared_options(declaration)
     words = ["infill", name, *(f"./{word}" if word.startswith("-") else word for word in positional)]
     for key, value in options.items():
         words += flag_words(declared[key], value)
-    for text in assignments(own):
+    for text in assignments(parameters):
         words += ["--set", text]
     return words
 
@@ -130,15 +134,15 @@ def _word(value: object, joint: str) -> str:
     return str(value)
 
 
-def assignments(own: Mapping[str, Any]) -> Iterator[str]:
+def assignments(parameters: Mapping[str, Any]) -> Iterator[str]:
     """Yield parameters of a pattern as name=value."""
-    for name, value in own.items():
+    for name, value in parameters.items():
         if isinstance(value, bool) or value is None:
             yield f"{name}={str(value).lower()}"
         else:
             yield f"{name}={_word(value, ',')}"
 
 
-def plain_own(own: Mapping[str, Any]) -> dict[str, Any]:
+def plain_parameters(parameters: Mapping[str, Any]) -> dict[str, Any]:
     """Return parameters of a pattern as Python takes them."""
-    return {name: tuple(value) if isinstance(value, list) else value for name, value in own.items()}
+    return {name: tuple(value) if isinstance(value, list) else value for name, value in parameters.items()}

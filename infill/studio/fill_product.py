@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from infill.lattices.settings import FillOptions, resolve
-from infill.studio.equivalents import Call, assignments, join_words, plain_own, write_command, write_value
+from infill.studio.equivalents import Call, assignments, join_words, plain_parameters, write_command, write_value
 from infill.studio.numbers import draft_numbers, fill_numbers
 from infill.studio.products import Made, Order
 
@@ -19,7 +19,7 @@ DECLARATION = FillOptions
 LEFT_OUT: tuple[str, ...] = ("units", "for", "as")
 
 
-def keywords(options: dict[str, Any], own: dict[str, Any]) -> dict[str, Any]:
+def keywords(options: dict[str, Any], parameters: dict[str, Any]) -> dict[str, Any]:
     """Return options by key as keywords of `infill.fill`."""
     from infill.options.declaration import by_field, read_options
 
@@ -28,7 +28,7 @@ def keywords(options: dict[str, Any], own: dict[str, Any]) -> dict[str, Any]:
     renamed = {names.get(name, name): value for name, value in values.items()}
     if "for_" in renamed:
         (renamed["for_"],) = renamed["for_"]
-    return {**renamed, **plain_own(own)}
+    return {**renamed, **plain_parameters(parameters)}
 
 
 def make(order: Order) -> Made:
@@ -36,7 +36,7 @@ def make(order: Order) -> Made:
     from infill.lattices.job import fill
 
     content = order.need("part")
-    arguments = keywords(dict(order.options), dict(order.own))
+    arguments = keywords(dict(order.options), dict(order.parameters))
     if order.coarse and (draft := _draft(order, content, arguments)) is not None:
         return draft
     result = fill(content.data, **arguments, max_memory=order.memory, progress=order.progress)
@@ -50,15 +50,17 @@ def make(order: Order) -> Made:
 
 
 def _draft(order: Order, content: Content, arguments: dict[str, Any]) -> Made | None:
-    """Draft a fill; return None for what only the whole fill can show."""
+    """Draft a fill; return None for options that only the whole fill has."""
     from infill.lattices.draft import draft_fill
     from infill.lattices.request import check_request
 
     names = ("as_", "for_")
     values = {name: value for name, value in arguments.items() if name not in names}
     declared = set(FillOptions.__dataclass_fields__) - {"seed"}
-    own = {name: values.pop(name) for name in list(values) if name not in declared}
-    request = check_request(pattern=values.pop("pattern", "gyroid"), own=own, **{**values, "max_triangles": None})
+    parameters = {name: values.pop(name) for name in list(values) if name not in declared}
+    request = check_request(
+        pattern=values.pop("pattern", "gyroid"), own=parameters, **{**values, "max_triangles": None}
+    )
     if request.wall == 0 or any(region.kind is not None for region in request.regions):
         return None
     draft = draft_fill(
@@ -98,7 +100,7 @@ def write(made: Made, path: Path) -> None:
 
 
 def again(order: Order, file: str) -> dict[str, str]:
-    """Return how to make the file of a fill again."""
+    """Return the command, the Python and the TOML that make the file of a fill again."""
     content, options = order.need("part"), dict(order.options)
     arguments = keywords(options, {})
     arguments["regions"] = tuple(region.text for region in arguments.get("regions", ()))
@@ -107,10 +109,10 @@ def again(order: Order, file: str) -> dict[str, str]:
     call = Call(
         function="fill",
         positional=(content.path, arguments.get("pattern", "gyroid")),
-        keywords={**named, **plain_own(order.own)},
+        keywords={**named, **plain_parameters(order.parameters)},
         imports=("save_project",) if is_project else (),
         save=f"save_project(result, {write_value(file)})" if is_project else f"result.save({write_value(file)})",
     )
-    words = write_command("fill", [content.path], FillOptions, options, order.own)
-    settings = resolve(options, list(assignments(order.own)))
+    words = write_command("fill", [content.path], FillOptions, options, order.parameters)
+    settings = resolve(options, list(assignments(order.parameters)))
     return {"command": join_words([*words, "-o", file]), "python": call.to_python(), "toml": settings.to_toml()}

@@ -29,7 +29,7 @@ WORKER_HEAD = struct.Struct("<IBI")
 
 
 @dataclass(frozen=True, kw_only=True)
-class Frame:
+class AnswerFrame:
     """One frame of a request.
 
     Parameters
@@ -45,14 +45,14 @@ class Frame:
     request: int = 0
 
     @classmethod
-    def of_json(cls, kind: int, value: Mapping[str, Any], request: int = 0) -> Frame:
+    def of_json(cls, kind: int, value: Mapping[str, Any], request: int = 0) -> AnswerFrame:
         """Return a frame of plain values as JSON; numbers that are not finite become null."""
         return cls(kind=kind, payload=dump_json(value), request=request)
 
     def to_http(self) -> bytes:
         r"""Return the bytes of the frame in an answer over HTTP.
 
-        >>> Frame(kind=PROGRESS, payload=b"{}").to_http()
+        >>> AnswerFrame(kind=PROGRESS, payload=b"{}").to_http()
         b'\x02\x00\x00\x00\x01{}'
         """
         return HTTP_HEAD.pack(len(self.payload), self.kind) + self.payload

@@ -66,7 +66,7 @@ def write(made: Made, path: Path) -> None:
 
 
 def again(order: Order, file: str) -> dict[str, str]:
-    """Return how to make the file of all labels again."""
+    """Return the command, the Python and the TOML that make the file of all labels again."""
     content, options = order.need("scan"), dict(order.options)
     values = by_field(SmoothSettings, read_options("smooth", SmoothSettings, options))
     keywords: dict[str, Any] = {

@@ -1,4 +1,4 @@
-"""Limits of the studio: what one page, one upload and one request may take."""
+"""Limits of the studio, for one page, one upload and one request."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ MEMORY_SHARE = 0.7  # of the free memory
 
 
 @dataclass(frozen=True, kw_only=True)
-class Limits:
-    """What pages, uploads and requests may take.
+class StudioLimits:
+    """Limits of pages, uploads and requests.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ class Limits:
     cancel_seconds: float = 1.0
 
     @classmethod
-    def of_machine(cls) -> Limits:
+    def of_machine(cls) -> StudioLimits:
         """Return the limits that suit this machine."""
         free = available_memory()
         return cls() if free is None else cls(memory_bytes=int(min(MOST_MEMORY, max(GIB, MEMORY_SHARE * free))))

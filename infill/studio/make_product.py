@@ -8,7 +8,7 @@ from typing import Any
 from infill.errors import UsageError
 from infill.making.settings import MakeSettings, resolve
 from infill.options.declaration import by_field, read_options
-from infill.studio.equivalents import Call, assignments, join_words, plain_own, write_command, write_value
+from infill.studio.equivalents import Call, assignments, join_words, plain_parameters, write_command, write_value
 from infill.studio.numbers import block_numbers
 from infill.studio.products import Made, Order
 from infill.studio.smoothing_keywords import SMOOTHING, smoothing_code
@@ -21,7 +21,7 @@ def _settings(order: Order) -> MakeSettings:
     """Return the settings of a block."""
     if "pattern" not in order.options:
         raise UsageError.about("pattern", "is missing; choose one")
-    return resolve(dict(order.options), None, list(assignments(order.own)))
+    return resolve(dict(order.options), None, list(assignments(order.parameters)))
 
 
 def make(order: Order) -> Made:
@@ -42,7 +42,7 @@ def write(made: Made, path: Path) -> None:
 
 
 def again(order: Order, file: str) -> dict[str, str]:
-    """Return how to make the file of a block again."""
+    """Return the command, the Python and the TOML that make the file of a block again."""
     options: dict[str, Any] = {name: value for name, value in order.options.items() if name != "pattern"}
     pattern, settings = order.options["pattern"], _settings(order)
     values = by_field(MakeSettings, read_options("make", MakeSettings, options))
@@ -51,9 +51,9 @@ def again(order: Order, file: str) -> dict[str, str]:
     call = Call(
         function="make",
         positional=(pattern,),
-        keywords={**keywords, **code, **plain_own(order.own)},
+        keywords={**keywords, **code, **plain_parameters(order.parameters)},
         imports=("Smoothing",) if code else (),
         save=f"result.save({write_value(file)})",
     )
-    words = write_command("make", [pattern], MakeSettings, options, order.own)
+    words = write_command("make", [pattern], MakeSettings, options, order.parameters)
     return {"command": join_words([*words, "-o", file]), "python": call.to_python(), "toml": settings.to_toml()}

@@ -34,7 +34,7 @@ def write(made: Made, path: Path) -> None:  # noqa: ARG001 - as all products
 
 
 def again(order: Order, file: str) -> dict[str, str]:  # noqa: ARG001 - as all products
-    """Return how to plan the print again."""
+    """Return the command and the Python that plan the print again."""
     content, options = order.need("print"), dict(order.options)
     values: dict[str, Any] = by_field(MotionOptions, read_options("motion", MotionOptions, options))
     plain = {name: str(value) if isinstance(value, Path) else value for name, value in values.items()}

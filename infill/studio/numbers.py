@@ -38,7 +38,7 @@ class Number:
 
 
 def grams_by_material(volume: float) -> dict[str, float]:
-    """Return what a volume, mm³, weighs in each material, g."""
+    """Return the weight of a volume, mm³, in each material, g."""
     return {name: volume / MM3_PER_CM3 * density for name, density in MATERIALS.items()}
 
 
@@ -121,7 +121,7 @@ def smooth_numbers(report: Mapping[str, Any]) -> Iterator[Number]:
 
 
 def label_numbers(report: Mapping[str, Any]) -> Iterator[Number]:
-    """Yield the numbers of smoothed labels: the volume of each, and what failed."""
+    """Yield the numbers of smoothed labels: the volume of each, and the number of failures."""
     yield Number(name="labels", value=len(report["labels"]))
     for label in report["labels"]:
         volume = label["report"]["volume"] if "report" in label else label["volume"]

@@ -157,7 +157,7 @@ def describe_parameters(kind: object) -> list[dict[str, Any]]:
 
 
 def name_files(
-    options: Mapping[str, Any], files: Mapping[str, str], known: Collection[str], patterns: Iterable[str]
+    options: Mapping[str, Any], files: Mapping[str, str], allowed: Collection[str], patterns: Iterable[str]
 ) -> dict[str, Any]:
     """Return options with the names of uploaded files in place of their ids, and without those that are null.
 
@@ -167,7 +167,7 @@ def name_files(
         As the page sent them.
     files : mapping of str to str
         Names of files by id.
-    known : collection of str
+    allowed : collection of str
         Keys of the options that the product has here.
     patterns : iterable of str
         Names of patterns.
@@ -181,7 +181,7 @@ def name_files(
     for key, value in options.items():
         if value is None:
             continue
-        if key not in known and key != SETS:
+        if key not in allowed and key != SETS:
             raise UsageError(f"there is no option {quote_value(key)} here")
         if key in FILE_OPTIONS:
             values = value if isinstance(value, list) else [value]

@@ -15,13 +15,13 @@ from typing import Any
 
 from infill.errors import InfillError
 from infill.plain_numbers import plain_argument
-from infill.studio.frames import END, ERROR, Frame
-from infill.studio.limits import Limits
+from infill.studio.frames import END, ERROR, AnswerFrame
+from infill.studio.limits import StudioLimits
 from infill.studio.processes import WorkerProcess
 
 NUMBERS = itertools.count(1)  # of requests
 REPLACED = "a newer request took the place of this one"
-FULL = "{count} pages of the studio are open, and there may be {most}; close one"
+FULL = "{count} pages of the studio are open, and there may be {limit}; close one"
 
 
 @dataclass(kw_only=True, eq=False)
@@ -43,7 +43,7 @@ class StoredFile:
     kind: str = ""
 
     def facts(self) -> dict[str, str]:
-        """Return what the worker needs to know."""
+        """Return name and kind, for the worker."""
         return {"name": self.name, "kind": self.kind}
 
 
@@ -56,12 +56,12 @@ class Page:
     name : str
         In its addresses.
     folder : Path
-    limits : Limits
+    limits : StudioLimits
     """
 
     name: str
     folder: Path
-    limits: Limits
+    limits: StudioLimits
     files: dict[str, StoredFile] = field(default_factory=dict)
     results: dict[str, dict[str, Any]] = field(default_factory=dict)  # the requests that made them
     gone: asyncio.Event = field(default_factory=asyncio.Event)
@@ -95,7 +95,7 @@ class Page:
                 self._worker = await WorkerProcess.start(self.folder, self.limits)
             return self._worker
 
-    async def run(self, message: Mapping[str, Any], lane: str | None = None) -> AsyncGenerator[Frame, None]:
+    async def run(self, message: Mapping[str, Any], lane: str | None = None) -> AsyncGenerator[AnswerFrame, None]:
         """Let the worker answer a request; yield its frames without the end.
 
         A newer request in the same lane cancels it; so does closing this generator.
@@ -110,7 +110,7 @@ class Page:
         try:
             async for frame in self._run_again(dict(message), number):
                 if frame.kind == ERROR and number in self._replaced:
-                    frame = Frame.of_json(ERROR, {"message": REPLACED, "parameter": None, "cancelled": True})
+                    frame = AnswerFrame.of_json(ERROR, {"message": REPLACED, "parameter": None, "cancelled": True})
                 yield frame
         finally:
             self._cancel(number)
@@ -118,7 +118,7 @@ class Page:
             if lane is not None and self._lanes.get(lane) == number:
                 del self._lanes[lane]
 
-    async def _run_again(self, message: dict[str, Any], number: int) -> AsyncGenerator[Frame, None]:
+    async def _run_again(self, message: dict[str, Any], number: int) -> AsyncGenerator[AnswerFrame, None]:
         """Ask the worker; ask the next one too if the first was killed for another request before it answered."""
         for is_last in (False, True):
             worker, has_begun = await self._get_worker(), False
@@ -133,7 +133,7 @@ class Page:
                     yield frame
             except TimeoutError:
                 text = f"this takes over {plain_argument(self.limits.seconds)} s; choose larger cells or voxels"
-                yield Frame.of_json(ERROR, {"message": text, "parameter": None})
+                yield AnswerFrame.of_json(ERROR, {"message": text, "parameter": None})
                 return
             if has_begun:
                 return
@@ -158,10 +158,10 @@ class Pages:
     ----------
     folder : Path
         Folders of pages are made in it.
-    limits : Limits
+    limits : StudioLimits
     """
 
-    def __init__(self, folder: Path, limits: Limits) -> None:
+    def __init__(self, folder: Path, limits: StudioLimits) -> None:
         self.folder = folder
         self.limits = limits
         self._pages: dict[str, Page] = {}
@@ -197,7 +197,7 @@ class Pages:
         """
         await self.close_silent()
         if len(self._pages) >= self.limits.pages:
-            raise InfillError(FULL.format(count=len(self._pages), most=self.limits.pages))
+            raise InfillError(FULL.format(count=len(self._pages), limit=self.limits.pages))
         (folder, worker), self._spare = self._spare or (self._make_folder(), None), None
         page = Page(name=secrets.token_urlsafe(9), folder=folder, limits=self.limits)
         self._pages[page.name] = page

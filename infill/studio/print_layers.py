@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 
 from infill.planner.layer_speeds import PlannedLayers, plan_layers
-from infill.studio.frames import LAYER, Frame
+from infill.studio.frames import LAYER, AnswerFrame
 
 MAGIC: Final = b"IFL1"
 MOST_MOVES: Final = 8_000_000
@@ -51,6 +51,6 @@ def pack_layer(planned: PlannedLayers, number: int) -> bytes:
     return b"".join([MAGIC, len(text).to_bytes(4, "little"), text, *arrays])
 
 
-def layer_frame(planned: PlannedLayers, number: int) -> Frame:
+def layer_frame(planned: PlannedLayers, number: int) -> AnswerFrame:
     """Return a layer of a print as a frame."""
-    return Frame(kind=LAYER, payload=pack_layer(planned, number))
+    return AnswerFrame(kind=LAYER, payload=pack_layer(planned, number))

@@ -36,11 +36,11 @@ class ReadPrint:
 
     @property
     def numbers(self) -> tuple[Number, ...]:
-        """What a page shows beside it."""
+        """Numbers to show beside it."""
         return tuple(motion_numbers(self.report))
 
     def facts(self) -> dict[str, Any]:
-        """Return what a page gets to know."""
+        """Return its layers, features and times as plain values."""
         heights = self.planned.heights()
         steps = np.diff(heights, prepend=0.0)
         layers = [

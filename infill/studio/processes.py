@@ -15,8 +15,8 @@ from typing import Any
 
 from infill.errors import InfillError
 from infill.machine import has_interpreter
-from infill.studio.frames import END, ERROR, READY, WORKER_HEAD, Frame, dump_json
-from infill.studio.limits import Limits
+from infill.studio.frames import END, ERROR, READY, WORKER_HEAD, AnswerFrame, dump_json
+from infill.studio.limits import StudioLimits
 
 # `-P` keeps the working directory off the path: a file there must not stand in for a module.
 BOOT_CODE = (
@@ -32,19 +32,19 @@ class WorkerProcess:
     Parameters
     ----------
     process : asyncio.subprocess.Process
-    limits : Limits
+    limits : StudioLimits
     """
 
-    def __init__(self, process: asyncio.subprocess.Process, limits: Limits) -> None:
+    def __init__(self, process: asyncio.subprocess.Process, limits: StudioLimits) -> None:
         self.process = process
         self.limits = limits
         self.is_ready = asyncio.Event()
-        self._queues: dict[int, asyncio.Queue[Frame]] = {}
+        self._queues: dict[int, asyncio.Queue[AnswerFrame]] = {}
         self._reading = asyncio.create_task(self._read())
         self._killing: set[asyncio.Task[None]] = set()
 
     @classmethod
-    async def start(cls, folder: Path, limits: Limits, *, warm: bool = True) -> WorkerProcess:
+    async def start(cls, folder: Path, limits: StudioLimits, *, warm: bool = True) -> WorkerProcess:
         """Start a process that works in a folder; with `warm`, it loads its libraries at once.
 
         Raises
@@ -87,7 +87,7 @@ class WorkerProcess:
             assert self.process.stdin is not None
             self.process.stdin.write(dump_json(message) + b"\n")
 
-    async def ask(self, message: Mapping[str, Any]) -> AsyncGenerator[Frame, None]:
+    async def ask(self, message: Mapping[str, Any]) -> AsyncGenerator[AnswerFrame, None]:
         """Send a request with its number, "id"; yield its frames, the end among them.
 
         Raises
@@ -97,7 +97,7 @@ class WorkerProcess:
         """
         loop = asyncio.get_running_loop()
         number, deadline = message["id"], loop.time() + self.limits.seconds
-        queue: asyncio.Queue[Frame] = asyncio.Queue()
+        queue: asyncio.Queue[AnswerFrame] = asyncio.Queue()
         self._queues[number] = queue
         if not self.is_alive:
             self._fail(number)
@@ -144,7 +144,7 @@ class WorkerProcess:
                     continue
                 queue = self._queues.get(number)
                 if queue is not None:
-                    queue.put_nowait(Frame(kind=kind, payload=payload, request=number))
+                    queue.put_nowait(AnswerFrame(kind=kind, payload=payload, request=number))
                 if kind == END:
                     self._queues.pop(number, None)
         except (asyncio.IncompleteReadError, OSError):
@@ -157,5 +157,5 @@ class WorkerProcess:
         """End a request of a process that is gone."""
         queue = self._queues.pop(number)
         message = {"message": GONE, "parameter": None, "gone": True}
-        queue.put_nowait(Frame.of_json(ERROR, message, number))
-        queue.put_nowait(Frame(kind=END, request=number))
+        queue.put_nowait(AnswerFrame.of_json(ERROR, message, number))
+        queue.put_nowait(AnswerFrame(kind=END, request=number))

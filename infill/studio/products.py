@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, cast
 
 from infill.errors import UsageError
-from infill.studio.frames import ANSWER, MESH, Frame
+from infill.studio.frames import ANSWER, MESH, AnswerFrame
 from infill.studio.numbers import Number, grams_by_material
 from infill.viewer.packing import pack_surfaces
 
@@ -27,8 +27,8 @@ class Order:
     ----------
     options : dict
         By key, as on the command line, with names of files in the folder of the page.
-    own : dict
-        The pattern's own parameters by name.
+    parameters : dict
+        Parameters of the pattern by name.
     content : Content or None
         The file that it is for.
     coarse : bool
@@ -43,7 +43,7 @@ class Order:
     """
 
     options: Mapping[str, Any]
-    own: Mapping[str, Any]
+    parameters: Mapping[str, Any]
     content: Content | None
     coarse: bool
     layer: int | None
@@ -60,7 +60,7 @@ class Order:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Made:
-    """What a product made.
+    """The outcome of a product.
 
     Parameters
     ----------
@@ -71,7 +71,7 @@ class Made:
     surfaces : mapping of str to Surface
         To be shown.
     colours : mapping
-    frames : tuple of Frame
+    frames : tuple of AnswerFrame
         Further ones, such as a layer of a print.
     volume : float or None
         Of material, mm³.
@@ -82,7 +82,7 @@ class Made:
     numbers: list[Number]
     surfaces: Mapping[str, Surface] = field(default_factory=dict)
     colours: Mapping[str, Any] = field(default_factory=dict)
-    frames: tuple[Frame, ...] = ()
+    frames: tuple[AnswerFrame, ...] = ()
     volume: float | None = None
 
 
@@ -116,7 +116,7 @@ class Product:
     downloads : tuple of str
         Formats, the usual one first.
     word : str
-        What the names of its files have after that of the input.
+        Ending of the names of its files, after that of the input.
     """
 
     module: str
@@ -128,13 +128,13 @@ class Product:
         """The module of the product."""
         return cast("ProductCode", importlib.import_module(f"infill.studio.{self.module}"))
 
-    def file_name(self, stored: str | None, wanted: str) -> str:
+    def file_name(self, stored: str | None, file_format: str) -> str:
         """Return the name of a file in a format, made of an input with a name, or of none."""
         from infill.studio.upload_names import split_suffix
 
         stem, suffix = (self.word, "") if stored is None else split_suffix(stored)
-        own = {"project": ".3mf", "gcode": suffix}
-        return f"{stem if stored is None else f'{stem}-{self.word}'}{own.get(wanted, f'.{wanted}')}"
+        parameters = {"project": ".3mf", "gcode": suffix}
+        return f"{stem if stored is None else f'{stem}-{self.word}'}{parameters.get(file_format, f'.{file_format}')}"
 
 
 MESHES = ("stl", "3mf", "obj", "ply", "glb")
@@ -166,8 +166,8 @@ def describe_product(name: str) -> list[dict[str, Any]]:
 
 def answer_frames(
     name: str, made: Made, again: Mapping[str, str], result: str | None, warnings: list[str]
-) -> Iterator[Frame]:
-    """Yield the answer of a product: numbers, warnings, the report, how to make it again, and what to show."""
+) -> Iterator[AnswerFrame]:
+    """Yield the answer of a product: numbers, warnings, the report, how to make it again, and meshes to show."""
     answer = {
         "product": name,
         "result": result,
@@ -178,7 +178,7 @@ def answer_frames(
         **again,
         "downloads": list(PRODUCTS[name].downloads) if result is not None else [],
     }
-    yield Frame.of_json(ANSWER, answer)
+    yield AnswerFrame.of_json(ANSWER, answer)
     if made.surfaces:
-        yield Frame(kind=MESH, payload=pack_surfaces(made.surfaces, colours=made.colours))
+        yield AnswerFrame(kind=MESH, payload=pack_surfaces(made.surfaces, colours=made.colours))
     yield from made.frames

@@ -1,4 +1,4 @@
-"""Uploaded files: what they are, and their content for products."""
+"""Uploaded files: their kinds, and their content for products."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from infill.errors import FormatError
 from infill.files.suffixes import MESHES, PRINTS
-from infill.studio.frames import ANSWER, MESH, Frame
+from infill.studio.frames import ANSWER, MESH, AnswerFrame
 from infill.studio.numbers import Number
 from infill.viewer.packing import pack_surfaces
 
@@ -37,11 +37,11 @@ class Content:
     name : str
         In the folder of the page.
     path : str
-        What the library reads: the file, or what was unpacked of it.
+        The file for the library, or the unpacked one.
     data : any
         A Surface, a Volume or a ReadPrint, by kind.
     facts : dict
-        What the page gets to know, beside kind and name.
+        Facts for the page, beside kind and name.
     numbers : tuple of Number
     """
 
@@ -53,7 +53,7 @@ class Content:
     numbers: tuple[Number, ...] = ()
     kept: dict[str, Any] = field(default_factory=dict)  # what quick looks use again
 
-    def frames(self, file_id: str, warnings: list[str]) -> Iterator[Frame]:
+    def frames(self, file_id: str, warnings: list[str]) -> Iterator[AnswerFrame]:
         """Yield the answer to an upload."""
         answer = {
             "file": file_id,
@@ -63,13 +63,13 @@ class Content:
             "warnings": list(warnings),
             **self.facts,
         }
-        yield Frame.of_json(ANSWER, answer)
+        yield AnswerFrame.of_json(ANSWER, answer)
         if self.kind == "part":
-            yield Frame(kind=MESH, payload=pack_surfaces({"part": self.data}))
+            yield AnswerFrame(kind=MESH, payload=pack_surfaces({"part": self.data}))
 
 
 def guess_kind(name: str, requested: str = "") -> Kind:
-    """Return what a file is, by its name and content, or raise FormatError.
+    """Return the kind of a file, by its name and content, or raise FormatError.
 
     >>> guess_kind("part.STL"), guess_kind("plate.gcode.3mf"), guess_kind("brain.nii.gz"), guess_kind("load.csv")
     ('part', 'print', 'scan', 'field')
@@ -89,7 +89,7 @@ def guess_kind(name: str, requested: str = "") -> Kind:
     if lower.endswith(FIELDS):
         return "field"
     raise FormatError(
-        f"{name} is no file that the studio takes; it takes parts ({', '.join(MESHES)}), prints "
+        f"{name} is not a file that the studio takes; it takes parts ({', '.join(MESHES)}), prints "
         f"({', '.join(PRINTS)}, .gcode.3mf), scans ({', '.join(SCANS)}), drawings and fields"
     )
 

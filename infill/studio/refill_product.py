@@ -9,8 +9,8 @@ from typing import Any
 from infill.options.declaration import by_field, read_options
 from infill.options.toml import format_options
 from infill.refilling.request import Request
-from infill.studio.equivalents import Call, assignments, join_words, plain_own, write_command
-from infill.studio.frames import Frame
+from infill.studio.equivalents import Call, assignments, join_words, plain_parameters, write_command
+from infill.studio.frames import AnswerFrame
 from infill.studio.numbers import refill_numbers
 from infill.studio.print_layers import layer_frame, plan_print
 from infill.studio.products import Made, Order
@@ -28,10 +28,10 @@ def make(order: Order) -> Made:
     if order.coarse:
         layer = order.layer or max(1, content.data.layers // 2)
         options["layers"] = [layer, layer]
-    arguments = resolve(options, None, list(assignments(order.own)))
+    arguments = resolve(options, None, list(assignments(order.parameters)))
     order.target.parent.mkdir(exist_ok=True)
     result = refill(content.path, output=order.target, **arguments, progress=order.progress)
-    frames: tuple[Frame, ...] = ()
+    frames: tuple[AnswerFrame, ...] = ()
     if order.coarse:
         frames = (layer_frame(plan_print(order.target), options["layers"][0]),)
         order.target.unlink(missing_ok=True)
@@ -44,13 +44,15 @@ def write(made: Made, path: Path) -> None:
 
 
 def again(order: Order, file: str) -> dict[str, str]:
-    """Return how to refill the print again."""
+    """Return the command, the Python and the TOML that refill the print again."""
     content, options = order.need("print"), dict(order.options)
     values: dict[str, Any] = by_field(Request, read_options("refill", Request, options))
     call = Call(
-        function="refill", positional=(content.path,), keywords={"output": file, **values, **plain_own(order.own)}
+        function="refill",
+        positional=(content.path,),
+        keywords={"output": file, **values, **plain_parameters(order.parameters)},
     )
-    words = write_command("refill", [content.path], Request, options, order.own)
+    words = write_command("refill", [content.path], Request, options, order.parameters)
     head = "infill refill PRINT --config THIS_FILE -o OUT"
-    toml = format_options({**options, "parameters": plain_own(order.own)}, head)
+    toml = format_options({**options, "parameters": plain_parameters(order.parameters)}, head)
     return {"command": join_words([*words, "-o", file]), "python": call.to_python(), "toml": toml}

@@ -27,13 +27,13 @@ MOST_FILES = 20_000  # of an archive
 AXES = "xyz"
 
 
-def unpack_scan(name: str, most_bytes: int) -> str:
+def unpack_scan(name: str, limit: int) -> str:
     """Unpack an archive beside itself; return the folder, or the only file in it.
 
     Raises
     ------
     FormatError
-        If it is no archive, or unpacks to too much.
+        If it is not an archive, or unpacks to too much.
     """
     whole, folder = Path(f"{name}.unpacked"), Path(f"{name}.unpacking")
     if whole.exists():  # by an earlier process
@@ -41,14 +41,14 @@ def unpack_scan(name: str, most_bytes: int) -> str:
     try:
         with zipfile.ZipFile(name) as archive:
             members = [member for member in archive.infolist() if not member.is_dir() and _is_plain(member)]
-            if len(members) > MOST_FILES or sum(member.file_size for member in members) > most_bytes:
+            if len(members) > MOST_FILES or sum(member.file_size for member in members) > limit:
                 raise FormatError(f"{name} unpacks to more than the studio takes; use the command line for it")
             folder.mkdir(exist_ok=True)
             bases = [Path(member.filename).name for member in members]
             names = safe_names(bases, [f"slice_{number}" for number in range(len(bases))])
-            left = most_bytes
+            room = limit
             for member, base in zip(members, names, strict=True):
-                left -= _unpack(archive, member, folder / base, left)
+                room -= _unpack(archive, member, folder / base, room)
     except (zipfile.BadZipFile, NotImplementedError, RuntimeError, OSError, ValueError, EOFError) as error:
         if isinstance(error, InfillError):
             raise
@@ -71,13 +71,13 @@ def _is_plain(member: zipfile.ZipInfo) -> bool:
     return not (is_link or base.startswith(".") or "__MACOSX" in member.filename)
 
 
-def _unpack(archive: zipfile.ZipFile, member: zipfile.ZipInfo, target: Path, most: int) -> int:
+def _unpack(archive: zipfile.ZipFile, member: zipfile.ZipInfo, target: Path, limit: int) -> int:
     """Unpack a file, up to a number of bytes, whatever the archive says of its size; return the number."""
     size = 0
     with archive.open(member) as packed, open(target, "xb") as file:
         while piece := packed.read(1 << 20):
             size += len(piece)
-            if size > most:
+            if size > limit:
                 raise FormatError(f"{archive.filename} unpacks to more than it says; pack it again")
             file.write(piece)
     return size
@@ -97,7 +97,7 @@ def read_scan(path: str) -> tuple[Volume, tuple[Segment, ...]]:
 
 
 def describe_scan(volume: Volume, segments: tuple[Segment, ...]) -> tuple[dict[str, Any], tuple[Number, ...]]:
-    """Return what a page gets to know of a scan, and numbers."""
+    """Return the facts of a scan for the page, and numbers."""
     values, sample = volume.values, sample_values(volume.values)
     least, most = (float(end) for end in (values.min(), values.max()))
     finite = sample[np.isfinite(sample)] if sample.dtype.kind == "f" else sample
@@ -127,7 +127,7 @@ def describe_scan(volume: Volume, segments: tuple[Segment, ...]) -> tuple[dict[s
 
 
 def sample_values(values: NDArray[Any]) -> NDArray[Any]:
-    """Return all values of a volume, or of a large one those of every so many layers."""
+    """Return all values of a volume, or of a large one those of layers at a stride."""
     stride = max(1, values.size // SAMPLED)
     layers = values.shape[2]
     return values[:, :, :: min(stride, layers)].ravel()
@@ -144,7 +144,7 @@ def _find_otsu(volume: Volume) -> float | None:
 
 
 def list_labels(volume: Volume, segments: tuple[Segment, ...]) -> list[dict[str, Any]] | None:
-    """Return the labels of a volume with names and colours; None if its values are no labels."""
+    """Return the labels of a volume with names and colours; None if its values are other numbers."""
     if segments:
         return [
             {"value": segment.value, "name": segment.name or f"label_{segment.value}", "colour": segment.colour}
@@ -176,7 +176,7 @@ def draw_slice(volume: Volume, axis: str, index: str, low: str | None, high: str
         number = check_whole_number("index", int(index), 0)
         ends = [None if end in (None, "") else float(str(end)) for end in (low, high)]
     except ValueError:
-        raise UsageError.about("index", "is no number; give the number of a slice") from None
+        raise UsageError.about("index", "must be a number; give the number of a slice") from None
     if number >= volume.values.shape[across]:
         raise UsageError.about("index", f"is {number}; there are slices 0 to {volume.values.shape[across] - 1}")
     cells = np.take(volume.values, number, axis=across).astype(np.float64)

@@ -15,7 +15,7 @@ import uvicorn
 from infill.errors import FormatError, OutputError, ParameterError
 from infill.files.broken import missing_file
 from infill.studio.app import Studio, build_app
-from infill.studio.limits import Limits
+from infill.studio.limits import StudioLimits
 from infill.studio.pages import Pages
 
 LAST_SECONDS = 3  # for requests that run when the studio ends
@@ -28,7 +28,7 @@ def serve(
     host: str = "127.0.0.1",
     port: int = 0,
     browser: bool = True,
-    limits: Limits | None = None,
+    limits: StudioLimits | None = None,
     announce: Callable[[str], None] = print,
 ) -> None:
     """Serve the studio until it is interrupted.
@@ -43,7 +43,7 @@ def serve(
         0 for any that is free.
     browser : bool
         Open the page in the browser.
-    limits : Limits, optional
+    limits : StudioLimits, optional
         By default, those that suit this machine.
     announce : callable
         Called with the address of the page once the studio answers.
@@ -59,7 +59,7 @@ def serve(
         raise FormatError(missing_file(opened))
     if not 0 <= port <= MOST_PORT:
         raise ParameterError.about("port", f"is {port}; give a number from 0, for any that is free, to {MOST_PORT}")
-    limits = limits or Limits.of_machine()
+    limits = limits or StudioLimits.of_machine()
     with _listen(host, port) as listener, tempfile.TemporaryDirectory(prefix="infill-studio-") as folder:
         number = listener.getsockname()[1]
         studio = Studio(pages=Pages(Path(folder), limits), limits=limits, opened=opened and opened.absolute())

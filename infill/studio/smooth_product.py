@@ -83,7 +83,7 @@ def write(made: Made, path: Path) -> None:
 
 
 def again(order: Order, file: str) -> dict[str, str]:
-    """Return how to make the file of a smoothed solid again."""
+    """Return the command, the Python and the TOML that make the file of a smoothed solid again."""
     content, options = order.need("part", "scan"), dict(order.options)
     values = by_field(SmoothSettings, read_options("smooth", SmoothSettings, options))
     choice = {name: values.pop(name) for name in CHOICE if name in values}

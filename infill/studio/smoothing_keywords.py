@@ -17,8 +17,8 @@ def smoothing_code(values: Mapping[str, Any]) -> dict[str, Code]:
     >>> smoothing_code({"steps": 5, "voxel": 1.0})
     {'smoothing': Code(text='Smoothing(steps=5)')}
     """
-    own = [f"{name}={values[name]!r}" for name in SMOOTHING if values.get(name) is not None]
-    return {"smoothing": Code(f"Smoothing({', '.join(own)})")} if own else {}
+    parameters = [f"{name}={values[name]!r}" for name in SMOOTHING if values.get(name) is not None]
+    return {"smoothing": Code(f"Smoothing({', '.join(parameters)})")} if parameters else {}
 
 
 def shared_keywords(values: Mapping[str, Any]) -> dict[str, Any]:

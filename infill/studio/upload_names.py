@@ -23,13 +23,13 @@ def split_suffix(name: str) -> tuple[str, str]:
     return (name[:-length], name[-length:]) if length else (name, "")
 
 
-def choose_name(wanted: str, taken: Collection[str]) -> str:
+def choose_name(requested: str, taken: Collection[str]) -> str:
     """Return a safe name for an uploaded file that no other file of the page has.
 
     >>> choose_name("../../etc/part.stl", []), choose_name("part.STL", ["part.stl"]), choose_name("-x;y.obj", [])
     ('part.stl', 'part-2.STL', 'x_y.obj')
     """
-    last = re.split(r"[/\\]", wanted)[-1]
+    last = re.split(r"[/\\]", requested)[-1]
     stem, suffix = split_suffix(NOT_PLAIN.sub("_", last))
     suffix = re.sub(r"[^\w.]", "", suffix)[:20]
     (stem,) = safe_names([stem[:80]], ["file"])

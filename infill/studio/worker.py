@@ -22,7 +22,7 @@ from typing import Any, BinaryIO
 
 from infill.errors import InfillError, escape_unprintable
 from infill.studio.desk import Desk
-from infill.studio.frames import END, ERROR, PROGRESS, READY, Frame
+from infill.studio.frames import END, ERROR, PROGRESS, READY, AnswerFrame
 from patterns.errors import PatternError
 
 VIEWS = ("slice", "layer")  # actions that do not wait for products
@@ -48,7 +48,7 @@ class Outbox:
         self._stream = stream
         self._lock = threading.Lock()
 
-    def send(self, frame: Frame) -> None:
+    def send(self, frame: AnswerFrame) -> None:
         """Send a frame; end the process if nobody reads it."""
         try:
             with self._lock:
@@ -58,7 +58,7 @@ class Outbox:
             os._exit(1)
 
 
-class Work:
+class CurrentRequest:
     """The request that the main thread works on, and whether it is still wanted."""
 
     def __init__(self) -> None:
@@ -69,10 +69,10 @@ class Work:
     def begin(self, number: int) -> bool:
         """Begin a request; return False if it was cancelled before."""
         with self._lock:
-            wanted = number not in self._unwanted
+            is_current = number not in self._unwanted
             self._unwanted.discard(number)
-            self._number = number if wanted else 0
-        return wanted
+            self._number = number if is_current else 0
+        return is_current
 
     def end(self) -> None:
         """End the request: from here on it is not interrupted."""
@@ -81,7 +81,7 @@ class Work:
             self._number = 0
 
     def check(self) -> None:
-        """Raise Cancelled if the request is not wanted any more."""
+        """Raise Cancelled if nobody waits for the answer any more."""
         if self._number in self._unwanted:
             raise Cancelled
 
@@ -121,16 +121,16 @@ class LogFrames(logging.Handler):
         if record.levelno >= logging.WARNING and record.module != "compiling":  # which only says why this takes long
             self.lines.append(text)
         elif self.request:
-            self._outbox.send(Frame.of_json(PROGRESS, {"stage": text, "share": None}, self.request))
+            self._outbox.send(AnswerFrame.of_json(PROGRESS, {"stage": text, "share": None}, self.request))
 
 
 def run(boot: dict[str, Any]) -> None:
-    """Work until stdin ends."""
+    """CurrentRequest until stdin ends."""
     requests, outbox = sys.stdin.buffer, _take_stdout()
     _set_limits(boot)
     folder = boot["folder"]
     os.chdir(folder)
-    work, desk = Work(), Desk(folder=folder, memory=boot["memory"])
+    work, desk = CurrentRequest(), Desk(folder=folder, memory=boot["memory"])
     logs = LogFrames(outbox)
     log = logging.getLogger("infill")
     log.addHandler(logs)
@@ -144,7 +144,7 @@ def run(boot: dict[str, Any]) -> None:
     if boot.get("warm"):
         with contextlib.suppress(Exception):
             desk.warm(lambda: not products.empty())
-    outbox.send(Frame(kind=READY))
+    outbox.send(AnswerFrame(kind=READY))
     while True:
         message = products.get()
         number = int(message["id"])
@@ -153,20 +153,20 @@ def run(boot: dict[str, Any]) -> None:
         else:
             logs.request, logs.lines = number, []
             _answer(message, desk, outbox, work, logs)
-        outbox.send(Frame(kind=END, request=number))
+        outbox.send(AnswerFrame(kind=END, request=number))
 
 
-def _answer(message: dict[str, Any], desk: Desk, outbox: Outbox, work: Work, logs: LogFrames) -> None:
+def _answer(message: dict[str, Any], desk: Desk, outbox: Outbox, work: CurrentRequest, logs: LogFrames) -> None:
     """Answer a request in frames; an error becomes the last of them."""
     number = int(message["id"])
-    told = [0.0]
+    sent_at = [0.0]
 
     def progress(stage: str, share: float) -> None:
         """Send a sign of progress now and then; stop if the page does not want the answer any more."""
         work.check()
-        if time.monotonic() - told[0] > PROGRESS_PAUSE:
-            told[0] = time.monotonic()
-            outbox.send(Frame.of_json(PROGRESS, {"stage": stage, "share": share}, number))
+        if time.monotonic() - sent_at[0] > PROGRESS_PAUSE:
+            sent_at[0] = time.monotonic()
+            outbox.send(AnswerFrame.of_json(PROGRESS, {"stage": stage, "share": share}, number))
 
     try:
         try:
@@ -174,7 +174,7 @@ def _answer(message: dict[str, Any], desk: Desk, outbox: Outbox, work: Work, log
         finally:
             work.end()
         for frame in frames:
-            outbox.send(Frame(kind=frame.kind, payload=frame.payload, request=number))
+            outbox.send(AnswerFrame(kind=frame.kind, payload=frame.payload, request=number))
     except Cancelled:
         outbox.send(_cancelled(number))
     except BaseException as error:  # noqa: BLE001 - whatever happens, the page gets one clear message
@@ -190,19 +190,19 @@ def _answer_views(views: queue.Queue[dict[str, Any]], desk: Desk, outbox: Outbox
         number = int(message["id"])
         try:
             for frame in desk.answer(message, lambda stage, share: None, []):  # noqa: ARG005
-                outbox.send(Frame(kind=frame.kind, payload=frame.payload, request=number))
+                outbox.send(AnswerFrame(kind=frame.kind, payload=frame.payload, request=number))
         except Exception as error:  # noqa: BLE001 - as above
             outbox.send(_error_frame(error, number))
-        outbox.send(Frame(kind=END, request=number))
+        outbox.send(AnswerFrame(kind=END, request=number))
 
 
-def _cancelled(number: int) -> Frame:
-    """Return the answer to a request that is not wanted any more."""
-    return Frame.of_json(ERROR, {"message": "cancelled", "parameter": None, "cancelled": True}, number)
+def _cancelled(number: int) -> AnswerFrame:
+    """Return the answer to a request that was cancelled."""
+    return AnswerFrame.of_json(ERROR, {"message": "cancelled", "parameter": None, "cancelled": True}, number)
 
 
-def _error_frame(error: BaseException, number: int) -> Frame:
-    """Return an error as a frame: in its own words if it is the user's, in ours if it is a fault of the program."""
+def _error_frame(error: BaseException, number: int) -> AnswerFrame:
+    """Return an error as a frame: in its words, or as a fault of the program."""
     parameter = getattr(error, "parameter", None)
     if isinstance(error, (InfillError, PatternError)):
         message = error.spell(lambda name: name.rstrip("_").replace("_", " "))
@@ -211,14 +211,14 @@ def _error_frame(error: BaseException, number: int) -> Frame:
     else:
         logging.getLogger("infill.studio").debug("a fault", exc_info=error)
         message = f"this is a fault of the program ({type(error).__name__}: {str(error)[:200]}); please report it"
-    return Frame.of_json(ERROR, {"message": escape_unprintable(message), "parameter": parameter}, number)
+    return AnswerFrame.of_json(ERROR, {"message": escape_unprintable(message), "parameter": parameter}, number)
 
 
 def _listen(
     stream: BinaryIO,
     products: queue.Queue[dict[str, Any]],
     views: queue.Queue[dict[str, Any]],
-    work: Work,
+    work: CurrentRequest,
     folder: str,
 ) -> None:
     """Read requests; at the end of stdin, which ends with the server, remove the folder and end."""
@@ -233,7 +233,7 @@ def _listen(
 
 
 def _take_stdout() -> Outbox:
-    """Return stdout for frames; what libraries print goes to stderr."""
+    """Return stdout for frames; libraries print to stderr."""
     frames = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
     sys.stdout = sys.stderr
