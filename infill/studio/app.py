@@ -200,10 +200,9 @@ async def receive_file(studio: Studio, request: Request) -> StreamedAnswer:
     page, limits = _find_page(studio, request), studio.limits
     if len(page.files) >= limits.files:
         raise RequestError(f"this page holds {limits.files} files; load it again", STATUS_OF_TOO_MUCH)
-    query = request.query_params
-    opened = studio.opened if query.get("given") else None
-    sample = None if opened else query.get("sample")
-    requested = opened.name if opened else find_sample(sample).file if sample else query.get("name", "")
+    opened = request.query_params.get("given") and studio.opened
+    sample = request.query_params.get("sample")
+    requested = opened.name if opened else find_sample(sample).file if sample else request.query_params.get("name", "")
     name = choose_name(requested, {stored.name for stored in page.files.values()})
     file_id, path = page.new_name("f"), page.folder / name
     stored = StoredFile(name=name, size=0)

@@ -10,10 +10,12 @@ from collections.abc import Callable, Mapping, Sequence
 from importlib import resources
 from typing import Any, Final
 
+import numpy as np
+
 from infill.imaging.label_tables import Colour
 from infill.plain_numbers import count_noun, plain_size
 from infill.surface import Surface
-from infill.viewer.packing import pack_surfaces
+from infill.viewer.packing import bounds_solid, pack_surfaces
 
 # By key of the report, a section's keys with a dot: the name of the row, and the text of the value.
 ROWS: Final[Mapping[str, tuple[str, Callable[[Any], str]]]] = {
@@ -189,6 +191,20 @@ def embed_page(page: str, height: int = 560) -> str:
         f'<iframe srcdoc="{html.escape(page)}" title="3D view" sandbox="allow-scripts" loading="lazy" '
         f'style="width:100%;height:{height}px;border:0"></iframe>'
     )
+
+
+def measure_surface(surface: Surface) -> dict[str, Any]:
+    """Return the numbers of a surface that no product has made, by the keys of reports; the volume if it is closed."""
+    if not len(surface.faces):
+        return {"triangles": 0}
+    closed = bounds_solid(surface)
+    volume = {"volume": abs(surface.volume)} if closed else {}
+    return {
+        "extents": np.ptp(surface.bounds, axis=0).tolist(),
+        **volume,
+        "triangles": len(surface.faces),
+        "closed": closed,
+    }
 
 
 def list_numbers(report: Mapping[str, Any]) -> list[tuple[str, str]]:

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import contextlib
-import tempfile
-import webbrowser
 from abc import ABC, abstractmethod
 from pathlib import Path
 from typing import BinaryIO, Final
 
 from infill.errors import InfillError
-from infill.viewer.page import embed_page
 
 LARGEST_EMBEDDED: Final = 12_000_000  # characters: notebooks keep every page that they show
 
@@ -34,15 +31,26 @@ class Viewable(ABC):
 
     def show(self) -> Path:
         """Open `page` in the browser; return its file, which stays in the folder for temporary files."""
-        with tempfile.NamedTemporaryFile(prefix="infill-", suffix=".html", delete=False) as file:
-            file.write(self.page().encode())
-        path = Path(file.name)
-        webbrowser.open(path.as_uri())
-        return path
+        return open_in_browser(self.page())
 
     def _repr_html_(self) -> str | None:
         """Return the page in a frame, for notebooks; None if it cannot be made any more, or is large."""
+        from infill.viewer.page import embed_page
+
         with contextlib.suppress(InfillError):
             page = self.page()
             return embed_page(page) if len(page) <= LARGEST_EMBEDDED else None
         return None
+
+
+def open_in_browser(page: str, *, opens: bool = True) -> Path:
+    """Write a page into the folder for temporary files, and open it unless it is not to be; return its path."""
+    import tempfile
+    import webbrowser
+
+    with tempfile.NamedTemporaryFile(prefix="infill-", suffix=".html", delete=False) as file:
+        file.write(page.encode())
+    path = Path(file.name)
+    if opens:
+        webbrowser.open(path.as_uri())
+    return path
