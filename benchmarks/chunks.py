@@ -1,16 +1,20 @@
 """Volumes in chunks: time, memory and triangles of gyroid cells of any size, beside the same in memory.
 
     python -m benchmarks.chunks write 1024 build/g1024.zarr      a synthetic volume, compressed, chunk by chunk
+    python -m benchmarks.chunks write 4096 build/g4096.zarr --cell 1024     larger cells, each written once, then linked
     python -m benchmarks.chunks run build/g1024.zarr             smooth it in chunks, and measure
+    python -m benchmarks.chunks run build/g1024.zarr --cluster 2 --output build/out.ply      on a cluster of 2 processes
+    python -m benchmarks.chunks closed build/out.ply             whether manifold3d takes a surface
     python -m benchmarks.chunks whole 800                        the same in memory, on an array of that side
 
-Memory is the sum over the process and its children, sampled ten times a second (Linux only).
+Memory is the sum over the process, its children and those of a cluster, sampled ten times a second (Linux only).
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import os
 import resource
 import subprocess
 import sys
@@ -20,30 +24,47 @@ from pathlib import Path
 
 import numpy as np
 
-PERIOD = 128  # voxels of a cell of the gyroid
+FAR = 30  # grey values that noise does not reach
 CHUNK = 128  # voxels of a chunk of the file
 THRESHOLD = 120
 PAGE = 4096  # bytes
 
 
-def gyroid(low, high):
-    """Return grey values of a box of gyroid cells, solid where they are bright, with a little noise."""
-    axes = [np.arange(a, b, dtype=np.float32) * np.float32(2 * np.pi / PERIOD) for a, b in zip(low, high, strict=True)]
+def gyroid(low, high, cell):
+    """Return grey values of a box of gyroid cells, bright where solid, with noise; all edges are as sharp."""
+    axes = [np.arange(a, b, dtype=np.float32) * np.float32(2 * np.pi / cell) for a, b in zip(low, high, strict=True)]
     (sx, sy, sz), (cx, cy, cz) = [np.sin(axis) for axis in axes], [np.cos(axis) for axis in axes]
     level = sx[:, None, None] * cy[None, :, None] + (sy[:, None] * cz[None])[None] + cx[:, None, None] * sz[None, None]
+    level = 128 + np.float32(80 * cell / 128) * level
+    if level.max() < -FAR or level.min() > 255 + FAR:  # no noise reaches the edge
+        return np.full(level.shape, 0 if level.max() < 0 else 255, np.uint8)
     noise = np.random.default_rng(list(low)).normal(0, 3, level.shape).astype(np.float32)
-    return np.clip(128 + 80 * level + noise, 0, 255).astype(np.uint8)
+    return np.clip(level + noise, 0, 255).astype(np.uint8)
 
 
-def write(side, path):
-    """Write a volume as Zarr, one chunk at a time."""
+def write(side, path, cell):
+    """Write a volume as Zarr, one chunk at a time; cells of several chunks are the same files under several names."""
     import zarr
 
-    array = zarr.create_array(str(path), shape=(side,) * 3, chunks=(CHUNK,) * 3, dtype="u1", overwrite=True)
+    array = zarr.create_array(
+        str(path),
+        shape=(side,) * 3,
+        chunks=(CHUNK,) * 3,
+        dtype="u1",
+        overwrite=True,
+        config={"write_empty_chunks": True},
+    )
+    period = cell // CHUNK if cell > CHUNK and not cell % CHUNK and not side % cell else side
     for place in np.ndindex(*(-(-side // CHUNK),) * 3):
+        first = tuple(n % period for n in place)
+        if first != place:
+            link = path.joinpath("c", *map(str, place))
+            link.parent.mkdir(parents=True, exist_ok=True)
+            link.hardlink_to(path.joinpath("c", *map(str, first)))
+            continue
         low = [n * CHUNK for n in place]
         high = [min(side, a + CHUNK) for a in low]
-        array[tuple(slice(a, b) for a, b in zip(low, high, strict=True))] = gyroid(low, high)
+        array[tuple(slice(a, b) for a, b in zip(low, high, strict=True))] = gyroid(low, high, cell)
 
 
 def processes_of(process):
@@ -77,7 +98,7 @@ def measure(words):
     with tempfile.TemporaryFile() as out:
         process = subprocess.Popen([sys.executable, "-m", "infill.cli", "smooth", *words, "--json", "-q"], stdout=out)
         while process.poll() is None:
-            peak = max(peak, resident(process.pid))
+            peak = max(peak, resident(os.getpid()))
             time.sleep(0.1)
         out.seek(0)
         text = out.read()
@@ -99,12 +120,39 @@ def show(name, report):
     print("   ", {stage: round(seconds, 1) for stage, seconds in report["seconds"].items()}, report.get("chunks", ""))
 
 
+def check_closed(path):
+    """Print what manifold3d says of a surface."""
+    import manifold3d
+
+    from infill import read_mesh
+
+    surface = read_mesh(path)
+    mesh = manifold3d.Mesh(surface.vertices.astype(np.float32), surface.faces.astype(np.uint32))
+    solid = manifold3d.Manifold(mesh)
+    print(
+        f"{path}: {solid.status()}, {len(surface.faces):,} triangles, genus {solid.genus()}, {solid.volume():.0f} mm³"
+    )
+
+
+def run(path, words, cluster):
+    """Smooth a volume in chunks, on a cluster of so many processes of one thread if not 0, and print figures."""
+    if not cluster:
+        show(path, measure((path, *words)))
+        return
+    from distributed import LocalCluster
+
+    with LocalCluster(n_workers=cluster, threads_per_worker=1, dashboard_address=None) as workers:
+        show(path, measure((path, *words, "--scheduler", workers.scheduler_address)))
+
+
 def main():
     """Write a volume, or measure one."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("what", choices=["write", "run", "whole"])
+    parser.add_argument("what", choices=["write", "run", "closed", "whole"])
     parser.add_argument("words", nargs="*")
+    parser.add_argument("--cell", type=int, default=128, help="voxels of a cell of the gyroid")
     parser.add_argument("--workers", default="2")
+    parser.add_argument("--cluster", type=int, default=0, help="processes of a cluster on this machine")
     parser.add_argument("--max-memory", default="5G")
     parser.add_argument("--tolerance", default="0", help="mm")
     parser.add_argument("--output", help="mesh to write, too")
@@ -112,11 +160,13 @@ def main():
     given = parser.parse_args()
     method = ("--threshold", str(THRESHOLD), "--smooth", given.smooth, "--tolerance", given.tolerance)
     if given.what == "write":
-        write(int(given.words[0]), Path(given.words[1]))
+        write(int(given.words[0]), Path(given.words[1]), given.cell)
     elif given.what == "run":
         more = ("-o", given.output, "--force") if given.output else ()
-        options = (*method, "--workers", given.workers, "--max-memory", given.max_memory, *more)
-        show(given.words[0], measure((given.words[0], *options)))
+        workers = () if given.cluster else ("--workers", given.workers)
+        run(given.words[0], (*method, *workers, "--max-memory", given.max_memory, *more), given.cluster)
+    elif given.what == "closed":
+        check_closed(given.words[0])
     else:
         side = int(given.words[0])
         with tempfile.TemporaryDirectory() as folder:
@@ -125,7 +175,7 @@ def main():
             for low in np.ndindex(*(-(-side // CHUNK),) * 3):
                 first = [n * CHUNK for n in low]
                 last = [min(side, a + CHUNK) for a in first]
-                array[tuple(slice(a, b) for a, b in zip(first, last, strict=True))] = gyroid(first, last)
+                array[tuple(slice(a, b) for a, b in zip(first, last, strict=True))] = gyroid(first, last, given.cell)
             array.flush()
             more = ("-o", given.output, "--force") if given.output else ()
             options = (*method, "--strict", "--allow-broken", "--threads", given.workers, *more)

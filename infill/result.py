@@ -7,7 +7,7 @@ import os
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import accumulate
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, Generic, Protocol, TypeVar, cast
@@ -21,11 +21,12 @@ from infill.formats.parts import LatePart, Part
 from infill.imaging.label_tables import Colour
 from infill.meshes.split_components import concatenate_surfaces
 from infill.pictures.picturable import Picturable
+from infill.pictures.picture_files import PAGES, is_page, is_picture
 from infill.pictures.picture_files import SUFFIXES as PICTURES
-from infill.pictures.picture_files import is_picture
 from infill.plain_numbers import plain_size
 from infill.reports.common import Declared, declare
 from infill.surface import Surface
+from infill.viewer.viewable import Viewable
 
 if TYPE_CHECKING:
     import trimesh
@@ -48,7 +49,7 @@ Told = TypeVar("Told", bound=Mapping[str, Any], covariant=True)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Result(Picturable, Generic[Stages, Told]):
+class Result(Picturable, Viewable, Generic[Stages, Told]):
     """Surfaces, a report, and the intermediate stages.
 
     Parameters
@@ -103,8 +104,29 @@ class Result(Picturable, Generic[Stages, Told]):
         """Return the stages as one picture: points, stamp, field and mesh of a block; before and after of a solid."""
         return self.stages.picture(self.whole, self.report)
 
+    def page(self, title: str | None = None) -> str:
+        """Return an HTML page that shows the surfaces, can be turned and cut open, and needs no network.
+
+        Parameters
+        ----------
+        title : str, optional
+            By default, the pattern or the product.
+        """
+        from infill.viewer.page import surface_page
+
+        request: Mapping[str, Any] = self.report.get("request") or {}
+        named = title or request.get("pattern") or self.report.get("product") or "infill"
+        filled = self.report.get("product") == "fill"
+        return surface_page(
+            self.surfaces, title=str(named), report=self.report, colours=self.colours, cut="y" if filled else None
+        )
+
+    def preview_writer(self, path: str | os.PathLike[str], title: str | None = None) -> Callable[[BinaryIO], None]:
+        """Return the function that writes a page for a .html, and a picture for other paths."""
+        return partial(self.write_page, title=title) if is_page(path) else self.write_picture
+
     def save(self, path: str | os.PathLike[str], *, overwrite: bool = True) -> Path:
-        """Write the mesh, or a picture of the stages, in the format of the suffix; return the path.
+        """Write the mesh, a picture of the stages, or a page, in the format of the suffix; return the path.
 
         Several surfaces go into one .3mf or .glb, each by its name; the components of a mesh into any format; labels
         that share their walls also into one .ply or .vtp, which holds every wall once, with the labels on both sides,
@@ -114,7 +136,7 @@ class Result(Picturable, Generic[Stages, Told]):
         ----------
         path : str or Path
             .stl, .3mf, .obj, .ply or .glb for the mesh, in mm; .vtp or .vtu for labels that share their walls; .png
-            for `picture`.
+            for `picture`; .html for `page`, which shows the mesh in any browser.
         overwrite : bool
             Whether an existing file is replaced, once the new one is complete. By default it is, as by `numpy.save`,
             `Image.save` and `Trimesh.export`: a script or a notebook cell that is run again should not fail. The
@@ -137,11 +159,11 @@ class Result(Picturable, Generic[Stages, Told]):
 
     def _writer(self, target: Path) -> Callable[[BinaryIO], None]:
         """Return the function that writes the format of a path."""
-        if is_picture(target):
-            return self.write_picture
+        if is_picture(target) or is_page(target):
+            return self.preview_writer(target)
         if target.suffix.lower() in self.writers:
             return self.writers[target.suffix.lower()]
-        write_one = mesh_writer(target, more=PICTURES)  # raises for an unknown suffix
+        write_one = mesh_writer(target, more=(*PICTURES, *PAGES))  # raises for an unknown suffix
         holds_names = target.suffix.lower() in PART_WRITERS
         named = not UNNAMED.issuperset(self.surfaces)
         if not (holds_names and named) and (len(self.surfaces) == 1 or self.joins):

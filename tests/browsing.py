@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -9,7 +10,10 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
 
+import numpy as np
 import pytest
+from numpy.typing import NDArray
+from PIL import Image
 
 ARGUMENTS = ("--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 PATIENCE = 30_000  # ms
@@ -60,10 +64,21 @@ def open_page(
     assert [request for request in requests if not is_own(request, url)] == []
 
 
+def wait_until_drawn(page: Any) -> None:
+    """Wait until a page of infill.viewer has drawn its data; in a frame, pass the frame."""
+    page.wait_for_selector("html[data-ready]", state="attached")
+
+
+def pixels(page: Any, selector: str = "body") -> NDArray[np.int64]:
+    """Return what is seen of an element, (height, width, 3), from 0 to 255."""
+    with Image.open(io.BytesIO(page.locator(selector).first.screenshot())) as picture:
+        return np.asarray(picture.convert("RGB")).astype(np.int64)
+
+
 def is_own(request: str, url: str) -> bool:
     """Tell whether a request stays with the page: data, or the host and port of the page; of a file, the file alone."""
     own, other = urlsplit(url), urlsplit(request)
-    if other.scheme in ("data", "blob"):
+    if other.scheme in ("data", "blob", "about"):
         return True
     return other.path == own.path if own.scheme == "file" else (other.scheme, other.netloc) == (own.scheme, own.netloc)
 
@@ -72,7 +87,7 @@ def find_serious(page: Any) -> list[str]:
     """Return what axe-core finds serious or critical on a page; skip where npm has not brought it."""
     if not AXE.is_file():
         pytest.skip("no axe-core here; run `make page`")
-    page.add_script_tag(content=AXE.read_text(encoding="utf-8"))
+    page.evaluate(AXE.read_text(encoding="utf-8"))  # a script of its own could be forbidden by the page
     found = page.evaluate("async () => (await axe.run()).violations")
     return [
         f"{each['id']}: {each['nodes'][0]['html'][:200]}" for each in found if each["impact"] in ("serious", "critical")

@@ -73,7 +73,7 @@ KEPT = {
 PATTERNS_TAKE = {"numpy", "shapely"}
 ANNOUNCED: set[str] = set()  # public functions that are to come
 # Of os, of named tuples and of notebooks: documented, so public.
-UNDERSCORED = {"_exit", "_replace", "_asdict", "_fields", "_make", "_repr_png_"}
+UNDERSCORED = {"_exit", "_replace", "_asdict", "_fields", "_make", "_repr_png_", "_repr_html_"}
 HEAVY = {"trimesh", "skimage", "scipy", "manifold3d", "numba", "PIL", "shapely", "numpy", "rich.progress"}
 
 

@@ -83,6 +83,7 @@ def test_a_disk_that_is_full_while_fields_are_kept_changes_nothing(folder: Path)
     assert names() == {"scratch"}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("output", ["a.ply", "a.stl", "a.obj", "a.precomputed", "a.zarr"])
 def test_a_disk_that_is_full_while_output_is_written(output: str, folder: Path) -> None:
     words = (*PLAIN, "-o", output)
@@ -93,6 +94,7 @@ def test_a_disk_that_is_full_while_output_is_written(output: str, folder: Path) 
     assert names() == {"scratch"}
 
 
+@pytest.mark.longest
 def test_a_run_that_filled_the_disk_goes_on(folder: Path) -> None:
     words = (*PLAIN, "-o", "a.ply", "--resume", "kept")
     assert limited(100_000, *words).returncode == 1
@@ -104,6 +106,7 @@ def test_a_run_that_filled_the_disk_goes_on(folder: Path) -> None:
     assert names() == {"scratch", "a.ply", "whole.ply"}
 
 
+@pytest.mark.longest
 def test_a_disk_that_is_full_while_the_surface_is_simplified(folder: Path) -> None:
     done = limited(20_000, *PLAIN[:4], "-o", "a.ply")
     assert done.returncode == 1
@@ -190,6 +193,7 @@ program()
 """
 
 
+@pytest.mark.longest
 def test_an_interrupted_run_goes_on(folder: Path) -> None:
     words = (*PLAIN, "-q", "--workers", "1", "-o", "a.ply", "--resume", "kept")
     done = subprocess.run([sys.executable, "-c", INTERRUPTED, *words], capture_output=True, text=True, check=False)

@@ -249,6 +249,7 @@ def check_fields(data: NDArray[np.bool_], steps: int, size: tuple[int, int, int]
         np.testing.assert_array_equal(own[box], whole[tuple(slice(a, a + n) for a, n in zip(low, sizes, strict=True))])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("blur", [0.0, 2.0])
 @pytest.mark.parametrize(("steps", "size"), [(4, (1, 1, 1)), (7, (2, 1, 1))])
 def test_refined_fields_are_those_of_the_whole(blur: float, steps: int, size: tuple[int, int, int]) -> None:
@@ -428,6 +429,7 @@ def test_the_command_takes_every_method(method: tuple[str, ...], folder: Path) -
     assert Path("a.ply").is_file()
 
 
+@pytest.mark.longest
 def test_a_zarr_is_smoothed_in_chunks_once_memory_does_not_suffice(folder: Path) -> None:
     in_memory = json.loads(run("smooth", "g.zarr", *THRESHOLD, "--json", "-q").stdout)
     assert in_memory["product"] == "smooth"

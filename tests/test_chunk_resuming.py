@@ -86,6 +86,7 @@ def smooth(*words: str) -> Any:
     return run("smooth", "g.zarr", *PLAIN, *CHUNKS, "--allow-broken", "-q", *words)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("stop_at", [("smooth", 5), ("try_level", 4), ("try_level", 30), ("make_part", 3)])
 def test_an_interrupted_run_goes_on_with_the_same_bytes(
     stop_at: tuple[str, int], folder: Path, monkeypatch: pytest.MonkeyPatch
@@ -130,6 +131,7 @@ program()
 """
 
 
+@pytest.mark.longest
 @pytest.mark.skipif(os.name == "nt", reason="signals are sent in another way")
 def test_a_killed_run_goes_on(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     words = [*PLAIN, *CHUNKS, "-q", "-o", "a.ply", "--resume", "kept"]
@@ -146,6 +148,7 @@ def test_a_killed_run_goes_on(folder: Path, monkeypatch: pytest.MonkeyPatch) -> 
     assert Path("a.ply").read_bytes() == Path("whole.ply").read_bytes()
 
 
+@pytest.mark.longest
 def test_damaged_files_are_computed_again(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     calls = Calls(monkeypatch)
     assert smooth("-o", "whole.ply").exit_code == 0
@@ -215,6 +218,7 @@ def test_folders_that_cannot_be_resumed(folder: Path) -> None:
     refused(run("smooth", "g.zarr", "--each-label", "-o", "a.3mf", "--resume", "w"), "--resume is for one surface")
 
 
+@pytest.mark.longest
 @pytest.mark.skipif(os.name == "nt", reason="locks are of another kind")
 def test_two_runs_in_one_folder(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     import fcntl
@@ -226,6 +230,7 @@ def test_two_runs_in_one_folder(folder: Path, monkeypatch: pytest.MonkeyPatch) -
     assert smooth("-o", "a.ply", "--resume", "kept").exit_code == 0
 
 
+@pytest.mark.longest
 def test_chunks_are_those_of_the_run_that_is_resumed(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     begun(monkeypatch)
     manifest = json.loads(Path("kept/manifest.json").read_text())

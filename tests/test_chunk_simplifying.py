@@ -76,6 +76,7 @@ def check_simplified(values: NDArray[Any], side: int, tolerance: float) -> tuple
     return len(found.faces), full, found
 
 
+@pytest.mark.longest
 def test_eight_chunks_are_simplified() -> None:
     count, full, _ = check_simplified(gyroid(60, 30), 32, 0.05)
     memory = collapse_edges(full, tolerance=0.05)

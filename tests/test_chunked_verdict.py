@@ -64,6 +64,7 @@ CASES = [
 ]
 
 
+@pytest.mark.longest
 @pytest.mark.long
 @pytest.mark.parametrize("case", CASES, ids=lambda case: str(case.seed))
 def test_changes_are_those_of_the_whole(case: Case) -> None:
@@ -96,6 +97,7 @@ def block_with_a_plate(thickness: int, at: int) -> NDArray[np.bool_]:
     return solid
 
 
+@pytest.mark.longest
 def test_a_plate_that_is_lost_is_found() -> None:
     # A plate two voxels thick, in the middle of a chunk and on its face: many steps remove it.
     for at in (22, 31):
@@ -167,6 +169,7 @@ def test_a_crumb_that_is_taken_out_is_missed() -> None:
     assert areas[0] == pytest.approx(areas[1], rel=0.05)
 
 
+@pytest.mark.longest
 def test_workers_change_nothing() -> None:
     case = CASES[2]
     request = replace(case.request, allow_broken=True)
@@ -178,6 +181,7 @@ def test_workers_change_nothing() -> None:
     assert reports[0] == reports[1]
 
 
+@pytest.mark.longest
 def test_gentler_steps_are_tried_as_in_memory() -> None:
     # A plate two voxels thick: 30 steps lose it, fewer do not.
     values = block_with_a_plate(2, 31)

@@ -152,6 +152,7 @@ def test_values_that_are_no_labels() -> None:
 # --- smoothing -------------------------------------------------------------------------------------------
 
 
+@pytest.mark.longest
 @settings(max_examples=6, deadline=None)
 @given(
     seed=st.integers(0, 2**32 - 1),

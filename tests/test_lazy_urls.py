@@ -63,6 +63,7 @@ def test_a_volume_by_url_has_the_bits_of_the_file(served: str, tmp_path: Path) -
     np.testing.assert_array_equal(volume.load().values, np.load(tmp_path / "g.npy"))
 
 
+@pytest.mark.longest
 def test_the_command_smooths_a_url(served: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     hashes = [run("smooth", name, *PLAIN, "--hash").stdout for name in (f"{served}/g.zarr", "g.zarr")]

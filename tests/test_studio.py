@@ -30,6 +30,8 @@ pytest.importorskip("uvicorn")
 
 from studio_client import LAYER, MESH, PATIENCE, Answer, Page, Studio, run_studio  # noqa: E402
 
+from infill.studio.guard import Guard  # noqa: E402
+
 CODE = "from infill.cli import main; main()"
 TEMPORARY = "infill-studio-"
 
@@ -110,6 +112,17 @@ def test_a_rebound_name_and_another_page_get_nothing(studio: Studio) -> None:
         assert raw(studio, about, host=host).status_code == 403, host
     for origin in ("http://evil.example", f"http://127.0.0.1:{port + 1}", f"https://127.0.0.1:{port}", "null"):
         assert raw(studio, about, origin=origin).status_code == 403, origin
+
+
+def test_browsers_leave_out_the_usual_port():
+    async def nothing(scope, receive, send): ...
+
+    at_80, at_81 = (Guard(app=nothing, token="t", host="127.0.0.1", port=port) for port in (80, 81))
+    for host in ("127.0.0.1", "localhost", "[::1]", "127.0.0.1:80", "[::1]:80"):
+        assert at_80._is_our_host(host), host
+        assert not at_81._is_our_host(host), host
+    assert at_81._is_our_host("[::1]:81")
+    assert not at_80._is_our_host("evil.example")
 
 
 def test_answers_carry_the_headers_of_security(studio: Studio) -> None:

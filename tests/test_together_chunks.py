@@ -88,6 +88,7 @@ def test_walls_are_those_of_memory_to_the_last_bit(
         assert result.report[name] == whole.report[name]
 
 
+@pytest.mark.longest
 @pytest.mark.long
 @pytest.mark.parametrize("method", ["refine", "plain"])
 def test_every_way_and_samples_as_of_a_large_volume(method: Any, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -172,6 +173,7 @@ def test_labels_that_are_asked_for_names_and_colours() -> None:
     assert result.colours == whole.colours
 
 
+@pytest.mark.longest
 @pytest.mark.slow
 def test_processes(tmp_path: Path) -> None:
     values = noisy((60, 20, 14), 3, 0.0)
@@ -236,6 +238,7 @@ def test_the_command_writes_the_files_of_memory(folder: Path) -> None:
     assert Path("b.ply").read_bytes() == Path("all.ply").read_bytes()
 
 
+@pytest.mark.longest
 def test_a_dry_run(folder: Path) -> None:
     before = set(folder.iterdir())
     words = ("--together", "--smooth", "plain", "--dry-run", "--json")

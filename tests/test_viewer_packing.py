@@ -240,7 +240,7 @@ def test_compact_triangles_are_the_same_whatever_the_mesh(name: str) -> None:
 
 
 def test_the_page_reads_compact_triangles(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(packing, "LEAST_COMPACT", 0)
+    monkeypatch.setattr(packing, "COMPACT_FROM", 0)
     cases = compact_cases()
     surfaces = {name: Surface(vertices=steps.astype(float), faces=faces) for name, (steps, faces) in cases.items()}
     values = {name: (np.arange(len(each.vertices)) % 256).astype(np.uint8) for name, each in surfaces.items()}

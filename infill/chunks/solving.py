@@ -124,6 +124,8 @@ class Solver:
     joined: JoinedComponents | None = None
     targets: NDArray[np.float64] = field(default_factory=lambda: np.empty(0))
     passes: int = 0
+    recent: dict[tuple[int, bytes], LevelParts] = field(default_factory=dict)  # by chunk and digest of its task
+    earlier: dict[tuple[int, bytes], LevelParts] = field(default_factory=dict)
 
     @property
     def cell_volume(self) -> float:
@@ -184,26 +186,39 @@ class Solver:
         return owners
 
     def measure(
-        self, level: float, lowering: Lowering | None = None, *, votes: bool = False, stage: str = "surface"
+        self,
+        level: float,
+        levels: NDArray[np.float64] | None = None,
+        *,
+        common: float = 0.0,
+        votes: bool = False,
+        stage: str = "surface",
     ) -> MeasuredSurface:
         """Measure the whole surface at a level, in one pass over the chunks, or two if cubes are undecided.
+
+        Parameters
+        ----------
+        level : float
+        levels : (b,) float64, optional
+            The level of each component, which is subtracted from the field before.
+        common : float
+            The level of everything else, then.
+        votes : bool
+            Whether to count the components nearest to the vertices.
+        stage : str
+            Told to the listener.
 
         Raises
         ------
         GeometryError
             If nothing is above the level.
         """
-        count = 1 if self.joined is None else len(self.joined.cells)
-        tasks = {
-            number: LevelTask(
-                level=level,
-                lowering=lowering,
-                names=self.joined.names[number] if self.joined and number in self.joined.names else None,
-                components=count,
-                votes=votes,
-            )
-            for number in self.surfaced
-        }
+        tasks = {}
+        for number in self.surfaced:
+            names = self.joined.names.get(number) if self.joined else None
+            lowering = None if levels is None or names is None else Lowering(levels=levels[names], common=common)
+            count = 1 if self.joined is None else len(self.joined.cells)
+            tasks[number] = LevelTask(level=level, lowering=lowering, names=names, components=count, votes=votes)
         return self._measure(tasks, {}, level, stage)
 
     def measure_start(self) -> MeasuredSurface:
@@ -216,6 +231,7 @@ class Solver:
     def _measure(
         self, tasks: Mapping[int, LevelTask], known: Mapping[int, LevelParts], level: float, stage: str
     ) -> MeasuredSurface:
+        self.earlier, self.recent = self.recent, {}
         parts = dict(known) or self._run(tasks, stage)
         pending = [number for number, part in parts.items() if not part.complete]
         if any(len(part.cubes.bricks) for part in parts.values()):
@@ -227,11 +243,16 @@ class Solver:
         return MeasuredSurface(level=level, tasks=tasks, parts=parts, shells=join_shells(parts, self.cell_volume))
 
     def _run(self, tasks: Mapping[int, LevelTask], stage: str) -> dict[int, LevelParts]:
-        """Measure chunks."""
+        """Measure chunks; those where no level has changed since the last time need not be measured again."""
         self.passes += 1
-        items = [(self.chunks[number], task) for number, task in tasks.items()]
+        digests = {number: task.digest() for number, task in tasks.items()}
+        parts = {n: self.earlier[n, digest] for n, digest in digests.items() if (n, digest) in self.earlier}
+        pending = [number for number in tasks if number not in parts]
+        items = [(self.chunks[number], tasks[number]) for number in pending]
         results = self.runner.run(try_level, self.work, items, lambda share: self.tell(stage, share))
-        return dict(zip(tasks, results, strict=True))
+        parts |= zip(pending, results, strict=True)
+        self.recent |= {(number, digest): parts[number] for number, digest in digests.items()}
+        return {number: parts[number] for number in tasks}
 
     def find_surface(self) -> tuple[MeasuredSurface, float, NDArray[np.float64]]:
         """Find the surface; return it, the common level, and the level of each component.
@@ -267,8 +288,7 @@ class Solver:
             return best, common, np.array([common])
 
         def try_levels(levels: NDArray[np.float64]) -> ComponentTrial[MeasuredSurface]:
-            lowering = Lowering(levels=levels, common=common)
-            surface = replace(self.measure(0.0, lowering, votes=True), levels=levels)
+            surface = replace(self.measure(0.0, levels, common=common, votes=True), levels=levels)
             component, fused = elect(surface, joined.cells)
             return ComponentTrial(
                 component=component,
@@ -307,8 +327,8 @@ class Solver:
         """Return the component of each shell, -1 for none, and pairs that share one: see `elect_components`."""
         assert self.joined is not None
         if not any(task.votes for task in surface.tasks.values()):
-            begins = next(iter(surface.tasks.values()))
-            surface = self.measure(surface.level, begins.lowering, votes=True, stage="check")
+            assert surface.levels is None  # levels of components are found by votes
+            surface = self.measure(surface.level, votes=True, stage="check")
         return elect(surface, self.joined.cells)
 
     def number_vertices(self, surface: MeasuredSurface, crumbs: NDArray[np.bool_]) -> Numbering:

@@ -15,6 +15,7 @@ import os
 import shutil
 import zipfile
 from dataclasses import dataclass, replace
+from hashlib import sha256
 from pathlib import Path
 from typing import Any, ClassVar, Protocol
 
@@ -237,11 +238,12 @@ class LevelParts:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Lowering:
-    """The levels of components, to be subtracted from the field.
+    """The levels of the components of a chunk, to be subtracted from its field.
 
     Parameters
     ----------
-    levels : (b,) float64
+    levels : (c,) float64
+        Of each of the chunk's own components.
     common : float
         The level of everything else.
     """
@@ -378,7 +380,7 @@ class LevelTask:
         Of the field, or of the lowered one.
     lowering : Lowering or None
     names : (c,) int32 or None
-        Component of the whole for each of the chunk's own; needed for levels of components, and for votes.
+        Component of the whole for each of the chunk's own; needed for votes.
     components : int
         Of the whole.
     first_cubes : (b,) int64 or None
@@ -397,6 +399,13 @@ class LevelTask:
     votes: bool = False
     unsmoothed: bool = False
 
+    def digest(self) -> bytes:
+        """Return a digest of what decides the surface; names do not change between the levels of one volume."""
+        arrays = (None if self.lowering is None else self.lowering.levels, self.first_cubes)
+        numbers = (self.level, self.lowering and self.lowering.common, self.votes, self.unsmoothed)
+        parts = [repr(numbers), *("none" if array is None else sha256(array.tobytes()).hexdigest() for array in arrays)]
+        return sha256("|".join(parts).encode()).digest()
+
 
 def try_level(work: Work, chunk: Chunk, task: LevelTask) -> LevelParts:
     """Measure the surface of a chunk at a level."""
@@ -413,8 +422,8 @@ def lower_field(chunk_field: ChunkField, labelled: Components | None, task: Leve
     if task.lowering is None or labelled is None or task.names is None:
         return chunk_field
     labels = label_field(chunk_field.field, labelled, 1)
-    levels = task.lowering.levels[task.names]
-    return replace(chunk_field, field=lower_to_levels(chunk_field.field, labels, levels, task.lowering.common, 1))
+    lowered = lower_to_levels(chunk_field.field, labels, task.lowering.levels, task.lowering.common, 1)
+    return replace(chunk_field, field=lowered)
 
 
 def measure_piece(

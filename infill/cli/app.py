@@ -26,6 +26,7 @@ COMMANDS: dict[str, tuple[str, str, str]] = {
     "check": ("checking", "check", "infill check part.stl smooth.stl --json"),
     "motion": ("timing", "motion", "infill motion part.gcode smooth.gcode --plot speeds.png"),
     "verify": ("verifying", "verify", "infill verify before.gcode after.gcode"),
+    "view": ("viewing", "view", "infill view part.stl"),
     "sample": ("sampling", "sample", "infill sample part scan print"),
     "studio": ("studio", "studio", "infill studio part.stl"),
 }

@@ -65,7 +65,8 @@ def fill(
         Path | None,
         typer.Option(
             metavar="FILE",
-            help="Picture to write, cut open where that shows most of the infill: a .png.",
+            help="Picture to write, cut open where that shows most of the infill: a .png; or a page to turn and cut it "
+            "open in a browser: a .html.",
             rich_help_panel=FILES,
         ),
     ] = None,
@@ -123,9 +124,11 @@ def fill(
     writers = {path: _writer(path, settings, slicer, ascii_stl=ascii_stl) for path, slicer in files}
     outputs = [path for path, _ in files]
     if preview is not None:
-        from infill.pictures.picture_files import check_preview
+        from infill.pictures.picture_files import check_preview, is_page
 
-        check_preview(preview)
+        check_preview(preview, pages=True)
+        if cut and is_page(preview):
+            raise typer.BadParameter("a page is cut open in the browser; leave --cut out")
     cuts = _parse_cuts(cut or [], drawn=preview is not None, dry_run=dry_run)
     limit = None if max_memory is None else parse_bytes(max_memory)
     saved: dict[Path, Callable[[BinaryIO], object]] = {}
@@ -168,7 +171,7 @@ def fill(
                 parts[path] = partial(PART_WRITERS[path.suffix.lower()], divided)
         if preview is not None:
             pictured = replace(result, stages=replace(result.stages, cuts=cuts))
-            parts[preview] = pictured.write_picture
+            parts[preview] = pictured.preview_writer(preview, part.name)
         written = deliver_all({**parts, **saved})
     if not quiet:
         kept = (len(divided), len(objects)) if divided else None

@@ -48,7 +48,11 @@ def make(
     ] = None,
     preview: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="Picture to write, from lines to mesh: a .png.", rich_help_panel=FILES),
+        typer.Option(
+            metavar="FILE",
+            help="Picture to write, from lines to mesh: a .png; or a page to turn it in a browser: a .html.",
+            rich_help_panel=FILES,
+        ),
     ] = None,
     ascii_stl: AsciiStl = False,
     force: Force = False,
@@ -133,7 +137,7 @@ def make(
     if preview is not None:
         from infill.pictures.picture_files import check_preview
 
-        check_preview(preview)
+        check_preview(preview, pages=True)
     check_outputs((*outputs, preview), text=save_config, overwrite=force, as_json=as_json, dry_run=dry_run)
     block = settings.plan()
     if not isinstance(block, Block):
@@ -157,7 +161,7 @@ def make(
         if result is not None:
             parts |= {path: partial(mesh_writer(path, ascii=ascii_stl), result.surface) for path in outputs}
             if preview is not None:
-                parts[preview] = result.write_picture
+                parts[preview] = result.preview_writer(preview)
         if save_config is not None:
             parts[save_config] = lambda file: file.write(settings.to_toml().encode())
         files = deliver_all(parts)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -24,7 +24,8 @@ from infill.refilling.settings import resolve
 from patterns.errors import PatternError
 
 if TYPE_CHECKING:
-    from infill.planner.layer_speeds import LayerSpeeds
+    from infill.planner.layer_speeds import DrawnSpeeds, LayerSpeeds
+    from infill.refilling.job import RefillResult
     from infill.reports.refilling import EvenKeys, FilamentKeys, RefillReport, TimeKeys
 
 LEAST_SHOWN = 0.005  # of the infill: less, rounded to 0 %, has no row
@@ -80,7 +81,8 @@ def refill(
         Path | None,
         typer.Option(
             metavar="FILE",
-            help="Picture to write of the middle layer, before and after, coloured by speed: a .png.",
+            help="Picture to write of the middle layer, before and after, coloured by speed: a .png; or a page with "
+            "all layers for a browser: a .html.",
             rich_help_panel=FILES,
         ),
     ] = None,
@@ -105,10 +107,9 @@ def refill(
             from infill.refilling.job import refill as refilled
 
             settings = resolve(typed, config, assigned or [], trust=trust)
-            number = 0
-            sliced_layers: dict[str, LayerSpeeds] = {}
+            write_preview = None
             if preview is not None:
-                number, sliced_layers = _read_sliced_layer(gcode, preview, settings.get("layers"), overwrite=force)
+                write_preview = _begin_preview(gcode, preview, settings.get("layers"), overwrite=force)
             result = refilled(
                 gcode,
                 output=output,
@@ -117,8 +118,8 @@ def refill(
                 overwrite=force,
                 progress=progress,
             )
-        if preview is not None:
-            _write_preview(number, sliced_layers, result.path or gcode, preview)
+        if write_preview is not None:
+            write_preview(result)
         if piped and result.path is not None:
             send_file(result.path)
     path = None if result.path is None else STDOUT if piped else result.path
@@ -129,15 +130,27 @@ def refill(
         print_json({**result.report, "files": files})
 
 
-def _read_sliced_layer(
+def _begin_preview(
     gcode: Path, preview: Path, layers: tuple[int, int] | None, *, overwrite: bool
-) -> tuple[int, dict[str, LayerSpeeds]]:
-    """Check the preview's path; return the number of the layer to draw, the middle one by default, and its speeds."""
+) -> Callable[[RefillResult], None]:
+    """Check the preview's path and read the print as it is; return the function that draws it beside the result."""
     from infill.files.whole_files import check_targets
-    from infill.pictures.picture_files import check_preview
+    from infill.pictures.picture_files import check_preview, is_page
+
+    check_targets([check_preview(preview, pages=True)], overwrite=overwrite)
+    if is_page(preview):
+        from infill.planner.layer_speeds import drawn_speeds
+
+        drawn = {"before": drawn_speeds(gcode)} if gcode.is_file() else {}
+        return lambda result: _write_page(drawn, result, gcode, preview)
+    number, sliced_layers = _read_sliced_layer(gcode, layers)
+    return lambda result: _write_picture(number, sliced_layers, result.path or gcode, preview)
+
+
+def _read_sliced_layer(gcode: Path, layers: tuple[int, int] | None) -> tuple[int, dict[str, LayerSpeeds]]:
+    """Return the number of the layer to draw, the middle one by default, and its speeds."""
     from infill.planner.layer_speeds import layer_speeds, middle_layer
 
-    check_targets([check_preview(preview)], overwrite=overwrite)
     if not gcode.is_file():
         return 0, {}
     number = middle_layer(gcode)
@@ -146,7 +159,7 @@ def _read_sliced_layer(
     return number, {f"layer {number}, before": layer_speeds(gcode, number)}
 
 
-def _write_preview(number: int, sliced_layers: dict[str, LayerSpeeds], refilled: Path, picture: Path) -> None:
+def _write_picture(number: int, sliced_layers: dict[str, LayerSpeeds], refilled: Path, picture: Path) -> None:
     """Draw the speeds of a layer before and after refilling into a picture file."""
     from functools import partial
 
@@ -157,6 +170,16 @@ def _write_preview(number: int, sliced_layers: dict[str, LayerSpeeds], refilled:
     write_all_files(
         {picture: partial(write_speeds, {**sliced_layers, f"layer {number}, refilled": layer_speeds(refilled, number)})}
     )
+
+
+def _write_page(drawn: dict[str, DrawnSpeeds], result: RefillResult, gcode: Path, page: Path) -> None:
+    """Write a page of all layers before and after refilling."""
+    from infill.files.whole_files import write_all_files
+    from infill.planner.layer_speeds import drawn_speeds
+    from infill.refilling.job import refill_page
+
+    text = refill_page({**drawn, "refilled": drawn_speeds(result.path or gcode)}, result.report, gcode.name)
+    write_all_files({page: lambda file: file.write(text.encode())})
 
 
 @contextlib.contextmanager

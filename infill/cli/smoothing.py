@@ -65,7 +65,8 @@ def smooth(
         Path | None,
         typer.Option(
             metavar="FILE",
-            help="Picture of before and after to write, what was lost in red, what was added in blue: a .png.",
+            help="Picture of before and after to write, what was lost in red, what was added in blue: a .png; or a "
+            "page to turn the result in a browser: a .html.",
             rich_help_panel=FILES,
         ),
     ] = None,
@@ -215,7 +216,7 @@ def _check_formats(output: SmoothOutput, settings: SmoothSettings) -> None:
     if output.preview is not None:
         from infill.pictures.picture_files import check_preview
 
-        check_preview(output.preview)
+        check_preview(output.preview, pages=True)
 
 
 def _smooth_source(
@@ -248,7 +249,7 @@ def _smooth_source(
             else:
                 parts[path] = partial(field_writer(path), result.stages.field())
         if output.preview is not None:
-            parts[output.preview] = result.write_picture
+            parts[output.preview] = result.preview_writer(output.preview, source.name)
         written = deliver_all(parts | dict(output.saved))
     if not output.quiet:
         if settings.by_component:

@@ -43,6 +43,13 @@ def pair_half_edges(order, keys, starts, twin):
         i = j
 
 
+# Columns of the table of edges: its vertices, the half-edge on its other side or -1, the third vertex of its triangle,
+# the edges before and after it in its loop, and whether it still is in one.
+BEGIN, END, ACROSS, APEX, BEFORE, AFTER, WAITS = range(7)
+# Counters: edges in the table, on the stack, symbols, named vertices, vertices.
+EDGES, DEPTH, SYMBOLS, NAMES, VERTICES = range(5)
+
+
 @njit(nogil=True, cache=True)
 def traverse(faces, twin, symbols, named, number, parents):
     """Visit all triangles; return the numbers of symbols, of named vertices, and of vertices.
@@ -63,103 +70,126 @@ def traverse(faces, twin, symbols, named, number, parents):
         Written, in the new order: the vertex, and those from which its place is predicted: a, b, and the vertex on the
         other side of the edge; or -1, the vertex before, and -1.
     """
-    most = 3 * len(faces) + 3
-    begin, end = np.empty(most, dtype=np.int32), np.empty(most, dtype=np.int32)  # vertices of an edge of a loop
-    across = np.empty(most, dtype=np.int32)  # the half-edge on its other side, or -1
-    apex = np.empty(most, dtype=np.int32)  # third vertex of its triangle
-    before, after = np.empty(most, dtype=np.int32), np.empty(most, dtype=np.int32)
-    waits = np.zeros(most, dtype=np.uint8)
-    leaving = np.full(len(number), -1, dtype=np.int32)  # latest edge of a loop that begins at a vertex
-    stack = np.empty(most, dtype=np.int32)
+    table = np.zeros((3 * len(faces) + 3, 7), dtype=np.int32)
+    stack = np.empty(len(table), dtype=np.int32)
+    latest = np.full(len(number), -1, dtype=np.int32)  # latest edge of a loop that begins at a vertex
     visited = np.zeros(len(faces), dtype=np.uint8)
-    edges = depth = written = names = vertices = 0
-    for first in range(len(faces)):
-        if visited[first]:
+    counts = np.zeros(5, dtype=np.int64)
+    for seed in range(len(faces)):
+        if visited[seed]:
             continue
-        visited[first] = 1
-        for k in range(3):
-            v = faces[first, k]
-            if number[v] < 0:
-                parents[vertices, 0], parents[vertices, 1], parents[vertices, 3] = v, -1, -1
-                parents[vertices, 2] = parents[vertices - 1, 0] if vertices else -1
-                number[v] = vertices
-                vertices += 1
-                named[names] = 0
-            else:
-                named[names] = vertices - number[v]
-            names += 1
-        for k in range(3):
-            begin[edges + k], end[edges + k] = faces[first, k], faces[first, (k + 1) % 3]
-            apex[edges + k], across[edges + k] = faces[first, (k + 2) % 3], twin[3 * first + k]
-            before[edges + k], after[edges + k] = edges + (k + 2) % 3, edges + (k + 1) % 3
-            waits[edges + k] = 1
-            leaving[faces[first, k]] = edges + k
-            stack[depth] = edges + k
-            depth += 1
-        edges += 3
-        while depth:
-            depth -= 1
-            g = stack[depth]
-            if not waits[g]:
+        visited[seed] = 1
+        begin_component(faces, twin, seed, table, stack, latest, counts, named, number, parents)
+        while counts[DEPTH]:
+            counts[DEPTH] -= 1
+            edge = stack[counts[DEPTH]]
+            if not table[edge, WAITS]:
                 continue
-            h = across[g]
-            if h < 0 or visited[h // 3]:
-                symbols[written] = BORDER
-                written += 1
-                continue
-            f, k = h // 3, h % 3
-            visited[f] = 1
-            a, b, c = begin[g], end[g], faces[f, (k + 2) % 3]
-            p, n = before[g], after[g]
-            closes_next = waits[n] and across[n] == 3 * f + (k + 2) % 3
-            closes_previous = waits[p] and across[p] == 3 * f + (k + 1) % 3
-            waits[g] = 0
-            if closes_next and closes_previous:
-                symbols[written] = BOTH
-                waits[p] = waits[n] = 0
-                before[after[n]], after[before[p]] = before[p], after[n]
-            elif closes_next or closes_previous:
-                symbols[written] = NEXT if closes_next else PREVIOUS
-                waits[n if closes_next else p] = 0
-                e = edges
-                edges += 1
-                begin[e], end[e] = (a, c) if closes_next else (c, b)
-                apex[e] = b if closes_next else a
-                across[e] = twin[3 * f + (k + 1) % 3] if closes_next else twin[3 * f + (k + 2) % 3]
-                before[e], after[e] = (p, after[n]) if closes_next else (before[p], n)
-                after[before[e]], before[after[e]] = e, e
-                leaving[begin[e]] = e
-                waits[e] = 1
-                stack[depth] = e
-                depth += 1
+            opposite = table[edge, ACROSS]
+            if opposite < 0 or visited[opposite // 3]:
+                symbols[counts[SYMBOLS]] = BORDER
             else:
-                left, right = edges, edges + 1
-                edges += 2
-                o = -1
-                if number[c] < 0:
-                    symbols[written] = NEW
-                    parents[vertices, 0], parents[vertices, 1] = c, a
-                    parents[vertices, 2], parents[vertices, 3] = b, apex[g]
-                    number[c] = vertices
-                    vertices += 1
-                else:
-                    symbols[written] = OLD
-                    named[names] = vertices - number[c]
-                    names += 1
-                    o = leaving[c]
-                begin[left], end[left], apex[left] = a, c, b
-                begin[right], end[right], apex[right] = c, b, a
-                across[left], across[right] = twin[3 * f + (k + 1) % 3], twin[3 * f + (k + 2) % 3]
-                before[left], after[right] = p, n
-                if o >= 0 and waits[o] and o != g:
-                    after[left], before[right] = o, before[o]
-                    after[before[o]], before[o] = right, left
-                else:
-                    after[left], before[right] = right, left
-                after[p], before[n] = left, right
-                leaving[a], leaving[c] = left, right
-                waits[left] = waits[right] = 1
-                stack[depth], stack[depth + 1] = left, right
-                depth += 2
-            written += 1
-    return written, names, vertices
+                visited[opposite // 3] = 1
+                symbols[counts[SYMBOLS]] = cross_edge(
+                    faces, twin, edge, table, stack, latest, counts, named, number, parents
+                )
+            counts[SYMBOLS] += 1
+    return counts[SYMBOLS], counts[NAMES], counts[VERTICES]
+
+
+@njit(nogil=True, cache=True, from_python=False)
+def begin_component(faces, twin, seed, table, stack, latest, counts, named, number, parents):
+    """Name the corners of a triangle that has no earlier neighbour, and make a loop of its edges."""
+    for k in range(3):
+        vertex = faces[seed, k]
+        if number[vertex] < 0:
+            predictor = parents[counts[VERTICES] - 1, 0] if counts[VERTICES] else -1
+            number_vertex(vertex, -1, predictor, -1, counts, number, parents)
+            named[counts[NAMES]] = 0
+        else:
+            named[counts[NAMES]] = counts[VERTICES] - number[vertex]
+        counts[NAMES] += 1
+    edge = counts[EDGES]
+    for k in range(3):
+        a, b, c = faces[seed, k], faces[seed, (k + 1) % 3], faces[seed, (k + 2) % 3]
+        add_edge(a, b, c, twin[3 * seed + k], table, stack, latest, counts)
+    for k in range(3):
+        link_edges(edge + k, edge + (k + 1) % 3, table)
+
+
+@njit(nogil=True, cache=True, from_python=False)
+def cross_edge(faces, twin, edge, table, stack, latest, counts, named, number, parents):
+    """Visit the triangle across an edge of a loop, replace the edge by its others; return the symbol."""
+    opposite, a, b = table[edge, ACROSS], table[edge, BEGIN], table[edge, END]
+    previous, following = table[edge, BEFORE], table[edge, AFTER]
+    k = opposite % 3
+    away, back = opposite - k + (k + 1) % 3, opposite - k + (k + 2) % 3  # half-edges a → c and c → b
+    c = faces[opposite // 3, (k + 2) % 3]
+    meets_following = table[following, WAITS] and table[following, ACROSS] == back
+    meets_previous = table[previous, WAITS] and table[previous, ACROSS] == away
+    table[edge, WAITS] = 0
+    if meets_following or meets_previous:
+        start, stop = previous, following
+        if meets_following:
+            table[following, WAITS] = 0
+            stop = table[following, AFTER]
+        if meets_previous:
+            table[previous, WAITS] = 0
+            start = table[previous, BEFORE]
+        if meets_following and meets_previous:
+            link_edges(start, stop, table)
+            return BOTH
+        if meets_following:
+            new = add_edge(a, c, b, twin[away], table, stack, latest, counts)
+        else:
+            new = add_edge(c, b, a, twin[back], table, stack, latest, counts)
+        link_edges(start, new, table)
+        link_edges(new, stop, table)
+        return NEXT if meets_following else PREVIOUS
+    symbol, leaving = NEW, -1
+    if number[c] < 0:
+        number_vertex(c, a, b, table[edge, APEX], counts, number, parents)
+    else:
+        symbol, leaving = OLD, latest[c]
+        named[counts[NAMES]] = counts[VERTICES] - number[c]
+        counts[NAMES] += 1
+    left = add_edge(a, c, b, twin[away], table, stack, latest, counts)
+    right = add_edge(c, b, a, twin[back], table, stack, latest, counts)
+    if leaving >= 0 and table[leaving, WAITS]:  # the loop is cut in two, or two become one
+        link_edges(table[leaving, BEFORE], right, table)
+        link_edges(left, leaving, table)
+    else:
+        link_edges(left, right, table)
+    link_edges(previous, left, table)
+    link_edges(right, following, table)
+    return symbol
+
+
+@njit(nogil=True, cache=True, from_python=False)
+def number_vertex(vertex, a, b, apex, counts, number, parents):
+    """Give a new vertex its number, and keep from which others its place is predicted."""
+    row = counts[VERTICES]
+    parents[row, 0], parents[row, 1], parents[row, 2], parents[row, 3] = vertex, a, b, apex
+    number[vertex] = counts[VERTICES]
+    counts[VERTICES] += 1
+
+
+@njit(nogil=True, cache=True, from_python=False)
+def add_edge(a, b, apex, across, table, stack, latest, counts):
+    """Add an edge to the table and the stack; return its number."""
+    edge = counts[EDGES]
+    table[edge, BEGIN], table[edge, END] = a, b
+    table[edge, ACROSS], table[edge, APEX] = across, apex
+    table[edge, WAITS] = 1
+    latest[a] = edge
+    stack[counts[DEPTH]] = edge
+    counts[EDGES] += 1
+    counts[DEPTH] += 1
+    return edge
+
+
+@njit(nogil=True, cache=True, from_python=False)
+def link_edges(ahead, behind, table):
+    """Put an edge of a loop behind another."""
+    table[ahead, AFTER] = behind
+    table[behind, BEFORE] = ahead

@@ -1,4 +1,4 @@
-"""Names of picture files, and the formats that are written."""
+"""Names of files that show a result: pictures, and pages for a browser."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from pathlib import Path
 from infill.errors import FormatError
 
 SUFFIXES = (".png",)
+PAGES = (".html",)
 
 
 def is_picture(path: str | os.PathLike[str]) -> bool:
@@ -19,9 +20,28 @@ def is_picture(path: str | os.PathLike[str]) -> bool:
     return Path(path).suffix.lower() in SUFFIXES
 
 
-def check_preview(path: str | os.PathLike[str]) -> Path:
-    """Return the path; raise FormatError if it does not have the suffix of a picture format that can be written."""
+def is_page(path: str | os.PathLike[str]) -> bool:
+    """Tell whether a path ends in .html: a page that shows a result in a browser.
+
+    >>> is_page("view.HTML"), is_page("view.png")
+    (True, False)
+    """
+    return Path(path).suffix.lower() in PAGES
+
+
+def check_preview(path: str | os.PathLike[str], *, pages: bool = False) -> Path:
+    """Return the path; raise FormatError if it does not have the suffix of a format that can be written.
+
+    Parameters
+    ----------
+    path : str or Path
+    pages : bool
+        Whether a page is possible as well as a picture.
+    """
     target = Path(path)
-    if not is_picture(target):
-        raise FormatError(f"a preview cannot be written as {target.name!r}; use a name that ends in {SUFFIXES[0]}")
+    suffixes = (*SUFFIXES, *PAGES) if pages else SUFFIXES
+    if target.suffix.lower() not in suffixes:
+        raise FormatError(
+            f"a preview cannot be written as {target.name!r}; use a name that ends in {' or '.join(suffixes)}"
+        )
     return target

@@ -1,4 +1,4 @@
-"""Fast and slow parts of a layer: its moves, cut into short pieces of known speed."""
+"""Fast and slow parts of a layer, or of a print: moves, cut into short pieces of known speed."""
 
 from __future__ import annotations
 
@@ -20,7 +20,9 @@ from infill.planner.open_timeline import collect_given, open_timeline
 from infill.planner.struct_of_arrays import concatenate_rows, slice_rows
 from infill.planner.timeline import Steps
 
-PIECE_LENGTH: Final = 0.4  # mm
+PIECE_LENGTH: Final = 0.4  # mm, of a layer
+COARSE_LENGTH: Final = 1.0  # mm, of a print
+SPEED_STEP: Final = 4.0  # mm/s: neighbouring pieces of a print whose speeds differ by less may become one
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -126,6 +128,29 @@ class LayerSpeeds:
     role: NDArray[np.str_]
 
 
+@dataclass(frozen=True, kw_only=True)
+class DrawnSpeeds:
+    """The lines of filament of a print, in pieces of nearly one speed.
+
+    Parameters
+    ----------
+    start, end : (N, 3) float32
+        mm
+    speed : (N,) float32
+        mm/s, the length of the piece over its time.
+    layer : (N,) int32
+        From 1, rising; 0 for lines before the first layer.
+    section : float
+        Mean cross-section of the lines, mm².
+    """
+
+    start: NDArray[np.float32]
+    end: NDArray[np.float32]
+    speed: NDArray[np.float32]
+    layer: NDArray[np.int32]
+    section: float
+
+
 def layer_speeds(
     path: str | os.PathLike[str],
     layer: int,
@@ -166,19 +191,87 @@ def layer_speeds(
     return pieces
 
 
-def _find_piece_speeds(steps: Steps, plan: MotionPlan, features: list[bytes]) -> LayerSpeeds:
-    """Cut moves into pieces of `PIECE_LENGTH`; return the ends, role and planned speed of each piece."""
-    delta, start = steps.moves.delta[:, :3], steps.start
-    distance = np.linalg.norm(delta, axis=1)
-    count = np.where(plan.peak > np.minimum(plan.entry, plan.exit), np.ceil(distance / PIECE_LENGTH), 1).astype(np.intp)
-    count[(distance == 0) | np.isnan(start[:, :2]).any(axis=1)] = 0
+def drawn_speeds(
+    path: str | os.PathLike[str],
+    plate: int | None = None,
+    **given: Any,  # noqa: ANN401
+) -> DrawnSpeeds:
+    """Plan a file as `motion` does; return all lines of filament.
+
+    Parameters
+    ----------
+    path : path
+    plate : int, optional
+        Plate of an archive; by default the first that has G-code.
+    **given
+        As for `motion`.
+
+    Raises
+    ------
+    FormatError
+        If the file is not G-code, or lays no filament.
+    """
+    batches_of_pieces, volume, length = [], 0.0, 0.0
+    stated = collect_given(**given)
+    with open_sliced(Path(path)) as file, open_timeline(file, file.part_of_plate(plate), stated) as timeline:
+        for steps, plan in timeline:
+            distance = np.linalg.norm(steps.moves.delta[:, :3], axis=1)
+            drawn = (steps.moves.delta[:, 3] > 0) & (distance > 0)
+            volume += float((steps.moves.delta[:, 3] * steps.section)[drawn].sum())
+            length += float(distance[drawn].sum())
+            batches_of_pieces.append(_draw_pieces(steps, plan))
+    pieces = [np.concatenate(column) for column in zip(*batches_of_pieces, strict=True)]
+    if not len(pieces[2]):
+        raise FormatError(f"{Path(path).name} lays no filament; give the G-code of a slicer")
+    start, end, speed, layer = pieces
+    return DrawnSpeeds(start=start, end=end, speed=speed, layer=layer, section=volume / length)
+
+
+def _draw_pieces(
+    steps: Steps, plan: MotionPlan
+) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32], NDArray[np.int32]]:
+    """Cut moves that lay filament into pieces, and join those of a move whose speeds are alike.
+
+    Return start, end, speed and layer of each.
+    """
+    move, begin, end, speed = _cut_moves(steps, plan, COARSE_LENGTH)
+    lays = steps.moves.delta[move, 3] > 0
+    move, begin, end, speed = move[lays], begin[lays], end[lays], speed[lays]
+    level = np.floor(speed / SPEED_STEP)
+    starts = np.flatnonzero((np.diff(move, prepend=-1) != 0) | (np.diff(level, prepend=-1) != 0))
+    counts = np.diff(starts, append=len(move))
+    final = starts + counts - 1
+    mean = counts / np.add.reduceat(1 / speed, starts) if len(starts) else speed
+    move, begin, end = move[starts], begin[starts], end[final]
+    origin, delta = steps.start[move], steps.moves.delta[move, :3]
+    return (
+        (origin + begin[:, None] * delta).astype(np.float32),
+        (origin + end[:, None] * delta).astype(np.float32),
+        mean.astype(np.float32),
+        steps.layer[move].astype(np.int32),
+    )
+
+
+def _cut_moves(steps: Steps, plan: MotionPlan, piece_length: float) -> tuple[NDArray[np.intp], Floats, Floats, Floats]:
+    """Cut moves into pieces; return the move of each, the shares of it where it begins and ends, and its speed."""
+    distance = np.linalg.norm(steps.moves.delta[:, :3], axis=1)
+    ramps = plan.peak > np.minimum(plan.entry, plan.exit)
+    count = np.where(ramps, np.ceil(distance / piece_length), 1).astype(np.intp)
+    count[(distance == 0) | np.isnan(steps.start[:, :2]).any(axis=1)] = 0
     move = np.repeat(np.arange(len(count)), count)
     number = np.arange(len(move)) - np.repeat(np.cumsum(count) - count, count)
     begin, end = number / count[move], (number + 1) / count[move]
+    return move, begin, end, _speed_at(plan, distance, move, (begin + end) / 2)
+
+
+def _find_piece_speeds(steps: Steps, plan: MotionPlan, features: list[bytes]) -> LayerSpeeds:
+    """Cut moves into pieces of `PIECE_LENGTH`; return the ends, role and planned speed of each piece."""
+    move, begin, end, speed = _cut_moves(steps, plan, PIECE_LENGTH)
+    start, delta = steps.start[move], steps.moves.delta[move, :3]
     return LayerSpeeds(
-        start=start[move] + begin[:, None] * delta[move],
-        end=start[move] + end[:, None] * delta[move],
-        speed=_speed_at(plan, distance, move, (begin + end) / 2),
+        start=start + begin[:, None] * delta,
+        end=start + end[:, None] * delta,
+        speed=speed,
         draws=steps.moves.delta[move, 3] > 0,
         role=np.array([role_of(name) for name in features])[steps.feature[move]],
     )

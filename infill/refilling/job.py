@@ -15,7 +15,7 @@ import os
 import shutil
 import tempfile
 import zlib
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
@@ -30,6 +30,7 @@ from infill.gcode.stream import edited_text
 from infill.pictures.picturable import Picturable
 from infill.refilling.request import AUTO, ENDLESS, KEEP, Progress, Request, describe_objects
 from infill.version import __version__
+from infill.viewer.viewable import Viewable
 
 SET_ONCE_CHECKED = ("lines", "gradient")  # fields of a request
 
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
 
     from infill.gcode.survey import Survey
     from infill.paths.families.family import Family
+    from infill.planner.layer_speeds import DrawnSpeeds
     from infill.planner.print_clock import PrintTime
     from infill.refilling.layers import Layers
     from infill.refilling.planning import RefillPlan
@@ -47,7 +49,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
-class RefillResult(Picturable):
+class RefillResult(Picturable, Viewable):
     """Report and output of a refill.
 
     Parameters
@@ -81,6 +83,31 @@ class RefillResult(Picturable):
         from infill.pictures.speeds import draw_speeds
         from infill.planner.layer_speeds import layer_speeds
 
+        files, plate = self._files()
+        layer = max(self.report["print"].get("layers", 2) // 2, 1)
+        return draw_speeds({f"layer {layer}, {name}": layer_speeds(path, layer, plate) for name, path in files.items()})
+
+    def page(self, title: str | None = None) -> str:
+        """Return an HTML page that shows the layers before and after, coloured by speed, and needs no network.
+
+        Parameters
+        ----------
+        title : str, optional
+            By default, the name of the print.
+
+        Raises
+        ------
+        FormatError
+            If lines were refilled, not a file, or if no file is left.
+        """
+        from infill.planner.layer_speeds import drawn_speeds
+
+        files, plate = self._files()
+        named = title or next(iter(files.values())).name
+        return refill_page({name: drawn_speeds(path, plate) for name, path in files.items()}, self.report, named)
+
+    def _files(self) -> tuple[dict[str, Path], int | None]:
+        """Return the files before and after that are still there, and the plate that is shown; or raise FormatError."""
         old = self.source
         if old is not None and self.path == Path(os.path.realpath(old)):
             old = None  # the new print took its place
@@ -88,10 +115,37 @@ class RefillResult(Picturable):
         files = {name: path for name, path in named.items() if path is not None and path.is_file()}
         if not files:
             raise FormatError("a picture needs the files of the print; refill a file")
-        layer = max(self.report["print"].get("layers", 2) // 2, 1)
         plates = self.report["print"]["plates"]
-        plate = plates[0] if plates else None
-        return draw_speeds({f"layer {layer}, {name}": layer_speeds(path, layer, plate) for name, path in files.items()})
+        return files, plates[0] if plates else None
+
+
+def refill_page(prints: Mapping[str, DrawnSpeeds], report: RefillReport, title: str) -> str:
+    """Return a page that shows prints before and after a refill, with the numbers of its report.
+
+    Parameters
+    ----------
+    prints : mapping of str to DrawnSpeeds
+        By caption.
+    report : dict
+    title : str
+    """
+    from infill.viewer.print_page import format_clock, print_page
+
+    numbers = {"pattern": report["request"]["pattern"]}
+    sections, seconds, filament = report.get("sections"), report.get("time"), report.get("filament")
+    if sections is not None and seconds is not None and filament is not None:
+        numbers |= {
+            "sections refilled": f"{sections['replaced']:,} of {sections['all']:,}",
+            "time before": format_clock(seconds["print_before_s"]),
+            "time after": format_clock(seconds["print_after_s"]),
+            "infill before": format_clock(seconds["infill_before_s"]),
+            "infill after": format_clock(seconds["infill_after_s"]),
+            "filament before": f"{filament['print_before_mm'] / 1000:.2f} m",
+            "filament after": f"{filament['print_after_mm'] / 1000:.2f} m",
+        }
+    if report["problems"]:
+        numbers["problems"] = "; ".join(report["problems"])
+    return print_page(prints, title=title, numbers=list(numbers.items()))
 
 
 def refill(

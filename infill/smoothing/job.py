@@ -64,8 +64,8 @@ def smooth_volume(
     volume : (nx, ny, nz) array, Volume or path
         A file or folder of a volume, see `infill.read_volume`; or booleans, a mask, a phase field in [-1, 1], labels or
         grey values, [x, y, z]. Cells that a numpy.ma.MaskedArray masks are void. A Dask array, or a path of Zarr or
-        HDF5, is smoothed in chunks by the method "plain", without having all of it in memory: see
-        `infill.smoothing.chunked`; the other methods read it whole, if it fits into memory or `max_memory`.
+        HDF5, is smoothed in chunks if it does not fit into memory or `max_memory`, and always with the method "plain"
+        or `resume`: see `infill.smoothing.chunked`.
     spacing : float or (hx, hy, hz), optional
         Cell size, mm, of an array, 1 by default; or of a file, instead of the one that it states.
     origin : (x, y, z)

@@ -21,6 +21,7 @@ from starlette.routing import Route
 
 from infill.errors import InfillError
 from infill.plain_numbers import plain_size
+from infill.samples.catalogue import find_sample, write_sample
 from infill.studio.answering import StreamedAnswer, beat
 from infill.studio.frames import ANSWER, ERROR, FILE, AnswerFrame
 from infill.studio.guard import Guard, make_token
@@ -192,12 +193,16 @@ async def stay_alive(studio: Studio, request: Request) -> StreamedAnswer:
 
 
 async def receive_file(studio: Studio, request: Request) -> StreamedAnswer:
-    """Store an uploaded file and let the worker read it; or the file of the command line, with `given=1`."""
+    """Store an uploaded file and let the worker read it.
+
+    With `given=1` it is the file of the command line, with `sample=part`, `scan` or `print` a small one made here.
+    """
     page, limits = _find_page(studio, request), studio.limits
     if len(page.files) >= limits.files:
         raise RequestError(f"this page holds {limits.files} files; load it again", STATUS_OF_TOO_MUCH)
     opened = request.query_params.get("given") and studio.opened
-    requested = opened.name if opened else request.query_params.get("name", "")
+    sample = request.query_params.get("sample")
+    requested = opened.name if opened else find_sample(sample).file if sample else request.query_params.get("name", "")
     name = choose_name(requested, {stored.name for stored in page.files.values()})
     file_id, path = page.new_name("f"), page.folder / name
     stored = StoredFile(name=name, size=0)
@@ -205,6 +210,8 @@ async def receive_file(studio: Studio, request: Request) -> StreamedAnswer:
     try:
         if opened:
             await run_in_threadpool(_copy, opened, path)
+        elif sample:
+            await run_in_threadpool(write_sample, sample, path)
         else:
             await _store(request, path, limits, page)
         stored.size = path.stat().st_size

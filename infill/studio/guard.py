@@ -29,6 +29,7 @@ SECURITY_HEADERS = {
 }
 EVERYWHERE = ("0.0.0.0", "::")  # noqa: S104 - compared, not listened at
 TOKEN_BYTES = 24
+USUAL_PORT = "80"  # of http
 
 
 def make_token() -> str:
@@ -91,6 +92,8 @@ class Guard:
     def _is_our_host(self, text: str) -> bool:
         """Tell whether a host with its port names this server; numbers of a machine cannot be rebound."""
         name, _, port = text.lower().rpartition(":")
+        if not name or text.endswith("]"):  # browsers leave out the usual port
+            name, port = text.lower(), USUAL_PORT
         if port != str(self.port):
             return False
         if name in ("127.0.0.1", "localhost", "[::1]") or name.strip("[]") == self.host.lower():

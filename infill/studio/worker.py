@@ -118,7 +118,7 @@ class LogFrames(logging.Handler):
     def emit(self, record: logging.LogRecord) -> None:
         """Send a message, and keep it for the answer if it is a warning."""
         text = escape_unprintable(record.getMessage())
-        if record.levelno >= logging.WARNING:
+        if record.levelno >= logging.WARNING and record.module != "compiling":  # which only says why this takes long
             self.lines.append(text)
         elif self.request:
             self._outbox.send(AnswerFrame.of_json(PROGRESS, {"stage": text, "share": None}, self.request))

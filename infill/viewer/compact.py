@@ -90,9 +90,18 @@ def _residuals(steps: NDArray[np.int32], parents: NDArray[np.int32]) -> NDArray[
     vertex, a, b, apex = parents.T
     before = np.where(b[:, None] >= 0, steps[b], 0)
     predicted = np.where(a[:, None] >= 0, steps[a] + before - steps[apex], before)
-    difference = (steps[vertex] - predicted).astype(np.int16).astype(np.int32)
-    coded: NDArray[np.uint16] = ((difference << 1) ^ (difference >> 15)).astype(np.uint16)
-    return coded
+    return fold_signs(steps[vertex] - predicted)
+
+
+def fold_signs(differences: NDArray[np.integer]) -> NDArray[np.uint16]:
+    """Return differences modulo 2¹⁶ with the sign in the lowest bit.
+
+    >>> fold_signs(np.array([0, 1, -1, 2, -2])).tolist()
+    [0, 2, 1, 4, 3]
+    """
+    short = differences.astype(np.int16).astype(np.int32)
+    folded: NDArray[np.uint16] = ((short << 1) ^ (short >> 15)).astype(np.uint16)
+    return folded
 
 
 def split_bytes(numbers: NDArray[np.unsignedinteger]) -> Bytes:

@@ -27,7 +27,7 @@ from infill.surface import Surface
 MAGIC: Final = b"IFM1"
 STEPS: Final = 65535  # of a position, from one end of the bounds to the other
 ALIGNMENT: Final = 4  # bytes
-LEAST_COMPACT: Final = 20_000  # triangles: fewer are small enough, and need no compiler
+COMPACT_FROM: Final = 20_000  # triangles: fewer are small enough, and need no compiler
 
 
 def pack_surfaces(
@@ -67,7 +67,7 @@ def pack_surfaces(
         if value is not None and value.shape != (len(surface.vertices),):
             raise ParameterError.about("values", f"are {value.shape}, and {name} has {len(surface.vertices)} vertices")
         colour = None if colours is None or name not in colours else list(colours[name])
-        packing.add(name, surface, colour, value, compact=compact and len(surface.faces) >= LEAST_COMPACT)
+        packing.add(name, surface, colour, value, compact=compact and len(surface.faces) >= COMPACT_FROM)
     return packing.finish()
 
 

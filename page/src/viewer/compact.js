@@ -4,6 +4,8 @@
  * The same loops of edges are linked here as in `infill/kernels/mesh_traversal.py`, step by step.
  */
 
+import { readDifference } from "./planes.js";
+
 const NEW = 0;
 const NEXT = 1;
 const PREVIOUS = 2;
@@ -46,8 +48,7 @@ export function decodeCompact(symbols, named, places, vertexCount, triangleCount
   /** Read the place of a new vertex, from that of a + b - c, of which some may be missing: -1. */
   const readPlace = (/** @type {number} */ a, /** @type {number} */ b, /** @type {number} */ c) => {
     for (let axis = 0; axis < 3; axis++) {
-      const coded = places[axis * vertexCount + vertices] | (places[(axis + 3) * vertexCount + vertices] << 8);
-      const difference = (coded >> 1) ^ -(coded & 1);
+      const difference = readDifference(places, vertexCount, 3, axis, vertices);
       const first = a < 0 ? 0 : steps[3 * a + axis] - steps[3 * c + axis];
       steps[3 * vertices + axis] = first + (b < 0 ? 0 : steps[3 * b + axis]) + difference;
     }

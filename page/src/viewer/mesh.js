@@ -4,6 +4,7 @@
  * @typedef {object} Surface
  * @property {string} name
  * @property {boolean} closed Whether the surface bounds a solid, so that a cut through it can be filled.
+ * @property {string} [solid] Surfaces with the same word bound one solid together, such as a skin and the voids inside.
  * @property {[number, number, number] | null} colour From 0 to 1, sRGB.
  * @property {[number, number, number]} low Lower corner of the bounds, mm.
  * @property {[number, number, number]} size Size of the bounds, mm.

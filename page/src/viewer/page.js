@@ -1,7 +1,7 @@
 /** The page that `infill.viewer.page` writes: views of the data that are in it, and what one can change about them. */
 
 import { decodeMesh } from "./mesh.js";
-import { showPrint } from "./print.js";
+import { decodePrint, showPrints } from "./print.js";
 import { showSurfaces } from "./surfaces.js";
 import { createViewer } from "./viewer.js";
 
@@ -32,11 +32,9 @@ async function start() {
       for (const viewer of viewers) viewer.lookFrom(/** @type {HTMLElement} */ (button).dataset.side ?? "corner");
     });
   }
-  for (const [number, view] of views.entries()) {
-    const data = await readData(view.dataset.source ?? "");
-    if (settings.kind === "print") showPrint(viewers, number, data);
-    else showSurfaces(viewers[number], decodeMesh(data));
-  }
+  const data = await Promise.all(views.map((view) => readData(view.dataset.source ?? "")));
+  if (settings.kind === "print") showPrints(viewers, data.map(decodePrint));
+  else showSurfaces(viewers[0], decodeMesh(data[0]), settings.cut ?? "");
   await Promise.all(viewers.map((viewer) => viewer.frame()));
   Object.assign(globalThis, { viewers });
   document.documentElement.dataset.ready = "";

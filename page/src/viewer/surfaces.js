@@ -10,13 +10,16 @@ const STEPS = 200; // of the slider
  *
  * @param {View} viewer
  * @param {import("./mesh.js").Decoded} decoded
+ * @param {Axis | ""} cut Across which axis they are cut open at first.
  */
-export function showSurfaces(viewer, decoded) {
+export function showSurfaces(viewer, decoded, cut) {
   viewer.setMesh(decoded);
   listSurfaces(viewer, decoded);
   const low = [0, 1, 2].map((axis) => Math.min(...decoded.surfaces.map((surface) => surface.low[axis])));
   const high = [0, 1, 2].map((axis) => Math.max(...decoded.surfaces.map((each) => each.low[axis] + each.size[axis])));
-  connectCut(viewer, low, high);
+  const choice = /** @type {HTMLSelectElement} */ (document.getElementById("axis"));
+  choice.value = cut;
+  connectCut(viewer, choice, low, high);
 }
 
 /**
@@ -47,11 +50,11 @@ function listSurfaces(viewer, decoded) {
  * Let the controls of the cut move it.
  *
  * @param {View} viewer
+ * @param {HTMLSelectElement} choice
  * @param {number[]} low
  * @param {number[]} high
  */
-function connectCut(viewer, low, high) {
-  const choice = /** @type {HTMLSelectElement} */ (document.getElementById("axis"));
+function connectCut(viewer, choice, low, high) {
   const slider = /** @type {HTMLInputElement} */ (document.getElementById("at"));
   const output = /** @type {HTMLOutputElement} */ (document.getElementById("place"));
   const cut = () => {
@@ -65,7 +68,7 @@ function connectCut(viewer, low, high) {
     output.value = `${Number(slider.value).toFixed(2)} mm`;
     viewer.setCut({ axis, at: Number(slider.value) });
   };
-  choice.addEventListener("change", () => {
+  const begin = () => {
     const axis = ["x", "y", "z"].indexOf(choice.value);
     if (axis >= 0) {
       slider.step = "any";
@@ -75,7 +78,8 @@ function connectCut(viewer, low, high) {
       slider.step = String((high[axis] - low[axis]) / STEPS || "any");
     }
     cut();
-  });
+  };
+  choice.addEventListener("change", begin);
   slider.addEventListener("input", cut);
-  cut();
+  begin();
 }

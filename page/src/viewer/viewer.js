@@ -33,6 +33,7 @@ const LOST = new Color("#d03a2b"); // values below 128
 const ADDED = new Color("#2f6fde"); // values above 128
 const WHITE = new Color("white");
 const UNCHANGED = 128;
+const SECTION_WHITE = 0.3; // share of white in the colour of a section
 const IDLE = 400; // ms between two frames that do not belong together
 const MOST_PIXELS = 2; // of the screen, a CSS pixel
 
@@ -51,8 +52,8 @@ export function createViewer(element, { label = "3D view" } = {}) {
   return new Viewer(element, label);
 }
 
-/** @typedef {{mesh: Mesh, material: MeshLambertMaterial, section: Section | null, origin: Uint32Array,
- *   values: Uint8Array | null, triangles: number, opacity: number, colour: Color}} Shown */
+/** @typedef {{mesh: Mesh, material: MeshLambertMaterial, section: Section | null, members: Shown[],
+ *   origin: Uint32Array, values: Uint8Array | null, triangles: number, opacity: number, colour: Color}} Shown */
 
 class Viewer {
   /**
@@ -107,24 +108,52 @@ class Viewer {
    * Show surfaces in place of those shown before; names that stay keep what is set for them. The first ones are fitted.
    *
    * @param {import("./mesh.js").Decoded} decoded
+   * @param {{flat?: boolean}} [how] A flat one shows its triangles, and is there in a third of the time.
    */
-  setMesh(decoded) {
+  setMesh(decoded, { flat = false } = {}) {
     const before = this.shown;
     const cut = this.cut;
     this.shown = new Map();
     decoded.surfaces.forEach((surface, number) => {
-      const shown = this.show(surface, number);
+      const shown = this.show(surface, number, flat);
       const old = before.get(surface.name);
       if (old) {
         shown.mesh.visible = old.mesh.visible;
         paint(shown, old.colour);
-        fade(shown, old.opacity);
       }
       this.shown.set(surface.name, shown);
     });
-    for (const old of before.values()) this.remove(old);
+    this.addSections(decoded.surfaces);
+    for (const [name, old] of before) {
+      this.remove(old);
+      const shown = this.shown.get(name);
+      if (shown) fade(shown, old.opacity);
+    }
     this.changed();
     this.setCut(cut);
+  }
+
+  /**
+   * Make a section for every solid: of one closed surface, or of several that bound it together. It has the colour of
+   * the last of them.
+   *
+   * @param {import("./mesh.js").Surface[]} surfaces
+   */
+  addSections(surfaces) {
+    /** @type {Map<string, Shown[]>} */
+    const solids = new Map();
+    for (const { name, closed, solid } of surfaces) {
+      const shown = this.shown.get(name);
+      if (closed && shown) solids.set(solid ?? name, [...(solids.get(solid ?? name) ?? []), shown]);
+    }
+    [...solids.values()].forEach((members, number) => {
+      const shown = members[members.length - 1];
+      const geometries = members.map(({ mesh }) => mesh.geometry);
+      shown.section = new Section(geometries, number + 1);
+      shown.members = members;
+      shown.section.material.color.copy(shown.colour).lerp(WHITE, SECTION_WHITE);
+      this.scene.add(shown.section.group);
+    });
   }
 
   /**
@@ -171,7 +200,7 @@ class Viewer {
     const planes = cut === null ? null : [cutPlane(cut)];
     for (const shown of this.shown.values()) {
       shown.material.clippingPlanes = planes;
-      shown.section?.set(shown.mesh.visible ? cut : null, this.bounds);
+      shown.section?.set(shown.members.some(({ mesh }) => mesh.visible) ? cut : null, this.bounds);
     }
     for (const { material } of this.lines.values()) material.clippingPlanes = planes;
     this.invalidate();
@@ -222,6 +251,7 @@ class Viewer {
 
   /** Show everything, from where the camera stands. */
   fit() {
+    this.resize(); // the observer comes later, if the element has just changed
     this.orbit.fit();
     this.moved();
   }
@@ -316,20 +346,27 @@ class Viewer {
   /**
    * @param {import("./mesh.js").Surface} surface
    * @param {number} number
+   * @param {boolean} flat
    * @returns {Shown}
    */
-  show(surface, number) {
-    const { positions, normals, indices, origin } = computeNormals(surface.positions, surface.indices);
+  show(surface, number, flat) {
     const geometry = new BufferGeometry();
-    geometry.setAttribute("position", new BufferAttribute(positions, 3));
-    geometry.setAttribute("normal", new BufferAttribute(normals, 3));
-    geometry.setIndex(new BufferAttribute(indices, 1));
+    /** @type {Uint32Array} */
+    let origin = Uint32Array.from(surface.values?.keys() ?? []);
+    if (flat) {
+      geometry.setAttribute("position", new BufferAttribute(surface.positions, 3));
+      geometry.setIndex(new BufferAttribute(surface.indices, 1));
+    } else {
+      const split = computeNormals(surface.positions, surface.indices);
+      origin = split.origin;
+      geometry.setAttribute("position", new BufferAttribute(split.positions, 3));
+      geometry.setAttribute("normal", new BufferAttribute(split.normals, 3));
+      geometry.setIndex(new BufferAttribute(split.indices, 1));
+    }
     geometry.computeBoundingSphere();
-    const material = new MeshLambertMaterial({ side: surface.closed ? FrontSide : DoubleSide });
+    const material = new MeshLambertMaterial({ side: surface.closed ? FrontSide : DoubleSide, flatShading: flat });
     const mesh = new Mesh(geometry, material);
-    const section = surface.closed ? new Section(geometry, number + 1) : null;
     this.scene.add(mesh);
-    if (section) this.scene.add(section.group);
     mesh.renderOrder = number + 1.2;
     mesh.userData.bounds = new Box3(
       new Vector3(...surface.low),
@@ -339,7 +376,9 @@ class Viewer {
     const triangles = surface.indices.length / 3;
     const own = surface.colour && new Color().setRGB(...surface.colour, "srgb");
     const colour = own ?? new Color(COLOURS[number % COLOURS.length]);
-    const shown = { mesh, material, section, origin, values: surface.values, triangles, opacity: 1, colour };
+    const { values } = surface;
+    /** @type {Shown} */
+    const shown = { mesh, material, section: null, members: [], origin, values, triangles, opacity: 1, colour };
     paint(shown, colour);
     return shown;
   }
@@ -364,7 +403,10 @@ class Viewer {
     this.bounds = bounds;
     const points = all.map(({ userData }) => userData.points);
     this.orbit.setBounds(bounds.min.toArray(), bounds.max.toArray(), points);
-    if (this.empty) this.orbit.fit();
+    if (this.empty) {
+      this.resize();
+      this.orbit.fit();
+    }
     this.empty = false;
     this.invalidate();
   }
@@ -445,7 +487,7 @@ function fade(shown, opacity) {
  */
 function paint(shown, colour) {
   shown.colour = colour;
-  shown.section?.material.color.copy(colour).lerp(WHITE, 0.3);
+  shown.section?.material.color.copy(colour).lerp(WHITE, SECTION_WHITE);
   if (shown.values === null) {
     shown.material.color.copy(colour);
     return;

@@ -1,0 +1,103 @@
+/**
+ * Answers while a hand moves: coarse ones as fast as they come, the exact one when it rests.
+ *
+ * One request is under way at a time. A coarse one that is under way while the values change is let finish, so that
+ * a long pull shows pictures all along, and the newest values follow at once. An exact one is dropped at any change.
+ */
+
+import { isAbort } from "./server.js";
+
+const REST = 350; // ms without a change, after which the exact answer is asked for
+
+/**
+ * @typedef {object} Work
+ * @property {(quality: "coarse"|"exact", signal: AbortSignal) => Promise<any>} ask
+ * @property {(reply: any, quality: "coarse"|"exact") => Promise<void>|void} show resolves when it has been drawn
+ * @property {(error: unknown) => void} fail
+ * @property {(busy: "coarse"|"exact"|null) => void} busy
+ */
+
+/**
+ * Make the runner of one view.
+ * @param {Work} work
+ */
+export function createLive({ ask, show, fail, busy }) {
+  /** @type {{quality: "coarse"|"exact", control: AbortController}|null} */
+  let running = null;
+  let wantsCoarse = false;
+  let wantsExact = false;
+  let timer = 0;
+
+  function next() {
+    if (running) return;
+    if (wantsCoarse) run("coarse");
+    else if (wantsExact) run("exact");
+    else busy(null);
+  }
+
+  /** @param {"coarse"|"exact"} quality */
+  async function run(quality) {
+    const control = new AbortController();
+    const mine = { quality, control };
+    running = mine;
+    if (quality === "coarse") wantsCoarse = false;
+    else wantsExact = false;
+    busy(quality);
+    try {
+      const reply = await ask(quality, control.signal);
+      // What follows waits until the picture is there, which needs the processor, too.
+      if (!control.signal.aborted) await show(reply, quality);
+    } catch (error) {
+      if (!isAbort(error) && !control.signal.aborted) {
+        // A coarse answer may fail where the exact one does not: the exact one has the word.
+        if (quality === "exact") fail(error);
+        else if (!wantsCoarse && !wantsExact && !timer) fail(error);
+      }
+    }
+    if (running === mine) running = null;
+    next();
+  }
+
+  function drop() {
+    running?.control.abort();
+    running = null;
+  }
+
+  return {
+    /** The values change under a moving hand. */
+    move() {
+      wantsCoarse = true;
+      wantsExact = false;
+      if (running?.quality === "exact") drop();
+      clearTimeout(timer);
+      timer = window.setTimeout(() => this.rest(), REST);
+      next();
+    },
+    /** The hand rests: the exact answer is wanted, if it is not there or under way. */
+    rest() {
+      if (!timer) return;
+      clearTimeout(timer);
+      timer = 0;
+      wantsExact = true;
+      next();
+    },
+    /** The values jump: whatever is under way is for values of before. */
+    jump() {
+      clearTimeout(timer);
+      timer = 0;
+      drop();
+      wantsCoarse = true;
+      wantsExact = true;
+      next();
+    },
+    /** Nothing is wanted any more. */
+    stop() {
+      clearTimeout(timer);
+      timer = 0;
+      wantsCoarse = false;
+      wantsExact = false;
+      drop();
+      busy(null);
+    },
+  };
+}

@@ -1,0 +1,417 @@
+/**
+ * A scan, or a rough mesh: choose what is solid on the histogram, see its outline in three slices and its surface
+ * before and after smoothing, save it.
+ */
+
+import { decodeMesh } from "../viewer/mesh.js";
+import { createViewer, COLOURS as LABEL_COLOURS } from "../viewer/viewer.js";
+import { createAgain, createDownloads } from "./again.js";
+import { followTheme } from "./colours.js";
+import { choices, slider } from "./controls.js";
+import { createCut } from "./cut.js";
+import { announce, h, plain, replaceChildren } from "./dom.js";
+import { createForm } from "./form.js";
+import { createHistogram } from "./histogram.js";
+import { createLive } from "./live.js";
+import { createNumbers, valueText } from "./numbers.js";
+import { boundsOf } from "./part.js";
+import { createSlices } from "./slices.js";
+import { createStage } from "./stage.js";
+import { createFileHead, describeError, dropAgain, forServer, layout, withOption } from "./view.js";
+
+/** @typedef {import("./store.js").Section} Section */
+/** @typedef {{value: number, name: string, colour: number[]|null}} Label */
+/** @typedef {{file: string, kind: string, name: string, numbers: any[], part?: any, scan?: {shape: number[], spacing: number[],
+ *   least: number, most: number, histogram: {edges: number[], counts: number[]}, otsu: number|null, labels: Label[]|null}}} OpenScan */
+
+const SMOOTH = "smooth";
+const LABELS = "labels";
+const BEFORE = "voxels"; // name of the surface before smoothing
+const MOST_PIECES = 10;
+const SOLID_NAME = "solid"; // of the surface that is not of a label
+const COLOURS = { voxels: "#b4c0c8", solid: "#d3bf98" };
+const HIDDEN = [
+  "as",
+  "units",
+  "otsu",
+  "array",
+  "series",
+  "labels",
+  "each_label",
+  "keep_going",
+  "max_triangles",
+  "refine",
+];
+const SOLID = ["threshold", "range", "label", "otsu"]; // options that say what is solid
+
+/**
+ * Make the view.
+ * @param {import("./view.js").Studio} studio
+ */
+export function createScanView(studio) {
+  const { server, about, store } = studio;
+  /** @type {OpenScan|null} */
+  let open = null;
+  /** @type {Section} */
+  let section = store.state.scan;
+  let asked = "";
+  /** @type {any} */
+  let meshBefore = null;
+  let isFresh = true; // whether the first mesh of a file is awaited, to which the view is fitted
+
+  const head = createFileHead({
+    accept: ".nrrd,.nhdr,.nii,.gz,.mha,.mhd,.npz,.npy,.tif,.tiff,.zip,.stl,.ply,.obj",
+    title: "Open another scan",
+    open: studio.open,
+  });
+  const reducedMotion = matchMedia("(prefers-reduced-motion: reduce)").matches;
+  const places = [h("div", { class: "viewer" }), h("div", { class: "viewer" })];
+  const [before, after] = ["The surface before smoothing", "The surface after smoothing"].map((label, i) =>
+    createViewer(places[i], { label, reducedMotion }),
+  );
+  before.onCamera((/** @type {any} */ camera) => after.setCamera(camera));
+  after.onCamera((/** @type {any} */ camera) => before.setCamera(camera));
+  followTheme((theme) => {
+    for (const viewer of [before, after]) viewer.setTheme(theme);
+  });
+  const figureBefore = h("figure", { hidden: true }, h("figcaption", {}, "Before"), places[0]);
+  const pair = h("div", { class: "pair" }, figureBefore, h("figure", {}, h("figcaption", {}, "After"), places[1]));
+  const stage = createStage(pair);
+  const empty = h("div", { class: "empty", hidden: true });
+  stage.element.append(empty);
+  const cut = createCut({ onChange: (value, resting) => change({ ...section, cut: value }, resting) });
+  const slices = createSlices({ server, onFail: (error) => stage.fail(describeError(error)?.message ?? null) });
+  const numbers = createNumbers();
+  const again = createAgain();
+  const downloads = createDownloads({ server, slicers: [] });
+
+  const mode = choices({
+    label: "What is solid",
+    choices: [
+      { value: "threshold", text: "From a value" },
+      { value: "range", text: "Between two" },
+    ],
+    onChange: (value) => {
+      const [low] = ends();
+      const high = open?.scan ? (low + open.scan.most) / 2 : low;
+      setSolid(value === "range" ? { range: `${low},${Number(high.toFixed(3))}` } : { threshold: low }, true);
+    },
+  });
+  const histogramPlace = h("div", { class: "histogram-place" });
+  /** @type {ReturnType<typeof createHistogram>|null} */
+  let histogram = null;
+  const labelList = h("div", { class: "labels", role: "group", "aria-label": "Labels" });
+  const method = option("smooth", choices, {
+    label: "Method",
+    choices: [
+      { value: "", text: "Auto", title: "Chosen by the data" },
+      { value: "plain", text: "Plain", title: "For noise" },
+      { value: "refine", text: "Refine", title: "Keeps edges and thin walls" },
+      { value: "grey", text: "Grey", title: "Keeps the grey levels of a scan" },
+    ],
+  });
+  const steps = option("steps", slider, { label: "Smoothing", unit: "steps", least: 0, most: 100, step: 1, start: 20 });
+  const despeckle = option("despeckle", slider, {
+    label: "Drop pieces up to",
+    unit: "mm³",
+    least: 0,
+    most: 500,
+    step: 1,
+    start: 0,
+    help: "Loose pieces smaller than this are left out.",
+  });
+  const solid = {
+    element: h("div", { class: "solid" }, mode.element, histogramPlace, labelList),
+    set() {},
+    /** @param {string|null} message */
+    fail: (message) => (histogram ? histogram.fail(message) : mode.fail(message)),
+  };
+  const form = createForm({
+    options: about.products[SMOOTH] ?? [],
+    main: [
+      { keys: SOLID, control: solid },
+      { keys: ["smooth"], control: method },
+      { keys: ["steps"], control: steps },
+      { keys: ["despeckle"], control: despeckle },
+    ],
+    hidden: HIDDEN,
+    onChange: (key, value, resting) =>
+      change({ ...section, options: withOption(section.options, key, value) }, resting),
+  });
+
+  const live = createLive({
+    ask: (quality, signal) =>
+      server.ask(
+        { product: product(), file: open?.file ?? null, options: forServer(effective()), quality },
+        { signal, onProgress: (progress) => stage.progress(progress) },
+      ),
+    show: (reply, quality) => {
+      form.fail(null);
+      stage.fail(null);
+      if (reply.mesh) showMesh(decodeMesh(reply.mesh));
+      numbers.show(reply.answer.numbers, reply.answer.warnings ?? []);
+      numbers.setStale(quality === "coarse");
+      showComponents(reply.answer.components ?? []);
+      again.show(reply.answer);
+      stage.badge(quality === "coarse" ? "Preview" : null);
+      if (quality !== "exact") return;
+      downloads.show(reply.answer);
+      announce(
+        `Exact result. ${reply.answer.numbers
+          .slice(0, 2)
+          .map((/** @type {any} */ row) => `${row.name} ${valueText(row)}`)
+          .join(", ")}`,
+      );
+    },
+    fail: (error) => {
+      const stated = describeError(error);
+      if (!stated) return;
+      form.fail(stated.message, stated.parameter);
+      stage.badge(null);
+      downloads.show(null);
+    },
+    busy: (quality) =>
+      stage.progress(quality ? { stage: quality === "exact" ? "Computing the exact surface" : "", share: 0 } : null),
+  });
+
+  const componentList = h("table", { class: "components", hidden: true });
+
+  /** @param {number[]} volumes of the pieces, the largest first, mm³ */
+  function showComponents(volumes) {
+    componentList.hidden = volumes.length < 2;
+    const shown = volumes.slice(0, MOST_PIECES);
+    replaceChildren(
+      componentList,
+      h("caption", {}, volumes.length > shown.length ? `The ${shown.length} largest pieces` : `${shown.length} pieces`),
+      h(
+        "tbody",
+        {},
+        shown.map((volume, i) =>
+          h("tr", {}, h("td", {}, `${plain(volume)} mm³`), h("td", {}, i ? pieceButton(i, volume) : "kept")),
+        ),
+      ),
+    );
+  }
+
+  /**
+   * @param {number} i
+   * @param {number} volume
+   */
+  function pieceButton(i, volume) {
+    const label = `Drop piece ${i + 1} and all smaller ones`;
+    return h(
+      "button",
+      { type: "button", class: "quiet", "aria-label": label, title: label, onclick: () => drop(volume) },
+      "Drop",
+    );
+  }
+
+  /** @param {number} volume of the largest piece that goes; smoothing may have taken a little from it. */
+  function drop(volume) {
+    const limit = Number((volume * 1.05).toPrecision(3));
+    change({ ...section, options: withOption(section.options, "despeckle", limit) }, true);
+  }
+
+  function product() {
+    return open?.scan?.labels?.length && !SOLID.some((key) => key in section.options) ? LABELS : SMOOTH;
+  }
+
+  /** The options, with the threshold that is chosen for a scan that has none. */
+  function effective() {
+    const { options } = section;
+    if (!open?.scan || product() === LABELS || SOLID.some((key) => key in options)) return options;
+    return { threshold: ends()[0], ...options };
+  }
+
+  /** @returns {number[]} the threshold, or both ends of a range */
+  function ends() {
+    const { threshold, range } = section.options;
+    if (range !== undefined) return (Array.isArray(range) ? range : String(range).split(",")).map(Number);
+    if (threshold !== undefined) return [Number(threshold)];
+    const scan = open?.scan;
+    return scan ? [Number((scan.otsu ?? (scan.least + scan.most) / 2).toPrecision(4))] : [0];
+  }
+
+  /**
+   * @param {Record<string, any>} choice
+   * @param {boolean} resting
+   */
+  function setSolid(choice, resting) {
+    const rest = SOLID.reduce((all, key) => withOption(all, key, null), section.options);
+    change({ ...section, options: { ...rest, ...choice } }, resting);
+  }
+
+  /**
+   * @template T
+   * @param {string} key
+   * @param {(what: any) => T} make
+   * @param {Record<string, any>} what
+   */
+  function option(key, make, what) {
+    return make({
+      ...what,
+      onChange: (/** @type {any} */ value, /** @type {boolean} */ resting) =>
+        change({ ...section, options: withOption(section.options, key, value === "" ? null : value) }, resting),
+    });
+  }
+
+  /**
+   * @param {Section} next
+   * @param {boolean} resting
+   */
+  function change(next, resting) {
+    store.replace({ ...store.state, scan: next }, { rest: resting, cause: resting ? "rest" : "move" });
+  }
+
+  /** @param {any} mesh */
+  function showMesh(mesh) {
+    const [old, fresh] = [true, false].map((wanted) =>
+      mesh.surfaces.filter((/** @type {{name: string}} */ { name }) => (name === BEFORE) === wanted),
+    );
+    if (old.length) meshBefore = { ...mesh, surfaces: old };
+    figureBefore.hidden = !meshBefore;
+    pair.classList.toggle("single", !meshBefore);
+    if (meshBefore) {
+      before.setMesh(meshBefore);
+      before.setColour(BEFORE, COLOURS.voxels);
+    }
+    if (fresh.length) after.setMesh({ ...mesh, surfaces: fresh });
+    after.setColour(SOLID_NAME, COLOURS.solid);
+    cut.setBounds(boundsOfSurfaces(mesh.surfaces));
+    // Once both stand in their places, they are seen from the same one.
+    requestAnimationFrame(() => {
+      if (isFresh) after.fit();
+      isFresh = false;
+      before.setCamera(after.getCamera());
+    });
+    setCuts();
+  }
+
+  function setCuts() {
+    for (const viewer of [before, after]) viewer.setCut(cut.plane);
+  }
+
+  /** @param {Label[]} labels */
+  function showLabels(labels) {
+    replaceChildren(
+      labelList,
+      ...labels.map((label, i) => {
+        const input = h("input", {
+          type: "checkbox",
+          checked: true,
+          onchange: () => after.setVisible(label.name, input.checked),
+        });
+        const swatch = h("span", { class: "swatch", "aria-hidden": "true" });
+        swatch.style.background = cssColour(label.colour) ?? LABEL_COLOURS[i % LABEL_COLOURS.length];
+        return h("label", { class: "tick" }, input, swatch, h("span", {}, label.name || `Label ${label.value}`));
+      }),
+    );
+  }
+
+  return {
+    element: layout({
+      label: "Scan",
+      controls: [head.element, form.element],
+      stage: [stage.element, h("div", { class: "toolbar" }, cut.element), slices.element],
+      side: [numbers.element, componentList, downloads.element, again.element],
+    }),
+    /**
+     * @param {OpenScan} file
+     * @param {ArrayBuffer|null} mesh
+     */
+    opened(file, mesh) {
+      open = file;
+      asked = "";
+      meshBefore = null;
+      isFresh = true;
+      empty.hidden = true;
+      numbers.show(file.numbers ?? []);
+      const { scan } = file;
+      const facts = scan ? scan.shape.join(" × ") : `${plain(file.part?.triangles ?? 0)} triangles`;
+      head.show(file.name, facts);
+      solid.element.hidden = !scan;
+      slices.element.hidden = !scan;
+      method.element.querySelectorAll("label")[3]?.toggleAttribute("hidden", !scan);
+      if (scan) {
+        slices.open(file.file, scan);
+        const labels = scan.labels ?? [];
+        mode.element.hidden = labels.length > 0;
+        histogramPlace.hidden = labels.length > 0;
+        labelList.hidden = !labels.length;
+        showLabels(labels);
+        histogram = createHistogram({
+          histogram: scan.histogram,
+          least: scan.least,
+          most: scan.most,
+          onChange: (next, resting) =>
+            setSolid(next.length > 1 ? { range: next.join(",") } : { threshold: next[0] }, resting),
+        });
+        replaceChildren(histogramPlace, histogram.element);
+      } else if (file.part) cut.setBounds(boundsOf(file.part.bounds));
+      if (mesh) {
+        const decoded = decodeMesh(mesh);
+        showMesh({
+          ...decoded,
+          surfaces: decoded.surfaces.map((/** @type {any} */ one) => ({ ...one, name: BEFORE })),
+        });
+      }
+      stage.fail(null);
+      form.fail(null);
+      downloads.show(null);
+      this.update(store.state.scan, "jump");
+    },
+    /**
+     * Follow the state.
+     * @param {Section} next
+     * @param {string} cause
+     */
+    update(next, cause) {
+      section = next;
+      const { options } = section;
+      mode.set(options.range === undefined ? "threshold" : "range");
+      histogram?.set(ends());
+      if (open?.scan) slices.outline(product() === LABELS ? [] : ends());
+      method.set(options.smooth ?? "");
+      steps.set(options.steps ?? 20);
+      despeckle.set(options.despeckle ?? 0);
+      form.set(options);
+      cut.set(section.cut);
+      setCuts();
+      if (!open) {
+        const waits = section.source?.name;
+        empty.hidden = !waits;
+        empty.textContent = waits ? dropAgain(waits) : "";
+        return;
+      }
+      const wanted = JSON.stringify(effective());
+      if (wanted === asked) {
+        if (cause === "rest") live.rest();
+        return;
+      }
+      asked = wanted;
+      downloads.show(null);
+      numbers.setStale(true);
+      if (cause === "move") live.move();
+      else live.jump();
+    },
+    stop: () => live.stop(),
+  };
+}
+
+/**
+ * The box around surfaces.
+ * @param {import("../viewer/mesh.js").Surface[]} surfaces
+ */
+function boundsOfSurfaces(surfaces) {
+  const axes = [0, 1, 2];
+  return {
+    low: axes.map((i) => Math.min(...surfaces.map(({ low }) => low[i]))),
+    high: axes.map((i) => Math.max(...surfaces.map(({ low, size }) => low[i] + size[i]))),
+  };
+}
+
+/** @param {number[]|null} colour sRGB, from 0 to 1 */
+function cssColour(colour) {
+  if (!colour) return null;
+  return `rgb(${colour.map((share) => Math.round(255 * share)).join(" ")})`;
+}
