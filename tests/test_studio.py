@@ -350,6 +350,7 @@ def test_every_download_can_be_opened(page: Page, ids: dict[str, str], tmp_path:
     assert page.download("r999", format="stl").status_code == 404
 
 
+@pytest.mark.slow
 def test_a_coarse_answer_is_near_the_exact_one(page: Page, ids: dict[str, str]) -> None:
     coarse = page.ask("fill", ids["part.stl"], options={"density": 0.25}, quality="coarse")
     exact = page.ask("fill", ids["part.stl"], options={"density": 0.25, "max_triangles": 50_000})
@@ -363,6 +364,7 @@ def test_a_coarse_answer_is_near_the_exact_one(page: Page, ids: dict[str, str]) 
     assert grams["PLA"] == pytest.approx(exact.number("volume") / 1000 * 1.24)
 
 
+@pytest.mark.slow
 def test_a_layer_is_refilled_first(page: Page, ids: dict[str, str]) -> None:
     answer = page.ask("refill", ids["print.gcode"], options={"pattern": "gyroid"}, quality="coarse", layer=7)
     header, *_ = read_layer(answer.payloads(LAYER)[0])
@@ -543,6 +545,7 @@ def test_an_archive_unpacks_into_its_folder_only(page: Page, studio: Studio, fil
 # --- pages -----------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_page_that_goes_takes_its_process_and_folder(studio: Studio, files: Path) -> None:
     others, kept = studio.workers(), set(studio.temporary())
     with studio.page() as page:
@@ -556,6 +559,7 @@ def test_a_page_that_goes_takes_its_process_and_folder(studio: Studio, files: Pa
         assert page.ask("make", options={"pattern": "honeycomb"}).status == 404
 
 
+@pytest.mark.slow
 def test_work_ends_when_its_page_goes(studio: Studio, files: Path) -> None:
     others = studio.workers()
     with studio.page() as page:
@@ -568,6 +572,7 @@ def test_work_ends_when_its_page_goes(studio: Studio, files: Path) -> None:
             wait_until(lambda: not studio.workers() & own)
 
 
+@pytest.mark.slow
 def test_closing_the_connection_cancels(studio: Studio, files: Path) -> None:
     with studio.page() as page:
         file = page.upload(files / "part.stl").facts["file"]
@@ -586,6 +591,7 @@ def test_closing_the_connection_cancels(studio: Studio, files: Path) -> None:
         assert time.perf_counter() - begin < 15  # s; the whole fill would take longer, and so may a new process
 
 
+@pytest.mark.slow
 def test_the_newest_request_of_a_lane_wins(studio: Studio, files: Path) -> None:
     import threading
 
@@ -608,6 +614,7 @@ def test_the_newest_request_of_a_lane_wins(studio: Studio, files: Path) -> None:
         assert "newer request" in answers["old"].error["message"]
 
 
+@pytest.mark.slow
 def test_two_pages_do_not_disturb_each_other(studio: Studio, files: Path) -> None:
     with studio.page() as first, studio.page() as second:
         assert first.name != second.name
@@ -619,6 +626,7 @@ def test_two_pages_do_not_disturb_each_other(studio: Studio, files: Path) -> Non
         assert first.ask("fill", mine["file"], options={"voxel": 1, "wall": 2.5}).error is None
 
 
+@pytest.mark.slow
 def test_pages_have_a_limit_and_unknown_ones_are_gone(studio: Studio) -> None:
     with studio.client() as client:
         opened = []
@@ -641,6 +649,7 @@ def test_pages_have_a_limit_and_unknown_ones_are_gone(studio: Studio) -> None:
 # --- beginning and end ---------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_ctrl_c_ends_it_cleanly(tmp_path: Path, files: Path) -> None:
     with run_studio(tmp_path, str(files / "part.stl")) as studio, studio.page() as page:
         assert page.client.get("api/about").json()["file"] == {"name": "part.stl"}
@@ -665,6 +674,7 @@ def test_workers_end_with_a_server_that_is_killed(tmp_path: Path) -> None:
         wait_until(lambda: not any(Path(f"/proc/{number}").exists() for number in workers))
 
 
+@pytest.mark.slow
 def test_mistakes_on_the_command_line(tmp_path: Path) -> None:
     def run(*words: str) -> subprocess.CompletedProcess[str]:
         command = [sys.executable, "-c", CODE, "studio", "--no-browser", *words]
