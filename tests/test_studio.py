@@ -649,9 +649,33 @@ def test_pages_have_a_limit_and_unknown_ones_are_gone(studio: Studio) -> None:
 # --- beginning and end ---------------------------------------------------------------------------------------
 
 
+LIMITED = """
+from infill.studio.limits import StudioLimits
+from infill.studio.server import serve
+serve(browser=False, limits=StudioLimits(seconds=4, upload_bytes=60_000, files=2, memory_bytes=300_000_000))
+"""
+
+
 @pytest.mark.slow
-def test_ctrl_c_ends_it_cleanly(tmp_path: Path, files: Path) -> None:
-    with run_studio(tmp_path, str(files / "part.stl")) as studio, studio.page() as page:
+def test_every_request_has_limits_of_time_and_memory(tmp_path: Path, files: Path) -> None:
+    with run_studio(tmp_path, code=LIMITED) as studio, studio.page() as page:
+        limits = page.client.get("api/about").json()["limits"]
+        assert (limits["seconds"], limits["upload_bytes"]) == (4, 60_000)
+        assert page.upload(files / "print.gcode").status == 413
+        file = page.upload(files / "part.stl").facts["file"]
+        slow = page.ask("fill", file, options={"voxel": 0.25, "max_triangles": 900_000})
+        assert "takes over 4 s" in slow.error["message"]
+        large = page.ask("fill", file, options={"voxel": 0.05})
+        assert "memory" in large.error["message"]
+        assert page.post("files?sample=part").error is None
+        assert "holds 2 files" in page.upload(files / "part.stl").error["message"]
+        assert page.ask("make", options={"pattern": "honeycomb", "size": [10, 10], "height": 1}).error is None
+
+
+@pytest.mark.slow
+def test_ctrl_c_ends_it_cleanly(tmp_path: Path, files: Path, tmp_path_factory: pytest.TempPathFactory) -> None:
+    here = tmp_path_factory.mktemp("here")
+    with run_studio(tmp_path, str(files / "part.stl"), cwd=here) as studio, studio.page() as page:
         assert page.client.get("api/about").json()["file"] == {"name": "part.stl"}
         facts = page.post("files?given=1").facts
         assert (facts["kind"], facts["name"]) == ("part", "part.stl")
@@ -660,7 +684,7 @@ def test_ctrl_c_ends_it_cleanly(tmp_path: Path, files: Path) -> None:
         assert [path.name for path in tmp_path.iterdir()] != []
         assert all(path.name.startswith(TEMPORARY) for path in tmp_path.iterdir())
         assert studio.stop() == 0
-        assert list(tmp_path.iterdir()) == []
+        assert list(tmp_path.iterdir()) == list(here.iterdir()) == []
         wait_until(lambda: not any(Path(f"/proc/{number}").exists() for number in workers))
 
 
