@@ -386,8 +386,9 @@ class Viewer {
   /** @param {Shown} shown */
   remove(shown) {
     this.scene.remove(shown.mesh);
+    // Its material is left to the garbage collector: if it were disposed of, the program that draws it would go too,
+    // and be compiled again for the next mesh, which takes longer than drawing it.
     shown.mesh.geometry.dispose();
-    shown.material.dispose();
     if (shown.section) {
       this.scene.remove(shown.section.group);
       shown.section.dispose();
