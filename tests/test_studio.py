@@ -29,6 +29,9 @@ pytest.importorskip("starlette")
 pytest.importorskip("uvicorn")
 
 from studio_client import LAYER, MESH, PATIENCE, Answer, Page, Studio, run_studio  # noqa: E402
+from test_3mf_hostile import XMLS, ZIPS, changed  # noqa: E402
+from test_3mf_parts import packed  # noqa: E402
+from test_broken_files import READERS  # noqa: E402
 
 from infill.studio.guard import Guard  # noqa: E402
 
@@ -523,6 +526,35 @@ def test_a_broken_file_is_one_message(page: Page, name: str) -> None:
     answer = page.post(f"files?name={name}", content=BROKEN[name])
     assert answer.error is not None
     check_message(answer, Path(name))
+
+
+@pytest.mark.slow
+def test_faults_of_packages_are_one_message_each(page: Page, tmp_path: Path) -> None:
+    """Those that are planted for the readers, in tests/test_3mf_hostile.py."""
+    faulty = {fault: changed(tmp_path / "a.3mf", change).read_bytes() for fault, (change, _) in ZIPS.items()}
+    faulty |= {fault: packed(tmp_path / "a.3mf", text).read_bytes() for fault, (text, _) in XMLS.items()}
+    for fault, content in faulty.items():
+        answer = page.post("files?name=a.3mf", content=content)
+        if answer.error is not None:  # of one of them, the readers of models know nothing
+            check_message(answer, Path(fault))
+    assert page.post("files?sample=part").error is None
+
+
+CUT = [name for name in READERS if name not in ("png", "points", "ply points")]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", CUT)
+def test_files_that_are_cut_off_are_one_message(page: Page, name: str, tmp_path: Path) -> None:
+    """Of every format, at three places: what is left is read, or refused."""
+    path = READERS[name][0](tmp_path)
+    content = path.read_bytes()
+    assert page.upload(path).error is None
+    for share in (0.1, 0.5, 0.95):
+        path.write_bytes(content[: int(share * len(content))])
+        answer = page.upload(path)
+        if answer.error is not None:
+            check_message(answer, path)
 
 
 def test_an_archive_unpacks_into_its_folder_only(page: Page, studio: Studio, files: Path) -> None:
