@@ -247,4 +247,4 @@ def test_commands_without_a_page_load_nothing_of_it(tmp_path: Path) -> None:
     code = f"from infill import make; make('honeycomb', size=20, height=2).save({str(tmp_path / 'x.stl')!r})"
     brought = modules_after(code)
     assert "infill.viewer.viewable" in brought
-    assert not {"infill.viewer.page", "infill.viewer.packing", "webbrowser", "html"} & brought
+    assert not {"infill.viewer.page", "infill.viewer.packing", "webbrowser"} & brought
