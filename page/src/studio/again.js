@@ -3,6 +3,11 @@
  */
 
 import { announce, freshId, h, icon, replaceChildren } from "./dom.js";
+import { readRefusal } from "./server.js";
+import { describeError } from "./view.js";
+
+const SLOW = 300; // ms after which a link says that its file is being made
+const KEPT = 60_000; // ms for the browser to take a file over
 
 const FORMS = [
   { key: "command", title: "Command" },
@@ -153,10 +158,48 @@ export function createDownloads({ server, slicers }) {
 }
 
 /**
+ * A link to a file. While the file is made, which may take a while, the link says so; an error stands below it.
  * @param {string} address
  * @param {string} text
  * @param {boolean} isMain
  */
 function save(address, text, isMain) {
-  return h("a", { class: isMain ? "button main" : "button", href: address, download: "" }, icon("save"), text);
+  const words = h("span", {}, text);
+  const link = h("a", { class: isMain ? "button main" : "button", href: address, download: "" }, icon("save"), words);
+  link.addEventListener("click", async (event) => {
+    if (event.ctrlKey || event.metaKey || event.shiftKey) return;
+    event.preventDefault();
+    if (link.getAttribute("aria-busy") === "true") return;
+    const panel = link.closest(".save");
+    panel?.querySelector(".field-error")?.remove();
+    link.setAttribute("aria-busy", "true");
+    const slow = setTimeout(() => {
+      words.textContent = "Preparing";
+      announce(`Preparing ${text}`);
+    }, SLOW);
+    try {
+      await fetchFile(address);
+    } catch (error) {
+      panel?.append(
+        h("p", { class: "field-error", role: "alert" }, describeError(error)?.message ?? "The file was not saved."),
+      );
+    }
+    clearTimeout(slow);
+    words.textContent = text;
+    link.removeAttribute("aria-busy");
+  });
+  return link;
+}
+
+/**
+ * Fetch a file, and hand it to the browser under the name that the server has for it.
+ * @param {string} address
+ */
+async function fetchFile(address) {
+  const response = await fetch(address);
+  if (!response.ok) throw await readRefusal(response);
+  const [, name] = /filename\*=UTF-8''([^;]+)/.exec(response.headers.get("content-disposition") ?? "") ?? [];
+  const url = URL.createObjectURL(await response.blob());
+  h("a", { href: url, download: decodeURIComponent(name ?? "result") }).click();
+  setTimeout(() => URL.revokeObjectURL(url), KEPT);
 }

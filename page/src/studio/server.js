@@ -121,8 +121,8 @@ function parseJson(payload) {
   return JSON.parse(new TextDecoder().decode(payload));
 }
 
-/** @param {Response} response */
-async function readRefusal(response) {
+/** @param {Response} response that is not ok */
+export async function readRefusal(response) {
   const text = await response.text();
   try {
     const { message, parameter } = JSON.parse(text);
