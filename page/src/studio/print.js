@@ -306,7 +306,7 @@ export function createPrintView(studio) {
         if (index !== lastLayer) {
           loadLayers();
           if (!result) live.jump();
-        } else if (cause === "rest") live.rest();
+        }
         return;
       }
       asked = wanted;

@@ -384,10 +384,7 @@ export function createScanView(studio) {
         return;
       }
       const wanted = JSON.stringify(effective());
-      if (wanted === asked) {
-        if (cause === "rest") live.rest();
-        return;
-      }
+      if (wanted === asked) return;
       asked = wanted;
       downloads.show(null);
       numbers.setStale(true);
