@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import sys
 import tempfile
 from collections.abc import Callable
@@ -18,6 +19,7 @@ from infill.meshes.split_components import concatenate_surfaces
 from infill.pictures.render import render
 from infill.pictures.speeds import write_speeds
 from infill.planner.layer_speeds import layer_speeds
+from infill.samples.catalogue import write_sample
 
 ROOT = Path(__file__).resolve().parents[1]
 FOLDER = Path(__file__).parent / "pictures"
@@ -27,7 +29,7 @@ BRAIN = Path(os.environ.get("INFILL_DATA", ROOT / "data")) / "volumes" / "brain_
 VIEW = (2.2, 0.6)  # azimuth and elevation, radians
 sys.path.insert(0, str(ROOT))
 
-from tests import made_shapes, prints, slicers  # noqa: E402 - the folder beside this one
+from tests import browsing, made_shapes, prints, slicers  # noqa: E402 - the folder beside this one
 
 
 def main() -> None:
@@ -51,10 +53,31 @@ def main() -> None:
     if not slicers.missing_prusa():
         save_refill(prints.prusa_print, {"fill_pattern": "honeycomb"}, FOLDER / "refill.png")
         save_gradients(FOLDER / "refill-gradients.png")
+    if shutil.which("chromium"):
+        save_pages(FOLDER / "viewer.png")
     if not slicers.missing_cura():
         save_refill(
             prints.cura_print, {"infill_pattern": "cross", "zig_zaggify_infill": "true"}, FOLDER / "refill-cura.png"
         )
+
+
+def save_pages(path: Path) -> None:
+    """Photograph two pages in a browser, one below the other: a filled part, and the sample print refilled."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        write_sample("print", folder / "print.gcode")
+        fill(write_sample("part", folder / "part.stl"), density=0.15).save(folder / "part.html")
+        refilled = refill(folder / "print.gcode", output=folder / "smooth.gcode")
+        (folder / "print.html").write_text(refilled.page(), encoding="utf-8")
+        pages = []
+        for kind, layer in (("part", None), ("print", "20")):
+            with browsing.open_page((folder / f"{kind}.html").as_uri(), width=1100, height=520) as page:
+                browsing.wait_until_drawn(page)
+                if layer is not None:
+                    page.get_by_label("Last layer that is shown").fill(layer)
+                page.evaluate("viewers[0].frame()")
+                pages.append(browsing.pixels(page).astype(np.uint8))
+    Image.fromarray(np.vstack(pages)).quantize(128).save(path, optimize=True)
 
 
 def save_labels(path: Path) -> None:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from functools import cached_property, partial
 from itertools import accumulate
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO, Generic, Protocol, TypeVar, cast
+from typing import TYPE_CHECKING, Any, BinaryIO, Generic, Protocol, TypeVar, cast, runtime_checkable
 
 import numpy as np
 
@@ -33,6 +33,8 @@ if TYPE_CHECKING:
     from PIL import Image
 
 Progress = Callable[[str, float], None]
+BEFORE = "before"  # the name on a page of the surface before smoothing
+MOST_BEFORE = 300_000  # triangles of it that a page may have
 UNNAMED = frozenset({"block", "solid"})  # of surfaces that no input has named
 
 
@@ -41,6 +43,15 @@ class Pictured(Protocol):
 
     def picture(self, surface: Surface, report: Mapping[str, Any]) -> Image.Image:
         """Return the stages, and the surface that they led to, as one picture."""
+        ...
+
+
+@runtime_checkable
+class Compared(Protocol):
+    """Stages that know the surface before their work."""
+
+    def before(self) -> Surface:
+        """Return it, mm."""
         ...
 
 
@@ -116,9 +127,15 @@ class Result(Picturable, Viewable, Generic[Stages, Told]):
 
         request: Mapping[str, Any] = self.report.get("request") or {}
         named = title or request.get("pattern") or self.report.get("product") or "infill"
-        filled = self.report.get("product") == "fill"
+        before = self.stages.before() if isinstance(self.stages, Compared) else None
+        hidden: dict[str, Surface] = {} if before is None or len(before.faces) > MOST_BEFORE else {BEFORE: before}
         return surface_page(
-            self.surfaces, title=str(named), report=self.report, colours=self.colours, cut="y" if filled else None
+            {**self.surfaces, **hidden},
+            title=str(named),
+            report=self.report,
+            colours=self.colours,
+            cut="y" if self.report.get("product") == "fill" else None,
+            hidden=tuple(hidden),
         )
 
     def preview_writer(self, path: str | os.PathLike[str], title: str | None = None) -> Callable[[BinaryIO], None]:

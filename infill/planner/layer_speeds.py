@@ -137,7 +137,7 @@ class DrawnSpeeds:
     start, end : (N, 3) float32
         mm
     speed : (N,) float32
-        mm/s, the mean over the piece.
+        mm/s, the length of the piece over its time.
     layer : (N,) int32
         From 1, rising; 0 for lines before the first layer.
     section : float
@@ -241,7 +241,7 @@ def _draw_pieces(
     starts = np.flatnonzero((np.diff(move, prepend=-1) != 0) | (np.diff(level, prepend=-1) != 0))
     counts = np.diff(starts, append=len(move))
     final = starts + counts - 1
-    mean = np.add.reduceat(speed, starts) / counts if len(starts) else speed
+    mean = counts / np.add.reduceat(1 / speed, starts) if len(starts) else speed
     move, begin, end = move[starts], begin[starts], end[final]
     origin, delta = steps.start[move], steps.moves.delta[move, :3]
     return (

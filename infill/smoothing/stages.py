@@ -43,6 +43,10 @@ class SmoothStages:
         """Return the surface of the data, mm, in the same place as the result."""
         return raw_surface(self.levelled.field, self.data, None)
 
+    def before(self) -> Surface:
+        """Return the input mesh, or the surface of the data, mm."""
+        return self.staircase() if self.given is None else self.given
+
     def field(self) -> Volume:
         """Return the whole field, minus its level, so that the surface lies at 0: float32, [x, y, z].
 
@@ -63,7 +67,7 @@ class SmoothStages:
         from infill.pictures.before_and_after import draw_before_and_after
 
         shape = " x ".join(map(str, report["grid"]["shape"]))
-        input_surface = self.staircase() if self.given is None else self.given
+        input_surface = self.before()
         before = f"data: {shape} voxels" if self.given is None else f"given: {len(input_surface.faces):,} triangles"
         after = f"smoothed: {report['request']['steps']} steps, {report['triangles']:,} triangles"
         cell = float(self.data.cell_size.max())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -51,16 +52,21 @@ class ReadPrint:
             "print": {
                 "slicer": self.report["slicer"],
                 "layers": layers,
-                "features": [
-                    {key: feature[key] for key in ("name", "role", "seconds", "filament", "length")}
-                    for feature in self.report["features"]
-                ],
+                "features": describe_features(self.report),
                 "time_s": self.report["seconds"],
                 "filament_mm": self.report["filament"],
                 "layer_seconds": self.report["by_layer"]["seconds"],
                 "plates": list(self.report["plates"]),
             }
         }
+
+
+def describe_features(report: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Return name, role, time and filament of the features of a print, from the report of `infill.motion`."""
+    return [
+        {key: feature[key] for key in ("name", "role", "seconds", "filament", "length")}
+        for feature in report["features"]
+    ]
 
 
 def _round_off(length: float) -> float | None:

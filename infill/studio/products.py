@@ -75,6 +75,8 @@ class Made:
         Further ones, such as a layer of a print.
     volume : float or None
         Of material, mm³.
+    more : mapping
+        What else the page gets to know, as plain values.
     """
 
     result: Any
@@ -84,6 +86,7 @@ class Made:
     colours: Mapping[str, Any] = field(default_factory=dict)
     frames: tuple[AnswerFrame, ...] = ()
     volume: float | None = None
+    more: Mapping[str, Any] = field(default_factory=dict)
 
 
 class ProductCode(Protocol):
@@ -175,6 +178,7 @@ def answer_frames(
         "grams": {} if made.volume is None else grams_by_material(made.volume),
         "warnings": [*made.report.get("problems", ()), *warnings],
         "report": dict(made.report),
+        **made.more,
         **again,
         "downloads": list(PRODUCTS[name].downloads) if result is not None else [],
     }

@@ -6,13 +6,16 @@ import shutil
 from pathlib import Path
 from typing import Any
 
+from infill.errors import FormatError
 from infill.options.declaration import by_field, read_options
 from infill.options.toml import format_options
+from infill.plain_numbers import count_noun
 from infill.refilling.request import Request
 from infill.studio.equivalents import Call, assignments, join_words, plain_parameters, write_command
 from infill.studio.frames import AnswerFrame
-from infill.studio.numbers import refill_numbers
+from infill.studio.numbers import Number, refill_numbers
 from infill.studio.print_layers import layer_frame, plan_print
+from infill.studio.print_reading import describe_features
 from infill.studio.products import Made, Order
 
 DECLARATION = Request
@@ -23,6 +26,7 @@ def make(order: Order) -> Made:
     """Refill a print into the target; for a quick look, one layer of it, which is shown."""
     from infill.refilling.job import refill
     from infill.refilling.settings import resolve
+    from infill.timing.printing_time import motion
 
     content, options = order.need("print"), dict(order.options)
     if order.coarse:
@@ -32,10 +36,28 @@ def make(order: Order) -> Made:
     order.target.parent.mkdir(exist_ok=True)
     result = refill(content.path, output=order.target, **arguments, progress=order.progress)
     frames: tuple[AnswerFrame, ...] = ()
+    more: dict[str, Any] = {}
     if order.coarse:
         frames = (layer_frame(plan_print(order.target), options["layers"][0]),)
         order.target.unlink(missing_ok=True)
-    return Made(result=result, report=result.report, numbers=list(refill_numbers(result.report)), frames=frames)
+        numbers = list(refill_numbers(result.report))
+    else:
+        numbers = [verdict_number(content.path, order.target), *refill_numbers(result.report)]
+        more = {"features": describe_features(motion(order.target).to_dict())}
+    return Made(result=result, report=result.report, numbers=numbers, frames=frames, more=more)
+
+
+def verdict_number(before: str, after: Path) -> Number:
+    """Compare the refilled print with the one before, as `infill verify` does; return the verdict."""
+    from infill.verifying.job import verify
+
+    try:
+        count = len(verify(before, after).violations)
+    except FormatError:
+        verdict = "not compared"
+    else:
+        verdict = f"{count_noun(count, 'place')} changed besides" if count else "nothing else changed"
+    return Number(name="verdict", value=verdict, help="Of infill verify: whether anything but sparse infill changed")
 
 
 def write(made: Made, path: Path) -> None:

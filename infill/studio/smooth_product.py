@@ -36,6 +36,7 @@ LEFT_OUT: tuple[str, ...] = (
 )
 CHOICE = ("resolution", "voxel", "threshold", "between", "label", "otsu", "grey")
 COARSE_CELLS = 72  # along the longest side
+MOST_COMPONENTS = 100  # that are listed
 MOST_BEFORE = 1_500_000  # triangles of the surface of voxels that is shown beside the result
 
 
@@ -60,7 +61,17 @@ def make(order: Order) -> Made:
         numbers=list(smooth_numbers(result.report)),
         surfaces=surfaces,
         volume=result.report["volume"],
+        more={"components": component_volumes(result.surface)},
     )
+
+
+def component_volumes(surface: Surface) -> list[float]:
+    """Return the volumes of the components of a surface, the largest first, mm³; cavities are none."""
+    from infill.isosurfaces.components import shell_names
+    from infill.meshes.shells import shell_volumes
+
+    volumes = shell_volumes(surface, *shell_names(surface))
+    return sorted(volumes[volumes > 0].tolist(), reverse=True)[:MOST_COMPONENTS]
 
 
 def coarse_options(data: Surface | Volume, options: dict[str, Any]) -> dict[str, Any]:

@@ -96,6 +96,7 @@ def surface_page(
     report: Mapping[str, Any] | None = None,
     colours: Mapping[str, Colour] | None = None,
     cut: str | None = None,
+    hidden: Sequence[str] = (),
 ) -> str:
     """Return a page that shows surfaces, and the numbers of a report beside them.
 
@@ -109,12 +110,14 @@ def surface_page(
         From 0 to 1, sRGB.
     cut : "x", "y" or "z", optional
         Across which axis they are cut open in the middle at first.
+    hidden : sequence of str
+        Names of surfaces that are not shown at first.
     """
     triangles = sum(len(surface.faces) for surface in surfaces.values())
     label = f"{title}: {describe_surfaces(triangles, len(surfaces))}"
     return fill_page(
         title=title,
-        settings={"kind": "surfaces", "cut": cut},
+        settings={"kind": "surfaces", "cut": cut, "hidden": list(hidden)},
         views={label: pack_surfaces(surfaces, colours=colours, compact=True)},
         controls=CUT_CONTROLS,
         numbers=list_numbers({"triangles": triangles} if report is None else report),

@@ -114,6 +114,14 @@ export function capital(text) {
 }
 
 /**
+ * A sentence of the library in the words of the page: an option without the dashes of its flag.
+ * @param {string} text
+ */
+export function withoutFlags(text) {
+  return text.replace(/--([a-z][a-z-]*)/g, (_, name) => name.replaceAll("-", " "));
+}
+
+/**
  * Say a sentence to those who listen to the page instead of looking at it.
  * @param {string} sentence
  */

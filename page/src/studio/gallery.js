@@ -10,9 +10,8 @@ const PRODUCTS = [
   { value: "", text: "Any use" },
   { value: "fill", text: "Fill a part" },
   { value: "refill", text: "Refill a print" },
-  { value: "make", text: "A block by itself" },
 ];
-const USES = { fill: "part", refill: "print", make: "block" };
+const USES = { fill: "part", refill: "print" };
 
 const EXPLAINED =
   "Measured at a density of 20 %. Stiffness: of the solid material, in the weakest and the stiffest direction; upright: along z. " +
@@ -143,7 +142,7 @@ function patternCard(pattern, onChoose) {
       h("span", { class: "card-title" }, pattern.title),
       h("span", { class: "card-text" }, sentenceOf(pattern)),
       h("span", { class: "facts" }, ...factWords(pattern).map((text) => h("span", {}, text))),
-      h("span", { class: "uses" }, uses.length ? `For a ${uses.join(", ")}` : ""),
+      h("span", { class: "uses" }, uses.length ? `For a ${uses.join(" or a ")}` : ""),
     ),
   );
 }

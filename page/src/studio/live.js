@@ -7,7 +7,7 @@
 
 import { isAbort } from "./server.js";
 
-const REST = 350; // ms without a change, after which the exact answer is asked for
+const REST = 350; // ms after the last picture, without a change, until the exact answer is asked for
 
 /**
  * @typedef {object} Work
@@ -26,6 +26,7 @@ export function createLive({ ask, show, fail, busy }) {
   let running = null;
   let wantsCoarse = false;
   let wantsExact = false;
+  let isMoving = false;
   let timer = 0;
 
   function next() {
@@ -33,6 +34,15 @@ export function createLive({ ask, show, fail, busy }) {
     if (wantsCoarse) run("coarse");
     else if (wantsExact) run("exact");
     else busy(null);
+  }
+
+  /** Ask for the exact answer in a while, if nothing changes until then. */
+  function waitForRest() {
+    timer = window.setTimeout(() => {
+      timer = 0;
+      wantsExact = true;
+      next();
+    }, REST);
   }
 
   /** @param {"coarse"|"exact"} quality */
@@ -51,10 +61,11 @@ export function createLive({ ask, show, fail, busy }) {
       if (!isAbort(error) && !control.signal.aborted) {
         // A coarse answer may fail where the exact one does not: the exact one has the word.
         if (quality === "exact") fail(error);
-        else if (!wantsCoarse && !wantsExact && !timer) fail(error);
       }
     }
-    if (running === mine) running = null;
+    if (running !== mine) return;
+    running = null;
+    if (quality === "coarse" && isMoving && !wantsCoarse) waitForRest();
     next();
   }
 
@@ -63,28 +74,25 @@ export function createLive({ ask, show, fail, busy }) {
     running = null;
   }
 
+  function forget() {
+    clearTimeout(timer);
+    timer = 0;
+    isMoving = false;
+    wantsExact = false;
+  }
+
   return {
     /** The values change under a moving hand. */
     move() {
+      forget();
+      isMoving = true;
       wantsCoarse = true;
-      wantsExact = false;
       if (running?.quality === "exact") drop();
-      clearTimeout(timer);
-      timer = window.setTimeout(() => this.rest(), REST);
-      next();
-    },
-    /** The hand rests: the exact answer is wanted, if it is not there or under way. */
-    rest() {
-      if (!timer) return;
-      clearTimeout(timer);
-      timer = 0;
-      wantsExact = true;
       next();
     },
     /** The values jump: whatever is under way is for values of before. */
     jump() {
-      clearTimeout(timer);
-      timer = 0;
+      forget();
       drop();
       wantsCoarse = true;
       wantsExact = true;
@@ -92,10 +100,8 @@ export function createLive({ ask, show, fail, busy }) {
     },
     /** Nothing is wanted any more. */
     stop() {
-      clearTimeout(timer);
-      timer = 0;
+      forget();
       wantsCoarse = false;
-      wantsExact = false;
       drop();
       busy(null);
     },

@@ -2,7 +2,7 @@
  * The numbers beside a picture, what they mean, and the warnings.
  */
 
-import { capital, h, plain, replaceChildren } from "./dom.js";
+import { capital, h, plain, replaceChildren, withoutFlags } from "./dom.js";
 
 /** @typedef {import("./server.js").NumberRow} NumberRow */
 
@@ -92,7 +92,7 @@ export function createNumbers() {
       warnings.hidden = notes.length === 0;
       replaceChildren(
         warnings,
-        notes.map((note) => h("li", {}, note)),
+        notes.map((note) => h("li", {}, capital(withoutFlags(note)))),
       );
     },
     /** @param {boolean} stale whether an answer for newer values is on its way */

@@ -27,6 +27,7 @@ const HIDDEN = ["as", "for", "units", "max_triangles"];
 const SURFACES = { part: "Shell", infill: "Infill", solid: "Part with infill" };
 const SHELL = "part"; // name of the surface around an infill
 const COLOURS = { part: "#b4c0c8", solid: "#b4c0c8", infill: "#e0973f" };
+const UNSEEN = 1000; // ms after which a picture is not waited for
 const GHOST = 0.25; // opacity of a shell that is seen through
 
 /**
@@ -250,7 +251,9 @@ export function createPartView(studio) {
     if (names.length > 1 && names.includes(SHELL)) viewer.setOpacity(SHELL, isGhost ? GHOST : 1);
     viewer.setCut(cut.plane);
     // For those who measure the page: when the picture of a mesh has been drawn.
-    return viewer.frame().then(() => void performance.mark("picture"));
+    const drawn = viewer.frame().then(() => void performance.mark("picture"));
+    // A page that nobody looks at draws nothing.
+    return Promise.race([drawn, new Promise((resolve) => setTimeout(resolve, UNSEEN))]);
   }
 
   /** @param {string} name */
@@ -355,10 +358,7 @@ export function createPartView(studio) {
         return;
       }
       const wanted = JSON.stringify(options);
-      if (wanted === asked) {
-        if (cause === "rest") live.rest();
-        return;
-      }
+      if (wanted === asked) return;
       const isNew = asked.split('"pattern"')[1]?.split(",")[0] !== wanted.split('"pattern"')[1]?.split(",")[0];
       asked = wanted;
       if (isNew || cause === "history" || cause === "jump")

@@ -23,6 +23,7 @@ import { createFileHead, describeError, dropAgain, forServer, layout, withOption
 
 const PRODUCT = "refill";
 const KEEP = "keep";
+const LEAST_SHARE = 0.005; // of the longest feature; shorter ones are left out
 const WIDE = 1.2; // width for height of a layer
 const HIDDEN = ["printer"];
 
@@ -157,6 +158,7 @@ export function createPrintView(studio) {
       if (quality === "coarse") return;
       result = reply.answer.result;
       numbers.show(reply.answer.numbers, reply.answer.warnings ?? []);
+      showFeatures(features, reply.answer.features ?? [], open?.print.features);
       numbers.setStale(false);
       downloads.show(reply.answer);
       if (!reply.layer) loadLayers();
@@ -304,7 +306,7 @@ export function createPrintView(studio) {
         if (index !== lastLayer) {
           loadLayers();
           if (!result) live.jump();
-        } else if (cause === "rest") live.rest();
+        }
         return;
       }
       asked = wanted;
@@ -331,24 +333,33 @@ export function createPrintView(studio) {
 }
 
 /**
- * Show how long each feature of the print takes, the longest first.
+ * Show how long each feature of the print takes, the longest first; beside it, how long it took before.
  * @param {HTMLElement} place
  * @param {Feature[]} features
+ * @param {Feature[]} [before]
  */
-function showFeatures(place, features) {
-  const longest = Math.max(...features.map(({ seconds }) => seconds), 1e-9);
-  const rows = features.filter(({ seconds }) => seconds > 0).sort((a, b) => b.seconds - a.seconds);
+function showFeatures(place, features, before) {
+  const longest = Math.max(...[...features, ...(before ?? [])].map(({ seconds }) => seconds), 1e-9);
+  const rows = features.filter(({ seconds }) => seconds > LEAST_SHARE * longest).sort((a, b) => b.seconds - a.seconds);
   place.hidden = !rows.length;
   replaceChildren(
     place,
-    h("h2", {}, "Time by feature, before"),
+    h("h2", {}, "Time by feature"),
     h(
       "ul",
       {},
       rows.map(({ name, seconds }) => {
         const bar = h("span", { class: "share", "aria-hidden": "true" });
         bar.style.inlineSize = `${(100 * seconds) / longest}%`;
-        return h("li", {}, h("span", {}, name), h("span", { class: "feature-time" }, timeText(seconds)), bar);
+        const old = before?.find((one) => one.name === name)?.seconds;
+        const change = old && timeText(old) !== timeText(seconds) ? `${timeText(old)} → ` : "";
+        return h(
+          "li",
+          {},
+          h("span", {}, name),
+          h("span", { class: "feature-time" }, `${change}${timeText(seconds)}`),
+          bar,
+        );
       }),
     ),
   );

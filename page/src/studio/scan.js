@@ -27,6 +27,7 @@ import { createFileHead, describeError, dropAgain, forServer, layout, withOption
 const SMOOTH = "smooth";
 const LABELS = "labels";
 const BEFORE = "voxels"; // name of the surface before smoothing
+const MOST_PIECES = 10;
 const SOLID_NAME = "solid"; // of the surface that is not of a label
 const COLOURS = { voxels: "#b4c0c8", solid: "#d3bf98" };
 const HIDDEN = [
@@ -150,7 +151,7 @@ export function createScanView(studio) {
       if (reply.mesh) showMesh(decodeMesh(reply.mesh));
       numbers.show(reply.answer.numbers, reply.answer.warnings ?? []);
       numbers.setStale(quality === "coarse");
-      showComponents(reply.answer.components ?? reply.answer.report?.components_list ?? []);
+      showComponents(reply.answer.components ?? []);
       again.show(reply.answer);
       stage.badge(quality === "coarse" ? "Preview" : null);
       if (quality !== "exact") return;
@@ -175,51 +176,40 @@ export function createScanView(studio) {
 
   const componentList = h("table", { class: "components", hidden: true });
 
-  /** @param {{volume: number, triangles?: number}[]} components */
-  function showComponents(components) {
-    componentList.hidden = components.length < 2;
+  /** @param {number[]} volumes of the pieces, the largest first, mm³ */
+  function showComponents(volumes) {
+    componentList.hidden = volumes.length < 2;
+    const shown = volumes.slice(0, MOST_PIECES);
     replaceChildren(
       componentList,
-      h("caption", {}, `${components.length} pieces`),
-      h(
-        "thead",
-        {},
-        h(
-          "tr",
-          {},
-          h("th", { scope: "col" }, "Piece"),
-          h("th", { scope: "col" }, "Volume"),
-          h("th", { scope: "col" }, h("span", { class: "hidden-text" }, "Keep or drop")),
-        ),
-      ),
+      h("caption", {}, volumes.length > shown.length ? `The ${shown.length} largest pieces` : `${shown.length} pieces`),
       h(
         "tbody",
         {},
-        components
-          .slice(0, 12)
-          .map(({ volume }, i) =>
-            h(
-              "tr",
-              {},
-              h("td", {}, String(i + 1)),
-              h("td", {}, `${plain(volume)} mm³`),
-              h(
-                "td",
-                {},
-                i ? h("button", { type: "button", class: "quiet", onclick: () => drop(volume) }, "Drop to here") : null,
-              ),
-            ),
-          ),
+        shown.map((volume, i) =>
+          h("tr", {}, h("td", {}, `${plain(volume)} mm³`), h("td", {}, i ? pieceButton(i, volume) : "kept")),
+        ),
       ),
     );
   }
 
-  /** @param {number} volume */
-  function drop(volume) {
-    change(
-      { ...section, options: withOption(section.options, "despeckle", Math.ceil(volume * 1.01 * 100) / 100) },
-      true,
+  /**
+   * @param {number} i
+   * @param {number} volume
+   */
+  function pieceButton(i, volume) {
+    const label = `Drop piece ${i + 1} and all smaller ones`;
+    return h(
+      "button",
+      { type: "button", class: "quiet", "aria-label": label, title: label, onclick: () => drop(volume) },
+      "Drop",
     );
+  }
+
+  /** @param {number} volume of the largest piece that goes; smoothing may have taken a little from it. */
+  function drop(volume) {
+    const limit = Number((volume * 1.05).toPrecision(3));
+    change({ ...section, options: withOption(section.options, "despeckle", limit) }, true);
   }
 
   function product() {
@@ -394,10 +384,7 @@ export function createScanView(studio) {
         return;
       }
       const wanted = JSON.stringify(effective());
-      if (wanted === asked) {
-        if (cause === "rest") live.rest();
-        return;
-      }
+      if (wanted === asked) return;
       asked = wanted;
       downloads.show(null);
       numbers.setStale(true);

@@ -2,7 +2,7 @@
  * What the views of a part, a print and a scan share: their layout, and how options change.
  */
 
-import { h, icon, replaceChildren } from "./dom.js";
+import { h, icon, replaceChildren, withoutFlags } from "./dom.js";
 import { isAbort, StatedError } from "./server.js";
 
 /** @typedef {import("./store.js").Source} Source */
@@ -101,7 +101,7 @@ export function describeError(error) {
 
 /** @param {string} text */
 function sentence(text) {
-  const trimmed = text.trim();
+  const trimmed = withoutFlags(text.trim());
   return trimmed ? trimmed.charAt(0).toUpperCase() + trimmed.slice(1) : "Something went wrong.";
 }
 

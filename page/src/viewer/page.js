@@ -34,7 +34,7 @@ async function start() {
   }
   const data = await Promise.all(views.map((view) => readData(view.dataset.source ?? "")));
   if (settings.kind === "print") showPrints(viewers, data.map(decodePrint));
-  else showSurfaces(viewers[0], decodeMesh(data[0]), settings.cut ?? "");
+  else showSurfaces(viewers[0], decodeMesh(data[0]), settings);
   await Promise.all(viewers.map((viewer) => viewer.frame()));
   Object.assign(globalThis, { viewers });
   document.documentElement.dataset.ready = "";

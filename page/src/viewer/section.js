@@ -93,10 +93,8 @@ export class Section {
   }
 
   dispose() {
-    for (const material of this.counters) material.dispose();
-    this.fan.dispose();
+    this.fan.dispose(); // materials stay, as those of surfaces do
     this.cap.geometry.dispose();
-    this.material.dispose();
   }
 }
 

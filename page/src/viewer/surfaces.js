@@ -10,15 +10,17 @@ const STEPS = 200; // of the slider
  *
  * @param {View} viewer
  * @param {import("./mesh.js").Decoded} decoded
- * @param {Axis | ""} cut Across which axis they are cut open at first.
+ * @param {{cut?: Axis | null, hidden?: string[]}} settings Across which axis surfaces are cut open at first, and which
+ *   are not shown.
  */
-export function showSurfaces(viewer, decoded, cut) {
+export function showSurfaces(viewer, decoded, { cut, hidden = [] }) {
   viewer.setMesh(decoded);
-  listSurfaces(viewer, decoded);
+  for (const name of hidden) viewer.setVisible(name, false);
+  listSurfaces(viewer, decoded, hidden);
   const low = [0, 1, 2].map((axis) => Math.min(...decoded.surfaces.map((surface) => surface.low[axis])));
   const high = [0, 1, 2].map((axis) => Math.max(...decoded.surfaces.map((each) => each.low[axis] + each.size[axis])));
   const choice = /** @type {HTMLSelectElement} */ (document.getElementById("axis"));
-  choice.value = cut;
+  choice.value = cut ?? "";
   connectCut(viewer, choice, low, high);
 }
 
@@ -27,8 +29,9 @@ export function showSurfaces(viewer, decoded, cut) {
  *
  * @param {View} viewer
  * @param {import("./mesh.js").Decoded} decoded
+ * @param {string[]} hidden
  */
-function listSurfaces(viewer, decoded) {
+function listSurfaces(viewer, decoded, hidden) {
   const list = document.getElementById("surfaces");
   if (!list || decoded.surfaces.length < 2) return;
   list.hidden = false;
@@ -36,7 +39,7 @@ function listSurfaces(viewer, decoded) {
     const label = document.createElement("label");
     const box = document.createElement("input");
     box.type = "checkbox";
-    box.checked = true;
+    box.checked = !hidden.includes(name);
     box.addEventListener("change", () => viewer.setVisible(name, box.checked));
     const swatch = document.createElement("span");
     swatch.className = "swatch";

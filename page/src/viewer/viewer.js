@@ -23,6 +23,7 @@ import { makeBeads } from "./beads.js";
 import { listen, OrbitCamera } from "./camera.js";
 import { computeNormals } from "./normals.js";
 import { cutPlane, Section } from "./section.js";
+import { isSoftware } from "./software.js";
 
 /** @typedef {import("./camera.js").CameraState} CameraState */
 /** @typedef {import("./section.js").Cut} Cut */
@@ -36,6 +37,7 @@ const UNCHANGED = 128;
 const SECTION_WHITE = 0.3; // share of white in the colour of a section
 const IDLE = 400; // ms between two frames that do not belong together
 const MOST_PIXELS = 2; // of the screen, a CSS pixel
+const REST = 900; // ms after which a picture drawn by software is drawn again in more pixels
 
 const LIGHTS = {
   light: { sky: 0xffffff, ground: 0xb8b4ac, ambient: 1.6, sun: 1.7 },
@@ -62,7 +64,13 @@ class Viewer {
    */
   constructor(element, label) {
     this.element = element;
-    this.renderer = new WebGLRenderer({ antialias: true, alpha: true, stencil: true, preserveDrawingBuffer: false });
+    this.software = isSoftware();
+    this.renderer = new WebGLRenderer({
+      antialias: !this.software,
+      alpha: true,
+      stencil: true,
+      preserveDrawingBuffer: false,
+    });
     this.renderer.localClippingEnabled = true;
     this.canvas = this.renderer.domElement;
     this.canvas.style.cssText = "display:block;width:100%;height:100%";
@@ -88,6 +96,8 @@ class Viewer {
     /** @type {(() => void)[]} */
     this.waiting = [];
     this.request = 0;
+    /** @type {ReturnType<typeof setTimeout> | undefined} */
+    this.sharpening = undefined;
     this.bounds = new Box3(new Vector3(), new Vector3());
     this.empty = true;
     this.frames = { last: 0, mean: 0 };
@@ -334,6 +344,7 @@ class Viewer {
     cancelAnimationFrame(this.request);
     this.unlisten();
     this.observer.disconnect();
+    clearTimeout(this.sharpening);
     for (const shown of this.shown.values()) this.remove(shown);
     for (const name of [...this.lines.keys()]) this.removeLines(name);
     cancelAnimationFrame(this.request);
@@ -386,8 +397,9 @@ class Viewer {
   /** @param {Shown} shown */
   remove(shown) {
     this.scene.remove(shown.mesh);
+    // Its material is left to the garbage collector: if it were disposed of, the program that draws it would go too,
+    // and be compiled again for the next mesh, which takes longer than drawing it.
     shown.mesh.geometry.dispose();
-    shown.material.dispose();
     if (shown.section) {
       this.scene.remove(shown.section.group);
       shown.section.dispose();
@@ -423,10 +435,24 @@ class Viewer {
   resize() {
     const width = Math.max(this.element.clientWidth, 1);
     const height = Math.max(this.element.clientHeight, 1);
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, MOST_PIXELS));
+    this.renderer.setPixelRatio(this.software ? 1 : Math.min(window.devicePixelRatio || 1, MOST_PIXELS));
     this.renderer.setSize(width, height, false);
     this.orbit.setAspect(width / height);
     this.invalidate();
+  }
+
+  /**
+   * Draw in few pixels now, and once in many when nothing has moved for a while.
+   *
+   * @param {import("three").Camera} camera
+   */
+  sharpenAtRest(camera) {
+    clearTimeout(this.sharpening);
+    if (this.renderer.getPixelRatio() !== 1) this.renderer.setPixelRatio(1);
+    this.sharpening = setTimeout(() => {
+      this.renderer.setPixelRatio(MOST_PIXELS);
+      this.renderer.render(this.scene, camera);
+    }, REST);
   }
 
   invalidate() {
@@ -440,6 +466,7 @@ class Viewer {
     this.sun.position.copy(camera.position);
     this.sun.position.z += this.orbit.state.distance * 0.6;
     this.sun.target.position.set(...this.orbit.state.target);
+    if (this.software) this.sharpenAtRest(camera);
     this.renderer.render(this.scene, camera);
     const passed = time - this.frames.last;
     this.frames.last = time;
