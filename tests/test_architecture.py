@@ -31,7 +31,7 @@ ROWS: tuple[tuple[str, ...], ...] = (
     ("planner", "inspection", "interior", "lazy", "chunks"),
     ("pictures", "options", "drains", "viewer"),
     ("result",),
-    ("smoothing", "lattices", "refilling", "projects", "samples", "timing", "verifying"),
+    ("smoothing", "lattices", "refilling", "projects", "slicer_profiles", "samples", "timing", "verifying"),
     ("making",),
     ("studio",),
     ("cli",),

@@ -57,7 +57,14 @@ def test_every_option_takes_every_form(command: str) -> None:
             assert rewrite_values(options, [flag, "7"]) == [flag, "7"]
             with pytest.raises(TypedValueError, match=f"^{flag} is .2.5.; give a whole number"):
                 rewrite_values(options, [flag, "2.5"])
-    assert numbers or command in ("check", "list", "sample", "studio", "verify")  # which take none, or shares alone
+    assert numbers or command in (
+        "check",
+        "list",
+        "sample",
+        "setup",
+        "studio",
+        "verify",
+    )  # which take none, or shares alone
 
 
 def test_what_follows_two_dashes_and_flags_stay_as_they_are() -> None:

@@ -278,7 +278,7 @@ def test_a_value_that_is_missing_is_wrong_usage(command: str) -> None:
 @pytest.mark.parametrize("command", COMMANDS)
 def test_an_unknown_option_is_wrong_usage(command: str) -> None:
     usage_error(run(command, "x", "--nonsense"), "--nonsense")
-    if command not in ("smooth", "fill", "refill", "check", "sample"):  # which take any number of words
+    if command not in ("smooth", "fill", "refill", "check", "sample", "setup"):  # which take any number of words
         usage_error(run(command, "x", "y", "z", "more"), "more|unexpected")
 
 

@@ -356,6 +356,22 @@ def lists(folder: Path, results: Results) -> dict[str, Any]:
     return {"all": printed("list"), "one": printed("list", "zigzag"), "in space": printed("list", "kelvin")}
 
 
+def setup_reports(folder: Path, results: Results) -> dict[str, Any]:
+    (folder / "print").mkdir()
+    (folder / "print" / "a.ini").write_text("post_process = \n")
+    (folder / "print" / "b.ini").write_text('post_process = "\n')
+    (folder / "5.9").mkdir()
+    words = ("setup", "prusaslicer", "--folder", folder, "--force")
+    written = printed(*words, "--write", "--profile", "a")
+    cura = printed("setup", "cura", "--folder", folder)
+    return {
+        "look": printed(*words),
+        "written": written,
+        "removed": printed(*words, "--remove", "--profile", "a"),
+        "cura": cura,
+    }
+
+
 CHAPTER = {chapter.word: chapter for chapter in CHAPTERS}
 REPORTS: dict[str, Callable[[Path, Results], dict[str, Any]]] = {
     "make": make_reports,
@@ -379,6 +395,7 @@ REPORTS: dict[str, Callable[[Path, Results], dict[str, Any]]] = {
     "check": check_reports,
     "check --for": project_reports,
     "list": lists,
+    "setup": setup_reports,
 }
 LONG = {
     **dict.fromkeys(("fill", "smooth --dry-run", "check --for"), pytest.mark.longest),

@@ -21,7 +21,7 @@ ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "report.md"
 sys.path.insert(0, str(ROOT))
 
-from infill.reports import checking, common, filling, making, refilling, smoothing, timing, verifying  # noqa: E402
+from infill.reports import checking, common, filling, making, profiles, refilling, smoothing, timing, verifying  # noqa: E402
 
 HEAD = """# The report
 
@@ -236,6 +236,12 @@ CHAPTERS = (
         word="list",
         text="`infill list` prints this report; for one pattern, with that pattern alone.",
         report=checking.PatternList,
+    ),
+    Chapter(
+        title="Setup: the profiles of a slicer",
+        word="setup",
+        text="`infill setup SLICER --json` prints this report.",
+        report=profiles.SetupReport,
     ),
 )
 

@@ -29,6 +29,7 @@ COMMANDS: dict[str, tuple[str, str, str]] = {
     "view": ("viewing", "view", "infill view part.stl"),
     "sample": ("sampling", "sample", "infill sample part scan print"),
     "studio": ("studio", "studio", "infill studio part.stl"),
+    "setup": ("setting_up", "setup", "infill setup prusaslicer --write"),
 }
 
 FILE_COMMANDS = ("smooth", "fill", "refill")  # which take several files

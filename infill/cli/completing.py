@@ -38,6 +38,13 @@ def slicer_names(incomplete: str) -> list[str]:
     return [slicer for slicer in SLICERS if slicer.startswith(incomplete)]
 
 
+def profiled_slicer_names(incomplete: str) -> list[str]:
+    """Return the slicers of `setup` whose names begin with the word."""
+    from infill.slicer_profiles.desktops import PROFILED_SLICERS
+
+    return [slicer for slicer in PROFILED_SLICERS if slicer.startswith(incomplete)]
+
+
 def fill_assignments(context: typer.Context, incomplete: str) -> list[tuple[str, str]]:
     """Return ``name=`` for the parameters of the pattern of a fill, without those that are options of `fill`."""
     from patterns import PATTERNS, parameters

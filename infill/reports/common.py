@@ -39,7 +39,7 @@ class ReportForm(TypedDict):
     form: Annotated[int, "Version of the form of this report"]
     version: Annotated[str, "Version of phasefill"]
     product: Annotated[
-        str, "`make`, `smooth`, `chunks`, `labels`, `together`, `components`, `fill`, `refill` or `verify`"
+        str, "`make`, `smooth`, `chunks`, `labels`, `together`, `components`, `fill`, `refill`, `verify` or `setup`"
     ]
 
 
