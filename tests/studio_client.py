@@ -152,12 +152,12 @@ class Studio:
 
 
 @contextlib.contextmanager
-def run_studio(folder: Path, *words: str) -> Iterator[Studio]:
-    """Run `infill studio` with a temporary folder of its own."""
-    environment = {**os.environ, "TMPDIR": str(folder)}
-    command = [sys.executable, "-m", "infill.cli", "studio", "--no-browser", *words]
+def run_studio(folder: Path, *words: str, code: str = "", cwd: Path | None = None) -> Iterator[Studio]:
+    """Run `infill studio`, or code that serves it, with a temporary folder of its own."""
+    environment = {**os.environ, "TMPDIR": str(folder), "PYTHONUNBUFFERED": "1"}
+    command = [sys.executable, *(["-c", code] if code else ["-m", "infill.cli", "studio", "--no-browser", *words])]
     begin = time.perf_counter()
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment)
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment, cwd=cwd)
     assert process.stdout is not None
     try:
         address = process.stdout.readline().strip()

@@ -43,9 +43,11 @@ WORKING = {
     "motion plot": "print.gcode --plot a.png",
     "motion corner": "print.gcode --model klipper",
     "verify": "print.gcode print.gcode",
+    "studio": "box.stl --no-browser",
 }
 # Values out of range, which cannot be done, by option; "nan" is among them wherever it can be typed.
 OUT_OF_RANGE = {
+    "studio": {"--port": "-1 99999"},
     "make": {
         "--cell": "-1 nan 1e9",
         "--angle": "1000 nan",

@@ -29,6 +29,9 @@ pytest.importorskip("starlette")
 pytest.importorskip("uvicorn")
 
 from studio_client import LAYER, MESH, PATIENCE, Answer, Page, Studio, run_studio  # noqa: E402
+from test_3mf_hostile import XMLS, ZIPS, changed  # noqa: E402
+from test_3mf_parts import packed  # noqa: E402
+from test_broken_files import READERS  # noqa: E402
 
 from infill.studio.guard import Guard  # noqa: E402
 
@@ -350,6 +353,7 @@ def test_every_download_can_be_opened(page: Page, ids: dict[str, str], tmp_path:
     assert page.download("r999", format="stl").status_code == 404
 
 
+@pytest.mark.slow
 def test_a_coarse_answer_is_near_the_exact_one(page: Page, ids: dict[str, str]) -> None:
     coarse = page.ask("fill", ids["part.stl"], options={"density": 0.25}, quality="coarse")
     exact = page.ask("fill", ids["part.stl"], options={"density": 0.25, "max_triangles": 50_000})
@@ -363,6 +367,7 @@ def test_a_coarse_answer_is_near_the_exact_one(page: Page, ids: dict[str, str]) 
     assert grams["PLA"] == pytest.approx(exact.number("volume") / 1000 * 1.24)
 
 
+@pytest.mark.slow
 def test_a_layer_is_refilled_first(page: Page, ids: dict[str, str]) -> None:
     answer = page.ask("refill", ids["print.gcode"], options={"pattern": "gyroid"}, quality="coarse", layer=7)
     header, *_ = read_layer(answer.payloads(LAYER)[0])
@@ -523,6 +528,35 @@ def test_a_broken_file_is_one_message(page: Page, name: str) -> None:
     check_message(answer, Path(name))
 
 
+@pytest.mark.slow
+def test_faults_of_packages_are_one_message_each(page: Page, tmp_path: Path) -> None:
+    """Those that are planted for the readers, in tests/test_3mf_hostile.py."""
+    faulty = {fault: changed(tmp_path / "a.3mf", change).read_bytes() for fault, (change, _) in ZIPS.items()}
+    faulty |= {fault: packed(tmp_path / "a.3mf", text).read_bytes() for fault, (text, _) in XMLS.items()}
+    for fault, content in faulty.items():
+        answer = page.post("files?name=a.3mf", content=content)
+        if answer.error is not None:  # of one of them, the readers of models know nothing
+            check_message(answer, Path(fault))
+    assert page.post("files?sample=part").error is None
+
+
+CUT = [name for name in READERS if name not in ("png", "points", "ply points")]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", CUT)
+def test_files_that_are_cut_off_are_one_message(page: Page, name: str, tmp_path: Path) -> None:
+    """Of every format, at three places: what is left is read, or refused."""
+    path = READERS[name][0](tmp_path)
+    content = path.read_bytes()
+    assert page.upload(path).error is None
+    for share in (0.1, 0.5, 0.95):
+        path.write_bytes(content[: int(share * len(content))])
+        answer = page.upload(path)
+        if answer.error is not None:
+            check_message(answer, path)
+
+
 def test_an_archive_unpacks_into_its_folder_only(page: Page, studio: Studio, files: Path) -> None:
     import zipfile
 
@@ -543,6 +577,7 @@ def test_an_archive_unpacks_into_its_folder_only(page: Page, studio: Studio, fil
 # --- pages -----------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_page_that_goes_takes_its_process_and_folder(studio: Studio, files: Path) -> None:
     others, kept = studio.workers(), set(studio.temporary())
     with studio.page() as page:
@@ -556,6 +591,7 @@ def test_a_page_that_goes_takes_its_process_and_folder(studio: Studio, files: Pa
         assert page.ask("make", options={"pattern": "honeycomb"}).status == 404
 
 
+@pytest.mark.slow
 def test_work_ends_when_its_page_goes(studio: Studio, files: Path) -> None:
     others = studio.workers()
     with studio.page() as page:
@@ -568,6 +604,7 @@ def test_work_ends_when_its_page_goes(studio: Studio, files: Path) -> None:
             wait_until(lambda: not studio.workers() & own)
 
 
+@pytest.mark.slow
 def test_closing_the_connection_cancels(studio: Studio, files: Path) -> None:
     with studio.page() as page:
         file = page.upload(files / "part.stl").facts["file"]
@@ -586,6 +623,7 @@ def test_closing_the_connection_cancels(studio: Studio, files: Path) -> None:
         assert time.perf_counter() - begin < 15  # s; the whole fill would take longer, and so may a new process
 
 
+@pytest.mark.slow
 def test_the_newest_request_of_a_lane_wins(studio: Studio, files: Path) -> None:
     import threading
 
@@ -608,6 +646,7 @@ def test_the_newest_request_of_a_lane_wins(studio: Studio, files: Path) -> None:
         assert "newer request" in answers["old"].error["message"]
 
 
+@pytest.mark.slow
 def test_two_pages_do_not_disturb_each_other(studio: Studio, files: Path) -> None:
     with studio.page() as first, studio.page() as second:
         assert first.name != second.name
@@ -619,6 +658,7 @@ def test_two_pages_do_not_disturb_each_other(studio: Studio, files: Path) -> Non
         assert first.ask("fill", mine["file"], options={"voxel": 1, "wall": 2.5}).error is None
 
 
+@pytest.mark.slow
 def test_pages_have_a_limit_and_unknown_ones_are_gone(studio: Studio) -> None:
     with studio.client() as client:
         opened = []
@@ -641,8 +681,33 @@ def test_pages_have_a_limit_and_unknown_ones_are_gone(studio: Studio) -> None:
 # --- beginning and end ---------------------------------------------------------------------------------------
 
 
-def test_ctrl_c_ends_it_cleanly(tmp_path: Path, files: Path) -> None:
-    with run_studio(tmp_path, str(files / "part.stl")) as studio, studio.page() as page:
+LIMITED = """
+from infill.studio.limits import StudioLimits
+from infill.studio.server import serve
+serve(browser=False, limits=StudioLimits(seconds=4, upload_bytes=60_000, files=2, memory_bytes=300_000_000))
+"""
+
+
+@pytest.mark.slow
+def test_every_request_has_limits_of_time_and_memory(tmp_path: Path, files: Path) -> None:
+    with run_studio(tmp_path, code=LIMITED) as studio, studio.page() as page:
+        limits = page.client.get("api/about").json()["limits"]
+        assert (limits["seconds"], limits["upload_bytes"]) == (4, 60_000)
+        assert page.upload(files / "print.gcode").status == 413
+        file = page.upload(files / "part.stl").facts["file"]
+        slow = page.ask("fill", file, options={"voxel": 0.25, "max_triangles": 900_000})
+        assert "takes over 4 s" in slow.error["message"]
+        large = page.ask("fill", file, options={"voxel": 0.05})
+        assert "memory" in large.error["message"]
+        assert page.post("files?sample=part").error is None
+        assert "holds 2 files" in page.upload(files / "part.stl").error["message"]
+        assert page.ask("make", options={"pattern": "honeycomb", "size": [10, 10], "height": 1}).error is None
+
+
+@pytest.mark.slow
+def test_ctrl_c_ends_it_cleanly(tmp_path: Path, files: Path, tmp_path_factory: pytest.TempPathFactory) -> None:
+    here = tmp_path_factory.mktemp("here")
+    with run_studio(tmp_path, str(files / "part.stl"), cwd=here) as studio, studio.page() as page:
         assert page.client.get("api/about").json()["file"] == {"name": "part.stl"}
         facts = page.post("files?given=1").facts
         assert (facts["kind"], facts["name"]) == ("part", "part.stl")
@@ -651,7 +716,7 @@ def test_ctrl_c_ends_it_cleanly(tmp_path: Path, files: Path) -> None:
         assert [path.name for path in tmp_path.iterdir()] != []
         assert all(path.name.startswith(TEMPORARY) for path in tmp_path.iterdir())
         assert studio.stop() == 0
-        assert list(tmp_path.iterdir()) == []
+        assert list(tmp_path.iterdir()) == list(here.iterdir()) == []
         wait_until(lambda: not any(Path(f"/proc/{number}").exists() for number in workers))
 
 
@@ -665,6 +730,7 @@ def test_workers_end_with_a_server_that_is_killed(tmp_path: Path) -> None:
         wait_until(lambda: not any(Path(f"/proc/{number}").exists() for number in workers))
 
 
+@pytest.mark.slow
 def test_mistakes_on_the_command_line(tmp_path: Path) -> None:
     def run(*words: str) -> subprocess.CompletedProcess[str]:
         command = [sys.executable, "-c", CODE, "studio", "--no-browser", *words]

@@ -17,7 +17,7 @@ from test_architecture import modules_after
 from test_command_line import one_line_error, run, usage_error
 from test_viewer_packing import surface_of, unfold, unpack
 
-from infill import make, refill
+from infill import make, refill, smooth_volume
 from infill.formats.mesh_files import save
 from infill.planner.layer_speeds import drawn_speeds, layer_speeds
 from infill.samples.plate_print import plate_print
@@ -153,6 +153,15 @@ def test_a_preview_may_be_a_page(command: str, part: Path, tmp_path: Path) -> No
     assert json.loads(data_of(page)[8:].split(b"]}")[0] + b"]}")["surfaces"][0]["triangles"] == report["triangles"]
     usage_error_or_fine = run(command, *words[command], "--preview", tmp_path / "view.jpg")
     one_line_error(usage_error_or_fine, "ends in .png or .html")
+
+
+def test_a_smoothed_surface_stands_beside_that_before_which_is_hidden() -> None:
+    solid = (np.indices((20, 20, 20)) - 9.5) ** 2
+    result = smooth_volume(solid.sum(axis=0) < 50)
+    page = result.page("ball")
+    assert list(unpack(data_of(page))) == ["solid", "before"]
+    assert '"hidden": ["before"]' in page
+    assert rows_of(page)["triangles"] == f"{result.report['triangles']:,}"
 
 
 def test_a_page_is_cut_open_in_the_browser(part: Path, tmp_path: Path) -> None:

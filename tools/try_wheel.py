@@ -60,11 +60,12 @@ def main() -> None:
         run("phasefill", "list")
         run("infill", "make", "honeycomb", "--size", "20", "--height", "3", "-o", "block.stl", "--preview", "block.png")
         run("infill", "check", "block.stl")
+        run("infill", "view", "block.stl", "-o", "block.html")
         run("infill", "smooth", "ball.npy", "-o", "ball.3mf", "--json")
         run("infill", "check", "ball.3mf")
         run("python", "-c", "from infill import make; assert make('zigzag', size=20, height=3).mesh.is_volume")
         made = sorted(path.name for path in empty.iterdir())
-        if made != ["ball.3mf", "ball.npy", "block.png", "block.stl"]:
+        if made != ["ball.3mf", "ball.npy", "block.html", "block.png", "block.stl"]:
             sys.exit(f"error: the commands left {made}")
     print(f"{wheels[0].name} works alone")
 

@@ -15,11 +15,15 @@ MISSING = "the studio needs two more packages: pip install 'phasefill[studio]'"
 
 def studio(
     file: Annotated[Path | None, typer.Argument(metavar="[FILE]", help="Part, scan or print to open at once.")] = None,
-    port: Annotated[int, typer.Option(metavar="N", help="Port to listen at. (default: any that is free)")] = 0,
+    port: Annotated[
+        int, typer.Option(metavar="N", help="Port to listen at. (default: any that is free)", show_default=False)
+    ] = 0,
     host: Annotated[
         str,
         typer.Option(
-            metavar="NAME", help="Network interface to listen at; others than this machine's own let others in."
+            metavar="NAME",
+            help="Network to listen at; any but this machine lets others in. (default: 127.0.0.1)",
+            show_default=False,
         ),
     ] = "127.0.0.1",
     no_browser: Annotated[bool, typer.Option("--no-browser", help="Only print the address.")] = False,

@@ -7,8 +7,7 @@ are left out. The depth of the cells of the grid stays the same from draft to dr
 from __future__ import annotations
 
 import math
-from collections.abc import MutableMapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -18,7 +17,7 @@ from infill.lattices.bodies import Fields
 from infill.lattices.density_search import LEAST, find_sizes, make_voids
 from infill.lattices.modifiers import add_modifiers
 from infill.lattices.request import FillSpec, Size, has_bars
-from infill.lattices.sizing import choose_sizes, coarsest_voxel
+from infill.lattices.sizing import choose_sizes
 from infill.lattices.task import FillTask
 from infill.lattices.void_meshes import VoidMeshes
 from infill.lattices.voids import Layout, Periodic
@@ -26,12 +25,34 @@ from infill.plain_numbers import plain_argument
 from infill.result import Clock, Progress
 from infill.surface import Surface
 
-CELLS, MOST_CELLS = 64, 80  # along the longest side of the part, if neither voxel nor resolution is requested
+CELLS = 72  # along the longest side of the part, if neither voxel nor resolution is requested
 OFF = 0.05  # of the density: a draft further off is drawn again
 REDRAWN = 2  # times, at most
 RESCALED = (0.25, 4.0)  # times that a second drawing changes a size
-MOST_SPACES = 4  # that are kept
-Spaces = MutableMapping[tuple[object, ...], Interior]
+MOST_SPACES, MOST_SIZES = 4, 32  # that are remembered
+
+
+@dataclass(kw_only=True, eq=False)
+class DraftMemory:
+    """Results of drafts of one part that the next ones use again.
+
+    Parameters
+    ----------
+    spaces : dict of Interior
+        By wall and grid.
+    sizes : dict of (cell, width, density)
+        Of the latest draft with a pattern, in mm, by the options other than the density.
+    """
+
+    spaces: dict[tuple[object, ...], Interior] = field(default_factory=dict)
+    sizes: dict[tuple[object, ...], tuple[float, float, float]] = field(default_factory=dict)
+
+    def keep_sizes(self, key: tuple[object, ...], sizes: tuple[float, float, float]) -> None:
+        """Remember the sizes of a draft; forget the oldest."""
+        self.sizes.pop(key, None)
+        while len(self.sizes) >= MOST_SIZES:
+            del self.sizes[next(iter(self.sizes))]
+        self.sizes[key] = sizes
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -67,7 +88,7 @@ def draft_fill(
     part: Surface,
     request: FillSpec,
     *,
-    spaces: Spaces | None = None,
+    memory: DraftMemory | None = None,
     threads: int | None = None,
     max_memory: int | None = None,
     progress: Progress | None = None,
@@ -79,8 +100,8 @@ def draft_fill(
     part : Surface, mm
     request : FillSpec
         As for `infill.lattices.job.fill_request`.
-    spaces : mutable mapping, optional
-        Insides of this part from earlier drafts; new ones are added to it.
+    memory : DraftMemory, optional
+        Of earlier drafts of this part.
     threads, max_memory, progress
         As in `infill.fill`.
 
@@ -91,38 +112,62 @@ def draft_fill(
     MemoryLimitError
         If memory will not suffice.
     """
-    clock = Clock(progress)
+    clock, memory = Clock(progress), DraftMemory() if memory is None else memory
     part, request = add_modifiers(part, request)
+    if request.voxel is None and request.resolution is None:
+        request = replace(request, resolution=CELLS)
     task = FillTask.of(part, request, clock=clock, threads=threads, max_memory=max_memory)
     with clock.stage("depth", 0.0):
-        cell, width = choose_sizes(task)
-        if task.request.voxel is None:
-            longest = float(task.extents.max())
-            voxel = float(np.clip(coarsest_voxel(task, cell, width), longest / MOST_CELLS, longest / CELLS))
-            task = replace(task, request=replace(task.request, voxel=voxel))
-        space = _find_space(task, {} if spaces is None else spaces)
+        space = _find_space(task, memory)
     with clock.stage("density", 0.3):
-        grading = task.request.grading
-        local = None if grading is None else grading.widths_in(space, task.pattern.widths)
-        layout = Layout(space=space, cell=cell, width=width, local=local, threads=threads)
-        varied, fields = task.request.varied, None
-        if isinstance(task.pattern, Periodic):  # others take long to draw
-            layout, varied, fields = find_sizes(task, layout, varied)
+        layout, varied, fields = _start_layout(task, space, memory)
     with clock.stage("voids", 0.6):
         hollow, fields = make_voids(task, layout, fields)
-        if varied and grading is None:
-            hollow = _correct_density(task, layout, hollow, fields, varied[-1])
+        if varied and task.request.grading is None:
+            hollow = _correct_density(task, hollow, fields, varied)
     if not hollow.surfaces:
         raise GeometryError(
             f"the pattern leaves no void inside walls of {plain_argument(task.request.wall)} mm; give larger cells, "
             "narrower lines, a lower density or a thinner wall"
         )
+    if varied:
+        memory.keep_sizes(_sizes_key(task), (hollow.cell, hollow.width, hollow.density))
     return FillDraft(part=space.part, hollow=hollow, voxel=space.size)
 
 
-def _find_space(task: FillTask, spaces: Spaces) -> Interior:
-    """Return the space inside the walls: a fields one, or a new one, which is kept."""
+def _sizes_key(task: FillTask) -> tuple[object, ...]:
+    """Return the options by which the sizes of drafts of one density follow from those of another."""
     request = task.request
+    pattern = (request.pattern, repr(sorted(request.parameters.items())), request.cell, request.line_width)
+    return (*pattern, request.wall, request.voxel, request.open_, request.align, request.form, request.smooth_radius)
+
+
+def _start_layout(
+    task: FillTask, space: Interior, memory: DraftMemory
+) -> tuple[Layout, tuple[Size, ...], Fields | None]:
+    """Return a first layout, the sizes that may vary, and its fields: from the draft before, or from the density."""
+    request, varied = task.request, task.request.varied
+    grading = request.grading
+    if varied and grading is None and request.density is not None and (before := memory.sizes.get(_sizes_key(task))):
+        cell, width, density = before
+        layout = Layout(space=space, cell=cell, width=width, threads=task.threads)
+        times = request.density / max(density, LEAST)
+        return layout.scale(times ** _power(task, varied[0]), varied[0]), varied, None
+    cell, width = choose_sizes(task)
+    local = None if grading is None else grading.widths_in(space, task.pattern.widths)
+    layout = Layout(space=space, cell=cell, width=width, local=local, threads=task.threads)
+    # Patterns that do not repeat take long to draw.
+    return find_sizes(task, layout, varied) if isinstance(task.pattern, Periodic) else (layout, varied, None)
+
+
+def _power(task: FillTask, vary: Size) -> float:
+    """Return the power of a density with which a size grows: bars fill as their thickness squared."""
+    return 0.5 if vary == "width" and has_bars(task.request.kind) else 1.0
+
+
+def _find_space(task: FillTask, memory: DraftMemory) -> Interior:
+    """Return the space inside the walls: that of an earlier draft, or a new one, which is remembered."""
+    request, spaces = task.request, memory.spaces
     assert request.voxel is not None
     key = (request.wall, request.voxel, request.open_, request.beyond, tuple(region.text for region in request.regions))
     if key not in spaces:
@@ -142,13 +187,10 @@ def _find_space(task: FillTask, spaces: Spaces) -> Interior:
     return spaces[key]
 
 
-def _correct_density(
-    task: FillTask, layout: Layout, hollow: VoidMeshes, fields: Fields | None, vary: Size
-) -> VoidMeshes:
+def _correct_density(task: FillTask, hollow: VoidMeshes, fields: Fields | None, varied: tuple[Size, ...]) -> VoidMeshes:
     """Draw voids again, twice at most, until their density is near the requested one: the grid swallows thin walls."""
-    density = task.request.density or LEAST
-    power = 0.5 if has_bars(task.request.kind) and vary == "width" else 1.0
-    total = 1.0
+    density, vary, layout = task.request.density or LEAST, varied[-1], hollow.layout
+    power, total = _power(task, vary), 1.0
     for _ in range(REDRAWN):
         if abs(hollow.density / density - 1) <= OFF:
             break

@@ -10,20 +10,6 @@ from typing import Any, get_args
 from infill.errors import escape_unprintable
 from infill.version import __version__
 
-# g/cm³, as makers of filament and resin state them for their plain materials.
-MATERIALS = {
-    "PLA": 1.24,
-    "PETG": 1.27,
-    "ABS": 1.04,
-    "ASA": 1.07,
-    "PA12": 1.01,
-    "TPU": 1.21,
-    "PC": 1.2,
-    "resin": 1.18,
-    "Ti-6Al-4V": 4.43,
-    "AlSi10Mg": 2.67,
-    "316L": 7.99,
-}
 GALLERY_PLACES = (
     Path(__file__).parent / "gallery",  # in a wheel
     Path(__file__).parents[2] / "docs" / "pictures" / "gallery",  # in the sources
@@ -34,6 +20,7 @@ FACTS = "facts.json"
 def describe_studio(limits: dict[str, float], opened: str | None) -> dict[str, Any]:
     """Return the abilities of the studio, as plain values."""
     from infill.lattices.settings import Slicer
+    from infill.studio.numbers import MATERIALS
     from infill.studio.products import PRODUCTS, describe_product
 
     return {

@@ -143,7 +143,9 @@ class Desk:
         """Keep a result, the newest ones only."""
         self._results[result] = made
         while len(self._results) > MOST_RESULTS:
-            self._results.popitem(last=False)
+            oldest, _ = self._results.popitem(last=False)
+            for file in (self.folder / MADE).glob(f"{oldest}.*"):
+                file.unlink(missing_ok=True)
 
     def _made(self, message: Mapping[str, Any], progress: Progress) -> Made:
         """Return a result; make it again if it is not kept any more."""

@@ -51,7 +51,7 @@ def make(order: Order) -> Made:
 
 def _draft(order: Order, content: Content, arguments: dict[str, Any]) -> Made | None:
     """Draft a fill; return None for options that only the whole fill has."""
-    from infill.lattices.draft import draft_fill
+    from infill.lattices.draft import DraftMemory, draft_fill
     from infill.lattices.request import check_request
 
     names = ("as_", "for_")
@@ -66,7 +66,7 @@ def _draft(order: Order, content: Content, arguments: dict[str, Any]) -> Made | 
     draft = draft_fill(
         content.data,
         request,
-        spaces=content.kept.setdefault("spaces", {}),
+        memory=content.kept.setdefault("drafts", DraftMemory()),
         max_memory=order.memory,
         progress=order.progress,
     )

@@ -6,11 +6,23 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from infill.studio.catalogue import MATERIALS
-
 if TYPE_CHECKING:
     from infill.lattices.draft import FillDraft
 
+# g/cm³, as makers of filament and resin state them for their plain materials.
+MATERIALS = {
+    "PLA": 1.24,
+    "PETG": 1.27,
+    "ABS": 1.04,
+    "ASA": 1.07,
+    "PA12": 1.01,
+    "TPU": 1.21,
+    "PC": 1.2,
+    "resin": 1.18,
+    "Ti-6Al-4V": 4.43,
+    "AlSi10Mg": 2.67,
+    "316L": 7.99,
+}
 MM3_PER_CM3 = 1000.0
 
 

@@ -96,17 +96,28 @@ class WorkerProcess:
             If it takes longer than allowed.
         """
         loop = asyncio.get_running_loop()
-        number, deadline = message["id"], loop.time() + self.limits.seconds
+        number = message["id"]
         queue: asyncio.Queue[AnswerFrame] = asyncio.Queue()
         self._queues[number] = queue
         if not self.is_alive:
             self._fail(number)
         self._write(message)
+        await self._wait_until_ready()  # loading the library is not the request's time
+        deadline = loop.time() + self.limits.seconds
         while True:
             frame = await asyncio.wait_for(queue.get(), deadline - loop.time())
             yield frame
             if frame.kind == END:
                 return
+
+    async def _wait_until_ready(self) -> None:
+        """Wait until the process has loaded its libraries, or has ended."""
+        if not self.is_ready.is_set():
+            waiting = asyncio.create_task(self.is_ready.wait())
+            try:
+                await asyncio.wait({waiting, self._reading}, return_when=asyncio.FIRST_COMPLETED)
+            finally:
+                waiting.cancel()
 
     def cancel(self, number: int) -> None:
         """Stop a request: the process ends it by itself, or is killed after a while."""
