@@ -122,10 +122,10 @@ def test_browsers_leave_out_the_usual_port():
 
     at_80, at_81 = (Guard(app=nothing, token="t", host="127.0.0.1", port=port) for port in (80, 81))
     for host in ("127.0.0.1", "localhost", "[::1]", "127.0.0.1:80", "[::1]:80"):
-        assert at_80._is_our_host(host), host
-        assert not at_81._is_our_host(host), host
-    assert at_81._is_our_host("[::1]:81")
-    assert not at_80._is_our_host("evil.example")
+        assert at_80.is_our_host(host), host
+        assert not at_81.is_our_host(host), host
+    assert at_81.is_our_host("[::1]:81")
+    assert not at_80.is_our_host("evil.example")
 
 
 def test_answers_carry_the_headers_of_security(studio: Studio) -> None:

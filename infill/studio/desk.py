@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import secrets
 from collections import OrderedDict
 from collections.abc import Callable, Iterator, Mapping
@@ -59,24 +60,18 @@ class Desk:
 
     def warm(self, is_awaited: Callable[[], bool]) -> None:
         """Load the library and its compiled loops, until a request waits."""
-        import trimesh
-
-        steps: tuple[Callable[[], object], ...] = (
-            lambda: find_product("fill").code,
-            lambda: self._draft_box(trimesh.creation.box((12.0, 12.0, 12.0))),
-        )
-        for step in steps:
+        for step in (lambda: importlib.import_module("infill.lattices.draft"), self._draft_sample):
             if is_awaited():
                 return
             step()
 
-    def _draft_box(self, box: Any) -> None:  # noqa: ANN401 - a Trimesh
-        """Draft a small box."""
+    def _draft_sample(self) -> None:
+        """Draft a fill of the sample of a part, coarsely."""
         from infill.lattices.draft import draft_fill
         from infill.lattices.request import check_request
-        from infill.meshes.merging import surface_of
+        from infill.samples.bracket import bracket
 
-        draft_fill(surface_of(box), check_request(pattern="gyroid", own={}, density=0.3))
+        draft_fill(bracket(), check_request(pattern="gyroid", own={}, density=0.3, resolution=30))
 
     def content(self, file_id: str, message: Mapping[str, Any], progress: Progress) -> Content:
         """Return the content of a file; read it if this process has not yet."""

@@ -85,11 +85,11 @@ class Guard:
     def _is_ours(self, headers: Headers) -> bool:
         """Tell whether host and origin of a request are those of the studio."""
         hosts, origins = headers.getlist("host"), headers.getlist("origin")
-        if len(hosts) != 1 or not self._is_our_host(hosts[0]):
+        if len(hosts) != 1 or not self.is_our_host(hosts[0]):
             return False
         return all(origin == f"http://{hosts[0]}" for origin in origins)
 
-    def _is_our_host(self, text: str) -> bool:
+    def is_our_host(self, text: str) -> bool:
         """Tell whether a host with its port names this server; numbers of a machine cannot be rebound."""
         name, _, port = text.lower().rpartition(":")
         if not name or text.endswith("]"):  # browsers leave out the usual port

@@ -78,6 +78,8 @@ def guess_kind(name: str, requested: str = "") -> Kind:
     kind = next((kind for kind in KINDS if kind == requested), None)
     if kind is not None:
         return kind
+    if Path(name).is_dir():  # of DICOM or slices, named on the command line
+        return "scan"
     if lower.endswith((".gcode.3mf", *PRINTS)) or (lower.endswith(".3mf") and _holds_gcode(name)):
         return "print"
     if lower.endswith(MESHES):

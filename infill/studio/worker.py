@@ -125,7 +125,7 @@ class LogFrames(logging.Handler):
 
 
 def run(boot: dict[str, Any]) -> None:
-    """CurrentRequest until stdin ends."""
+    """Work until stdin ends."""
     requests, outbox = sys.stdin.buffer, _take_stdout()
     _set_limits(boot)
     folder = boot["folder"]
