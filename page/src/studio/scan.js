@@ -280,6 +280,7 @@ export function createScanView(studio) {
     cut.setBounds(boundsOfSurfaces(mesh.surfaces));
     // Once both stand in their places, they are seen from the same one.
     requestAnimationFrame(() => {
+      if (!fresh.length) return before.fit();
       if (isFresh) after.fit();
       isFresh = false;
       before.setCamera(after.getCamera());
@@ -324,6 +325,7 @@ export function createScanView(studio) {
       asked = "";
       meshBefore = null;
       isFresh = true;
+      after.setMesh({ surfaces: [] });
       empty.hidden = true;
       numbers.show(file.numbers ?? []);
       const { scan } = file;
