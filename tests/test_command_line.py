@@ -31,7 +31,20 @@ from infill.making.settings import MakeSettings, parse_size, resolve
 from patterns import PATTERNS, gives, parameters
 from patterns.shared import SHARED
 
-COMMANDS = ["make", "smooth", "fill", "refill", "list", "check", "motion", "verify", "sample", "studio", "setup"]
+COMMANDS = [
+    "make",
+    "smooth",
+    "fill",
+    "refill",
+    "list",
+    "check",
+    "motion",
+    "verify",
+    "sample",
+    "studio",
+    "setup",
+    "view",
+]
 SMALL = ["--size", "20", "--height", "2"]
 RUN = [sys.executable, "-m", "infill.cli"]
 

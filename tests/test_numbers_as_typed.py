@@ -64,6 +64,7 @@ def test_every_option_takes_every_form(command: str) -> None:
         "setup",
         "studio",
         "verify",
+        "view",
     )  # which take none, or shares alone
 
 
