@@ -59,7 +59,8 @@ default_role = "code"  # single backquotes in docstrings are names of arguments 
 NOT_EXPORTED = ("FeatureMotion", "HasName", "Progress", "SmoothOptions", "StampMethod", "SurfaceMethod", "Told")
 NOT_EXPORTED += ("LayerTimes", "LimitNote", "WrittenTimes")
 NOT_EXPORTED += (r"\w*Report", r"\w*Stages")  # typed dictionaries and parts of results, each in a module of its own
-NOT_EXPORTED += ("PrintedVolume", "Edges", "Floats", "Modifier", "Picturable", "Viewable", "Spiral", "Straight", "WholeMesh")
+NOT_EXPORTED += ("PrintedVolume", "Edges", "Floats", "Modifier", "Picturable", "Spiral", "Straight", "Viewable")
+NOT_EXPORTED += ("WholeMesh",)
 # Every other name of ours must resolve. Those of other projects lead nowhere, as the build needs no network.
 OTHERS = ("Image", "collections", "dataclasses", "datetime", "importlib", "manifold3d", "np", "numpy", "os", "pathlib")
 OTHERS += ("shapely", "trimesh", "typing")
