@@ -89,7 +89,6 @@ def test_walls_are_those_of_memory_to_the_last_bit(
 
 
 @pytest.mark.longest
-@pytest.mark.long
 @pytest.mark.parametrize("method", ["refine", "plain"])
 def test_every_way_and_samples_as_of_a_large_volume(method: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(partition_fields, "SAMPLED_BRICKS", 20)

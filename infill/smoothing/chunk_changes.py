@@ -24,6 +24,7 @@ from infill.chunks.layout import Chunk
 from infill.chunks.pieces import count_piece, make_piece, measure_parts
 from infill.chunks.work import LevelParts, LevelTask, Work, lower_field, measure_piece, open_field, unsmoothed_field
 from infill.errors import GeometryError
+from infill.inspection.component_matching import sum_overlaps
 from infill.inspection.deviation import COUNTS, KEPT, LOST, PITCH, sample_surface
 from infill.inspection.sign_changes import (
     CUBES_AROUND,
@@ -346,11 +347,17 @@ def match_chunk(work: Work, chunk: Chunk, task: LevelTask, reach: int) -> Matche
         after=survey_components(chunk_field, chunk, after),
         walls=survey_components(chunk_field, chunk, walls),
         gone=survey_components(chunk_field, chunk, gone),
-        of_solid=shared_cells(inside[0], inside[1]),
-        of_walls=shared_cells(inside[2], inside[1]),
+        of_solid=_share_cells(inside[0], inside[1]),
+        of_walls=_share_cells(inside[2], inside[1]),
         middle=_sum_cells(chunk_field, chunk, gone),
         sturdy=measure_piece(work, chunk, solid, 0.0, any_numbers=True),
     )
+
+
+def _share_cells(before: Components, after: Components) -> Numbers:
+    """Count the cells that components share, a row (n, 3) for each pair: results of tasks should be small."""
+    shared = sum_overlaps(shared_cells(before, after), before=before.count, after=after.count)
+    return np.stack([shared.one, shared.other, shared.cells], axis=1)
 
 
 def _seen_cells(field: SparseField, chunk: Chunk) -> Bits:
