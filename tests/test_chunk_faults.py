@@ -74,6 +74,7 @@ def names() -> set[str]:
     return {str(path) for path in Path().rglob("*") if "f.zarr" not in path.parts}
 
 
+@pytest.mark.longest
 def test_a_disk_that_is_full_while_fields_are_kept_changes_nothing(folder: Path) -> None:
     free = limited(0, *PLAIN, "--hash", "--resume", "kept")
     full = limited(20_000, *PLAIN, "--hash", "--resume", "kept")

@@ -249,7 +249,7 @@ def check_fields(data: NDArray[np.bool_], steps: int, size: tuple[int, int, int]
         np.testing.assert_array_equal(own[box], whole[tuple(slice(a, a + n) for a, n in zip(low, sizes, strict=True))])
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("blur", [0.0, 2.0])
 @pytest.mark.parametrize(("steps", "size"), [(4, (1, 1, 1)), (7, (2, 1, 1))])
 def test_refined_fields_are_those_of_the_whole(blur: float, steps: int, size: tuple[int, int, int]) -> None:

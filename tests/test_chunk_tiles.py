@@ -50,6 +50,7 @@ def read_ply(path: str) -> tuple[NDArray[Any], NDArray[Any]]:
     return np.frombuffer(body, "<f4", 3 * vertices).reshape(-1, 3), rows["corners"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("tolerance", ["0", "0.1"])
 def test_tiles_have_the_triangles_of_a_ply(tolerance: str, folder: Path) -> None:
     words = ("--spacing", "1", "-o", "a.precomputed", "-o", "a.ply", "-q")

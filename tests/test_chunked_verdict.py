@@ -135,6 +135,7 @@ def test_a_plate_that_is_lost_is_found() -> None:
         assert (x, z) == pytest.approx(((at + 1) * 0.5, 15.0), abs=0.5)
 
 
+@pytest.mark.longest
 def test_a_loss_is_refused_and_named() -> None:
     values = block_with_a_plate(2, 31)
     request = replace(plain(60, strict=True), allow_broken=False)

@@ -100,6 +100,7 @@ def test_without_ties_pieces_are_left_out_and_told(logo: str) -> None:
     assert once(box(44, 30, 8), logo, open_="top", ties=False).report["problems"] == []  # what it recommends
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("shell", [{"wall": 0}, {"wall": 1, "open_": "both"}])
 def test_a_repeated_drawing_of_islands_is_one_piece(shell: dict[str, Any], tmp_path: Path) -> None:
     """The density is that of lines and ties together."""
@@ -115,6 +116,7 @@ def test_a_repeated_drawing_of_islands_is_one_piece(shell: dict[str, Any], tmp_p
     assert result.report["problems"] == []
 
 
+@pytest.mark.longest
 def test_loose_bodies_without_a_shell_are_told(tmp_path: Path) -> None:
     """Rings that touch nothing: how many there are besides one, and the remedy, which ties them all."""
     path = tmp_path / "ring.svg"
@@ -134,6 +136,7 @@ def test_loose_bodies_without_a_shell_are_told(tmp_path: Path) -> None:
     assert not any("come apart" in problem for problem in tied.report["problems"])
 
 
+@pytest.mark.longest
 def test_rings_along_the_outline_are_tied_too() -> None:
     """Islands are a matter of the lines, not of drawings."""
     assert count_bodies(fill(box(20, 20, 4), "concentric", open_="both")) == 1

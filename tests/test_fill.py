@@ -603,7 +603,7 @@ def test_what_is_advised_against_lost_bars_works(pattern: Any, settings: dict[st
     assert fill(box(20, 20, 20), pattern, cell=8, **settings).report["problems"] == []
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_bars_that_are_only_narrower_are_not_lost() -> None:
     """Drawn wider, so that the density holds after smoothing."""
     report = fill(box(24, 24, 24), "octet", density=0.05).report

@@ -20,7 +20,7 @@ PEAK = (
 )
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 @pytest.mark.parametrize(
     "options",
     [

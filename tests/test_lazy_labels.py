@@ -218,6 +218,7 @@ def test_a_dask_array(balls: NDArray[np.uint16]) -> None:
         smooth_labels(array, together=True, keep_going=True)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("scheduler", ["threads", pytest.param("processes", marks=pytest.mark.slow)])
 def test_tasks_of_dask(scheduler: str, balls: NDArray[np.uint16], tmp_path: Path) -> None:
     path = tmp_path / "a.zarr"

@@ -65,7 +65,7 @@ def circles(layers: int = 12, sides: int = 40, radius: float = 15.0) -> DrawnSpe
     return DrawnSpeeds(start=start, end=end, speed=speed, layer=layer.astype(np.int32), section=0.15)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("dark", [False, True])
 @pytest.mark.parametrize("width", [1280, 390])
 def test_a_page_fits_its_window_by_day_and_night(tmp_path: Path, width: int, dark: bool) -> None:
@@ -133,7 +133,7 @@ def test_the_keyboard_alone_reaches_everything(tmp_path: Path) -> None:
         assert page.evaluate("document.activeElement.textContent") == "Corner"
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_a_view_rests_until_it_is_moved(tmp_path: Path) -> None:
     with open_page(written(tmp_path, surface_page({"ball": surface_of(ball(6.0))}, title="Ball"))) as page:
         wait_until_drawn(page)

@@ -64,6 +64,7 @@ def test_what_was_done_is_nothing_to_do(options: dict[str, Any], sliced: Path, t
     assert once.read_bytes() == before
 
 
+@pytest.mark.longest
 def test_what_was_refilled_is_not_called_the_slicers(sliced: Path, tmp_path: Path) -> None:
     """Values before and the stated estimate are those of the last refill, in the report and in the summary."""
     once = tmp_path / "once.gcode"

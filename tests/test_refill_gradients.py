@@ -178,7 +178,7 @@ def test_rings_of_a_real_print_keep_their_distance(data: Path, tmp_path: Path) -
     assert spacing_of(layers) > 0.95
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("pattern", ["honeycomb", "grid", "gyroid"])
 def test_lines_that_follow_a_field_obey_its_laws_as_arcs(tmp_path: Path, pattern: str) -> None:
     """As straight moves do, in fewer lines: gyroids, whose lines never touch, would allow fewer still."""

@@ -101,7 +101,7 @@ def test_any_voids_in_a_block(places: list[tuple[int, int, int]], filled: list[i
     assert count_sealed_voids(together(*(turned(each) if whole else each for each in meshes))) == len(places)
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_check_says_so(tmp_path: Path) -> None:
     path = save(together(*CASES["nine voids"][0]), tmp_path / "a.stl")
     found = check(path)

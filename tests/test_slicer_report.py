@@ -138,6 +138,7 @@ def test_what_prusaslicer_2_9_needs_is_told_where_it_was_left_out() -> None:
     assert "--deli PYTHON" in line
 
 
+@pytest.mark.longest
 def test_runs_are_of_older_code_once_a_module_that_refill_imports_changes(tmp_path: Path) -> None:
     files = [path.relative_to(ROOT) for path in imported(REFILLS)]
     for file in ("refilling/job.py", "refilling/fitting.py", "paths/rounding.py", "planner/lookahead.py"):

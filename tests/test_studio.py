@@ -367,7 +367,7 @@ def test_a_coarse_answer_is_near_the_exact_one(page: Page, ids: dict[str, str]) 
     assert grams["PLA"] == pytest.approx(exact.number("volume") / 1000 * 1.24)
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_a_layer_is_refilled_first(page: Page, ids: dict[str, str]) -> None:
     answer = page.ask("refill", ids["print.gcode"], options={"pattern": "gyroid"}, quality="coarse", layer=7)
     header, *_ = read_layer(answer.payloads(LAYER)[0])

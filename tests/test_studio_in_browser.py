@@ -97,6 +97,7 @@ def choose(page: Any, label: str, text: str) -> None:
 # --- a part ------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.longest
 def test_a_part_is_filled_cut_saved_and_the_same_when_opened_again(
     studio: str, samples: dict[str, Path], tmp_path: Path
 ) -> None:
@@ -122,6 +123,7 @@ def test_a_part_is_filled_cut_saved_and_the_same_when_opened_again(
         assert contents == f"{numbers['Volume']} · {numbers['Triangles']} triangles"
 
 
+@pytest.mark.longest
 def test_a_link_restores_a_part_and_undo_leads_back(studio: str) -> None:
     link = "part?sample=part&pattern=grid&density=30%25&wall=2&cut=x,0.25"
     with open_view(studio, link) as page:
@@ -153,6 +155,7 @@ def test_an_error_stands_at_its_control_and_goes(studio: str, samples: dict[str,
         assert not message.is_visible()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["broken.stl", "words.txt"])
 def test_a_broken_file_is_one_clear_message_and_the_page_goes_on(
     studio: str, samples: dict[str, Path], tmp_path: Path, name: str
@@ -170,6 +173,7 @@ def test_a_broken_file_is_one_clear_message_and_the_page_goes_on(
 # --- by keyboard, in light and dark, wide and narrow --------------------------------------------------------------
 
 
+@pytest.mark.longest
 def test_every_control_is_reached_and_named_by_keyboard(studio: str, samples: dict[str, Path]) -> None:
     with open_view(studio, "part", samples["part"]) as page:
         wait_until_exact(page)
@@ -194,6 +198,7 @@ FOCUSABLE = """() => {
 }"""
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
 @pytest.mark.parametrize("width", WIDTHS)
 def test_no_view_has_a_serious_fault_of_access_or_overflows(
@@ -217,6 +222,7 @@ def test_no_view_has_a_serious_fault_of_access_or_overflows(
 # --- a print -----------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.longest
 def test_a_print_is_refilled_saved_and_the_same_when_opened_again(
     studio: str, samples: dict[str, Path], tmp_path: Path
 ) -> None:
@@ -251,6 +257,7 @@ DIFFERENT = """() => {
 }"""
 
 
+@pytest.mark.longest
 def test_layers_share_one_camera(studio: str, samples: dict[str, Path]) -> None:
     with open_view(studio, "print", samples["print"]) as page:
         wait_until_exact(page)
@@ -269,6 +276,7 @@ def test_layers_share_one_camera(studio: str, samples: dict[str, Path]) -> None:
 # --- a scan ------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.longest
 def test_a_scan_is_smoothed_cut_saved_and_the_same_when_opened_again(
     studio: str, samples: dict[str, Path], tmp_path: Path
 ) -> None:
@@ -290,6 +298,7 @@ def test_a_scan_is_smoothed_cut_saved_and_the_same_when_opened_again(
     assert trimesh.load(file).volume == pytest.approx(number(numbers["Volume"]), rel=0.01)
 
 
+@pytest.mark.longest
 def test_the_threshold_is_dragged_on_the_histogram(studio: str, samples: dict[str, Path]) -> None:
     with open_view(studio, "scan", samples["scan"]) as page:
         picture = page.locator(".histogram svg")

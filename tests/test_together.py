@@ -208,6 +208,7 @@ def test_the_numbers_of_labels_do_not_matter() -> None:
     assert triangles_as_set(one, order) == triangles_as_set(other, np.arange(9))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("method", ["plain", "refine"])
 def test_a_partition_passes_through_itself_nowhere(method: Any) -> None:
     """Not even where many lines on which three labels meet were made smooth: moves are taken back there."""
@@ -222,6 +223,7 @@ def test_a_partition_passes_through_itself_nowhere(method: Any) -> None:
 # --- what users call ---------------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("method", ["plain", "refine"])
 @pytest.mark.parametrize("spacing", [1.0, (0.7, 0.7, 2.8)])
 def test_every_label_keeps_its_volume(method: Any, spacing: Any) -> None:

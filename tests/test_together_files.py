@@ -150,6 +150,7 @@ def test_the_command_writes_one_file_of_all_walls(tmp_path: Path) -> None:
     refused(run("smooth", source, "--together", "--voxel", "2", "-o", single), "--voxel does not go with --together")
 
 
+@pytest.mark.longest
 def test_a_dry_run_names_labels_files_and_costs(tmp_path: Path) -> None:
     """Triangles are right to a factor of two; nothing is written."""
     source = tmp_path / "labels.npy"

@@ -147,6 +147,7 @@ def test_connections_are_those_of_the_surface(shape: tuple[int, int, int], count
         assert counts.tunnels >= 0
 
 
+@pytest.mark.longest
 @settings(max_examples=10, deadline=None)
 @given(st.integers(2, 12), st.integers(0, 10**6), st.integers(0, 12), st.sampled_from([1.0, (0.5, 0.5, 1.7)]))
 def test_labels_that_are_not_measured_are_near(count: int, seed: int, steps: int, spacing: Any) -> None:

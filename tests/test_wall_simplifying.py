@@ -263,6 +263,7 @@ def test_triangles_that_lie_on_each_other_are_found(monkeypatch: pytest.MonkeyPa
     assert np.flatnonzero(flapped.crowded_points()).tolist() == sorted(at[0, :2].tolist())
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("walls", ["flat", "rough"])
 def test_a_place_that_fails_costs_few_triangles(walls: str, monkeypatch: pytest.MonkeyPatch) -> None:
     labels = make_cells((30, 30, 30), 6, 3)

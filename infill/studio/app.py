@@ -284,7 +284,7 @@ def plain_bytes(count: float) -> str:
     """Format a number of bytes in words.
 
     >>> plain_bytes(2**30)
-    '1024 MiB'
+    '1,024 MiB'
     """
     return plain_size(count / 2**20, digits=4).removesuffix("mm").strip() + " MiB"
 
