@@ -303,7 +303,6 @@ def test_command_and_python_make_the_file_again(
         cwd=tmp_path,
         check=True,
         capture_output=True,
-        text=True,
     )
     if product == "motion":
         assert json.loads(done.stdout)["seconds"] == pytest.approx(facts["report"]["seconds"])
