@@ -24,6 +24,7 @@ from pathlib import Path
 
 import numpy as np
 
+CELL = 128  # voxels of a cell of the gyroid, unless another number is asked for
 FAR = 30  # grey values that noise does not reach
 CHUNK = 128  # voxels of a chunk of the file
 THRESHOLD = 120
@@ -42,7 +43,7 @@ def gyroid(low, high, cell):
     return np.clip(level + noise, 0, 255).astype(np.uint8)
 
 
-def write(side, path, cell):
+def write(side, path, cell=CELL):
     """Write a volume as Zarr, one chunk at a time; cells of several chunks are the same files under several names."""
     import zarr
 
@@ -150,7 +151,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("what", choices=["write", "run", "closed", "whole"])
     parser.add_argument("words", nargs="*")
-    parser.add_argument("--cell", type=int, default=128, help="voxels of a cell of the gyroid")
+    parser.add_argument("--cell", type=int, default=CELL, help="voxels of a cell of the gyroid")
     parser.add_argument("--workers", default="2")
     parser.add_argument("--cluster", type=int, default=0, help="processes of a cluster on this machine")
     parser.add_argument("--max-memory", default="5G")
