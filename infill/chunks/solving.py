@@ -15,6 +15,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.chunks.encoding import digest_data
 from infill.chunks.joining import ChunkComponents, JoinedComponents, join_components
 from infill.chunks.layout import Chunk
 from infill.chunks.running import Runner
@@ -124,8 +125,7 @@ class Solver:
     joined: JoinedComponents | None = None
     targets: NDArray[np.float64] = field(default_factory=lambda: np.empty(0))
     passes: int = 0
-    recent: dict[tuple[int, bytes], LevelParts] = field(default_factory=dict)  # by chunk and digest of its task
-    earlier: dict[tuple[int, bytes], LevelParts] = field(default_factory=dict)
+    recent: dict[str, LevelParts] = field(default_factory=dict)  # by digests of chunks and tasks
 
     @property
     def cell_volume(self) -> float:
@@ -231,28 +231,30 @@ class Solver:
     def _measure(
         self, tasks: Mapping[int, LevelTask], known: Mapping[int, LevelParts], level: float, stage: str
     ) -> MeasuredSurface:
-        self.earlier, self.recent = self.recent, {}
-        parts = dict(known) or self._run(tasks, stage)
+        earlier, self.recent = self.recent, {}
+        parts = dict(known) or self._run(tasks, stage, earlier)
         pending = [number for number, part in parts.items() if not part.complete]
         if any(len(part.cubes.bricks) for part in parts.values()):
             begins = number_cubes(parts)
             tasks = {number: replace(task, first_cubes=begins[number]) for number, task in tasks.items()}
-            parts |= self._run({number: tasks[number] for number in pending}, stage)
+            parts |= self._run({number: tasks[number] for number in pending}, stage, earlier)
         if not sum(part.own for part in parts.values()):
             raise nothing_left(level)
         return MeasuredSurface(level=level, tasks=tasks, parts=parts, shells=join_shells(parts, self.cell_volume))
 
-    def _run(self, tasks: Mapping[int, LevelTask], stage: str) -> dict[int, LevelParts]:
-        """Measure chunks; those where no level has changed since the last time need not be measured again."""
+    def _run(
+        self, tasks: Mapping[int, LevelTask], stage: str, earlier: Mapping[str, LevelParts]
+    ) -> dict[int, LevelParts]:
+        """Measure chunks; a task that is the same as one of the earlier surface has the same result."""
         self.passes += 1
-        digests = {number: task.digest() for number, task in tasks.items()}
-        parts = {n: self.earlier[n, digest] for n, digest in digests.items() if (n, digest) in self.earlier}
-        pending = [number for number in tasks if number not in parts]
+        digests = {number: digest_data(number, task) for number, task in tasks.items()}
+        pending = [number for number, digest in digests.items() if digest not in earlier]
         items = [(self.chunks[number], tasks[number]) for number in pending]
         results = self.runner.run(try_level, self.work, items, lambda share: self.tell(stage, share))
-        parts |= zip(pending, results, strict=True)
-        self.recent |= {(number, digest): parts[number] for number, digest in digests.items()}
-        return {number: parts[number] for number in tasks}
+        measured = dict(zip(pending, results, strict=True))
+        parts = {number: measured.get(number) or earlier[digests[number]] for number in tasks}
+        self.recent |= {digests[number]: part for number, part in parts.items()}
+        return parts
 
     def find_surface(self) -> tuple[MeasuredSurface, float, NDArray[np.float64]]:
         """Find the surface; return it, the common level, and the level of each component.

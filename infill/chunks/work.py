@@ -15,7 +15,6 @@ import os
 import shutil
 import zipfile
 from dataclasses import dataclass, replace
-from hashlib import sha256
 from pathlib import Path
 from typing import Any, ClassVar, Protocol
 
@@ -398,13 +397,6 @@ class LevelTask:
     first_cubes: Numbers | None = None
     votes: bool = False
     unsmoothed: bool = False
-
-    def digest(self) -> bytes:
-        """Return a digest of what decides the surface; names do not change between the levels of one volume."""
-        arrays = (None if self.lowering is None else self.lowering.levels, self.first_cubes)
-        numbers = (self.level, self.lowering and self.lowering.common, self.votes, self.unsmoothed)
-        parts = [repr(numbers), *("none" if array is None else sha256(array.tobytes()).hexdigest() for array in arrays)]
-        return sha256("|".join(parts).encode()).digest()
 
 
 def try_level(work: Work, chunk: Chunk, task: LevelTask) -> LevelParts:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import shutil
 from collections.abc import AsyncGenerator, AsyncIterator, Awaitable, Callable, Mapping
-from contextlib import asynccontextmanager
+from contextlib import ExitStack, asynccontextmanager
 from dataclasses import dataclass, field
 from functools import wraps
 from pathlib import Path
@@ -20,7 +20,6 @@ from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Route
 
 from infill.errors import InfillError
-from infill.plain_numbers import plain_size
 from infill.samples.catalogue import find_sample, write_sample
 from infill.studio.answering import StreamedAnswer, beat
 from infill.studio.frames import ANSWER, ERROR, FILE, AnswerFrame
@@ -207,18 +206,22 @@ async def receive_file(studio: Studio, request: Request) -> StreamedAnswer:
     file_id, path = page.new_name("f"), page.folder / name
     stored = StoredFile(name=name, size=0)
     page.files[file_id] = stored
-    try:
+
+    def drop() -> None:
+        """Forget the file."""
+        page.files.pop(file_id, None)
+        _remove(path)
+
+    with ExitStack() as unless_stored:
+        unless_stored.callback(drop)
         if opened:
             await run_in_threadpool(_copy, opened, path)
         elif sample:
             await run_in_threadpool(write_sample, sample, path)
         else:
             await _store(request, path, limits, page)
-        stored.size = path.stat().st_size
-    except BaseException:
-        del page.files[file_id]
-        path.unlink(missing_ok=True)
-        raise
+        stored.size = _size_of(path)
+        unless_stored.pop_all()
     message = {"action": "read", "file": file_id, "as": request.query_params.get("as", "")}
 
     async def frames() -> AsyncGenerator[bytes, None]:
@@ -232,8 +235,7 @@ async def receive_file(studio: Studio, request: Request) -> StreamedAnswer:
                 yield frame.to_http()
         finally:
             if not is_read:
-                page.files.pop(file_id, None)
-                await run_in_threadpool(_remove, path)
+                await run_in_threadpool(drop)
 
     return StreamedAnswer(pieces=frames())
 
@@ -244,6 +246,12 @@ def _copy(source: Path, target: Path) -> None:
         shutil.copytree(source, target)
     else:
         shutil.copyfile(source, target)
+
+
+def _size_of(path: Path) -> int:
+    """Return the bytes of a file, or of all files of a folder."""
+    files = (path, *path.rglob("*")) if path.is_dir() else (path,)
+    return sum(file.stat().st_size for file in files if file.is_file())
 
 
 def _remove(path: Path) -> None:
@@ -258,7 +266,7 @@ async def _store(request: Request, path: Path, limits: StudioLimits, page: Page)
     """Write the body of a request to a file, up to the limits."""
     limit = min(limits.upload_bytes, limits.page_bytes - page.stored_bytes)
     too_large = RequestError(
-        f"this file is larger than {plain_bytes(limit)}, the most that the studio takes; use the command line for it",
+        f"this file is larger than {limit / 2**20:,.0f} MiB, the most that the studio takes; use the command line",
         STATUS_OF_TOO_MUCH,
     )
     length = request.headers.get("content-length", "")
@@ -278,15 +286,6 @@ async def _store(request: Request, path: Path, limits: StudioLimits, page: Page)
         raise RequestError(f"the upload cannot be stored: {error.strerror or error}", 507) from error
     if not size:
         raise RequestError(f"{path.name} is empty; choose another file")
-
-
-def plain_bytes(count: float) -> str:
-    """Format a number of bytes in words.
-
-    >>> plain_bytes(2**30)
-    '1,024 MiB'
-    """
-    return plain_size(count / 2**20, digits=4).removesuffix("mm").strip() + " MiB"
 
 
 # --- requests --------------------------------------------------------------------------------------------------

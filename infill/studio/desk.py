@@ -104,10 +104,8 @@ class Desk:
         if not isinstance(parameters, dict):
             raise UsageError("the parameters of a pattern are names and values")
         parameters = dict(parameters)
-        for key in (
-            parameters.keys() & allowed - named.keys()
-        ):  # a pattern's parameter that the product has as an option
-            named[key] = parameters.pop(key)
+        # A parameter of a pattern that the product has as an option.
+        named |= {key: parameters.pop(key) for key in parameters.keys() & allowed - named.keys()}
         content = None if message["file"] is None else self.content(message["file"], message, progress)
         layer = message.get("layer")
         suffix = ".gcode" if content is None else split_suffix(content.name)[1]
