@@ -26,7 +26,8 @@ from infill.chunks.layout import ChunkLayout
 from infill.chunks.running import Runner
 from infill.chunks.solids import GreyScale, SolidRule
 from infill.chunks.surveys import measure_noise, measure_window
-from infill.chunks.work import Work, open_field, smooth
+from infill.chunks.tasks import smooth
+from infill.chunks.work import Work, open_field
 from infill.kernels.sparse import BRICK
 from infill.lazy.volume import LazyVolume
 from infill.phasefield.refining import refine_bricks

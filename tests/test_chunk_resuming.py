@@ -22,7 +22,7 @@ from test_chunked_command import PLAIN, gyroid
 from test_command_line import refused, run
 
 from infill import ParameterError, Smoothing, smooth_volume
-from infill.chunks import solving, surveys, work
+from infill.chunks import solving, surveys, tasks
 from infill.chunks.encoding import DamagedDataError, decode_data, digest_data, encode_data
 from infill.chunks.joining import ChunkComponents
 from infill.chunks.keeping import NOT_KEPT, ResultFolder
@@ -329,7 +329,7 @@ def test_dataclasses_survive_and_others_are_not_made(tmp_path: Path) -> None:
     kept = ResultFolder(tmp_path)
     assert not kept.keep("aa", {1})
     assert kept.find("aa") is NOT_KEPT
-    assert kept.keys(work.smooth, {1}, [(1,)]) is None
+    assert kept.keys(tasks.smooth, {1}, [(1,)]) is None
     forged = b"".join(encode_data(survey)).replace(b"infill.chunks.joining", b"shutil.chunks.joining")
     with pytest.raises(DamagedDataError):
         decode_data(forged)

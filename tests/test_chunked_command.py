@@ -278,9 +278,9 @@ def test_a_worker_that_dies_is_one_line(where: str) -> None:
 SCRIPT = """
 import signal, sys
 signal.signal(signal.SIGINT, signal.default_int_handler)
-from infill.chunks import work
+from infill.chunks import tasks
 from infill.cli import program
-whole = work.make_part
+whole = tasks.make_part
 import infill.smoothing.chunked_surface as surface
 def slow(*words):
     import time

@@ -23,7 +23,8 @@ from infill.chunks.running import Runner
 from infill.chunks.shells import find_names
 from infill.chunks.solids import SolidRule
 from infill.chunks.solving import Solver
-from infill.chunks.work import Work, make_part, smooth
+from infill.chunks.tasks import make_part, smooth
+from infill.chunks.work import Work
 from infill.errors import GeometryError
 from infill.isosurfaces.components import data_bits, sum_exactly
 from infill.isosurfaces.sparse_marching import euler_number_of_bits

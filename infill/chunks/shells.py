@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.chunks.work import LevelParts
+from infill.chunks.level_parts import LevelParts
 from infill.errors import GeometryError
 from infill.graph import label_connected
 from infill.kernels.chunk_sums import HIGH, LOW

@@ -14,9 +14,11 @@ from numpy.typing import NDArray
 
 from infill.chunks.hashing import face_sums
 from infill.chunks.layout import Chunk
+from infill.chunks.level_parts import LevelTask
 from infill.chunks.placing import place_points
 from infill.chunks.seams import AROUND, ORIGINAL, Box, SeamPlan
-from infill.chunks.work import LevelTask, Work, make_part
+from infill.chunks.tasks import make_part
+from infill.chunks.work import Work
 from infill.meshes.edge_collapse import collapse_edges
 from infill.surface import Surface
 from infill.volume import Volume

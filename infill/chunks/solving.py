@@ -18,19 +18,11 @@ from numpy.typing import NDArray
 from infill.chunks.encoding import digest_data
 from infill.chunks.joining import ChunkComponents, JoinedComponents, join_components
 from infill.chunks.layout import Chunk
+from infill.chunks.level_parts import LevelParts, LevelTask, Lowering, try_level
 from infill.chunks.running import Runner
 from infill.chunks.shells import JoinedShells, find_names, join_shells
-from infill.chunks.work import (
-    LevelParts,
-    LevelTask,
-    Lowering,
-    SmoothedChunk,
-    Work,
-    look_up_components,
-    rank_shared,
-    smooth,
-    try_level,
-)
+from infill.chunks.tasks import SmoothedChunk, look_up_components, rank_shared, smooth
+from infill.chunks.work import Work
 from infill.errors import GeometryError
 from infill.isosurfaces.levels import (
     ComponentTrial,

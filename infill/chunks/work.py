@@ -1,7 +1,6 @@
-"""The work on one chunk: plain functions of plain data, which any thread, process or machine may run.
+"""Read what tasks on chunks need: the cells, their values, and fields that were smoothed before.
 
-    survey_values ─▶ extremes          smooth ─▶ components, volumes at the first level
-    count_values  ─▶ histogram         try_level ─▶ volumes at other levels       make_part ─▶ triangles to write
+    survey_values ─▶ extremes          count_values ─▶ histogram          open_field ─▶ the field of a chunk
 
 A field that was computed once is kept in a scratch folder, as long as the disk has room; where it is not found, it is
 computed again, with the same result.
@@ -21,23 +20,10 @@ from typing import Any, ClassVar, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.chunks.fields import ChunkField, gather_data, pack_field, smooth_chunk, uniform_sign, unpack_field
-from infill.chunks.joining import ChunkComponents, look_up, named_cells, survey_components, survey_solid
+from infill.chunks.fields import ChunkField, gather_data, pack_field, smooth_chunk, unpack_field
 from infill.chunks.layout import Chunk, ChunkLayout
-from infill.chunks.pieces import (
-    Piece,
-    ShellParts,
-    UndecidedCubes,
-    count_piece,
-    make_piece,
-    measure_parts,
-    vertex_places,
-)
 from infill.chunks.solids import GreyScale, SolidRule
 from infill.chunks.specks import SpeckCount, remove_specks
-from infill.isosurfaces.components import Components
-from infill.isosurfaces.levels import REACH, label_field, lower_to_levels
-from infill.kernels.sparse import BRICK
 from infill.phasefield.allen_cahn import Smoothing
 from infill.voxels.segmentation import count_solid_cells, histogram_edges, histogram_of
 
@@ -200,113 +186,7 @@ def count_values(work: Work, chunk: Chunk, lowest: float, highest: float) -> NDA
     return histogram_of(work.read_own(chunk), lowest, highest)[0]
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class LevelParts:
-    """The piece of surface of a chunk at a level, in numbers.
-
-    Parameters
-    ----------
-    cubes : UndecidedCubes
-        If there are any and their numbers were not known, nothing else is right but this.
-    complete : bool
-        Whether everything is right.
-    own : int
-        Vertices of the chunk that a triangle takes.
-    shells : ShellParts
-        Without the names of vertices.
-    foreign, foreign_in : (W,) int64, int32
-        Names of foreign vertices, and their parts.
-    shared, shared_in, shared_rank : (S,) int64, int32, int64
-        Names of shared vertices, their parts, and their numbers among the vertices of the chunk.
-    voters, votes : (v,) int64
-        ChunkTriangles times the number of components plus the component of the whole, and the vertices nearest to it.
-    """
-
-    cubes: UndecidedCubes
-    complete: bool
-    own: int
-    shells: ShellParts
-    foreign: Numbers
-    foreign_in: NDArray[np.int32]
-    shared: Numbers
-    shared_in: NDArray[np.int32]
-    shared_rank: Numbers
-    voters: Numbers
-    votes: Numbers
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Lowering:
-    """The levels of the components of a chunk, to be subtracted from its field.
-
-    Parameters
-    ----------
-    levels : (c,) float64
-        Of each of the chunk's own components.
-    common : float
-        The level of everything else.
-    """
-
-    levels: NDArray[np.float64]
-    common: float
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class SmoothedChunk:
-    """A chunk after smoothing, in numbers.
-
-    Parameters
-    ----------
-    values : ValueSurvey
-        Of its own cells.
-    solid : int
-        Solid ones among its own cells, specks included.
-    inside : bool
-        Whether a chunk without surface lies inside the solid.
-    specks : SpeckCount
-    bricks : int
-        Own bricks that are kept.
-    components : ChunkComponents or None
-        None without solid.
-    start : LevelParts or None
-        At level 0, or at the given level; None if no surface can cross the chunk.
-    data : LevelParts or None
-        Of the surface of the data as solid and void.
-    """
-
-    values: ValueSurvey
-    solid: int
-    inside: bool
-    specks: SpeckCount
-    bricks: int
-    components: ChunkComponents | None
-    start: LevelParts | None
-    data: LevelParts | None
-
-
-def smooth(work: Work, chunk: Chunk) -> SmoothedChunk:
-    """Smooth a chunk, keep its field, and measure its surface at the first level."""
-    read = read_data(work, chunk)
-    facts: dict[str, Any] = {"values": read.values, "solid": read.solid, "specks": read.specks}
-    chunk_field = _smooth(work, chunk, read.data)
-    if chunk_field is None:
-        inside = chunk.has_cells and uniform_sign(read.data) > 0
-        components = survey_solid(chunk) if inside else None
-        return SmoothedChunk(**facts, inside=inside, bricks=0, components=components, start=None, data=None)
-    del read
-    _keep(work, chunk, chunk_field)
-    solid = replace(chunk_field, field=replace(chunk_field.field, values=chunk_field.field.data.astype(np.float32)))
-    return SmoothedChunk(
-        **facts,
-        inside=False,
-        bricks=int(chunk_field.own.sum()),
-        components=survey_components(chunk_field, chunk, chunk_field.components()),
-        start=measure_piece(work, chunk, chunk_field, 0.0 if work.level is None else work.level),
-        data=measure_piece(work, chunk, solid, 0.0, any_numbers=True),
-    )
-
-
-def _smooth(work: Work, chunk: Chunk, data: NDArray[np.bool_] | NDArray[np.float32]) -> ChunkField | None:
+def smooth_field(work: Work, chunk: Chunk, data: NDArray[np.bool_] | NDArray[np.float32]) -> ChunkField | None:
     """Smooth the cells of a chunk."""
     return smooth_chunk(
         data,
@@ -324,7 +204,7 @@ def _path(work: Work, chunk: Chunk) -> Path | None:
     return Path(work.scratch) / f"{chunk.number}.npz" if work.scratch and Path(work.scratch).is_dir() else None
 
 
-def _keep(work: Work, chunk: Chunk, chunk_field: ChunkField) -> None:
+def keep_field(work: Work, chunk: Chunk, chunk_field: ChunkField) -> None:
     """Keep a field in the scratch folder, if there is room for it."""
     path = _path(work, chunk)
     if path is None:
@@ -348,9 +228,9 @@ def open_field(work: Work, chunk: Chunk) -> ChunkField:
     if path is not None:
         with contextlib.suppress(*DAMAGED), np.load(path) as arrays:
             return unpack_field(dict(arrays))
-    chunk_field = _smooth(work, chunk, read_data(work, chunk).data)
+    chunk_field = smooth_field(work, chunk, read_data(work, chunk).data)
     assert chunk_field is not None  # it was not when it was smoothed first
-    _keep(work, chunk, chunk_field)
+    keep_field(work, chunk, chunk_field)
     return chunk_field
 
 
@@ -360,211 +240,3 @@ def unsmoothed_field(work: Work, chunk: Chunk, chunk_field: ChunkField) -> Chunk
         field = chunk_field.field
         return replace(chunk_field, field=replace(field, values=field.data.astype(np.float32)))
     return gather_data(chunk_field, chunk, read_data(work, chunk).data.astype(np.float32, copy=False))
-
-
-def look_up_components(work: Work, chunk: Chunk, names: Numbers) -> NDArray[np.int32]:
-    """Return the components of cells by their names: see `infill.chunks.joining`."""
-    chunk_field = open_field(work, chunk)
-    cells = named_cells(names, chunk.lattice) - np.array(chunk.kept_low) * BRICK
-    return look_up(chunk_field, chunk_field.components(), cells)
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class LevelTask:
-    """How to measure the surface of one chunk.
-
-    Parameters
-    ----------
-    level : float
-        Of the field, or of the lowered one.
-    lowering : Lowering or None
-    names : (c,) int32 or None
-        Component of the whole for each of the chunk's own; needed for votes.
-    components : int
-        Of the whole.
-    first_cubes : (b,) int64 or None
-        See `infill.chunks.pieces.make_piece`.
-    votes : bool
-        Whether to count the components nearest to the vertices.
-    unsmoothed : bool
-        Whether the surface is that of the grey data themselves.
-    """
-
-    level: float
-    lowering: Lowering | None = None
-    names: NDArray[np.int32] | None = None
-    components: int = 1
-    first_cubes: Numbers | None = None
-    votes: bool = False
-    unsmoothed: bool = False
-
-
-def try_level(work: Work, chunk: Chunk, task: LevelTask) -> LevelParts:
-    """Measure the surface of a chunk at a level."""
-    chunk_field = open_field(work, chunk)
-    labelled = chunk_field.components() if task.names is not None and (task.lowering or task.votes) else None
-    if task.unsmoothed:
-        chunk_field = unsmoothed_field(work, chunk, chunk_field)
-    lowered = lower_field(chunk_field, labelled, task)
-    return measure_piece(work, chunk, lowered, task.level, task=task, labelled=labelled)
-
-
-def lower_field(chunk_field: ChunkField, labelled: Components | None, task: LevelTask) -> ChunkField:
-    """Subtract the levels of components from a field."""
-    if task.lowering is None or labelled is None or task.names is None:
-        return chunk_field
-    labels = label_field(chunk_field.field, labelled, 1)
-    lowered = lower_to_levels(chunk_field.field, labels, task.lowering.levels, task.lowering.common, 1)
-    return replace(chunk_field, field=lowered)
-
-
-def measure_piece(
-    work: Work,
-    chunk: Chunk,
-    chunk_field: ChunkField,
-    level: float,
-    *,
-    task: LevelTask | None = None,
-    labelled: Components | None = None,
-    any_numbers: bool = False,
-) -> LevelParts:
-    """Measure the surface of a chunk; with `any_numbers`, wherever undecided cubes lie in a row."""
-    counted = count_piece(chunk_field, chunk, level)
-    cubes = counted[2]
-    first_cubes = None if task is None else task.first_cubes
-    if first_cubes is None:
-        first_cubes = np.cumsum(cubes.counts) - cubes.counts
-        complete = any_numbers or not len(cubes.bricks)
-    else:
-        complete = True
-    if not complete:
-        return _no_parts(cubes)
-    piece = make_piece(chunk_field, chunk, counted, level=level, spacing=work.spacing, first_cubes=first_cubes)
-    parts = measure_parts(piece, chunk, work.spacing)
-    voters = votes = np.empty(0, dtype=np.int64)
-    if task is not None and task.votes and labelled is not None and task.names is not None:
-        voters, votes = _count_votes(work, chunk, chunk_field, piece, parts, labelled, task)
-    used = parts.names[: piece.own] >= 0
-    rank = np.cumsum(used) - 1
-    return LevelParts(
-        cubes=cubes,
-        complete=True,
-        own=int(used.sum()),
-        shells=replace(parts, names=np.empty(0, dtype=np.int32)),
-        foreign=piece.foreign,
-        foreign_in=parts.names[piece.own :],
-        shared=piece.shared,
-        shared_in=parts.names[piece.shared_at],
-        shared_rank=rank[piece.shared_at],
-        voters=voters,
-        votes=votes,
-    )
-
-
-def _no_parts(cubes: UndecidedCubes) -> LevelParts:
-    """Return the undecided cubes alone."""
-    none, no_parts = np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int32)
-    shells = ShellParts(names=no_parts, sums=np.empty((0, 4), dtype=np.int64), vertices=none, faces=none)
-    return LevelParts(
-        cubes=cubes,
-        complete=False,
-        own=0,
-        shells=shells,
-        foreign=none,
-        foreign_in=no_parts,
-        shared=none,
-        shared_in=no_parts,
-        shared_rank=none,
-        voters=none,
-        votes=none,
-    )
-
-
-def _count_votes(
-    work: Work,
-    chunk: Chunk,
-    chunk_field: ChunkField,
-    piece: Piece,
-    parts: ShellParts,
-    labelled: Components,
-    task: LevelTask,
-) -> tuple[Numbers, Numbers]:
-    """Count for each part the vertices nearest to each component; return part times components plus component, too."""
-    assert task.names is not None
-    places = vertex_places(piece.vertices[: piece.own], work.spacing, chunk)
-    label = look_up(chunk_field, labelled, places, reach=REACH)
-    shell = parts.names[: piece.own]
-    has_label = (label >= 0) & (shell >= 0)
-    key = shell[has_label].astype(np.int64) * task.components + task.names[label[has_label]]
-    voters, votes = np.unique(key, return_counts=True)
-    return voters, votes
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class ChunkTriangles:
-    """The triangles of a chunk, as they are written.
-
-    Parameters
-    ----------
-    vertices : (V, 3) float64, mm along the axes of the grid
-    faces : (F, 3) int64
-        Numbers below V are vertices of the chunk, V + n is the foreign vertex n.
-    foreign : (W,) int64
-        Names of foreign vertices.
-    corners : (W, 3) float64
-        The foreign vertices themselves.
-    shared, shared_rank : (S,) int64
-        Names of shared vertices that are left, and their numbers.
-    """
-
-    vertices: NDArray[np.float64]
-    faces: Numbers
-    foreign: Numbers
-    corners: NDArray[np.float64]
-    shared: Numbers
-    shared_rank: Numbers
-
-
-def make_part(work: Work, chunk: Chunk, task: LevelTask, removed: NDArray[np.bool_]) -> ChunkTriangles:
-    """Make the triangles of a chunk at a level, without the parts that `removed` (s,) marks."""
-    chunk_field = open_field(work, chunk)
-    labelled = chunk_field.components() if task.names is not None and task.lowering else None
-    lowered = lower_field(chunk_field, labelled, task)
-    counted = count_piece(lowered, chunk, task.level)
-    first_cubes = np.zeros(len(counted[2].bricks), dtype=np.int64) if task.first_cubes is None else task.first_cubes
-    piece = make_piece(lowered, chunk, counted, level=task.level, spacing=work.spacing, first_cubes=first_cubes)
-    names = measure_parts(piece, chunk, work.spacing).names
-    stays = (names >= 0) & ~removed[names] if len(removed) else names >= 0
-    is_owned, foreign = stays[: piece.own], stays[piece.own :]
-    number = np.concatenate([np.cumsum(is_owned) - 1, int(is_owned.sum()) + np.cumsum(foreign) - 1])
-    faces = piece.faces[stays[piece.faces[:, 0]]]
-    is_left = is_owned[piece.shared_at]
-    return ChunkTriangles(
-        vertices=piece.vertices[: piece.own][is_owned],
-        faces=number[faces],
-        foreign=piece.foreign[foreign],
-        corners=piece.vertices[piece.own :][foreign],
-        shared=piece.shared[is_left],
-        shared_rank=number[piece.shared_at[is_left]],
-    )
-
-
-def rank_shared(
-    work: Work, chunk: Chunk, task: LevelTask, removed: NDArray[np.bool_]
-) -> tuple[int, int, Numbers, Numbers]:
-    """Count the vertices and triangles of `make_part`; return the names of shared vertices and their numbers, too."""
-    part = make_part(work, chunk, task, removed)
-    return len(part.vertices), len(part.faces), part.shared, part.shared_rank
-
-
-def field_values(work: Work, chunk: Chunk, level: float, lowering: LevelTask) -> NDArray[np.float32]:
-    """Return the field of a chunk's own cells, minus its level, within +-1, as `SmoothStages.field` does."""
-    chunk_field = open_field(work, chunk)
-    labelled = chunk_field.components() if lowering.names is not None and lowering.lowering else None
-    field = lower_field(chunk_field, labelled, lowering).field
-    dense = field.to_dense(threads=1)
-    corner = np.maximum(np.array(chunk.low) * BRICK - 1, 0) - np.array(chunk.kept_low) * BRICK
-    sizes = [part.stop - part.start for part in chunk.own_cells]
-    values = dense[tuple(slice(a, a + n) for a, n in zip(corner.tolist(), sizes, strict=True))]
-    values -= np.float32(level)
-    return np.ascontiguousarray(values.clip(-1, 1))

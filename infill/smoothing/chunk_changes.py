@@ -21,8 +21,9 @@ from infill.arrays import Floats
 from infill.chunks.fields import ChunkField
 from infill.chunks.joining import ChunkComponents, look_up, survey_components
 from infill.chunks.layout import Chunk
+from infill.chunks.level_parts import LevelParts, LevelTask, lower_field, measure_piece
 from infill.chunks.pieces import count_piece, make_piece, measure_parts
-from infill.chunks.work import LevelParts, LevelTask, Work, lower_field, measure_piece, open_field, unsmoothed_field
+from infill.chunks.work import Work, open_field, unsmoothed_field
 from infill.errors import GeometryError
 from infill.inspection.component_matching import sum_overlaps
 from infill.inspection.deviation import COUNTS, KEPT, LOST, PITCH, sample_surface

@@ -22,7 +22,8 @@ from infill.chunks.layout import ChunkLayout
 from infill.chunks.running import open_runner, require_dask
 from infill.chunks.solids import GreyScale, SolidRule
 from infill.chunks.solving import Solver
-from infill.chunks.work import Work, smooth
+from infill.chunks.tasks import smooth
+from infill.chunks.work import Work
 from infill.kernels.compiling import log_compilation
 from infill.lazy.volume import LazyVolume
 from infill.meshes.compile_simplification import make_ring

@@ -11,10 +11,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from infill.chunks.layout import Chunk
+from infill.chunks.level_parts import LevelTask, try_level
 from infill.chunks.running import open_runner, require_dask
 from infill.chunks.seams import SeamPlan
 from infill.chunks.simplifying import Fragment, simplify_fragment, split_faces
-from infill.chunks.work import ChunkTriangles, LevelTask, Work, make_part, smooth, try_level
+from infill.chunks.tasks import ChunkTriangles, make_part, smooth
+from infill.chunks.work import Work
 from infill.lazy.volume import LazyVolume
 from infill.reports.smoothing import ChunksForecast
 from infill.smoothing.chunk_changes import compare_chunk

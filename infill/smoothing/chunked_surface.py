@@ -16,7 +16,7 @@ from infill.chunks.keeping import ResultFolder
 from infill.chunks.layout import Chunk
 from infill.chunks.placing import place_points
 from infill.chunks.solving import MeasuredSurface, Numbering, Solver
-from infill.chunks.work import ChunkTriangles, field_values, make_part
+from infill.chunks.tasks import ChunkTriangles, field_values, make_part
 from infill.errors import GeometryError
 from infill.formats.mesh_pieces import MeshPiece
 from infill.kernels.sparse import BRICK
