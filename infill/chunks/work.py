@@ -1,4 +1,4 @@
-"""Read what tasks on chunks need: the cells, their values, and fields that were smoothed before.
+"""Read the input of tasks on chunks: the cells, their values, and fields that were smoothed before.
 
     survey_values ─▶ extremes          count_values ─▶ histogram          open_field ─▶ the field of a chunk
 

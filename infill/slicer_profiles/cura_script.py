@@ -1,4 +1,4 @@
-"""The script for Cura, which runs ``infill refill`` from Cura's own Python: where it goes, and what is in it.
+"""The script for Cura, which runs ``infill refill`` from Cura's own Python: its place and its text.
 
 The script is `examples/cura/InfillRefill.py`; a wheel has a copy of it. The copy that goes to Cura has the path of the
 program as the default of its setting, so that nothing is left to be typed.

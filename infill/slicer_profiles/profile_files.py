@@ -1,4 +1,4 @@
-"""Print profiles as files: which a user has, what is to be written into them, and the backups beside them.
+"""Print profiles as files: those of a user, the changes to them, and the backups beside them.
 
 A backup has the bytes of a profile before the line was written. While nothing but the line has changed since, removing
 the line puts these bytes back, and the backup goes.

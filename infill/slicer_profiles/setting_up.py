@@ -269,7 +269,7 @@ def _write_folder_line(request: SetupRequest, means: SetupMeans, folder: ConfigF
 def _list_notes(
     request: SetupRequest, means: SetupMeans, folders: list[ConfigFolder], states: list[ProfileKeys]
 ) -> Iterator[str]:
-    """Yield sentences about what else is needed."""
+    """Yield sentences about further steps."""
     if not folders:
         yield _missing_folder(request)
     elif not states:
