@@ -65,7 +65,7 @@ program()
 
 def limited(limit: int, *words: str) -> subprocess.CompletedProcess[str]:
     """Run `infill smooth` in a process whose files hold no more bytes than a limit, 0 for none."""
-    environment = {**os.environ, "TMPDIR": str(Path("scratch").absolute())}
+    environment = {**os.environ, "TMPDIR": str(Path("scratch").absolute()), "PYTHONDONTWRITEBYTECODE": "1"}
     command = [sys.executable, "-c", LIMITED, str(limit), *words, "-q", "--workers", "1"]
     return subprocess.run(command, capture_output=True, text=True, env=environment, check=False)
 

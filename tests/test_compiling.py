@@ -67,6 +67,37 @@ def test_compiling_is_told_once_in_a_process(tmp_path: Path) -> None:
     assert second.stderr == ""  # found compiled
 
 
+FULL_DISK = """
+import resource
+resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))
+from kernels import one, two
+print(one(3), two(3), one(0.5))
+"""
+
+
+def test_code_that_the_disk_has_no_room_for_runs_all_the_same(tmp_path: Path) -> None:
+    pytest.importorskip("resource", reason="limits of a process are asked of POSIX")
+    (tmp_path / "kernels.py").write_text(MODULE)
+    root = str(Path(__file__).resolve().parents[1])
+    kept = tmp_path / "cache"
+    environment = {
+        **os.environ,
+        "NUMBA_CACHE_DIR": str(kept),
+        "PYTHONPATH": f"{root}{os.pathsep}{tmp_path}",
+        "PYTHONDONTWRITEBYTECODE": "1",  # Python itself would keep what it compiled cut short
+    }
+    full, free = (
+        subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, encoding="utf-8", check=True)
+        for code in (FULL_DISK, "from kernels import one, two; print(one(3), two(3), one(0.5))")
+    )
+    assert full.stdout == free.stdout == "4 6 1.5\n"
+    assert full.stderr.splitlines() == [
+        "preparing one for input of this kind, up to a minute, the first time",
+        "compiled code cannot be kept for the next run: File too large",
+    ]
+    assert any(kept.rglob("*.nbc")), "the next run with room keeps it"
+
+
 def _last_of_twice(values: np.ndarray) -> float:
     return float((values + values)[-1])
 

@@ -58,12 +58,28 @@ def njit(
         # No other language calls these functions.
         chosen = options | {"no_cfunc_wrapper": True, "no_cpython_wrapper": not from_python, "_nrt": counts}
         try:
-            return numba.njit(**chosen)(function)
+            return _with_optional_cache(numba.njit(**chosen)(function))
         except RuntimeError:
             UNCACHED.set()
             return numba.njit(**(chosen | {"cache": False}))(function)
 
     return compiled
+
+
+def _with_optional_cache(function: Any) -> Any:  # noqa: ANN401 - a dispatcher of numba's
+    """Return a function whose compiled code is used even if the disk has no room to keep it."""
+    save = function._cache.save_overload
+
+    def save_if_possible(*signature_and_code: object) -> None:
+        try:
+            save(*signature_and_code)
+        except OSError as error:
+            if not UNCACHED.is_set():
+                UNCACHED.set()
+                LOG.warning("compiled code cannot be kept for the next run: %s", error.strerror or error)
+
+    function._cache.save_overload = save_if_possible
+    return function
 
 
 def is_compiler_loaded() -> bool:
