@@ -34,7 +34,7 @@ ROWS: tuple[tuple[str, ...], ...] = (
     ("smoothing", "lattices", "refilling", "projects", "slicer_profiles", "samples", "timing", "verifying"),
     ("making",),
     ("studio",),
-    ("cli",),
+    ("cli", "hosts"),
 )
 FLOOR = {room: floor for floor, rooms in enumerate(ROWS) for room in rooms}
 HALL = {
@@ -69,6 +69,9 @@ KEPT = {
     "starlette": "infill.studio",
     "uvicorn": "infill.studio",
     "rich": "infill.cli",
+    "pyvista": "infill.hosts",
+    "napari": "infill.hosts",
+    "magicgui": "infill.hosts",
 }
 PATTERNS_TAKE = {"numpy", "shapely"}
 ANNOUNCED: set[str] = set()  # public functions that are to come
