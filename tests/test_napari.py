@@ -18,7 +18,7 @@ import pytest
 import infill
 from infill import ParameterError
 
-pytest.importorskip("napari", reason="napari is not here: `make hosts` installs it", minversion="0.6")
+pytest.importorskip("napari", reason="napari is not here: `make hosts` installs it", minversion="0.9.2")
 pytestmark = pytest.mark.filterwarnings("ignore::DeprecationWarning", "ignore::FutureWarning", "ignore::UserWarning")
 
 SCALE, TRANSLATE = (2.0, 0.5, 0.6), (10.0, -20.0, 30.0)
