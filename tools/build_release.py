@@ -1,13 +1,12 @@
 """Build what a release consists of twice, and compare: `python tools/build_release.py dist`.
 
-The second build is of a copy of the working tree that lies elsewhere and is newer, by a user with other permissions. If a
-file differs, whoever builds the release again gets other bytes than those that were published, and that is an error.
+The second build is of a copy of the working tree that lies elsewhere, is newer, and may be read by its owner alone. If a
+file differs, whoever builds the release again gets other bytes than those that were published: that is an error.
 """
 
 from __future__ import annotations
 
 import hashlib
-import os
 import shutil
 import subprocess
 import sys
@@ -19,7 +18,8 @@ ROOT = Path(__file__).resolve().parents[1]
 
 def tracked_files() -> list[str]:
     """Return the files of the working tree that git tracks."""
-    listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, check=True)
+    command = ["git", "ls-files", "-z"]
+    listed = subprocess.run(command, cwd=ROOT, capture_output=True, check=True)
     return [name for name in listed.stdout.decode().split("\0") if name and (ROOT / name).is_file()]
 
 
@@ -39,10 +39,9 @@ def main() -> None:
         copy = Path(scratch) / "copy"
         for name in tracked_files():
             (copy / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(ROOT / name, copy / name)
-        before = os.umask(0o077)
+            shutil.copy(ROOT / name, copy / name)
+            (copy / name).chmod((copy / name).stat().st_mode & 0o700)
         second = build(copy, Path(scratch) / "dist")
-        os.umask(before)
     differing = [name for name in first if first[name] != second.get(name)]
     if differing or first.keys() != second.keys():
         sys.exit(f"error: built twice, {', '.join(differing) or 'the files'} differ")

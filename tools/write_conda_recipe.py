@@ -1,7 +1,7 @@
 """Write the recipe of conda-forge for a release: `python tools/write_conda_recipe.py dist/phasefill-0.1.0.tar.gz`.
 
-The recipe is printed, in conda-forge's format of version 1. Requirements are those of pyproject.toml, so that nobody has
-to keep two lists; the hash is that of the source archive.
+The recipe is printed, in conda-forge's format of version 1. Requirements are those of pyproject.toml, so that nobody
+keeps two lists; the hash is that of the source archive.
 """
 
 from __future__ import annotations
