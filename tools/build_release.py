@@ -1,7 +1,7 @@
 """Build what a release consists of twice, and compare: `python tools/build_release.py dist`.
 
-The second build is of a copy of the working tree that lies elsewhere, is newer, and may be read by its owner alone. If a
-file differs, whoever builds the release again gets other bytes than those that were published: that is an error.
+The second build is of a copy of the working tree that lies elsewhere, is newer, and may be read by its owner alone. If
+a file differs, whoever builds the release again gets other bytes than those that were published: that is an error.
 """
 
 from __future__ import annotations
