@@ -291,9 +291,10 @@ def test_each_tool_is_called_once(assistant: ToolClient, inside: Path) -> None:
     assert not moved["agrees"]
     assert moved["count"] > 0
 
-    verdicts = assistant.call("check", files=["box.stl", "print.gcode"]).report["files"]
+    verdicts = assistant.call("check", files=["box.stl", "print.gcode", "ball.npy"]).report["files"]
     assert verdicts[0]["printable"]
-    assert "error" in verdicts[1]
+    assert verdicts[1]["layers"] == 4
+    assert "error" in verdicts[2]
 
 
 @pytest.mark.longest

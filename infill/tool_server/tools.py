@@ -313,9 +313,11 @@ TOOLS: Mapping[str, CommandTool] = {
         judges=True,
     ),
     "check": CommandTool(
-        help="Say whether meshes are printable, and why not; or what a slicer will do with a 3MF.",
+        help="Say whether meshes are printable and prints whole, and why not; or what a slicer will do with a 3MF.",
         arguments={
-            "files": ToolArgument(kind="inputs", required=True, help="Meshes: .stl .3mf .obj .ply .off .glb .gltf."),
+            "files": ToolArgument(
+                kind="inputs", required=True, help="Meshes, or prints: .stl .3mf .obj .ply .glb .gcode .bgcode."
+            ),
             "for": ToolArgument(kind="slicer", flag="--for", help="What this slicer will do with a .3mf."),
         },
         judges=True,
