@@ -89,7 +89,6 @@ def refusal(folders: AllowedFolders, tool: str, **arguments: Any) -> str:
 
 @pytest.mark.parametrize("name", TOOLS)
 def test_every_option_of_a_command_is_an_option_of_its_tool(name: str) -> None:
-    from check_jsonschema import schema_loader  # noqa: F401 - of the lint extra, which brings jsonschema
     from jsonschema import Draft202012Validator
 
     tool = TOOLS[name]

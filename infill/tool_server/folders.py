@@ -70,13 +70,13 @@ class AllowedFolders:
         text = _check_name(key, value)
         dataset = HDF5.fullmatch(text)
         path, array = (Path(dataset["file"]), dataset["dataset"]) if dataset else split_array_name(text)
-        found = self._resolve(key, str(path))
-        if not found.exists():
+        real = self._resolve(key, str(path))
+        if not real.exists():
             raise FormatError(f"there is no file {quote_value(str(path))} in {self}")
-        for further in (*_links_below(found), *_data_files(found)):
+        for further in (*_links_below(real), *_data_files(real)):
             if not self._contains(further.resolve()):
                 raise UsageError.about(key, f"leads to {quote_value(further.name)}, outside of {self}")
-        return f"{found}:{array}" if array else str(found)
+        return f"{real}:{array}" if array else str(real)
 
     def find_output(self, key: str, value: object) -> str:
         """Return the path of a file to write.

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args, get_origin
 
 from infill.errors import UsageError
 from infill.files.excerpts import quote_value
+from infill.lazy.names import is_lazy
 from infill.options.command_words import assignments, flag_words
 from infill.options.declaration import DeclaredOption, declared_options, read_options, unit_of
 from infill.options.keyword_options import parse_flag, parse_word
@@ -175,23 +176,31 @@ def write_words(
     InfillError
         If a value is of the wrong type or out of range, an argument is missing, or a file lies outside the folders.
     """
-    given = {key: value for key, value in values.items() if value is not None}
-    missing = next((key for key, argument in tool.arguments.items() if argument.required and key not in given), None)
+    arguments = {key: value for key, value in values.items() if value is not None}
+    missing = next(
+        (key for key, argument in tool.arguments.items() if argument.required and key not in arguments), None
+    )
     if missing is not None:
         raise UsageError.about(missing, "is missing; give it")
-    if tool.writes and "output" not in given and given.get("dry_run") is not True:
+    if tool.writes and "output" not in arguments and arguments.get("dry_run") is not True:
         raise UsageError.about("output", "is missing; name the file to write, or give dry_run=true")
-    options = {key: value for key, value in given.items() if key not in tool.arguments}
+    options = {key: value for key, value in arguments.items() if key not in tool.arguments}
     options = _check_options(name, tool, options, folders)
-    if name == "smooth" and not isinstance(given.get("picture"), bool):
-        given["picture"] = not (options.get("each_label") or options.get("together") or "{" in str(given.get("output")))
+    if "picture" in tool.arguments and "picture" not in arguments and not _can_draw(arguments):
+        arguments["picture"] = False
     words, last = [name, "--json"], list[str]()
     for key, argument in tool.arguments.items():
-        for word in _argument_words(key, argument, given, folders, picture):
+        for word in _argument_words(key, argument, arguments, folders, picture):
             (words if argument.flag else last).append(word)
     for key, value in options.items():
         words += flag_words(tool.options[key], value)
     return [*words, "--", *last]
+
+
+def _can_draw(arguments: Mapping[str, Any]) -> bool:
+    """Tell whether the result can have a picture: those of every label, and of volumes in chunks, have none."""
+    every_label = any(arguments.get(key) for key in ("each_label", "together")) or "{" in str(arguments.get("output"))
+    return not every_label and not is_lazy(str(arguments.get("source", "")))
 
 
 def _check_options(name: str, tool: CommandTool, options: Mapping[str, Any], folders: AllowedFolders) -> dict[str, Any]:
@@ -211,16 +220,16 @@ def _check_options(name: str, tool: CommandTool, options: Mapping[str, Any], fol
 
 
 def _argument_words(
-    key: str, argument: ToolArgument, given: Mapping[str, Any], folders: AllowedFolders, picture: Path
+    key: str, argument: ToolArgument, arguments: Mapping[str, Any], folders: AllowedFolders, picture: Path
 ) -> Iterator[str]:
-    """Yield the words of an argument; none if it is not given."""
+    """Yield the words of an argument; none if it is left out."""
     if argument.kind == "picture":
-        wants = parse_flag(key, given.get(key, argument is PICTURE)) and not given.get("dry_run")
+        wants = parse_flag(key, arguments.get(key, argument is PICTURE)) and not arguments.get("dry_run")
         yield from (argument.flag, str(picture)) if wants else ()
         return
-    if key not in given:
+    if key not in arguments:
         return
-    value = given[key]
+    value = arguments[key]
     if argument.kind == "input":
         yield folders.find_input(key, value)
     elif argument.kind == "inputs":
