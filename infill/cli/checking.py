@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
@@ -65,7 +65,8 @@ def check(
             results.append({"file": str(path), "error": str(error)})
             continue
         passed &= _passes(inspection, strict=strict)
-        results.append({"file": str(path), **inspection.to_dict()})  # type: ignore[misc] - of either kind
+        result: Any = {"file": str(path), **inspection.to_dict()}
+        results.append(result)
         if not as_json:  # each as soon as it is known
             typer.echo(f"{path!s:<{width}}  {_verdict_line(inspection)}")
     if as_json:

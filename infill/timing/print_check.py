@@ -31,7 +31,15 @@ class PrintCheck:
 
     def to_dict(self) -> PrintCheckReport:
         """Return the verdict as plain values."""
-        return {"printable": self.printable, **vars(self)}  # type: ignore[typeddict-item]
+        return {
+            "printable": self.printable,
+            "problems": self.problems,
+            "warnings": self.warnings,
+            "slicer": self.slicer,
+            "layers": self.layers,
+            "seconds": self.seconds,
+            "filament": self.filament,
+        }
 
 
 def check_print(path: str | os.PathLike[str]) -> PrintCheck:
