@@ -397,7 +397,7 @@ def test_progress_as_lines(tmp_path: Path) -> None:
 def test_a_folder_that_is_none_is_told(tmp_path: Path) -> None:
     from test_command_line import refused, run
 
-    refused(run("mcp", "--folder", tmp_path / "none"), "--folder is .*none.*, which is no folder here")
+    refused(run("mcp", "--folder", tmp_path / "none"), "--folder is .*none.*, which is not a folder")
 
 
 def test_without_the_package_the_command_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -40,12 +40,12 @@ class AllowedFolders:
         Raises
         ------
         UsageError
-            If one of them is no folder.
+            If one of them is not a folder.
         """
         roots = []
         for folder in folders:
             if not folder.is_dir():
-                raise UsageError.about("folder", f"is {quote_value(str(folder))}, which is no folder here")
+                raise UsageError.about("folder", f"is {quote_value(str(folder))}, which is not a folder")
             roots.append(folder.resolve())
         return cls(tuple(roots))
 
@@ -65,7 +65,7 @@ class AllowedFolders:
         Raises
         ------
         UsageError, FormatError
-            If it is no name, the file does not exist, or it or something in the folder leads out of the folders.
+            If it is not a name, the file does not exist, or it or something in the folder leads out of the folders.
         """
         text = _check_name(key, value)
         dataset = HDF5.fullmatch(text)
@@ -84,7 +84,7 @@ class AllowedFolders:
         Raises
         ------
         UsageError, OutputError
-            If it is no name, or it or a file whose name begins like it leads out of the folders.
+            If it is not a name, or it or a file whose name begins like it leads out of the folders.
         """
         text = _check_name(key, value)
         if any(word in text for word in PLACEHOLDERS) or "{" in str(Path(text).parent):

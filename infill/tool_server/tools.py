@@ -35,7 +35,7 @@ TYPES: Mapping[ArgumentKind, dict[str, Any]] = {
 
 @dataclass(frozen=True, kw_only=True)
 class ToolArgument:
-    """An argument of a tool that is no declared option: a file, a pattern, a switch.
+    """An argument of a tool that is not a declared option: a file, a pattern, a switch.
 
     Parameters
     ----------
