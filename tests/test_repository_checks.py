@@ -173,7 +173,7 @@ def test_the_action_compares_pairs(repository: Path) -> None:
     assert "same.gcode" in other.stderr
     wrong = run_step("pairs", repository, pairs="same.gcode\n")
     assert wrong.returncode == 1
-    assert "is no pair" in wrong.stdout
+    assert "is not a pair" in wrong.stdout
     allowed = run_step("pairs", repository, pairs=pairs, verify_options="--allow nonsense")
     assert allowed.returncode == 1
 

@@ -58,7 +58,7 @@ def send(path: Path, printer: str, *, start: bool, key: str) -> dict:
     headers = {"Content-Type": f"multipart/form-data; boundary={border}", **({"X-Api-Key": key} if key else {})}
     address = f"{printer.rstrip('/')}/server/files/upload"
     if not address.startswith(("http://", "https://")):
-        raise ValueError(f"{printer} is no address; give one such as http://printer.local")
+        raise ValueError(f"{printer} is not an address; give one such as http://printer.local")
     request = urllib.request.Request(address, data=body, headers=headers, method="POST")  # noqa: S310 - checked
     try:
         with urllib.request.urlopen(request, timeout=120) as response:  # noqa: S310
