@@ -405,5 +405,6 @@ def test_without_the_package_the_command_says_what_to_install(monkeypatch: pytes
 
     with contextlib.suppress(KeyError):
         monkeypatch.delitem(sys.modules, "infill.tool_server.server")
-    monkeypatch.setitem(sys.modules, "mcp", None)
+    for name in ("mcp", "mcp.server"):
+        monkeypatch.setitem(sys.modules, name, None)
     refused(run("mcp"), r"pip install 'phasefill\[mcp\]'")

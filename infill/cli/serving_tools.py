@@ -29,7 +29,7 @@ def mcp(
     try:
         from infill.tool_server.server import serve_tools
     except ModuleNotFoundError as error:
-        if error.name not in ("mcp", "mcp_types", "anyio"):
+        if (error.name or "").split(".")[0] not in ("mcp", "mcp_types", "anyio"):
             raise
         raise UsageError(MISSING) from None
     from infill.tool_server.folders import AllowedFolders
