@@ -146,9 +146,9 @@ def _size_text(inspection: Inspection | PrintCheck) -> str:
     from infill.timing.print_check import PrintCheck
 
     if isinstance(inspection, PrintCheck):
-        minutes = round(inspection.seconds / 60)
-        time, layers = f"{minutes // 60}:{minutes % 60:02} h", count_noun(inspection.layers, "layer")
-        return f"{layers}, {inspection.filament / 1000:.2f} m of filament, {time}"
+        seconds = round(inspection.seconds)
+        time = f"{seconds // 3600}:{seconds // 60 % 60:02}:{seconds % 60:02}"
+        return f"{count_noun(inspection.layers, 'layer')}, {inspection.filament / 1000:.2f} m of filament, {time}"
     size = plain_size(*inspection.extents, digits=4)
     return f"{inspection.triangles:,} triangles, {_count_parts(inspection)}, {size}"
 
