@@ -180,7 +180,7 @@ def test_the_action_compares_pairs(repository: Path) -> None:
 
 @pytest.mark.longest
 def test_pre_commit_runs_the_hooks(repository: Path, tmp_path: Path) -> None:
-    """With what is installed here in place of an environment of its own, which takes 570 MB."""
+    """With what is installed here in place of an environment of its own, which takes 560 MB."""
     pytest.importorskip("pre_commit")
     arguments = {"infill-verify": ["part one.gcode", "same.gcode"]}
     hooks = [
