@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from infill.lattices.settings import FillOptions, resolve
-from infill.studio.equivalents import Call, assignments, join_words, plain_parameters, write_command, write_value
+from infill.options.command_words import assignments
+from infill.studio.equivalents import Call, join_words, plain_parameters, write_command, write_value
 from infill.studio.numbers import draft_numbers, fill_numbers
 from infill.studio.products import Made, Order
 
