@@ -34,7 +34,7 @@ ROWS: tuple[tuple[str, ...], ...] = (
     ("smoothing", "lattices", "refilling", "projects", "slicer_profiles", "samples", "timing", "verifying"),
     ("making",),
     ("studio", "tool_server"),
-    ("cli",),
+    ("cli", "hosts"),
 )
 FLOOR = {room: floor for floor, rooms in enumerate(ROWS) for room in rooms}
 HALL = {
@@ -72,6 +72,9 @@ KEPT = {
     "mcp_types": "infill.tool_server",
     "anyio": "infill.tool_server",
     "rich": "infill.cli",
+    "pyvista": "infill.hosts",
+    "napari": "infill.hosts",
+    "magicgui": "infill.hosts",
 }
 PATTERNS_TAKE = {"numpy", "shapely"}
 ANNOUNCED: set[str] = set()  # public functions that are to come
