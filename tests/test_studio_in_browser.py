@@ -10,11 +10,12 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import trimesh
 
 from infill import write_sample
-from tests.browsing import find_serious, open_page
+from tests.browsing import find_serious, open_page, pixels
 
 pytest.importorskip("starlette", reason="the extra studio is not installed")
 pytest.importorskip("uvicorn", reason="the extra studio is not installed")
@@ -315,3 +316,34 @@ def test_the_threshold_is_dragged_on_the_histogram(studio: str, samples: dict[st
         )
         value = float(page.get_by_role("slider", name="Threshold", exact=True).input_value())
         assert value == pytest.approx((least + most) / 2, abs=0.02 * (most - least))
+
+
+@pytest.mark.longest
+def test_what_is_lost_is_marked_where_it_was(studio: str, tmp_path: Path) -> None:
+    scan = tmp_path / "spike.npy"
+    values = np.full((40, 40, 30), -50, np.int16)
+    values[5:35, 5:35, 5:15] = values[18:20, 18:20, 15:26] = 50  # a plate with a thin spike
+    np.save(scan, values)
+    with open_view(studio, "scan", scan) as page:
+        choose(page, "Method", "Plain")
+        page.get_by_role("button", name="Make it anyway").click()
+        wait_until_exact(page)
+        assert "allow_broken" in page.url
+        assert "--allow-broken" in page.get_by_label("How to do this again").inner_text()
+        switch = page.get_by_role("group", name="Marked places").get_by_label(re.compile("^Lost"))
+        places = page.locator(".places td:first-child").all_inner_texts()
+        tips = [np.fromstring(place.split(" at ")[1], sep=",") for place in places]
+        assert min(np.abs(tip - (19, 19, 25.5)).max() for tip in tips) <= 1.5
+        page.wait_for_timeout(1500)  # until the views are drawn in many pixels
+        marked = count_red(page)
+        page.get_by_role("button", name="Look at: Lost").first.click()
+        assert count_red(page) > 0
+        switch.uncheck()
+        page.wait_for_timeout(300)
+        assert count_red(page) < 0.2 * marked
+
+
+def count_red(page: Any) -> int:
+    """Count the pixels of the views that have the red of a mark."""
+    red, green, blue = np.moveaxis(pixels(page, ".pair"), 2, 0)
+    return int(((red > 180) & (green < 110) & (blue < 100)).sum())

@@ -7,6 +7,7 @@ from typing import Any
 
 from infill.options.declaration import by_field, read_options
 from infill.smoothing.settings import SmoothSettings, resolve
+from infill.studio.changed_places import list_places
 from infill.studio.equivalents import Call, Code, join_words, write_command, write_value
 from infill.studio.numbers import label_numbers
 from infill.studio.products import Made, Order
@@ -57,6 +58,7 @@ def make(order: Order) -> Made:
         numbers=list(label_numbers(result.report)),
         surfaces=dict(result.surfaces),
         colours=dict(result.colours),
+        more={"places": list_places(result.report)},
     )
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from infill.options.declaration import by_field, read_options
 from infill.smoothing.settings import SmoothSettings, resolve
+from infill.studio.changed_places import list_places
 from infill.studio.equivalents import Call, join_words, write_command, write_value
 from infill.studio.numbers import smooth_numbers
 from infill.studio.products import Made, Order
@@ -61,7 +62,7 @@ def make(order: Order) -> Made:
         numbers=list(smooth_numbers(result.report)),
         surfaces=surfaces,
         volume=result.report["volume"],
-        more={"components": component_volumes(result.surface)},
+        more={"components": component_volumes(result.surface), "places": list_places(result.report)},
     )
 
 

@@ -15,6 +15,8 @@ import { createHistogram } from "./histogram.js";
 import { createLive } from "./live.js";
 import { createNumbers, valueText } from "./numbers.js";
 import { boundsOf } from "./part.js";
+import { createPlaces } from "./places.js";
+import { StatedError } from "./server.js";
 import { createSlices } from "./slices.js";
 import { createStage } from "./stage.js";
 import { createFileHead, describeError, dropAgain, forServer, layout, withOption } from "./view.js";
@@ -65,21 +67,22 @@ export function createScanView(studio) {
     open: studio.open,
   });
   const reducedMotion = matchMedia("(prefers-reduced-motion: reduce)").matches;
-  const places = [h("div", { class: "viewer" }), h("div", { class: "viewer" })];
+  const frames = [h("div", { class: "viewer" }), h("div", { class: "viewer" })];
   const [before, after] = ["The surface before smoothing", "The surface after smoothing"].map((label, i) =>
-    createViewer(places[i], { label, reducedMotion }),
+    createViewer(frames[i], { label, reducedMotion }),
   );
   before.onCamera((/** @type {any} */ camera) => after.setCamera(camera));
   after.onCamera((/** @type {any} */ camera) => before.setCamera(camera));
   followTheme((theme) => {
     for (const viewer of [before, after]) viewer.setTheme(theme);
   });
-  const figureBefore = h("figure", { hidden: true }, h("figcaption", {}, "Before"), places[0]);
-  const pair = h("div", { class: "pair" }, figureBefore, h("figure", {}, h("figcaption", {}, "After"), places[1]));
+  const figureBefore = h("figure", { hidden: true }, h("figcaption", {}, "Before"), frames[0]);
+  const pair = h("div", { class: "pair" }, figureBefore, h("figure", {}, h("figcaption", {}, "After"), frames[1]));
   const stage = createStage(pair);
   const empty = h("div", { class: "empty", hidden: true });
   stage.element.append(empty);
   const cut = createCut({ onChange: (value, resting) => change({ ...section, cut: value }, resting) });
+  const places = createPlaces({ views: [before, after] });
   const slices = createSlices({ server, onFail: (error) => stage.fail(describeError(error)?.message ?? null) });
   const numbers = createNumbers();
   const again = createAgain();
@@ -139,6 +142,20 @@ export function createScanView(studio) {
       change({ ...section, options: withOption(section.options, key, value) }, resting),
   });
 
+  /** @type {import("./places.js").Place[]} */
+  let changed = []; // of the answer that is shown
+  const anyway = h(
+    "button",
+    {
+      type: "button",
+      class: "button anyway",
+      hidden: true,
+      onclick: () => change({ ...section, options: withOption(section.options, "allow_broken", true) }, true),
+    },
+    "Make it anyway, and mark what is lost",
+  );
+  form.element.querySelector(".form-error")?.after(anyway);
+
   const live = createLive({
     ask: (quality, signal) =>
       server.ask(
@@ -154,6 +171,10 @@ export function createScanView(studio) {
       showComponents(reply.answer.components ?? []);
       again.show(reply.answer);
       stage.badge(quality === "coarse" ? "Preview" : null);
+      anyway.hidden = true;
+      changed = reply.answer.places ?? [];
+      // A preview is smoothed in larger voxels, which loses more.
+      places.show(quality === "exact" ? changed : []);
       if (quality !== "exact") return;
       downloads.show(reply.answer);
       announce(
@@ -169,6 +190,8 @@ export function createScanView(studio) {
       form.fail(stated.message, stated.parameter);
       stage.badge(null);
       downloads.show(null);
+      anyway.hidden = !(error instanceof StatedError && error.refused);
+      if (!anyway.hidden) places.show(changed);
     },
     busy: (quality) =>
       stage.progress(quality ? { stage: quality === "exact" ? "Computing the exact surface" : "", share: 0 } : null),
@@ -269,6 +292,7 @@ export function createScanView(studio) {
       mesh.surfaces.filter((/** @type {{name: string}} */ { name }) => (name === BEFORE) === wanted),
     );
     if (old.length) meshBefore = { ...mesh, surfaces: old };
+    const appears = Boolean(meshBefore) && figureBefore.hidden; // which leaves the other half the width
     figureBefore.hidden = !meshBefore;
     pair.classList.toggle("single", !meshBefore);
     if (meshBefore) {
@@ -281,7 +305,7 @@ export function createScanView(studio) {
     // Once both stand in their places, they are seen from the same one.
     requestAnimationFrame(() => {
       if (!fresh.length) return before.fit();
-      if (isFresh) after.fit();
+      if (isFresh || appears) after.fit();
       isFresh = false;
       before.setCamera(after.getCamera());
     });
@@ -313,8 +337,8 @@ export function createScanView(studio) {
     element: layout({
       label: "Scan",
       controls: [head.element, form.element],
-      stage: [stage.element, h("div", { class: "toolbar" }, cut.element), slices.element],
-      side: [numbers.element, componentList, downloads.element, again.element],
+      stage: [stage.element, h("div", { class: "toolbar" }, cut.element, places.legend), slices.element],
+      side: [numbers.element, places.list, componentList, downloads.element, again.element],
     }),
     /**
      * @param {OpenScan} file
@@ -325,6 +349,8 @@ export function createScanView(studio) {
       asked = "";
       meshBefore = null;
       isFresh = true;
+      anyway.hidden = true;
+      places.show([]);
       after.setMesh({ surfaces: [] });
       empty.hidden = true;
       numbers.show(file.numbers ?? []);

@@ -21,6 +21,7 @@ import {
 } from "three";
 import { makeBeads } from "./beads.js";
 import { listen, OrbitCamera } from "./camera.js";
+import { makeMarks } from "./marks.js";
 import { computeNormals } from "./normals.js";
 import { cutPlane, Section } from "./section.js";
 import { isSoftware } from "./software.js";
@@ -89,6 +90,8 @@ class Viewer {
     this.shown = new Map();
     /** @type {Map<string, ReturnType<typeof makeBeads>>} */
     this.lines = new Map();
+    /** @type {ReturnType<typeof makeMarks> | null} */
+    this.marks = null;
     /** @type {Cut | null} */
     this.cut = null;
     /** @type {Set<(camera: CameraState) => void>} */
@@ -257,6 +260,31 @@ class Viewer {
       child.visible = layer >= first && layer <= last && !child.userData.empty;
     });
     this.invalidate();
+  }
+
+  /**
+   * Mark places with rings, in place of those marked before.
+   *
+   * @param {import("./marks.js").Mark[]} marks
+   */
+  setMarks(marks) {
+    if (this.marks) {
+      this.scene.remove(this.marks);
+      this.marks.geometry.dispose();
+    }
+    this.marks = marks.length ? makeMarks(marks) : null;
+    if (this.marks) this.scene.add(this.marks);
+    this.invalidate();
+  }
+
+  /**
+   * Turn about a place from now on, and have it in the middle.
+   *
+   * @param {number[]} at x, y, z in mm.
+   */
+  lookAt(at) {
+    this.orbit.state.target = [at[0], at[1], at[2]];
+    this.moved();
   }
 
   /** Show everything, from where the camera stands. */
