@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import zipfile
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO, cast
 
 from infill.options.declaration import by_field, read_options
 from infill.smoothing.settings import SmoothSettings, resolve
@@ -30,6 +31,7 @@ LEFT_OUT: tuple[str, ...] = (
     "range",
     "otsu",
     "grey",
+    "keep_components",
     "by_component",
 )
 
@@ -63,8 +65,19 @@ def make(order: Order) -> Made:
 
 
 def write(made: Made, path: Path) -> None:
-    """Write all labels into one file."""
-    made.result.save(path)
+    """Write all labels into one file; a .zip holds an STL of each, named as ``-o {label}.stl`` names them."""
+    if path.suffix != ".zip":
+        made.result.save(path)
+        return
+    from infill.files.file_names import safe_names
+    from infill.formats.mesh_files import mesh_writer
+
+    surfaces = made.result.surfaces
+    names = safe_names(list(surfaces), [f"label_{number}" for number in range(1, len(surfaces) + 1)])
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, surface in zip(names, surfaces.values(), strict=True):
+            with archive.open(f"{name}.stl", "w") as file:
+                mesh_writer(Path(f"{name}.stl"))(surface, cast("BinaryIO", file))
 
 
 def again(order: Order, file: str) -> dict[str, str]:

@@ -27,7 +27,8 @@ export function createPlaces({ views }) {
 
   function mark() {
     const shown = places.filter(({ change }) => !hidden[change]);
-    for (const view of views) view.setMarks(shown.map(({ at, change }) => ({ at, colour: KINDS[change].colour })));
+    const marks = shown.map(({ at, change }) => ({ at, colour: KINDS[change].colour }));
+    for (const view of views) view.setMarks("places", marks);
   }
 
   /** @param {keyof typeof KINDS} change */

@@ -10,7 +10,7 @@ import { decodeLayer } from "./layer.js";
  *   default: any, default_text?: string, least: number|null, most: number|null}} Option */
 /** @typedef {{name: string, title: string, sentence: string, kind: string, products: string[],
  *   facts: Record<string, any>, parameters: Option[], picture: string}} Pattern */
-/** @typedef {{name: string, value: any, unit?: string, help?: string, key?: string}} NumberRow */
+/** @typedef {{name: string, value: any, unit?: string, help?: string, key?: string, about?: boolean}} NumberRow */
 /** @typedef {{version: string, limits: Record<string, number>, products: Record<string, Option[]>,
  *   materials: {name: string, density: number}[], slicers: string[], file: {name: string}|null}} About */
 /** @typedef {{stage: string, share: number}} Progress */
