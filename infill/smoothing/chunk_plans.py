@@ -19,7 +19,6 @@ from infill.plain_numbers import plain_argument, plain_size
 from infill.smoothing.request import SmoothRequest
 from infill.voxels.slices import plan_sublayers
 
-
 LEAST_CHUNKS = 2  # for each worker, so that none is idle
 FEWEST_CELLS = 128  # along a side: smaller chunks are mostly margin
 LARGEST_CELLS = 512  # along a side
