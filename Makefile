@@ -92,8 +92,11 @@ lint: .venv/lint
 	@$(BIN)/ruff check .
 	@$(BIN)/ruff format --check .
 	@$(BIN)/codespell
+	@$(BIN)/hadolint Dockerfile
 	@$(BIN)/python tools/check_english.py
 	@$(BIN)/check-jsonschema --quiet --builtin-schema vendor.github-workflows .github/workflows/*.yml
+	@$(BIN)/check-jsonschema --quiet --builtin-schema vendor.github-workflows examples/github/models.yml
+	@$(BIN)/check-jsonschema --quiet --builtin-schema vendor.github-actions action.yml
 	@$(BIN)/check-jsonschema --quiet --builtin-schema vendor.dependabot .github/dependabot.yml
 	@$(BIN)/check-jsonschema --quiet --builtin-schema vendor.github-issue-config .github/ISSUE_TEMPLATE/config.yml
 	@$(BIN)/check-jsonschema --quiet --builtin-schema vendor.github-issue-forms $(ISSUE_FORMS)
@@ -111,8 +114,7 @@ docs: .venv/docs
 
 # What a release consists of, in dist, and whether the wheel works where there is nothing else.
 wheel: .venv/release
-	@rm -rf dist
-	@$(BIN)/python -m build --outdir dist .
+	@$(BIN)/python tools/build_release.py dist
 	@$(BIN)/twine check --strict dist/*
 	@$(BIN)/python tools/try_wheel.py dist/*.whl
 

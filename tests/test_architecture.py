@@ -33,7 +33,7 @@ ROWS: tuple[tuple[str, ...], ...] = (
     ("result",),
     ("smoothing", "lattices", "refilling", "projects", "slicer_profiles", "samples", "timing", "verifying"),
     ("making",),
-    ("studio",),
+    ("studio", "tool_server"),
     ("cli", "hosts"),
 )
 FLOOR = {room: floor for floor, rooms in enumerate(ROWS) for room in rooms}
@@ -68,6 +68,9 @@ KEPT = {
     "dask": "infill.chunks",
     "starlette": "infill.studio",
     "uvicorn": "infill.studio",
+    "mcp": "infill.tool_server",
+    "mcp_types": "infill.tool_server",
+    "anyio": "infill.tool_server",
     "rich": "infill.cli",
     "pyvista": "infill.hosts",
     "napari": "infill.hosts",
