@@ -140,6 +140,8 @@ def test_an_arc_whose_radius_does_not_reach_its_end_is_counted(tmp_path: Path) -
     found = of(tmp_path, "G2 X70 Y50 R9 E1\nG18\nG2 X70 Z20.2 R9 E1\nG17\nG2 X70 Y70 R10 E1\n")
     assert (found.unread_lines, found.first_unread_line) == (2, HEAD.count("\n") + 1)
     assert found.length == pytest.approx(TURN / 2, rel=1e-6)
+    table = read_table(b"M83\nG1 X0 Y0 Z0\nG2 X20 Y0 R9 E1\nG2 X40 Y0 R10 E1\n", MachineState())
+    assert table.extruded.tolist() == [0, 0, 0, 1]
 
 
 @pytest.mark.parametrize("line", ["G1 X{a} E1", "G2 X70 Y50 E1", "M101", "G5 X9 Y9 P1 Q1 E1", "X70 E1"])

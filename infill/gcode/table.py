@@ -176,6 +176,7 @@ def _replay(data: bytes, lines: ParsedLines, before: MachineState) -> GcodeTable
         if command is not None:
             state, first_line = after, last_line + 1
     lines = _without_unreachable_arcs(lines, further, where, plane, before)
+    extruded[lines.unread] = 0.0
     unsure, lost = _find_unsure(lines, before.lost)
     after = replace(state, f=float(feed[-1]) if count else before.f, lost=lost)
     after = replace(after, **_retraction_state(before, extruded, commands))
