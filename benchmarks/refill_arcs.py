@@ -19,6 +19,7 @@ from __future__ import annotations
 import argparse
 import itertools
 import os
+import re
 import sys
 import tempfile
 from collections.abc import Iterator
@@ -42,6 +43,7 @@ FIRMWARE = {  # which takes arcs, and whose rule for corners does not depend on 
 }
 LEAST_CHANGED = 0.95
 MOST_APART = 0.01  # of filament and of time
+OUTSIDE = 0.03  # mm that lines with arcs may leave the region of the infill farther than those without, in rings
 FILAMENT = (0.8, 1.1)  # of the slicer's own, for the judge
 
 
@@ -86,7 +88,7 @@ def corpus(python: str, folder: Path, only: str) -> Iterator[Pair]:
 
 def row(pair: Pair, pattern: str, folder: Path) -> bool:
     """Print what became of a pair, and return whether all that is promised holds."""
-    texts, counts, before, after, faults = [], [], [], [], []
+    texts, counts, before, after, strays, faults = [], [], [], [], [], []
     for path in (pair.straight, pair.arcs):
         new = folder / "new.gcode"
         report = refill(path, output=new, pattern=pattern).report
@@ -95,9 +97,15 @@ def row(pair: Pair, pattern: str, folder: Path) -> bool:
         counts.append(changed(old_text, new_text))
         before.append(report["time"]["print_before_s"])
         after.append(report["time"]["print_after_s"])
+        found = judge(old_text, new_text, filament=FILAMENT)
+        far = re.findall(r"^move outside.* by ([\d.]+) mm", "\n".join(found), re.MULTILINE)
+        strays.append(max(map(float, far), default=0.0))
         if path is pair.arcs:
-            faults = [*judge(old_text, new_text, filament=FILAMENT), *map(str, verify(path, new).violations)]
+            faults = [fault for fault in found if not fault.startswith("move outside")]
+            faults += map(str, verify(path, new).violations)
             sections = report["sections"]["all"]
+    if strays[1] > strays[0] + OUTSIDE:
+        faults.append(f"{strays[1]:.3f} mm outside of the region, {strays[0]:.3f} mm without arcs")
     filament = [pushed(text)[0] for text in texts]
     lines = drawn_arcs(texts[1])[1] / max(drawn_arcs(texts[0])[1], 1)
     apart = [other / one - 1 if one else 0.0 for one, other in (filament, after, before)]
