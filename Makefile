@@ -8,6 +8,8 @@ DEMO ?= demo
 DESIGNS = concentric-heart zigzag honeycomb
 
 BIN = .venv/bin
+HOST_TESTS = $(addprefix tests/test_,pyvista.py napari.py 3d_slicer.py)
+NO_PLUGINS = -p no:napari -p no:napari-plugin-engine -p no:npe2
 ISSUE_FORMS = $(filter-out %/config.yml,$(wildcard .github/ISSUE_TEMPLATE/*.yml))
 SOURCES = $(shell find infill patterns -name '*.py')
 
@@ -17,6 +19,7 @@ SOURCES = $(shell find infill patterns -name '*.py')
 ## make coverage  the whole suite at once, with the share of lines that it reaches
 ## make quick     the suite without what is slow
 ## make oldest    the suite on the oldest dependencies that are allowed
+## make hosts     phasefill inside of PyVista, napari and 3D Slicer, in an environment of its own
 ## make fuzz      mutated files of every format, for an hour; FUZZ="--minutes 300 --only meshes" says how
 ## make lint      ruff, the words, the schemas of workflows, issue forms and CITATION.cff, and page/ where npm is
 ## make types     mypy --strict
@@ -32,12 +35,13 @@ SOURCES = $(shell find infill patterns -name '*.py')
 ## make smooth-report  what smooth does with real files, beside its peers, and docs/smooth-report.md
 ## make paper     the paper's figures and tables, and docs/paper.md
 ## make pictures  the pictures of README and docs
+## make host-pictures  the pictures of the pages on PyVista and napari
 ## make gallery   the patterns that fill parts, and docs/gallery.md
 ## make clean     removes what these made
 
 .DELETE_ON_ERROR:
 FUZZ ?= --minutes 60
-.PHONY: demo test longest coverage quick fuzz oldest lint types docs wheel check slicers browsers page data bench slicer-report smooth-report paper pictures gallery help clean
+.PHONY: demo test longest coverage quick fuzz oldest hosts host-pictures lint types docs wheel check slicers browsers page data bench slicer-report smooth-report paper pictures gallery help clean
 
 # Real meshes and scans for the tests: what `make data` fetched, unless a folder is named.
 ifneq ($(wildcard data),)
@@ -77,12 +81,22 @@ oldest: .venv-oldest/test
 	@.venv-oldest/bin/python -m pip check
 	@NUMBA_CACHE_DIR=$(CURDIR)/.venv-oldest/numba .venv-oldest/bin/python -m pytest -q -n 2
 
+# In an environment of their own: they take 600 MB and more, and napari brings plug-ins of pytest.
+hosts: .venv-hosts/test
+	@.venv-hosts/bin/python -m pytest -q -p no:cov $(NO_PLUGINS) $(HOST_TESTS)
+
+host-pictures: .venv-hosts/test
+	@.venv-hosts/bin/python docs/host_pictures.py
+
 lint: .venv/lint
 	@$(BIN)/ruff check .
 	@$(BIN)/ruff format --check .
 	@$(BIN)/codespell
+	@$(BIN)/hadolint Dockerfile
 	@$(BIN)/python tools/check_english.py
 	@$(BIN)/check-jsonschema --quiet --builtin-schema vendor.github-workflows .github/workflows/*.yml
+	@$(BIN)/check-jsonschema --quiet --builtin-schema vendor.github-workflows examples/github/models.yml
+	@$(BIN)/check-jsonschema --quiet --builtin-schema vendor.github-actions action.yml
 	@$(BIN)/check-jsonschema --quiet --builtin-schema vendor.dependabot .github/dependabot.yml
 	@$(BIN)/check-jsonschema --quiet --builtin-schema vendor.github-issue-config .github/ISSUE_TEMPLATE/config.yml
 	@$(BIN)/check-jsonschema --quiet --builtin-schema vendor.github-issue-forms $(ISSUE_FORMS)
@@ -100,8 +114,7 @@ docs: .venv/docs
 
 # What a release consists of, in dist, and whether the wheel works where there is nothing else.
 wheel: .venv/release
-	@rm -rf dist
-	@$(BIN)/python -m build --outdir dist .
+	@$(BIN)/python tools/build_release.py dist
 	@$(BIN)/twine check --strict dist/*
 	@$(BIN)/python tools/try_wheel.py dist/*.whl
 
@@ -154,7 +167,7 @@ help:
 	@sed -n 's/^## //p' Makefile
 
 clean:
-	@rm -rf .venv .venv-oldest build dist $(DEMO) .slicers .coverage .pytest_cache .mypy_cache .ruff_cache .hypothesis page/node_modules
+	@rm -rf .venv .venv-oldest .venv-hosts build dist $(DEMO) .slicers .coverage .pytest_cache .mypy_cache .ruff_cache .hypothesis page/node_modules
 
 include tools/slicers.mk
 include tools/page.mk
@@ -185,6 +198,12 @@ include tools/page.mk
 	@$(OLDEST_PYTHON) -m venv --clear .venv-oldest
 	@.venv-oldest/bin/python -m pip install --quiet --disable-pip-version-check \
 		--constraint constraints/oldest.txt --editable '.[test]'
+	@touch $@
+
+.venv-hosts/test: pyproject.toml
+	@$(PYTHON) -m venv --clear .venv-hosts
+	@.venv-hosts/bin/python -m pip install --quiet --disable-pip-version-check \
+		--editable '.[test,pyvista,napari]' slicer-core PySide6-Essentials
 	@touch $@
 
 .venv/lint: .venv/pip pyproject.toml

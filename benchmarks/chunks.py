@@ -4,6 +4,7 @@
     python -m benchmarks.chunks write 4096 build/g4096.zarr --cell 1024     larger cells, each written once, then linked
     python -m benchmarks.chunks run build/g1024.zarr             smooth it in chunks, and measure
     python -m benchmarks.chunks run build/g1024.zarr --cluster 2 --output build/out.ply      on a cluster of 2 processes
+    python -m benchmarks.chunks grow 256 384 512 768             how time grows with the surface, with 1 and 2 workers
     python -m benchmarks.chunks closed build/out.ply             whether manifold3d takes a surface
     python -m benchmarks.chunks whole 800                        the same in memory, on an array of that side
 
@@ -110,13 +111,17 @@ def measure(words):
     return {**json.loads(text), "wall": time.perf_counter() - begin, "cpu": cpu, "peak": peak}
 
 
+def vertices_of(report):
+    """Return the number of vertices in a report of a volume in chunks or in memory."""
+    return report.get("vertices") or report["mesh"]["vertices"]
+
+
 def show(name, report):
     """Print one line of figures."""
-    vertices = report.get("vertices") or report["mesh"]["vertices"]
     print(
         f"{name}: {report['request']['method']}, {report['wall']:.0f} s, {report['cpu']:.0f} s of processors, "
         f"{report['peak'] / 2**30:.2f} GiB, {report['triangles']:,} triangles, "
-        f"{report['wall'] / vertices * 1e6:.2f} µs a vertex; closed: {report['closed']}"
+        f"{report['wall'] / vertices_of(report) * 1e6:.2f} µs a vertex; closed: {report['closed']}"
     )
     print("   ", {stage: round(seconds, 1) for stage, seconds in report["seconds"].items()}, report.get("chunks", ""))
 
@@ -146,10 +151,29 @@ def run(path, words, cluster):
         show(path, measure((path, *words, "--scheduler", workers.scheduler_address)))
 
 
+def grow(sides, cell, method):
+    """Smooth volumes of growing sides with one worker and with two, and print how time grows with the vertices."""
+    vertices, seconds = [], {1: [], 2: []}
+    for side in sides:
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "cells.zarr"
+            write(side, path, cell)
+            for workers in seconds:
+                report = measure((str(path), *method, "--workers", str(workers)))
+                show(f"{side} with {workers}", report)
+                seconds[workers].append(report["wall"])
+            vertices.append(vertices_of(report))
+    for workers, times in seconds.items():
+        exponent = np.polyfit(np.log(vertices), np.log(times), 1)[0]
+        print(f"{workers} workers: time grows with the vertices to the power of {exponent:.2f}")
+    gains = [f"{side}: {one / two:.2f}" for side, one, two in zip(sides, seconds[1], seconds[2], strict=True)]
+    print("one worker takes so many times as long as two:", ", ".join(gains))
+
+
 def main():
     """Write a volume, or measure one."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("what", choices=["write", "run", "closed", "whole"])
+    parser.add_argument("what", choices=["write", "run", "grow", "closed", "whole"])
     parser.add_argument("words", nargs="*")
     parser.add_argument("--cell", type=int, default=CELL, help="voxels of a cell of the gyroid")
     parser.add_argument("--workers", default="2")
@@ -166,6 +190,8 @@ def main():
         more = ("-o", given.output, "--force") if given.output else ()
         workers = () if given.cluster else ("--workers", given.workers)
         run(given.words[0], (*method, *workers, "--max-memory", given.max_memory, *more), given.cluster)
+    elif given.what == "grow":
+        grow([int(word) for word in given.words], given.cell, (*method, "--max-memory", given.max_memory))
     elif given.what == "closed":
         check_closed(given.words[0])
     else:

@@ -33,8 +33,8 @@ ROWS: tuple[tuple[str, ...], ...] = (
     ("result",),
     ("smoothing", "lattices", "refilling", "projects", "slicer_profiles", "samples", "timing", "verifying"),
     ("making",),
-    ("studio",),
-    ("cli",),
+    ("studio", "tool_server"),
+    ("cli", "hosts"),
 )
 FLOOR = {room: floor for floor, rooms in enumerate(ROWS) for room in rooms}
 HALL = {
@@ -68,7 +68,13 @@ KEPT = {
     "dask": "infill.chunks",
     "starlette": "infill.studio",
     "uvicorn": "infill.studio",
+    "mcp": "infill.tool_server",
+    "mcp_types": "infill.tool_server",
+    "anyio": "infill.tool_server",
     "rich": "infill.cli",
+    "pyvista": "infill.hosts",
+    "napari": "infill.hosts",
+    "magicgui": "infill.hosts",
 }
 PATTERNS_TAKE = {"numpy", "shapely"}
 ANNOUNCED: set[str] = set()  # public functions that are to come

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any
 
 import dask.array
@@ -17,9 +17,10 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 
 from infill import Smoothing, Volume, smooth_volume
+from infill.chunks.encoding import digest_data
 from infill.chunks.hashing import add_up, face_sums, hash_surface
 from infill.chunks.layout import ChunkLayout
-from infill.chunks.running import Runner
+from infill.chunks.running import Runner, open_runner
 from infill.chunks.shells import find_names
 from infill.chunks.solids import SolidRule
 from infill.chunks.solving import Solver
@@ -385,6 +386,30 @@ def test_workers_and_processes_change_no_bit() -> None:
         with chunked(case, **options) as surface:
             hashes.add(surface.report()["hash"])
     assert len(hashes) == 1
+
+
+def owners_of_views(value: Any) -> Iterator[NDArray[Any]]:
+    """Yield arrays that plain data keep in memory and of which they hold only a part."""
+    if isinstance(value, np.ndarray):
+        if isinstance(value.base, np.ndarray) and value.base.nbytes > value.nbytes:
+            yield value.base
+    elif is_dataclass(value):
+        for item in fields(value):
+            yield from owners_of_views(getattr(value, item.name))
+    elif isinstance(value, tuple | list):
+        for part in value:
+            yield from owners_of_views(part)
+
+
+def test_results_of_tasks_keep_no_larger_arrays() -> None:
+    work = replace(FITTING, shape=(40, 40, 40), size=(3, 3, 3)).work()
+    items = [(chunk,) for chunk in work.layout]
+    direct = [smooth(work, *item) for item in items]
+    assert any(True for result in direct for _ in owners_of_views(result)), "views are what this test is about"
+    with open_runner(workers=2) as runner:
+        results = runner.run(smooth, work, items)
+    assert not [owner.nbytes for result in results for owner in owners_of_views(result)]
+    assert [digest_data(result) for result in results] == [digest_data(result) for result in direct]
 
 
 DIRECTED = {"direction": np.diag([-1.0, -1.0, 1.0]), "space": "LPS"}

@@ -44,6 +44,7 @@ COMMANDS = [
     "studio",
     "setup",
     "view",
+    "mcp",
 ]
 SMALL = ["--size", "20", "--height", "2"]
 RUN = [sys.executable, "-m", "infill.cli"]

@@ -43,7 +43,7 @@ def places(path: Path) -> list[bytes]:
     return [line for line in lines if line not in (b"", b"G1")]
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("pattern", ["honeycomb", "gyroid"])
 def test_layers_of_changing_sections_take_even_filament(changing: Path, pattern: str) -> None:
     """In beads of other widths along the same paths, so that nothing crosses that did not, and of the same filament."""
@@ -63,7 +63,7 @@ def test_layers_of_changing_sections_take_even_filament(changing: Path, pattern:
         assert told[f"median_step_{name}"] == pytest.approx(np.median(np.abs(np.diff(values[INNER]))), abs=1e-3)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("pattern", ["honeycomb", "gyroid"])
 def test_layers_of_changing_sections_take_even_time(changing: Path, pattern: str) -> None:
     """By infill that is slower, with the same filament along the same paths; never faster, nor slower than allowed."""

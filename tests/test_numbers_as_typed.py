@@ -60,6 +60,7 @@ def test_every_option_takes_every_form(command: str) -> None:
     assert numbers or command in (
         "check",
         "list",
+        "mcp",
         "sample",
         "setup",
         "studio",

@@ -14,6 +14,7 @@ import infill
 import patterns
 from infill.cli.app import build_app
 
+pytestmark = pytest.mark.longest
 pytest.importorskip("sphinx", reason="Sphinx is not here: `make docs` installs it")
 ROOT = Path(__file__).resolve().parents[1]
 DOCS = ROOT / "docs"
@@ -37,7 +38,6 @@ def described(inventory: Path) -> set[str]:
     return {name for name, kind, *_ in map(str.split, lines) if kind.startswith("py:")}
 
 
-@pytest.mark.longest
 @pytest.mark.parametrize("package", [infill, patterns], ids=lambda package: package.__name__)
 def test_every_public_name_is_described(package: object, site: Path) -> None:
     names = {f"{package.__name__}.{name}" for name in package.__all__}
@@ -52,7 +52,6 @@ def test_nothing_else_is(site: Path) -> None:
         assert public & set(name.split(".")), f"{name} is not public"
 
 
-@pytest.mark.longest
 def test_every_command_is_described(site: Path) -> None:
     page = (site / "commands.html").read_text(encoding="utf-8")
     for command in build_app().registered_commands:

@@ -10,11 +10,12 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import trimesh
 
 from infill import write_sample
-from tests.browsing import find_serious, open_page
+from tests.browsing import find_serious, open_page, pixels
 
 pytest.importorskip("starlette", reason="the extra studio is not installed")
 pytest.importorskip("uvicorn", reason="the extra studio is not installed")
@@ -206,9 +207,12 @@ def test_no_view_has_a_serious_fault_of_access_or_overflows(
 ) -> None:
     faults: list[str] = []
     with open_view(studio, "start", width=width, dark=dark) as page:
-        for view in ("start", "patterns", "part", "print", "scan"):
+        for view in ("start", "patterns", "part", "print", "scan", "block"):
             if view == "patterns":
                 page.get_by_role("link", name="Patterns", exact=True).click()
+            elif view == "block":
+                page.get_by_role("link", name="Block", exact=True).click()
+                page.wait_for_selector(".view[aria-label=Block] .numbers > div", timeout=LONG)
             elif view != "start":
                 page.get_by_role("link", name=view.capitalize(), exact=True).click()
                 choose_file(page, samples[view])
@@ -315,3 +319,87 @@ def test_the_threshold_is_dragged_on_the_histogram(studio: str, samples: dict[st
         )
         value = float(page.get_by_role("slider", name="Threshold", exact=True).input_value())
         assert value == pytest.approx((least + most) / 2, abs=0.02 * (most - least))
+
+
+@pytest.mark.longest
+def test_what_is_lost_is_marked_where_it_was(studio: str, tmp_path: Path) -> None:
+    scan = tmp_path / "spike.npy"
+    values = np.full((40, 40, 30), -50, np.int16)
+    values[5:35, 5:35, 5:15] = values[18:20, 18:20, 15:26] = 50  # a plate with a thin spike
+    np.save(scan, values)
+    with open_view(studio, "scan", scan) as page:
+        choose(page, "Method", "Plain")
+        page.get_by_role("button", name="Make it anyway").click()
+        wait_until_exact(page)
+        assert "allow_broken" in page.url
+        assert "--allow-broken" in page.get_by_label("How to do this again").inner_text()
+        switch = page.get_by_role("group", name="Marked places").get_by_label(re.compile("^Lost"))
+        places = page.locator(".places td:first-child").all_inner_texts()
+        tips = [np.fromstring(place.split(" at ")[1], sep=",") for place in places]
+        assert min(np.abs(tip - (19, 19, 25.5)).max() for tip in tips) <= 1.5
+        page.wait_for_timeout(1500)  # until the views are drawn in many pixels
+        marked = count_red(page)
+        page.get_by_role("button", name="Look at: Lost").first.click()
+        assert count_red(page) > 0
+        switch.uncheck()
+        page.wait_for_timeout(300)
+        assert count_red(page) < 0.2 * marked
+
+
+@pytest.mark.longest
+def test_a_piece_is_dropped_and_a_link_remembers_it(studio: str, tmp_path: Path) -> None:
+    scan = tmp_path / "two.npy"
+    values = np.full((40, 24, 24), -50, np.int16)
+    values[4:20, 4:20, 4:20] = values[26:36, 8:18, 8:18] = 50
+    np.save(scan, values)
+    with open_view(studio, "scan", scan) as page:
+        whole = number(wait_until_exact(page)["Volume"])
+        pieces = page.get_by_role("group", name="2 pieces")
+        assert [number(text) for text in pieces.locator(".piece-volume").all_inner_texts()] == [4096, 1000]
+        pieces.get_by_label("Piece 2").uncheck()
+        page.wait_for_url(re.compile("keep_components=1"))
+        page.wait_for_function("!document.querySelector('.save-row a') || document.querySelector('.stale')")
+        assert number(wait_until_exact(page)["Volume"]) == pytest.approx(whole - 1000, rel=0.01)
+        assert "--keep-components 1 " in page.get_by_label("How to do this again").inner_text()
+        page.get_by_label("Piece 1").uncheck()  # one has to stay
+        assert page.get_by_label("Piece 1").is_checked()
+
+
+@pytest.mark.longest
+def test_a_density_that_changes_is_painted_with_a_legend(studio: str, samples: dict[str, Path]) -> None:
+    with open_view(studio, "part?density=15%25:45%25&by=skin&cut=y,0.5", samples["part"]) as page:
+        switch = page.get_by_label("Paint the density")
+        switch.wait_for(timeout=LONG)
+        wait_until_exact(page)
+        ends = page.locator(".density-paint .legend").inner_text()
+        assert [number(text) for text in re.findall(r"[\d.]+ %", ends)] == pytest.approx([15, 45], abs=1)
+        page.wait_for_timeout(1500)  # until it is drawn in many pixels
+        painted = count_blue(page)
+        switch.uncheck()
+        page.wait_for_timeout(300)
+        assert count_blue(page) < 0.2 * painted
+
+
+@pytest.mark.longest
+def test_a_block_needs_no_file(studio: str, tmp_path: Path) -> None:
+    with open_view(studio, "block?size=%2230x20%22") as page:
+        numbers = wait_until_exact(page)
+        file = save(page, "STL", tmp_path)
+        assert trimesh.load(file).volume == pytest.approx(number(numbers["Volume"]), rel=0.01)
+        assert page.get_by_label("How to do this again").inner_text().startswith("infill make honeycomb --size 30x20")
+        page.get_by_role("slider", name="Height").fill("10")
+        page.wait_for_url(re.compile("height=10"))
+        page.wait_for_function("!document.querySelector('.save-row a') || document.querySelector('.stale')")
+        assert number(wait_until_exact(page)["Volume"]) == pytest.approx(number(numbers["Volume"]) * 10 / 6, rel=0.01)
+
+
+def count_blue(page: Any) -> int:
+    """Count the pixels of the view that have the blue of a low density."""
+    red, green, blue = np.moveaxis(pixels(page, ".viewer"), 2, 0)
+    return int(((blue > red + 50) & (blue > green + 20)).sum())
+
+
+def count_red(page: Any) -> int:
+    """Count the pixels of the views that have the red of a mark."""
+    red, green, blue = np.moveaxis(pixels(page, ".pair"), 2, 0)
+    return int(((red > 180) & (green < 110) & (blue < 100)).sum())

@@ -17,8 +17,11 @@ from test_architecture import modules_after
 from test_command_line import one_line_error, run, usage_error
 from test_viewer_packing import surface_of, unfold, unpack
 
-from infill import make, refill, smooth_volume
+from infill import make, read_mesh, refill, smooth_volume
+from infill.formats.file_objects import split_objects
 from infill.formats.mesh_files import save
+from infill.formats.parts import Part
+from infill.formats.threemf import write_3mf_parts
 from infill.planner.layer_speeds import drawn_speeds, layer_speeds
 from infill.samples.plate_print import plate_print
 from infill.viewer import viewable
@@ -66,6 +69,24 @@ def test_view_writes_a_page_with_the_mesh_and_its_numbers(part: Path, tmp_path: 
     assert mesh.is_volume
     assert mesh.volume == pytest.approx(6000, rel=1e-4)
     assert rows_of(page) | {"size": "30 x 20 x 10 mm", "volume": "6,000 mm³", "watertight": "yes"} == rows_of(page)
+
+
+def test_objects_of_a_3mf_are_shown_apart(tmp_path: Path) -> None:
+    path = tmp_path / "plate.3mf"
+    surfaces = [surface_of(box(5, 5, 5 + number, (9 * number, 0, 0))) for number in range(3)]
+    parts = [
+        Part(surface=surface, name=name, colour=colour)
+        for surface, name, colour in zip(surfaces, ("lid", "", "lid"), (None, (1.0, 0, 0), None), strict=True)
+    ]
+    with path.open("wb") as file:
+        write_3mf_parts(parts, file)
+    objects = split_objects(read_mesh(path), path)
+    assert len({part.name for part in objects}) == 3
+    assert objects[0].name == "lid"
+    assert [part.surface.volume for part in objects] == pytest.approx([125, 150, 175])
+    assert objects[1].colour == (1.0, 0, 0)
+    assert run("view", path, "-o", tmp_path / "plate.html").exit_code == 0
+    assert "3 surfaces, 36 triangles" in (tmp_path / "plate.html").read_text(encoding="utf-8")
 
 
 def test_a_page_asks_nobody_for_anything(part: Path, tmp_path: Path) -> None:

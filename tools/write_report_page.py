@@ -219,10 +219,16 @@ CHAPTERS = (
     Chapter(
         title="Check: a mesh",
         word="check",
-        text="`check(…).to_dict()` returns this report, and `infill check` prints it; for several meshes, it prints a "
-        "list. A mesh that cannot be read then has two keys: `file`, and `error` with the reason. Lengths are in the "
+        text="`check(…).to_dict()` returns this report, and `infill check` prints it; for several files, it prints a "
+        "list. A file that cannot be read then has two keys: `file`, and `error` with the reason. Lengths are in the "
         "unit of the file, or in millimetres if it states its unit.",
         report=checking.CheckReport,
+    ),
+    Chapter(
+        title="Check: a print",
+        word="check PRINT",
+        text="`infill check` prints this report of a sliced print, alone or in the list of several files.",
+        report=checking.PrintCheckReport,
     ),
     Chapter(
         title="Check: a project",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import dataclasses
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
@@ -11,6 +12,8 @@ from functools import partial
 from importlib.util import find_spec
 from multiprocessing import get_context
 from typing import Any, TypeVar
+
+import numpy as np
 
 from infill.checks import check_whole_number
 from infill.chunks.keeping import NOT_KEPT, ResultFolder
@@ -212,7 +215,29 @@ class _Plain:
 
 def _call(function: Callable[..., Done], shared: Any, *item: _Plain) -> Done:  # noqa: ANN401
     """Call a function of plain arguments."""
-    return function(shared, *(argument.value for argument in item))
+    result: Done = copy_views(function(shared, *(argument.value for argument in item)))
+    return result
+
+
+def copy_views(value: Any) -> Any:  # noqa: ANN401 - plain data
+    """Return plain data in which no array is a view that keeps a larger array in memory.
+
+    >>> large = np.zeros(1000)
+    >>> copy_views((large[:2], 1))[0].base is None
+    True
+    """
+    if isinstance(value, np.ndarray):
+        return value.copy() if isinstance(value.base, np.ndarray) and value.base.nbytes > value.nbytes else value
+    if type(value) in (tuple, list):
+        return type(value)(copy_views(part) for part in value)
+    if isinstance(value, dict):
+        return {key: copy_views(part) for key, part in value.items()}
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        parts = {item.name: getattr(value, item.name) for item in dataclasses.fields(value) if item.init}
+        copies = {name: copy_views(part) for name, part in parts.items()}
+        changed = {name: copies[name] for name in parts if copies[name] is not parts[name]}
+        return dataclasses.replace(value, **changed) if changed else value
+    return value
 
 
 def _call_plain(function: Callable[..., Done], shared: Any, item: tuple[Any, ...]) -> Done:  # noqa: ANN401

@@ -30,10 +30,11 @@ COMMANDS: dict[str, tuple[str, str, str]] = {
     "sample": ("sampling", "sample", "infill sample part scan print"),
     "studio": ("studio", "studio", "infill studio part.stl"),
     "setup": ("setting_up", "setup", "infill setup prusaslicer --write"),
+    "mcp": ("serving_tools", "mcp", "infill mcp --folder prints"),
 }
 
 FILE_COMMANDS = ("smooth", "fill", "refill")  # which take several files
-LISTING = ("list", "sample", "studio")  # commands that do something when nothing is given
+LISTING = ("list", "sample", "studio", "mcp")  # commands that do something when nothing is given
 
 
 def build_app(command_name: str = "") -> typer.Typer:

@@ -1,9 +1,9 @@
-"""``infill check``: whether meshes are printable."""
+"""``infill check``: whether meshes are printable, and prints whole."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
@@ -15,12 +15,17 @@ if TYPE_CHECKING:
     from infill.inspection.printability import Inspection
     from infill.projects.doctor import Diagnosis
     from infill.projects.project import Slicer
-    from infill.reports.checking import CheckReport, FailedCheck, ProjectReport
+    from infill.reports.checking import CheckReport, FailedCheck, PrintCheckReport, ProjectReport
+    from infill.timing.print_check import PrintCheck
 
 
 def check(
-    meshes: Annotated[
-        list[Path], typer.Argument(metavar="MESH...", help="Meshes to check: .stl .3mf .obj .ply .off .glb .gltf.")
+    files: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="FILE...",
+            help="Meshes to check: .stl .3mf .obj .ply .off .glb .gltf; and sliced prints: .gcode .bgcode .gcode.3mf.",
+        ),
     ],
     slicer: Annotated[
         Literal["prusaslicer", "orcaslicer", "bambustudio", "cura", "plain"] | None,
@@ -32,43 +37,55 @@ def check(
     ] = None,
     strict: Annotated[bool, typer.Option("--strict", help="Exit 1 for warnings too.")] = False,
     as_json: Annotated[
-        bool, typer.Option("--json", help="Print one JSON object to stdout; of several meshes, a list of them.")
+        bool, typer.Option("--json", help="Print one JSON object to stdout; of several files, a list of them.")
     ] = False,
 ) -> None:
-    """Check whether meshes are printable, and say why not; exit 1 if one is not."""
+    """Check whether meshes are printable and prints whole, and say why not; exit 1 if one is not."""
     if slicer is not None:
-        _check_projects(meshes, slicer, strict=strict, as_json=as_json)
+        _check_projects(files, slicer, strict=strict, as_json=as_json)
         return
-    from infill.inspection.printability import check as inspect
-
-    if len(meshes) == 1:
-        inspection = inspect(meshes[0])
+    if len(files) == 1:
+        inspection = _inspect(files[0])
         if as_json:
             print_json(inspection.to_dict())
         else:
-            typer.echo(_inspection_table(inspection, str(meshes[0])))
+            typer.echo(_inspection_table(inspection, str(files[0])))
         if not _passes(inspection, strict=strict):
             raise typer.Exit(1)
         return
     passed = True
-    results: list[CheckReport | FailedCheck] = []
-    width = max(len(str(path)) for path in meshes)
-    for path in meshes:
+    results: list[CheckReport | PrintCheckReport | FailedCheck] = []
+    width = max(len(str(path)) for path in files)
+    for path in files:
         try:
-            inspection = inspect(path)
+            inspection = _inspect(path)
         except InfillError as error:
             say(f"error: {error}")
             passed = False
             results.append({"file": str(path), "error": str(error)})
             continue
         passed &= _passes(inspection, strict=strict)
-        results.append({"file": str(path), **inspection.to_dict()})
+        result: Any = {"file": str(path), **inspection.to_dict()}
+        results.append(result)
         if not as_json:  # each as soon as it is known
             typer.echo(f"{path!s:<{width}}  {_verdict_line(inspection)}")
     if as_json:
         print_json(results)
     if not passed:
         raise typer.Exit(1)
+
+
+def _inspect(path: Path) -> Inspection | PrintCheck:
+    """Check a mesh or a print, as its name says."""
+    from infill.files.suffixes import PRINTS
+
+    if path.name.lower().endswith((*PRINTS, ".gcode.3mf")):
+        from infill.timing.print_check import check_print
+
+        return check_print(path)
+    from infill.inspection.printability import check
+
+    return check(path)
 
 
 def _check_projects(paths: list[Path], slicer: Slicer, *, strict: bool, as_json: bool) -> None:
@@ -112,26 +129,51 @@ def _diagnosis_table(diagnosis: Diagnosis, name: str) -> str:
     return format_table(rows, title=f"{name}, for {diagnosis.slicer}")
 
 
-def _passes(inspection: Inspection, *, strict: bool) -> bool:
+def _passes(inspection: Inspection | PrintCheck, *, strict: bool) -> bool:
     """Tell whether a file passes: printable, and with `--strict` without a warning."""
     return inspection.printable and not (strict and inspection.warnings)
 
 
-def _verdict_line(inspection: Inspection) -> str:
-    """Format the verdict on one of several meshes as a line, with its reasons."""
+def _verdict_line(inspection: Inspection | PrintCheck) -> str:
+    """Format the verdict on one of several files as a line, with its reasons."""
     if not inspection.printable:
         return f"NO   {'; '.join(inspection.problems)}"
+    return "; ".join([f"yes  {_size_text(inspection)}", *(f"warning: {warning}" for warning in inspection.warnings)])
+
+
+def _size_text(inspection: Inspection | PrintCheck) -> str:
+    """Describe how large a mesh or a print is, on one line."""
+    from infill.timing.print_check import PrintCheck
+
+    if isinstance(inspection, PrintCheck):
+        seconds = round(inspection.seconds)
+        time = f"{seconds // 3600}:{seconds // 60 % 60:02}:{seconds % 60:02}"
+        return f"{count_noun(inspection.layers, 'layer')}, {inspection.filament / 1000:.2f} m of filament, {time}"
     size = plain_size(*inspection.extents, digits=4)
-    text = f"yes  {inspection.triangles:,} triangles, {_count_parts(inspection)}, {size}"
-    return "; ".join([text, *(f"warning: {warning}" for warning in inspection.warnings)])
+    return f"{inspection.triangles:,} triangles, {_count_parts(inspection)}, {size}"
 
 
-def _inspection_table(inspection: Inspection, name: str) -> str:
-    """Format the inspection of a mesh as a table."""
+def _inspection_table(inspection: Inspection | PrintCheck, name: str) -> str:
+    """Format the inspection of a mesh or a print as a table."""
+    from infill.timing.print_check import PrintCheck
+
     rows = {
         "printable": "yes" if inspection.printable else "NO",
         **{f"problem {i}": text for i, text in enumerate(inspection.problems, 1)},
         **{f"warning {i}": text for i, text in enumerate(inspection.warnings, 1)},
+    }
+    rows |= _print_rows(inspection) if isinstance(inspection, PrintCheck) else _mesh_rows(inspection)
+    return format_table(rows, title=name)
+
+
+def _print_rows(inspection: PrintCheck) -> dict[str, str]:
+    """Return the rows of a print."""
+    return {"slicer": inspection.slicer or "not stated", "print": _size_text(inspection)}
+
+
+def _mesh_rows(inspection: Inspection) -> dict[str, str]:
+    """Return the rows of a mesh."""
+    return {
         "watertight": _watertight_text(inspection),
         "parts": _parts_text(inspection),
         "faces outwards": "yes" if inspection.outward else "no",
@@ -141,7 +183,6 @@ def _inspection_table(inspection: Inspection, name: str) -> str:
         f"{plain_size(inspection.area, digits=6, power=2)}",
         "size": plain_size(*inspection.extents, digits=4),
     }
-    return format_table(rows, title=name)
 
 
 def _watertight_text(inspection: Inspection) -> str:

@@ -138,7 +138,7 @@ def smooth_chunks(
 
 def _unfit(settings: SmoothSettings) -> dict[str, object]:
     """Return the options that a volume in chunks does not have, by name."""
-    names = ("voxel", "resolution", "shell", "by_component", "units", "series", "frame")
+    names = ("voxel", "resolution", "shell", "keep_components", "by_component", "units", "series", "frame")
     kind = None if settings.kind in (None, "volume") else settings.kind
     return {**{name: getattr(settings, name) for name in names}, "kind": kind}
 

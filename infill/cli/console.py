@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import json
 import logging
+import os
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, TextIO
@@ -15,6 +16,7 @@ from infill.errors import escape_unprintable
 from infill.plain_numbers import plain_number
 
 UNITS = ("B", "kB", "MB", "GB")
+PROGRESS = "INFILL_PROGRESS"
 
 
 def say(text: str) -> None:
@@ -36,7 +38,13 @@ def warn(
 
 @contextlib.contextmanager
 def progress_bar(*, shown: bool) -> Iterator[Callable[[str, float], None] | None]:
-    """Yield a function (stage, share done) that moves a bar on stderr, or None if stderr is not a terminal."""
+    """Yield a function (stage, share done) that moves a bar on stderr, or None if stderr is not a terminal.
+
+    A program that runs a command and sets the environment variable INFILL_PROGRESS to ``lines`` gets lines instead.
+    """
+    if shown and os.environ.get(PROGRESS) == "lines":
+        yield _print_progress_lines()
+        return
     if not shown or not sys.stderr.isatty():
         yield None
         return
@@ -49,6 +57,20 @@ def progress_bar(*, shown: bool) -> Iterator[Callable[[str, float], None] | None
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("", total=1.0)
         yield lambda stage, share: bar.update(task, description=stage, completed=share)
+
+
+def _print_progress_lines() -> Callable[[str, float], None]:
+    """Return a function that prints a line on stderr for each stage and each hundredth: ``progress: 0.25 smooth``."""
+    latest = [("", -1.0)]
+
+    def report(stage: str, share: float) -> None:
+        """Print how far the command is, if that is new."""
+        seen = (stage, round(share, 2))
+        if seen != latest[0]:
+            latest[0] = seen
+            say(f"progress: {seen[1]:.2f} {stage}")
+
+    return report
 
 
 @contextlib.contextmanager

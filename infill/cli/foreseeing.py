@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from infill.smoothing.request import SmoothOptions
     from infill.smoothing.settings import SmoothSettings
 
-MINUTE = 60  # seconds; longer times are shown in minutes
+MINUTE, HOUR = 60, 3600  # seconds
 
 
 def show_smooth_plan(
@@ -124,7 +124,11 @@ def _source_text(facts: PlannedInput) -> str:
 def format_span(seconds: float) -> str:
     """Format a time to two digits.
 
-    >>> format_span(0.8432), format_span(37.2), format_span(412.0)
-    ('0.84 s', '37 s', '6.9 minutes')
+    >>> format_span(0.8432), format_span(37.2), format_span(412.0), format_span(47400.0)
+    ('0.84 s', '37 s', '6.9 minutes', '13 hours')
     """
-    return f"{plain_number(seconds, 2)} s" if seconds < MINUTE else f"{plain_number(seconds / MINUTE, 2)} minutes"
+    if seconds < MINUTE:
+        return f"{plain_number(seconds, 2)} s"
+    if seconds < 2 * HOUR:
+        return f"{plain_number(seconds / MINUTE, 2)} minutes"
+    return f"{plain_number(seconds / HOUR, 2)} hours"

@@ -30,7 +30,18 @@ if TYPE_CHECKING:
 MOST_ROWS = 60  # labels in the summary
 MOST_FILES = 12  # that a dry run lists
 MOST_PROBLEMS = 12  # in the summary
-UNFIT = ("units", "resolution", "voxel", "shell", "threshold", "range", "otsu", "grey", "by_component")
+UNFIT = (
+    "units",
+    "resolution",
+    "voxel",
+    "shell",
+    "threshold",
+    "range",
+    "otsu",
+    "grey",
+    "keep_components",
+    "by_component",
+)
 
 
 @dataclass(frozen=True, kw_only=True)

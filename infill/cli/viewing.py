@@ -65,8 +65,15 @@ def _page_of(file: Path) -> str:
         from infill.viewer.print_page import print_page
 
         return print_page({"print": drawn_speeds(file)}, title=file.name)
+    from infill.formats.file_objects import split_objects
     from infill.formats.mesh_files import read_mesh
     from infill.viewer.page import measure_surface, surface_page
 
     surface = read_mesh(file)
-    return surface_page({file.stem: surface}, title=file.name, report=measure_surface(surface))
+    parts = split_objects(surface, file)
+    return surface_page(
+        {part.name: part.surface for part in parts},
+        title=file.name,
+        report=measure_surface(surface),
+        colours={part.name: part.colour for part in parts if part.colour is not None},
+    )

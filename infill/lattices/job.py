@@ -20,6 +20,7 @@ from infill.interior.interior import Interior
 from infill.interior.opening import clip_to_opening, cut_open
 from infill.lattices.at_skin import drop_crumbs, subtract_voids
 from infill.lattices.bodies import Fields
+from infill.lattices.density_map import DensityMap
 from infill.lattices.drain_holes import DrainedSolid, check_drain_width, drill_drains
 from infill.lattices.groups import Graded, Meshing, Shell, add_grading, add_group
 from infill.lattices.joining import make_joined_voids
@@ -244,7 +245,13 @@ def fill_request(
     with task.clock.stage("check", 0.9):
         result, untimed, hollow = _assemble(task, hollow, fields, project)
     report: FillReport = {**untimed, "seconds": task.clock.timings(FillSeconds, shift=0.0)}
-    stages = FillStages(part=hollow.space.part, voids=hollow.surface, shown=result, opening=hollow.space.opening)
+    stages = FillStages(
+        part=hollow.space.part,
+        voids=hollow.surface,
+        shown=result,
+        opening=hollow.space.opening,
+        density=DensityMap.of(hollow.layout),
+    )
     surfaces: dict[str, Surface] = (
         {"part": hollow.space.part, "infill": result} if request.form == "project" else {request.form: result}
     )

@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from PIL import Image
 
     from infill.interior.opening import Opening
+    from infill.lattices.density_map import DensityMap
     from infill.pictures.sections import Cut
     from infill.surface import Surface
 
@@ -32,6 +33,8 @@ class FillStages:
         The slicer that a project is for: see `infill.save_project`.
     cuts : tuple of Cut
         Where a picture is cut open; by default where its inside is seen best.
+    density : DensityMap, optional
+        The requested density from place to place; None where it is the same.
     """
 
     part: Surface
@@ -40,6 +43,7 @@ class FillStages:
     opening: Opening | None = None
     slicer: str | None = None
     cuts: tuple[Cut, ...] = ()
+    density: DensityMap | None = None
 
     def picture(self, surface: Surface, report: Mapping[str, Any]) -> Image.Image:  # noqa: ARG002 - of all stages
         """Draw cuts that show the inside: in a project, of the infill, as the part is whole."""

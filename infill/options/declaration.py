@@ -90,6 +90,15 @@ class DeclaredOption:
         """Placeholder of the value in ``--help``."""
         return self.option.unit or ("|".join(get_args(self.kind)) if get_origin(self.kind) is Literal else None)
 
+    @property
+    def choices(self) -> tuple[str, ...]:
+        """The words that the option can be; none if it can be anything else too."""
+        if get_origin(self.kind) is Literal:
+            return tuple(map(str, get_args(self.kind)))
+        words = self.option.unit.split("|")
+        is_list = len(words) > 1 and all(word == word.lower() for word in words)
+        return tuple(words) if is_list else ()
+
     def read(self, value: object) -> Any:  # noqa: ANN401 - of the type of the field
         """Check a value from the command line or a config file; units and other names of a choice are understood."""
         choices = get_args(self.kind) if get_origin(self.kind) is Literal else ()

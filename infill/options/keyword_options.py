@@ -12,6 +12,7 @@ from patterns.quantities import parse_quantity
 
 LONGEST_WORD = 1000  # signs of a name, also of a file
 LARGEST_WHOLE = 2**53  # as floating-point numbers count without gaps
+MOST_DIGITS = 18  # of a number in a range
 Reader = Callable[[str, object], Any]
 
 
@@ -108,6 +109,44 @@ def parse_wholes(name: str, value: object) -> tuple[int, ...]:
     if not values:
         raise UsageError.about(name, "is empty; give a whole number, or several")
     return tuple(check_whole(name, number) for number in values)
+
+
+def parse_ranges(name: str, value: object) -> tuple[tuple[int, int | None], ...]:
+    """Parse numbers from 1 on and ranges of them, as text or as a list; return the first and last number of each.
+
+    The last is None where a range goes on to the end.
+
+    Raises
+    ------
+    UsageError
+
+    >>> parse_ranges("keep_components", "1, 3-5,8-"), parse_ranges("keep_components", [1, 3])
+    (((1, 1), (3, 5), (8, None)), ((1, 1), (3, 3)))
+    """
+    words = value.split(",") if isinstance(value, str) else value if isinstance(value, (list, tuple)) else [value]
+    ranges = []
+    for word in words or [""]:
+        first, dash, last = str(word).strip().partition("-")
+        numbers = [
+            int(end) if end.isascii() and end.isdecimal() and len(end) < MOST_DIGITS else 0 for end in (first, last)
+        ]
+        low, high = numbers[0], numbers[1] if last else None if dash else numbers[0]
+        if low < 1 or (high is not None and high < low):
+            raise UsageError.about(name, f"is {quote_value(value)}; give numbers from 1 on and ranges: 1,3-5 or 2-")
+        ranges.append((low, high))
+    return tuple(ranges)
+
+
+def parse_range_text(name: str, value: object) -> str:
+    """Return numbers and ranges as `parse_ranges` takes them, as text.
+
+    >>> parse_range_text("keep_components", [1, 3]), parse_range_text("keep_components", "1, 3-5")
+    ('1,3', '1,3-5')
+    """
+    words = [
+        f"{low}" if low == high else f"{low}-{'' if high is None else high}" for low, high in parse_ranges(name, value)
+    ]
+    return ",".join(words)
 
 
 def parse_numbers(name: str, value: object, counts: tuple[int, ...]) -> tuple[float, ...]:

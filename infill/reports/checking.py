@@ -1,4 +1,4 @@
-"""The reports of `infill check`, of meshes and of projects, and of `infill list`."""
+"""The reports of `infill check`, of meshes, prints and projects, and of `infill list`."""
 
 from __future__ import annotations
 
@@ -34,6 +34,19 @@ class CheckReport(TypedDict):
     extents: Annotated[Triple, "Size in x, y and z"]
     bounds: Annotated[Corners, "Lower and upper corner"]
     unit_guess: Annotated[str, "`mm`, or another unit that the size suggests if the file states none"]
+
+
+class PrintCheckReport(TypedDict):
+    """The report of ``infill check`` on a sliced print."""
+
+    file: NotRequired[Annotated[str, "Name of the file; only among several files"]]
+    printable: Annotated[bool, "Whether there are no problems"]
+    problems: Annotated[tuple[str, ...], "Reasons why the print is not whole, one phrase each"]
+    warnings: Annotated[tuple[str, ...], "Lines that were not understood, and layers that are not marked"]
+    slicer: Annotated[str, "Slicer that wrote the print; empty if it does not say"]
+    layers: Annotated[int, "Number of marked layers"]
+    seconds: Annotated[float, "Printing time as `infill motion` plans it, s"]
+    filament: Annotated[float, "Length of filament, mm"]
 
 
 class FailedCheck(TypedDict):

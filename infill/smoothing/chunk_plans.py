@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -18,9 +18,6 @@ from infill.machine import available_memory
 from infill.plain_numbers import plain_argument, plain_size
 from infill.smoothing.request import SmoothRequest
 from infill.voxels.slices import plan_sublayers
-
-if TYPE_CHECKING:
-    pass
 
 LEAST_CHUNKS = 2  # for each worker, so that none is idle
 FEWEST_CELLS = 128  # along a side: smaller chunks are mostly margin

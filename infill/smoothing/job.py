@@ -29,6 +29,7 @@ from infill.reports.sections import add_late_section
 from infill.result import Result
 from infill.smoothing.by_component import ComponentStages, smooth_components
 from infill.smoothing.grey_isosurface import compare_with_isosurface
+from infill.smoothing.kept_components import keep_in_mesh, keep_in_scan
 from infill.smoothing.meshes import mesh_ways
 from infill.smoothing.points import compare_with_points, points_ways
 from infill.smoothing.remedies import first_sound
@@ -53,6 +54,7 @@ def smooth_volume(
     threshold: float | tuple[float | None, float | None] | Literal["otsu"] | None = None,
     label: int | Sequence[int] | None = None,
     grey: bool | None = None,
+    keep_components: str | Sequence[int] | None = None,
     voxel: float | None = None,
     resume: str | os.PathLike[str] | None = None,
     **options: Unpack[SmoothOptions],
@@ -78,6 +80,9 @@ def smooth_volume(
     grey : bool, optional
         Keep the grey levels around the threshold (2): they show where between two cells the surface lies. By default,
         if there are any, and the method is "auto" or "grey".
+    keep_components : str or sequence of int, optional
+        Only these components of the solid, counted from 1, the largest first: (1, 3), or "1,3-5" or "2-". The others
+        are void before anything else is done.
     voxel : float, optional
         Larger cells than those of the volume, mm: each has the mean of the cells it covers. Smaller features are gone
         before anything is compared.
@@ -143,12 +148,18 @@ def smooth_volume(
         if request.method != "plain" and resume is None:
             try:
                 return _smooth_whole(
-                    lazy.load(request.max_memory), request, threshold=threshold, label=label, grey=grey, voxel=voxel
+                    lazy.load(request.max_memory),
+                    request,
+                    threshold=threshold,
+                    label=label,
+                    grey=grey,
+                    keep_components=keep_components,
+                    voxel=voxel,
                 )
             except MemoryLimitError:
-                if not suits_chunks(request, voxel=voxel):
+                if not suits_chunks(request, voxel=voxel, keep_components=keep_components):
                     raise
-        check_chunked(request, voxel=voxel)
+        check_chunked(request, voxel=voxel, keep_components=keep_components)
         return smooth_lazy(lazy, request, threshold=threshold, label=label, grey=grey, resume=resume)
     if resume is not None:
         raise UsageError.about("resume", "is for a volume in chunks, a Dask array, Zarr or HDF5; leave it out")
@@ -159,7 +170,9 @@ def smooth_volume(
     elif not isinstance(volume, Volume):
         values = fill_masked_with_void(np.asanyarray(volume), low, chosen=chosen)
         volume = Volume(values=values, spacing=spacing_of(1.0 if spacing is None else spacing, 3), origin=origin)
-    return _smooth_whole(volume, request, threshold=threshold, label=label, grey=grey, voxel=voxel)
+    return _smooth_whole(
+        volume, request, threshold=threshold, label=label, grey=grey, keep_components=keep_components, voxel=voxel
+    )
 
 
 def _smooth_whole(
@@ -169,9 +182,12 @@ def _smooth_whole(
     threshold: Threshold,
     label: int | Sequence[int] | None,
     grey: bool | None,
+    keep_components: str | Sequence[int] | None,
     voxel: float | None,
 ) -> Result[SmoothStages, SmoothReport]:
     """Smooth a volume in memory: see `smooth_volume`."""
+    if keep_components is not None:
+        volume, threshold = keep_in_scan(volume, keep_components, threshold=threshold, label=label)
     ways = volume_ways(volume, request, threshold=threshold, label=label, grey=grey, voxel=voxel)
     result = first_sound(ways, request)
     rule = result.report["input"]["segmentation"]
@@ -189,6 +205,7 @@ def smooth_mesh(
     *,
     resolution: int | None = None,
     voxel: float | None = None,
+    keep_components: str | Sequence[int] | None = None,
     by_component: Literal[False] = False,
     **options: Unpack[SmoothOptions],
 ) -> Result[SmoothStages, SmoothReport]: ...
@@ -198,6 +215,7 @@ def smooth_mesh(
     *,
     resolution: int | None = None,
     voxel: float | None = None,
+    keep_components: str | Sequence[int] | None = None,
     by_component: Literal[True],
     **options: Unpack[SmoothOptions],
 ) -> Result[ComponentStages, ComponentsReport]: ...
@@ -206,6 +224,7 @@ def smooth_mesh(
     *,
     resolution: int | None = None,
     voxel: float | None = None,
+    keep_components: str | Sequence[int] | None = None,
     by_component: bool = False,
     **options: Unpack[SmoothOptions],
 ) -> Result[SmoothStages, SmoothReport] | Result[ComponentStages, ComponentsReport]:
@@ -220,6 +239,8 @@ def smooth_mesh(
         Cells along the longest side; 200 if neither this nor `voxel` is given.
     voxel : float, optional
         Cell size, mm.
+    keep_components : str or sequence of int, optional
+        Only these components of the mesh, with their cavities, counted from 1, the largest first: (1, 3), or "1,3-5".
     by_component : bool
         Smooth each component by itself, so that those that overlap or touch stay apart: see
         `infill.smoothing.by_component`. The result then has a surface for each, "component_1" being the largest.
@@ -231,6 +252,8 @@ def smooth_mesh(
     1
     """
     surface, request = to_surface(mesh), SmoothRequest(**options)
+    if keep_components is not None:
+        surface = keep_in_mesh(surface, keep_components, resolution=resolution, voxel=voxel)
     if by_component:
         return smooth_components(surface, request, resolution=resolution, voxel=voxel)
     fixed = resolution is not None or voxel is not None

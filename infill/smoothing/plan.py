@@ -11,7 +11,7 @@ import contextlib
 import time
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import Unpack
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +28,7 @@ from infill.phasefield.schedule import MIN_STEPS
 from infill.reports.common import declare
 from infill.reports.smoothing import InputKeys, LabelsForecast, PlannedInput, PlannedLabel, SmoothForecast
 from infill.smoothing.attempt import bytes_per_surface_cell
+from infill.smoothing.kept_components import keep_in_mesh, keep_in_scan
 from infill.smoothing.label_pieces import find_pieces, refuse_shares
 from infill.smoothing.label_stages import LabelPiece
 from infill.smoothing.meshes import BYTES_PER_CELL as MESH_BYTES_PER_CELL
@@ -134,6 +135,7 @@ def plan_smoothing(source: Source | SampledStack, *, begin: float, **options: Un
     source = source.volume if isinstance(source, SampledStack) else source
     choice, smooth_options = split_options(source, options)
     request = SmoothRequest(**smooth_options)
+    source = _keep_chosen(source, choice)
     if isinstance(source, Volume):
         survey = _survey_volume(volume_ways(source, request, **choice), sample)
     elif isinstance(source, Surface):
@@ -159,6 +161,20 @@ def plan_smoothing(source: Source | SampledStack, *, begin: float, **options: Un
         memory=round(BYTES_BEFORE + cells + surface),
         seconds=loaded - begin + work + survey.seconds,
     )
+
+
+def _keep_chosen(source: Source, choice: dict[str, Any]) -> Source:
+    """Return the source with the chosen components alone; take them, and a threshold to be found, out of the choice."""
+    numbers = choice.pop("keep_components", None)
+    if numbers is None:
+        return source
+    if isinstance(source, Surface):
+        return keep_in_mesh(source, numbers, resolution=choice.get("resolution"), voxel=choice.get("voxel"))
+    assert isinstance(source, Volume)
+    source, choice["threshold"] = keep_in_scan(
+        source, numbers, threshold=choice.get("threshold"), label=choice.get("label")
+    )
+    return source
 
 
 def plan_labels(

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
 
 from infill.errors import UsageError
 from infill.options.declaration import Option, by_field, by_key, drop_replaced, read_options
-from infill.options.keyword_options import parse_level, parse_numbers, parse_wholes
+from infill.options.keyword_options import parse_level, parse_numbers, parse_range_text, parse_wholes
 from infill.options.toml import format_rows, read_toml
 from infill.options.trust import check_trusted
 
@@ -37,7 +37,8 @@ class SmoothSettings:
     ----------
     kind, units, array, series, frame, spacing, roi
         Options of reading the input: see `infill.smoothing.sources.read_source`.
-    resolution, voxel, shell, threshold, between, label, otsu, grey, by_component
+    resolution, voxel, shell, threshold, between, label, otsu, grey, keep_components,
+    by_component
         Choice of the solid and of the grid: see `infill.smooth_volume` and its siblings. `between` is ``--range``.
     each_label, labels, keep_going, together
         See `infill.smooth_labels`; `labels` is a file of names and colours.
@@ -208,6 +209,17 @@ class SmoothSettings:
             negatable=True,
         ),
     ] = False
+    keep_components: Annotated[
+        str | None,
+        Option(
+            "Only these components of a scan or mesh, counted from 1, the largest first: 1,3-5 or 2-.",
+            SOLID,
+            unit="N,N-N",
+            default="all",
+            read=parse_range_text,
+            typed=str,
+        ),
+    ] = None
     despeckle: Annotated[
         float, Option("First remove components up to this volume.", SOLID, unit="MM3", default="0")
     ] = 0.0
@@ -312,8 +324,9 @@ class SmoothSettings:
     @property
     def choice(self) -> dict[str, Any]:
         """Keywords of `infill.smoothing.sources.smooth_source`: the choice of the solid and of the grid."""
-        names = ("resolution", "voxel", "shell", "threshold", "between", "label", "otsu", "grey", "by_component")
-        return {name: getattr(self, name) for name in names}
+        from infill.smoothing.sources import CHOICES
+
+        return {name: getattr(self, name) for name in CHOICES}
 
     @property
     def options(self) -> SmoothOptions:

@@ -46,11 +46,22 @@ Source = Surface | Volume | NDArray[np.float64]
 LOG = logging.getLogger("infill")
 POINT_SUFFIXES = (".xyz", ".txt", ".pts", ".csv")
 OPTIONS_OF_KIND = {
-    "volume": ("threshold", "between", "label", "otsu", "grey", "voxel"),
-    "mesh": ("resolution", "voxel", "by_component"),
+    "volume": ("threshold", "between", "label", "otsu", "grey", "keep_components", "voxel"),
+    "mesh": ("resolution", "voxel", "keep_components", "by_component"),
     "points": ("resolution", "voxel", "shell"),
 }
-CHOICES = ("resolution", "voxel", "shell", "threshold", "between", "label", "otsu", "grey", "by_component")
+CHOICES = (
+    "resolution",
+    "voxel",
+    "shell",
+    "threshold",
+    "between",
+    "label",
+    "otsu",
+    "grey",
+    "keep_components",
+    "by_component",
+)
 AXES = 3
 KINDS = ("mesh", "points", "volume")
 
@@ -69,6 +80,7 @@ class SourceOptions(SmoothOptions, total=False):
     label: tuple[int, ...] | None
     otsu: bool
     grey: bool | None
+    keep_components: str | tuple[int, ...] | None
     by_component: bool
 
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 MADE, DOWNLOADS = "made", "downloads"  # folders for files
 MORE_OPTIONS = ("pattern", "for", "as")  # that a request may have, whatever the form shows
-MOST_RESULTS = 3  # kept in memory; others are made again when they are asked for
+MOST_RESULTS = 4  # kept in memory; others are made again when they are asked for
 
 
 class Desk:
@@ -148,6 +148,17 @@ class Desk:
             self._keep(result, find_product(request["product"]).code.make(order))
         return self._results[result]
 
+    def _project(self, message: Mapping[str, Any], progress: Progress) -> Made:
+        """Return a result as a project for a slicer; that of another slicer has the same part and infill."""
+        from infill.studio.fill_product import for_slicer
+
+        request, project = message["request"], f"{message['result']}-project"
+        options = {**request["options"], "for": message.get("slicer") or "prusaslicer"}
+        order = self._order({**request, "files": message["files"]}, progress, options, None)
+        if project not in self._results:
+            self._keep(project, find_product(request["product"]).code.make(replace(order, coarse=False)))
+        return for_slicer(self._results[project], order)
+
     def _download(self, message: Mapping[str, Any], progress: Progress, warnings: list[str]) -> Iterator[AnswerFrame]:  # noqa: ARG002 - as all actions
         """Write the file of a result."""
         request, file_format = message["request"], message["format"]
@@ -156,9 +167,7 @@ class Desk:
             listed = ", ".join(product.downloads) or "none"
             raise FormatError(f"there is no format {str(file_format)[:20]!r}; choose from {listed}")
         if file_format == "project":
-            options = {**request["options"], "for": message.get("slicer") or "prusaslicer"}
-            order = self._order({**request, "files": message["files"]}, progress, options, None)
-            made = product.code.make(replace(order, coarse=False))
+            made = self._project(message, progress)
         else:
             made = self._made(message, progress)
         stored = message["files"].get(request["file"])

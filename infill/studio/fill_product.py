@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from infill.lattices.settings import FillOptions, resolve
-from infill.studio.equivalents import Call, assignments, join_words, plain_parameters, write_command, write_value
+from infill.options.command_words import assignments
+from infill.studio.equivalents import Call, join_words, plain_parameters, write_command, write_value
 from infill.studio.numbers import draft_numbers, fill_numbers
 from infill.studio.products import Made, Order
 
 if TYPE_CHECKING:
+    from infill.lattices.density_map import DensityMap
     from infill.studio.reading import Content
     from infill.surface import Surface
 
@@ -40,17 +46,21 @@ def make(order: Order) -> Made:
     if order.coarse and (draft := _draft(order, content, arguments)) is not None:
         return draft
     result = fill(content.data, **arguments, max_memory=order.memory, progress=order.progress)
+    surfaces, density = shown_surfaces(result), result.stages.density
     return Made(
         result=result,
         report=result.report,
         numbers=list(fill_numbers(result.report)),
-        surfaces=shown_surfaces(result),
+        surfaces=surfaces,
+        values=paint_density(surfaces, density),
         volume=result.report["volume"],
+        more={"painted": density_range(density)},
     )
 
 
 def _draft(order: Order, content: Content, arguments: dict[str, Any]) -> Made | None:
     """Draft a fill; return None for options that only the whole fill has."""
+    from infill.lattices.density_map import DensityMap
     from infill.lattices.draft import DraftMemory, draft_fill
     from infill.lattices.request import check_request
 
@@ -70,13 +80,33 @@ def _draft(order: Order, content: Content, arguments: dict[str, Any]) -> Made | 
         max_memory=order.memory,
         progress=order.progress,
     )
+    surfaces, density = {"part": draft.part, "infill": draft.walls_inside}, DensityMap.of(draft.hollow.layout)
     return Made(
         result=None,
         report={},
         numbers=list(draft_numbers(draft)),
-        surfaces={"part": draft.part, "infill": draft.walls_inside},
+        surfaces=surfaces,
+        values=paint_density(surfaces, density),
         volume=draft.volume,
+        more={"painted": density_range(density)},
     )
+
+
+def paint_density(surfaces: Mapping[str, Surface], density: DensityMap | None) -> dict[str, NDArray[np.uint8]]:
+    """Return the requested density at the vertices of the walls inside: 0 where it is lowest, 255 where highest."""
+    if density is None:
+        return {}
+    extent = max(density.highest - density.lowest, 1e-9)
+    return {
+        name: np.rint(255 * (density.at(surface.vertices) - density.lowest) / extent).astype(np.uint8)
+        for name, surface in surfaces.items()
+        if name != "part"  # whose faces may be large, with colours at their corners alone
+    }
+
+
+def density_range(density: DensityMap | None) -> dict[str, float] | None:
+    """Return the lowest and the highest density of a part, for the legend; None where it is the same everywhere."""
+    return None if density is None else {"lowest": density.lowest, "highest": density.highest}
 
 
 def shown_surfaces(result: Any) -> dict[str, Surface]:  # noqa: ANN401 - a Result
@@ -87,6 +117,12 @@ def shown_surfaces(result: Any) -> dict[str, Surface]:  # noqa: ANN401 - a Resul
     if len(solid.faces) != len(part.faces) + len(voids.faces):  # drains or open sides have changed the skin
         return {"solid": solid}
     return {"part": part, "infill": replace(voids, faces=voids.faces[:, ::-1])}
+
+
+def for_slicer(made: Made, order: Order) -> Made:
+    """Return a project for the slicer of a request: the same part and infill, whatever the slicer."""
+    slicer = keywords(dict(order.options), {})["for_"]
+    return replace(made, result=replace(made.result, stages=replace(made.result.stages, slicer=slicer)))
 
 
 def write(made: Made, path: Path) -> None:

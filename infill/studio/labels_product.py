@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import zipfile
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO, cast
 
 from infill.options.declaration import by_field, read_options
 from infill.smoothing.settings import SmoothSettings, resolve
+from infill.studio.changed_places import list_places
 from infill.studio.equivalents import Call, Code, join_words, write_command, write_value
 from infill.studio.numbers import label_numbers
 from infill.studio.products import Made, Order
@@ -29,6 +31,7 @@ LEFT_OUT: tuple[str, ...] = (
     "range",
     "otsu",
     "grey",
+    "keep_components",
     "by_component",
 )
 
@@ -57,12 +60,24 @@ def make(order: Order) -> Made:
         numbers=list(label_numbers(result.report)),
         surfaces=dict(result.surfaces),
         colours=dict(result.colours),
+        more={"places": list_places(result.report)},
     )
 
 
 def write(made: Made, path: Path) -> None:
-    """Write all labels into one file."""
-    made.result.save(path)
+    """Write all labels into one file; a .zip holds an STL of each, named as ``-o {label}.stl`` names them."""
+    if path.suffix != ".zip":
+        made.result.save(path)
+        return
+    from infill.files.file_names import safe_names
+    from infill.formats.mesh_files import mesh_writer
+
+    surfaces = made.result.surfaces
+    names = safe_names(list(surfaces), [f"label_{number}" for number in range(1, len(surfaces) + 1)])
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, surface in zip(names, surfaces.values(), strict=True):
+            with archive.open(f"{name}.stl", "w") as file:
+                mesh_writer(Path(f"{name}.stl"))(surface, cast("BinaryIO", file))
 
 
 def again(order: Order, file: str) -> dict[str, str]:

@@ -7,8 +7,9 @@ from typing import Any
 
 from infill.errors import UsageError
 from infill.making.settings import MakeSettings, resolve
+from infill.options.command_words import assignments
 from infill.options.declaration import by_field, read_options
-from infill.studio.equivalents import Call, assignments, join_words, plain_parameters, write_command, write_value
+from infill.studio.equivalents import Call, join_words, plain_parameters, write_command, write_value
 from infill.studio.numbers import block_numbers
 from infill.studio.products import Made, Order
 from infill.studio.smoothing_keywords import SMOOTHING, smoothing_code

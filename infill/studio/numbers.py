@@ -37,12 +37,15 @@ class Number:
     unit : str
         "%" for shares, whose value is the share itself.
     help : str
+    about : bool
+        Whether it is only near that of the exact result.
     """
 
     name: str
     value: float | int | bool | str | None
     unit: str = ""
     help: str = ""
+    about: bool = False
 
     def facts(self) -> dict[str, Any]:
         """Return the number as plain values."""
@@ -95,12 +98,15 @@ def draft_numbers(draft: FillDraft) -> Iterator[Number]:
         value=draft.volume / draft.part.volume,
         unit="%",
         help="Volume of the result over that of the part",
+        about=True,
     )
-    yield Number(name="density", value=hollow.density, unit="%", help="Solid share of the space inside the walls")
-    yield Number(name="volume", value=draft.volume, unit="mm³")
-    yield Number(name="cell", value=hollow.cell, unit="mm", help="Period of the pattern")
-    yield Number(name="line width", value=hollow.width, unit="mm", help="Width of walls, or diameter of bars")
-    yield Number(name="voids", value=hollow.count)
+    inside = "Solid share of the space inside the walls"
+    yield Number(name="density", value=hollow.density, unit="%", help=inside, about=True)
+    yield Number(name="volume", value=draft.volume, unit="mm³", about=True)
+    yield Number(name="cell", value=hollow.cell, unit="mm", help="Period of the pattern", about=True)
+    width = "Width of walls, or diameter of bars"
+    yield Number(name="line width", value=hollow.width, unit="mm", help=width, about=True)
+    yield Number(name="voids", value=hollow.count, about=True)
 
 
 def block_numbers(report: Mapping[str, Any]) -> Iterator[Number]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, Literal, get_args, get_origin
+from typing import Any, Literal, get_origin
 
 from infill.errors import UsageError
 from infill.files.excerpts import quote_value
@@ -85,7 +85,7 @@ class FormOption:
     def of(cls, declared: DeclaredOption) -> FormOption:
         """Return the form of a declared option."""
         option = declared.option
-        choices = _find_choices(declared)
+        choices = declared.choices
         kinds: dict[Any, Any] = {float: "number", int: "whole", bool: "flag"}
         kind: Any = "choice" if choices else kinds.get(declared.kind, "text")
         least, most = USUAL.get(declared.key, (None, None))
@@ -124,15 +124,6 @@ class FormOption:
             most=high,
             many=not single,
         )
-
-
-def _find_choices(declared: DeclaredOption) -> tuple[str, ...]:
-    """Return the words that an option can be; none if it can be anything else too."""
-    if get_origin(declared.kind) is Literal:
-        return tuple(map(str, get_args(declared.kind)))
-    words = declared.option.unit.split("|")
-    is_list = len(words) > 1 and all(word == word.lower() for word in words)
-    return tuple(words) if is_list else ()
 
 
 def _plain_default(default: object) -> Any:  # noqa: ANN401 - as JSON has it

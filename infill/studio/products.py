@@ -14,6 +14,9 @@ from infill.studio.numbers import Number, grams_by_material
 from infill.viewer.packing import pack_surfaces
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from infill.result import Progress
     from infill.studio.reading import Content
     from infill.surface import Surface
@@ -71,6 +74,8 @@ class Made:
     surfaces : mapping of str to Surface
         To be shown.
     colours : mapping
+    values : mapping of str to (V,) uint8
+        Numbers of the vertices of surfaces, which the page shows as colours.
     frames : tuple of AnswerFrame
         Further ones, such as a layer of a print.
     volume : float or None
@@ -84,6 +89,7 @@ class Made:
     numbers: list[Number]
     surfaces: Mapping[str, Surface] = field(default_factory=dict)
     colours: Mapping[str, Any] = field(default_factory=dict)
+    values: Mapping[str, NDArray[np.uint8]] = field(default_factory=dict)
     frames: tuple[AnswerFrame, ...] = ()
     volume: float | None = None
     more: Mapping[str, Any] = field(default_factory=dict)
@@ -145,7 +151,7 @@ PRODUCTS: Mapping[str, Product] = {
     "fill": Product(module="fill_product", downloads=(*MESHES, "project"), word="filled"),
     "make": Product(module="make_product", downloads=MESHES, word="block"),
     "smooth": Product(module="smooth_product", downloads=MESHES, word="smooth"),
-    "labels": Product(module="labels_product", downloads=("3mf", "glb"), word="labels"),
+    "labels": Product(module="labels_product", downloads=("3mf", "glb", "zip"), word="labels"),
     "refill": Product(module="refill_product", downloads=("gcode",), word="refilled"),
     "motion": Product(module="motion_product", downloads=()),
 }
@@ -184,5 +190,6 @@ def answer_frames(
     }
     yield AnswerFrame.of_json(ANSWER, answer)
     if made.surfaces:
-        yield AnswerFrame(kind=MESH, payload=pack_surfaces(made.surfaces, colours=made.colours))
+        packed = pack_surfaces(made.surfaces, colours=made.colours, values=made.values)
+        yield AnswerFrame(kind=MESH, payload=packed)
     yield from made.frames

@@ -7,11 +7,12 @@ from pathlib import Path
 from typing import Any
 
 from infill.errors import FormatError
+from infill.options.command_words import assignments
 from infill.options.declaration import by_field, read_options
 from infill.options.toml import format_options
 from infill.plain_numbers import count_noun
 from infill.refilling.request import Request
-from infill.studio.equivalents import Call, assignments, join_words, plain_parameters, write_command
+from infill.studio.equivalents import Call, join_words, plain_parameters, write_command
 from infill.studio.frames import AnswerFrame
 from infill.studio.numbers import Number, refill_numbers
 from infill.studio.print_layers import layer_frame, plan_print

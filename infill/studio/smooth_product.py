@@ -9,9 +9,11 @@ import numpy as np
 
 from infill.options.declaration import by_field, read_options
 from infill.smoothing.settings import SmoothSettings, resolve
+from infill.studio.changed_places import list_places
 from infill.studio.equivalents import Call, join_words, write_command, write_value
 from infill.studio.numbers import smooth_numbers
 from infill.studio.products import Made, Order
+from infill.studio.scan_pieces import list_pieces
 from infill.studio.smoothing_keywords import shared_keywords
 from infill.surface import Surface
 
@@ -34,9 +36,8 @@ LEFT_OUT: tuple[str, ...] = (
     "shell",
     "by_component",
 )
-CHOICE = ("resolution", "voxel", "threshold", "between", "label", "otsu", "grey")
+CHOICE = ("resolution", "voxel", "threshold", "between", "label", "otsu", "grey", "keep_components")
 COARSE_CELLS = 72  # along the longest side
-MOST_COMPONENTS = 100  # that are listed
 MOST_BEFORE = 1_500_000  # triangles of the surface of voxels that is shown beside the result
 
 
@@ -61,17 +62,8 @@ def make(order: Order) -> Made:
         numbers=list(smooth_numbers(result.report)),
         surfaces=surfaces,
         volume=result.report["volume"],
-        more={"components": component_volumes(result.surface)},
+        more={"pieces": list_pieces(content, settings.choice), "places": list_places(result.report)},
     )
-
-
-def component_volumes(surface: Surface) -> list[float]:
-    """Return the volumes of the components of a surface, the largest first, mm³; cavities are none."""
-    from infill.isosurfaces.components import shell_names
-    from infill.meshes.shells import shell_volumes
-
-    volumes = shell_volumes(surface, *shell_names(surface))
-    return sorted(volumes[volumes > 0].tolist(), reverse=True)[:MOST_COMPONENTS]
 
 
 def coarse_options(data: Surface | Volume, options: dict[str, Any]) -> dict[str, Any]:

@@ -20,7 +20,7 @@ import time
 import warnings
 from typing import Any, BinaryIO
 
-from infill.errors import InfillError, escape_unprintable
+from infill.errors import GeometryError, InfillError, escape_unprintable
 from infill.studio.desk import Desk
 from infill.studio.frames import END, ERROR, PROGRESS, READY, AnswerFrame
 from patterns.errors import PatternError
@@ -211,7 +211,10 @@ def _error_frame(error: BaseException, number: int) -> AnswerFrame:
     else:
         logging.getLogger("infill.studio").debug("a fault", exc_info=error)
         message = f"this is a fault of the program ({type(error).__name__}: {str(error)[:200]}); please report it"
-    return AnswerFrame.of_json(ERROR, {"message": escape_unprintable(message), "parameter": parameter}, number)
+    stated = {"message": escape_unprintable(message), "parameter": parameter}
+    if isinstance(error, GeometryError):
+        stated["refused"] = True
+    return AnswerFrame.of_json(ERROR, stated, number)
 
 
 def _listen(

@@ -7,6 +7,7 @@ import { test } from "node:test";
 import { suits } from "../src/studio/gallery.js";
 import { decodeLayer, layerBounds } from "../src/studio/layer.js";
 import { outline } from "../src/studio/outline.js";
+import { keptPieces, piecesText } from "../src/studio/pieces.js";
 import { readFrames } from "../src/studio/server.js";
 import { createStore, readFragment, writeFragment } from "../src/studio/store.js";
 import { percents } from "../src/studio/view.js";
@@ -149,4 +150,14 @@ test("every word of a search has to match", () => {
   assert.ok(suits(octet, { ...search, words: "stiff BARS" }));
   assert.ok(!suits(octet, { ...search, words: "stiff soft" }));
   assert.ok(!suits(octet, { ...search, product: "refill" }));
+});
+
+test("a choice of pieces is the same after it was written and read", () => {
+  for (let bits = 1; bits < 64; bits += 1) {
+    const kept = Array.from({ length: 6 }, (_, i) => Boolean((bits >> i) & 1));
+    assert.deepEqual(keptPieces(piecesText(kept), 6), kept);
+  }
+  assert.equal(piecesText([true, true]), null);
+  assert.equal(piecesText([true, false, true, true]), "1,3-");
+  assert.deepEqual(keptPieces("2", 3), [false, true, false]);
 });

@@ -20,6 +20,7 @@ const FILES = {
   ply: "PLY",
   glb: "GLB",
   obj: "OBJ",
+  zip: "STL each",
   gcode: "G-code",
   bgcode: "Binary G-code",
   project: "Project",

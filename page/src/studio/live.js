@@ -15,13 +15,14 @@ const REST = 350; // ms after the last picture, without a change, until the exac
  * @property {(reply: any, quality: "coarse"|"exact") => Promise<void>|void} show resolves when it has been drawn
  * @property {(error: unknown) => void} fail
  * @property {(busy: "coarse"|"exact"|null) => void} busy
+ * @property {boolean} [drafts] whether there are coarse answers
  */
 
 /**
  * Make the runner of one view.
  * @param {Work} work
  */
-export function createLive({ ask, show, fail, busy }) {
+export function createLive({ ask, show, fail, busy, drafts = true }) {
   /** @type {{quality: "coarse"|"exact", control: AbortController}|null} */
   let running = null;
   let wantsCoarse = false;
@@ -86,15 +87,16 @@ export function createLive({ ask, show, fail, busy }) {
     move() {
       forget();
       isMoving = true;
-      wantsCoarse = true;
+      wantsCoarse = drafts;
       if (running?.quality === "exact") drop();
+      if (!drafts) waitForRest();
       next();
     },
     /** The values jump: whatever is under way is for values of before. */
     jump() {
       forget();
       drop();
-      wantsCoarse = true;
+      wantsCoarse = drafts;
       wantsExact = true;
       next();
     },

@@ -12,7 +12,13 @@ const BEFORE = " before"; // ends the name of a number that is followed by the s
  * Write the value of a row.
  * @param {NumberRow} row
  */
-export function valueText({ value, unit }) {
+export function valueText({ about, ...row }) {
+  const text = plainText(row);
+  return about ? `≈ ${text}` : text;
+}
+
+/** @param {NumberRow} row */
+function plainText({ value, unit }) {
   if (typeof value === "boolean") return value ? "yes" : "no";
   if (typeof value !== "number") return String(value ?? "–");
   if (unit === "s") return timeText(value);

@@ -9,6 +9,7 @@ import { followTheme } from "./colours.js";
 import { choices, select, slider, tick } from "./controls.js";
 import { createCut } from "./cut.js";
 import { createDensity } from "./density.js";
+import { createDensityPaint } from "./density_paint.js";
 import { announce, h, plain } from "./dom.js";
 import { createForm } from "./form.js";
 import { createLive } from "./live.js";
@@ -57,6 +58,7 @@ export function createPartView(studio) {
   });
   followTheme((theme) => viewer.setTheme(theme));
   const cut = createCut({ onChange: (value, resting) => change({ ...section, cut: value }, resting) });
+  const densityPaint = createDensityPaint({ viewer });
   const surfaces = h("div", { class: "surfaces", role: "group", "aria-label": "What is shown" });
   const numbers = createNumbers();
   const again = createAgain();
@@ -244,6 +246,10 @@ export function createPartView(studio) {
     viewer.setMesh(mesh, { flat });
     const names = mesh.surfaces.map(({ name }) => name);
     for (const name of names) viewer.setColour(name, COLOURS[/** @type {"part"} */ (name)] ?? COLOURS.part);
+    densityPaint.show(
+      answer?.painted ?? null,
+      mesh.surfaces.filter(({ values }) => values).map(({ name }) => name),
+    );
     surfaces.replaceChildren();
     if (names.length > 1) for (const name of names) surfaces.append(surfaceTick(name));
     if (names.length > 1 && names.includes(SHELL)) surfaces.append(ghostTick());
@@ -305,7 +311,7 @@ export function createPartView(studio) {
     element: layout({
       label: "Part",
       controls: [head.element, form.element],
-      stage: [stageElement, h("div", { class: "toolbar" }, cut.element, surfaces)],
+      stage: [stageElement, h("div", { class: "toolbar" }, cut.element, surfaces, densityPaint.element)],
       side: [numbers.element, material.element, downloads.element, again.element],
     }),
     /** Show a part that has been read. */

@@ -15,6 +15,9 @@ import { createHistogram } from "./histogram.js";
 import { createLive } from "./live.js";
 import { createNumbers, valueText } from "./numbers.js";
 import { boundsOf } from "./part.js";
+import { createPieces } from "./pieces.js";
+import { createPlaces } from "./places.js";
+import { StatedError } from "./server.js";
 import { createSlices } from "./slices.js";
 import { createStage } from "./stage.js";
 import { createFileHead, describeError, dropAgain, forServer, layout, withOption } from "./view.js";
@@ -27,8 +30,8 @@ import { createFileHead, describeError, dropAgain, forServer, layout, withOption
 const SMOOTH = "smooth";
 const LABELS = "labels";
 const BEFORE = "voxels"; // name of the surface before smoothing
-const MOST_PIECES = 10;
 const SOLID_NAME = "solid"; // of the surface that is not of a label
+const PIECE = "#12b5a6"; // of the ring around a piece
 const COLOURS = { voxels: "#b4c0c8", solid: "#d3bf98" };
 const HIDDEN = [
   "as",
@@ -65,21 +68,22 @@ export function createScanView(studio) {
     open: studio.open,
   });
   const reducedMotion = matchMedia("(prefers-reduced-motion: reduce)").matches;
-  const places = [h("div", { class: "viewer" }), h("div", { class: "viewer" })];
+  const frames = [h("div", { class: "viewer" }), h("div", { class: "viewer" })];
   const [before, after] = ["The surface before smoothing", "The surface after smoothing"].map((label, i) =>
-    createViewer(places[i], { label, reducedMotion }),
+    createViewer(frames[i], { label, reducedMotion }),
   );
   before.onCamera((/** @type {any} */ camera) => after.setCamera(camera));
   after.onCamera((/** @type {any} */ camera) => before.setCamera(camera));
   followTheme((theme) => {
     for (const viewer of [before, after]) viewer.setTheme(theme);
   });
-  const figureBefore = h("figure", { hidden: true }, h("figcaption", {}, "Before"), places[0]);
-  const pair = h("div", { class: "pair" }, figureBefore, h("figure", {}, h("figcaption", {}, "After"), places[1]));
+  const figureBefore = h("figure", { hidden: true }, h("figcaption", {}, "Before"), frames[0]);
+  const pair = h("div", { class: "pair" }, figureBefore, h("figure", {}, h("figcaption", {}, "After"), frames[1]));
   const stage = createStage(pair);
   const empty = h("div", { class: "empty", hidden: true });
   stage.element.append(empty);
   const cut = createCut({ onChange: (value, resting) => change({ ...section, cut: value }, resting) });
+  const places = createPlaces({ views: [before, after] });
   const slices = createSlices({ server, onFail: (error) => stage.fail(describeError(error)?.message ?? null) });
   const numbers = createNumbers();
   const again = createAgain();
@@ -120,6 +124,12 @@ export function createScanView(studio) {
     start: 0,
     help: "Loose pieces smaller than this are left out.",
   });
+  const pieces = createPieces({
+    onChange: (keep) => change({ ...section, options: withOption(section.options, "keep_components", keep) }, true),
+    onLook: (at) => {
+      for (const viewer of [before, after]) viewer.setMarks("piece", at ? [{ at, colour: PIECE }] : []);
+    },
+  });
   const solid = {
     element: h("div", { class: "solid" }, mode.element, histogramPlace, labelList),
     set() {},
@@ -132,12 +142,27 @@ export function createScanView(studio) {
       { keys: SOLID, control: solid },
       { keys: ["smooth"], control: method },
       { keys: ["steps"], control: steps },
+      { keys: ["keep_components"], control: pieces },
       { keys: ["despeckle"], control: despeckle },
     ],
     hidden: HIDDEN,
     onChange: (key, value, resting) =>
       change({ ...section, options: withOption(section.options, key, value) }, resting),
   });
+
+  /** @type {import("./places.js").Place[]} */
+  let changed = []; // of the answer that is shown
+  const anyway = h(
+    "button",
+    {
+      type: "button",
+      class: "button anyway",
+      hidden: true,
+      onclick: () => change({ ...section, options: withOption(section.options, "allow_broken", true) }, true),
+    },
+    "Make it anyway, and mark what is lost",
+  );
+  form.element.querySelector(".form-error")?.after(anyway);
 
   const live = createLive({
     ask: (quality, signal) =>
@@ -151,9 +176,13 @@ export function createScanView(studio) {
       if (reply.mesh) showMesh(decodeMesh(reply.mesh));
       numbers.show(reply.answer.numbers, reply.answer.warnings ?? []);
       numbers.setStale(quality === "coarse");
-      showComponents(reply.answer.components ?? []);
+      pieces.show(reply.answer.pieces ?? null);
       again.show(reply.answer);
       stage.badge(quality === "coarse" ? "Preview" : null);
+      anyway.hidden = true;
+      changed = reply.answer.places ?? [];
+      // A preview is smoothed in larger voxels, which loses more.
+      places.show(quality === "exact" ? changed : []);
       if (quality !== "exact") return;
       downloads.show(reply.answer);
       announce(
@@ -169,51 +198,16 @@ export function createScanView(studio) {
       form.fail(stated.message, stated.parameter);
       stage.badge(null);
       downloads.show(null);
+      anyway.hidden = !(error instanceof StatedError && error.refused);
+      if (!anyway.hidden) places.show(changed);
     },
     busy: (quality) =>
       stage.progress(quality ? { stage: quality === "exact" ? "Computing the exact surface" : "", share: 0 } : null),
   });
 
-  const componentList = h("table", { class: "components", hidden: true });
-
-  /** @param {number[]} volumes of the pieces, the largest first, mm³ */
-  function showComponents(volumes) {
-    componentList.hidden = volumes.length < 2;
-    const shown = volumes.slice(0, MOST_PIECES);
-    replaceChildren(
-      componentList,
-      h("caption", {}, volumes.length > shown.length ? `The ${shown.length} largest pieces` : `${shown.length} pieces`),
-      h(
-        "tbody",
-        {},
-        shown.map((volume, i) =>
-          h("tr", {}, h("td", {}, `${plain(volume)} mm³`), h("td", {}, i ? pieceButton(i, volume) : "kept")),
-        ),
-      ),
-    );
-  }
-
-  /**
-   * @param {number} i
-   * @param {number} volume
-   */
-  function pieceButton(i, volume) {
-    const label = `Drop piece ${i + 1} and all smaller ones`;
-    return h(
-      "button",
-      { type: "button", class: "quiet", "aria-label": label, title: label, onclick: () => drop(volume) },
-      "Drop",
-    );
-  }
-
-  /** @param {number} volume of the largest piece that goes; smoothing may have taken a little from it. */
-  function drop(volume) {
-    const limit = Number((volume * 1.05).toPrecision(3));
-    change({ ...section, options: withOption(section.options, "despeckle", limit) }, true);
-  }
-
   function product() {
-    return open?.scan?.labels?.length && !SOLID.some((key) => key in section.options) ? LABELS : SMOOTH;
+    const isSolid = ["threshold", "range", "otsu"].some((key) => key in section.options);
+    return open?.scan?.labels?.length && !isSolid ? LABELS : SMOOTH;
   }
 
   /** The options, with the threshold that is chosen for a scan that has none. */
@@ -237,7 +231,8 @@ export function createScanView(studio) {
    * @param {boolean} resting
    */
   function setSolid(choice, resting) {
-    const rest = SOLID.reduce((all, key) => withOption(all, key, null), section.options);
+    // Pieces are counted anew.
+    const rest = [...SOLID, "keep_components"].reduce((all, key) => withOption(all, key, null), section.options);
     change({ ...section, options: { ...rest, ...choice } }, resting);
   }
 
@@ -269,6 +264,7 @@ export function createScanView(studio) {
       mesh.surfaces.filter((/** @type {{name: string}} */ { name }) => (name === BEFORE) === wanted),
     );
     if (old.length) meshBefore = { ...mesh, surfaces: old };
+    const appears = Boolean(meshBefore) && figureBefore.hidden; // which leaves the other half the width
     figureBefore.hidden = !meshBefore;
     pair.classList.toggle("single", !meshBefore);
     if (meshBefore) {
@@ -281,7 +277,7 @@ export function createScanView(studio) {
     // Once both stand in their places, they are seen from the same one.
     requestAnimationFrame(() => {
       if (!fresh.length) return before.fit();
-      if (isFresh) after.fit();
+      if (isFresh || appears) after.fit();
       isFresh = false;
       before.setCamera(after.getCamera());
     });
@@ -297,11 +293,7 @@ export function createScanView(studio) {
     replaceChildren(
       labelList,
       ...labels.map((label, i) => {
-        const input = h("input", {
-          type: "checkbox",
-          checked: true,
-          onchange: () => after.setVisible(label.name, input.checked),
-        });
+        const input = h("input", { type: "checkbox", checked: true, onchange: () => chooseLabels(input) });
         const swatch = h("span", { class: "swatch", "aria-hidden": "true" });
         swatch.style.background = cssColour(label.colour) ?? LABEL_COLOURS[i % LABEL_COLOURS.length];
         return h("label", { class: "tick" }, input, swatch, h("span", {}, label.name || `Label ${label.value}`));
@@ -309,12 +301,30 @@ export function createScanView(studio) {
     );
   }
 
+  function labelTicks() {
+    return [...labelList.querySelectorAll("input")];
+  }
+
+  /**
+   * Leave out the labels that are not ticked: of the view at once, of the files with the next answer.
+   * @param {HTMLInputElement} changed
+   */
+  function chooseLabels(changed) {
+    const labels = open?.scan?.labels ?? [];
+    const ticks = labelTicks();
+    if (!ticks.some((tick) => tick.checked)) changed.checked = true; // one has to stay
+    for (const [i, { name }] of labels.entries()) after.setVisible(name, ticks[i].checked);
+    const chosen = labels.filter((_, i) => ticks[i].checked).map(({ value }) => value);
+    const all = chosen.length === labels.length;
+    change({ ...section, options: withOption(section.options, "label", all ? null : chosen) }, true);
+  }
+
   return {
     element: layout({
       label: "Scan",
       controls: [head.element, form.element],
-      stage: [stage.element, h("div", { class: "toolbar" }, cut.element), slices.element],
-      side: [numbers.element, componentList, downloads.element, again.element],
+      stage: [stage.element, h("div", { class: "toolbar" }, cut.element, places.legend), slices.element],
+      side: [numbers.element, places.list, downloads.element, again.element],
     }),
     /**
      * @param {OpenScan} file
@@ -325,6 +335,9 @@ export function createScanView(studio) {
       asked = "";
       meshBefore = null;
       isFresh = true;
+      anyway.hidden = true;
+      places.show([]);
+      pieces.show(null);
       after.setMesh({ surfaces: [] });
       empty.hidden = true;
       numbers.show(file.numbers ?? []);
@@ -376,6 +389,10 @@ export function createScanView(studio) {
       method.set(options.smooth ?? "");
       steps.set(options.steps ?? 20);
       despeckle.set(options.despeckle ?? 0);
+      pieces.set(options.keep_components ?? null);
+      const chosen = options.label === undefined ? null : [options.label].flat();
+      for (const [i, tick] of labelTicks().entries())
+        tick.checked = !chosen || chosen.includes(open?.scan?.labels?.[i].value);
       form.set(options);
       cut.set(section.cut);
       setCuts();

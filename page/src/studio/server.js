@@ -10,7 +10,7 @@ import { decodeLayer } from "./layer.js";
  *   default: any, default_text?: string, least: number|null, most: number|null}} Option */
 /** @typedef {{name: string, title: string, sentence: string, kind: string, products: string[],
  *   facts: Record<string, any>, parameters: Option[], picture: string}} Pattern */
-/** @typedef {{name: string, value: any, unit?: string, help?: string, key?: string}} NumberRow */
+/** @typedef {{name: string, value: any, unit?: string, help?: string, key?: string, about?: boolean}} NumberRow */
 /** @typedef {{version: string, limits: Record<string, number>, products: Record<string, Option[]>,
  *   materials: {name: string, density: number}[], slicers: string[], file: {name: string}|null}} About */
 /** @typedef {{stage: string, share: number}} Progress */
@@ -28,10 +28,12 @@ export class StatedError extends Error {
   /**
    * @param {string} message
    * @param {string|null} [parameter]
+   * @param {boolean} [refused] whether the result was made, and is not the requested solid
    */
-  constructor(message, parameter = null) {
+  constructor(message, parameter = null, refused = false) {
     super(message);
     this.parameter = parameter;
+    this.refused = refused;
   }
 }
 
@@ -107,9 +109,9 @@ async function readReply(response, onProgress) {
     else if (kind === MESH) reply.mesh = payload.buffer;
     else if (kind === LAYER) reply.layer = decodeLayer(payload.buffer);
     else if (kind === ERROR) {
-      const { message, parameter, cancelled } = parseJson(payload);
+      const { message, parameter, cancelled, refused } = parseJson(payload);
       if (cancelled) throw new DOMException(message, "AbortError");
-      throw new StatedError(message, parameter);
+      throw new StatedError(message, parameter, refused);
     }
   }
   if (!reply.answer) throw new StatedError("The studio stopped before it had answered. Try again.");

@@ -5,13 +5,13 @@
  * view with its source and its options; a file of the user's is known by its name alone and has to be dropped again.
  */
 
-/** @typedef {"start"|"patterns"|"part"|"print"|"scan"} ViewName */
+/** @typedef {"start"|"patterns"|"part"|"print"|"scan"|"block"} ViewName */
 /** @typedef {{sample?: string, given?: boolean, name?: string}} Source */
 /** @typedef {{source: Source|null, options: Record<string, any>, [key: string]: any}} Section */
-/** @typedef {{view: ViewName, part: Section, print: Section, scan: Section}} State */
+/** @typedef {{view: ViewName, part: Section, print: Section, scan: Section, block: Section}} State */
 
-export const VIEWS = /** @type {const} */ (["start", "patterns", "part", "print", "scan"]);
-const SECTIONS = ["part", "print", "scan"];
+export const VIEWS = /** @type {const} */ (["start", "patterns", "part", "print", "scan", "block"]);
+const SECTIONS = ["part", "print", "scan", "block"];
 const MOST_UNDONE = 200;
 
 /** @type {State} */
@@ -20,6 +20,7 @@ const EMPTY = {
   part: { source: null, options: {}, cut: { axis: "y", share: 0.5 }, material: "" },
   print: { source: null, options: {}, layer: null },
   scan: { source: null, options: {}, cut: { axis: "none", share: 0.5 }, places: {} },
+  block: { source: null, options: {}, cut: { axis: "none", share: 0.5 } },
 };
 
 /**

@@ -3,6 +3,7 @@
  */
 
 import { copyText } from "./again.js";
+import { createBlockView } from "./block.js";
 import { announce, h, icon, replaceChildren } from "./dom.js";
 import { createGallery } from "./gallery.js";
 import { createPartView } from "./part.js";
@@ -21,9 +22,11 @@ const TABS = /** @type {const} */ ([
   ["part", "Part"],
   ["print", "Print"],
   ["scan", "Scan"],
+  ["block", "Block"],
   ["patterns", "Patterns"],
 ]);
-const MAKERS = { part: createPartView, print: createPrintView, scan: createScanView };
+const MAKERS = { part: createPartView, print: createPrintView, scan: createScanView, block: createBlockView };
+const NEEDS_FILE = ["part", "print", "scan"];
 // What a sample is best seen with.
 const SAMPLES = { part: {}, print: {}, scan: { threshold: 226 } };
 
@@ -36,7 +39,7 @@ async function begin() {
   );
   const [about, patterns] = await Promise.all([server.about(), server.patterns(), opening]);
   const store = createStore(readFragment(location.hash));
-  /** @type {Partial<Record<"part"|"print"|"scan", any>>} */
+  /** @type {Partial<Record<"part"|"print"|"scan"|"block", any>>} */
   const views = {};
   /** @type {Partial<Record<ViewName, HTMLElement>>} */
   const elements = {};
@@ -119,7 +122,7 @@ async function begin() {
     store.replace({ ...store.state, view }, { record: false, cause: "view" });
   }
 
-  /** @param {"part"|"print"|"scan"} name */
+  /** @param {"part"|"print"|"scan"|"block"} name */
   function viewOf(name) {
     views[name] ??= MAKERS[name](studio);
     elements[name] ??= views[name].element;
@@ -225,12 +228,12 @@ async function begin() {
    */
   function render(state, cause) {
     const { view } = state;
-    if (view === "part" || view === "print" || view === "scan") {
+    if (view === "part" || view === "print" || view === "scan" || view === "block") {
       const shown = viewOf(view);
-      if (state[view].source || view === "scan" || view === "print") shown.update(state[view], cause);
+      if (state[view].source || view !== "part") shown.update(state[view], cause);
     }
     const element =
-      view in MAKERS && !state[/** @type {"part"} */ (view)].source
+      NEEDS_FILE.includes(view) && !state[/** @type {"part"} */ (view)].source
         ? emptyView(/** @type {"part"} */ (view))
         : elements[view];
     if (element && main.firstElementChild !== element) {

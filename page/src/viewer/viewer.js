@@ -21,6 +21,7 @@ import {
 } from "three";
 import { makeBeads } from "./beads.js";
 import { listen, OrbitCamera } from "./camera.js";
+import { makeMarks } from "./marks.js";
 import { computeNormals } from "./normals.js";
 import { cutPlane, Section } from "./section.js";
 import { isSoftware } from "./software.js";
@@ -55,7 +56,7 @@ export function createViewer(element, { label = "3D view" } = {}) {
 }
 
 /** @typedef {{mesh: Mesh, material: MeshLambertMaterial, section: Section | null, members: Shown[],
- *   origin: Uint32Array, values: Uint8Array | null, triangles: number, opacity: number, colour: Color}} Shown */
+ *   origin: Uint32Array, values: Uint8Array | null, ramp: Color[] | null, triangles: number, opacity: number, colour: Color}} Shown */
 
 class Viewer {
   /**
@@ -89,6 +90,8 @@ class Viewer {
     this.shown = new Map();
     /** @type {Map<string, ReturnType<typeof makeBeads>>} */
     this.lines = new Map();
+    /** @type {Map<string, ReturnType<typeof makeMarks>>} */
+    this.marks = new Map();
     /** @type {Cut | null} */
     this.cut = null;
     /** @type {Set<(camera: CameraState) => void>} */
@@ -129,6 +132,7 @@ class Viewer {
       const old = before.get(surface.name);
       if (old) {
         shown.mesh.visible = old.mesh.visible;
+        shown.ramp = old.ramp;
         paint(shown, old.colour);
       }
       this.shown.set(surface.name, shown);
@@ -199,6 +203,20 @@ class Viewer {
   }
 
   /**
+   * Choose the colours of the values of a surface, from the lowest to the highest; none show the surface in its own.
+   *
+   * @param {string} name
+   * @param {string[]} ramp Colours as CSS writes them.
+   */
+  setRamp(name, ramp) {
+    const shown = this.shown.get(name);
+    if (!shown) return;
+    shown.ramp = ramp.map((css) => new Color(css));
+    paint(shown, shown.colour);
+    this.invalidate();
+  }
+
+  /**
    * Take away what lies before a plane, and fill the cut through closed surfaces; null takes nothing away.
    *
    * What goes is above z, right of x, or in front of y.
@@ -257,6 +275,37 @@ class Viewer {
       child.visible = layer >= first && layer <= last && !child.userData.empty;
     });
     this.invalidate();
+  }
+
+  /**
+   * Mark places with rings, in place of those marked before under the same name.
+   *
+   * @param {string} name
+   * @param {import("./marks.js").Mark[]} marks
+   */
+  setMarks(name, marks) {
+    const before = this.marks.get(name);
+    if (before) {
+      this.scene.remove(before);
+      before.geometry.dispose();
+      this.marks.delete(name);
+    }
+    if (marks.length) {
+      const made = makeMarks(marks);
+      this.marks.set(name, made);
+      this.scene.add(made);
+    }
+    this.invalidate();
+  }
+
+  /**
+   * Turn about a place from now on, and have it in the middle.
+   *
+   * @param {number[]} at x, y, z in mm.
+   */
+  lookAt(at) {
+    this.orbit.state.target = [at[0], at[1], at[2]];
+    this.moved();
   }
 
   /** Show everything, from where the camera stands. */
@@ -389,7 +438,18 @@ class Viewer {
     const colour = own ?? new Color(COLOURS[number % COLOURS.length]);
     const { values } = surface;
     /** @type {Shown} */
-    const shown = { mesh, material, section: null, members: [], origin, values, triangles, opacity: 1, colour };
+    const shown = {
+      mesh,
+      material,
+      section: null,
+      members: [],
+      origin,
+      values,
+      ramp: null,
+      triangles,
+      opacity: 1,
+      colour,
+    };
     paint(shown, colour);
     return shown;
   }
@@ -515,16 +575,13 @@ function fade(shown, opacity) {
 function paint(shown, colour) {
   shown.colour = colour;
   shown.section?.material.color.copy(colour).lerp(WHITE, SECTION_WHITE);
-  if (shown.values === null) {
+  if (shown.values === null || shown.ramp?.length === 0) {
     shown.material.color.copy(colour);
+    shown.material.vertexColors = false;
+    shown.material.needsUpdate = true;
     return;
   }
-  const table = new Float32Array(3 * 256);
-  const mixed = new Color();
-  for (let value = 0; value < 256; value++) {
-    const share = Math.abs(value - UNCHANGED) / (value < UNCHANGED ? UNCHANGED : 255 - UNCHANGED);
-    mixed.lerpColors(colour, value < UNCHANGED ? LOST : ADDED, share).toArray(table, 3 * value);
-  }
+  const table = shown.ramp ? rampTable(shown.ramp) : changeTable(colour);
   const colours = new Float32Array(3 * shown.origin.length);
   shown.origin.forEach((vertex, i) => {
     const at = 3 * /** @type {Uint8Array} */ (shown.values)[vertex];
@@ -534,6 +591,37 @@ function paint(shown, colour) {
   shown.material.color.set("white");
   shown.material.vertexColors = true;
   shown.material.needsUpdate = true;
+}
+
+/**
+ * Return the colours of 256 values that say what was lost and added: three numbers each.
+ *
+ * @param {Color} colour Of what has not changed.
+ */
+function changeTable(colour) {
+  const table = new Float32Array(3 * 256);
+  const mixed = new Color();
+  for (let value = 0; value < 256; value++) {
+    const share = Math.abs(value - UNCHANGED) / (value < UNCHANGED ? UNCHANGED : 255 - UNCHANGED);
+    mixed.lerpColors(colour, value < UNCHANGED ? LOST : ADDED, share).toArray(table, 3 * value);
+  }
+  return table;
+}
+
+/**
+ * Return the colours of 256 values along a ramp: three numbers each.
+ *
+ * @param {Color[]} ramp
+ */
+function rampTable(ramp) {
+  const table = new Float32Array(3 * 256);
+  const mixed = new Color();
+  for (let value = 0; value < 256; value++) {
+    const place = (value / 255) * (ramp.length - 1);
+    const low = Math.max(0, Math.min(ramp.length - 2, Math.floor(place)));
+    mixed.lerpColors(ramp[low], ramp[Math.min(low + 1, ramp.length - 1)], place - low).toArray(table, 3 * value);
+  }
+  return table;
 }
 
 /** @param {Float32Array} points x, y, z of each. */

@@ -1,0 +1,1 @@
+"""The commands as tools for assistants: a server of the Model Context Protocol, over stdin and stdout."""
