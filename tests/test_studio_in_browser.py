@@ -199,7 +199,7 @@ FOCUSABLE = """() => {
 }"""
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
 @pytest.mark.parametrize("width", WIDTHS)
 def test_no_view_has_a_serious_fault_of_access_or_overflows(
