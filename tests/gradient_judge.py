@@ -13,8 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
-from gap_judge import SPARSE
-from gcode_judge import arc
+
+from tests.gap_judge import SPARSE
+from tests.gcode_judge import arc
 
 FILAMENT = math.pi / 4 * 1.75**2  # mm²
 _TAG = re.compile(r"(?:;TYPE:|; FEATURE: )(.*)")

@@ -222,12 +222,24 @@ def print_twice(lines: list[bytes]) -> Planted:
     return Planted(planted.lines, planted.line + 1)
 
 
+def uneven_bead(lines: list[bytes]) -> Planted:
+    """Print a bead of a wall in two halves, of which one has less filament, and the other what it lacks."""
+    a, b, _ = wall_beads(lines)
+    x0, y0, before = (number(lines[a], letter) for letter in (b"X", b"Y", b"E"))
+    x1, y1, pushed = (number(lines[b], letter) for letter in (b"X", b"Y", b"E"))
+    thin = before + 0.3 * (pushed - before) if is_absolute(lines) else 0.3 * pushed
+    rest = pushed if is_absolute(lines) else pushed - thin
+    first = b"G1 X%.3f Y%.3f E%.5f" % ((x0 + x1) / 2, (y0 + y1) / 2, thin)
+    return changed(lines, b, first, b"G1 X%.3f Y%.3f E%.5f" % (x1, y1, rest))
+
+
 FAULTS: dict[str, tuple[str, Callable[[list[bytes]], Planted]]] = {
     "a bead moved": ("place", move_bead),
     "a corner dropped": ("place", drop_bead),
     "a layer dropped": ("missing", drop_layer),
     "a layer raised": ("height", raise_layer),
     "more filament": ("material", more_filament),
+    "an uneven bead": ("material", uneven_bead),
     "a jump of E": ("E jump", jump_filament),
     "a hotter nozzle": ("temperature", before_walls(b"M104 S245")),
     "a cold bed": ("temperature", before_walls(b"M140 S0")),

@@ -17,8 +17,8 @@ from infill.gcode.arcs import find_arcs, path_steps
 from infill.gcode.machine_state import MachineState
 from infill.gcode.path_moves import ARC_DEVIATION, plan_moves
 from infill.gcode.table import read_table
-from tests.gcode_judge import Machine, changed, infilled, judge, pushed, words
-from tests.gcode_judge import arc as judge_arc
+from tests.arc_fitting import drawn_arcs, straightened
+from tests.gcode_judge import Machine, changed, infilled, judge, pushed
 from tests.gcode_judge import read as read_line
 from tests.gcode_structure import supported
 from tests.handmade_prints import Dialect, written
@@ -28,44 +28,10 @@ LAYERS = 8
 PRINTS = ["p29_arcs_gyroid_marlin2.gcode", "p29_arcs_honeycomb_klipper.gcode"]
 
 
-def straightened(data: bytes) -> bytes:
-    """Return a print with relative filament in which chords stand for its arcs, as the judge cuts them."""
-    lines, x, y = [], 0.0, 0.0
-    for raw in data.splitlines(keepends=True):
-        given = dict(words(raw.split(b";")[0])) if raw[:1] == b"G" else {}
-        code = raw[:3].strip()
-        goal = (given.get("X", x) or 0.0, given.get("Y", y) or 0.0) if code in (b"G0", b"G1", b"G2", b"G3") else (x, y)
-        if code in (b"G2", b"G3") and "E" in given:
-            points = judge_arc((x, y), goal, given, clockwise=code == b"G2")
-            keep = [*points[1:-1:6], points[-1]]
-            lengths = [math.dist(a, b) for a, b in zip([points[0], *keep], keep, strict=False)]
-            for (px, py), length in zip(keep, lengths, strict=True):
-                share = given["E"] * length / sum(lengths)
-                feed = b" F%g" % given["F"] if "F" in given and (px, py) == keep[0] else b""
-                lines.append(b"G1 X%.3f Y%.3f E%.5f%s\n" % (px, py, share, feed))
-        else:
-            lines.append(raw)
-        x, y = goal
-    return b"".join(lines)
-
-
 def lower(data: bytes, layers: int) -> bytes:
     """Return the layers that a print of PrusaSlicer begins with, and its end."""
     begins = [found.start() for found in re.finditer(rb"^;LAYER_CHANGE", data, re.MULTILINE)]
     return data[: begins[layers]] + data[data.rindex(b";TYPE:Custom") :]
-
-
-def drawn_arcs(moves_of: bytes) -> tuple[int, int]:
-    """Count the arcs and all moves that print in the sparse infill."""
-    arcs = moves = 0
-    inside = False
-    for line in moves_of.split(b"\n"):
-        if line.startswith((b";TYPE:", b"; FEATURE:")):
-            inside = b"nternal infill" in line or b"Sparse infill" in line
-        elif inside and re.match(rb"G[123] .*[XY].*E[\d.]", line):
-            moves += 1
-            arcs += line.startswith((b"G2", b"G3"))
-    return arcs, moves
 
 
 def outside(faults: list[str]) -> float:

@@ -100,7 +100,7 @@ def test_without_ties_pieces_are_left_out_and_told(logo: str) -> None:
     assert once(box(44, 30, 8), logo, open_="top", ties=False).report["problems"] == []  # what it recommends
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("shell", [{"wall": 0}, {"wall": 1, "open_": "both"}])
 def test_a_repeated_drawing_of_islands_is_one_piece(shell: dict[str, Any], tmp_path: Path) -> None:
     """The density is that of lines and ties together."""

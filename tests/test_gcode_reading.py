@@ -666,7 +666,7 @@ BETWEEN: dict[str, bool] = {
     "; printing object a\n": False,
     "G1 Z.4\nG1 Z.2\n": False,
     "G1 U3 X10 Y0\n": False,
-    "G2 X10 Y0 I0 J0 E.1\n": False,
+    "G2 X10 Y0 I0 J0 E.1\nG1 X10 Y0\n": False,  # which cannot be read, so that the place must be said again
 }
 
 

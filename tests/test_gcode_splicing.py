@@ -496,7 +496,7 @@ def square(middle: str = "", mode: str = "M83") -> bytes:
 
 ODDITIES = {
     "G1 X1 X2\n": "a line that cannot be read",
-    "G2 X10 Y10 I0 J0 E.1\n": "arcs that climb or close on no circle",
+    "G2 X10 Y10 I0 J0 E.1\n": "a line that cannot be read",
     "G2 X10 Y5 I2 J0 E.1\n": "arcs that climb or close on no circle",
     "G2 X10 Y10 I1 J0 E.1\n": "lines of different widths",
     "N5 G1 X10\n": "line numbers",

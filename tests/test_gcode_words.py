@@ -93,6 +93,7 @@ COUNTED = {  # what cannot be planned, though it may move or extrude
     "a fourth axis alone": "G1 U20",
     "an arc without a centre": "G2 X70 Y50 E1",
     "an arc of radius 0": "G2 X70 Y50 R0 E1",
+    "an arc around its own beginning": "G2 X70 Y50 I0 J0 E1",
     "an arc by radius to nowhere": "G2 R10 E1",
     "centres of arcs that are no offsets": "G90.1",
     "a spline": "G5 X70 Y50 I1 J2 P3 Q4 E1",
@@ -132,6 +133,15 @@ def test_what_cannot_be_planned_is_counted(name: str, tmp_path: Path) -> None:
     assert f"left out 2 lines that may move or extrude, first at line {HEAD.count(chr(10)) + 2}" in result.stdout
     result = CliRunner().invoke(build_app(), ["motion", str(tmp_path / "print.gcode"), "--json"])
     assert json.loads(result.stdout)["unread_lines"] == 2
+
+
+def test_an_arc_whose_radius_does_not_reach_its_end_is_counted(tmp_path: Path) -> None:
+    """Of 20 mm with a radius of 9; in the plane of x and z, too. One of 10 reaches."""
+    found = of(tmp_path, "G2 X70 Y50 R9 E1\nG18\nG2 X70 Z20.2 R9 E1\nG17\nG2 X70 Y70 R10 E1\n")
+    assert (found.unread_lines, found.first_unread_line) == (2, HEAD.count("\n") + 1)
+    assert found.length == pytest.approx(TURN / 2, rel=1e-6)
+    table = read_table(b"M83\nG1 X0 Y0 Z0\nG2 X20 Y0 R9 E1\nG2 X40 Y0 R10 E1\n", MachineState())
+    assert table.extruded.tolist() == [0, 0, 0, 1]
 
 
 @pytest.mark.parametrize("line", ["G1 X{a} E1", "G2 X70 Y50 E1", "M101", "G5 X9 Y9 P1 Q1 E1", "X70 E1"])
@@ -388,7 +398,7 @@ def test_infill_beside_lines_that_cannot_be_read_stays(tmp_path: Path) -> None:
     path.write_bytes(marked)
     report = refill(path, output=tmp_path / "new.gcode").report
     assert report["print"]["unread_lines"] == motion(path).unread_lines == 3
-    assert any("3 lines that may move or extrude were not understood" in each for each in report["problems"])
+    assert any("3 lines that may move or extrude cannot be read" in each for each in report["problems"])
     assert (tmp_path / "new.gcode").read_bytes().count(b"G1 Q1 X1") == 3
 
 

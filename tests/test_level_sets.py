@@ -203,6 +203,7 @@ def test_a_block_is_made_of_a_level_set(stamp: str) -> None:
     assert result.report["problems"] == []
 
 
+@pytest.mark.longest
 def test_what_changes_with_height_is_a_block_too() -> None:
     block = make(SchwarzP(), size=8, height=4, density=0.3)
     assert block.surface.closed

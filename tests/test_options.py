@@ -76,6 +76,7 @@ OUT_OF_RANGE = {
         "--steps": "-1",
         "--smooth-radius": "-1 0 nan",
         "--crumbs": "-1 nan",
+        "--keep-components": "0 9 3-1 x",
         "--fidelity": "-1 nan",
         "--interface": "0 nan",
         "--level": "5 nan",

@@ -17,7 +17,7 @@ from test_command_line import one_line_error, run, usage_error
 from test_packed_prints import TWO, members, packed
 from test_packed_prints import binary as binary
 
-from infill import FormatError, Motion, ParameterError, UsageError, motion
+from infill import FormatError, Motion, ParameterError, UsageError, motion, verify
 from infill.gcode.estimates import find_estimates
 from infill.gcode.given_limits import read_printer
 from infill.gcode.limit_names import LIMIT_NAMES, NAMES, is_used, parse_limits, set_limits
@@ -641,6 +641,7 @@ def test_nothing_but_statements_of_time_changes(name: str, tmp_path: Path) -> No
     changed = same_but_times(old_lines, new_lines)
     assert changed > (0 if plan.written.statements else -1)
     assert plan.written.statements == sum(map(is_time, old_lines))
+    assert verify(path, new).agrees
     if any(line.startswith((b"; estimated", b";TIME:", b"; total est", b"; model")) for line in new_lines):
         assert motion(new).estimate == pytest.approx(plan.seconds, abs=1)
     again = tmp_path / "again.gcode"

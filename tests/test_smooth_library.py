@@ -662,7 +662,7 @@ def test_a_thin_plate_that_breaks_is_an_error_and_allowed_on_request() -> None:
     assert smooth_volume(plate(8), method="plain", tolerance=None).report["problems"] == []
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_remedies_are_tried_before_anything_is_refused() -> None:
     result = smooth_volume(plate(2), smoothing=Smoothing(steps=60), method="plain", tolerance=None)
     assert result.report["verdict"]["word"] != "lost"

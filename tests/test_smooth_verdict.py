@@ -111,7 +111,7 @@ def test_a_plate_that_becomes_a_sieve_is_lost_and_the_advice_works() -> None:
     assert report["verdict"]["word"] != "lost"
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_a_plate_that_would_become_a_sieve_gets_finer_voxels(monkeypatch: pytest.MonkeyPatch) -> None:
     for module in (meshes, from_mesh):
         monkeypatch.setattr(module, "RESOLUTION", 50)

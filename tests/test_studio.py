@@ -744,6 +744,7 @@ def test_mistakes_on_the_command_line(tmp_path: Path) -> None:
     assert error.stderr.count("\n") == 1
 
 
+@pytest.mark.longest
 def test_the_other_commands_load_nothing_of_it() -> None:
     code = "import sys; sys.argv = ['infill', '--help']\nfrom infill.cli import main\ntry: main()\nexcept SystemExit: pass\n"
     code += (

@@ -208,7 +208,7 @@ def test_the_numbers_of_labels_do_not_matter() -> None:
     assert triangles_as_set(one, order) == triangles_as_set(other, np.arange(9))
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("method", ["plain", "refine"])
 def test_a_partition_passes_through_itself_nowhere(method: Any) -> None:
     """Not even where many lines on which three labels meet were made smooth: moves are taken back there."""

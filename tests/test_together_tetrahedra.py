@@ -78,6 +78,7 @@ def test_tetrahedra_fill_every_label_and_end_at_its_walls(
     assert_fills(walls, mesh)
 
 
+@pytest.mark.longest
 @pytest.mark.parametrize("name", NASTY)
 def test_nasty_labels_are_filled_too(name: str) -> None:
     graph, walls, mesh = cut_of(np.asarray(NASTY[name]()).astype(np.int64), steps=0)
@@ -106,6 +107,7 @@ def test_better_points_leave_walls_and_turn_nothing_inside_out(scale: tuple[floa
     assert volumes_of(better.points, better.tetrahedra).sum() == pytest.approx(labels.size)
 
 
+@pytest.mark.longest
 @pytest.mark.parametrize("axis", [0, 1, 2])
 def test_heat_flows_through_layers_as_their_resistances_say(axis: int, tmp_path: Path) -> None:
     """Another library solves on the file: linear elements are exact in layers, if they are conforming and in place."""

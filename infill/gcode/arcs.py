@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 from infill.arrays import Flags, Floats, Places
 from infill.gcode.chords import arc_turns, centres_by_radius, stated_circles
 from infill.gcode.lines import ARC, ODD
-from infill.gcode.table import GcodeTable
+from infill.gcode.table import OFF_CIRCLE, GcodeTable
 
-OFF_CIRCLE = 0.05  # mm by which the two ends of an arc may differ in their distance from its centre
 SMALLEST_RADIUS, LARGEST_RADIUS = 1e-3, 1e5  # mm
 LEAST_STEP = 0.02  # mm between points on an arc
 XY_PLANE = 17  # as G17 selects it
@@ -127,8 +126,6 @@ def find_arcs(table: GcodeTable) -> PlaneArcs:
     inner, outer = np.hypot(*first.T), np.hypot(*last.T)
     with np.errstate(invalid="ignore"):
         sound = (np.abs(outer - inner) <= OFF_CIRCLE) & (inner > SMALLEST_RADIUS) & (inner < LARGEST_RADIUS)
-        # An end farther away than a circle of the stated radius reaches.
-        sound &= ~by_radius | (np.hypot(*(end - start).T) <= 2 * np.abs(stated) + OFF_CIRCLE)
     return arcs.select(sound & level & once)
 
 

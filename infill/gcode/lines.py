@@ -305,7 +305,7 @@ def _read_odd_lines(
     """
     unread = np.zeros(len(kind), dtype=bool)
     further: dict[int, dict[str, float]] = {}
-    lacking = (kind == ARC) & ~(has_word[:, WORDS.index("I")] | has_word[:, WORDS.index("J")])
+    lacking = (kind == ARC) & ~np.nan_to_num(values[:, [WORDS.index("I"), WORDS.index("J")]]).any(axis=1)
     kind[lacking] = ODD
     values[lacking], has_word[lacking] = np.nan, False
     for line in np.flatnonzero(kind == ODD).tolist():

@@ -7,6 +7,7 @@ stated by the words sent to the machine, in mm. E is in the unit of the file: mm
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -18,6 +19,9 @@ from infill.gcode.lines import WORDS, GcodeCommand, ParsedLines, parse_lines
 from infill.gcode.machine_state import INCH, MachineState, apply_mode, changes_moves, firmware_retraction
 from infill.gcode.unusual_moves import EXTRUDERS
 from infill.kernels.compiling import is_compiler_loaded
+
+OFF_CIRCLE = 0.05  # mm by which the two ends of an arc may differ in their distance from its centre
+ACROSS = {17: "z", 18: "y", 19: "x"}  # the axis across the plane of arcs that G17, G18 and G19 select
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -171,6 +175,8 @@ def _replay(data: bytes, lines: ParsedLines, before: MachineState) -> GcodeTable
         )
         if command is not None:
             state, first_line = after, last_line + 1
+    lines = _without_unreachable_arcs(lines, further, where, plane, before)
+    extruded[lines.unread] = 0.0
     unsure, lost = _find_unsure(lines, before.lost)
     after = replace(state, f=float(feed[-1]) if count else before.f, lost=lost)
     after = replace(after, **_retraction_state(before, extruded, commands))
@@ -252,6 +258,26 @@ def _convert_inches(lines: ParsedLines, before: MachineState) -> tuple[Floats, d
         for line, words in lines.further.items()
     }
     return np.where(inches[:, None], lines.values * INCH, lines.values), further
+
+
+def _without_unreachable_arcs(
+    lines: ParsedLines,
+    further: dict[int, dict[str, float]],
+    where: dict[str, Floats],
+    plane: NDArray[np.uint8],
+    before: MachineState,
+) -> ParsedLines:
+    """Return the lines; arcs by a radius that does not reach their end are unread: firmware does not agree on them."""
+    by_radius = [line for line, words in further.items() if "R" in words and lines.code[line] > 1]
+    if not by_radius:
+        return lines
+    unread = lines.unread.copy()
+    for line in by_radius:
+        names = [name for name in "xyz" if name != ACROSS[int(plane[line])]]
+        start = [where[name][line - 1] if line else getattr(before, name) for name in names]
+        chord = math.dist(start, [where[name][line] for name in names])
+        unread[line] |= chord > 2 * abs(further[line]["R"]) + OFF_CIRCLE
+    return replace(lines, unread=unread)
 
 
 def _find_unsure(lines: ParsedLines, lost: str) -> tuple[NDArray[np.bool_], str]:

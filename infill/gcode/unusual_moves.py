@@ -136,8 +136,12 @@ def _is_unsure(code: int, words: Mapping[str, float]) -> bool:
 
 
 def is_arc(words: Mapping[str, float]) -> bool:
-    """Return True if the words define an arc; without a centre, or a radius and an end, firmware draws none."""
-    return bool({"I", "J", "K"} & set(words)) or bool(words.get("R") and {"X", "Y", "Z"} & set(words))
+    """Return True if the words define an arc; without a radius, and a centre or an end, firmware draws none.
+
+    >>> is_arc({"X": 5.0, "I": 2.0}), is_arc({"X": 5.0, "I": 0.0, "J": 0.0}), is_arc({"X": 5.0, "R": 0.0})
+    (True, False, False)
+    """
+    return any(words.get(letter) for letter in "IJK") or bool(words.get("R") and {"X", "Y", "Z"} & set(words))
 
 
 def may_move(code: str, text: bytes) -> bool:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from infill.gcode.ending import describe_missing_end
 from infill.gcode.infill_sections import ODD_ARCS
 from infill.gcode.survey import Survey
+from infill.plain_numbers import count_noun
 from infill.refilling.placement import parameter_facts
 from infill.refilling.request import AUTO, KEEP, Request
 from infill.refilling.rules import RefillRules
@@ -194,8 +195,8 @@ def _problems(report: RefillReport, tally: RefillStats) -> list[str]:
         problems.append(f"{failed} sections were kept because a check of the new text failed")
     if tally.unread:
         problems.append(
-            f"{tally.unread} lines that may move or extrude were not understood, the first is line "
-            f"{tally.first_unread}; they stay as they are, and the times leave them out"
+            f"{count_noun(tally.unread, 'line')} that may move or extrude cannot be read, the first is line "
+            f"{tally.first_unread}; what cannot be read stays as it is, and the times leave it out"
         )
     contact = report["contact"]
     by_itself = report["request"]["smooth_radius_mm"] == AUTO

@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from infill.arrays import Floats, Places
+from infill.arrays import Flags, Floats, Places
 from infill.plain_numbers import plain_argument
 from infill.verifying.comparison import BeadComparison
 from infill.verifying.setting_faults import add_settings, settings_codes
@@ -16,10 +16,12 @@ from infill.verifying.tolerances import (
     HEIGHT_TOLERANCE,
     PATH_TOLERANCE,
     SPEED_STEP,
+    UNIT,
 )
 from infill.verifying.violations import ViolationList, describe_lengths, describe_place, describe_speeds
 
 POINT_FILAMENT: Final = 0.05  # mm on a bead as short as the tolerance, which may be without a partner
+SAME_COURSE: Final = 3 * PATH_TOLERANCE  # mm between two beads that come as far along their gap
 GAP_SHARE: Final = 0.06  # of the filament in a gap: fitters of arcs join beads that differ by 5 %
 LENGTH_SHARE, LENGTH_STEP = 0.02, 0.3  # of the beads in a gap, and mm, that an arc in place of lines may be longer
 
@@ -81,6 +83,7 @@ def _compare_gap_sums(comparison: BeadComparison, found: ViolationList) -> None:
         comparison.new_rows[gaps.new[np.searchsorted(gaps.new_gap, again)]],
         lambda k: f"{lengths[1][again[k]]:.1f} mm of beads on each other, was {lengths[0][again[k]]:.1f} mm",
     )
+    _compare_gap_courses(comparison, found, usable & ~wrong & ~longer)
     numbers = np.flatnonzero(wrong & usable & ~longer)
     rows = gaps.new[np.searchsorted(gaps.new_gap, numbers)]
     found.add_runs(
@@ -89,6 +92,44 @@ def _compare_gap_sums(comparison: BeadComparison, found: ViolationList) -> None:
         lambda k: describe_lengths(now[numbers[k]], was[numbers[k]], "of filament"),
         comparison.a.line[gaps.old[np.searchsorted(gaps.old_gap, numbers)]],
     )
+
+
+def _compare_gap_courses(comparison: BeadComparison, found: ViolationList, usable: Flags) -> None:
+    """Compare the filament bead by bead in gaps that follow the same course: one bead may have what another lacks."""
+    gaps, count = comparison.gaps, len(comparison.alignment.gaps)
+    old, new = comparison.a.at(gaps.old), comparison.b.at(gaps.new)
+    if not len(old) or not len(new):
+        return
+    knots = np.maximum.accumulate(_shares_of_way(old.length, gaps.old_gap, count).ravel())
+    begin, end = _shares_of_way(new.length, gaps.new_gap, count).T
+    pushed = np.cumsum(old.filament)
+    pushed = np.column_stack([pushed - old.filament, pushed]).ravel()
+    was = np.interp(end, knots, pushed) - np.interp(begin, knots, pushed)
+    aside = np.zeros(len(new))
+    for places, at in ((new.start, begin), (new.end, end)):
+        course = np.stack([old.start[:, :2], old.end[:, :2]], axis=1).reshape(-1, 2)
+        there = np.column_stack([np.interp(at, knots, course[:, axis]) for axis in (0, 1)])
+        aside = np.maximum(aside, np.hypot(*(places[:, :2] - there).T))
+    both = np.bincount(gaps.old_gap, minlength=count) > 0
+    astray = np.bincount(gaps.new_gap, weights=~(aside <= SAME_COURSE), minlength=count) > 0
+    slack = 2 * PATH_TOLERANCE * was / np.maximum(new.length, UNIT) + 2 * FILAMENT_STEP
+    wrong = np.abs(new.filament - was) > GAP_SHARE * was + slack
+    beads = np.flatnonzero(wrong & (usable & both & ~astray)[gaps.new_gap])
+    found.add_runs(
+        "material",
+        comparison.new_rows[gaps.new[beads]],
+        lambda k: describe_lengths(new.filament[beads[k]], was[beads[k]], "of filament"),
+        comparison.a.line[gaps.nearest[beads]],
+    )
+
+
+def _shares_of_way(length: Floats, gap: Places, count: int) -> Floats:
+    """Return where beads begin and end on the way through their gap, (N, 2): twice its number, and a share of it."""
+    whole = np.bincount(gap, weights=length, minlength=count)[gap]
+    passed = np.cumsum(length)
+    before = (passed - length)[np.searchsorted(gap, gap)]  # where the gap begins
+    ends = np.column_stack([passed - length - before, passed - before]) / np.maximum(whole, UNIT)[:, None]
+    return np.asarray(2.0 * gap[:, None] + np.minimum(ends, 1.0))
 
 
 def _compare_neighbours(comparison: BeadComparison, speed_limit: float, found: ViolationList, rows: Places) -> None:

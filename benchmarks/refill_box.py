@@ -1,0 +1,56 @@
+"""How fast a box prints whose infill is drawn anew in the slicer's own pattern: ``python -m benchmarks.refill_box``.
+
+    python -m benchmarks.refill_box [--size 60,60,20] [--patterns gyroid,honeycomb,hilbert]
+
+PrusaSlicer slices a box with 15 % of each pattern, for Marlin 2 and for a board of 8 bits; `refill --pattern` draws
+the infill anew with the same filament. Printed is a table in Markdown, of the whole print by `infill motion` with the
+limits of the file: its turns over 30 degrees, its time and its filament, each over that of the slicer's print.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import tempfile
+from pathlib import Path
+
+from infill import motion, refill
+from tests.prints import box, prusa_print
+
+SLICED = {"gyroid": "gyroid", "honeycomb": "honeycomb", "hilbert": "hilbertcurve"}  # as PrusaSlicer calls them
+BOARDS = {"Marlin 2": "marlin2", "8 bits": "marlin"}
+
+
+def main() -> int:
+    asked = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    asked.add_argument("--size", default="60,60,20", help="of the box, mm")
+    asked.add_argument("--patterns", default=",".join(SLICED), help="with commas between")
+    options = asked.parse_args()
+    print("| pattern | board | turns | of the slicer's | time, s | of the slicer's | filament |")
+    print("|---|---|---|---|---|---|---|")
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        x, y, z = map(float, options.size.split(","))
+        part = box(folder, (x, y, z))
+        for pattern in options.patterns.split(","):
+            for board, flavour in BOARDS.items():
+                settings = {"fill_pattern": SLICED[pattern], "gcode_flavor": flavour}
+                path = prusa_print(part, folder / "print.gcode", settings)
+                refill(path, output=folder / "new.gcode", pattern=pattern)
+                old, new = motion(path), motion(folder / "new.gcode")
+                turns = [sum(feature.turns for feature in plan.features) for plan in (old, new)]
+                row = (
+                    pattern,
+                    board,
+                    f"{turns[1]}",
+                    f"{turns[1] / turns[0]:.3f}",
+                    f"{new.seconds:.0f}",
+                    f"{new.seconds / old.seconds:.3f}",
+                    f"{new.filament / old.filament - 1:+.2%}",
+                )
+                print("| " + " | ".join(row) + " |", flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
