@@ -205,7 +205,7 @@ def _problems(report: RefillReport, tally: RefillStats) -> list[str]:
         problems.append(
             f"{1 - contact['kept_supported']:.0%} less of this infill rests on the layer below than before; "
             + (less_rounding if keeps else "try another --pattern")
-            + ("" if keeps or asked else ", or leave --pattern out")
+            + ("" if keeps or asked else ", or none, which keeps the slicer's infill")
         )
     if not keeps and contact["free_after"] - contact["free_before"] > MOST_FREE:
         problems.append(

@@ -91,7 +91,7 @@ def fill_numbers(report: Mapping[str, Any]) -> Iterator[Number]:
 
 
 def draft_numbers(draft: FillDraft) -> Iterator[Number]:
-    """Yield the numbers of a draft of a fill, which are near those of the result."""
+    """Yield those numbers of a draft of a fill that are near the result's; cell and line width are not."""
     hollow = draft.hollow
     yield Number(
         name="solid share",
@@ -103,9 +103,6 @@ def draft_numbers(draft: FillDraft) -> Iterator[Number]:
     inside = "Solid share of the space inside the walls"
     yield Number(name="density", value=hollow.density, unit="%", help=inside, about=True)
     yield Number(name="volume", value=draft.volume, unit="mm³", about=True)
-    yield Number(name="cell", value=hollow.cell, unit="mm", help="Period of the pattern", about=True)
-    width = "Width of walls, or diameter of bars"
-    yield Number(name="line width", value=hollow.width, unit="mm", help=width, about=True)
     yield Number(name="voids", value=hollow.count, about=True)
 
 

@@ -37,6 +37,7 @@ LEFT_OUT: tuple[str, ...] = (
     "by_component",
 )
 CHOICE = ("resolution", "voxel", "threshold", "between", "label", "otsu", "grey", "keep_components")
+JUDGEMENTS = ("verdict", "problems")
 COARSE_CELLS = 72  # along the longest side
 MOST_BEFORE = 1_500_000  # triangles of the surface of voxels that is shown beside the result
 
@@ -56,10 +57,13 @@ def make(order: Order) -> Made:
         before = result.stages.staircase()
         if len(before.faces) <= MOST_BEFORE:
             surfaces["voxels"] = before
+    # What larger voxels lose says nothing about the exact result.
+    hidden = JUDGEMENTS if order.coarse else ()
+    report = {name: value for name, value in result.report.items() if name not in hidden}
     return Made(
         result=result,
-        report=result.report,
-        numbers=list(smooth_numbers(result.report)),
+        report=report,
+        numbers=[row for row in smooth_numbers(result.report) if row.name not in hidden],
         surfaces=surfaces,
         volume=result.report["volume"],
         more={"pieces": list_pieces(content, settings.choice), "places": list_places(result.report)},

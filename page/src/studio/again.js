@@ -110,7 +110,7 @@ export async function copyText(text, button) {
  */
 export function createDownloads({ server, slicers }) {
   const list = h("div", { class: "downloads" });
-  const waiting = h("p", { class: "field-help" }, "Files are ready when the exact answer is.");
+  const waiting = h("p", { class: "field-help" }, "The files to save appear here when the exact result is ready.");
   const slicer = h(
     "select",
     { "aria-label": "Slicer of the project", onchange: () => refresh() },

@@ -213,6 +213,7 @@ export function createBlockView({ server, about, patterns, store }) {
       if (cause === "move") live.move();
       else live.jump();
     },
-    stop: () => live.stop(),
+    hold: () => live.hold(),
+    go: () => live.go(),
   };
 }

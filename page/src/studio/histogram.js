@@ -121,6 +121,7 @@ export function createHistogram({ histogram, least, most, onChange }) {
       svg,
       h("p", { class: "axis", "aria-hidden": "true" }, h("span", {}, plain(least)), h("span", {}, plain(most))),
       ...rows.map(({ element }) => element),
+      h("p", { class: "field-help" }, "The outline in the slices shows what is solid."),
       error,
     ),
     set,

@@ -28,10 +28,11 @@ export function createLive({ ask, show, fail, busy, drafts = true }) {
   let wantsCoarse = false;
   let wantsExact = false;
   let isMoving = false;
+  let isHeld = false;
   let timer = 0;
 
   function next() {
-    if (running) return;
+    if (running || isHeld) return;
     if (wantsCoarse) run("coarse");
     else if (wantsExact) run("exact");
     else busy(null);
@@ -100,12 +101,20 @@ export function createLive({ ask, show, fail, busy, drafts = true }) {
       wantsExact = true;
       next();
     },
-    /** Nothing is wanted any more. */
-    stop() {
-      forget();
-      wantsCoarse = false;
+    /** Let go of the processor, which a file that is being read needs, until `go`. */
+    hold() {
+      if (isHeld) return;
+      isHeld = true;
+      if (running?.quality === "exact") wantsExact = true;
+      else if (running) wantsCoarse = true;
       drop();
       busy(null);
+    },
+    /** Go on with what is still wanted. */
+    go() {
+      if (!isHeld) return;
+      isHeld = false;
+      next();
     },
   };
 }

@@ -384,7 +384,8 @@ export function createPartView(studio) {
       if (cause === "move") live.move();
       else live.jump();
     },
-    stop: () => live.stop(),
+    hold: () => live.hold(),
+    go: () => live.go(),
     viewer,
   };
 }

@@ -328,7 +328,8 @@ export function createPrintView(studio) {
       if (cause === "move") live.move();
       else live.jump();
     },
-    stop: () => live.stop(),
+    hold: () => live.hold(),
+    go: () => live.go(),
   };
 }
 

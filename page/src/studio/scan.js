@@ -410,7 +410,8 @@ export function createScanView(studio) {
       if (cause === "move") live.move();
       else live.jump();
     },
-    stop: () => live.stop(),
+    hold: () => live.hold(),
+    go: () => live.go(),
   };
 }
 

@@ -152,10 +152,11 @@ async function begin() {
     loading = control;
     const name = file instanceof File ? file.name : "the sample";
     showLoading(`Reading ${name}`);
+    for (const view of Object.values(views)) view.hold();
     try {
       const { answer, mesh } = await server.load(file, {
         signal: control.signal,
-        onProgress: ({ stage }) => showLoading(`Reading ${name}: ${stage}`),
+        onProgress: ({ stage }) => showLoading(stage === "read" ? `Reading ${name}` : `Reading ${name}: ${stage}`),
       });
       showLoading(null);
       if (answer.kind === "tile") return useTile(answer);
@@ -175,6 +176,11 @@ async function begin() {
     } catch (error) {
       if (isAbort(error)) return;
       showLoading(describeError(error)?.message ?? null, true);
+    } finally {
+      if (loading === control) {
+        loading = null;
+        views[/** @type {"part"} */ (store.state.view)]?.go();
+      }
     }
   }
 
@@ -231,6 +237,7 @@ async function begin() {
     if (view === "part" || view === "print" || view === "scan" || view === "block") {
       const shown = viewOf(view);
       if (state[view].source || view !== "part") shown.update(state[view], cause);
+      if (!loading) shown.go();
     }
     const element =
       NEEDS_FILE.includes(view) && !state[/** @type {"part"} */ (view)].source

@@ -2,7 +2,7 @@
  * What the views of a part, a print and a scan share: their layout, and how options change.
  */
 
-import { h, icon, replaceChildren, withoutFlags } from "./dom.js";
+import { capital, h, icon, replaceChildren, withoutFlags } from "./dom.js";
 import { isAbort, StatedError } from "./server.js";
 
 /** @typedef {import("./store.js").Source} Source */
@@ -102,7 +102,9 @@ export function describeError(error) {
 /** @param {string} text */
 function sentence(text) {
   const trimmed = withoutFlags(text.trim());
-  return trimmed ? trimmed.charAt(0).toUpperCase() + trimmed.slice(1) : "Something went wrong.";
+  if (!trimmed) return "Something went wrong.";
+  // The name of a file stays as its owner wrote it.
+  return /^\S+\.\w/.test(trimmed) ? trimmed : capital(trimmed);
 }
 
 /**
@@ -110,7 +112,7 @@ function sentence(text) {
  * @param {string} name
  */
 export function dropAgain(name) {
-  return `This link was made with ${name}. Open that file again to go on with these settings.`;
+  return `These are the settings for ${name}. Open that file again to go on with them.`;
 }
 
 /**
