@@ -124,6 +124,16 @@ def plain_share(share: float) -> str:
     return f"{share:.0%}" if share >= 0.1 else f"{share:.1%}"
 
 
+def plain_clock(seconds: float) -> str:
+    """Write a time, s, as hours, minutes and seconds.
+
+    >>> plain_clock(8287.2), plain_clock(59.94)
+    ('2:18:07', '0:01:00')
+    """
+    total = round(seconds)
+    return f"{total // 3600}:{total // 60 % 60:02}:{total % 60:02}"
+
+
 def count_noun(count: int, noun: str, plural: str | None = None) -> str:
     """Write a count with its noun in the right number; the plural ends in s unless it is given.
 

@@ -45,7 +45,7 @@ class LevelParts:
     shared, shared_in, shared_rank : (S,) int64, int32, int64
         Names of shared vertices, their parts, and their numbers among the vertices of the chunk.
     voters, votes : (v,) int64
-        ChunkTriangles times the number of components plus the component of the whole, and the vertices nearest to it.
+        Part times the number of components, plus the component of the whole, and the vertices nearest to it.
     """
 
     cubes: UndecidedCubes

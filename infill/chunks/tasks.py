@@ -2,7 +2,7 @@
 
     smooth ─▶ components, volumes at the first level        make_part ─▶ triangles to write
 
-See `infill.chunks.work` for what they read, and `infill.chunks.level_parts` for volumes at other levels.
+See `infill.chunks.work` for their input, and `infill.chunks.level_parts` for volumes at other levels.
 """
 
 from __future__ import annotations

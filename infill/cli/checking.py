@@ -9,7 +9,7 @@ import typer
 
 from infill.cli.console import format_table, print_json, say
 from infill.errors import InfillError
-from infill.plain_numbers import count_noun, plain_size
+from infill.plain_numbers import count_noun, plain_clock, plain_size
 
 if TYPE_CHECKING:
     from infill.inspection.printability import Inspection
@@ -146,9 +146,8 @@ def _size_text(inspection: Inspection | PrintCheck) -> str:
     from infill.timing.print_check import PrintCheck
 
     if isinstance(inspection, PrintCheck):
-        seconds = round(inspection.seconds)
-        time = f"{seconds // 3600}:{seconds // 60 % 60:02}:{seconds % 60:02}"
-        return f"{count_noun(inspection.layers, 'layer')}, {inspection.filament / 1000:.2f} m of filament, {time}"
+        layers, time = count_noun(inspection.layers, "layer"), plain_clock(inspection.seconds)
+        return f"{layers}, {inspection.filament / 1000:.2f} m of filament, {time}"
     size = plain_size(*inspection.extents, digits=4)
     return f"{inspection.triangles:,} triangles, {_count_parts(inspection)}, {size}"
 

@@ -30,18 +30,6 @@ if TYPE_CHECKING:
 MOST_ROWS = 60  # labels in the summary
 MOST_FILES = 12  # that a dry run lists
 MOST_PROBLEMS = 12  # in the summary
-UNFIT = (
-    "units",
-    "resolution",
-    "voxel",
-    "shell",
-    "threshold",
-    "range",
-    "otsu",
-    "grey",
-    "keep_components",
-    "by_component",
-)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,10 +77,11 @@ def wants_every_label(
 def refuse_options(settings: SmoothSettings, output: SmoothOutput) -> None:
     """Raise BadParameter for the first option that is given but does not apply to labels."""
     from infill.options.declaration import declared_options
+    from infill.smoothing.settings import NOT_FOR_LABELS
 
     declared = declared_options(type(settings))
     given = ["preview"] * (output.preview is not None)
-    given += [key for key in UNFIT if getattr(settings, declared[key].field) != declared[key].default]
+    given += [key for key in NOT_FOR_LABELS if getattr(settings, declared[key].field) != declared[key].default]
     given += ["grey"] * (settings.method == "grey")
     if given:
         option = given[0].replace("_", "-")

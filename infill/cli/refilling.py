@@ -18,7 +18,7 @@ from infill.cli.console import format_table, print_json, progress_bar, say
 from infill.cli.declared import takes_options
 from infill.cli.piping import STDOUT, check_outputs, is_piped, send_file
 from infill.errors import InfillError
-from infill.plain_numbers import plain_number
+from infill.plain_numbers import plain_clock, plain_number
 from infill.refilling.request import PATHS, Request
 from infill.refilling.settings import resolve
 from patterns.errors import PatternError
@@ -223,7 +223,7 @@ def _summary(report: RefillReport, name: str, files: list[str]) -> str:
     if plates := report["print"]["plates"]:
         rows["plates"] = ", ".join(map(str, plates))
     if "choice" in report:
-        times = ", ".join(f"{pattern} {_clock(time)}" for pattern, time in report["choice"]["seconds"].items())
+        times = ", ".join(f"{pattern} {plain_clock(time)}" for pattern, time in report["choice"]["seconds"].items())
         rows["pattern"] = f"{report['request']['pattern']}, since {report['choice']['reason']} ({times} for the print)"
     if sections["kept"]:
         rows["kept"] = ", ".join(f"{number} ({reason})" for reason, number in sections["kept"].items())
@@ -275,8 +275,8 @@ def _print_text(filament: FilamentKeys, seconds: TimeKeys, source: str) -> str:
     else:
         unit = "g"
     change = f", {new_s / old_s - 1:+z.1%}" if old_s else ""
-    slicer = f"; {source} said {_clock(seconds['slicer_s'])}" if seconds["slicer_s"] else ""
-    return f"{_clock(new_s)} and {grams:.2f} {unit}{change} ({_clock(old_s)} and {old_g:.2f} {unit}{slicer})"
+    slicer = f"; {source} said {plain_clock(seconds['slicer_s'])}" if seconds["slicer_s"] else ""
+    return f"{plain_clock(new_s)} and {grams:.2f} {unit}{change} ({plain_clock(old_s)} and {old_g:.2f} {unit}{slicer})"
 
 
 def _even_text(even: EvenKeys) -> str:
@@ -290,12 +290,6 @@ def _even_text(even: EvenKeys) -> str:
         f"{plain_number(even['median_step_before'])} {unit}; as sliced {plain_number(even['spread_sliced'])} and "
         f"{plain_number(even['median_step_sliced'])} {unit})"
     )
-
-
-def _clock(seconds: float) -> str:
-    """Format a time to the second, like `infill motion`."""
-    total = round(seconds)
-    return f"{total // 3600}:{total // 60 % 60:02}:{total % 60:02}"
 
 
 def _format_span(seconds: float) -> str:

@@ -15,7 +15,7 @@ from infill.cli.piping import is_piped
 from infill.errors import FormatError
 from infill.gcode.ending import describe_missing_end
 from infill.options.declaration import by_field, read_options
-from infill.plain_numbers import count_noun, plain_argument, plain_number, plain_size
+from infill.plain_numbers import count_noun, plain_argument, plain_clock, plain_number, plain_size
 from infill.timing.request import FILES, MotionOptions
 
 if TYPE_CHECKING:
@@ -168,9 +168,9 @@ def _summary(path: Path, plan: Motion) -> str:
     )
     rows = {} if plan.plate is None else {"plate": _plate_text(plan)}
     rows |= {
-        "time": _format_clock(plan.seconds),
+        "time": plain_clock(plan.seconds),
         "slicer": plan.slicer or "unknown",
-        "its estimate": "none" if plan.estimate is None else _format_clock(plan.estimate),
+        "its estimate": "none" if plan.estimate is None else plain_clock(plan.estimate),
         "layers": _layers_text(plan),
         "filament": f"{format_length(plan.filament, 2)}, "
         f"{count_noun(plan.retractions, 'retraction')}{_volumetric_note(plan)}",
@@ -187,7 +187,7 @@ def _summary(path: Path, plan: Motion) -> str:
             f"{plan.first_unread_line}: {plan.first_unread_text}"
         )
     if plan.macro_seconds:
-        given = ", ".join(f"{name} {_format_clock(seconds)}" for name, seconds in plan.macro_seconds.items())
+        given = ", ".join(f"{name} {plain_clock(seconds)}" for name, seconds in plan.macro_seconds.items())
         rows["given times"] = given
     if plan.macros:
         rows["macros"] = (
@@ -248,7 +248,7 @@ def _feature_table(plan: Motion) -> str:
     for feature in sorted(plan.features, key=lambda feature: -feature.seconds):
         share = f"{feature.seconds / plan.seconds:.1%}"
         name = feature.name or feature.role
-        rows.append([name, _format_clock(feature.seconds), share, *(show(feature) for show in COLUMNS.values())])
+        rows.append([name, plain_clock(feature.seconds), share, *(show(feature) for show in COLUMNS.values())])
     return _align_columns(rows)
 
 
@@ -267,7 +267,7 @@ def _comparison_table(motions: Sequence[Motion]) -> str:
         rows.append(
             [
                 role,
-                *map(_format_clock, times),
+                *map(plain_clock, times),
                 f"{times[1] / times[0] - 1:+z.1%}" if times[0] else "-",
                 *(f"{sum(feature.length for feature in features) / 1000:.2f}" for features in features_of_role),
                 *(f"{sum(feature.turns for feature in features)}" for features in features_of_role),
@@ -288,13 +288,3 @@ def _align_columns(rows: Sequence[Sequence[str]]) -> str:
         cells = [f"{first:<{widths[0]}}", *(f"{cell:>{width}}" for cell, width in zip(rest, widths[1:], strict=True))]
         lines.append("  " + "  ".join(cells))
     return "\n".join(lines)
-
-
-def _format_clock(seconds: float) -> str:
-    """Format a time as hours, minutes and seconds.
-
-    >>> _format_clock(8287.2), _format_clock(59.94)
-    ('2:18:07', '0:01:00')
-    """
-    total = round(seconds)
-    return f"{total // 3600}:{total // 60 % 60:02}:{total % 60:02}"

@@ -13,7 +13,7 @@ from infill.cli.common import RUN, Quiet
 from infill.cli.console import format_table, print_json, say
 from infill.cli.declared import takes_options
 from infill.options.declaration import by_field, read_options
-from infill.plain_numbers import count_noun
+from infill.plain_numbers import count_noun, plain_clock
 from infill.verifying.settings import VerifyRequest
 
 if TYPE_CHECKING:
@@ -84,20 +84,14 @@ def _summary(report: VerifyReport, name: str) -> str:
         rows["ALLOWED"] = ", ".join(f"{count} of {kind}" for kind, count in report["allowed"].items())
     if compared["not_compared"]:
         rows["NOT COMPARED"] = "; ".join(compared["not_compared"])
-    rows["time"] = f"{_clock(new['seconds'])}, was {_clock(old['seconds'])}"
+    rows["time"] = f"{plain_clock(new['seconds'])}, was {plain_clock(old['seconds'])}"
     rows["filament"] = f"{new['filament_mm'] / 1000:.3f} m, was {old['filament_mm'] / 1000:.3f} m"
     for feature in report["features"]:
         seconds = feature["seconds_after"], feature["seconds_before"]
         filament = feature["filament_after_mm"], feature["filament_before_mm"]
         if abs(seconds[0] - seconds[1]) > LEAST_SHOWN or abs(filament[0] - filament[1]) > LEAST_SHOWN:
             rows[feature["role"]] = (
-                f"{_clock(seconds[0])}, was {_clock(seconds[1])}; "
+                f"{plain_clock(seconds[0])}, was {plain_clock(seconds[1])}; "
                 f"{filament[0] / 1000:.3f} m, was {filament[1] / 1000:.3f} m"
             )
     return format_table(rows, title=name)
-
-
-def _clock(seconds: float) -> str:
-    """Format a time to the second, like `infill motion`."""
-    total = round(seconds)
-    return f"{total // 3600}:{total // 60 % 60:02}:{total % 60:02}"

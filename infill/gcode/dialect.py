@@ -119,7 +119,7 @@ def tool_of(code: str, words: Mapping[str, float | None], text: bytes) -> str:
 
 
 def object_of(code: str, text: bytes) -> tuple[str, str] | None:
-    """Return what a command says of objects: of Marlin's M486 or Klipper's EXCLUDE_OBJECT; None for other commands.
+    """Return the object that a command names: Marlin's M486 or Klipper's EXCLUDE_OBJECT; None for other commands.
 
     Returns
     -------

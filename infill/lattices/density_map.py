@@ -1,4 +1,4 @@
-"""The requested density of a filled part, at every point of it: what a graded density, or regions, ask for."""
+"""The requested density of a filled part, at every point of it, where it is graded or has regions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Options as words of a command line: what a person would have typed for them."""
+"""Options as words of a command line, as a person would type them."""
 
 from __future__ import annotations
 

@@ -154,7 +154,7 @@ def _tie_in_room(lines: shapely.Geometry, room: shapely.Polygon, width: float, *
 def _pieces_in_room(
     lines: shapely.Geometry, room: shapely.Polygon, width: float, *, walled: bool
 ) -> tuple[list[shapely.Geometry], int]:
-    """Return what hangs together in a room: first pieces with a rim, then islands; and the number of the former."""
+    """Return the connected groups of a room: first pieces with a rim, then islands; and the number of the former."""
     touching = TOUCHING * width
     strokes = shapely.get_parts(shapely.intersection(lines, room.buffer(touching if walled else 0.0)))
     strokes = strokes[shapely.length(strokes) > 0]

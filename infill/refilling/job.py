@@ -28,6 +28,7 @@ from infill.gcode.estimates import EstimateChange, Restatement, StatedAmounts, r
 from infill.gcode.sliced_file import SlicedText, check_output_name, open_sliced
 from infill.gcode.stream import edited_text
 from infill.pictures.picturable import Picturable
+from infill.plain_numbers import plain_clock
 from infill.refilling.request import AUTO, ENDLESS, KEEP, Progress, Request, describe_objects
 from infill.version import __version__
 from infill.viewer.viewable import Viewable
@@ -129,17 +130,17 @@ def refill_page(prints: Mapping[str, DrawnSpeeds], report: RefillReport, title: 
     report : dict
     title : str
     """
-    from infill.viewer.print_page import format_clock, print_page
+    from infill.viewer.print_page import print_page
 
     numbers = {"pattern": report["request"]["pattern"]}
     sections, seconds, filament = report.get("sections"), report.get("time"), report.get("filament")
     if sections is not None and seconds is not None and filament is not None:
         numbers |= {
             "sections refilled": f"{sections['replaced']:,} of {sections['all']:,}",
-            "time before": format_clock(seconds["print_before_s"]),
-            "time after": format_clock(seconds["print_after_s"]),
-            "infill before": format_clock(seconds["infill_before_s"]),
-            "infill after": format_clock(seconds["infill_after_s"]),
+            "time before": plain_clock(seconds["print_before_s"]),
+            "time after": plain_clock(seconds["print_after_s"]),
+            "infill before": plain_clock(seconds["infill_before_s"]),
+            "infill after": plain_clock(seconds["infill_after_s"]),
             "filament before": f"{filament['print_before_mm'] / 1000:.2f} m",
             "filament after": f"{filament['print_after_mm'] / 1000:.2f} m",
         }

@@ -244,7 +244,7 @@ def _waves(inside: BaseGeometry) -> Iterator[Line]:
 
 
 def _clip(rows: Sequence[Floats], inside: BaseGeometry) -> Iterator[Line]:
-    """Yield what lies inside of each row, from left to right and back."""
+    """Yield the parts inside of each row, from left to right and back."""
     backwards = False
     for row in rows:
         pieces = shapely.get_parts(shapely.line_merge(shapely.intersection(shapely.LineString(row), inside)))

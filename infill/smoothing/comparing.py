@@ -76,7 +76,7 @@ class Differences:
     fewer: tuple[str, ...] = ()
 
     def refused(self, *, strict: bool) -> tuple[str, ...]:
-        """Return what a result is refused for: losses, and if `strict`, whatever breaks, fuses or vanishes."""
+        """Return the reasons to refuse a result: losses, and if `strict`, whatever breaks, fuses or vanishes."""
         return (*self.losses, *self.problems, *self.fewer) if strict else self.losses
 
 

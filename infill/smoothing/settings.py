@@ -27,6 +27,19 @@ if TYPE_CHECKING:
 AUTO, REFINE, PLAIN = "auto", "refine", "plain"
 FILES, LABELS, GRID, SOLID = "Files", "Every label in one run", "Grid", "What is solid"
 SURFACE, RUN, ADVANCED = "Surface", "Run", "Advanced"
+# Options of one solid, by key, which the labels of a segmentation do not have.
+NOT_FOR_LABELS = (
+    "units",
+    "resolution",
+    "voxel",
+    "shell",
+    "threshold",
+    "range",
+    "otsu",
+    "grey",
+    "keep_components",
+    "by_component",
+)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, BinaryIO, cast
 
 from infill.options.declaration import by_field, read_options
-from infill.smoothing.settings import SmoothSettings, resolve
+from infill.smoothing.settings import NOT_FOR_LABELS, SmoothSettings, resolve
 from infill.studio.changed_places import list_places
 from infill.studio.equivalents import Call, Code, join_words, write_command, write_value
 from infill.studio.numbers import label_numbers
@@ -15,25 +15,7 @@ from infill.studio.products import Made, Order
 from infill.studio.smoothing_keywords import shared_keywords
 
 DECLARATION = SmoothSettings
-LEFT_OUT: tuple[str, ...] = (
-    "as",
-    "units",
-    "array",
-    "series",
-    "frame",
-    "spacing",
-    "roi",
-    "each_label",
-    "resolution",
-    "voxel",
-    "shell",
-    "threshold",
-    "range",
-    "otsu",
-    "grey",
-    "keep_components",
-    "by_component",
-)
+LEFT_OUT: tuple[str, ...] = ("as", "array", "series", "frame", "spacing", "roi", "each_label", *NOT_FOR_LABELS)
 
 
 def make(order: Order) -> Made:

@@ -18,7 +18,7 @@ from infill.gcode.limits import FIELDS_BY_MODEL, Model
 from infill.gcode.printer_limits import LimitNote
 from infill.gcode.sliced_file import SlicedFile, open_sliced
 from infill.pictures.picturable import Picturable
-from infill.plain_numbers import count_noun
+from infill.plain_numbers import count_noun, plain_clock
 from infill.planner.feature_sums import FeatureSums
 from infill.planner.layer_sums import LayerSums, neighbour_spread
 from infill.planner.open_timeline import collect_given, make_timeline
@@ -122,8 +122,7 @@ class Motion(Picturable):
 
     def __repr__(self) -> str:
         """Return the time, the slicer, the layers and the filament."""
-        minutes, seconds = divmod(round(self.seconds), 60)
-        time = f"{minutes // 60}:{minutes % 60:02}:{seconds:02}"
+        time = plain_clock(self.seconds)
         slicer = self.slicer or "unknown slicer"
         return f"Motion({time}, {slicer}, {count_noun(self.layers, 'layer')}, {self.filament / 1000:.2f} m of filament)"
 

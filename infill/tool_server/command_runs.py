@@ -88,7 +88,7 @@ async def run_command(words: Sequence[str], folder: Path, report_progress: Repor
 
 
 def read_outcome(status: int, printed: bytes, lines: Sequence[str]) -> CommandOutcome:
-    """Return the outcome of a command from what it printed.
+    """Return the outcome of a command from its exit status, its output and the lines of stderr.
 
     >>> read_outcome(1, b"", ["Usage: infill fill", "error: --wall is -1 mm"]).error
     '--wall is -1 mm'

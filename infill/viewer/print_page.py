@@ -69,16 +69,6 @@ def print_page(prints: Mapping[str, DrawnSpeeds], *, title: str, numbers: Sequen
     )
 
 
-def format_clock(seconds: float) -> str:
-    """Format a time as hours, minutes and seconds.
-
-    >>> format_clock(8287.2), format_clock(59.94)
-    ('2:18:07', '0:01:00')
-    """
-    total = round(seconds)
-    return f"{total // 3600}:{total // 60 % 60:02}:{total % 60:02}"
-
-
 def thin_out(drawn: DrawnSpeeds, stride: int) -> DrawnSpeeds:
     """Return one layer of so many; what comes before the first layer belongs to it.
 
