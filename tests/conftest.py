@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import locale
 import logging
 import os
 import tomllib
@@ -77,6 +78,14 @@ def data() -> Path:
     if not folder.is_dir():
         pytest.skip(f"no test data at {folder}; {ADVICE}")
     return Data(folder)
+
+
+@pytest.fixture(autouse=True)
+def same_locale() -> Iterator[None]:
+    """Restore the locale: what writes a test's DICOM file changes it, and the next test would decode as ASCII."""
+    before = locale.setlocale(locale.LC_ALL)
+    yield
+    locale.setlocale(locale.LC_ALL, before)
 
 
 @pytest.fixture

@@ -119,20 +119,24 @@ def parse_ranges(name: str, value: object) -> tuple[tuple[int, int | None], ...]
     Raises
     ------
     UsageError
+        If the value is no such text.
+    ParameterError
+        If a number is 0, or a range ends before it begins.
 
     >>> parse_ranges("keep_components", "1, 3-5,8-"), parse_ranges("keep_components", [1, 3])
     (((1, 1), (3, 5), (8, None)), ((1, 1), (3, 3)))
     """
     words = value.split(",") if isinstance(value, str) else value if isinstance(value, (list, tuple)) else [value]
+    problem = f"is {quote_value(value)}; give numbers from 1 on and ranges: 1,3-5 or 2-"
     ranges = []
     for word in words or [""]:
         first, dash, last = str(word).strip().partition("-")
-        numbers = [
-            int(end) if end.isascii() and end.isdecimal() and len(end) < MOST_DIGITS else 0 for end in (first, last)
-        ]
-        low, high = numbers[0], numbers[1] if last else None if dash else numbers[0]
+        if not all(end.isascii() and end.isdecimal() and len(end) < MOST_DIGITS for end in (first, last or first)):
+            raise UsageError.about(name, problem)
+        low = int(first)
+        high = int(last) if last else None if dash else low
         if low < 1 or (high is not None and high < low):
-            raise UsageError.about(name, f"is {quote_value(value)}; give numbers from 1 on and ranges: 1,3-5 or 2-")
+            raise ParameterError.about(name, problem)
         ranges.append((low, high))
     return tuple(ranges)
 
