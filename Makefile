@@ -8,10 +8,14 @@ DEMO ?= demo
 DESIGNS = concentric-heart zigzag honeycomb
 
 BIN = .venv/bin
-HOST_TESTS = $(addprefix tests/test_,pyvista.py napari.py 3d_slicer.py)
+HOSTS = slicer-core PySide6-Essentials pre-commit
+HOST_PIP = .venv-hosts/bin/python -m pip --quiet --disable-pip-version-check
+HOST_TESTS = installed.py pyvista.py napari.py 3d_slicer.py print_hosts.py orca_plugin.py repository_checks.py
+BESIDE_THE_PACKAGE = tests examples docs pyproject.toml .pre-commit-hooks.yaml .github action.yml
 NO_PLUGINS = -p no:napari -p no:napari-plugin-engine -p no:npe2
 ISSUE_FORMS = $(filter-out %/config.yml,$(wildcard .github/ISSUE_TEMPLATE/*.yml))
 SOURCES = $(shell find infill patterns -name '*.py')
+WHEEL_SOURCES = $(shell find infill patterns -type f ! -name '*.pyc') examples/cura/InfillRefill.py README.md
 
 ## make demo      the three designs of the paper as STL, with a picture of each (the default)
 ## make test      the suite without its longest cases, in 5 minutes
@@ -19,7 +23,7 @@ SOURCES = $(shell find infill patterns -name '*.py')
 ## make coverage  the whole suite at once, with the share of lines that it reaches
 ## make quick     the suite without what is slow
 ## make oldest    the suite on the oldest dependencies that are allowed
-## make hosts     phasefill inside of PyVista, napari and 3D Slicer, in an environment of its own
+## make hosts     the wheel in an environment of its own, with each program that it works in or with
 ## make fuzz      mutated files of every format, for an hour; FUZZ="--minutes 300 --only meshes" says how
 ## make lint      ruff, the words, the schemas of workflows, issue forms and CITATION.cff, and page/ where npm is
 ## make types     mypy --strict
@@ -81,9 +85,15 @@ oldest: .venv-oldest/test
 	@.venv-oldest/bin/python -m pip check
 	@NUMBA_CACHE_DIR=$(CURDIR)/.venv-oldest/numba .venv-oldest/bin/python -m pytest -q -n 2
 
-# In an environment of their own: they take 600 MB and more, and napari brings plug-ins of pytest.
+# In an environment of their own: they take 600 MB and more, and napari brings plug-ins of pytest. The tests run in a copy
+# of the checkout that lacks the packages, so that what they import and start is the wheel.
+hosts: export INFILL_DATA ?= $(abspath $(firstword $(wildcard data ../shared/data) data))
 hosts: .venv-hosts/test
-	@.venv-hosts/bin/python -m pytest -q -p no:cov $(NO_PLUGINS) $(HOST_TESTS)
+	@rm -rf build/hosts
+	@mkdir -p build/hosts
+	@cp -R $(BESIDE_THE_PACKAGE) build/hosts
+	@cd build/hosts && $(CURDIR)/.venv-hosts/bin/python -m pytest -q -rs -n 2 --dist worksteal $(NO_PLUGINS) \
+		$(HOST_TESTS:%=tests/test_%)
 
 host-pictures: .venv-hosts/test
 	@.venv-hosts/bin/python docs/host_pictures.py
@@ -200,10 +210,17 @@ include tools/page.mk
 		--constraint constraints/oldest.txt --editable '.[test]'
 	@touch $@
 
-.venv-hosts/test: pyproject.toml
+.venv-hosts/pip: pyproject.toml
 	@$(PYTHON) -m venv --clear .venv-hosts
-	@.venv-hosts/bin/python -m pip install --quiet --disable-pip-version-check \
-		--editable '.[test,pyvista,napari]' slicer-core PySide6-Essentials
+	@touch $@
+
+# The wheel with the extras of those programs, what its users have beside it, and what tests need. A version that is
+# installed already would be kept: hence the last line.
+.venv-hosts/test: .venv-hosts/pip $(WHEEL_SOURCES)
+	@rm -rf build/wheel
+	@$(HOST_PIP) wheel --no-deps --wheel-dir build/wheel .
+	@$(HOST_PIP) install "$$(echo build/wheel/*.whl)[mcp,napari,pyvista]" $(HOSTS) pytest pytest-xdist hypothesis PyYAML
+	@$(HOST_PIP) install --no-deps --force-reinstall build/wheel/*.whl
 	@touch $@
 
 .venv/lint: .venv/pip pyproject.toml

@@ -16,6 +16,7 @@ from hypothesis.internal.conjecture import providers
 
 from infill import smooth_volume
 from infill.lattices import sizing
+from infill.samples.catalogue import find_sample, write_sample
 from tests.cpu_times import is_first_case
 
 settings.register_profile(
@@ -78,6 +79,24 @@ def data() -> Path:
     if not folder.is_dir():
         pytest.skip(f"no test data at {folder}; {ADVICE}")
     return Data(folder)
+
+
+def real_or_sample(name: str, sample: str, folder: Path) -> Path:
+    """Return a real file if it was fetched, else the sample that stands in for it."""
+    path = Path(os.environ.get("INFILL_DATA", HOMES[0])) / name
+    return path if path.is_file() else write_sample(sample, folder / find_sample(sample).file)
+
+
+@pytest.fixture(scope="session")
+def real_mesh(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A femur as STL, closed, in mm; a bracket where that was not fetched."""
+    return real_or_sample("medical/femur.stl", "part", tmp_path_factory.mktemp("mesh"))
+
+
+@pytest.fixture(scope="session")
+def real_print(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A print of PrusaSlicer's; one made by code where that was not fetched."""
+    return real_or_sample("prints/p29_objects_m486.gcode", "print", tmp_path_factory.mktemp("print"))
 
 
 @pytest.fixture(autouse=True)

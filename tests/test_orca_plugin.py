@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import enum
 import json
+import re
 import shlex
 import stat
 import subprocess
@@ -21,6 +22,7 @@ from tests.handmade_prints import Dialect, written
 
 FILE = Path(__file__).resolve().parents[1] / "examples" / "orcaslicer" / "infill_refill.py"
 PRINT = written(Dialect(slicer="orca", layers=5))
+PROGRAM = Path(sys.executable).with_name("infill")
 NOTHING = '{"product": "refill", "problems": [], "print": {}, "sections": {"all": 3, "replaced": 2}, "time": {}, "filament": {}}'
 PROBLEM = NOTHING.replace("[]", '["no sparse infill"]')
 
@@ -184,6 +186,24 @@ def test_the_print_is_refilled(plugin: Loaded, home: Path, gcode: Path) -> None:
     assert gcode.read_bytes() == new
 
 
+@pytest.mark.longest
+@pytest.mark.skipif(not PROGRAM.exists(), reason="the command is not beside Python here")
+def test_a_large_print_is_refilled_by_the_installed_command(
+    plugin: Loaded, home: Path, gcode: Path, real_print: Path
+) -> None:
+    """Compared with what was sliced; the plug-in finds the command where pipx puts it."""
+    sliced = real_print.read_bytes()
+    gcode.write_bytes(sliced)
+    (home / ".local" / "bin").mkdir(parents=True)
+    (home / ".local" / "bin" / "infill").symlink_to(PROGRAM)
+    result = plugin.post_process(gcode, verify=True)
+    assert result.status is PluginResult.Success, result.message
+    replaced, all_sections = re.match(r"(\d+) of (\d+) sections of infill", result.message).groups()
+    assert int(replaced) > 0.8 * int(all_sections) > 5
+    assert b"; refilled by phasefill" in gcode.read_bytes() != sliced
+    assert list(gcode.parent.iterdir()) == [gcode]
+
+
 @pytest.mark.slow
 def test_an_error_of_the_program_itself(plugin: Loaded, home: Path, gcode: Path) -> None:
     result = plugin.post_process(gcode, program=real(home / "programs" / "infill"), smooth_radius="wide")
@@ -277,8 +297,16 @@ def test_settings_become_options(plugin: Loaded, home: Path, gcode: Path) -> Non
         "--set|cell=3 mm|--max-segments|200|-o|refilled.gcode|sliced.gcode|"
         "verify|--quiet|sliced.gcode|refilled.gcode|"
     )
+
+
+def test_the_page_shows_the_settings_that_orcaslicer_shows(plugin: Loaded) -> None:
+    page = (FILE.parents[2] / "docs" / "slicers" / "orcaslicer.md").read_text(encoding="utf-8")
+    (shown,) = re.findall(r"^```json\n(.*?)^```$", page, re.M | re.S)
     defaults = plugin.capabilities["Refill the infill"].get_default_config()
-    assert json.loads(json.dumps(defaults)) == defaults
+    assert json.loads(shown) == json.loads(json.dumps(defaults)) == defaults
+    assert list(json.loads(shown)) == list(defaults)
+    (example,) = re.findall(r"^`({.*})`\.$", page, re.M)
+    assert json.loads(example).keys() < defaults.keys()
 
 
 def test_uvx_is_the_last_way(plugin: Loaded, home: Path, gcode: Path, monkeypatch: pytest.MonkeyPatch) -> None:

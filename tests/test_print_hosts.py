@@ -69,10 +69,10 @@ def uploaded(plugin: ModuleType, name: str, data: bytes) -> bytes:
 
 @pytest.mark.longest
 @pytest.mark.skipif(not PROGRAM.exists(), reason="the command is not beside Python here")
-def test_octoprint_gets_a_refilled_print(plugin: ModuleType, tmp_path: Path) -> None:
-    (tmp_path / "sliced.gcode").write_bytes(PRINT)
-    refill(tmp_path / "sliced.gcode", output=tmp_path / "refilled.gcode")
-    assert uploaded(plugin, "part.gcode", PRINT) == (tmp_path / "refilled.gcode").read_bytes() != PRINT
+def test_octoprint_gets_a_refilled_print(plugin: ModuleType, real_print: Path, tmp_path: Path) -> None:
+    sliced = real_print.read_bytes()
+    refill(real_print, output=tmp_path / "refilled.gcode")
+    assert uploaded(plugin, "part.gcode", sliced) == (tmp_path / "refilled.gcode").read_bytes() != sliced
     assert uploaded(plugin, "empty.gcode", b"no print\n") == b"no print\n"
 
 
@@ -135,10 +135,12 @@ def send(*words: str | Path) -> subprocess.CompletedProcess[str]:
 
 
 @pytest.mark.longest
-def test_moonraker_gets_a_refilled_print(moonraker: tuple[str, type[Uploads]], tmp_path: Path) -> None:
+def test_moonraker_gets_a_refilled_print(
+    moonraker: tuple[str, type[Uploads]], real_print: Path, tmp_path: Path
+) -> None:
     address, handler = moonraker
     sliced, expected = tmp_path / "part.gcode", tmp_path / "expected.gcode"
-    sliced.write_bytes(PRINT)
+    sliced.write_bytes(real_print.read_bytes())
     refill(sliced, output=expected)
     done = send(sliced, address, "--print", "--key", "secret")
     assert done.returncode == 0, done.stderr
@@ -149,7 +151,7 @@ def test_moonraker_gets_a_refilled_print(moonraker: tuple[str, type[Uploads]], t
     assert form["checksum"].decode() == hashlib.sha256(expected.read_bytes()).hexdigest()
     assert expected.read_bytes() in form["file"]
     assert handler.keys == ["secret"]
-    assert sliced.read_bytes() == PRINT
+    assert sliced.read_bytes() == real_print.read_bytes()
 
     refused = tmp_path / "refuse.gcode"
     refused.write_bytes(PRINT)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import contextlib
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from io import BytesIO
 from pathlib import Path
@@ -74,9 +74,15 @@ class ToolClient:
 
 
 @contextlib.contextmanager
-def run_client(cwd: Path, *words: str, mode: str = "auto", errors: Any = None) -> Iterator[ToolClient]:
+def run_client(
+    cwd: Path,
+    *words: str,
+    program: Sequence[str] = (sys.executable, "-m", "infill.cli"),
+    mode: str = "auto",
+    errors: Any = None,
+) -> Iterator[ToolClient]:
     """Start a server in a folder and connect to it."""
-    server = StdioServerParameters(command=sys.executable, args=["-m", "infill.cli", "mcp", *words], cwd=cwd)
+    server = StdioServerParameters(command=program[0], args=[*program[1:], "mcp", *words], cwd=cwd)
     transport = stdio_client(server) if errors is None else stdio_client(server, errlog=errors)
     with (
         start_blocking_portal() as portal,
