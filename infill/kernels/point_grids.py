@@ -278,48 +278,70 @@ def find_several(low, cell, shape, begins, points, number, places, distance, nam
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def project_to_nearest(
-    low, cell, shape, begins, points, half, places, count, farthest, same, names, squares, onto, apart, is_unsure
+    low,
+    cell,
+    shape,
+    begins,
+    points,
+    number,
+    half,
+    places,
+    count,
+    reach,
+    farthest,
+    same,
+    names,
+    squares,
+    onto,
+    apart,
+    is_unsure,
 ):
     """Project each place to the nearest of the `count` pieces with the nearest middles.
 
     Parameters
     ----------
-    points, half : (N, 2) float64
-        Of pieces, sorted: their middles, and the way from there to an end.
+    points : (N, 2) float64
+        Middles of pieces, sorted.
+    number : (N,) int64
+        What each piece is called.
+    half : (N, 2) float64
+        From the middle of each, by its name, to its end.
     places : (M, 2) float64
     count : int
         At most N and K.
+    reach : float
+        Farther pieces do not count.
     farthest : float
-        Middles are sought so far, at least.
+        Middles are sought so far: `reach` and the longest half, or all that there are.
     same : float
         Places so near to each other are one.
     names, squares : (K,) int64 and float64
         Overwritten: K middles are sought, as some may be as near as the last one that counts.
     onto : (M, 2) float64
-        Written.
+        Written: the place itself where no piece counts.
     apart : (M,) float64
-        Written: the distance.
+        Written: the distance; infinite there.
     is_unsure : (M,) bool
         Written: whether that hangs on which of several middles, or of several pieces, are taken as the nearest ones.
     """
     full = min(len(names), len(points)) - 1
     for place in range(len(places)):
         x, y = places[place, 0], places[place, 1]
-        names[full] = -1
-        distance = cell
+        distance = min(cell, farthest)
+        _find_around(low, cell, shape, begins, points, x, y, distance, names, squares)
         while names[full] < 0 and distance < farthest:
+            distance = min(2 * distance, farthest)
             _find_around(low, cell, shape, begins, points, x, y, distance, names, squares)
-            distance *= 2
         last = squares[count - 1]
         nearest = certain = math.inf
         is_open = is_split = False
-        onto[place, 0], onto[place, 1] = x, y
         for rank in range(len(names)):
-            k = names[rank]
-            if k < 0 or squares[rank] > last:
+            if names[rank] < 0 or squares[rank] > last:
                 break
-            share, there = _project(x, y, points[k, 0], points[k, 1], half[k, 0], half[k, 1])
-            px, py = points[k, 0] + share * half[k, 0], points[k, 1] + share * half[k, 1]
+            k = names[rank]
+            hx, hy = half[number[k], 0], half[number[k], 1]
+            share, there = _project(x, y, points[k, 0], points[k, 1], hx, hy)
+            px, py = points[k, 0] + share * hx, points[k, 1] + share * hy
             if there < nearest:
                 nearest, is_split = there, False
                 onto[place, 0], onto[place, 1] = px, py
@@ -328,9 +350,11 @@ def project_to_nearest(
             if squares[rank] < last:
                 certain = min(certain, there)
             is_open |= rank >= count
+        is_left_out = math.isfinite(last) and (squares[len(names) - 1] <= last or (is_open and not certain <= nearest))
+        is_unsure[place] = is_split or is_left_out or not (math.isfinite(nearest) or reach < math.inf)
         apart[place] = nearest
-        is_left_out = squares[len(names) - 1] <= last or (is_open and not certain <= nearest)
-        is_unsure[place] = is_split or is_left_out or not math.isfinite(nearest)
+        if nearest > reach or math.isinf(nearest):
+            apart[place], onto[place, 0], onto[place, 1] = math.inf, x, y
 
 
 @njit(nogil=True, cache=True, error_model="numpy")

@@ -56,6 +56,11 @@ class BeadIndex:
         return sort_into_grid(self.points if len(self.points) else np.zeros((1, 2)))
 
     @cached_property
+    def longest(self) -> float:
+        """The longest half of a piece, mm."""
+        return float(np.hypot(*self.half.T).max(initial=0.0))
+
+    @cached_property
     def tree(self) -> cKDTree:
         """Search tree of the points, which takes longer to load and to search than the grid."""
         from scipy.spatial import cKDTree
@@ -128,7 +133,7 @@ class BeadIndex:
         return distances, number
 
 
-def project_to_beads(points: Floats, walls: BeadIndex) -> tuple[Floats, Floats]:
+def project_to_beads(points: Floats, walls: BeadIndex, reach: float = np.inf) -> tuple[Floats, Floats]:
     """Project points to the beads of a single layer; return the places, (N, 2), and the distances, (N,), mm.
 
     Candidates are the `NEAREST` pieces with the nearest middles: where beads come together, another one may be
@@ -139,18 +144,22 @@ def project_to_beads(points: Floats, walls: BeadIndex) -> tuple[Floats, Floats]:
     points : (N, 2) float64, mm
     walls : BeadIndex
         Without points, all distances are infinite.
+    reach : float, mm
+        Beyond it, distances are infinite, which saves searching; default: as far as needed.
     """
     if not len(walls.points):
         return points, np.full(len(points), np.inf)
     count = min(NEAREST, len(walls.points))
-    chosen, nearest, unsure = walls.grid.project(points, walls.half, count, SAME_PLACE)
+    chosen, nearest, unsure = walls.grid.project(
+        points, walls.half, count, reach=reach, longest=walls.longest, same=SAME_PLACE
+    )
     if unsure.any():  # there, the tree chooses among pieces that are as near as each other
         candidates = np.asarray(walls.tree.query(points[unsure], k=list(range(1, count + 1)))[1])
         along, apart = project_to_pieces(points[unsure], walls.points, walls.half, candidates)
         rows, choice = np.arange(len(apart)), apart.argmin(axis=1)
         piece = candidates[rows, choice]
         chosen[unsure] = walls.points[piece] + along[rows, choice, None] * walls.half[piece]
-        nearest[unsure] = apart[rows, choice]
+        nearest[unsure] = np.where(apart[rows, choice] <= reach, apart[rows, choice], np.inf)
     return chosen, nearest
 
 
