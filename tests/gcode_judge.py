@@ -92,7 +92,7 @@ KINDS = {
 }
 
 
-@dataclass(frozen=True)
+@dataclass(slots=True)
 class Line:
     """A line as it stands: `body` without its ending and number, `command` without its comment."""
 
@@ -109,6 +109,8 @@ class Line:
 def read(number: int, raw: bytes) -> Line:
     body = raw.rstrip(b"\r\n")
     ending = raw[len(body) :]
+    if body.startswith((b"G1 ", b"G0 ")) and b";" not in body and b"*" not in body:  # most lines
+        return Line(number, raw, body, ending, None, body.strip(), body[:2], "move")
     n = None
     numbered = re.match(rb"\s*N(\d+)\s+", body)
     if numbered:
@@ -195,7 +197,7 @@ def _cut(data: bytes) -> list[bytes]:
     return [line for line in re.split(rb"(?<=\n)", data) if line]
 
 
-@dataclass(frozen=True)
+@dataclass(slots=True)
 class Move:
     """One line that moves something: where it began, its points, the filament it pushes, how far that was retracted."""
 
@@ -390,10 +392,13 @@ class Machine:
 
 def words(command: bytes) -> list[tuple[str, float | None]]:
     """Return the words of a command as a firmware reads them: a letter and digits; no number is None."""
-    return [
-        (letter.decode().upper(), float(number) if NUMBER.fullmatch(number) else None)
-        for letter, number in WORD.findall(command)
-    ]
+    return [(letter.decode().upper(), number_of(number)) for letter, number in WORD.findall(command)]
+
+
+@functools.lru_cache(maxsize=1 << 16)
+def number_of(text: bytes) -> float | None:
+    """Return the number that a text is, or None."""
+    return float(text) if NUMBER.fullmatch(text) else None
 
 
 def circle(start, end, given, *, clockwise: bool) -> tuple[tuple[float, float], float]:

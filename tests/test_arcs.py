@@ -16,6 +16,7 @@ from infill import UsageError, refill, verify
 from infill.gcode.arcs import find_arcs, path_steps
 from infill.gcode.machine_state import MachineState
 from infill.gcode.path_moves import ARC_DEVIATION, plan_moves
+from infill.gcode.survey import SMALL_FILE
 from infill.gcode.table import read_table
 from tests.arc_fitting import drawn_arcs, straightened
 from tests.gcode_judge import Machine, changed, infilled, judge, pushed
@@ -183,6 +184,17 @@ def test_a_print_with_arcs_is_refilled_as_the_straight_one(name: str, pattern: s
     assert straight_moves[0] == 0
     assert arcs or pattern == "triangles"
     assert moves < straight_moves[1]
+
+
+@pytest.mark.longest
+def test_a_large_print_that_misses_its_filament_is_drawn_again(data: Path, tmp_path: Path) -> None:
+    """The first cell of a grid would take 2 % more, as only whole lines can be added or removed."""
+    path, output = data / "prints" / PRINTS[0], tmp_path / "new.gcode"
+    report = refill(path, output=output, pattern="grid").report
+    assert path.stat().st_size > SMALL_FILE
+    assert report["filament"]["infill_after_mm"] == pytest.approx(report["filament"]["infill_before_mm"], rel=0.01)
+    assert report["problems"] == []
+    assert not verify(path, output).violations
 
 
 def test_arcs_are_written_where_they_are_asked_for(data: Path, tmp_path: Path) -> None:

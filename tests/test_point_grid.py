@@ -145,6 +145,10 @@ def test_the_projection_to_beads_is_that_of_a_tree(count: int, raster: float) ->
     np.testing.assert_array_equal(distance, apart[rows, choice])
     expected = points[chosen] + along[rows, choice][:, None] * half[chosen]
     np.testing.assert_allclose(projected, expected, rtol=0, atol=1e-9)
+    for reach in (0.0, 0.4, 3.0):
+        within, is_near = project_to_beads(places, beads, reach), distance <= reach
+        np.testing.assert_array_equal(within[1], np.where(is_near, distance, np.inf))
+        np.testing.assert_array_equal(within[0][is_near], projected[is_near])
 
 
 @pytest.mark.parametrize("count", [0, 1, 2, 300])

@@ -9,6 +9,7 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
+from functools import cache
 from typing import Any
 
 LOG = logging.getLogger("infill")
@@ -130,11 +131,27 @@ def log_compilation(what: str) -> Iterator[None]:
         return
     from numba.core import event
 
+    token = _WATCHED.set(True)
+    try:
+        with event.install_listener("numba:run_pass", _listener()(what)):
+            yield
+    finally:
+        _WATCHED.reset(token)
+
+
+@cache
+def _listener() -> Callable[[str], Any]:
+    """Return the class, made once, of what hears that something is being compiled."""
+    from numba.core import event
+
     class Listener(event.Listener):
+        def __init__(self, what: str) -> None:
+            self.what = what
+
         def on_start(self, event: object) -> None:  # noqa: ARG002 - any compilation counts
             if not REPORTED.is_set():
                 REPORTED.set()
-                LOG.warning(_UNCACHED_TEXT if UNCACHED.is_set() else _CACHED_TEXT, what)
+                LOG.warning(_UNCACHED_TEXT if UNCACHED.is_set() else _CACHED_TEXT, self.what)
                 if SOLE_COMPILER.is_set():
                     collect_garbage_rarely()
                 for start in AT_FIRST_COMPILATION:
@@ -143,9 +160,4 @@ def log_compilation(what: str) -> Iterator[None]:
         def on_end(self, event: object) -> None:
             pass
 
-    token = _WATCHED.set(True)
-    try:
-        with event.install_listener("numba:run_pass", Listener()):
-            yield
-    finally:
-        _WATCHED.reset(token)
+    return Listener

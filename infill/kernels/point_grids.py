@@ -230,6 +230,28 @@ def join_near(low, cell, shape, begins, points, path, reach, parent):
                         join(parent, path[point], path[k])
 
 
+@njit(from_python=False, nogil=True, cache=True, error_model="numpy")
+def _find_around(low, cell, shape, begins, points, x, y, distance, names, squares):
+    """Write the points nearest to a place, by their order in the grid, and the squares of their distances."""
+    last = len(names) - 1
+    for rank in range(last + 1):
+        names[rank], squares[rank] = -1, math.inf
+    limit = distance * distance
+    left, right = _squares_around(x, distance, low[0], cell, shape[0])
+    bottom, top = _squares_around(y, distance, low[1], cell, shape[1])
+    if left <= right:
+        for row in range(bottom, top + 1):
+            for k in range(begins[row * shape[0] + left], begins[row * shape[0] + right + 1]):
+                dx, dy = x - points[k, 0], y - points[k, 1]
+                square = dx * dx + dy * dy
+                if square < limit and square < squares[last]:
+                    rank = last
+                    while rank > 0 and square < squares[rank - 1]:
+                        names[rank], squares[rank] = names[rank - 1], squares[rank - 1]
+                        rank -= 1
+                    names[rank], squares[rank] = k, square
+
+
 @njit(nogil=True, cache=True, error_model="numpy")
 def find_several(low, cell, shape, begins, points, number, places, distance, names, squares):
     """Find the nearest points of each place, the nearest first.
@@ -246,26 +268,93 @@ def find_several(low, cell, shape, begins, points, number, places, distance, nam
     squares : (M, K) float64
         Written: squares of their distances, infinite where fewer points count.
     """
-    count_sought = names.shape[1]
     for place in range(len(places)):
         x, y = places[place, 0], places[place, 1]
-        for rank in range(count_sought):
-            names[place, rank], squares[place, rank] = -1, math.inf
-        limit = distance * distance
-        left, right = _squares_around(x, distance, low[0], cell, shape[0])
-        bottom, top = _squares_around(y, distance, low[1], cell, shape[1])
-        if left > right:
-            continue
-        for row in range(bottom, top + 1):
-            for k in range(begins[row * shape[0] + left], begins[row * shape[0] + right + 1]):
-                dx, dy = x - points[k, 0], y - points[k, 1]
-                square = dx * dx + dy * dy
-                if square < limit and square < squares[place, count_sought - 1]:
-                    rank = count_sought - 1
-                    while rank > 0 and square < squares[place, rank - 1]:
-                        names[place, rank], squares[place, rank] = names[place, rank - 1], squares[place, rank - 1]
-                        rank -= 1
-                    names[place, rank], squares[place, rank] = number[k], square
+        _find_around(low, cell, shape, begins, points, x, y, distance, names[place], squares[place])
+        for rank in range(names.shape[1]):
+            if names[place, rank] >= 0:
+                names[place, rank] = number[names[place, rank]]
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def project_to_nearest(
+    low,
+    cell,
+    shape,
+    begins,
+    points,
+    number,
+    half,
+    places,
+    count,
+    reach,
+    farthest,
+    same,
+    names,
+    squares,
+    onto,
+    apart,
+    is_unsure,
+):
+    """Project each place to the nearest of the `count` pieces with the nearest middles.
+
+    Parameters
+    ----------
+    points : (N, 2) float64
+        Middles of pieces, sorted.
+    number : (N,) int64
+        What each piece is called.
+    half : (N, 2) float64
+        From the middle of each, by its name, to its end.
+    places : (M, 2) float64
+    count : int
+        At most N and K.
+    reach : float
+        Farther pieces do not count.
+    farthest : float
+        Middles are sought so far: `reach` and the longest half, or all that there are.
+    same : float
+        Places so near to each other are one.
+    names, squares : (K,) int64 and float64
+        Overwritten: K middles are sought, as some may be as near as the last one that counts.
+    onto : (M, 2) float64
+        Written: the place itself where no piece counts.
+    apart : (M,) float64
+        Written: the distance; infinite there.
+    is_unsure : (M,) bool
+        Written: whether that hangs on which of several middles, or of several pieces, are taken as the nearest ones.
+    """
+    full = min(len(names), len(points)) - 1
+    for place in range(len(places)):
+        x, y = places[place, 0], places[place, 1]
+        distance = min(cell, farthest)
+        _find_around(low, cell, shape, begins, points, x, y, distance, names, squares)
+        while names[full] < 0 and distance < farthest:
+            distance = min(2 * distance, farthest)
+            _find_around(low, cell, shape, begins, points, x, y, distance, names, squares)
+        last = squares[count - 1]
+        nearest = certain = math.inf
+        is_open = is_split = False
+        for rank in range(len(names)):
+            if names[rank] < 0 or squares[rank] > last:
+                break
+            k = names[rank]
+            hx, hy = half[number[k], 0], half[number[k], 1]
+            share, there = _project(x, y, points[k, 0], points[k, 1], hx, hy)
+            px, py = points[k, 0] + share * hx, points[k, 1] + share * hy
+            if there < nearest:
+                nearest, is_split = there, False
+                onto[place, 0], onto[place, 1] = px, py
+            elif there == nearest and max(abs(px - onto[place, 0]), abs(py - onto[place, 1])) > same:
+                is_split = True
+            if squares[rank] < last:
+                certain = min(certain, there)
+            is_open |= rank >= count
+        is_left_out = math.isfinite(last) and (squares[len(names) - 1] <= last or (is_open and not certain <= nearest))
+        is_unsure[place] = is_split or is_left_out or not (math.isfinite(nearest) or reach < math.inf)
+        apart[place] = nearest
+        if nearest > reach or math.isinf(nearest):
+            apart[place], onto[place, 0], onto[place, 1] = math.inf, x, y
 
 
 @njit(nogil=True, cache=True, error_model="numpy")

@@ -38,7 +38,7 @@ class LayerBelow:
 
     def _on(self, beads: BeadIndex, points: Floats) -> NDArray[np.bool_]:
         """Tell which points, (N, 2), lie on some beads."""
-        is_supported: NDArray[np.bool_] = project_to_beads(points, beads)[1] <= self.reach
+        is_supported: NDArray[np.bool_] = project_to_beads(points, beads, self.reach)[1] <= self.reach
         return is_supported
 
 

@@ -23,9 +23,7 @@ BESIDE = 1.3  # line widths between the centre lines of a corner and of a bead t
 AWAY_LIMIT = 1 / 12
 TOWARDS_LIMIT = 0.015  # mm that it may move towards it
 LARGEST_DISTANCE = 5.0  # mm, of a search
-FIRST_DISTANCE = 1.0  # mm, of a search without a limit
 NEAREST = 3  # candidate pieces of beads around a point
-SEARCHED = 8  # pieces that are searched for them: some may be as near as each other
 SAME_PLACE = 1e-9  # mm between places that are one
 
 
@@ -56,6 +54,11 @@ class BeadIndex:
     def grid(self) -> PointGrid:
         """The points in the squares of a grid."""
         return sort_into_grid(self.points if len(self.points) else np.zeros((1, 2)))
+
+    @cached_property
+    def longest(self) -> float:
+        """The longest half of a piece, mm."""
+        return float(np.hypot(*self.half.T).max(initial=0.0))
 
     @cached_property
     def tree(self) -> cKDTree:
@@ -129,27 +132,8 @@ class BeadIndex:
             )
         return distances, number
 
-    def nearest_pieces(self, points: Floats) -> tuple[Places, Floats]:
-        """Find the `SEARCHED` pieces with the nearest middles for each point of a single layer, the nearest first.
 
-        Returns
-        -------
-        number : (N, SEARCHED) int
-            -1 where there are fewer.
-        square : (N, SEARCHED) float64, mm²
-            Of the distance of the middle; infinite there.
-        """
-        number = np.full((len(points), SEARCHED), -1)
-        square = np.full((len(points), SEARCHED), np.inf)
-        pending, distance, count = np.arange(len(points)), FIRST_DISTANCE, min(SEARCHED, len(self.points))
-        while len(pending) and distance < 8 * FARTHEST:
-            number[pending], square[pending] = self.grid.several(points[pending], distance, SEARCHED)
-            pending = pending[number[pending, count - 1] < 0]
-            distance *= 4
-        return number, square
-
-
-def project_to_beads(points: Floats, walls: BeadIndex) -> tuple[Floats, Floats]:
+def project_to_beads(points: Floats, walls: BeadIndex, reach: float = np.inf) -> tuple[Floats, Floats]:
     """Project points to the beads of a single layer; return the places, (N, 2), and the distances, (N,), mm.
 
     Candidates are the `NEAREST` pieces with the nearest middles: where beads come together, another one may be
@@ -160,37 +144,23 @@ def project_to_beads(points: Floats, walls: BeadIndex) -> tuple[Floats, Floats]:
     points : (N, 2) float64, mm
     walls : BeadIndex
         Without points, all distances are infinite.
+    reach : float, mm
+        Beyond it, distances are infinite, which saves searching; default: as far as needed.
     """
     if not len(walls.points):
         return points, np.full(len(points), np.inf)
     count = min(NEAREST, len(walls.points))
-    candidates, square = walls.nearest_pieces(points)
-    places, apart = _project_to_candidates(points, walls, np.maximum(candidates, 0))
-    apart[candidates < 0] = np.inf
-    # Pieces as near as the last one may be left out instead of it: where that matters, the tree chooses.
-    last = square[:, count - 1 : count]
-    certain = np.where(square < last, apart, np.inf).min(axis=1)
-    among = np.where(square <= last, apart, np.inf)
-    nearest = among.min(axis=1)
-    is_open = (square == last).sum(axis=1) > (square[:, :count] == last).sum(axis=1)
-    unsure = (is_open & ~(certain <= nearest)) | (square[:, -1] <= last[:, 0]) | ~np.isfinite(nearest)
-    # So it does where two pieces are as near, in different places.
-    rows, choice = np.arange(len(points)), among.argmin(axis=1)
-    chosen = places[rows, choice]
-    is_near = np.abs(places - chosen[:, None]).max(axis=2) <= SAME_PLACE
-    unsure |= ((among == nearest[:, None]) & ~is_near).any(axis=1)
-    if unsure.any():
+    chosen, nearest, unsure = walls.grid.project(
+        points, walls.half, count, reach=reach, longest=walls.longest, same=SAME_PLACE
+    )
+    if unsure.any():  # there, the tree chooses among pieces that are as near as each other
         candidates = np.asarray(walls.tree.query(points[unsure], k=list(range(1, count + 1)))[1])
-        places, apart = _project_to_candidates(points[unsure], walls, candidates)
+        along, apart = project_to_pieces(points[unsure], walls.points, walls.half, candidates)
         rows, choice = np.arange(len(apart)), apart.argmin(axis=1)
-        chosen[unsure], nearest[unsure] = places[rows, choice], apart[rows, choice]
+        piece = candidates[rows, choice]
+        chosen[unsure] = walls.points[piece] + along[rows, choice, None] * walls.half[piece]
+        nearest[unsure] = np.where(apart[rows, choice] <= reach, apart[rows, choice], np.inf)
     return chosen, nearest
-
-
-def _project_to_candidates(points: Floats, walls: BeadIndex, candidates: Places) -> tuple[Floats, Floats]:
-    """Project points to their candidate pieces, (N, k); return the places, (N, k, 2), and the distances, (N, k), mm."""
-    along, apart = project_to_pieces(points, walls.points, walls.half, candidates)
-    return walls.points[candidates] + along[..., None] * walls.half[candidates], apart
 
 
 def index_beads(points: Floats, layer: Places | None = None, half: Floats | None = None) -> BeadIndex:

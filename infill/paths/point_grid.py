@@ -6,11 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from infill.arrays import Floats, Places
+from infill.arrays import Flags, Floats, Places
+from infill.checks import FARTHEST
 from infill.kernels.compiling import log_compilation
 
 POINTS_A_SQUARE = 0.5  # on average
 FEWEST_SQUARES = 1024
+SEARCHED = 8  # middles of pieces that are sought: some may be as near as each other
+SLACK = 1e-9  # so that rounding leaves out no piece
 SEARCHES = "searches"  # what is compiled
 
 
@@ -72,6 +75,43 @@ class PointGrid:
         with log_compilation(SEARCHES):
             find_several(*self.squares, self.number, np.ascontiguousarray(places), float(distance), number, square)
         return number, square
+
+    def project(
+        self, places: Floats, half: Floats, count: int, *, reach: float, longest: float, same: float
+    ) -> tuple[Floats, Floats, Flags]:
+        """Project places to the nearest of the pieces of paths whose middles, `count` of them, are the nearest ones.
+
+        Parameters
+        ----------
+        places : (M, 2) float64, mm
+        half : (N, 2) float64, mm
+            From each point, the middle of a piece, to the end of the piece.
+        count : int
+        reach : float, mm
+            Farther pieces need not be found.
+        longest : float, mm
+            Of `half`.
+        same : float, mm
+            Places so near to each other are one.
+
+        Returns
+        -------
+        onto : (M, 2) float64, mm
+        apart : (M,) float64, mm
+            Their distances; infinite beyond `reach`.
+        is_unsure : (M,) bool
+            Whether middles or pieces that are as near as each other would give another place.
+        """
+        from infill.kernels.point_grids import project_to_nearest
+
+        farthest = min((reach + longest) * (1 + SLACK) + SLACK, 8 * FARTHEST)
+        onto, apart = np.empty((len(places), 2)), np.empty(len(places))
+        is_unsure = np.empty(len(places), dtype=np.bool_)
+        names, squares = np.empty(SEARCHED, dtype=np.int64), np.empty(SEARCHED)
+        given = (np.ascontiguousarray(places), count, float(reach), farthest, same, names, squares)
+        with log_compilation(SEARCHES):
+            project_to_nearest(*self.squares, self.number, half, *given, onto, apart, is_unsure)
+        return onto, apart, is_unsure
 
 
 def sort_into_grid(points: Floats) -> PointGrid:

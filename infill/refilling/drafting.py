@@ -38,7 +38,9 @@ from infill.refilling.widest_gap import GapMemory
 PROGRESS_BYTES = 1 << 22  # bytes between two reports of progress
 MOST_REDRAWS = 3  # times that a print is redrawn with smaller moves of corners
 MOST_CELL_TRIES = 6  # times that a small print is redrawn at another cell
+MOST_CELL_TRIES_IF_LARGE = 2
 FILAMENT_TOLERANCE = 0.005  # relative tolerance of the filament of all infill
+FILAMENT_TOLERANCE_IF_LARGE = 0.01
 MOST_THREADS = 4  # more threads would only take memory: a single one reads for all of them
 
 
@@ -84,7 +86,7 @@ class Drafting:
             If the draft cannot be written.
         """
         stats = self.draw(rules, plan, clock)
-        if plan is not None and plan.density is None and not plan.fixed and self.print_survey.small:
+        if plan is not None and plan.density is None and not plan.fixed:
             stats, plan = self._match_filament(stats, rules, plan)
         previous = 0.0
         for _ in range(MOST_REDRAWS if rules.request.pattern == KEEP and rules.request.smooth_radius == AUTO else 0):
@@ -136,16 +138,16 @@ class Drafting:
     def _match_filament(
         self, stats: RefillStats, rules: RefillRules, plan: RefillPlan
     ) -> tuple[RefillStats, RefillPlan]:
-        """Redraw a small print at other cells until its infill takes the old amount of filament; else at the best cell.
+        """Redraw a print at other cells until its infill takes the old amount of filament; else at the best cell.
 
-        In a large print, later layers make up for the excess or shortage of earlier ones. Its regions choose cells of
-        their own around that of the plan: another one there would cost support.
+        In a large print, later layers make up for the excess or shortage of earlier ones in most cases.
         """
+        is_small = self.print_survey.small
         best, smallest_error, current = plan, abs(stats.filament_error), plan
         errors: dict[float, float] = {}  # relative error of the filament, by cell
-        for _ in range(MOST_CELL_TRIES):
+        for _ in range(MOST_CELL_TRIES if is_small else MOST_CELL_TRIES_IF_LARGE):
             error = errors[current.cell] = stats.filament_error
-            if abs(error) <= FILAMENT_TOLERANCE:
+            if abs(error) <= (FILAMENT_TOLERANCE if is_small else FILAMENT_TOLERANCE_IF_LARGE):
                 return stats, current
             # The filament jumps with the cell: try between two that take too much and too little, if both exist.
             opposite = [cell for cell, cell_error in errors.items() if cell_error * error < 0]

@@ -251,7 +251,7 @@ def _repair_crossings(free: Polygon | MultiPolygon, kinds: Sequence[tuple[BeadIn
     inside = shapely.get_coordinates(shapely.point_on_surface(faces))
     clear = np.ones(len(faces), dtype=bool)
     for walls, distance in kinds:
-        clear &= project_to_beads(inside, walls)[1] > distance
+        clear &= project_to_beads(inside, walls, distance)[1] > distance
     union: Polygon | MultiPolygon = shapely.union_all(faces[clear])
     return union
 
@@ -261,11 +261,11 @@ def _move_off_beads(kinds: Sequence[tuple[BeadIndex, float]], points: Floats) ->
     largest_lack = np.full(len(points), -np.inf)
     move = np.zeros(points.shape)
     for walls, distance in kinds:
-        nearest, apart = project_to_beads(points, walls)
+        nearest, apart = project_to_beads(points, walls, distance + MOST_OFF)
         lacks = distance - apart
         binding = lacks > largest_lack
-        direction = (points - nearest) / np.maximum(apart, 1e-9)[:, None]
-        move[binding] = (direction * lacks[:, None])[binding]
+        direction = (points[binding] - nearest[binding]) / np.maximum(apart[binding], 1e-9)[:, None]
+        move[binding] = direction * lacks[binding, None]
         largest_lack = np.maximum(largest_lack, lacks)
     move[np.abs(largest_lack) > MOST_OFF] = 0.0  # at the border of the grid
     moved: Floats = points + move
