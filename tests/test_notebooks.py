@@ -27,7 +27,7 @@ import sys
 import nbformat
 from nbclient import NotebookClient
 notebook = nbformat.read(sys.argv[1], as_version=4)
-NotebookClient(notebook, timeout=300, kernel_name="python3").execute(cwd=".")
+NotebookClient(notebook, timeout=1200, kernel_name="python3").execute(cwd=".")
 nbformat.write(notebook, "done.ipynb")
 """
 
