@@ -181,6 +181,18 @@ def test_every_pattern_has_a_picture_and_its_products(studio: Studio) -> None:
             picture = Image.open(BytesIO(client.get(patterns[name]["picture"]).content))
             assert picture.format == "PNG"
         assert client.get("api/patterns/nothing.png").status_code == 404
+    titles = {each["title"] for each in patterns.values()}
+    assert len(titles) == len(patterns)
+    assert titles >= {
+        "Schwarz D",
+        "Schwarz P network",
+        "I-WP",
+        "BCC",
+        "FCC",
+        "Fischer-Koch S",
+        "Cross 3D",
+        "Tri-hexagon",
+    }
     assert patterns["gyroid"]["products"] == ["fill", "make", "refill"]
     assert patterns["gyroid"]["facts"]["density"] == 0.2
     assert {option["key"] for option in patterns["zigzag"]["parameters"]} >= {"waves", "angle"}
