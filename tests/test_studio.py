@@ -741,6 +741,43 @@ def test_workers_end_with_a_server_that_is_killed(tmp_path: Path) -> None:
         wait_until(lambda: not any(Path(f"/proc/{number}").exists() for number in workers))
 
 
+@pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="of POSIX")
+def test_the_next_start_removes_what_a_killed_studio_left(tmp_path: Path) -> None:
+    others = [tmp_path / f"{TEMPORARY}{name}" for name in ("without-a-lock", "a-file")]
+    others[0].mkdir()
+    others[1].touch()
+    with run_studio(tmp_path) as living:
+        kept = {*tmp_path.iterdir()}
+        with run_studio(tmp_path) as killed:
+            killed.process.kill()
+            killed.process.wait()
+        assert len({*tmp_path.iterdir()} - kept) == 1
+        left = {*tmp_path.iterdir()} - kept
+        with run_studio(tmp_path) as following:
+            assert not left & {*tmp_path.iterdir()}
+            assert kept <= {*tmp_path.iterdir()}
+            assert following.stop() == 0
+        assert {*tmp_path.iterdir()} == kept
+        assert living.stop() == 0
+    assert {*tmp_path.iterdir()} == {*others}
+
+
+@pytest.mark.skipif(not hasattr(os, "getuid"), reason="of POSIX")
+def test_folders_of_other_users_stay(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from infill.studio.work_folder import LOCK, remove_leftovers
+
+    left = tmp_path / f"{TEMPORARY}left"
+    left.mkdir()
+    (left / LOCK).touch()
+    owner = os.getuid()
+    monkeypatch.setattr(os, "getuid", lambda: owner + 1)
+    remove_leftovers(tmp_path)
+    assert left.exists()
+    monkeypatch.undo()
+    remove_leftovers(tmp_path)
+    assert not left.exists()
+
+
 @pytest.mark.slow
 def test_mistakes_on_the_command_line(tmp_path: Path) -> None:
     def run(*words: str) -> subprocess.CompletedProcess[str]:
