@@ -635,6 +635,21 @@ def test_closing_the_connection_cancels(studio: Studio, files: Path) -> None:
 
 
 @pytest.mark.slow
+def test_a_cancelled_result_is_made_when_it_is_asked_for_again(studio: Studio, files: Path) -> None:
+    with studio.page() as page:
+        file = page.upload(files / "part.stl").facts["file"]
+        body = {"product": "fill", "file": file, "options": {"voxel": 0.5}, "quality": "exact"}
+        with page.client.stream("POST", page.url("requests"), json=body, timeout=PATIENCE) as response:
+            next(response.iter_raw())  # it works
+        draft = page.ask("fill", file, options={"voxel": 0.5}, quality="coarse")
+        assert draft.facts["result"] is None
+        again = page.ask("fill", file, options={"voxel": 0.5}).facts["result"]
+        cancelled = f"r{int(again[1:]) - 1}"
+        assert page.download(cancelled, format="stl").status_code == 404
+        assert page.download(again, format="stl").status_code == 200
+
+
+@pytest.mark.slow
 def test_the_newest_request_of_a_lane_wins(studio: Studio, files: Path) -> None:
     import threading
 
