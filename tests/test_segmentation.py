@@ -17,6 +17,7 @@ from infill.errors import LabelChoiceError, ParameterError
 from infill.imaging.volume_files import read_volume
 from infill.volume import Volume
 from infill.voxels.segmentation import contrast, edge_window, otsu_threshold, scale_grey_values, segment_volume
+from infill.voxels.slices import interpolate_slices, plan_sublayers
 
 
 def volume(values: Any, dtype: Any = None) -> Volume:
@@ -330,3 +331,20 @@ def test_real_scans(data: Path) -> None:
     assert np.array_equal(skull.values, np.load(folder / "seg_skull_label_seg3d.npz")["label"].T == 1)
     with pytest.raises(ParameterError, match=r"from 0 to 3926 .*--otsu \(finds 648.5\)"):
         segment_volume(read_volume(folder / "ct_headsq_64x64x93_uint16.npz"))
+
+
+@pytest.mark.parametrize("place", [0.0, 0.2, 0.4, 0.6, 0.8])
+def test_a_pole_between_thick_slices_lies_half_a_slice_from_its_place_at_most(place: float) -> None:
+    radius, spacing = 6.0, (0.2, 0.2, 0.7)
+    x, y, z = np.meshgrid(
+        *[(np.arange(n) - n // 2) * h for n, h in zip((75, 75, 23), spacing, strict=True)], indexing="ij"
+    )
+    middle = place * spacing[2]
+    distance = Volume(values=radius - np.sqrt(x**2 + y**2 + (z - middle) ** 2), spacing=spacing)
+    data = scale_grey_values(distance, 0.0)
+    fine = interpolate_slices(data, *plan_sublayers(data))
+    column, height = np.asarray(fine.values)[37, 37], fine.cell_size[2]
+    inside = np.flatnonzero(column > 0)
+    ends = np.array([inside[0], inside[-1] + 1]) * height - 23 * spacing[2] / 2
+    errors = np.abs(ends - middle) - radius
+    assert np.abs(errors).max() <= spacing[2] / 2 + 1e-9

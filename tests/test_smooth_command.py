@@ -96,6 +96,16 @@ def test_every_kind_is_smoothed_and_every_format_written(source: str, suffix: st
     assert mesh.volume == pytest.approx(volume, rel=0.001 if source == "ball.npy" else 0.05)
 
 
+@pytest.mark.long
+@pytest.mark.parametrize(("source", "is_ct"), [("ct.npy", True), ("grey.npy", False)])
+def test_otsu_of_a_ct_names_the_threshold_of_bone(source: str, is_ct: bool, folder: Path) -> None:
+    np.save(folder / "grey.npy", np.where(BALL, 1000, 0).astype(np.int16))
+    result = run("smooth", source, "--otsu", "-o", "a.stl")
+    assert result.exit_code == 0, result.output
+    assert ("found by Otsu's method; in a CT, bone is from about --threshold 226" in result.stderr) == is_ct
+    assert ("threshold" in result.stderr) == is_ct
+
+
 @pytest.mark.slow
 def test_the_report_is_one_object_on_stdout_and_talk_goes_to_stderr(folder: Path) -> None:
     result = run("smooth", "ball.npy", "-o", "a.stl", "-o", "b.ply", "--preview", "c.png", "--json", "-v")
@@ -395,7 +405,7 @@ BAD = [
         (f"{name} --resolution 30 --voxel 1", "--voxel and --resolution are both given; give one")
         for name in ("s.stl", "p.xyz")
     ],
-    ("ct.npy", "from -1000 to 1000 and do not say what is solid; give --threshold X"),
+    ("ct.npy", r"from -1000 to 1000 and do not say .* give --threshold X.* bone is from about --threshold 226$"),
     ("ct.npy --threshold 3 --otsu", "--threshold and --otsu exclude each other"),
     ("ct.npy --threshold 3 --range 3,4", "--threshold and --range exclude each other"),
     ("ct.npy --threshold 3 --label 4", "exclude each other; give one of them"),

@@ -181,6 +181,18 @@ def test_every_pattern_has_a_picture_and_its_products(studio: Studio) -> None:
             picture = Image.open(BytesIO(client.get(patterns[name]["picture"]).content))
             assert picture.format == "PNG"
         assert client.get("api/patterns/nothing.png").status_code == 404
+    titles = {each["title"] for each in patterns.values()}
+    assert len(titles) == len(patterns)
+    assert titles >= {
+        "Schwarz D",
+        "Schwarz P network",
+        "I-WP",
+        "BCC",
+        "FCC",
+        "Fischer-Koch S",
+        "Cross 3D",
+        "Tri-hexagon",
+    }
     assert patterns["gyroid"]["products"] == ["fill", "make", "refill"]
     assert patterns["gyroid"]["facts"]["density"] == 0.2
     assert {option["key"] for option in patterns["zigzag"]["parameters"]} >= {"waves", "angle"}
@@ -623,6 +635,21 @@ def test_closing_the_connection_cancels(studio: Studio, files: Path) -> None:
 
 
 @pytest.mark.slow
+def test_a_cancelled_result_is_made_when_it_is_asked_for_again(studio: Studio, files: Path) -> None:
+    with studio.page() as page:
+        file = page.upload(files / "part.stl").facts["file"]
+        body = {"product": "fill", "file": file, "options": {"voxel": 0.5}, "quality": "exact"}
+        with page.client.stream("POST", page.url("requests"), json=body, timeout=PATIENCE) as response:
+            next(response.iter_raw())  # it works
+        draft = page.ask("fill", file, options={"voxel": 0.5}, quality="coarse")
+        assert draft.facts["result"] is None
+        again = page.ask("fill", file, options={"voxel": 0.5}).facts["result"]
+        cancelled = f"r{int(again[1:]) - 1}"
+        assert page.download(cancelled, format="stl").status_code == 404
+        assert page.download(again, format="stl").status_code == 200
+
+
+@pytest.mark.slow
 def test_the_newest_request_of_a_lane_wins(studio: Studio, files: Path) -> None:
     import threading
 
@@ -727,6 +754,43 @@ def test_workers_end_with_a_server_that_is_killed(tmp_path: Path) -> None:
         studio.process.kill()
         studio.process.wait()
         wait_until(lambda: not any(Path(f"/proc/{number}").exists() for number in workers))
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="of POSIX")
+def test_the_next_start_removes_what_a_killed_studio_left(tmp_path: Path) -> None:
+    others = [tmp_path / f"{TEMPORARY}{name}" for name in ("without-a-lock", "a-file")]
+    others[0].mkdir()
+    others[1].touch()
+    with run_studio(tmp_path) as living:
+        kept = {*tmp_path.iterdir()}
+        with run_studio(tmp_path) as killed:
+            killed.process.kill()
+            killed.process.wait()
+        assert len({*tmp_path.iterdir()} - kept) == 1
+        left = {*tmp_path.iterdir()} - kept
+        with run_studio(tmp_path) as following:
+            assert not left & {*tmp_path.iterdir()}
+            assert kept <= {*tmp_path.iterdir()}
+            assert following.stop() == 0
+        assert {*tmp_path.iterdir()} == kept
+        assert living.stop() == 0
+    assert {*tmp_path.iterdir()} == {*others}
+
+
+@pytest.mark.skipif(not hasattr(os, "getuid"), reason="of POSIX")
+def test_folders_of_other_users_stay(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from infill.studio.work_folder import LOCK, remove_leftovers
+
+    left = tmp_path / f"{TEMPORARY}left"
+    left.mkdir()
+    (left / LOCK).touch()
+    owner = os.getuid()
+    monkeypatch.setattr(os, "getuid", lambda: owner + 1)
+    remove_leftovers(tmp_path)
+    assert left.exists()
+    monkeypatch.undo()
+    remove_leftovers(tmp_path)
+    assert not left.exists()
 
 
 @pytest.mark.slow

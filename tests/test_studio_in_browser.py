@@ -156,6 +156,26 @@ def test_an_error_stands_at_its_control_and_goes(studio: str, samples: dict[str,
         assert not message.is_visible()
 
 
+@pytest.mark.longest
+def test_an_exact_result_is_cancelled_by_keyboard_and_asked_for_again(studio: str) -> None:
+    with open_view(studio, "part?sample=part&voxel=0.5") as page:
+        page.get_by_role("button", name="Cancel", exact=True).focus(timeout=LONG)
+        page.keyboard.press("Enter")
+        again = page.get_by_role("button", name="Compute the exact result")
+        again.wait_for()
+        assert page.locator(".badge").inner_text() == "Preview"
+        assert page.locator(".progress").is_hidden()
+        assert read_numbers(page)["Density"].startswith("≈ ")
+        assert "preview" in page.locator("dd[title]").first.get_attribute("title")
+        page.wait_for_timeout(1000)  # in which nothing begins again
+        assert again.evaluate("button => button === document.activeElement")
+        assert page.locator(EXACT).count() == 0
+        page.keyboard.press("Enter")
+        page.get_by_role("button", name="Cancel", exact=True).wait_for()
+        wait_until_exact(page)
+        assert not read_numbers(page)["Density"].startswith("≈")
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("name", ["broken.stl", "words.txt"])
 def test_a_broken_file_is_one_clear_message_and_the_page_goes_on(
@@ -319,6 +339,23 @@ def test_the_threshold_is_dragged_on_the_histogram(studio: str, samples: dict[st
         )
         value = float(page.get_by_role("slider", name="Threshold", exact=True).input_value())
         assert value == pytest.approx((least + most) / 2, abs=0.02 * (most - least))
+
+
+@pytest.mark.longest
+def test_bone_is_one_click_in_a_ct(studio: str, tmp_path: Path) -> None:
+    scan = tmp_path / "ct.npy"
+    values = np.full((30, 30, 30), -1024, np.int16)
+    values[4:26, 4:26, 4:26] = -40
+    values[9:21, 9:21, 9:21] = 492  # 226 lies half-way
+    np.save(scan, values)
+    with open_view(studio, "scan", scan) as page:
+        names = page.get_by_role("group", name="Thresholds of a CT")
+        assert names.get_by_role("button", name="Otsu").get_attribute("aria-pressed") == "true"
+        names.get_by_role("button", name="Bone 226").click()
+        page.wait_for_url(re.compile("threshold=226"))
+        assert names.get_by_role("button", name="Bone 226").get_attribute("aria-pressed") == "true"
+        assert number(wait_until_exact(page)["Volume"]) == pytest.approx(12**3, rel=0.01)
+        assert "--threshold 226" in page.get_by_label("How to do this again").inner_text()
 
 
 @pytest.mark.longest

@@ -48,6 +48,21 @@ def test_a_refusal_says_that_the_result_can_be_had_anyway(page: Page, spike: str
     assert np.abs(np.array(lost[0]["at"]) - (14, 14, 20.5)).max() < 1.5
 
 
+def test_a_ct_has_thresholds_by_name(page: Page, tmp_path: Path) -> None:
+    values = np.full((16, 16, 16), -1024, np.int16)
+    values[3:13, 3:13, 3:13] = 40
+    values[6:10, 6:10, 6:10] = 1200
+    np.save(tmp_path / "ct.npy", values)
+    np.save(tmp_path / "shifted.npy", values + 1024)
+    scan = page.upload(tmp_path / "ct.npy").facts["scan"]
+    assert scan["thresholds"] == [
+        {"name": "Bone", "value": 226},
+        {"name": "Skin", "value": -300},
+        {"name": "Otsu", "value": scan["otsu"]},
+    ]
+    assert page.upload(tmp_path / "shifted.npy").facts["scan"]["thresholds"] == []
+
+
 def test_a_mistake_is_no_refusal(page: Page, spike: str) -> None:
     error = page.ask("smooth", spike, options={"threshold": 1e9}).error
     assert error is not None

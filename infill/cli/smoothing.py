@@ -288,6 +288,8 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
         f"{count_noun(result['cavities'], 'cavity', 'cavities')} ({data['cavities']:,}), "
         f"{count_noun(result['tunnels'], 'tunnel')} ({data['tunnels']:,})",
     }
+    if threshold := _threshold_text(report):
+        rows["threshold"] = threshold
     if (isosurface := report.get("isosurface")) is not None and isosurface["change"] is not None:
         rows["solid"] += f", {isosurface['change']:+z.2%} of the isosurface of the grey values"
     if result["cavities"]:
@@ -325,6 +327,17 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
     for path in files:
         rows[f"wrote {path}"] = format_bytes(Path(path).stat().st_size) if Path(path).is_file() else ""
     return format_table(rows, title=name)
+
+
+def _threshold_text(report: SmoothReport) -> str:
+    """Return the threshold that Otsu's method found in a CT, and that of bone; empty for other input."""
+    from infill.imaging.hounsfield import describe_bone
+
+    rule = report["input"].get("segmentation")
+    if rule is None or rule["method"] != "otsu":
+        return ""
+    bone, low = describe_bone(*rule["values"]), rule["low"]
+    return f"{plain_argument(low)}, found by Otsu's method{bone}" if bone and low is not None else ""
 
 
 def _facet_text(facets: FacetKeys, voxel: float, wall: float | None) -> str:

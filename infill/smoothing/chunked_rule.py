@@ -14,6 +14,7 @@ from infill.chunks.solids import SolidRule
 from infill.chunks.solving import Solver
 from infill.chunks.work import ValueSurvey, Work, count_values, survey_values
 from infill.errors import ParameterError, UsageError
+from infill.imaging.hounsfield import describe_bone
 from infill.plain_numbers import plain_argument, plain_number, plain_size
 from infill.reports.smoothing import SegmentationKeys, SegmentationRule
 from infill.smoothing.scans import Threshold, threshold_range
@@ -76,7 +77,7 @@ def find_rule(
         return SolidRule(phase=True), {"method": "phase", "low": 0.0}
     raise ParameterError(
         f"the values go from {plain_argument(lowest)} to {plain_argument(highest)} and do not say what is solid; give "
-        "--threshold X, --range LOW,HIGH, --label N or --otsu"
+        f"--threshold X, --range LOW,HIGH, --label N or --otsu{describe_bone(lowest, highest)}"
     )
 
 

@@ -15,6 +15,16 @@ GALLERY_PLACES = (
     Path(__file__).parents[2] / "docs" / "pictures" / "gallery",  # in the sources
 )
 FACTS = "facts.json"
+# Names that are not written as their words are; longer names begin with some of them.
+WRITTEN = {
+    "bcc": "BCC",
+    "fcc": "FCC",
+    "fischer-koch-s": "Fischer-Koch S",
+    "i-wp": "I-WP",
+    "schwarz-d": "Schwarz D",
+    "schwarz-p": "Schwarz P",
+    "tri-hexagon": "Tri-hexagon",
+}
 
 
 def describe_studio(limits: dict[str, float], opened: str | None) -> dict[str, Any]:
@@ -56,7 +66,7 @@ def describe_patterns() -> list[dict[str, Any]]:
         described.append(
             {
                 "name": name,
-                "title": name.replace("-", " ").capitalize(),
+                "title": write_title(name),
                 "sentence": kind.summary,
                 "kind": "in space" if in_space else "upright",
                 "products": find_products(name),
@@ -66,6 +76,17 @@ def describe_patterns() -> list[dict[str, Any]]:
             }
         )
     return described
+
+
+def write_title(name: str) -> str:
+    """Write the name of a pattern as a title.
+
+    >>> [write_title(name) for name in ("cubic-bars", "schwarz-d-network", "cross-3d", "i-wp")]
+    ['Cubic bars', 'Schwarz D network', 'Cross 3D', 'I-WP']
+    """
+    known = next((known for known in WRITTEN if f"{name}-".startswith(f"{known}-")), "")
+    title = WRITTEN.get(known, "") + name.removeprefix(known).replace("-", " ")
+    return (title[:1].upper() + title[1:]).replace(" 3d", " 3D")
 
 
 def find_products(name: str) -> list[str]:

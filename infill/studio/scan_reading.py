@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from infill.checks import check_whole_number
 from infill.errors import FormatError, InfillError, UsageError
 from infill.files.file_names import safe_names
+from infill.imaging.hounsfield import name_thresholds
 from infill.studio.numbers import Number
 from infill.volume import Volume
 
@@ -104,6 +105,7 @@ def describe_scan(volume: Volume, segments: tuple[Segment, ...]) -> tuple[dict[s
     if not np.isfinite([least, most]).all():
         least, most = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)
     counts, edges = np.histogram(finite, bins=BINS, range=(least, most if most > least else least + 1))
+    otsu = _find_otsu(volume)
     shape, spacing = list(volume.values.shape), np.asarray(volume.cell_size, dtype=float).tolist()
     facts = {
         "scan": {
@@ -112,7 +114,8 @@ def describe_scan(volume: Volume, segments: tuple[Segment, ...]) -> tuple[dict[s
             "least": least,
             "most": most,
             "histogram": {"edges": edges.tolist(), "counts": counts.tolist()},
-            "otsu": _find_otsu(volume),
+            "otsu": otsu,
+            "thresholds": name_thresholds(least, most, otsu),
             "labels": list_labels(volume, segments),
             "space": volume.space,
         }

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import socket
-import tempfile
 import threading
 import webbrowser
 from collections.abc import Callable
@@ -17,6 +16,7 @@ from infill.files.broken import missing_file
 from infill.studio.app import Studio, build_app
 from infill.studio.limits import StudioLimits
 from infill.studio.pages import Pages
+from infill.studio.work_folder import make_work_folder
 
 LAST_SECONDS = 3  # for requests that run when the studio ends
 MOST_PORT = 65535
@@ -60,9 +60,9 @@ def serve(
     if not 0 <= port <= MOST_PORT:
         raise ParameterError.about("port", f"is {port}; give a number from 0, for any that is free, to {MOST_PORT}")
     limits = limits or StudioLimits.of_machine()
-    with _listen(host, port) as listener, tempfile.TemporaryDirectory(prefix="infill-studio-") as folder:
+    with _listen(host, port) as listener, make_work_folder() as folder:
         number = listener.getsockname()[1]
-        studio = Studio(pages=Pages(Path(folder), limits), limits=limits, opened=opened and opened.absolute())
+        studio = Studio(pages=Pages(folder, limits), limits=limits, opened=opened and opened.absolute())
         app = build_app(studio, host=host, port=number)
         shown = "127.0.0.1" if host in ("", "0.0.0.0") else f"[{host}]" if ":" in host else host  # noqa: S104
         address = f"http://{shown}:{number}/{app.token}/"

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from infill.checks import check_positive, check_range
 from infill.errors import LabelChoiceError, ParameterError, UsageError
+from infill.imaging.hounsfield import describe_bone
 from infill.kernels.threads import in_threads, thread_count
 from infill.plain_numbers import plain_argument
 from infill.volume import Volume
@@ -386,7 +387,7 @@ def _interpret_values(volume: Volume, lowest: float, highest: float) -> tuple[ND
     hint = f" (finds {plain_argument(otsu_threshold(volume))})" if lowest < highest else ""
     raise ParameterError(
         f"the values go from {plain_argument(lowest)} to {plain_argument(highest)} and do not say what is solid; give "
-        f"--threshold X, --range LOW,HIGH, --label N or --otsu{hint}"
+        f"--threshold X, --range LOW,HIGH, --label N or --otsu{hint}{describe_bone(lowest, highest)}"
     )
 
 

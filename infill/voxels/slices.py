@@ -42,7 +42,8 @@ def interpolate_slices(volume: Volume, axis: int, count: int) -> Volume:
     -----
     Shape-based interpolation (Raya and Udupa, IEEE Transactions on Medical Imaging 9, 1990): in each slice, the signed
     distance from the outline, and between slices, the mean of both, weighted by nearness. A region that does
-    not continue in the next slice ends half-way to it.
+    not continue in the next slice ends half-way to it, whatever its grey values are: the pole of a ball lies up to
+    half a slice inside or outside of its place.
     """
     values: NDArray[Any] = np.moveaxis(np.asarray(volume.values), axis, 0)
     size = np.delete(volume.cell_size, axis)

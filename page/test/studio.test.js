@@ -6,6 +6,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { suits } from "../src/studio/gallery.js";
 import { decodeLayer, layerBounds } from "../src/studio/layer.js";
+import { createLive } from "../src/studio/live.js";
 import { outline } from "../src/studio/outline.js";
 import { keptPieces, piecesText } from "../src/studio/pieces.js";
 import { readFrames } from "../src/studio/server.js";
@@ -36,6 +37,41 @@ function streamOf(bytes, size) {
     },
   });
 }
+
+test("an exact answer is cancelled, and asked for again", async () => {
+  Object.assign(globalThis, { window: globalThis });
+  /** @type {(string|null)[]} */
+  const states = [];
+  /** @type {{quality: string, signal: AbortSignal, answer: (reply: any) => void}[]} */
+  const asked = [];
+  /** @type {string[]} */
+  const shown = [];
+  const live = createLive({
+    ask: (quality, signal) => new Promise((answer) => asked.push({ quality, signal, answer })),
+    show: (_, quality) => void shown.push(quality),
+    fail: assert.fail,
+    busy: (state) => void states.push(state),
+  });
+  const settled = () => new Promise((resolve) => setTimeout(resolve));
+  live.jump();
+  live.stop(); // a draft is not stopped
+  asked[0].answer({});
+  await settled();
+  live.stop();
+  asked[1].answer({});
+  await settled();
+  assert.equal(asked[1].signal.aborted, true);
+  assert.deepEqual(shown, ["coarse"]);
+  live.hold();
+  live.go();
+  assert.equal(asked.length, 2);
+  assert.equal(states.at(-1), "stopped");
+  live.resume();
+  asked[2].answer({});
+  await settled();
+  assert.deepEqual(shown, ["coarse", "exact"]);
+  assert.equal(states.at(-1), null);
+});
 
 test("frames are the same, wherever the network cuts them", async () => {
   /** @type {[number, string][]} */

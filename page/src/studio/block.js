@@ -34,7 +34,7 @@ export function createBlockView({ server, about, patterns, store }) {
   let shownSize = ""; // to which the view is fitted
 
   const picture = h("div", { class: "viewer" });
-  const stage = createStage(picture);
+  const stage = createStage({ pictures: [picture], onCancel: () => live.stop(), onResume: () => live.resume() });
   const viewer = createViewer(picture, { label: "The block" });
   followTheme((theme) => viewer.setTheme(theme));
   const cut = createCut({ onChange: (value, resting) => change({ ...section, cut: value }, resting) });
@@ -116,7 +116,7 @@ export function createBlockView({ server, about, patterns, store }) {
       const stated = describeError(error);
       if (stated) form.fail(stated.message, stated.parameter);
     },
-    busy: (quality) => stage.progress(quality ? { stage: "Computing the block", share: 0 } : null),
+    busy: (state) => stage.busy(state, "Computing the block"),
   });
 
   /** @param {import("./numbers.js").NumberRow} row */

@@ -5,15 +5,17 @@
 import { freshId, h, plain } from "./dom.js";
 
 /** @typedef {{edges: number[], counts: number[]}} Histogram */
+/** @typedef {{name: string, value: number}} NamedThreshold */
 
 const HEIGHT = 64;
 const STEPS = 500;
 
 /**
  * Make the control of one threshold, or of the two ends of a range.
- * @param {{histogram: Histogram, least: number, most: number, onChange: (ends: number[], resting: boolean) => void}} what
+ * @param {{histogram: Histogram, least: number, most: number, named?: NamedThreshold[],
+ *   onChange: (ends: number[], resting: boolean) => void}} what `named` are thresholds to choose with one click
  */
-export function createHistogram({ histogram, least, most, onChange }) {
+export function createHistogram({ histogram, least, most, named = [], onChange }) {
   let ends = [(least + most) / 2];
   const svg = makeSvg(histogram, least, most);
   const marks = [0, 1].map(() => svgElement("line", { class: "threshold", y1: 0, y2: HEIGHT }));
@@ -49,6 +51,15 @@ export function createHistogram({ histogram, least, most, onChange }) {
     return { range, number, element };
   });
 
+  const buttons = named.map(({ name, value }) => ({
+    value,
+    element: h(
+      "button",
+      { type: "button", class: "quiet small", onclick: () => change(0, value, true) },
+      `${name} ${plain(value)}`,
+    ),
+  }));
+
   /**
    * @param {number} i
    * @param {number} value
@@ -73,6 +84,7 @@ export function createHistogram({ histogram, least, most, onChange }) {
   function set(next) {
     ends = next;
     const [from, to] = [ends[0], ends[1] ?? most];
+    for (const { value, element } of buttons) element.setAttribute("aria-pressed", String(tidy(value) === tidy(from)));
     for (const [i, { range, number, element }] of rows.entries()) {
       element.hidden = i >= ends.length;
       marks[i].classList.toggle("unused", i >= ends.length);
@@ -121,6 +133,13 @@ export function createHistogram({ histogram, least, most, onChange }) {
       svg,
       h("p", { class: "axis", "aria-hidden": "true" }, h("span", {}, plain(least)), h("span", {}, plain(most))),
       ...rows.map(({ element }) => element),
+      buttons.length
+        ? h(
+            "div",
+            { class: "named-thresholds", role: "group", "aria-label": "Thresholds of a CT, Hounsfield units" },
+            ...buttons.map(({ element }) => element),
+          )
+        : null,
       h("p", { class: "field-help" }, "The outline in the slices shows what is solid."),
       error,
     ),

@@ -2,19 +2,21 @@
  * Answers while a hand moves: coarse ones as fast as they come, the exact one when it rests.
  *
  * One request is under way at a time. A coarse one that is under way while the values change is let finish, so that
- * a long pull shows pictures all along, and the newest values follow at once. An exact one is dropped at any change.
+ * a long pull shows pictures all along, and the newest values follow at once. An exact one is dropped at any change, and
+ * by `stop`, after which nothing is asked for until the next change, or `resume`.
  */
 
 import { isAbort } from "./server.js";
 
 const REST = 350; // ms after the last picture, without a change, until the exact answer is asked for
 
+/** @typedef {"coarse"|"exact"|"stopped"|null} LiveState what is under way; "stopped" where the exact answer was cancelled */
 /**
  * @typedef {object} Work
  * @property {(quality: "coarse"|"exact", signal: AbortSignal) => Promise<any>} ask
  * @property {(reply: any, quality: "coarse"|"exact") => Promise<void>|void} show resolves when it has been drawn
  * @property {(error: unknown) => void} fail
- * @property {(busy: "coarse"|"exact"|null) => void} busy
+ * @property {(state: LiveState) => void} busy
  * @property {boolean} [drafts] whether there are coarse answers
  */
 
@@ -29,13 +31,14 @@ export function createLive({ ask, show, fail, busy, drafts = true }) {
   let wantsExact = false;
   let isMoving = false;
   let isHeld = false;
+  let isStopped = false;
   let timer = 0;
 
   function next() {
     if (running || isHeld) return;
     if (wantsCoarse) run("coarse");
     else if (wantsExact) run("exact");
-    else busy(null);
+    else busy(isStopped ? "stopped" : null);
   }
 
   /** Ask for the exact answer in a while, if nothing changes until then. */
@@ -52,6 +55,7 @@ export function createLive({ ask, show, fail, busy, drafts = true }) {
     const control = new AbortController();
     const mine = { quality, control };
     running = mine;
+    isStopped = false;
     if (quality === "coarse") wantsCoarse = false;
     else wantsExact = false;
     busy(quality);
@@ -80,6 +84,7 @@ export function createLive({ ask, show, fail, busy, drafts = true }) {
     clearTimeout(timer);
     timer = 0;
     isMoving = false;
+    isStopped = false;
     wantsExact = false;
   }
 
@@ -98,6 +103,19 @@ export function createLive({ ask, show, fail, busy, drafts = true }) {
       forget();
       drop();
       wantsCoarse = drafts;
+      wantsExact = true;
+      next();
+    },
+    /** Cancel the exact answer that is under way: closing its connection ends its work on the server. */
+    stop() {
+      if (running?.quality !== "exact") return;
+      forget();
+      drop();
+      isStopped = true;
+      next();
+    },
+    /** Ask again for the exact answer that was cancelled. */
+    resume() {
       wantsExact = true;
       next();
     },

@@ -6,6 +6,7 @@ import { capital, h, plain, replaceChildren, withoutFlags } from "./dom.js";
 
 /** @typedef {import("./server.js").NumberRow} NumberRow */
 
+const ABOUT = "Of the preview. The exact number follows when the exact result is there.";
 const BEFORE = " before"; // ends the name of a number that is followed by the same one afterwards
 
 /**
@@ -80,7 +81,7 @@ export function createNumbers() {
             h("dt", {}, capital(row.name)),
             h(
               "dd",
-              {},
+              row.about ? { title: ABOUT } : {},
               valueText(row),
               before && valueText(before) !== valueText(row)
                 ? h("span", { class: "before" }, `before ${valueText(before)}`)
@@ -90,9 +91,11 @@ export function createNumbers() {
         ),
       );
       const explained = rows.filter(({ help }) => help);
-      more.hidden = explained.length === 0;
+      const isAbout = rows.some(({ about }) => about);
+      more.hidden = explained.length === 0 && !isAbout;
       replaceChildren(
         meanings,
+        isAbout ? h("div", {}, h("dt", {}, "≈"), h("dd", {}, ABOUT)) : null,
         explained.map(({ name, help }) => h("div", {}, h("dt", {}, capital(name)), h("dd", {}, help ?? ""))),
       );
       warnings.hidden = notes.length === 0;

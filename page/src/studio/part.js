@@ -51,7 +51,7 @@ export function createPartView(studio) {
     open: studio.open,
   });
   const picture = h("div", { class: "viewer" });
-  const stage = createStage(picture);
+  const stage = createStage({ pictures: [picture], onCancel: () => live.stop(), onResume: () => live.resume() });
   const viewer = createViewer(picture, {
     label: "The part",
     reducedMotion: matchMedia("(prefers-reduced-motion: reduce)").matches,
@@ -199,10 +199,7 @@ export function createPartView(studio) {
       numbers.setStale(true);
       downloads.show(null);
     },
-    busy: (quality) => {
-      if (quality) stage.progress({ stage: quality === "exact" ? "Computing the exact result" : "", share: 0 });
-      else stage.progress(null);
-    },
+    busy: (state) => stage.busy(state, "Computing the exact result"),
   });
 
   /**

@@ -60,7 +60,7 @@ export function createPrintView(studio) {
     h("figure", {}, h("figcaption", {}, "Before", beforeWords), before.element),
     h("figure", {}, h("figcaption", {}, "After", afterWords), after.element),
   );
-  const stage = createStage(pair);
+  const stage = createStage({ pictures: [pair], onCancel: () => live.stop(), onResume: () => live.resume() });
   const empty = h("div", { class: "empty", hidden: true });
   stage.element.append(empty);
   const legend = createLegend();
@@ -175,8 +175,7 @@ export function createPrintView(studio) {
       form.fail(stated.message, stated.parameter);
       stage.badge(null);
     },
-    busy: (quality) =>
-      stage.progress(quality ? { stage: quality === "exact" ? "Refilling the whole print" : "", share: 0 } : null),
+    busy: (state) => stage.busy(state, "Refilling the whole print"),
   });
 
   /** @param {string} name */

@@ -25,7 +25,8 @@ import { createFileHead, describeError, dropAgain, forServer, layout, withOption
 /** @typedef {import("./store.js").Section} Section */
 /** @typedef {{value: number, name: string, colour: number[]|null}} Label */
 /** @typedef {{file: string, kind: string, name: string, numbers: any[], part?: any, scan?: {shape: number[], spacing: number[],
- *   least: number, most: number, histogram: {edges: number[], counts: number[]}, otsu: number|null, labels: Label[]|null}}} OpenScan */
+ *   least: number, most: number, histogram: {edges: number[], counts: number[]}, otsu: number|null,
+ *   thresholds: import("./histogram.js").NamedThreshold[], labels: Label[]|null}}} OpenScan */
 
 const SMOOTH = "smooth";
 const LABELS = "labels";
@@ -79,7 +80,7 @@ export function createScanView(studio) {
   });
   const figureBefore = h("figure", { hidden: true }, h("figcaption", {}, "Before"), frames[0]);
   const pair = h("div", { class: "pair" }, figureBefore, h("figure", {}, h("figcaption", {}, "After"), frames[1]));
-  const stage = createStage(pair);
+  const stage = createStage({ pictures: [pair], onCancel: () => live.stop(), onResume: () => live.resume() });
   const empty = h("div", { class: "empty", hidden: true });
   stage.element.append(empty);
   const cut = createCut({ onChange: (value, resting) => change({ ...section, cut: value }, resting) });
@@ -201,8 +202,7 @@ export function createScanView(studio) {
       anyway.hidden = !(error instanceof StatedError && error.refused);
       if (!anyway.hidden) places.show(changed);
     },
-    busy: (quality) =>
-      stage.progress(quality ? { stage: quality === "exact" ? "Computing the exact surface" : "", share: 0 } : null),
+    busy: (state) => stage.busy(state, "Computing the exact surface"),
   });
 
   function product() {
@@ -358,6 +358,7 @@ export function createScanView(studio) {
           histogram: scan.histogram,
           least: scan.least,
           most: scan.most,
+          named: scan.thresholds,
           onChange: (next, resting) =>
             setSolid(next.length > 1 ? { range: next.join(",") } : { threshold: next[0] }, resting),
         });
