@@ -119,7 +119,7 @@ def parse_ranges(name: str, value: object) -> tuple[tuple[int, int | None], ...]
     Raises
     ------
     UsageError
-        If the value is no such text.
+        If the value is not such text.
     ParameterError
         If a number is 0, or a range ends before it begins.
 

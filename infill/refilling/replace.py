@@ -138,6 +138,8 @@ class NewSection:
     radii : (C,) float64, mm
         Of the arcs; 0 or infinite at corners without an arc.
     acceleration : float, mm/s²
+    asked : float
+        mm of filament that it should take, if nothing but the mean of the print counted.
     """
 
     body: InfillSection
@@ -146,6 +148,7 @@ class NewSection:
     areas: tuple[Polygon, ...]
     radii: Floats
     acceleration: float
+    asked: float = 0.0
 
     @cached_property
     def length(self) -> float:
@@ -258,6 +261,8 @@ def replace_infill(layers: Layers, rules: RefillRules, plan: RefillPlan, memory:
     )
     if fault:
         return NewInfill.unchanged(layers, kept | {f"a check failed: {fault}": drawn})
+    memory.asked += sum(section.asked for section in new)
+    memory.taken += sum(section.rate * section.length for section in new)
     bodies = [section.body for section in new]
     changed = np.zeros(len(infill), dtype=bool)
     changed[np.concatenate([body.strokes for body in bodies])] = True
@@ -414,8 +419,7 @@ def _fill_group(
     else:
         target = members[0].rate * plan.length_in(areas, members[0].z)
     if plan.scale is not None:
-        memory.asked, memory.taken = memory.asked + target, memory.taken + plan.scale * filament
-        return [replace(section, rate=section.rate * plan.scale) for section in sections]
+        return [replace(section, rate=section.rate * plan.scale, asked=target / len(sections)) for section in sections]
     target += memory.owed
     factor = float(np.clip(target / filament, LEAST_WIDTH, MOST_WIDTH))
     memory.owed = target - factor * filament

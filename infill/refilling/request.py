@@ -364,10 +364,10 @@ class Request:
 
     def _check_follows_print(self) -> None:
         """Raise UsageError for layers to be evened out that a pattern makes uneven on purpose."""
+        from infill.paths.families.catalogue import FAMILIES
         from infill.paths.families.infill_space import follows_print
-        from infill.refilling.placement import family_of
 
-        if follows_print(family_of(self.pattern, {}, self.lines)):
+        if self.pattern in FAMILIES and self.lines is None and follows_print(FAMILIES[self.pattern]):
             raise UsageError.about(
                 "even", f"does not work with {self.pattern}, whose layers take what each needs; take another pattern"
             )

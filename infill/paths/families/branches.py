@@ -30,7 +30,7 @@ RADIUS = 0.3  # of corners, in line widths
 OVERLAP = 1e-6  # of the distance of beads that touch
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True)
 class LightningPaths(Family):
     """Branches below roofs, about a `cell` apart there. Without a print, there are none."""
 

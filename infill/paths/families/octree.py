@@ -63,7 +63,7 @@ class PrintCubes:
         return doubled
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True)
 class OctreePaths(Family):
     """Faces of cubes; `cell` is the distance between parallel lines of the smallest.
 
