@@ -191,12 +191,7 @@ def plan_refill(
         family = stretch_to_density(family, graded, width)
     if place is not None:
         family = place_family(family, place.space)
-        layers_of_print = place.filled[:: -(-len(place.filled) // PLACED_LAYERS)]
-        regions = [(shapely.MultiPolygon(list(layer.areas)), layer.z, layer.number) for layer in layers_of_print]
-        lengths = [
-            layer.length if density is None else density * region.area / spacing
-            for layer, (region, _, _) in zip(layers_of_print, regions, strict=True)
-        ]
+        regions, lengths = _regions_of_print(place, None if density is None else density / spacing)
     plan = RefillPlan(
         family=family,
         cell=1.0,
@@ -207,8 +202,8 @@ def plan_refill(
         scale=None if place is None else 1.0,
     )
     if not fills_print(family) and cell is None:
-        areas = sum(region.area for region, _, _ in regions)
-        cell = max(family.cell_for(sum(lengths) / areas * TOUCH * width, width), TOUCH * width)
+        area_of_all = sum(region.area for region, _, _ in regions)
+        cell = max(family.cell_for(sum(lengths) / area_of_all * TOUCH * width, width), TOUCH * width)
     if cell is not None:
         check_cell(cell, width)
         return replace(plan, cell=cell, fixed=True)
@@ -236,6 +231,26 @@ def plan_refill(
     length = sum(lengths[few])
     solved = solve_cell(regions[few], family, length, line_width=width, radius=plan.radius, measure=measure)
     return replace(plan, cell=solved.cell)
+
+
+def _regions_of_print(
+    place: PrintPlace, density: float | None
+) -> tuple[list[tuple[MultiPolygon, float, int]], list[float]]:
+    """Return regions of layers from all heights of a print, and the requested length in each, mm.
+
+    Parameters
+    ----------
+    place : PrintPlace
+    density : float, optional
+        mm of line per mm²; without it, the slicer's own length.
+    """
+    import shapely
+
+    layers = place.filled[:: -(-len(place.filled) // PLACED_LAYERS)]
+    regions = [(shapely.MultiPolygon(list(layer.areas)), layer.z, layer.number) for layer in layers]
+    if density is None:
+        return regions, [layer.length for layer in layers]
+    return regions, [density * region.area for region, _, _ in regions]
 
 
 def _centre_family(family: Family, areas: Sequence[MultiPolygon]) -> Family:
