@@ -53,6 +53,7 @@ def main() -> None:
     if not slicers.missing_prusa():
         save_refill(prints.prusa_print, {"fill_pattern": "honeycomb"}, FOLDER / "refill.png")
         save_gradients(FOLDER / "refill-gradients.png")
+        save_following(FOLDER / "refill-following.png")
     if shutil.which("chromium"):
         save_pages(FOLDER / "viewer.png")
     if not slicers.missing_cura():
@@ -121,6 +122,25 @@ def save_brain(source: Path, path: Path) -> None:
     )
     picture = Image.fromarray(view)
     picture.crop(ImageChops.invert(picture).getbbox()).quantize(96).save(path, optimize=True)
+
+
+def save_following(path: Path) -> None:
+    """Slice a part with a step, and write a layer below its lower roof with each pattern that follows the print."""
+    low, high = trimesh.creation.box((60, 40, 12)), trimesh.creation.box((30, 40, 24))
+    low.apply_translation([0, 0, 6])
+    high.apply_translation([-15, 0, 12])
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        trimesh.boolean.union([low, high], engine="manifold").export(folder / "step.stl")
+        sliced = prints.prusa_print(folder / "step.stl", folder / "print.gcode", {"fill_pattern": "cubic"})
+        drawn = {}
+        for pattern in ("adaptive-cubic", "support-cubic", "lightning"):
+            refill(sliced, output=folder / f"{pattern}.gcode", pattern=pattern)
+            drawn[pattern] = layer_speeds(folder / f"{pattern}.gcode", 50)
+        with path.open("wb") as file:
+            write_speeds(drawn, file)
+    with Image.open(path) as picture:
+        picture.quantize(64).save(path, optimize=True)
 
 
 def save_gradients(path: Path) -> None:

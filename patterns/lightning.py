@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from patterns.cellular import Cells
-from patterns.declared import parameter
+from patterns.shared import overhang_parameter
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,9 +35,10 @@ class Lightning(Cells):
     """
 
     repeats: ClassVar[bool] = False
+    paths: ClassVar[bool] = True
     cells: ClassVar[int] = 8
 
     name: str = "lightning"
     summary: str = "branches below roofs alone, which lean to the walls: carries tops with the least material"
     first: tuple[float, float] = (0.3, 0.2)
-    overhang: float = parameter(45.0, "how far walls lean out, from upright", unit="deg", low=10.0, high=60.0)
+    overhang: float = overhang_parameter()

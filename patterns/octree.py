@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from patterns.cellular import Cells
-from patterns.declared import parameter
 from patterns.planes import ON_A_CORNER
+from patterns.shared import levels_parameter
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -44,9 +44,7 @@ class Octree(Cells):
 
     roofs: bool = False
     upright: Rows = ON_A_CORNER
-    levels: int = parameter(
-        2, "how often cubes are doubled where they may be larger", unit="", low=1, high=4, whole=True
-    )
+    levels: int = levels_parameter()
 
     @property
     def cells(self) -> int:
@@ -66,6 +64,8 @@ class Octree(Cells):
 class AdaptiveCubic(Octree):
     """Cubes that are small at the walls."""
 
+    paths: ClassVar[bool] = True
+
     name: str = "adaptive-cubic"
     summary: str = "cubes on their corners, small at the walls and large inside: light where little is needed"
 
@@ -73,6 +73,8 @@ class AdaptiveCubic(Octree):
 @dataclass(frozen=True, kw_only=True)
 class SupportCubic(Octree):
     """Cubes that are small below roofs."""
+
+    paths: ClassVar[bool] = True
 
     name: str = "support-cubic"
     summary: str = "cubes on their corners, small below roofs and large elsewhere: carries tops, and little else"

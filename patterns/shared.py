@@ -39,6 +39,16 @@ def seed_parameter() -> Any:  # noqa: ANN401 - a field of type int
     return parameter(0, "which of all such patterns", unit="", low=0, high=2**31 - 1, whole=True)
 
 
+def levels_parameter() -> Any:  # noqa: ANN401 - a field of type int
+    """Return the field for the levels of an octree."""
+    return parameter(2, "how often cubes are doubled where they may be larger", unit="", low=1, high=4, whole=True)
+
+
+def overhang_parameter() -> Any:  # noqa: ANN401 - a field of type float
+    """Return the field for the overhang of branches."""
+    return parameter(45.0, "how far walls lean out, from upright", unit="deg", low=10.0, high=60.0)
+
+
 def frame_parameter(*, default: bool = True) -> Any:  # noqa: ANN401 - a field of type bool
     """Return the field for the frame: whether the outline of the region is a wall too."""
     return parameter(default, "a wall around the block", unit="")

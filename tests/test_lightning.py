@@ -16,11 +16,11 @@ from infill import ParameterError, UsageError, fill
 from infill.interior.interior import Interior, compute_interior
 from infill.kernels.layered import distances_to_lines, from_layers
 from infill.lattices.choosing import place_pattern
-from infill.lattices.forest import NONE, Forest
 from infill.lattices.grading import UNIFORM_WIDTH as EVEN
 from infill.lattices.layered import NonPrismatic
 from infill.lattices.request import check_request
 from infill.meshes.merging import surface_of
+from infill.paths.forest import NONE, Forest
 from patterns.errors import PatternError
 
 pytestmark = pytest.mark.usefixtures("compiled", "coarse_grids")

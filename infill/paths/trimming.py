@@ -17,7 +17,14 @@ STEPS = 16  # points per line width at which an end is tested
 EXEMPT = 3.5  # line widths along a path within which it may come near itself
 
 
-def trim_ends(paths: Sequence[Path], free: Sequence[tuple[bool, ...]], spacing: float, line_width: float) -> list[Path]:
+def trim_ends(
+    paths: Sequence[Path],
+    free: Sequence[tuple[bool, ...]],
+    spacing: float,
+    line_width: float,
+    *,
+    share: float = 1.0,
+) -> list[Path]:
     """Shorten free ends until they keep their distance from other lines; return all paths.
 
     An end stays where shortening it by `FARTHEST` line widths would not help.
@@ -30,22 +37,26 @@ def trim_ends(paths: Sequence[Path], free: Sequence[tuple[bool, ...]], spacing: 
     spacing : float, mm
         Distance between lines, at least.
     line_width : float, mm
+    share : float
+        Of a path, that may be cut off at each end: 0.5 where short paths lie between two lines.
     """
     trimmed = list(paths)
     for number, sides in enumerate(free):
         for at_end, is_free in enumerate(sides):
             if is_free:
                 path = trimmed[number][::-1] if at_end else trimmed[number]
-                cut = _trim_begin(path, number, trimmed, spacing, line_width)
+                cut = _trim_begin(path, number, trimmed, spacing, line_width, share)
                 if cut is not path:
                     trimmed[number] = cut[::-1] if at_end else cut
     return trimmed
 
 
-def _trim_begin(path: Path, number: int, paths: Sequence[Path], spacing: float, line_width: float) -> Path:
+def _trim_begin(
+    path: Path, number: int, paths: Sequence[Path], spacing: float, line_width: float, share: float
+) -> Path:
     """Shorten a path at its beginning."""
     passed = np.append(0.0, np.cumsum(np.hypot(*np.diff(path, axis=0).T)))
-    reach = min(FARTHEST * line_width, float(passed[-1]))
+    reach = min(FARTHEST * line_width, share * float(passed[-1]))
     places = np.linspace(0.0, reach, max(2, int(STEPS * reach / line_width)))
     points = np.stack([np.interp(places, passed, path[:, axis]) for axis in (0, 1)], axis=-1)
     low, high = points.min(axis=0) - spacing, points.max(axis=0) + spacing

@@ -7,7 +7,7 @@ and contact and, in a small print, on the filament.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import BinaryIO
 
@@ -24,7 +24,7 @@ from infill.kernels.threads import in_order, thread_count
 from infill.planner.open_timeline import make_timeline
 from infill.planner.print_clock import PrintClock, path_seconds
 from infill.refilling.even_drawing import EvenDrawing
-from infill.refilling.even_layers import measure_layers_of
+from infill.refilling.even_layers import LEAST_WIDTH, MOST_WIDTH, measure_layers_of
 from infill.refilling.layers import Layers, read_layers
 from infill.refilling.planning import RefillPlan
 from infill.refilling.replace import LayerMemory, replace_infill
@@ -39,6 +39,8 @@ PROGRESS_BYTES = 1 << 22  # bytes between two reports of progress
 MOST_REDRAWS = 3  # times that a print is redrawn with smaller moves of corners
 MOST_CELL_TRIES = 6  # times that a small print is redrawn at another cell
 MOST_CELL_TRIES_IF_LARGE = 2
+MOST_PRINT_TRIES = 4  # times that a print is redrawn with a pattern that follows it
+LITTLE = 0.04  # relative error of its filament that beads make up for
 FILAMENT_TOLERANCE = 0.005  # relative tolerance of the filament of all infill
 FILAMENT_TOLERANCE_IF_LARGE = 0.01
 MOST_THREADS = 4  # more threads would only take memory: a single one reads for all of them
@@ -86,7 +88,9 @@ class Drafting:
             If the draft cannot be written.
         """
         stats = self.draw(rules, plan, clock)
-        if plan is not None and plan.density is None and not plan.fixed:
+        if plan is not None and plan.scale is not None:
+            stats, plan = self._match_print(stats, rules, plan)
+        elif plan is not None and plan.density is None and not plan.fixed:
             stats, plan = self._match_filament(stats, rules, plan)
         previous = 0.0
         for _ in range(MOST_REDRAWS if rules.request.pattern == KEEP and rules.request.smooth_radius == AUTO else 0):
@@ -158,6 +162,23 @@ class Drafting:
                 best, smallest_error = current, abs(stats.filament_error)
         return stats if current is best else self.draw(rules, best), best
 
+    def _match_print(self, stats: RefillStats, rules: RefillRules, plan: RefillPlan) -> tuple[RefillStats, RefillPlan]:
+        """Redraw a pattern that follows the print until all of it takes the filament asked for.
+
+        Another cell where much is missing or too much, then wider or narrower beads in all layers alike.
+        """
+        for attempt in range(MOST_PRINT_TRIES):
+            error, last = stats.placed_error, attempt == MOST_PRINT_TRIES - 1
+            if plan.fixed or plan.scale is None or abs(error) <= FILAMENT_TOLERANCE:
+                break
+            if abs(error) <= LITTLE or last:
+                width = plan.scale / (1 + error)
+                plan = replace(plan, scale=min(max(width, LEAST_WIDTH), MOST_WIDTH))
+            else:
+                plan = plan.with_cell(plan.cell * (1 + error))
+            stats = self.draw(rules, plan)
+        return stats, plan
+
     def draw(self, rules: RefillRules, plan: RefillPlan | None, clock: PrintClock | None = None) -> RefillStats:
         """Write the new text to the draft, once."""
         self.file.seek(0)
@@ -204,6 +225,7 @@ class Drafting:
                     self.progress("drawing infill", bytes_read / max(self.print_survey.size, 1))
                     shown = bytes_read + PROGRESS_BYTES
             self.draft.flush()
+        total.placed_error = memory.taken / memory.asked - 1 if memory.asked else 0.0
         if tags is None or not tags.layer:
             raise FormatError(
                 "the file has no marked layers; give the G-code of PrusaSlicer, SuperSlicer, OrcaSlicer, Bambu Studio "

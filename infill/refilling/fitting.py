@@ -9,13 +9,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from infill.arrays import Floats
+from infill.paths.clipping import is_closed
 from infill.paths.corners import UNIT, RoundedPaths
 from infill.paths.covering import cover, total_length
 from infill.paths.families.family import TOUCH
+from infill.paths.joining import SHORTEST, SLACK
 from infill.paths.layer_below import LayerBelow
 from infill.paths.neighbours import BeadIndex
 from infill.paths.rounding import round_paths
 from infill.paths.short_segments import merge_short_segments
+from infill.paths.trimming import trim_ends
 from infill.paths.wall_joins import round_wall_joins
 from infill.ragged import concatenate_rows, split_rows
 from infill.refilling.planning import RefillPlan
@@ -232,7 +235,7 @@ def _cover_smoothly(area: Polygon, cell: float, setting: AreaSetting) -> FittedP
         hard |= shapely.dwithin(shapely.points(corners), outside, SHARP_RADIUS)
     paths = list(smooth_paths)
     if inside.all():
-        return FittedPaths(paths=paths, radii=radii, cell=cell)
+        return FittedPaths(paths=_trim_free_ends(paths, plan), radii=radii, cell=cell)
     points, first = concatenate_rows(strands)
     sharp_paths = RoundedPaths(
         points=np.rint(points / UNIT) * UNIT,
@@ -245,4 +248,15 @@ def _cover_smoothly(area: Polygon, cell: float, setting: AreaSetting) -> FittedP
     for number in np.flatnonzero(~inside).tolist():  # merging may take a path out of its area too
         fits = shapely.covers(tolerance_area, shapely.linestrings(plain[number]))
         paths[number] = plain[number] if fits else whole[number]
-    return FittedPaths(paths=paths, radii=radii, cell=cell)
+    return FittedPaths(paths=_trim_free_ends(paths, plan), radii=radii, cell=cell)
+
+
+def _trim_free_ends(paths: Paths, plan: RefillPlan) -> Paths:
+    """Shorten ends away from walls that came too near to lines whose corners were rounded; drop dots."""
+    if not plan.follows_print:
+        return paths
+    may_trim = [(not is_closed(path),) * 2 for path in paths]
+    spacing = (plan.family.least_spacing - SLACK) * plan.line_width
+    trimmed = trim_ends(paths, may_trim, spacing, plan.line_width, share=0.5)
+    even = [np.rint(path / UNIT) * UNIT for path in trimmed]
+    return [path for path in even if total_length([path]) >= SHORTEST * plan.line_width]

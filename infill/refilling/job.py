@@ -503,14 +503,20 @@ def _plan_pattern(
     sliced: SlicedText,
     print_survey: Survey,
 ) -> RefillPlan | None:
-    """Plan a refill with a pattern; None without infill. A density that changes takes a pass over the print."""
+    """Plan a refill with a pattern; None without infill.
+
+    A density that changes takes a pass over the print, and so does a pattern that follows it.
+    """
+    from infill.paths.families.infill_space import follows_print
     from infill.refilling.gradients import measure_gradient
     from infill.refilling.planning import plan_refill
     from infill.refilling.print_place import look_at_infill
 
-    graded, density = None, request.density
-    if request.gradient is not None and samples:
+    graded, density, follows = None, request.density, follows_print(family)
+    place = None
+    if samples and (request.gradient is not None or follows):
         place = look_at_infill(sliced.text, print_survey.begin, print_survey.layers)
+    if request.gradient is not None and samples:
         graded = None if place is None else measure_gradient(request.gradient, place)
         density = request.gradient.middle
     return plan_refill(
@@ -521,6 +527,7 @@ def _plan_pattern(
         acceleration=rules.acceleration,
         cell=request.cell,
         graded=graded,
+        place=place if follows else None,
     )
 
 

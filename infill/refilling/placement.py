@@ -15,7 +15,7 @@ from patterns.declared import parameters as declared
 from patterns.errors import PatternError
 from patterns.given import suggest_name
 from patterns.protocol import Pattern
-from patterns.shared import angle_parameter, phase_parameter, seed_parameter
+from patterns.shared import angle_parameter, levels_parameter, overhang_parameter, phase_parameter, seed_parameter
 
 if TYPE_CHECKING:
     from infill.paths.families.family import Family
@@ -101,6 +101,22 @@ class CentredParameters(SizedParameters):
     )
 
 
+@dataclass(frozen=True, kw_only=True)
+class OctreeParameters(PlacedParameters):
+    """Cubes that are split where they are needed."""
+
+    of_family = ("levels",)
+    levels: int = levels_parameter()
+
+
+@dataclass(frozen=True, kw_only=True)
+class LightningParameters(PlacedParameters):
+    """Branches below roofs."""
+
+    of_family = ("overhang",)
+    overhang: float = overhang_parameter()
+
+
 KINDS: Mapping[str, type[PatternParameters]] = {
     "keep": PatternParameters,
     "concentric": SizedParameters,
@@ -109,6 +125,9 @@ KINDS: Mapping[str, type[PatternParameters]] = {
     "octagram-spiral": CentredParameters,
     "voronoi": VoronoiParameters,
     "honeycomb": HoneycombParameters,
+    "adaptive-cubic": OctreeParameters,
+    "support-cubic": OctreeParameters,
+    "lightning": LightningParameters,
 }
 
 

@@ -12,12 +12,14 @@ import numpy as np
 from infill.arrays import Floats
 from infill.paths.covering import check_cell, solve_cell, total_length
 from infill.paths.families.family import TOUCH, CentredFamily, Family
+from infill.paths.families.infill_space import fills_print, place_family
 from infill.paths.neighbours import index_beads
 from infill.paths.rounding import Rounding, round_paths
 from infill.paths.stretching import SteppedFamily, StretchedFamily
 from infill.refilling.even_layers import LayerShares
 from infill.refilling.gradients import GradedDensity, stretch_to_density
 from infill.refilling.layers import Layers
+from infill.refilling.print_place import PrintPlace
 from infill.refilling.regions import FreeAreas
 
 if TYPE_CHECKING:
@@ -29,6 +31,7 @@ LARGEST_RADIUS = 1000.0  # mm, for an unlimited radius
 STRETCHED_TURN = math.radians(12)  # corners of waves turn by more, however they are stretched; divided legs by less
 LENGTH_TOLERANCE = 0.08  # relative error of the length in an area, about as much as beads can make up for
 GRADED_TOLERANCE = 0.01  # the same for a density that changes, as beads make up for its change within a step
+PLACED_LAYERS = 24  # in which the cell of a family is solved for that follows the print, at most
 STEPPED_LAYERS = 8  # in which the cell of a family is solved for that changes in steps, at most
 USUAL_HEIGHT = 0.2  # mm of a layer, where no tag gives it
 
@@ -53,6 +56,8 @@ class RefillPlan:
         Of the middle of a step, if cells change in steps of height.
     even : LayerShares, optional
         More or less filament, or more time, for the infill of single layers.
+    scale : float, optional
+        Filament per mm, over the slicer's, for a pattern that follows the print: its layers differ on purpose.
     """
 
     family: Family
@@ -64,6 +69,7 @@ class RefillPlan:
     graded: GradedDensity | None = None
     height: float | None = None
     even: LayerShares | None = None
+    scale: float | None = None
 
     def with_cell(self, cell: float) -> RefillPlan:
         """Return the plan with another cell, mm, or the smallest that beads fit into."""
@@ -88,7 +94,12 @@ class RefillPlan:
     def kept_turn(self) -> float:
         """The turn, in radians, below which no point is one of the pattern's corners; 0 for lines other than waves."""
         is_waves = isinstance(self.family, StretchedFamily) and self.family.family.touches
-        return STRETCHED_TURN if is_waves else 0.0
+        return STRETCHED_TURN if is_waves or self.follows_print else 0.0
+
+    @property
+    def follows_print(self) -> bool:
+        """True for a pattern that follows the print: its lines also end beside others, away from walls."""
+        return self.scale is not None
 
     def at(self, z: float) -> RefillPlan:
         """Return the plan for a height, mm: of a family that changes in steps, the one there."""
@@ -128,6 +139,7 @@ def plan_refill(
     acceleration: float,
     cell: float | None = None,
     graded: GradedDensity | None = None,
+    place: PrintPlace | None = None,
 ) -> RefillPlan | None:
     """Choose the cell so that the sampled layers take the requested filament; None without infill.
 
@@ -144,6 +156,8 @@ def plan_refill(
         mm; overrides the filament.
     graded : GradedDensity, optional
         A density that changes from place to place; `density` is its middle.
+    place : PrintPlace, optional
+        The infill of the print, for a pattern that follows it: its cell is solved for in layers from all heights.
     """
     import shapely
 
@@ -175,6 +189,9 @@ def plan_refill(
     family = _centre_family(family, [area for area, _, _ in regions])
     if graded is not None:
         family = stretch_to_density(family, graded, width)
+    if place is not None:
+        family = place_family(family, place.space)
+        regions, lengths = _regions_of_print(place, None if density is None else density / spacing)
     plan = RefillPlan(
         family=family,
         cell=1.0,
@@ -182,7 +199,11 @@ def plan_refill(
         rounding=rounding,
         density=None if density is None else density / spacing,
         graded=graded,
+        scale=None if place is None else 1.0,
     )
+    if not fills_print(family) and cell is None:
+        area_of_all = sum(region.area for region, _, _ in regions)
+        cell = max(family.cell_for(sum(lengths) / area_of_all * TOUCH * width, width), TOUCH * width)
     if cell is not None:
         check_cell(cell, width)
         return replace(plan, cell=cell, fixed=True)
@@ -210,6 +231,26 @@ def plan_refill(
     length = sum(lengths[few])
     solved = solve_cell(regions[few], family, length, line_width=width, radius=plan.radius, measure=measure)
     return replace(plan, cell=solved.cell)
+
+
+def _regions_of_print(
+    place: PrintPlace, density: float | None
+) -> tuple[list[tuple[MultiPolygon, float, int]], list[float]]:
+    """Return regions of layers from all heights of a print, and the requested length in each, mm.
+
+    Parameters
+    ----------
+    place : PrintPlace
+    density : float, optional
+        mm of line per mm²; without it, the slicer's own length.
+    """
+    import shapely
+
+    layers = place.filled[:: -(-len(place.filled) // PLACED_LAYERS)]
+    regions = [(shapely.MultiPolygon(list(layer.areas)), layer.z, layer.number) for layer in layers]
+    if density is None:
+        return regions, [layer.length for layer in layers]
+    return regions, [density * region.area for region, _, _ in regions]
 
 
 def _centre_family(family: Family, areas: Sequence[MultiPolygon]) -> Family:

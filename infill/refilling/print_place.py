@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, BinaryIO
 
@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from infill.arrays import Floats
 from infill.gcode.machine_state import MachineState
+from infill.paths.families.infill_space import InfillSpace
 from infill.refilling.layers import read_layers
 from infill.refilling.regions import FreeAreas
 
@@ -39,10 +40,16 @@ class InfillLayer:
     ----------
     z : float, mm
     areas : tuple of Polygon
+    number : int
+        Of the layer.
+    length : float, mm
+        Of its infill.
     """
 
     z: float
     areas: tuple[Polygon, ...]
+    number: int = 0
+    length: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -53,9 +60,12 @@ class PrintPlace:
     ----------
     layers : tuple of InfillLayer
         Some layers from the first to the last, in order of height.
+    heights : (L,) float64, mm
+        Of all layers with infill, ascending.
     """
 
     layers: tuple[InfillLayer, ...]
+    heights: Floats = field(default_factory=lambda: np.empty(0))
 
     @cached_property
     def filled(self) -> tuple[InfillLayer, ...]:
@@ -125,6 +135,12 @@ class PrintPlace:
             np.float32
         )
         return inner
+
+    @cached_property
+    def space(self) -> InfillSpace:
+        """The grid, for patterns that follow the infill of the entire print."""
+        corner, steps, inside = self._grid
+        return InfillSpace(corner=corner, steps=steps, inside=inside, depths=self._skin_depths, heights=self.heights)
 
     def skin_depth(self, points: Floats) -> Floats:
         """Return the distance of points (N, 3), mm, from walls, roofs and floors: (N,), mm."""
@@ -212,23 +228,25 @@ def look_at_infill(file: BinaryIO, begin: MachineState, layers: float) -> PrintP
     kept: list[InfillLayer] = []
     region: FreeAreas | None = None
     areas: tuple[Polygon, ...] = ()
+    heights: list[float] = []
     for batch in read_layers(file, begin):
         numbers, last = np.unique(batch.marks.layer, return_index=True)
         with_infill = set(np.unique(batch.layer).tolist())
+        heights += [batch.of(number).z for number in sorted(with_infill)]
         for number, line in zip(numbers.tolist(), last.tolist(), strict=True):
             if number % stride:
                 continue
             if number not in with_infill:
-                heights = batch.table.z[line : int(np.searchsorted(batch.marks.layer, number, side="right"))]
-                kept.append(InfillLayer(z=float(np.nan_to_num(heights[-1])), areas=()))
+                beads = batch.table.z[line : int(np.searchsorted(batch.marks.layer, number, side="right"))]
+                kept.append(InfillLayer(z=float(np.nan_to_num(beads[-1])), areas=()))
                 continue
             layer = batch.of(number)
             before, region = region, layer.find_region(region)
             if region is not before:
                 areas = tuple(shapely.simplify(area, SIMPLER) for area in region.polygons)
-            kept.append(InfillLayer(z=layer.z, areas=areas))
+            kept.append(InfillLayer(z=layer.z, areas=areas, number=number, length=layer.length))
             if len(kept) > 4 * MOST_LAYERS:
                 kept, stride = kept[::2], 2 * stride
     kept.sort(key=lambda layer: layer.z)
-    place = PrintPlace(layers=tuple(kept))
+    place = PrintPlace(layers=tuple(kept), heights=np.unique(heights))
     return place if place.filled else None

@@ -16,6 +16,7 @@ from infill.kernels.threads import in_order
 from infill.paths.corners import UNIT
 from infill.paths.covering import total_length
 from infill.paths.families.family import Family
+from infill.paths.families.infill_space import fills_print
 from infill.paths.layer_below import LayerBelow, index_layer_below
 from infill.paths.neighbours import BeadIndex
 from infill.planner.print_clock import path_seconds
@@ -44,6 +45,7 @@ Paths = list[Floats]
 LEAST_TRAVEL = 1.0  # mm; shorter travel never retracts
 DEBT = 0.1  # of the filament of a layer: the error at which columns choose new cells
 AGAIN_AFTER = 8  # layers until columns may choose new cells again
+SLOWEST = 0.25  # of its speed, for infill that is much shorter than before on purpose
 ACROSS = 0.1  # mm that travel may leave its areas without a retraction
 
 
@@ -69,6 +71,8 @@ class LayerMemory:
         mm of filament still missing after beads are widened as far as allowed.
     family : Family, optional
         Of the paths drawn.
+    asked, taken : float
+        mm of filament that sections should take together, and that they take, of a pattern that follows the print.
     fitted : int
         The last layer in which columns chose new cells, to make up for `owed`.
     """
@@ -83,6 +87,8 @@ class LayerMemory:
     owed: float = 0.0
     family: Family | None = None
     fitted: int = -AGAIN_AFTER
+    asked: float = 0.0
+    taken: float = 0.0
 
     def enter(self, region: FreeAreas, others: BeadIndex, plan: RefillPlan) -> None:
         """Go on to a layer with this region and these other beads."""
@@ -132,6 +138,8 @@ class NewSection:
     radii : (C,) float64, mm
         Of the arcs; 0 or infinite at corners without an arc.
     acceleration : float, mm/s²
+    asked : float
+        mm of filament that it should take, if nothing but the mean of the print counted.
     """
 
     body: InfillSection
@@ -140,6 +148,7 @@ class NewSection:
     areas: tuple[Polygon, ...]
     radii: Floats
     acceleration: float
+    asked: float = 0.0
 
     @cached_property
     def length(self) -> float:
@@ -191,8 +200,8 @@ class NewSection:
         body = replace(self.body, feed=even.feed_rate(self.body.layer, self.body.feed))
         return replace(self, body=body, rate=even.filament_rate(body.layer, self.rate, body.rate))
 
-    def slow_down_to_old(self, layers: Layers) -> NewSection:
-        """Return the section, slowed down if it would take less time than the old one.
+    def slow_down_to_old(self, layers: Layers, slowest: float = 0.0) -> NewSection:
+        """Return the section, slowed down if it would take less time than the old one, to a share `slowest` at most.
 
         Travel counts on both sides, at the feed rates of the section and without acceleration, as slicers count it.
         Retractions count among the old moves only: those of the new ones are not yet known.
@@ -212,7 +221,7 @@ class NewSection:
         travel = np.linalg.norm(travels[:, 1] - travels[:, 0], axis=1).sum()
         available -= float(60 * travel / max(table.f[lead + 1 : body.last + 1].max(), body.feed))
         if 0 < 60 * self.length / body.feed < available:
-            body = replace(body, feed=60 * self.length / available)
+            body = replace(body, feed=max(60 * self.length / available, slowest * body.feed))
         return replace(self, body=body)
 
 
@@ -243,7 +252,8 @@ def replace_infill(layers: Layers, rules: RefillRules, plan: RefillPlan, memory:
     if not new:
         return NewInfill.unchanged(layers, kept)
     slow = may_be_slowed(layers, rules)
-    new = [s.slow_down_to_old(layers) if slow[s.body.layer - int(layers.marks.layer[0])] else s for s in new]
+    slowest = SLOWEST if plan.follows_print else 0.0
+    new = [s.slow_down_to_old(layers, slowest) if slow[s.body.layer - int(layers.marks.layer[0])] else s for s in new]
     if plan.even is not None:
         new = [section.even_out(plan.even) for section in new]
     text, filament, fault = redraw_sections(
@@ -251,6 +261,8 @@ def replace_infill(layers: Layers, rules: RefillRules, plan: RefillPlan, memory:
     )
     if fault:
         return NewInfill.unchanged(layers, kept | {f"a check failed: {fault}": drawn})
+    memory.asked += sum(section.asked for section in new)
+    memory.taken += sum(section.rate * section.length for section in new)
     bodies = [section.body for section in new]
     changed = np.zeros(len(infill), dtype=bool)
     changed[np.concatenate([body.strokes for body in bodies])] = True
@@ -398,7 +410,7 @@ def _fill_group(
             )
         )
     filament = sum(section.rate * section.length for section in sections)
-    if not filament:
+    if not filament and fills_print(plan.family):
         return []
     if plan.fixed:
         target = filament
@@ -406,6 +418,8 @@ def _fill_group(
         target = sum(body.filament for body in members)
     else:
         target = members[0].rate * plan.length_in(areas, members[0].z)
+    if plan.scale is not None:
+        return [replace(section, rate=section.rate * plan.scale, asked=target / len(sections)) for section in sections]
     target += memory.owed
     factor = float(np.clip(target / filament, LEAST_WIDTH, MOST_WIDTH))
     memory.owed = target - factor * filament

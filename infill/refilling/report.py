@@ -10,7 +10,7 @@ from infill.gcode.ending import describe_missing_end
 from infill.gcode.infill_sections import ODD_ARCS
 from infill.gcode.survey import Survey
 from infill.plain_numbers import count_noun
-from infill.refilling.placement import parameter_facts
+from infill.refilling.placement import family_of, parameter_facts
 from infill.refilling.request import AUTO, KEEP, Request
 from infill.refilling.rules import RefillRules
 from infill.refilling.stats import PURGED, UNREAD, RefillStats
@@ -120,12 +120,24 @@ def refill_report(
             lost += f"; leave --smooth-radius out, and it takes {remedy.infill_ratio - 1:+z.1%}"
         report["problems"].append(lost)
     promised = not keeps_paths and isinstance(request.density, str | None) and request.cell is None
-    if promised and tally.replaced and abs(ratio - 1) > FILAMENT_TOLERANCE:
+    if promised and tally.replaced and not _fills(request):
+        report["problems"].append(
+            f"the infill takes {ratio - 1:+z.1%} filament: {request.pattern} has lines below roofs alone, with the "
+            "density of the slicer's infill there"
+        )
+    elif promised and tally.replaced and abs(ratio - 1) > FILAMENT_TOLERANCE:
         report["problems"].append(
             f"the infill takes {ratio - 1:+z.1%} filament: only whole lines can be added or removed here; take another "
             "pattern, or another --density"
         )
     return report
+
+
+def _fills(request: Request) -> bool:
+    """Tell whether the cell of the pattern decides how much filament the infill takes."""
+    from infill.paths.families.infill_space import fills_print
+
+    return fills_print(family_of(request.pattern, request.parameters, request.lines))
 
 
 def loses_filament(tally: RefillStats) -> bool:

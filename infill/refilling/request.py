@@ -168,7 +168,8 @@ class Request:
         Option(
             "keep: the slicer's own paths, with round corners. auto: honeycomb if it prints faster with the same "
             "filament, else keep. Or a drawing: tile.svg, .dxf, .png, .wkt. Or a"
-            " built-in pattern: honeycomb, zigzag, concentric-heart, grid, triangles, tri-hexagon, cubic, rectilinear, "
+            " built-in pattern: honeycomb, zigzag, concentric-heart, grid, triangles, tri-hexagon, cubic, adaptive-"
+            "cubic, support-cubic, lightning, rectilinear, "
             "hilbert, gyroid, schwarz-p, schwarz-d, concentric, honeycomb-3d, octagons, voronoi, cross, cross-"
             "hatch, quarter-cubic, lateral-honeycomb, archimedean-chords, octagram-spiral. Or module.py:name.",
             PATHS,
@@ -311,6 +312,8 @@ class Request:
                 "density",
                 "only works with --pattern NAME; to change the slicer's own infill, set the density in the slicer",
             )
+        if self.even is not None:
+            self._check_follows_print()
         if self.parameters:
             from infill.refilling.placement import check_pattern_parameters
 
@@ -358,6 +361,16 @@ class Request:
         object.__setattr__(self, "leeway", parse_leeway("leeway", self.leeway))
         if self.even is None:
             raise UsageError.about("leeway", "only works with --even time or --even volume; give one of them")
+
+    def _check_follows_print(self) -> None:
+        """Raise UsageError for layers to be evened out that a pattern makes uneven on purpose."""
+        from infill.paths.families.catalogue import FAMILIES
+        from infill.paths.families.infill_space import follows_print
+
+        if self.pattern in FAMILIES and self.lines is None and follows_print(FAMILIES[self.pattern]):
+            raise UsageError.about(
+                "even", f"does not work with {self.pattern}, whose layers take what each needs; take another pattern"
+            )
 
     def _resolve_pattern(self) -> None:
         """Put the name of the pattern in its place, and find its parameters and lines."""

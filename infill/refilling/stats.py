@@ -176,6 +176,8 @@ class RefillStats:
         As in `NewInfill`.
     steps : LayerSteps
         Between layers that were evened out.
+    placed_error : float
+        Relative error of the filament of a pattern that follows the print, against the requested amount.
     """
 
     layers: int = 0
@@ -200,6 +202,7 @@ class RefillStats:
     objects: dict[str, int] = field(default_factory=dict)
     drawn: dict[int, Floats] = field(default_factory=dict)
     steps: LayerSteps = field(default_factory=LayerSteps)
+    placed_error: float = 0.0
 
     @property
     def filament_error(self) -> float:

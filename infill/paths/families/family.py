@@ -103,6 +103,8 @@ class Family(ABC):
         True if its cells may change from place to place: lines keep their distances when they are stretched.
     touches : bool
         True if its nominal strands touch, and move apart after they are stretched.
+    fills : bool
+        False if its cell does not decide how much filament it takes.
     least_spacing : float
         Line widths that a join along a wall keeps from other lines.
     """
@@ -115,6 +117,7 @@ class Family(ABC):
     corner_share: ClassVar[float] = math.inf
     stretches: ClassVar[bool] = False
     touches: ClassVar[bool] = False
+    fills: ClassVar[bool] = True
     least_spacing: ClassVar[float] = CLEAR * TOUCH
 
     @abstractmethod
