@@ -121,7 +121,7 @@ def test_lines_keep_apart_and_never_cross(name: str, refilled: Callable[[str], P
             assert least_spacing(layer.paths, near=4 * WIDTH, most=0.6) > 0.9 * WIDTH - 0.02
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @every_pattern
 def test_lines_lie_on_those_below(name: str, refilled: Callable[[str], Path]) -> None:
     """Within half a line width of the layer below, or in reach of the wall: no less than plain cubic, and 95 %."""
@@ -232,7 +232,7 @@ def test_sections_without_a_roof_stay_empty(tmp_path: Path) -> None:
     assert max(heights) == pytest.approx(max(layer.z for layer in read_sparse(old.decode())))
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @every_pattern
 @pytest.mark.parametrize(
     "dialect",
@@ -248,7 +248,7 @@ def test_prints_are_valid(name: str, dialect: Dialect, tmp_path: Path) -> None:
     assert [fault for fault in faults if FAMILIES[name].fills or not fault.startswith("cooling")] == []
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @every_pattern
 def test_verify_finds_nothing_but_other_amounts(name: str, step: Path, refilled: Callable[[str], Path]) -> None:
     faults = verify(step, refilled(name)).report["violations"]
