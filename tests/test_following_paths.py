@@ -204,7 +204,7 @@ def test_all_of_the_print_takes_the_filament_asked_for(
 # --- roofs -----------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @every_pattern
 @pytest.mark.parametrize(("top", "area"), [(LOW, (126, 86.5, 153.5, 123.5)), (HIGH, (96.5, 86.5, 123.5, 123.5))])
 def test_roofs_are_held(

@@ -138,7 +138,7 @@ ALIKE: dict[str, tuple[list[str], Callable[[], Any]]] = {
 }
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("name", ALIKE)
 def test_the_command_and_the_function_have_the_same_defaults(name: str, folder: Path) -> None:
     grid = np.indices((24, 24, 24)) - 11.5

@@ -236,7 +236,7 @@ def test_a_density_that_hardly_changes_draws_the_lines_of_one_density(
     assert total == pytest.approx(plain_total, rel=0.005)
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_a_density_that_changes_with_height_takes_the_filament_of_every_layer(tall: Path, tmp_path: Path) -> None:
     layers = written_by(tall, tmp_path / "new.gcode", "grid", "z", density=(0.3, 0.15))
     low, high = layers[0].z, layers[-1].z

@@ -70,7 +70,7 @@ def assert_one_solid(result: Any) -> None:
     assert to_manifold(result.surface).volume() == pytest.approx(result.report["volume"], rel=1e-6)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("pattern", ["grid", "octet", "cubic", "gyroid-network"])
 def test_a_pattern_in_a_region_is_that_of_a_whole_fill_there_and_nowhere_else(pattern: str) -> None:
     """A level set, lines, planes, bars and a network, in cells of one size, so that the geometry is the same too."""

@@ -634,7 +634,7 @@ def test_closing_the_connection_cancels(studio: Studio, files: Path) -> None:
         assert time.perf_counter() - begin < 15  # s; the whole fill would take longer, and so may a new process
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_a_cancelled_result_is_made_when_it_is_asked_for_again(studio: Studio, files: Path) -> None:
     with studio.page() as page:
         file = page.upload(files / "part.stl").facts["file"]

@@ -58,6 +58,7 @@ def require_same(walls: Walls, whole: Walls) -> None:
     assert np.array_equal(walls.volumes, whole.volumes)
 
 
+@pytest.mark.longest
 @settings(max_examples=3, deadline=None)
 @given(
     seed=st.integers(0, 2**32 - 1),

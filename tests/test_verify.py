@@ -195,7 +195,7 @@ def test_a_change_of_the_text_alone_is_no_violation(
     assert compared >= 15
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("pattern", ["keep", "gyroid"])
 def test_a_refill_is_no_violation(pattern: str, prints_of_all_kinds: Mapping[str, Path], tmp_path: Path) -> None:
     """Gyroids in every fifth print; test_refill_changes_nothing_else.py has honeycombs in others."""
