@@ -10,13 +10,16 @@ from patterns.planes import ON_A_CORNER
 from patterns.shared import levels_parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     import numpy as np
     from numpy.typing import NDArray
 
     Flags = NDArray[np.bool_]
+    Floats = NDArray[np.float64]
 
+DIAGONAL = 3**0.5  # of a cube, over its side
+FLAT = 0.5**0.5  # cosine of 45 degrees: a roof that is steeper needs nothing below it
 Rows = tuple[tuple[float, float, float], ...]
 
 
@@ -79,6 +82,44 @@ class SupportCubic(Octree):
     name: str = "support-cubic"
     summary: str = "cubes on their corners, small below roofs and large elsewhere: carries tops, and little else"
     roofs: bool = True
+
+
+def divide_cubes(
+    pattern: Octree, ends: Floats, side: float, look: Callable[[Floats, float], tuple[Floats, Flags]]
+) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
+    """Divide a box into cubes, split as `Octree` says; return their levels, as `cube_levels`, and the lowest number.
+
+    Parameters
+    ----------
+    pattern : Octree
+    ends : (N, 3) float64
+        Corners of the box, in smallest cubes.
+    side : float
+        Of the smallest cubes, in the unit of distances.
+    look : callable
+        Takes places, (M, 3), in smallest cubes, and the farthest distance that counts; returns the distances of the
+        followed surface, (M,), and which places are inside the walls, (M,).
+
+    Returns
+    -------
+    levels : (n, m, k) uint8
+    corner : (3,) int64
+        Number of the lowest cube along each axis.
+    """
+    import numpy as np
+
+    period = pattern.cells
+    corner = (np.floor((ends.min(axis=0) - 1) / period) * period).astype(np.int64)
+    counts = (np.floor((ends.max(axis=0) + 1) / period) * period).astype(np.int64) + period - corner
+    unsplit = []
+    for level in range(1, pattern.levels + 1):
+        size = 1 << level
+        shape = tuple((counts // size).tolist())
+        middles = np.indices(shape).reshape(3, -1).T * size + size / 2 + corner
+        reach = size / 2 * side
+        distances, inside = look(middles, DIAGONAL * reach)
+        unsplit.append((distances >= np.where(inside, reach, DIAGONAL * reach)).reshape(shape))
+    return cube_levels(unsplit), corner
 
 
 def cube_levels(whole: Sequence[Flags]) -> NDArray[np.uint8]:

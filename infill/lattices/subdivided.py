@@ -12,15 +12,13 @@ from infill.interior.interior import BAND, Interior
 from infill.kernels.threads import in_threads, thread_count
 from infill.lattices.root_finding import find_root
 from infill.lattices.voids import Layout, VoidFields
-from patterns.octree import Octree, cube_levels
+from patterns.octree import FLAT, Octree, divide_cubes
 
 if TYPE_CHECKING:
     from scipy.spatial import cKDTree
 
 SHELL = 1.5  # cells of the grid: width of the band outside the inner side of a wall that counts as skin
-FLAT = 0.5**0.5  # cosine of 45 degrees: a roof that is steeper needs nothing below it
 SHARES = (0.6, 0.3, 0.1)  # of a part, taken by the smallest cubes and by larger ones: a guess
-DIAGONAL = 3**0.5  # of a cube, over its side
 NEAR, TRIES = 1e-4, 40  # of the density: error that is good enough, and tries at most
 ONCE = 1 << 20  # cells of the grid in a batch
 
@@ -108,20 +106,16 @@ class Subdivided:
         from infill.kernels.cells import colours_of_cubes
 
         space, cell, threads = layout.space, layout.cell, thread_count(layout.threads)
-        start, step, period = self._start(space, cell), self.turn * space.size / cell, self.pattern.cells
+        start, step = self._start(space, cell), self.turn * space.size / cell
+        to_grid, depth = np.linalg.inv(step).T, space.below_walls
+
+        def look(places: NDArray[np.float64], farthest: float) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+            cells = (places - start) @ to_grid
+            distances = np.asarray(skin.query(cells, distance_upper_bound=farthest, workers=threads)[0])
+            return distances, _are_inside(depth, cells)
+
         ends = np.array(np.meshgrid(*[(0, n - 1) for n in space.depth.shape])).reshape(3, -1).T @ step.T + start
-        lowest = (np.floor((ends.min(axis=0) - 1) / period) * period).astype(np.int64)
-        counts = (np.floor((ends.max(axis=0) + 1) / period) * period).astype(np.int64) + period - lowest
-        depth, is_whole = space.below_walls, list[NDArray[np.bool_]]()
-        for level in range(1, self.pattern.levels + 1):
-            side = 1 << level
-            middles = np.indices(tuple((counts // side).tolist())).reshape(3, -1).T * side + side / 2 + lowest
-            cells = (middles - start) @ np.linalg.inv(step).T
-            reach = side / 2 * cell / space.size
-            reaches = np.where(_are_inside(depth, cells), reach, DIAGONAL * reach)
-            distances, _ = skin.query(cells, distance_upper_bound=DIAGONAL * reach, workers=threads)
-            is_whole.append((distances >= reaches).reshape(counts // side))
-        cubes = cube_levels(is_whole)
+        cubes, lowest = divide_cubes(self.pattern, ends, cell / space.size, look)
         seen = in_threads(colours_of_cubes, space.depth, cubes, step, start - lowest, threads=threads)
         colours = tuple(np.flatnonzero(np.any(seen, axis=0)).tolist())
         return CubeTree(doubled=cubes, first=lowest, colours=colours, skin=skin)

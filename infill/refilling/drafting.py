@@ -38,11 +38,11 @@ from infill.refilling.widest_gap import GapMemory
 PROGRESS_BYTES = 1 << 22  # bytes between two reports of progress
 MOST_REDRAWS = 3  # times that a print is redrawn with smaller moves of corners
 MOST_CELL_TRIES = 6  # times that a small print is redrawn at another cell
-MOST_CELL_TRIES_IF_LARGE = 2
+MOST_CELL_TRIES_IF_LARGE = 2  # a try takes as long as the first drawing
 MOST_PRINT_TRIES = 4  # times that a print is redrawn with a pattern that follows it
 LITTLE = 0.04  # relative error of its filament that beads make up for
 FILAMENT_TOLERANCE = 0.005  # relative tolerance of the filament of all infill
-FILAMENT_TOLERANCE_IF_LARGE = 0.01
+FILAMENT_TOLERANCE_IF_LARGE = 0.01  # what refill promises of a print
 MOST_THREADS = 4  # more threads would only take memory: a single one reads for all of them
 
 
@@ -88,10 +88,11 @@ class Drafting:
             If the draft cannot be written.
         """
         stats = self.draw(rules, plan, clock)
-        if plan is not None and plan.scale is not None:
-            stats, plan = self._match_print(stats, rules, plan)
-        elif plan is not None and plan.density is None and not plan.fixed:
-            stats, plan = self._match_filament(stats, rules, plan)
+        if plan is not None and not plan.fixed:
+            if plan.scale is not None:
+                stats, plan = self._match_print(stats, rules, plan, plan.scale)
+            elif plan.density is None:
+                stats, plan = self._match_filament(stats, rules, plan)
         previous = 0.0
         for _ in range(MOST_REDRAWS if rules.request.pattern == KEEP and rules.request.smooth_radius == AUTO else 0):
             length = kept_length_share(stats.infill.length, stats.infill_after.length)
@@ -144,14 +145,17 @@ class Drafting:
     ) -> tuple[RefillStats, RefillPlan]:
         """Redraw a print at other cells until its infill takes the old amount of filament; else at the best cell.
 
-        In a large print, later layers make up for the excess or shortage of earlier ones in most cases.
+        In a large print, later layers make up for the excess or shortage of earlier ones in most cases, and drawing
+        takes long: so a larger error is left, and fewer cells are tried.
         """
         is_small = self.print_survey.small
+        tries = MOST_CELL_TRIES if is_small else MOST_CELL_TRIES_IF_LARGE
+        tolerance = FILAMENT_TOLERANCE if is_small else FILAMENT_TOLERANCE_IF_LARGE
         best, smallest_error, current = plan, abs(stats.filament_error), plan
         errors: dict[float, float] = {}  # relative error of the filament, by cell
-        for _ in range(MOST_CELL_TRIES if is_small else MOST_CELL_TRIES_IF_LARGE):
+        for _ in range(tries):
             error = errors[current.cell] = stats.filament_error
-            if abs(error) <= (FILAMENT_TOLERANCE if is_small else FILAMENT_TOLERANCE_IF_LARGE):
+            if abs(error) <= tolerance:
                 return stats, current
             # The filament jumps with the cell: try between two that take too much and too little, if both exist.
             opposite = [cell for cell, cell_error in errors.items() if cell_error * error < 0]
@@ -162,18 +166,20 @@ class Drafting:
                 best, smallest_error = current, abs(stats.filament_error)
         return stats if current is best else self.draw(rules, best), best
 
-    def _match_print(self, stats: RefillStats, rules: RefillRules, plan: RefillPlan) -> tuple[RefillStats, RefillPlan]:
+    def _match_print(
+        self, stats: RefillStats, rules: RefillRules, plan: RefillPlan, scale: float
+    ) -> tuple[RefillStats, RefillPlan]:
         """Redraw a pattern that follows the print until all of it takes the filament asked for.
 
         Another cell where much is missing or too much, then wider or narrower beads in all layers alike.
         """
         for attempt in range(MOST_PRINT_TRIES):
             error, last = stats.placed_error, attempt == MOST_PRINT_TRIES - 1
-            if plan.fixed or plan.scale is None or abs(error) <= FILAMENT_TOLERANCE:
+            if abs(error) <= FILAMENT_TOLERANCE:
                 break
             if abs(error) <= LITTLE or last:
-                width = plan.scale / (1 + error)
-                plan = replace(plan, scale=min(max(width, LEAST_WIDTH), MOST_WIDTH))
+                scale = min(max(scale / (1 + error), LEAST_WIDTH), MOST_WIDTH)
+                plan = replace(plan, scale=scale)
             else:
                 plan = plan.with_cell(plan.cell * (1 + error))
             stats = self.draw(rules, plan)

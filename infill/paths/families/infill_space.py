@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, Protocol, runtime_checkable
@@ -12,9 +11,9 @@ from numpy.typing import NDArray
 
 from infill.arrays import Flags, Floats
 from infill.paths.families.family import Family, TurnedFamily
+from patterns.octree import FLAT
 
-FLAT = math.cos(math.radians(45))  # depths below a roof that is steeper rise more slowly downwards
-LOOKED_DOWN = 3  # nodes over which that is measured
+LOOKED_DOWN = 3  # nodes over which the rise of depths below a roof is measured: more slowly below a steep one
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -30,14 +30,13 @@ from infill.paths.families.triangle_lattice import (
     TriangleLattice,
 )
 from infill.paths.families.waves import solve_cell_for_density
-from patterns.octree import Octree, cube_levels
+from patterns.octree import Octree, divide_cubes
 from patterns.planes import ON_A_CORNER
 
 TURN = np.array(ON_A_CORNER)
 SIDE = math.sqrt(2 / 3)  # of a cube, over the distance of its lines
 MARGIN, BEYOND = 2, 0.5  # cubes that are drawn beyond a box, on each side, and cells that lines reach beyond it
 TURN_SEGMENTS = 4
-DIAGONAL = math.sqrt(3)  # of a cube, over its side
 Levels = NDArray[np.uint8]
 
 
@@ -171,21 +170,16 @@ def _build_tree(space: InfillSpace, pattern: Octree, side: float) -> PrintCubes:
 
     surface = space.roofs if pattern.roofs else space.skin
     tree = cKDTree(surface) if len(surface) else None
-    ends, period = space.box @ TURN.T / side + pattern.middle, pattern.cells
-    first = (np.floor((ends.min(axis=0) - 1) / period) * period).astype(np.int64)
-    counts = (np.floor((ends.max(axis=0) + 1) / period) * period).astype(np.int64) + period - first
-    unsplit: list[Flags] = []
-    for level in range(1, pattern.levels + 1):
-        size = 1 << level
-        middles = np.indices(tuple((counts // size).tolist())).reshape(3, -1).T * size + size / 2 + first
-        points: Floats = side * (middles - pattern.middle) @ TURN
-        reach = np.where(space.contains(points), size / 2, DIAGONAL * size / 2) * side
-        if tree is None:
-            unsplit.append(np.ones(counts // size, dtype=bool))
-            continue
-        distances, _ = tree.query(points, distance_upper_bound=DIAGONAL * size / 2 * side)
-        unsplit.append((distances >= reach).reshape(counts // size))
-    return PrintCubes(doubled=cube_levels(unsplit), first=first)
+
+    def look(cubes: Floats, farthest: float) -> tuple[Floats, Flags]:
+        points: Floats = side * (cubes - pattern.middle) @ TURN
+        distances: Floats = np.full(len(points), np.inf)
+        if tree is not None:
+            distances = np.asarray(tree.query(points, distance_upper_bound=farthest)[0])
+        return distances, space.contains(points)
+
+    doubled, corner = divide_cubes(pattern, space.box @ TURN.T / side + pattern.middle, side, look)
+    return PrintCubes(doubled=doubled, first=corner)
 
 
 ADAPTIVE_CUBIC = OctreePaths(
