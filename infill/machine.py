@@ -6,11 +6,14 @@ import ctypes
 import os
 import re
 import sys
+from functools import cache
 from pathlib import Path
 
 from infill.errors import MemoryLimitError
 
 GIB = 2**30
+LARGE_BLOCK = 4 * 2**20  # bytes: smaller ones are allocated too often to be fetched from the system each time
+MMAP_THRESHOLD = -3  # glibc's number of this setting
 LARGEST_SHOWN = 2**100  # largest number of bytes in a message: a grid may exceed the range of a float
 
 
@@ -51,6 +54,17 @@ def _windows_available() -> int | None:
     status = Status(length=ctypes.sizeof(Status))
     succeeded = ctypes.windll.kernel32.GlobalMemoryStatusEx(ctypes.byref(status))  # type: ignore[attr-defined]
     return int(status.available) if succeeded else None
+
+
+@cache
+def return_large_blocks() -> None:
+    """Have freed blocks of memory of 4 MiB and more returned to the system at once, for the rest of the process.
+
+    Linux's C library keeps freed blocks of up to 32 MiB for later, for each thread apart: half as much memory again as
+    is in use. This does nothing on other systems.
+    """
+    if sys.platform == "linux" and hasattr(library := ctypes.CDLL(None), "mallopt"):
+        library.mallopt(MMAP_THRESHOLD, LARGE_BLOCK)
 
 
 def require_memory(needed: int, limit: int | None, advice: str) -> None:

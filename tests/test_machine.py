@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import os
+import platform
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -41,6 +44,38 @@ def test_limits_are_told_in_gib() -> None:
     machine.require_memory(5, 5, "do less")
     with pytest.raises(MemoryLimitError, match=r"needs about 2\.00 GiB of memory and 1\.00 GiB is allowed; do less"):
         machine.require_memory(2 * 2**30, 2**30, "do less")
+
+
+FREEING = """
+import re, sys, threading
+import numpy as np
+from infill.machine import return_large_blocks
+
+def resident():
+    return int(re.search(r"RssAnon:\\s*([0-9]+) kB", open("/proc/self/status").read())[1]) / 1024
+
+def work():
+    for _ in range(3):
+        np.ones(30 * 2**17)  # 30 MiB: the C library learns from freed blocks what to keep
+    kept = [np.ones(6 * 2**17) for _ in range(60)][1::20]
+
+if sys.argv[1] == "returned":
+    return_large_blocks()
+before = resident()
+threads = [threading.Thread(target=work) for _ in range(2)]
+[thread.start() for thread in threads]
+[thread.join() for thread in threads]
+print(resident() - before)
+"""
+
+
+@pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="another C library keeps other blocks")
+@pytest.mark.parametrize(("way", "least", "most"), [("returned", 0, 10), ("kept", 100, 1000)])
+def test_freed_blocks_go_back_to_the_system(way: str, least: float, most: float) -> None:
+    """Of 700 MiB in blocks of 6 MiB, freed by threads that ended, nothing is left; by itself, the C library keeps some."""
+    command = [sys.executable, "-c", FREEING, way]
+    left = float(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+    assert least <= left < most, "MiB"
 
 
 @pytest.mark.parametrize("most", [None, 1, 3, 100])

@@ -19,6 +19,7 @@ from infill.checks import check_whole_number
 from infill.chunks.keeping import NOT_KEPT, ResultFolder
 from infill.errors import InfillError, MemoryLimitError, ParameterError, UsageError
 from infill.kernels.threads import run_interruptibly, thread_count
+from infill.machine import return_large_blocks
 
 Item = TypeVar("Item")
 Done = TypeVar("Done")
@@ -215,6 +216,7 @@ class _Plain:
 
 def _call(function: Callable[..., Done], shared: Any, *item: _Plain) -> Done:  # noqa: ANN401
     """Call a function of plain arguments."""
+    return_large_blocks()
     result: Done = copy_views(function(shared, *(argument.value for argument in item)))
     return result
 
@@ -242,6 +244,7 @@ def copy_views(value: Any) -> Any:  # noqa: ANN401 - plain data
 
 def _call_plain(function: Callable[..., Done], shared: Any, item: tuple[Any, ...]) -> Done:  # noqa: ANN401
     """Call a function on a worker."""
+    return_large_blocks()
     return function(shared, *item)
 
 
