@@ -52,11 +52,11 @@ def held_up(data: bytes) -> tuple[float, float]:
     below: list[list[Move]] = []  # beads of infill and all others, which may have another width
     for _, infill, rest in layers_of(data):
         if infill and below:
-            lines = shapely.multilinestrings([shapely.linestrings(path) for path in lines_of(infill)])
-            box = shapely.box(*shapely.buffer(lines, 2).bounds)
+            pieces = [shapely.linestrings(path) for path in lines_of(infill)]
+            x, y, right, top = shapely.total_bounds(pieces)
+            box = shapely.box(x - 2, y - 2, right + 2, top + 2)
             ground = shapely.intersection(shapely.union_all([covered(moves) for moves in below]), box)
             shapely.prepare(ground)
-            pieces = [shapely.linestrings(path) for path in lines_of(infill)]
             whole += shapely.length(pieces).sum()
             held += shapely.length(shapely.intersection(pieces, ground)).sum()
         below = [moves for moves in (infill, rest) if moves]
