@@ -80,7 +80,7 @@ def corpus(python: str, folder: Path, only: str) -> Iterator[Pair]:
         try:
             for fitting, path in zip(FITTING, paths, strict=True):
                 deli_print(part, path, {**FIRMWARE, **entry.settings, "arc_fitting": fitting}, python=python)
-        except RuntimeError as error:
+        except (RuntimeError, ValueError) as error:  # ValueError: of a setting that PrusaSlicer 2.9 no longer has
             print(f"{name}: {str(error).splitlines()[-1]}", file=sys.stderr)
         else:
             yield Pair(name, *paths)
