@@ -95,6 +95,9 @@ def test_pieces_are_listed_and_dropped_as_the_command_does(page: Page, tmp_path:
         assert kept["pieces"]["count"] == 3
         assert kept["pieces"]["volumes"] == sizes
         assert kept["pieces"]["places"][1] == [21.5, 8.5, 8.5]
+        counted = {row["name"]: row["about"] for row in kept["numbers"]}
+        assert counted["volume"] is (quality == "coarse")
+        assert ("components" in counted) is (quality == "exact"), "larger voxels lose and join some"
     assert kept["report"]["components"] == 2
     assert kept["report"]["volume"] == pytest.approx(sizes[0] + sizes[2], rel=1e-3)
     assert "--keep-components 1,3" in kept["command"]

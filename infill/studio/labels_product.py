@@ -39,7 +39,7 @@ def make(order: Order) -> Made:
     return Made(
         result=result,
         report=result.report,
-        numbers=list(label_numbers(result.report)),
+        numbers=list(label_numbers(result.report, coarse=order.coarse)),
         surfaces=dict(result.surfaces),
         colours=dict(result.colours),
         more={"places": list_places(result.report)},

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -135,12 +135,18 @@ def smooth_numbers(report: Mapping[str, Any]) -> Iterator[Number]:
     yield Number(name="closed", value=report["closed"], help="Whether the mesh encloses its inside without a gap")
 
 
-def label_numbers(report: Mapping[str, Any]) -> Iterator[Number]:
+def smooth_draft_numbers(report: Mapping[str, Any]) -> Iterator[Number]:
+    """Yield those numbers of a solid smoothed in larger voxels that are near the result's; tunnels, say, are not."""
+    yield Number(name="volume", value=report["volume"], unit="mm³", about=True)
+    yield Number(name="steps", value=report["request"]["steps"])
+
+
+def label_numbers(report: Mapping[str, Any], *, coarse: bool = False) -> Iterator[Number]:
     """Yield the numbers of smoothed labels: the volume of each, and the number of failures."""
     yield Number(name="labels", value=len(report["labels"]))
     for label in report["labels"]:
         volume = label["report"]["volume"] if "report" in label else label["volume"]
-        yield Number(name=f"volume of {label['name']}", value=volume, unit="mm³")
+        yield Number(name=f"volume of {label['name']}", value=volume, unit="mm³", about=coarse)
     if report["failed"]:
         yield Number(name="failed", value=len(report["failed"]))
 
@@ -165,6 +171,12 @@ def refill_numbers(report: Mapping[str, Any]) -> Iterator[Number]:
             name="supported before", value=contact["supported_before"], unit="%", help="Share on the layer below"
         )
         yield Number(name="supported", value=contact["supported_after"], unit="%", help="Share on the layer below")
+
+
+def refill_draft_numbers(report: Mapping[str, Any]) -> Iterator[Number]:
+    """Yield those numbers that a print refilled in one layer has in common with the one that is refilled throughout."""
+    of_all = [number for number in refill_numbers(report) if number.name == "sections" or number.name.endswith("before")]
+    return (replace(number, about=number.name == "supported before") for number in of_all)
 
 
 def motion_numbers(report: Mapping[str, Any]) -> Iterator[Number]:

@@ -14,7 +14,7 @@ from infill.plain_numbers import count_noun
 from infill.refilling.request import Request
 from infill.studio.equivalents import Call, join_words, plain_parameters, write_command
 from infill.studio.frames import AnswerFrame
-from infill.studio.numbers import Number, refill_numbers
+from infill.studio.numbers import Number, refill_draft_numbers, refill_numbers
 from infill.studio.print_layers import layer_frame, plan_print
 from infill.studio.print_reading import describe_features
 from infill.studio.products import Made, Order
@@ -41,7 +41,7 @@ def make(order: Order) -> Made:
     if order.coarse:
         frames = (layer_frame(plan_print(order.target), options["layers"][0]),)
         order.target.unlink(missing_ok=True)
-        numbers = list(refill_numbers(result.report))
+        numbers = list(refill_draft_numbers(result.report))
     else:
         numbers = [
             verdict_number(content.path, order.target, changes_filament="density" in options),

@@ -11,7 +11,7 @@ from infill.options.declaration import by_field, read_options
 from infill.smoothing.settings import SmoothSettings, resolve
 from infill.studio.changed_places import list_places
 from infill.studio.equivalents import Call, join_words, write_command, write_value
-from infill.studio.numbers import smooth_numbers
+from infill.studio.numbers import smooth_draft_numbers, smooth_numbers
 from infill.studio.products import Made, Order
 from infill.studio.scan_pieces import list_pieces
 from infill.studio.smoothing_keywords import shared_keywords
@@ -60,10 +60,11 @@ def make(order: Order) -> Made:
     # What larger voxels lose says nothing about the exact result.
     hidden = JUDGEMENTS if order.coarse else ()
     report = {name: value for name, value in result.report.items() if name not in hidden}
+    numbers = smooth_draft_numbers(report) if order.coarse else smooth_numbers(report)
     return Made(
         result=result,
         report=report,
-        numbers=[row for row in smooth_numbers(result.report) if row.name not in hidden],
+        numbers=list(numbers),
         surfaces=surfaces,
         volume=result.report["volume"],
         more={"pieces": list_pieces(content, settings.choice), "places": list_places(result.report)},
