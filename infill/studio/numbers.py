@@ -174,8 +174,10 @@ def refill_numbers(report: Mapping[str, Any]) -> Iterator[Number]:
 
 
 def refill_draft_numbers(report: Mapping[str, Any]) -> Iterator[Number]:
-    """Yield those numbers that a print refilled in one layer has in common with the one that is refilled throughout."""
-    of_all = [number for number in refill_numbers(report) if number.name == "sections" or number.name.endswith("before")]
+    """Yield those numbers that a print refilled in one layer shares with one that is refilled throughout."""
+    of_all = [
+        number for number in refill_numbers(report) if number.name == "sections" or number.name.endswith("before")
+    ]
     return (replace(number, about=number.name == "supported before") for number in of_all)
 
 
