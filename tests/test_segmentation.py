@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import tracemalloc
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.ndimage import gaussian_filter
 from skimage.filters import threshold_otsu
 
 from infill.errors import LabelChoiceError, ParameterError
@@ -333,18 +335,46 @@ def test_real_scans(data: Path) -> None:
         segment_volume(read_volume(folder / "ct_headsq_64x64x93_uint16.npz"))
 
 
+def pillar(place: float, thickness: float, *, is_ball: bool) -> tuple[Volume, float]:
+    """Return the filled share of cells in slices, of a ball or a pillar from -6 to 6 mm, and where its middle lies."""
+    spacing, middle, parts = (0.4, 0.4, thickness), place * thickness, 12
+    count = int(24 / thickness) | 1
+    x, y = ((np.arange(37) - 18) * spacing[0] for _ in range(2))
+    z = ((np.arange(count * parts) + 0.5) / parts - count / 2) * thickness - middle
+    across = x[:, None, None] ** 2 + y[:, None] ** 2
+    solid = across + z**2 < 36 if is_ball else (across < 9) & (np.abs(z) < 6)
+    return Volume(values=solid.reshape(37, 37, count, parts).mean(axis=3), spacing=spacing), middle
+
+
+@pytest.mark.parametrize("thickness", [1.2, 2.0, 4.0])
 @pytest.mark.parametrize("place", [0.0, 0.2, 0.4, 0.6, 0.8])
-def test_a_pole_between_thick_slices_lies_half_a_slice_from_its_place_at_most(place: float) -> None:
-    radius, spacing = 6.0, (0.2, 0.2, 0.7)
-    x, y, z = np.meshgrid(
-        *[(np.arange(n) - n // 2) * h for n, h in zip((75, 75, 23), spacing, strict=True)], indexing="ij"
-    )
-    middle = place * spacing[2]
-    distance = Volume(values=radius - np.sqrt(x**2 + y**2 + (z - middle) ** 2), spacing=spacing)
-    data = scale_grey_values(distance, 0.0)
-    fine = interpolate_slices(data, *plan_sublayers(data))
-    column, height = np.asarray(fine.values)[37, 37], fine.cell_size[2]
-    inside = np.flatnonzero(column > 0)
-    ends = np.array([inside[0], inside[-1] + 1]) * height - 23 * spacing[2] / 2
-    errors = np.abs(ends - middle) - radius
-    assert np.abs(errors).max() <= spacing[2] / 2 + 1e-9
+@pytest.mark.parametrize("is_ball", [True, False])
+def test_ends_between_thick_slices_lie_where_grey_values_say(thickness: float, place: float, *, is_ball: bool) -> None:
+    """Within an eighth of a slice; as a mask, half a slice."""
+    shares, middle = pillar(place, thickness, is_ball=is_ball)
+    grey = scale_grey_values(shares, 0.5)
+    mask = replace(shares, values=np.asarray(shares.values) > 0.5)
+    for data, allowed in ((grey, thickness / 8), (mask, thickness / 2)):
+        fine = interpolate_slices(data, *plan_sublayers(data))
+        column, height = np.asarray(fine.values)[18, 18], fine.cell_size[2]
+        inside = np.flatnonzero(column > 0)
+        crossings = [
+            outer + (inner - outer) * column[outer] / (column[outer] - column[inner])
+            for inner, outer in ((inside[0], inside[0] - 1), (inside[-1], inside[-1] + 1))
+        ]
+        ends = (np.array(crossings) + 0.5) * height - shares.values.shape[2] * thickness / 2
+        assert np.abs(np.abs(ends - middle) - 6).max() <= allowed + 1e-6
+
+
+@pytest.mark.parametrize("count", [3, 4])
+def test_slices_have_no_preferred_side(count: int, rng: np.random.Generator) -> None:
+    """Read from the other end, or with solid and void exchanged, the shape between slices is the same."""
+    values = gaussian_filter(rng.normal(size=(24, 21, 9)), (2, 2, 0.3)).astype(np.float32) * 10
+    data = Volume(values=values.clip(-1, 1), spacing=(1, 1, count))
+    fine = np.asarray(interpolate_slices(data, 2, count).values)
+    flipped = interpolate_slices(replace(data, values=data.values[:, :, ::-1]), 2, count)
+    assert np.allclose(np.asarray(flipped.values)[:, :, ::-1], fine, atol=1e-5)
+    inverted = interpolate_slices(replace(data, values=-np.asarray(data.values)), 2, count)
+    assert np.allclose(-np.asarray(inverted.values), fine, atol=1e-5)
+    middles = fine[:, :, count // 2 :: count]
+    assert count % 2 == 0 or ((middles > 0) == (values > 0)).all()

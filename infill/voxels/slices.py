@@ -12,6 +12,7 @@ from infill.volume import Volume
 
 THICK = 2.0  # times the width of a cell: slices further apart than this are interpolated
 OUTLINE_REACH = 1.01  # half pixels: only pixels next to the outline are this near
+SHORTEST = 1e-6  # slices: an end that lies in the middle of one
 REACH = 1.0  # pixels from the outline within which the result is grey
 
 
@@ -41,23 +42,31 @@ def interpolate_slices(volume: Volume, axis: int, count: int) -> Volume:
     Notes
     -----
     Shape-based interpolation (Raya and Udupa, IEEE Transactions on Medical Imaging 9, 1990): in each slice, the signed
-    distance from the outline, and between slices, the mean of both, weighted by nearness. A region that does
-    not continue in the next slice ends half-way to it, whatever its grey values are: the pole of a ball lies up to
-    half a slice inside or outside of its place.
+    distance from the outline, and between slices, the mean of both, weighted by nearness. A region that does not
+    continue in the next slice ends half-way to it, or where the grey values say, of slices that are partly filled.
     """
     values: NDArray[Any] = np.moveaxis(np.asarray(volume.values), axis, 0)
     size = np.delete(volume.cell_size, axis)
     pixel = float(size.min())
     fine = np.empty((len(values) * count, *values.shape[1:]), dtype=np.float32)
-    places = (np.arange(count) + 0.5) / count - 0.5  # of the new cells from the middle of their slice, in slices
     current = signed_distance(values[0], size)
-    up, down = current, current
-    for n in range(len(values)):
-        following = signed_distance(values[n + 1], size) if n + 1 < len(values) else current
-        up = _end_half_way(current, following)
-        for sublayer, place in enumerate(places):
-            fine[n * count + sublayer] = (1 - abs(place)) * current + abs(place) * (up if place > 0 else down)
-        current, down = following, _end_half_way(following, current)
+    fine[:count] = current
+    for n in range(1, len(values)):
+        following = signed_distance(values[n], size)
+        fine[n * count : (n + 1) * count] = following
+        ending = find_ending(current, following)
+        end = find_ends(values[n - 1][ending], values[n][ending])
+        side = np.sign(current[ending])
+        # Cells from the middle of one slice to that of the next, both included where a cell lies there.
+        for cell in range((n - 1) * count + count // 2, n * count + (count + 1) // 2):
+            place = (cell + 0.5) / count - (n - 0.5)
+            if 0 < place < 1:
+                fine[cell] = (1 - place) * current + place * following
+            is_before = place < end
+            distance = np.abs(np.where(is_before, current[ending], following[ending]))
+            length = np.where(is_before, end, 1 - end)  # from the middle of the slice to the end
+            fine[cell][ending] = side * distance * (end - place) / np.maximum(length, SHORTEST)
+        current = following
     fine /= np.float32(REACH * pixel)
     np.clip(fine, -1, 1, out=fine)
     spacing = volume.cell_size.copy()
@@ -65,22 +74,55 @@ def interpolate_slices(volume: Volume, axis: int, count: int) -> Volume:
     return replace(volume, values=np.moveaxis(fine, 0, axis), spacing=tuple(spacing.tolist()))
 
 
-def _end_half_way(current: NDArray[np.float32], neighbour: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Return the distances of the next slice; regions of this slice that do not continue get minus their distances."""
+def find_ending(current: NDArray[np.float32], following: NDArray[np.float32]) -> NDArray[np.bool_]:
+    """Mark the regions, solid or void, of one of two slices that do not continue in the other one.
+
+    Parameters
+    ----------
+    current, following : (n, m) float32
+        Distances in a slice and in the next one, above 0 where it is solid.
+
+    Returns
+    -------
+    (n, m) bool
+    """
     from scipy.ndimage import binary_dilation, label
 
-    ended = neighbour
-    for sign in (1, -1):
-        gone = (sign * current > 0) & (sign * neighbour <= 0)
-        regions, count = label(gone)
-        if count == 0:
-            continue
-        # A region continues where it touches a region that is alike in both slices.
-        touching = binary_dilation((sign * current > 0) & (sign * neighbour > 0))
-        continues = np.bincount(regions[touching & gone], minlength=count + 1) > 0
-        continues[0] = True
-        ended = np.where(continues[regions], ended, -current)
-    return ended
+    ending = np.zeros(current.shape, dtype=np.bool_)
+    for slice_, other in ((current > 0, following > 0), (following > 0, current > 0)):
+        for region, opposite in ((slice_, other), (~slice_, ~other)):
+            gone = region & ~opposite
+            regions, count = label(gone)
+            if count == 0:
+                continue
+            # A region continues where it touches a region that is alike in both slices.
+            touching = binary_dilation(region & opposite)
+            continues = np.bincount(regions[touching & gone], minlength=count + 1) > 0
+            continues[0] = True
+            ending |= ~continues[regions]
+    return ending
+
+
+def find_ends(values: NDArray[Any], following: NDArray[Any]) -> NDArray[np.float64]:
+    """Return where regions end that one slice has and the next has not: 0 in the middle of the slice, 1 in the next.
+
+    A slice that is partly filled is filled on the side of the one that has the region.
+
+    Parameters
+    ----------
+    values, following : (n,)
+        Booleans, or from -1 for empty to 1 for full.
+
+    >>> find_ends(np.array([True, False]), np.array([False, True])).tolist()
+    [0.5, 0.5]
+    >>> find_ends(np.array([1.0, 0.5]), np.array([-0.5, -1.0])).tolist()  # a quarter of the next one; three quarters
+    [0.75, 0.25]
+    """
+    if values.dtype == bool:
+        return np.full(values.shape, 0.5)
+    first, second = np.abs(values.astype(float)), np.abs(following.astype(float))
+    ends: NDArray[np.float64] = np.clip((1 + first - second) / 2, 0, 1)
+    return ends
 
 
 def signed_distance(layer: NDArray[Any], size: NDArray[np.float64]) -> NDArray[np.float32]:
