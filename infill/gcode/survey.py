@@ -7,6 +7,7 @@ import os
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 from typing import BinaryIO
 
 from infill.errors import FormatError
@@ -21,6 +22,7 @@ HEAD = 1 << 18  # bytes read for the header and the modes
 TAIL = 1 << 17  # bytes read for the settings
 WINDOW = 1 << 18  # bytes read at each sampled place
 MAX_WINDOW = 16 << 20
+NEAREST = 1 << 12  # bytes before a place that are read first for a height
 LAYERS_PER_WINDOW = 3  # layers at each place
 WINDOWS, MORE_WINDOWS = 6, 16  # places
 SMALL_FILE, ALL_WINDOWS = 1 << 19, 24  # bytes: nearly every layer of a smaller file is read
@@ -195,9 +197,9 @@ def _read_window(file: BinaryIO, size: int, share: float) -> tuple[bytes, float]
     file.seek(begin)
     text = file.read(WINDOW)
     while len(text) < MAX_WINDOW:
-        tags = [match.start() for match in LAYER_TAG.finditer(text)]
+        tags = [match.start() for match in islice(LAYER_TAG.finditer(text), LAYERS_PER_WINDOW + 1)]
         if len(tags) > LAYERS_PER_WINDOW:
-            return text[tags[0] : tags[LAYERS_PER_WINDOW]], _height_before(file, begin + tags[0])
+            return text[tags[0] : tags[-1]], _height_before(file, begin + tags[0])
         more = file.read(len(text))
         if not more:
             break
@@ -210,6 +212,10 @@ def _read_window(file: BinaryIO, size: int, share: float) -> tuple[bytes, float]
 
 def _height_before(file: BinaryIO, place: int) -> float:
     """Return the height that the last move before a place of a file gives, mm; NaN if none near it does."""
-    file.seek(max(0, place - WINDOW))
-    heights = _HEIGHT.findall(file.read(min(place, WINDOW)))
-    return float(heights[-1]) if heights else math.nan
+    length = min(place, NEAREST)
+    while True:
+        file.seek(place - length)
+        heights = _HEIGHT.findall(file.read(length))
+        if heights or length == min(place, WINDOW):
+            return float(heights[-1]) if heights else math.nan
+        length = min(place, WINDOW, 4 * length)
