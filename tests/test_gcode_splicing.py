@@ -619,6 +619,17 @@ def test_a_new_section_that_is_unlawful_is_told(wrong: str) -> None:
     assert validate_sections(read_table(done.text, BEGIN), done, [body], [text]) == WRONG[wrong]
 
 
+def test_a_lift_while_firmware_retracts_is_one() -> None:
+    text = "M83\nG1 Z.2\n"
+    for k in range(4):
+        text += f"G1 X10 Y{k} E1 F1800\nG10 ; retract\nG1 Z.6 F700\nG1 X0 Y{k} F8000\nG1 Z.2\nG11\n"
+    table = read_table(text.encode(), BEGIN)
+    lifted = TravelSettings(travel=8000, lift=0.4, lift_feed=700, firmware=True)
+    assert replace(measure_travel(table), lift=round(measure_travel(table).lift, 6)) == lifted
+    # Nor is what follows G11 lifted: the next layer.
+    assert measure_travel(read_table(b"G10\nG11\nG1 Z.6\nG1 Z.2\n", BEGIN)).lift == 0
+
+
 @pytest.mark.parametrize("absolute", [False, True])
 def test_the_ways_of_a_print(absolute: bool) -> None:
     e = ["E1", "E-.8 F2400", "E.8 F1500", "E1"] if not absolute else ["E1", "E.2 F2400", "E1 F1500", "E2"]

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from infill.arrays import Floats
 from infill.gcode.arcs import find_arcs, mark_arc_lines
@@ -56,7 +57,9 @@ def measure_travel(table: GcodeTable, before: TravelSettings | None = None) -> T
     total = np.cumsum(table.extruded) - table.before.retracted
     depth = np.maximum.accumulate(np.maximum(total, 0.0)) - total
     rises = np.diff(table.z, prepend=table.before.z)
-    up = (table.kind == MOVE) & table.given[:, 2] & ~moved & (depth > 1e-6) & (rises > 0)
+    is_back = (depth > 1e-6) | _is_back_by_firmware(table)
+    upright = (table.kind == MOVE) & table.given[:, 2] & ~moved & is_back
+    up = upright & (rises > 0)
     default = before or TravelSettings()
 
     def median_or(values: Floats, otherwise: float) -> float:
@@ -66,8 +69,7 @@ def measure_travel(table: GcodeTable, before: TravelSettings | None = None) -> T
 
     # Layers begin with a rise too: a lift comes down afterwards, and not below what was printed last, as an object does
     # that is printed after another.
-    down = (table.kind == MOVE) & table.given[:, 2] & ~moved & (depth > 1e-6) & (rises < 0)
-    down &= table.z >= _last_printed_height(table) - MIN_STEP
+    down = upright & (rises < 0) & (table.z >= _last_printed_height(table) - MIN_STEP)
     return TravelSettings(
         travel=median_or(table.f[travel], default.travel),
         retraction=median_or(np.round(depth[travel & (depth > 0.05)], 5), default.retraction),
@@ -78,6 +80,16 @@ def measure_travel(table: GcodeTable, before: TravelSettings | None = None) -> T
         firmware=any(firmware_retraction(command, table.before.firmware) for command in table.commands)
         or default.firmware,
     )
+
+
+def _is_back_by_firmware(table: GcodeTable) -> NDArray[np.bool_]:
+    """Return for each line whether filament is retracted by firmware, (N,)."""
+    is_back = np.full(len(table), table.before.firmware_retracted)
+    for command in table.commands:
+        back = firmware_retraction(command, table.before.firmware)
+        if back is not None:
+            is_back[command.line :] = back
+    return is_back
 
 
 def _last_printed_height(table: GcodeTable) -> Floats:
