@@ -193,6 +193,19 @@ def test_a_whole_number_is_a_density_too(honeycomb: Path) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("pattern", ["honeycomb", "adaptive-cubic"])
+def test_infill_denser_than_beads_that_touch_stays(tmp_path: Path, pattern: str) -> None:
+    """Lines of a grid cross in a pin of 3 mm; a slicer that runs the command on it must not fail."""
+    sliced, new = tmp_path / "pin.gcode", tmp_path / "new.gcode"
+    dense = {"perimeters": 1, "solid_infill_below_area": 0, "fill_pattern": "grid", "fill_density": "30%"}
+    prusa_print(box(tmp_path, (2.7, 2.7, 4)), sliced, dense)
+    report = refill(sliced, output=new, pattern=pattern).report
+    assert report["sections"]["all"] > 0
+    assert report["sections"]["kept"] == {"no room found between walls": report["sections"]["all"]}
+    assert new.read_bytes() == sliced.read_bytes()
+
+
+@pytest.mark.slow
 def test_hearts_lie_about_the_middle_of_the_part(looked_at: list[Layers]) -> None:
     """Half a node of the grid that regions are found on is 0.1 mm."""
     plan = plan_refill(FAMILIES["concentric-heart"], looked_at, Rounding(), density=None, acceleration=1000.0)
