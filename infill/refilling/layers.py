@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -25,6 +26,7 @@ LINE_WIDTH = 0.45  # mm, where no tag gives it
 LEAST_SPEED = 1.0  # mm/s
 WALL_STEP = 0.2  # mm between points on other beads, for the corners beside them
 ENOUGH_INFILL = 1000.0  # mm of infill in a layer
+MOST_BATCHES = 8  # of a print that are sampled, if none of its survey holds infill
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -262,8 +264,20 @@ def read_layers(file: BinaryIO, begin: MachineState | None = None) -> Iterator[L
         yield Layers(table=table, marks=marks, infill=infill)
 
 
-def sample_layers(print_survey: Survey) -> list[Layers]:
-    """Read the layers of a survey that hold infill."""
+def sample_layers(print_survey: Survey, file: BinaryIO) -> list[Layers]:
+    """Read the layers of a survey that hold infill; if none does, the first ones of the print.
+
+    Parameters
+    ----------
+    print_survey : Survey
+    file : binary file
+        The print. Its survey may miss infill that only a few layers have, and misses that of the last layer.
+    """
     samples = [mark_text(text, replace(print_survey.begin, z=z)) for text, z in print_survey.windows]
     layers = [Layers(table=table, marks=marks, infill=infill) for table, marks, infill in samples]
-    return [window for window in layers if window.typical]
+    kept = [window for window in layers if window.typical]
+    if kept:
+        return kept
+    file.seek(0)
+    with_infill = (batch for batch in read_layers(file, print_survey.begin) if batch.typical)
+    return list(itertools.islice(with_infill, MOST_BATCHES))

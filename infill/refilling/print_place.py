@@ -30,6 +30,7 @@ MOST_GAP = 1.0  # mm: infill that is left out of fewer layers is combined into e
 SIMPLER = 0.1  # mm: of outlines that are kept
 MOST_NODES = 1_500_000  # of the grid in which depths are measured
 LEAST_STEP, LEAST_RISE = 0.4, 0.05  # mm between them
+ONLY_RISE = 0.2  # mm: height of the only layer of a print
 LOWER = 0.01  # mm by which a layer lies below the one before it if another object begins
 SAMPLES = 1500  # points in the region of a layer at which a field is looked at, about
 
@@ -95,9 +96,8 @@ class PrintPlace:
     def _heights(self) -> tuple[Floats, float]:
         """Heights of the grid, mm, from a step below the infill to a step above it; and that step."""
         (_, _, low), (_, _, high) = self.bounds
-        step = max(
-            (high - low) / MOST_LAYERS, 1e-3, float(np.median(np.diff([layer.z for layer in self.layers] or [0, 1])))
-        )
+        rises = np.diff([layer.z for layer in self.layers])
+        step = max((high - low) / MOST_LAYERS, 1e-3, float(np.median(rises)) if len(rises) else ONLY_RISE)
         count = math.ceil((high - low) / step) + 1
         return low + step * np.arange(-1, count + 1), step
 
