@@ -13,7 +13,7 @@ import numpy as np
 from infill.arrays import Floats, Places
 from infill.gcode.arcs import find_arcs, path_steps
 from infill.gcode.machine_state import MachineState
-from infill.gcode.sections import SKIN_ROLES, LineMarks, is_printing
+from infill.gcode.sections import SKIN_ROLES, WALL_ROLES, LineMarks, is_printing
 from infill.gcode.strokes import CHORD_SAGITTA, InfillStrokes, mark_text, read_strokes
 from infill.gcode.survey import Survey
 from infill.gcode.table import GcodeTable
@@ -245,11 +245,15 @@ class Layer:
             self.bead_ends.reshape(-1, 2),
             self.layers.marks,
         )
-        skin_roles = [place for place, role in enumerate(marks.roles) if role in SKIN_ROLES]
-        skin = np.isin(marks.role[self.layers.bead_lines[1][self._beads]], skin_roles)
+        role = marks.role[self.layers.bead_lines[1][self._beads]]
+        skin, wall = (
+            np.isin(role, [place for place, name in enumerate(marks.roles) if name in roles])
+            for roles in (SKIN_ROLES, WALL_ROLES)
+        )
         return LayerBeads(
             points=np.concatenate([samples.points, ends]),
             skin=np.append(skin[samples.path], np.repeat(skin, 2)),
+            wall=np.append(wall[samples.path], np.repeat(wall, 2)),
             half=np.concatenate([samples.half, np.zeros(ends.shape)]),
         )
 
