@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -599,6 +600,26 @@ def test_what_holds_no_infill_is_no_region() -> None:
         == find_region(beads_at(walls), np.empty((0, 2))).polygons
         == ()
     )
+
+
+@pytest.mark.parametrize("name", ["square", "hole", "disc"])
+def test_a_region_reaches_walls_that_are_far_from_all_infill(name: str) -> None:
+    """As where a slicer draws lightning, or few lines that are not joined: one short line in a corner."""
+    area = AREAS[name]
+    line = dense(shapely.LineString([(103, 86), (106, 84)]), 0.2)
+    (found,) = find_region(around_of(area), line).polygons
+    (whole,) = find_region(around_of(area), filled(area, 0.36)).polygons
+    assert found.symmetric_difference(whole).area < 0.005 * whole.area
+
+
+def test_a_region_without_walls_ends_beside_its_infill() -> None:
+    """A skirt encloses it, but is no wall; and walls that do not enclose it do not either."""
+    infill = filled(SQUARE, 0.0)
+    skirt = around_of(SQUARE.buffer(6))
+    no_walls = replace(skirt, wall=np.zeros(len(skirt.points), dtype=bool))
+    for around in (no_walls, around_of(shapely.box(80, 80, 90, 100))):
+        (found,) = find_region(around, infill).polygons
+        assert SQUARE.buffer(1.5, join_style="mitre").covers(found)
 
 
 @pytest.mark.parametrize("far", [1e4, 1e9, 1e300])

@@ -7,6 +7,7 @@ import math
 import re
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -180,6 +181,26 @@ def test_cubes_are_small_below_roofs_alone(refilled: Callable[[str], Path]) -> N
     assert mean_density(layers, beside, 21.5, 23) > 0.2
     assert mean_density(layers, beside, 9, 11) < 0.7 * mean_density(layers, lower, 9, 11)
     assert mean_density(layers, lower, 1, 3) < 0.7 * mean_density(layers, lower, 9, 11)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"pattern": "lightning", "cell": 3.0},
+        {"pattern": "adaptive-cubic", "cell": 2.5},
+        {"pattern": "honeycomb", "density": (0.4, 0.12), "by": "skin"},
+    ],
+)
+def test_objects_printed_one_after_another_are_those_printed_together(options: dict[str, Any], tmp_path: Path) -> None:
+    """Both objects stand on one plate: their layers of one height are one layer of the space of infill."""
+    lengths = []
+    for sequential in (False, True):
+        sliced, new = tmp_path / f"{sequential}.gcode", tmp_path / f"{sequential}-new.gcode"
+        sliced.write_bytes(written(Dialect(objects=2, layers=24, size=14.0, sequential=sequential)))
+        refill(sliced, output=new, **options)
+        lengths.append(sum(shapely.LineString(path).length for layer in layers_of(new) for path in layer.paths))
+    assert lengths[1] == pytest.approx(lengths[0], rel=0.03)
 
 
 @pytest.mark.longest

@@ -12,7 +12,7 @@ import shapely
 from gcode_judge import judge
 from gradient_judge import FILAMENT, SparseLayer, crossing_paths, local_densities, read_sparse
 from handmade_prints import SPACING, Dialect, written
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from lines import least_spacing
 from PIL import Image
@@ -26,6 +26,7 @@ from infill.paths.families.family import TOUCH, PathSpec
 from infill.paths.families.waves import WaveFamily
 from infill.paths.plane_splines import PlaneMap, PlaneSpline, invert_map, pattern_bounds
 from infill.paths.stretching import STRETCHED_TOUCH, stretch_family
+from infill.refilling.gradients import map_axes
 
 WIDTH = 0.45
 DENSE, SPARSE = 0.4, 0.12
@@ -391,6 +392,21 @@ def test_no_cell_of_the_plane_folds_over(data: st.DataObject) -> None:
     coordinates, more = fit_plane_map(np.exp(random.uniform(-1.2, 1.2, shape)))
     assert np.linalg.det(spline_jacobians(coordinates)).min() > 0
     assert np.isfinite(more).all()
+
+
+@given(size=st.tuples(st.floats(0.3, 300), st.floats(0.3, 300)), cell=st.floats(0.5, 20))
+@example(size=(1.7, 1.7), cell=2.0)
+def test_a_map_has_as_many_nodes_for_a_pin_as_for_a_plate(size: tuple[float, float], cell: float) -> None:
+    """64 nodes along the infill and 48 on either side of it, at most, which reach 3 cells beyond it."""
+    low, high = np.array([10.0, 20.0]), np.array([10.0, 20.0]) + size
+    axes, step, padding = map_axes(low, high, cell)
+    for axis, first, last in zip(axes, low, high, strict=True):
+        assert axis[0] <= first - 3 * cell + 1e-9
+        assert axis[-1] >= last + 3 * cell - 1e-9
+        assert len(axis) <= 64 + 2 * 48 + 3
+        np.testing.assert_allclose(np.diff(axis), step, rtol=1e-6)
+    assert step <= max(max(size) / 64, cell / 16) + 1e-12
+    assert padding >= max(size) / 4 - 1e-9
 
 
 def linear_map(first: float, last: float) -> PlaneMap:

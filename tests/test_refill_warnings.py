@@ -115,3 +115,27 @@ def test_infill_that_touches_no_wall_is_told(tmp_path: Path) -> None:
     report = refill(path, dry_run=True, pattern="gyroid").report
     assert report["contact"]["free_after"] == 0
     assert not any("touches no wall" in problem for problem in report["problems"])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("setting", ["fill_pattern = lightning", "sparse_infill_pattern = lightning"])
+def test_a_print_of_lightning_is_told_for_a_new_pattern(setting: str, tmp_path: Path) -> None:
+    """Its slicer leaves layers without infill, above which a new pattern begins in the air."""
+    sliced = tmp_path / "print.gcode"
+    sliced.write_bytes(written(Dialect()) + f"; {setting}\n".encode())
+    told = {
+        pattern: [problem for problem in refill(sliced, dry_run=True, pattern=pattern).report["problems"]]
+        for pattern in ("keep", "gyroid")
+    }
+    assert any("is lightning: layers and places" in problem for problem in told["gyroid"])
+    assert not any("lightning" in problem for problem in told["keep"])
+
+
+@pytest.mark.slow
+def test_infill_that_is_all_gone_is_not_said_to_rest_on_nothing(tmp_path: Path) -> None:
+    """In a pin, every roof is near a wall."""
+    sliced = tmp_path / "print.gcode"
+    sliced.write_bytes(written(Dialect(size=7.0, cell=3.0)))
+    report = refill(sliced, output=tmp_path / "new.gcode", pattern="lightning", density=0.1).report
+    assert report["filament"]["infill_after_mm"] == 0
+    assert not any("rests on the layer below" in problem for problem in report["problems"])

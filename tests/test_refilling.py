@@ -74,7 +74,7 @@ def kept(honeycomb: Path) -> Path:
 @pytest.fixture(scope="module")
 def looked_at(honeycomb: Path) -> list[Layers]:
     with honeycomb.open("rb") as file:
-        return sample_layers(survey_print(file))
+        return sample_layers(survey_print(file), file)
 
 
 def infill_of(path: Path) -> list[np.ndarray]:
@@ -96,7 +96,9 @@ def test_a_sampled_layer_knows_its_height_though_the_nozzle_rose_before_its_tag(
     text = written(Dialect(slicer="cura", layers=8, hop=0.0))
     late = re.sub(rb"(;LAYER:\d\n)(G1 Z[^\n]*\n)", rb"\2\1", text)
     assert late != text
-    heights = [[layer.z for layer in layers] for layers in sample_layers(survey_print(io.BytesIO(late)))]
+    heights = [
+        [layer.z for layer in layers] for layers in sample_layers(survey_print(io.BytesIO(late)), io.BytesIO(late))
+    ]
     assert sum(map(len, heights)) >= 4
     assert np.isfinite(np.concatenate(heights)).all()
     (tmp_path / "late.gcode").write_bytes(late)
@@ -190,6 +192,40 @@ def test_a_whole_number_is_a_density_too(honeycomb: Path) -> None:
     for density in (1, 1.0):
         with pytest.raises(ParameterError, match="do not fit into"):
             refill(honeycomb, dry_run=True, pattern="rectilinear", density=density)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("pattern", ["honeycomb", "adaptive-cubic"])
+@pytest.mark.parametrize("solid", [0, 4000])
+def test_a_single_layer_of_infill_is_found(tmp_path: Path, pattern: str, solid: int) -> None:
+    """The only layer of a print, or one below thousands that have none: no sample of the file shows it."""
+    sliced, new = tmp_path / "old.gcode", tmp_path / "new.gcode"
+    text = written(Dialect(size=24.0, layers=3, retract=False))
+    begin, *_, end = (found.start() for found in re.finditer(b"(?m)^;LAYER_CHANGE", text))
+    last = begin + text[begin:].index(b";LAYER_CHANGE", 1)
+    above = b"".join(
+        b";LAYER_CHANGE\n;Z:%.1f\n;HEIGHT:0.2\nG1 Z%.1f F600\n;TYPE:Solid infill\n" % (z, z)
+        + b"G1 X100 Y100 F7800\nG1 X120 E0.6 F4800\n" * 4
+        for z in 0.6 + 0.2 * np.arange(solid)
+    )
+    tail = text[end:].partition(b"; filament used")
+    sliced.write_bytes(text[:begin] + text[last:end] + above + b"".join(tail[1:]))
+    assert (len(above) > 1 << 19) == bool(solid)
+    report = refill(sliced, output=new, pattern=pattern).report
+    assert report["sections"] == {"all": 1, "replaced": 1, "kept": {}}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("pattern", ["honeycomb", "adaptive-cubic"])
+def test_infill_denser_than_beads_that_touch_stays(tmp_path: Path, pattern: str) -> None:
+    """Lines of a grid cross in a pin of 3 mm; a slicer that runs the command on it must not fail."""
+    sliced, new = tmp_path / "pin.gcode", tmp_path / "new.gcode"
+    dense = {"perimeters": 1, "solid_infill_below_area": 0, "fill_pattern": "grid", "fill_density": "30%"}
+    prusa_print(box(tmp_path, (2.7, 2.7, 4)), sliced, dense)
+    report = refill(sliced, output=new, pattern=pattern).report
+    assert report["sections"]["all"] > 0
+    assert report["sections"]["kept"] == {"no room found between walls": report["sections"]["all"]}
+    assert new.read_bytes() == sliced.read_bytes()
 
 
 @pytest.mark.slow

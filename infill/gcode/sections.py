@@ -17,6 +17,7 @@ from infill.gcode.machine_state import NAN
 from infill.gcode.table import GcodeTable
 
 SPARSE = "sparse infill"
+WALL_ROLES = ("perimeter", "external perimeter", "overhang perimeter")
 SKIN_ROLES = ("solid infill", "top solid infill", "bottom solid infill", "bridge infill", "internal bridge infill")
 # Tags that act as remarks where they change nothing: a stroke continues across them.
 REMARK_TAGS = {"purged", "tool change", "tool change end", "wipe end"}

@@ -38,6 +38,7 @@ MOST_STEPS = 64
 STEP_POINTS = 2000  # at which densities are compared, in each layer
 RATIO_NODES = 128  # along the longer side of the print, between which densities are interpolated for rings
 NODES = 64  # along the longer side of the print, where the field is evaluated
+CELL_NODES = 16  # in a cell at most: those of a print that is smaller than a few cells need not lie closer
 PADDING = 0.25  # of that side, and cells: around the print, as far as its lines may reach in the plane of the pattern
 PADDED_CELLS = 3.0
 TRIAL_CELLS = 24.0  # along a square of the pattern, in which its lines are measured
@@ -288,11 +289,8 @@ def _shares_at(graded: GradedDensity, axes: Sequence[Floats], heights: Sequence[
 def _stretch_at(trial: _Trial, graded: GradedDensity, heights: Sequence[float]) -> list[PlaneMap]:
     """Return the maps to the plane of the pattern at some heights, mm."""
     low, high = graded.place.bounds[:, :2]
-    step = float((high - low).max()) / NODES
-    padding = max(PADDING * NODES * step, PADDED_CELLS * trial.cell)
-    corner = low - padding
-    counts = np.ceil((high + padding - corner) / step).astype(int) + 1
-    axes = [start + step * np.arange(count) for start, count in zip(corner, counts.tolist(), strict=True)]
+    axes, step, padding = map_axes(low, high, trial.cell)
+    corner = np.array([axis[0] for axis in axes])
     splines, slopes = [], []
     for shares in _shares_at(graded, axes, heights):
         coordinates, _ = fit_plane_map(trial.scales_of(shares, graded.gradient.middle), trial.normals)
@@ -303,6 +301,27 @@ def _stretch_at(trial: _Trial, graded: GradedDensity, heights: Sequence[float]) 
         invert_map(spline, slope, pattern_bounds(spline, bounds), padding)
         for spline, slope in zip(splines, slopes, strict=True)
     ]
+
+
+def map_axes(low: Floats, high: Floats, cell: float) -> tuple[list[Floats], float, float]:
+    """Return the nodes of a map along x and y, their distance, and how far they reach beyond a print; all in mm.
+
+    Parameters
+    ----------
+    low, high : (2,) float64, mm
+        The box around the infill of a print.
+    cell : float, mm
+
+    >>> axes, step, padding = map_axes(np.zeros(2), np.array([64.0, 32.0]), 3.0)
+    >>> [len(axis) for axis in axes], step, padding
+    ([97, 65], 1.0, 16.0)
+    """
+    step = max(float((high - low).max()) / NODES, cell / CELL_NODES)
+    padding = max(PADDING * NODES * step, PADDED_CELLS * cell)
+    corner = low - padding
+    counts = np.ceil((high + padding - corner) / step).astype(int) + 1
+    axes = [start + step * np.arange(count) for start, count in zip(corner, counts.tolist(), strict=True)]
+    return axes, step, padding
 
 
 def _rise(slopes: Floats) -> float:

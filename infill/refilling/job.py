@@ -455,7 +455,7 @@ def _refill_text(sliced: SlicedText, draft: BinaryIO, request: Request, progress
         return _Draft(found=print_survey, draft=draft, is_same=is_same)
     if progress is not None:
         progress("looking at layers", 0.0)
-    samples = sample_layers(print_survey)
+    samples = sample_layers(print_survey, sliced.text)
     rules = derive_rules(request, print_survey, samples)
     plan = None
     if family is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -12,7 +13,7 @@ import numpy as np
 from infill.arrays import Floats, Places
 from infill.gcode.arcs import find_arcs, path_steps
 from infill.gcode.machine_state import MachineState
-from infill.gcode.sections import SKIN_ROLES, LineMarks, is_printing
+from infill.gcode.sections import SKIN_ROLES, WALL_ROLES, LineMarks, is_printing
 from infill.gcode.strokes import CHORD_SAGITTA, InfillStrokes, mark_text, read_strokes
 from infill.gcode.survey import Survey
 from infill.gcode.table import GcodeTable
@@ -25,6 +26,7 @@ LINE_WIDTH = 0.45  # mm, where no tag gives it
 LEAST_SPEED = 1.0  # mm/s
 WALL_STEP = 0.2  # mm between points on other beads, for the corners beside them
 ENOUGH_INFILL = 1000.0  # mm of infill in a layer
+MOST_BATCHES = 8  # of a print that are sampled, if none of its survey holds infill
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -243,11 +245,15 @@ class Layer:
             self.bead_ends.reshape(-1, 2),
             self.layers.marks,
         )
-        skin_roles = [place for place, role in enumerate(marks.roles) if role in SKIN_ROLES]
-        skin = np.isin(marks.role[self.layers.bead_lines[1][self._beads]], skin_roles)
+        role = marks.role[self.layers.bead_lines[1][self._beads]]
+        skin, wall = (
+            np.isin(role, [place for place, name in enumerate(marks.roles) if name in roles])
+            for roles in (SKIN_ROLES, WALL_ROLES)
+        )
         return LayerBeads(
             points=np.concatenate([samples.points, ends]),
             skin=np.append(skin[samples.path], np.repeat(skin, 2)),
+            wall=np.append(wall[samples.path], np.repeat(wall, 2)),
             half=np.concatenate([samples.half, np.zeros(ends.shape)]),
         )
 
@@ -262,8 +268,20 @@ def read_layers(file: BinaryIO, begin: MachineState | None = None) -> Iterator[L
         yield Layers(table=table, marks=marks, infill=infill)
 
 
-def sample_layers(print_survey: Survey) -> list[Layers]:
-    """Read the layers of a survey that hold infill."""
+def sample_layers(print_survey: Survey, file: BinaryIO) -> list[Layers]:
+    """Read the layers of a survey that hold infill; if none does, the first ones of the print.
+
+    Parameters
+    ----------
+    print_survey : Survey
+    file : binary file
+        The print. Its survey may miss infill that only a few layers have, and misses that of the last layer.
+    """
     samples = [mark_text(text, replace(print_survey.begin, z=z)) for text, z in print_survey.windows]
     layers = [Layers(table=table, marks=marks, infill=infill) for table, marks, infill in samples]
-    return [window for window in layers if window.typical]
+    kept = [window for window in layers if window.typical]
+    if kept:
+        return kept
+    file.seek(0)
+    with_infill = (batch for batch in read_layers(file, print_survey.begin) if batch.typical)
+    return list(itertools.islice(with_infill, MOST_BATCHES))

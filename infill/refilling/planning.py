@@ -141,7 +141,9 @@ def plan_refill(
     graded: GradedDensity | None = None,
     place: PrintPlace | None = None,
 ) -> RefillPlan | None:
-    """Choose the cell so that the sampled layers take the requested filament; None without infill.
+    """Choose the cell so that the sampled layers take the requested filament; None if there is no room for infill.
+
+    There is none where the filament of the slicer's own infill is more than beads that touch.
 
     Parameters
     ----------
@@ -201,8 +203,10 @@ def plan_refill(
         graded=graded,
         scale=None if place is None else 1.0,
     )
+    area_of_all = sum(region.area for region, _, _ in regions)
+    if fills_print(family) and cell is None and density is None and sum(lengths) * TOUCH * width > area_of_all:
+        return None
     if not fills_print(family) and cell is None:
-        area_of_all = sum(region.area for region, _, _ in regions)
         cell = max(family.cell_for(sum(lengths) / area_of_all * TOUCH * width, width), TOUCH * width)
     if cell is not None:
         check_cell(cell, width)

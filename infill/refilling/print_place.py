@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, BinaryIO
 
@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from infill.arrays import Floats
 from infill.gcode.machine_state import MachineState
+from infill.gcode.sections import is_printing
 from infill.paths.families.infill_space import InfillSpace
 from infill.refilling.layers import read_layers
 from infill.refilling.regions import FreeAreas
@@ -29,6 +30,8 @@ MOST_GAP = 1.0  # mm: infill that is left out of fewer layers is combined into e
 SIMPLER = 0.1  # mm: of outlines that are kept
 MOST_NODES = 1_500_000  # of the grid in which depths are measured
 LEAST_STEP, LEAST_RISE = 0.4, 0.05  # mm between them
+ONLY_RISE = 0.2  # mm: height of the only layer of a print
+LOWER = 0.01  # mm by which a layer lies below the one before it if another object begins
 SAMPLES = 1500  # points in the region of a layer at which a field is looked at, about
 
 
@@ -93,9 +96,8 @@ class PrintPlace:
     def _heights(self) -> tuple[Floats, float]:
         """Heights of the grid, mm, from a step below the infill to a step above it; and that step."""
         (_, _, low), (_, _, high) = self.bounds
-        step = max(
-            (high - low) / MOST_LAYERS, 1e-3, float(np.median(np.diff([layer.z for layer in self.layers] or [0, 1])))
-        )
+        rises = np.diff([layer.z for layer in self.layers])
+        step = max((high - low) / MOST_LAYERS, 1e-3, float(np.median(rises)) if len(rises) else ONLY_RISE)
         count = math.ceil((high - low) / step) + 1
         return low + step * np.arange(-1, count + 1), step
 
@@ -231,14 +233,16 @@ def look_at_infill(file: BinaryIO, begin: MachineState, layers: float) -> PrintP
     heights: list[float] = []
     for batch in read_layers(file, begin):
         numbers, last = np.unique(batch.marks.layer, return_index=True)
-        with_infill = set(np.unique(batch.layer).tolist())
+        with_infill, prints = set(np.unique(batch.layer).tolist()), is_printing(batch.table)
         heights += [batch.of(number).z for number in sorted(with_infill)]
         for number, line in zip(numbers.tolist(), last.tolist(), strict=True):
             if number % stride:
                 continue
             if number not in with_infill:
-                beads = batch.table.z[line : int(np.searchsorted(batch.marks.layer, number, side="right"))]
-                kept.append(InfillLayer(z=float(np.nan_to_num(beads[-1])), areas=()))
+                lines = slice(line, int(np.searchsorted(batch.marks.layer, number, side="right")))
+                beads = batch.table.z[lines][prints[lines]]
+                if len(beads):
+                    kept.append(InfillLayer(z=float(np.nan_to_num(beads.max())), areas=()))
                 continue
             layer = batch.of(number)
             before, region = region, layer.find_region(region)
@@ -247,6 +251,38 @@ def look_at_infill(file: BinaryIO, begin: MachineState, layers: float) -> PrintP
             kept.append(InfillLayer(z=layer.z, areas=areas, number=number, length=layer.length))
             if len(kept) > 4 * MOST_LAYERS:
                 kept, stride = kept[::2], 2 * stride
-    kept.sort(key=lambda layer: layer.z)
-    place = PrintPlace(layers=tuple(kept), heights=np.unique(heights))
+    place = PrintPlace(layers=tuple(join_passes(kept)), heights=np.unique(heights))
     return place if place.filled else None
+
+
+def join_passes(layers: Sequence[InfillLayer]) -> list[InfillLayer]:
+    """Join the layers of objects that are printed one after another; return layers of the entire plate by height.
+
+    Parameters
+    ----------
+    layers : sequence of InfillLayer
+        In the order in which they are printed. Where they go down, another object begins.
+
+    >>> tower = [InfillLayer(z=z, areas=(), number=number, length=2.0) for number, z in enumerate([0.2, 0.4, 0.2])]
+    >>> [(layer.z, layer.length) for layer in join_passes(tower)]
+    [(0.2, 4.0), (0.4, 2.0)]
+    """
+    starts = [number for number in range(1, len(layers)) if layers[number].z < layers[number - 1].z - LOWER]
+    if not starts:
+        return list(layers)
+    passes = [layers[start:end] for start, end in zip([0, *starts], [*starts, len(layers)], strict=True)]
+    places = [np.array([layer.z for layer in layers_of]) for layers_of in passes]
+    # Each object goes on by half of the distance of its layers above its last one.
+    beyond = [float(np.median(np.diff(heights))) / 2 if len(heights) > 1 else LOWER for heights in places]
+    joined: list[InfillLayer] = []
+    areas: dict[tuple[int, ...], tuple[Polygon, ...]] = {}
+    for z in sorted({layer.z for layer in layers}):
+        nearest = [
+            layers_of[int(np.argmin(np.abs(heights - z)))]
+            for layers_of, heights, above in zip(passes, places, beyond, strict=True)
+            if heights[0] - above <= z <= heights[-1] + above
+        ]
+        key = tuple(id(layer.areas) for layer in nearest)
+        both = areas.setdefault(key, tuple(area for layer in nearest for area in layer.areas))
+        joined.append(replace(nearest[0], z=z, areas=both, length=sum(layer.length for layer in nearest)))
+    return joined

@@ -48,6 +48,8 @@ POLYGON = 3  # type number in Shapely
 DENT_RADIUS = 0.5  # mm: dents in an outline that are narrower than twice this are filled
 ARM = 0.3  # mm²: an arm as large as this stays, however narrow
 CROSSING_GRID = 1e-4  # mm between the points of the grid on which outlines are divided that cross themselves
+BORDER = 1.5 * NODES  # mm: an area that comes as near to a side of its grid may go on beyond it
+GROWTH = 0.5  # share of its size by which a grid grows then
 MOST_NODES = 20_000_000  # of a grid: a square of 900 mm; larger regions are not searched
 
 
@@ -62,11 +64,19 @@ class LayerBeads:
         True on solid infill.
     half : (N, 2) float64, mm, optional
         From each, the middle of a piece of a bead, to the end of its piece; without it, beads are points.
+    wall : (N,) bool, optional
+        True on perimeters; without it, all beads count as such.
     """
 
     points: Floats
     skin: NDArray[np.bool_]
     half: Floats | None = None
+    wall: NDArray[np.bool_] | None = None
+
+    @cached_property
+    def enclosing(self) -> Floats:
+        """Points on beads that enclose infill, (K, 2), mm: no skirt, support or tower."""
+        return self.points if self.wall is None else self.points[self.wall | self.skin]
 
     @cached_property
     def all(self) -> BeadIndex:
@@ -174,15 +184,47 @@ def find_region(around: LayerBeads, infill: Floats, before: FreeAreas | None = N
     skin_distance = float(np.clip(skin_distance, wall_distance, wall_distance + SKINS_FARTHER))
     if before is not None and _is_same_region(before, around, infill, wall_distance, skin_distance):
         return before
-    region = FreeAreas(polygons=(), distance=wall_distance, skin_distance=skin_distance)
+    kinds = [kind for kind in ((around.walls, wall_distance), (around.skins, skin_distance)) if len(kind[0].points)]
+    polygons = _enclosed_areas(kinds, infill, around.enclosing)
+    return FreeAreas(polygons=polygons, distance=wall_distance, skin_distance=skin_distance)
+
+
+def _enclosed_areas(kinds: Sequence[tuple[BeadIndex, float]], infill: Floats, walls: Floats) -> tuple[Polygon, ...]:
+    """Find the areas that hold infill: in the box around it, or in a larger one while they reach its sides.
+
+    Sparse infill may end far from a wall, as a slicer's lightning does. Areas that no walls enclose, points (K, 2), mm,
+    end beside the infill.
+    """
     low, high = infill.min(axis=0) - REACH, infill.max(axis=0) + REACH
+    first = areas = _areas_in_box(kinds, infill, low, high)
+    if not areas or not len(walls):
+        return first
+    lowest, highest = np.minimum(low, walls.min(axis=0) - REACH), np.maximum(high, walls.max(axis=0) + REACH)
+    while areas:
+        bounds = np.array([area.bounds for area in areas])
+        is_open = np.stack([bounds[:, :2].min(axis=0) < low + BORDER, bounds[:, 2:].max(axis=0) > high - BORDER])
+        if not is_open.any():
+            return areas
+        grown = np.maximum(GROWTH * (high - low), REACH)
+        new_low = np.where(is_open[0], np.maximum(low - grown, lowest), low)
+        new_high = np.where(is_open[1], np.minimum(high + grown, highest), high)
+        if (new_low == low).all() and (new_high == high).all():
+            break
+        low, high = new_low, new_high
+        areas = _areas_in_box(kinds, infill, low, high)
+    return first
+
+
+def _areas_in_box(
+    kinds: Sequence[tuple[BeadIndex, float]], infill: Floats, low: Floats, high: Floats
+) -> tuple[Polygon, ...]:
+    """Find the areas in a box, (2,) and (2,), mm, that hold infill; none if it is too large."""
     wide, deep = ((high - low) / NODES).tolist()
     if wide * deep > MOST_NODES:
-        return region
+        return ()
     x, y = (np.arange(low[axis], high[axis] + NODES, NODES) for axis in (0, 1))
     grid = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
-    kinds = [kind for kind in ((around.walls, wall_distance), (around.skins, skin_distance)) if len(kind[0].points)]
-    return replace(region, polygons=_parts_with_infill(_fill_dents(_free_area(kinds, grid)), infill))
+    return _parts_with_infill(_fill_dents(_free_area(kinds, grid)), infill)
 
 
 def _kept_distance(distances: Floats, share: float, usual: float) -> float:

@@ -112,6 +112,11 @@ def refill_report(
     if request.even is not None:
         report["even"] = tally.steps.report(request.even)
     report["problems"] = _problems(report, tally)
+    if not keeps_paths and tally.replaced and _is_lightning(print_survey):
+        report["problems"].append(
+            "the slicer's own infill is lightning: layers and places that it leaves empty stay empty below the new "
+            "infill, and without --density that is as sparse; slice again with another pattern, such as grid"
+        )
     if print_survey.missing_end:
         report["problems"].insert(0, describe_missing_end(print_survey.missing_end))
     if keeps_paths and loses_filament(tally):
@@ -131,6 +136,11 @@ def refill_report(
             "pattern, or another --density"
         )
     return report
+
+
+def _is_lightning(print_survey: Survey) -> bool:
+    """Tell whether a print states that its slicer filled it with lightning."""
+    return "lightning" in {print_survey.settings.get(name) for name in ("fill_pattern", "sparse_infill_pattern")}
 
 
 def _fills(request: Request) -> bool:
@@ -213,7 +223,7 @@ def _problems(report: RefillReport, tally: RefillStats) -> list[str]:
     contact = report["contact"]
     by_itself = report["request"]["smooth_radius_mm"] == AUTO
     less_rounding = "give a smaller --max-deviation" if by_itself else "give a smaller --smooth-radius, or leave it out"
-    if contact["measured_mm"] and contact["kept_supported"] < LEAST_SHARE:
+    if contact["measured_mm"] and tally.after.length and contact["kept_supported"] < LEAST_SHARE:
         problems.append(
             f"{1 - contact['kept_supported']:.0%} less of this infill rests on the layer below than before; "
             + (less_rounding if keeps else "try another --pattern")
