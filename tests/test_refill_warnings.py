@@ -123,10 +123,7 @@ def test_a_print_of_lightning_is_told_for_a_new_pattern(setting: str, tmp_path: 
     """Its slicer leaves layers without infill, above which a new pattern begins in the air."""
     sliced = tmp_path / "print.gcode"
     sliced.write_bytes(written(Dialect()) + f"; {setting}\n".encode())
-    told = {
-        pattern: [problem for problem in refill(sliced, dry_run=True, pattern=pattern).report["problems"]]
-        for pattern in ("keep", "gyroid")
-    }
+    told = {pattern: refill(sliced, dry_run=True, pattern=pattern).report["problems"] for pattern in ("keep", "gyroid")}
     assert any("is lightning: layers and places" in problem for problem in told["gyroid"])
     assert not any("lightning" in problem for problem in told["keep"])
 
