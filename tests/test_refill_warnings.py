@@ -129,6 +129,20 @@ def test_a_print_of_lightning_is_told_for_a_new_pattern(setting: str, tmp_path: 
 
 
 @pytest.mark.slow
+def test_infill_that_stays_above_what_lightning_leaves_empty_is_told(tmp_path: Path) -> None:
+    """Layers that are slowed down to cool, purged sections, or those that nobody asked for."""
+    sliced = tmp_path / "print.gcode"
+    sliced.write_bytes(written(Dialect(layers=8, size=24.0)))
+    told = {
+        (pattern, layers): refill(sliced, dry_run=True, pattern=pattern, layers=layers).report["problems"]
+        for pattern in ("lightning", "gyroid")
+        for layers in (None, (1, 4))
+    }
+    begins = {key: any("begins in the air" in problem for problem in problems) for key, problems in told.items()}
+    assert begins == {key: key == ("lightning", (1, 4)) for key in told}
+
+
+@pytest.mark.slow
 def test_infill_that_is_all_gone_is_not_said_to_rest_on_nothing(tmp_path: Path) -> None:
     """In a pin, every roof is near a wall."""
     sliced = tmp_path / "print.gcode"
