@@ -123,12 +123,23 @@ def test_a_print_of_lightning_is_told_for_a_new_pattern(setting: str, tmp_path: 
     """Its slicer leaves layers without infill, above which a new pattern begins in the air."""
     sliced = tmp_path / "print.gcode"
     sliced.write_bytes(written(Dialect()) + f"; {setting}\n".encode())
-    told = {
-        pattern: [problem for problem in refill(sliced, dry_run=True, pattern=pattern).report["problems"]]
-        for pattern in ("keep", "gyroid")
-    }
+    told = {pattern: refill(sliced, dry_run=True, pattern=pattern).report["problems"] for pattern in ("keep", "gyroid")}
     assert any("is lightning: layers and places" in problem for problem in told["gyroid"])
     assert not any("lightning" in problem for problem in told["keep"])
+
+
+@pytest.mark.slow
+def test_infill_that_stays_above_what_lightning_leaves_empty_is_told(tmp_path: Path) -> None:
+    """Layers that are slowed down to cool, purged sections, or those that nobody asked for."""
+    sliced = tmp_path / "print.gcode"
+    sliced.write_bytes(written(Dialect(layers=8, size=24.0)))
+    told = {
+        (pattern, layers): refill(sliced, dry_run=True, pattern=pattern, layers=layers).report["problems"]
+        for pattern in ("lightning", "gyroid")
+        for layers in (None, (1, 4))
+    }
+    begins = {key: any("begins in the air" in problem for problem in problems) for key, problems in told.items()}
+    assert begins == {key: key == ("lightning", (1, 4)) for key in told}
 
 
 @pytest.mark.slow

@@ -7,12 +7,13 @@ import math
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from infill.paths.contact import sample_paths
 from infill.paths.covering import cover
 from infill.paths.families.catalogue import FAMILIES
+from infill.paths.families.family import TOUCH
 from infill.paths.neighbours import BeadIndex, index_beads
 from infill.paths.wall_joins import SHARE, round_wall_joins
 
@@ -93,6 +94,25 @@ def test_a_largest_setback_and_a_radius_of_0_hold() -> None:
     assert np.array_equal(round_wall_joins([path], walls, AREA, line_width=WIDTH, largest=0.0)[0], path)
     (curved,) = round_wall_joins([path], walls, AREA, line_width=WIDTH, largest=0.3)
     assert shapely.hausdorff_distance(shapely.linestrings(curved), shapely.linestrings(path)) <= 0.3 * math.sqrt(2)
+
+
+@given(st.floats(0.42, 1.5), st.booleans())
+@example(0.75, False)
+@example(0.75, True)
+def test_a_curve_comes_no_nearer_to_other_lines_than_beads_that_touch(inset: float, own: bool) -> None:
+    """The tip of a line points into the corner that the curve cuts off: of another path, or of the same one further on."""
+    shapely.prepare(AREA)
+    gap, tip = TOUCH * WIDTH, np.array([inset, 4 + inset])
+    corner = np.array([[10.0, 4.0], [0.0, 4.0], [0.0, 12.0]])
+    neighbour = tip + np.array([[4.0, 6.0], [0.0, 0.0], [6.0, 4.0]])
+    paths = [np.concatenate([corner, [[4.0, 12.0]], neighbour])] if own else [corner, neighbour]
+    curved = round_wall_joins(paths, walls_around(), AREA, line_width=WIDTH, spacing=gap)
+    assert len(curved[0]) > len(paths[0])
+    line = shapely.linestrings(curved[0][:-5] if own else curved[0])
+    assert shapely.distance(line, shapely.linestrings(neighbour)) > gap - 0.002
+    free = round_wall_joins(paths, walls_around(), AREA, line_width=WIDTH)[0]
+    if inset == 0.75:
+        assert shapely.distance(shapely.linestrings(free[:-5] if own else free), shapely.linestrings(neighbour)) < gap
 
 
 def test_corners_away_from_walls_stay() -> None:

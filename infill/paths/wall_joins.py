@@ -36,6 +36,8 @@ MOST_BEND = math.radians(
 )  # of a line, off its direction at the corner, where a curve begins: beyond, lines could cross
 LEAST_SETBACK = 0.1  # mm
 CURVE_POINTS = 9  # on a curve, with its ends
+EXEMPT = 3.5  # line widths along a path within which a curve may come near its own path
+SLACK = 1e-3  # mm
 
 
 def round_wall_joins(
@@ -45,6 +47,7 @@ def round_wall_joins(
     *,
     line_width: float,
     largest: float = math.inf,
+    spacing: float = 0.0,
 ) -> list[Floats]:
     """Replace the corners between lines and the walls along which they run by curves.
 
@@ -58,12 +61,65 @@ def round_wall_joins(
         Which no curve leaves; prepared for queries.
     line_width, largest : float, mm
         `largest` is that of the setbacks of curves from their corners.
+    spacing : float, mm
+        Within which no curve comes near another path, nor near its own further on, unless its corner lay as near.
     """
-    return [_round_path(path, walls, area, line_width, largest) for path in paths]
+    neighbours = _Neighbours(paths, spacing, EXEMPT * line_width)
+    return [
+        _round_path(number, path, walls, area, line_width, largest, neighbours) for number, path in enumerate(paths)
+    ]
+
+
+class _Neighbours:
+    """The segments of all paths, for curves that may not come near them."""
+
+    def __init__(self, paths: Sequence[Floats], spacing: float, exempt: float) -> None:
+        import shapely
+
+        self.spacing, self.exempt = spacing, exempt
+        counts = [max(len(path) - 1, 0) for path in paths] if spacing else []
+        self.owner = np.repeat(np.arange(len(counts)), counts)
+        ends = [np.stack([path[:-1], path[1:]], axis=1) for path in paths] if sum(counts) else [np.empty((0, 2, 2))]
+        along = [np.append(0.0, np.cumsum(np.hypot(*np.diff(path, axis=0).T))) for path in paths]
+        self.begin = np.concatenate([np.empty(0), *(places[:-1] for places in along)])
+        self.end = np.concatenate([np.empty(0), *(places[1:] for places in along)])
+        self.segments = shapely.linestrings(np.concatenate(ends)) if sum(counts) else np.empty(0, dtype=object)
+        self.tree = shapely.STRtree(self.segments)
+
+    def crowds(self, curve: Floats, corner: Floats, owner: int, span: tuple[float, float]) -> bool:
+        """Tell whether a curve comes nearer to others than `spacing`, and nearer than the corner in its place.
+
+        Parameters
+        ----------
+        curve, corner : (N, 2) float64, mm
+        owner : int
+            Number of their path.
+        span : (float, float), mm
+            Where they begin and end along it.
+        """
+        import shapely
+
+        if not len(self.segments):
+            return False
+        line = shapely.linestrings(curve)
+        candidates = self.tree.query(line, predicate="dwithin", distance=self.spacing)
+        is_same = (self.owner[candidates] == owner) & (self.begin[candidates] < span[1] + self.exempt)
+        candidates = candidates[~(is_same & (self.end[candidates] > span[0] - self.exempt))]
+        if not len(candidates):
+            return False
+        before = shapely.distance(shapely.linestrings(corner), self.segments[candidates])
+        after = shapely.distance(line, self.segments[candidates])
+        return bool((after < np.minimum(self.spacing, before) - SLACK).any())
 
 
 def _round_path(
-    path: Floats, walls: BeadIndex, area: Polygon | MultiPolygon, line_width: float, largest: float
+    number: int,
+    path: Floats,
+    walls: BeadIndex,
+    area: Polygon | MultiPolygon,
+    line_width: float,
+    largest: float,
+    neighbours: _Neighbours,
 ) -> Floats:
     """Round the corners of one path."""
     import shapely
@@ -81,22 +137,24 @@ def _round_path(
     along = np.concatenate([[0.0], np.cumsum(length)])
     stops = np.concatenate([[0], corners, [len(path) - 1]])
     pieces, begun = [], 0  # the points of the path from `begun` on are still to be copied
-    for number, corner in enumerate(corners.tolist(), 1):
+    for place, corner in enumerate(corners.tolist(), 1):
         before, after = along_wall[corner - 1], along_wall[corner]
         if before == after:
             continue
-        sides = (along[corner] - along[stops[number - 1]], along[stops[number + 1]] - along[corner])
+        sides = (along[corner] - along[stops[place - 1]], along[stops[place + 1]] - along[corner])
         shares = (SHARE if before else OF_LINE, SHARE if after else OF_LINE)
         straight = (
-            along[corner] - along[_end_of_straight(heading, corner - 1, int(stops[number - 1]))],
-            along[_end_of_straight(heading, corner, int(stops[number + 1]))] - along[corner],
+            along[corner] - along[_end_of_straight(heading, corner - 1, int(stops[place - 1]))],
+            along[_end_of_straight(heading, corner, int(stops[place + 1]))] - along[corner],
         )
         setback = min(sides[0] * shares[0], sides[1] * shares[1], *straight, largest)
         while setback >= LEAST_SETBACK:
             first, leg_in = _point_at(path, along, along[corner] - setback)
             last, leg_out = _point_at(path, along, along[corner] + setback)
             curve = _curve(first, step[leg_in], last, step[leg_out], setback)
-            if shapely.covers(area, shapely.linestrings(curve)):
+            span = float(along[corner] - setback), float(along[corner] + setback)
+            sharp = np.concatenate([[first], path[leg_in + 1 : leg_out + 1], [last]])
+            if shapely.covers(area, shapely.linestrings(curve)) and not neighbours.crowds(curve, sharp, number, span):
                 pieces += [path[begun : leg_in + 1], curve]
                 begun = leg_out + 1
                 break

@@ -24,7 +24,7 @@ from infill.ragged import concatenate_rows, split_rows
 from infill.refilling.planning import RefillPlan
 
 if TYPE_CHECKING:
-    from shapely import Polygon
+    from shapely import MultiPolygon, Polygon
 
 Paths = list[Floats]
 
@@ -208,9 +208,7 @@ def _cover_smoothly(area: Polygon, cell: float, setting: AreaSetting) -> FittedP
         return FittedPaths(paths=[], radii=np.empty(0), cell=cell)
     tolerance_area = shapely.buffer(area, REGION_TOLERANCE)
     shapely.prepare(tolerance_area)
-    strands = round_wall_joins(
-        strands, setting.walls, tolerance_area, line_width=plan.line_width, largest=plan.rounding_of(cell).radius
-    )
+    strands = _curve_into_walls(strands, tolerance_area, cell, setting)
     corners = np.concatenate(strands)
     hard = np.zeros(len(corners), dtype=bool)
     largest_radii = plan.radii_at(strands, cell)
@@ -249,6 +247,19 @@ def _cover_smoothly(area: Polygon, cell: float, setting: AreaSetting) -> FittedP
         fits = shapely.covers(tolerance_area, shapely.linestrings(plain[number]))
         paths[number] = plain[number] if fits else whole[number]
     return FittedPaths(paths=_trim_free_ends(paths, plan), radii=radii, cell=cell)
+
+
+def _curve_into_walls(strands: Paths, area: Polygon | MultiPolygon, cell: float, setting: AreaSetting) -> Paths:
+    """Round the corners at which strands run into the walls of an area."""
+    plan = setting.plan
+    return round_wall_joins(
+        strands,
+        setting.walls,
+        area,
+        line_width=plan.line_width,
+        largest=plan.rounding_of(cell).radius,
+        spacing=plan.family.least_spacing * plan.line_width,
+    )
 
 
 def _trim_free_ends(paths: Paths, plan: RefillPlan) -> Paths:

@@ -196,9 +196,9 @@ def _enclosed_areas(kinds: Sequence[tuple[BeadIndex, float]], infill: Floats, wa
     end beside the infill.
     """
     low, high = infill.min(axis=0) - REACH, infill.max(axis=0) + REACH
-    first = areas = _areas_in_box(kinds, infill, low, high)
+    areas_beside = areas = _areas_in_box(kinds, infill, low, high)
     if not areas or not len(walls):
-        return first
+        return areas_beside
     lowest, highest = np.minimum(low, walls.min(axis=0) - REACH), np.maximum(high, walls.max(axis=0) + REACH)
     while areas:
         bounds = np.array([area.bounds for area in areas])
@@ -212,7 +212,7 @@ def _enclosed_areas(kinds: Sequence[tuple[BeadIndex, float]], infill: Floats, wa
             break
         low, high = new_low, new_high
         areas = _areas_in_box(kinds, infill, low, high)
-    return first
+    return areas_beside
 
 
 def _areas_in_box(

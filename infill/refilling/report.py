@@ -112,6 +112,11 @@ def refill_report(
     if request.even is not None:
         report["even"] = tally.steps.report(request.even)
     report["problems"] = _problems(report, tally)
+    if not keeps_paths and 0 < tally.replaced < tally.sections and not _fills(request):
+        report["problems"].append(
+            f"{tally.sections - tally.replaced} sections keep the slicer's infill, which begins in the air where "
+            f"{request.pattern} leaves the layer below empty; take another pattern, such as support-cubic"
+        )
     if not keeps_paths and tally.replaced and _is_lightning(print_survey):
         report["problems"].append(
             "the slicer's own infill is lightning: layers and places that it leaves empty stay empty below the new "
