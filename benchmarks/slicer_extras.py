@@ -49,7 +49,7 @@ def density_section(found: dict[str, Any] | None) -> str:
         "## Density\n\n"
         f"Every pattern of ours in {len(regions)} regions ({', '.join(regions)}) at "
         f"{', '.join(f'{density:g}' for density in densities)} %, against the filament of PrusaSlicer's rectilinear "
-        "infill of the same region. The gap is the least distance of two strands, or of a strand and itself beyond 4 "
+        "infill of the same region; lightning takes only what roofs need. The gap is the least distance of two strands, or of a strand and itself beyond 4 "
         f"line widths, over {SPACING} mm, the spacing at which beads 0.45 mm wide fill the plane; beside it, the share "
         "of the length that lies nearer than 0.95 of that, in the worst run. The radius is measured where paths turn "
         "by less than 30° at a vertex: the radius that all but 1 % of such places exceed, in the worst run.\n\n"
