@@ -112,7 +112,7 @@ def test_arms_are_linked_in_pairs_and_keep_apart(offset: float) -> None:
 # --- laws of the lines -----------------------------------------------------------------------------------------
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @every_pattern
 def test_lines_keep_apart_and_never_cross(name: str, refilled: Callable[[str], Path]) -> None:
     """Nine tenths of a line width in every layer, less what points may move as short segments are merged: 0.02 mm."""

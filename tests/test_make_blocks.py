@@ -107,6 +107,7 @@ def test_the_third_of_cell_line_width_and_density_follows() -> None:
     assert wide["cell"] == pytest.approx(1.5 * thin["cell"], rel=0.1)
 
 
+@pytest.mark.longest
 def test_a_turn_by_its_symmetry_changes_nothing_and_another_does() -> None:
     options: dict[str, Any] = {"size": (12, 12, 4), "density": 0.3, "cell": 4, "frame": False}
     straight, turned, quarter = (make("grid", angle=angle, **options).surface for angle in (0, 30, 90))

@@ -82,7 +82,7 @@ def test_a_page_fits_its_window_by_day_and_night(tmp_path: Path, width: int, dar
         assert find_serious(page) == []
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_a_cut_is_filled_where_the_solid_is_and_open_where_it_is_hollow(tmp_path: Path) -> None:
     with open_page(written(tmp_path, surface_page({"cube": hollow()}, title="Cube"))) as page:
         wait_until_drawn(page)

@@ -716,7 +716,7 @@ serve(browser=False, limits=StudioLimits(seconds=4, upload_bytes=60_000, files=2
 """
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_every_request_has_limits_of_time_and_memory(tmp_path: Path, files: Path) -> None:
     with run_studio(tmp_path, code=LIMITED) as studio, studio.page() as page:
         limits = page.client.get("api/about").json()["limits"]

@@ -141,6 +141,7 @@ def test_a_link_restores_a_part_and_undo_leads_back(studio: str) -> None:
         page.wait_for_url(re.compile("wall=1.5"))
 
 
+@pytest.mark.longest
 def test_an_error_stands_at_its_control_and_goes(studio: str, samples: dict[str, Path]) -> None:
     with open_view(studio, "part", samples["part"]) as page:
         wait_until_exact(page)
