@@ -84,12 +84,10 @@ def measure_travel(table: GcodeTable, before: TravelSettings | None = None) -> T
 
 def _is_back_by_firmware(table: GcodeTable) -> NDArray[np.bool_]:
     """Return for each line whether filament is retracted by firmware, (N,)."""
-    is_back = np.full(len(table), table.before.firmware_retracted)
-    for command in table.commands:
-        back = firmware_retraction(command, table.before.firmware)
-        if back is not None:
-            is_back[command.line :] = back
-    return is_back
+    turns = [(command.line, firmware_retraction(command, table.before.firmware)) for command in table.commands]
+    turns = [(line, back) for line, back in turns if back is not None]
+    states = np.array([table.before.firmware_retracted, *(back for _, back in turns)])
+    return np.asarray(states[np.searchsorted([line for line, _ in turns], np.arange(len(table)), side="right")])
 
 
 def _last_printed_height(table: GcodeTable) -> Floats:
