@@ -133,8 +133,12 @@ def test_surfaces_are_saved_as_shown(suffix: str, layers, tmp_path: Path) -> Non
         assert write_surfaces(str(tmp_path / f"ball{suffix}"), passed) == [str(tmp_path / f"ball{suffix}")]
         mesh = infill.read_mesh(tmp_path / f"ball{suffix}")
         assert mesh.closed
-        assert mesh.volume == pytest.approx(4 / 3 * np.pi * RADIUS**3, rel=0.03)
-        expected = np.sort(in_world(*made[0][:2])[:, ::-1], axis=0)
+        shown = in_world(*made[0][:2])[:, ::-1]
+        corners = shown[np.asarray(made[0][0][1])]
+        enclosed = np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6
+        assert mesh.volume == pytest.approx(abs(enclosed), rel=1e-4)
+        assert mesh.volume == pytest.approx(4 / 3 * np.pi * RADIUS**3, rel=0.04), "of a ball of six slices"
+        expected = np.sort(shown, axis=0)
         assert np.allclose(mesh.bounds, expected[[0, -1]], atol=1e-3)
 
 
