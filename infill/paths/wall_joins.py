@@ -31,13 +31,11 @@ MOST_TURN = math.radians(170)  # a path that turns back on itself keeps its corn
 SHARE = 0.25  # of the way along a wall that a curve takes at each of its ends
 OF_LINE = 0.5  # of the length of a line up to its next corner
 LEAST_SLOPE = 0.2  # of a leg that leaves a wall: how much nearer to it one end lies, over its length
-MOST_BEND = math.radians(
-    45
-)  # of a line, off its direction at the corner, where a curve begins: beyond, lines could cross
+MOST_BEND = math.radians(45)  # of a line, off its direction at the corner, where a curve begins: beyond, it could cross
 LEAST_SETBACK = 0.1  # mm
 CURVE_POINTS = 9  # on a curve, with its ends
 EXEMPT = 3.5  # line widths along a path within which a curve may come near its own path
-SLACK = 1e-3  # mm
+SLACK = 1e-3  # mm: the last decimal of G-code
 
 
 def round_wall_joins(
@@ -64,6 +62,8 @@ def round_wall_joins(
     spacing : float, mm
         Within which no curve comes near another path, nor near its own further on, unless its corner lay as near.
     """
+    if not paths:
+        return []
     neighbours = _Neighbours(paths, spacing, EXEMPT * line_width)
     return [
         _round_path(number, path, walls, area, line_width, largest, neighbours) for number, path in enumerate(paths)
@@ -77,13 +77,11 @@ class _Neighbours:
         import shapely
 
         self.spacing, self.exempt = spacing, exempt
-        counts = [max(len(path) - 1, 0) for path in paths] if spacing else []
-        self.owner = np.repeat(np.arange(len(counts)), counts)
-        ends = [np.stack([path[:-1], path[1:]], axis=1) for path in paths] if sum(counts) else [np.empty((0, 2, 2))]
         along = [np.append(0.0, np.cumsum(np.hypot(*np.diff(path, axis=0).T))) for path in paths]
-        self.begin = np.concatenate([np.empty(0), *(places[:-1] for places in along)])
-        self.end = np.concatenate([np.empty(0), *(places[1:] for places in along)])
-        self.segments = shapely.linestrings(np.concatenate(ends)) if sum(counts) else np.empty(0, dtype=object)
+        self.owner = np.repeat(np.arange(len(paths)), [len(path) - 1 for path in paths])
+        self.begin = np.concatenate([places[:-1] for places in along])
+        self.end = np.concatenate([places[1:] for places in along])
+        self.segments = shapely.linestrings(np.concatenate([np.stack([path[:-1], path[1:]], axis=1) for path in paths]))
         self.tree = shapely.STRtree(self.segments)
 
     def crowds(self, curve: Floats, corner: Floats, owner: int, span: tuple[float, float]) -> bool:
@@ -99,8 +97,6 @@ class _Neighbours:
         """
         import shapely
 
-        if not len(self.segments):
-            return False
         line = shapely.linestrings(curve)
         candidates = self.tree.query(line, predicate="dwithin", distance=self.spacing)
         is_same = (self.owner[candidates] == owner) & (self.begin[candidates] < span[1] + self.exempt)

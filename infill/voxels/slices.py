@@ -88,18 +88,16 @@ def find_ending(current: NDArray[np.float32], following: NDArray[np.float32]) ->
     """
     from scipy.ndimage import binary_dilation, label
 
+    solid, other = current > 0, following > 0
     ending = np.zeros(current.shape, dtype=np.bool_)
-    for slice_, other in ((current > 0, following > 0), (following > 0, current > 0)):
-        for region, opposite in ((slice_, other), (~slice_, ~other)):
-            gone = region & ~opposite
-            regions, count = label(gone)
-            if count == 0:
-                continue
-            # A region continues where it touches a region that is alike in both slices.
-            touching = binary_dilation(region & opposite)
-            continues = np.bincount(regions[touching & gone], minlength=count + 1) > 0
-            continues[0] = True
-            ending |= ~continues[regions]
+    if (solid == other).all():
+        return ending
+    # Regions continue, as solid and as void, where they touch what is alike in both slices.
+    alike = [binary_dilation(solid & other), binary_dilation(~solid & ~other)]
+    for gone in (solid & ~other, other & ~solid):
+        regions, count = label(gone)
+        touching = [np.bincount(regions[gone & beside], minlength=count + 1) > 0 for beside in alike]
+        ending |= gone & ~(touching[0] & touching[1])[regions]
     return ending
 
 
