@@ -88,15 +88,15 @@ def find_ending(current: NDArray[np.float32], following: NDArray[np.float32]) ->
     """
     from scipy.ndimage import binary_dilation, label
 
-    solid, other = current > 0, following > 0
+    solid, neighbour = current > 0, following > 0
     ending = np.zeros(current.shape, dtype=np.bool_)
-    if (solid == other).all():
+    if (solid == neighbour).all():
         return ending
     # Regions continue, as solid and as void, where they touch what is alike in both slices.
-    alike = [binary_dilation(solid & other), binary_dilation(~solid & ~other)]
-    for gone in (solid & ~other, other & ~solid):
+    shared = [binary_dilation(solid & neighbour), binary_dilation(~solid & ~neighbour)]
+    for gone in (solid & ~neighbour, neighbour & ~solid):
         regions, count = label(gone)
-        touching = [np.bincount(regions[gone & beside], minlength=count + 1) > 0 for beside in alike]
+        touching = [np.bincount(regions[gone & mask], minlength=count + 1) > 0 for mask in shared]
         ending |= gone & ~(touching[0] & touching[1])[regions]
     return ending
 
