@@ -366,6 +366,27 @@ def test_ends_between_thick_slices_lie_where_grey_values_say(thickness: float, p
         assert np.abs(np.abs(ends - middle) - 6).max() <= allowed + 1e-6
 
 
+@pytest.mark.parametrize("share", [0.55, 0.7, 0.9])
+@pytest.mark.parametrize("fill", [0.0, 0.2, 0.4, 0.6, 0.8])
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_wall_is_as_high_beside_its_outline_as_within(share: float, fill: float, sign: int) -> None:
+    """Where a straight wall fills a part of a pixel, this part is of its width, not of its height; so for pits.
+
+    Pixels that the last slice holds less than half of, and those beside them more than half, are of a moving outline.
+    """
+    lying = np.array([0.0, share, 1.0, 1.0, 1.0, share, 0.0])
+    standing = np.array([0.0, 0.0, fill, 1.0, 1.0, 1.0, 0.0, 0.0])
+    shares = np.broadcast_to(lying[:, None, None] * standing, (7, 9, 8))
+    data = Volume(values=(sign * (2 * shares - 1)).astype(np.float32), spacing=(0.5, 0.5, 2.0))
+    fine = sign * np.asarray(interpolate_slices(data, 2, 20).values)  # cells of 0.1 mm
+    for column, part in zip(fine[1:6, 4], lying[1:6], strict=True):
+        inside = np.flatnonzero(column > 0)
+        bottom, top = inside[0] / 10, (inside[-1] + 1) / 10
+        assert top == pytest.approx(12, abs=2 / 8 + 0.05)
+        if (part * fill > 0.5) == (fill > 0.5):
+            assert bottom == pytest.approx(6 - 2 * fill, abs=2 / 8 + 0.05)
+
+
 @pytest.mark.parametrize("count", [3, 4])
 def test_slices_have_no_preferred_side(count: int, rng: np.random.Generator) -> None:
     """Read from the other end, or with solid and void exchanged, the shape between slices is the same."""

@@ -13,6 +13,7 @@ from infill.volume import Volume
 THICK = 2.0  # times the width of a cell: slices further apart than this are interpolated
 OUTLINE_REACH = 1.01  # half pixels: only pixels next to the outline are this near
 SHORTEST = 1e-6  # slices: an end that lies in the middle of one
+HALF = 0.5  # of a pixel: more is solid
 REACH = 1.0  # pixels from the outline within which the result is grey
 
 
@@ -55,7 +56,8 @@ def interpolate_slices(volume: Volume, axis: int, count: int) -> Volume:
         following = signed_distance(values[n], size)
         fine[n * count : (n + 1) * count] = following
         ending = find_ending(current, following)
-        end = find_ends(values[n - 1][ending], values[n][ending])
+        behind, beyond = (values[m][ending] if 0 <= m < len(values) else None for m in (n - 2, n + 1))
+        end = find_ends(behind, values[n - 1][ending], values[n][ending], beyond)
         side = np.sign(current[ending])
         # Cells from the middle of one slice to that of the next, both included where a cell lies there.
         for cell in range((n - 1) * count + count // 2, n * count + (count + 1) // 2):
@@ -101,26 +103,37 @@ def find_ending(current: NDArray[np.float32], following: NDArray[np.float32]) ->
     return ending
 
 
-def find_ends(values: NDArray[Any], following: NDArray[Any]) -> NDArray[np.float64]:
+def find_ends(
+    behind: NDArray[Any] | None, values: NDArray[Any], following: NDArray[Any], beyond: NDArray[Any] | None
+) -> NDArray[np.float64]:
     """Return where regions end that one slice has and the next has not: 0 in the middle of the slice, 1 in the next.
 
-    A slice that is partly filled is filled on the side of the one that has the region.
+    The slices behind and beyond tell how much of a pixel is solid before the end and after it: beside the outline of a
+    straight wall, a part of it. What the two slices hold of this is then how far the region reaches.
 
     Parameters
     ----------
-    values, following : (n,)
-        Booleans, or from -1 for empty to 1 for full.
+    behind, values, following, beyond : (n,)
+        Four slices, booleans or from -1 for empty to 1 for full; the regions end between the second and the third.
+        None where the volume ends: full behind what is solid, empty beyond what is void.
 
-    >>> find_ends(np.array([True, False]), np.array([False, True])).tolist()
+    >>> find_ends(None, np.array([True, False]), np.array([False, True]), None).tolist()
     [0.5, 0.5]
-    >>> find_ends(np.array([1.0, 0.5]), np.array([-0.5, -1.0])).tolist()  # a quarter of the next one; three quarters
+    >>> find_ends(None, np.array([1.0, 0.5]), np.array([-0.5, -1.0]), None).tolist()  # a quarter more; a quarter less
     [0.75, 0.25]
+    >>> find_ends(np.array([0.5]), np.array([0.5]), np.array([-1.0]), None).tolist()  # a wall fills three quarters
+    [0.5]
     """
     if values.dtype == bool:
         return np.full(values.shape, 0.5)
-    first, second = np.abs(values.astype(float)), np.abs(following.astype(float))
-    ends: NDArray[np.float64] = np.clip((1 + first - second) / 2, 0, 1)
-    return ends
+    side = np.where(values > 0, 1, -1)  # as if the second slice were solid
+    near, far = (1 + side * values) / 2, (1 + side * following) / 2
+    before = np.ones_like(near) if behind is None else (1 + side * behind) / 2
+    after = np.zeros_like(far) if beyond is None else (1 + side * beyond) / 2
+    before = np.where(before > HALF, np.maximum(before, near), 1)
+    after = np.where(after < HALF, np.minimum(after, far), 0)
+    ends: NDArray[np.float64] = (near + far - before / 2 - 1.5 * after) / np.maximum(before - after, SHORTEST)
+    return np.clip(ends, 0, 1)
 
 
 def signed_distance(layer: NDArray[Any], size: NDArray[np.float64]) -> NDArray[np.float32]:
