@@ -143,6 +143,15 @@ def parse_lines(data: bytes) -> ParsedLines:
     )
 
 
+def fill_missing(values: Floats, by: float) -> Floats:
+    """Return values with another one in the place of those that are NaN.
+
+    >>> fill_missing(np.array([1.0, np.nan]), 0.0).tolist()
+    [1.0, 0.0]
+    """
+    return np.where(np.isnan(values), by, values)
+
+
 def read_plain_lines(
     text: NDArray[np.uint8], start: NDArray[np.int64]
 ) -> tuple[NDArray[np.uint8], NDArray[np.int8], NDArray[np.bool_], Floats, NDArray[np.bool_]]:
@@ -305,7 +314,7 @@ def _read_odd_lines(
     """
     unread = np.zeros(len(kind), dtype=bool)
     further: dict[int, dict[str, float]] = {}
-    lacking = (kind == ARC) & ~np.nan_to_num(values[:, [WORDS.index("I"), WORDS.index("J")]]).any(axis=1)
+    lacking = (kind == ARC) & ~fill_missing(values[:, [WORDS.index("I"), WORDS.index("J")]], 0.0).any(axis=1)
     kind[lacking] = ODD
     values[lacking], has_word[lacking] = np.nan, False
     for line in np.flatnonzero(kind == ODD).tolist():

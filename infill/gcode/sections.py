@@ -151,17 +151,19 @@ def mark_lines(table: GcodeTable, before: TagState) -> LineMarks:
     purges: list[tuple[int, int]] = []
     wipes: list[tuple[int, int]] = []
     changed_tool = wipe = 0  # the line, or the first one if it stands in an earlier table
-    # Plain lists: single entries of an array cost several times as much.
-    printed_so_far = np.concatenate([[0], np.cumsum(is_printing(table))])
-    printed, start, data = printed_so_far.tolist(), table.start.tolist(), table.data
+    printed = np.concatenate([[0], np.cumsum(is_printing(table))])
     commands = {command.line: command for command in table.commands}
 
     def first_printed(line: int) -> int:
         """Return the first printing line, counted from `line`; the end if there is none."""
-        return int(np.searchsorted(printed_so_far, printed[line], side="right")) - 1
+        return int(np.searchsorted(printed, printed[line], side="right")) - 1
 
-    for line in sorted([*np.flatnonzero(table.kind == COMMENT).tolist(), *commands]):
-        if printed[line] > printed[last_line]:
+    read = np.array(sorted([*np.flatnonzero(table.kind == COMMENT).tolist(), *commands]), dtype=np.intp)
+    # Plain lists: single entries of an array cost several times as much.
+    since = np.diff(printed[read], prepend=0).tolist()
+    begin_bytes, end_bytes = table.start[read].tolist(), table.start[read + 1].tolist()
+    for line, printed_since, begin_byte, end_byte in zip(read.tolist(), since, begin_bytes, end_bytes, strict=True):
+        if printed_since:
             state = _after_printing(state)
         last_line, previous_tags = line, state
         command = commands.get(line)
@@ -176,7 +178,7 @@ def mark_lines(table: GcodeTable, before: TagState) -> LineMarks:
                 value = command.words.get("P") or command.words.get("S") or 0.0
                 state = state._replace(acceleration=value) if is_valid_limit(value, "acceleration") else state
         else:
-            tag = parse_tag(data[start[line] : min(start[line + 1], start[line] + MAX_TAG_BYTES)].lstrip())
+            tag = parse_tag(table.data[begin_byte : min(end_byte, begin_byte + MAX_TAG_BYTES)].lstrip())
             if tag is None:
                 continue
             if tag[0] == "purged" and state.purging:

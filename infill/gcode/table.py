@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.arrays import Floats
-from infill.gcode.lines import WORDS, GcodeCommand, ParsedLines, parse_lines
+from infill.gcode.lines import WORDS, GcodeCommand, ParsedLines, fill_missing, parse_lines
 from infill.gcode.machine_state import INCH, MachineState, apply_mode, changes_moves, firmware_retraction
 from infill.gcode.unusual_moves import EXTRUDERS
 from infill.kernels.compiling import is_compiler_loaded
@@ -308,14 +308,14 @@ def _follow_stretch(
     for axis, name in enumerate("xyz"):
         column = values[lines, axis]
         if state.relative:
-            place = getattr(state, name) + np.cumsum(np.nan_to_num(column))
+            place = getattr(state, name) + np.cumsum(fill_missing(column, 0.0))
         else:
             place = _fill_forward(column, getattr(state, name))
         where[name][lines] = place
         position[name] = float(place[-1])
     column = values[lines, 3]
     if state.steps_e:
-        pushed = np.nan_to_num(column)
+        pushed = fill_missing(column, 0.0)
         counter = state.e + np.cumsum(pushed)
     else:
         counter = _fill_forward(column, state.e)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from infill.arrays import Floats
 from infill.gcode.limits import Limits
+from infill.gcode.lines import fill_missing
 from infill.kernels.compiling import is_compiler_loaded, log_compilation
 
 MIN_FEEDRATE = 0.01  # mm/s: replaces a feed rate of zero
@@ -114,7 +115,7 @@ def bound_compiled_moves(moves: Moves, limits: Sequence[Limits]) -> BoundedMoves
     with log_compilation("speeds"):
         limit_moves(
             np.ascontiguousarray(moves.delta),
-            np.nan_to_num(moves.feedrate, nan=DEFAULT_FEEDRATE),
+            fill_missing(moves.feedrate, DEFAULT_FEEDRATE),
             moves.setting,
             limits[0].model == "klipper",
             np.array([[float(getattr(setting, name)) for name in rates] for setting in limits]),
@@ -152,7 +153,7 @@ def bound_plain_moves(moves: Moves, limits: Sequence[Limits]) -> BoundedMoves:
         return limit_values(limits, name, moves.setting)
 
     lowest = np.where(pushed == 0, limit("minimum_travel_feedrate"), limit("minimum_feedrate"))
-    speed = np.maximum(np.maximum(np.nan_to_num(moves.feedrate, nan=DEFAULT_FEEDRATE), lowest), MIN_FEEDRATE)
+    speed = np.maximum(np.maximum(fill_missing(moves.feedrate, DEFAULT_FEEDRATE), lowest), MIN_FEEDRATE)
     path_acceleration = np.where(pushed == 0, limit("travel_acceleration"), limit("acceleration"))
     acceleration = np.where(turning_only, limit("retract_acceleration"), path_acceleration)
     share = np.abs(direction)

@@ -16,6 +16,7 @@ from infill.gcode.machine_state import MachineState
 from infill.gcode.sections import SPARSE
 from infill.gcode.sliced_file import SlicedText
 from infill.gcode.table import GcodeTable
+from infill.kernels.threads import in_order
 from infill.planner.bounds import Moves
 from infill.planner.feature_sums import FeatureSums
 from infill.planner.lookahead import MotionPlan, plan_moves
@@ -170,8 +171,8 @@ class PrintClock:
 
     def read(self) -> PrintTime:
         """Read the entire print."""
-        for table in self._timeline.tables(BATCH):
-            self.add(table)
+        for _ in in_order(self.add, self._timeline.tables(BATCH), threads=1):  # lines are read while moves are planned
+            pass
         return self.finish()
 
     def finish(self) -> PrintTime:

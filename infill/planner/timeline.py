@@ -19,7 +19,7 @@ from infill.gcode.dialect import MAX_TAG_BYTES, TAGS, parse_tag
 from infill.gcode.found_limits import FileLimits, read_limits
 from infill.gcode.given_limits import GivenLimits
 from infill.gcode.limits import LIMITING_CODES, Limits
-from infill.gcode.lines import ARC, COMMENT, MOVE, ODD, GcodeCommand
+from infill.gcode.lines import ARC, COMMENT, MOVE, ODD, GcodeCommand, fill_missing
 from infill.gcode.machine_state import MachineState, firmware_retraction
 from infill.gcode.table import GcodeTable, read_table
 from infill.gcode.unusual_moves import is_macro
@@ -176,10 +176,13 @@ class Timeline:
         yield self.rest()
 
     def tables(self, batch: int | None = None) -> Iterator[GcodeTable]:
-        """Read the file from the beginning, `batch` bytes at a time; follow each table before the next is read."""
+        """Read the file from the beginning, `batch` bytes at a time, for callers who follow each table."""
         self._file.seek(0)
+        state = self.state
         for data in _read_batches(self._file, batch or BATCH):
-            yield read_table(data, self.state)
+            table = read_table(data, state)
+            state = table.after
+            yield table
 
     def follow(self, table: GcodeTable) -> tuple[Steps, MotionPlan]:
         """Take the next lines of the file, for callers who read it themselves, and plan the moves that are settled."""
@@ -332,19 +335,23 @@ class Timeline:
         self, table: GcodeTable, orders: _Orders, feature: NDArray[np.intp], layer: NDArray[np.intp]
     ) -> Steps:
         """Return the moves of the lines, arcs as chords; each move takes the stops and pauses since the one before."""
-        place = np.column_stack([table.x, table.y, table.z])
-        before = np.vstack([[table.before.x, table.before.y, table.before.z], place[:-1]])
-        travel = np.nan_to_num(place) - np.nan_to_num(before)  # from home, where the file has not stated a position yet
+        place = np.stack([table.x, table.y, table.z])
+        start_place = np.array([table.before.x, table.before.y, table.before.z])
+        before = np.concatenate([start_place[:, None], place[:, :-1]], axis=1)
+        if np.isnan(start_place).any():  # from home, where the file has not stated a position yet
+            travel = fill_missing(place, 0.0) - fill_missing(before, 0.0)
+        else:
+            travel = place - before
         filament = table.filament * orders.flow
         odd = table.kind == ODD
-        going = ((table.kind == MOVE) | (odd & (table.code < 2))) & (travel.any(axis=1) | (filament != 0))
-        line, begin, delta = np.flatnonzero(going), before[going], travel[going]
-        pushed = filament[going]
+        going = ((table.kind == MOVE) | (odd & (table.code < 2))) & ((travel != 0).any(axis=0) | (filament != 0))
+        line = np.flatnonzero(going)
+        begin, delta, pushed = before[:, line].T, travel[:, line].T, filament[line]
         arcs = (table.kind == ARC) | (odd & (table.code > 1) & ~table.unread)
         if arcs.any():
             bent = np.flatnonzero(arcs)
             which, start, way, share = chords_of_arc_lines(
-                table, bent, np.nan_to_num(before[bent]), np.nan_to_num(place[bent])
+                table, bent, fill_missing(before[:, bent].T, 0.0), fill_missing(place[:, bent].T, 0.0)
             )
             order = np.argsort(np.concatenate([line, bent[which]]), kind="stable")
             line = np.concatenate([line, bent[which]])[order]
@@ -394,6 +401,8 @@ def _find_comments(table: GcodeTable, beginnings: Sequence[int]) -> list[int]:
 
 def _sum_since_move(values: NDArray[Any], line: NDArray[np.intp]) -> NDArray[Any]:
     """Sum the values of the lines up to each move, since the previous move."""
+    if not values.any():
+        return np.zeros(len(line), dtype=np.result_type(values, np.intp))
     return np.diff(np.concatenate([[0], np.cumsum(values)])[line], prepend=0)
 
 
