@@ -23,7 +23,7 @@ def merge_plainly(paths: RoundedPaths, wanted: float | Floats = SHORTEST_SEGMENT
     """Merge the short segments of paths as `merge_short_segments` does."""
     points, source = paths.points.copy(), paths.source
     owner = np.repeat(np.arange(len(paths.first) - 1), np.diff(paths.first))
-    least = np.maximum(np.broadcast_to(wanted, len(paths.first) - 1), SHORTEST_SEGMENT)
+    least = np.maximum(np.broadcast_to(wanted, len(points)), SHORTEST_SEGMENT)
     moved = np.zeros(len(points))  # mm, at most, between the segment after each point and the path as it was
     stays = np.zeros(len(points), dtype=bool)  # the segment after a point cannot be merged
     while len(points) > 1:
@@ -57,7 +57,7 @@ def merge_plainly(paths: RoundedPaths, wanted: float | Floats = SHORTEST_SEGMENT
         if spread.any():
             places = chosen_places[spread]
             points[places], points[places + 1] = wider[0][spread], wider[1][spread]
-        points, owner, source = points[remaining], owner[remaining], source[remaining]
+        points, owner, source, least = points[remaining], owner[remaining], source[remaining], least[remaining]
         # The segment after a point that went is now that after the point before it.
         moved, stays = moved[remaining], stays[remaining]
     first = np.searchsorted(owner, np.arange(len(paths.first)))
@@ -68,8 +68,8 @@ def _choose_segments(points: Floats, owner: Places, least: Floats, stays: NDArra
     """Choose short segments, three or more apart, the shortest of each neighbourhood."""
     length = np.hypot(points[1:, 0] - points[:-1, 0], points[1:, 1] - points[:-1, 1])
     inner = owner[1:] == owner[:-1]
-    short = np.flatnonzero(inner & ~stays[:-1] & (length < least[owner[:-1]] - UNIT / 10))
-    short = short[(np.bincount(owner, minlength=len(least)) != 2)[owner[short]]]
+    short = np.flatnonzero(inner & ~stays[:-1] & (length < least[:-1] - UNIT / 10))
+    short = short[(np.bincount(owner) != 2)[owner[short]]]
     rank = np.full(len(length) + 4, np.inf)  # of each segment, two places further on; only of short ones, which are few
     rank[short + 2] = own = np.floor(length[short] / LENGTH_CLASSES) + (short * SCATTER) % 1
     around = np.minimum.reduce([rank[short + shift] for shift in (0, 1, 3, 4)])

@@ -15,12 +15,17 @@ from plain_segments import merge_plainly
 from test_corners_and_curves import walk, walks
 
 from infill import ParameterError, refill
+from infill.gcode.dialect import role_of
 from infill.gcode.machine_state import MachineState
+from infill.gcode.sections import SPARSE
+from infill.gcode.sliced_file import open_sliced
 from infill.gcode.table import read_table
 from infill.paths.corners import UNIT, RoundedPaths
 from infill.paths.short_segments import MOST_MOVED, SHORTEST_SEGMENT, merge_short_segments
+from infill.planner.open_timeline import make_timeline
 from infill.refilling.request import Request
 
+BUFFER = 16  # segments: what the planner of Marlin holds
 DECIMALS = 1.5 * UNIT  # mm that rounding of coordinates may add to a distance or a length
 
 
@@ -63,7 +68,7 @@ def test_compiled_rounds_are_those_of_numpy(seed: int, on_units: bool, wanted: f
         source=np.sort(random.integers(0, 1000, len(points))),
         radius=np.full(3, np.inf),
     )
-    least = random.random(30) if isinstance(wanted, str) else wanted
+    least = random.random(len(points)) if isinstance(wanted, str) else wanted
     plain, compiled = merge_plainly(paths, least), merge_short_segments(paths, least)
     assert len(compiled.points) < len(points)
     for name in ("points", "first", "source"):
@@ -121,7 +126,7 @@ def test_paths_do_not_touch_one_another() -> None:
     one = np.array([[0.0, 0.0], [3.0, 0.0]])
     points = np.concatenate([one, one + np.array([3.01, 0.0]), one])
     paths = RoundedPaths(points=points, first=np.array([0, 2, 4, 6]), source=np.arange(6), radius=np.full(6, np.inf))
-    done = merge_short_segments(paths, np.array([9.0, 9.0, 9.0]))
+    done = merge_short_segments(paths, np.full(6, 9.0))
     assert (done.points == points).all()
     assert done.first.tolist() == [0, 2, 4, 6]
     assert merge_short_segments(
@@ -160,21 +165,43 @@ def test_a_refilled_print_has_no_short_segment(pattern: str, tmp_path: Path) -> 
     assert inner.min() >= SHORTEST_SEGMENT - UNIT
 
 
+def fastest_run(path: Path) -> float:
+    """Return the most segments per second that the infill of a print asks for, over as many as a planner buffers."""
+    seconds, is_infill = [], []
+    with open_sliced(path) as file, file.text(file.part_of_plate(None)) as text:
+        timeline = make_timeline(text)
+        for steps, plan in timeline:
+            sparse = np.array([role_of(name) == SPARSE for name in timeline.features])
+            seconds.append(plan.seconds)
+            is_infill.append(sparse[steps.feature] & (steps.moves.delta[:, 3] > 0) if len(steps) else np.empty(0, bool))
+    spent = np.lib.stride_tricks.sliding_window_view(np.concatenate(seconds), BUFFER).sum(axis=1)
+    runs = np.lib.stride_tricks.sliding_window_view(np.concatenate(is_infill), BUFFER).all(axis=1)
+    return float(BUFFER / spent[runs].min())
+
+
+@pytest.mark.parametrize("pattern", ["keep", "honeycomb", "gyroid", "hilbert"])
+def test_a_controller_gets_no_more_segments_than_it_can_take(pattern: str, tmp_path: Path) -> None:
+    """At the speeds at which the machine passes them: bends are slow, and may be cut finely."""
+    path = flavoured(tmp_path / "print.gcode", "marlin")
+    refill(path, output=tmp_path / "new.gcode", pattern=pattern)
+    assert fastest_run(tmp_path / "new.gcode") <= 200
+    if pattern == "gyroid":
+        refill(path, output=tmp_path / "free.gcode", pattern=pattern, max_segments="none")
+        assert fastest_run(tmp_path / "free.gcode") > 400
+
+
 def test_fewer_segments_for_a_slow_controller(tmp_path: Path) -> None:
     """As the flavour of the file implies, or as requested; the machine moves a little slower, the path stays."""
-    shares: dict[tuple[str, object], float] = {}
+    counts: dict[tuple[str, object], int] = {}
     reports: Mapping[tuple[str, object], dict] = {}
     for flavour, limit in (("marlin", "auto"), ("marlin2", "auto"), ("marlin2", 200), ("marlin", "none")):
         path = flavoured(tmp_path / f"{flavour}.gcode", flavour)
         output = tmp_path / f"{flavour}-{limit}.gcode"
         reports[flavour, limit] = refill(path, output=output, max_segments=limit).report
-        segments = [(lengths(points), feed / 60) for points, feed in strokes(output.read_bytes(), path.read_bytes())]
-        quick = sum((length < feed / 200).sum() for length, feed in segments)
-        shares[flavour, limit] = quick / sum(len(length) for length, _ in segments)
+        counts[flavour, limit] = sum(len(points) for points, _ in strokes(output.read_bytes(), path.read_bytes()))
     limits = [report["rounding"]["segments_per_s"] for report in reports.values()]
     assert limits == [200, None, 200, None]
-    assert shares["marlin", "auto"] == shares["marlin2", 200] < 0.35
-    assert shares["marlin", "none"] == shares["marlin2", "auto"] > 0.5
+    assert counts["marlin", "auto"] == counts["marlin2", 200] < counts["marlin", "none"] == counts["marlin2", "auto"]
     times = [report["time"] for report in reports.values()]
     assert times[1]["print_after_s"] <= times[0]["print_after_s"] < times[0]["print_before_s"]
 

@@ -64,7 +64,7 @@ def _set_length(points, owner, segment, count, length):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def merge_rounds(points, owner, source, shortest_of, number, unit, limits, classes, scatter):
+def merge_rounds(points, owner, source, least, number, unit, limits, classes, scatter):
     """Merge short segments until none is left that may go; return the number of points that remain, at the front.
 
     Parameters
@@ -73,8 +73,8 @@ def merge_rounds(points, owner, source, shortest_of, number, unit, limits, class
         Changed.
     owner, source : (N,) int64
         Changed: the path of each point, ascending, and the point that it stands for.
-    shortest_of : (M,) float64, mm
-        Length of each path below which segments are merged.
+    least : (N,) float64, mm
+        Changed: length of the segment after each point below which it is merged.
     number : (M,) int64
         Changed: number of the points of each path.
     unit : float, mm
@@ -94,7 +94,7 @@ def merge_rounds(points, owner, source, shortest_of, number, unit, limits, class
     while count > 1:
         candidates = 0
         for k in range(count - 1):
-            if length[k] < shortest_of[owner[k]] - unit / 10 and not stays[k] and number[owner[k]] != 2:
+            if length[k] < least[k] - unit / 10 and not stays[k] and number[owner[k]] != 2:
                 rank[k + 2] = math.floor(length[k] / classes) + (k * scatter) % 1.0
                 short[candidates] = k
                 candidates += 1
@@ -159,7 +159,7 @@ def merge_rounds(points, owner, source, shortest_of, number, unit, limits, class
         for n in range(dropped):
             for k in range(goes[n] + 1, goes[n + 1]):
                 points[front, 0], points[front, 1] = points[k, 0], points[k, 1]
-                owner[front], source[front] = owner[k], source[k]
+                owner[front], source[front], least[front] = owner[k], source[k], least[k]
                 moved[front], stays[front], length[front] = moved[k], stays[k], length[k]
                 front += 1
         count = front

@@ -43,6 +43,8 @@ class Machine:
     corner : float
         Turn, in radians, times speed, in mm/s, that the firmware passes without slowing down: 1.82 × the square
         corner velocity, √(8 a × junction deviation), or the jerk.
+    segments_per_second : float
+        That the controller can take.
     coarsest : float, mm
         Largest distance between a chord and its curve.
     """
@@ -50,8 +52,12 @@ class Machine:
     acceleration: float | Floats = 1000.0
     speed: float | Floats = 80.0
     corner: float = 9.0
-    shortest: float | Floats = SHORTEST_CHORD
+    segments_per_second: float = math.inf
     coarsest: float = COARSEST
+
+    def shortest_chord(self, speed: Floats) -> Floats:
+        """Return the length, mm, of the shortest chords that the machine takes at some speeds, mm/s."""
+        return np.maximum(speed / self.segments_per_second, SHORTEST_CHORD)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -168,7 +174,7 @@ def _chord_counts(arc: Floats, turn: Floats, machine: Machine, corners: Places) 
     arc = np.where(np.isfinite(arc), np.maximum(arc, 1e-9), 1e9)
     speed = np.minimum(np.sqrt(_take(machine.acceleration, corners) * arc), _take(machine.speed, corners))
     speed_count = np.ceil(turn * speed / machine.corner - 1e-9)
-    speed_count = np.minimum(speed_count, np.floor(turn * arc / _take(machine.shortest, corners)))
+    speed_count = np.minimum(speed_count, np.floor(turn * arc / machine.shortest_chord(speed)))
     speed_count = np.maximum(speed_count, np.floor(np.minimum(turn / MOST_CHORD_TURN, turn * arc / SHORTEST_CHORD)))
     shape_count = np.ceil(turn / (2 * np.arccos(np.maximum(1 - machine.coarsest / arc, 0.0))) - 1e-9)
     number: Places = np.maximum(np.maximum(speed_count, shape_count), 1).astype(np.intp)

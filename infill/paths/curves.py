@@ -146,8 +146,7 @@ def _chord_density(control: Floats, bent: Places, machine: Machine) -> Floats:
         for value in (machine.acceleration, machine.speed)
     )
     pace = np.minimum(np.sqrt(acceleration / curvature), speed)
-    shortest = machine.shortest[bent][:, None] if isinstance(machine.shortest, np.ndarray) else machine.shortest
-    wanted = np.minimum(curvature * pace / machine.corner, 1 / shortest)
+    wanted = np.minimum(curvature * pace / machine.corner, 1 / machine.shortest_chord(pace))
     wanted = np.maximum(wanted, np.minimum(curvature / MOST_CHORD_TURN, 1 / SHORTEST_CHORD))
     number: Floats = length * np.maximum(wanted, np.sqrt(curvature / (8 * machine.coarsest)))
     return number

@@ -12,13 +12,15 @@ from numpy.typing import NDArray
 
 from infill.arrays import Floats, Places
 from infill.paths.corner_offset import CornerFreedom, corner_freedom, offset_corners
-from infill.paths.corners import COARSEST, SHORTEST_CHORD, UNIT, Machine, RoundedPaths, corner_turns, round_corners
+from infill.paths.corners import COARSEST, UNIT, Machine, RoundedPaths, corner_turns, round_corners
 from infill.paths.curves import MOST_BULGE, RecutPaths, recut_curves
 from infill.paths.neighbours import BESIDE, TOWARDS_LIMIT, BeadIndex, deviation_beside_beads
 from infill.paths.short_segments import merge_short_segments
 from infill.paths.touch import touch_preserving_deviations
 from infill.ragged import concatenate_rows, split_rows
 
+STRAIGHT = 1e-9  # radians
+SPREADS = 3  # segments that a slow joint slows down, in both directions
 BESIDE_WALLS = 2.5  # times the deviation of other corners; from 3 on, chopped parts gain no time and move farther
 
 
@@ -40,7 +42,7 @@ class Rounding:
     same_filament : bool
         Widen the beads so that each stroke keeps its filament, up to 8 %.
     segments_per_second : float
-        That the controller of the machine can take at the commanded speed.
+        That the controller of the machine can take.
     coarsest : float, mm
         See `Machine`.
     """
@@ -53,9 +55,35 @@ class Rounding:
     segments_per_second: float = math.inf
     coarsest: float = COARSEST
 
-    def shortest_segments(self, speed: Floats) -> Floats:
-        """Return the length, mm, below which segments are merged at some speeds, mm/s."""
-        return speed / self.segments_per_second
+    def merge_segments(
+        self, paths: RoundedPaths, *, speed: float | Floats, acceleration: float | Floats
+    ) -> RoundedPaths:
+        """Merge segments that the machine passes before its controller has read the next one, and those of no use.
+
+        A joint is passed at `corner` / turn at most, and between two joints a machine speeds up and slows down again.
+
+        Parameters
+        ----------
+        paths : RoundedPaths
+        speed, acceleration : float or (M,) float64
+            mm/s and mm/s², of each path if arrays.
+        """
+        if math.isinf(self.segments_per_second):
+            return merge_short_segments(paths)
+        points, count = paths.points, np.diff(paths.first)
+        top = np.repeat(np.broadcast_to(speed, len(count)), count) ** 2
+        square = top.copy()  # of the speed at each point, at most
+        inner = np.setdiff1d(np.arange(len(points)), [paths.first[:-1], paths.first[1:] - 1])
+        turn, _, _, _ = corner_turns(points, inner)
+        square[inner] = np.minimum(square[inner], (self.corner / np.maximum(turn, STRAIGHT)) ** 2)
+        length = np.hypot(*np.diff(points, axis=0, append=points[-1:]).T)
+        gain = 2 * np.repeat(np.broadcast_to(acceleration, len(count)), count) * length  # of the square, at most
+        gain[paths.first[1:] - 1] = math.inf
+        for _ in range(SPREADS):
+            np.minimum(square[:-1], square[1:] + gain[:-1], out=square[:-1])
+            np.minimum(square[1:], square[:-1] + gain[:-1], out=square[1:])
+        peak = np.sqrt(np.minimum((square + np.append(square[1:], 0.0) + gain) / 2, top))
+        return merge_short_segments(paths, peak / self.segments_per_second)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -187,7 +215,7 @@ def find_corners(
             acceleration=np.repeat(acceleration, count),
             speed=np.repeat(speed, count),
             corner=corner,
-            shortest=np.repeat(np.maximum(speed / segments_per_second, SHORTEST_CHORD), count),
+            segments_per_second=segments_per_second,
             coarsest=coarsest,
         )
 
@@ -275,5 +303,5 @@ def round_paths(
         radii=radii,
         recut=not kept_turn,
     )
-    result = merge_short_segments(corners.rounded(rounding), float(rounding.shortest_segments(np.array(speed))))
+    result = rounding.merge_segments(corners.rounded(rounding), speed=speed, acceleration=acceleration)
     return split_rows(result.points, result.first), result.radius

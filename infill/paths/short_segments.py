@@ -39,8 +39,8 @@ def merge_short_segments(paths: RoundedPaths, wanted: float | Floats = SHORTEST_
     Parameters
     ----------
     paths : RoundedPaths
-    wanted : float or (M,) float64, mm
-        Length below which segments are merged, of each path if an array.
+    wanted : float or (K,) float64, mm
+        Length below which segments are merged; of the segment after each point if an array.
 
     Returns
     -------
@@ -58,7 +58,7 @@ def merge_short_segments(paths: RoundedPaths, wanted: float | Floats = SHORTEST_
     number = np.diff(paths.first)
     points, source = paths.points.copy(), np.array(paths.source, dtype=np.int64)
     owner = np.repeat(np.arange(count), number)
-    least = np.maximum(np.broadcast_to(wanted, count), SHORTEST_SEGMENT)
+    least = np.maximum(np.broadcast_to(wanted, len(points)), SHORTEST_SEGMENT)
     limits = (SHORTEST_SEGMENT, MOST_MOVED, HARDLY_BENT, MOST_SPREAD, SPREAD_LENGTH)
     with log_compilation("corners"):
         left = merge_rounds(points, owner, source, least, number, UNIT, limits, LENGTH_CLASSES, SCATTER)

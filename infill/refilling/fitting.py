@@ -17,7 +17,6 @@ from infill.paths.joining import SHORTEST, SLACK
 from infill.paths.layer_below import LayerBelow
 from infill.paths.neighbours import BeadIndex
 from infill.paths.rounding import round_paths
-from infill.paths.short_segments import merge_short_segments
 from infill.paths.trimming import trim_ends
 from infill.paths.wall_joins import round_wall_joins
 from infill.ragged import concatenate_rows, split_rows
@@ -241,7 +240,7 @@ def _cover_smoothly(area: Polygon, cell: float, setting: AreaSetting) -> FittedP
         source=np.arange(len(points)),
         radius=np.full(len(points), 0.0),
     )
-    merged = merge_short_segments(sharp_paths, float(plan.rounding.shortest_segments(np.array(setting.speed))))
+    merged = plan.rounding.merge_segments(sharp_paths, speed=setting.speed, acceleration=setting.acceleration)
     whole, plain = split_rows(sharp_paths.points, first), split_rows(merged.points, merged.first)
     for number in np.flatnonzero(~inside).tolist():  # merging may take a path out of its area too
         fits = shapely.covers(tolerance_area, shapely.linestrings(plain[number]))

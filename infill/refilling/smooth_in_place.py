@@ -12,7 +12,6 @@ from infill.gcode.splicing import NewPaths, splice_paths, verify_replay
 from infill.gcode.strokes import InfillStrokes
 from infill.paths.corners import UNIT, RoundedPaths
 from infill.paths.rounding import PathCorners, Rounding, find_corners
-from infill.paths.short_segments import merge_short_segments
 from infill.planner.print_clock import path_seconds
 from infill.ragged import concatenate_rows, select_rows, split_rows
 from infill.refilling.layers import LayerPaths, Layers
@@ -41,8 +40,8 @@ def smooth_in_place(layers: Layers, rules: RefillRules, seconds: Floats, gaps: G
     corners = stroke_corners(layers, rules.rounding, acceleration=rules.acceleration, gaps=gaps)
     smooth = corners.rounded(rules.rounding)
     moved = _moved_strokes(infill, smooth)
-    smooth = merge_short_segments(smooth, rules.rounding.shortest_segments(layers.speed))
     acceleration = layers.acceleration(rules.acceleration)
+    smooth = rules.rounding.merge_segments(smooth, speed=layers.speed, acceleration=acceleration)
     new_seconds = path_seconds(smooth.points, smooth.first, layers.speed, acceleration)
     reasons = {**unchangeable_strokes(layers, rules), "no faster": new_seconds > seconds * SLOWER}
     new = redraw_strokes(infill, smooth, moved & ~np.any(list(reasons.values()), axis=0), rules)

@@ -13,13 +13,12 @@ from functools import lru_cache
 
 import numpy as np
 
-from infill.arrays import Places
+from infill.arrays import Floats, Places
 from infill.gcode.strokes import InfillStrokes
 from infill.kernels.threads import in_order, thread_count
 from infill.paths.contact import Contact, Samples, concatenate_samples, free_length, layer_contact, sample_paths
 from infill.paths.corners import RoundedPaths
 from infill.paths.rounding import PathCorners, Rounding
-from infill.paths.short_segments import merge_short_segments
 from infill.refilling.layers import LayerPaths, Layers
 from infill.refilling.smooth_in_place import path_lengths, stroke_corners
 from infill.refilling.widest_gap import GapMemory
@@ -139,6 +138,7 @@ class _SampledLayers:
     """Sampled layers, with all data that do not change with the deviation."""
 
     layers: Layers
+    acceleration: Floats
     corners: PathCorners
     walls: dict[int, Samples]
 
@@ -147,13 +147,16 @@ class _SampledLayers:
         """Find the corners of sampled layers, and the other beads in the layers below."""
         return cls(
             layers=layers,
+            acceleration=layers.acceleration(acceleration),
             corners=stroke_corners(layers, rounding, acceleration=acceleration, gaps=gaps),
             walls={layer.number: layers.bead_samples(layer.number - 1) for layer in layers.upper},
         )
 
     def rounded(self, rounding: Rounding) -> RoundedPaths:
         """Round the corners as a drawing does."""
-        return merge_short_segments(self.corners.rounded(rounding), rounding.shortest_segments(self.layers.speed))
+        return rounding.merge_segments(
+            self.corners.rounded(rounding), speed=self.layers.speed, acceleration=self.acceleration
+        )
 
     def measure(self, infill: InfillStrokes | RoundedPaths) -> tuple[Contact, float]:
         """Measure the contact of the layers with some infill, and the length of all of it, mm."""

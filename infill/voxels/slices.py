@@ -127,12 +127,12 @@ def find_ends(
     if values.dtype == bool:
         return np.full(values.shape, 0.5)
     side = np.where(values > 0, 1, -1)  # as if the second slice were solid
-    near, far = (1 + side * values) / 2, (1 + side * following) / 2
-    before = np.ones_like(near) if behind is None else (1 + side * behind) / 2
-    after = np.zeros_like(far) if beyond is None else (1 + side * beyond) / 2
-    before = np.where(before > HALF, np.maximum(before, near), 1)
-    after = np.where(after < HALF, np.minimum(after, far), 0)
-    ends: NDArray[np.float64] = (near + far - before / 2 - 1.5 * after) / np.maximum(before - after, SHORTEST)
+    share, next_share = (1 + side * values) / 2, (1 + side * following) / 2
+    before = np.ones_like(share) if behind is None else (1 + side * behind) / 2
+    after = np.zeros_like(next_share) if beyond is None else (1 + side * beyond) / 2
+    before = np.where(before > HALF, np.maximum(before, share), 1)
+    after = np.where(after < HALF, np.minimum(after, next_share), 0)
+    ends: NDArray[np.float64] = (share + next_share - before / 2 - 1.5 * after) / np.maximum(before - after, SHORTEST)
     return np.clip(ends, 0, 1)
 
 
