@@ -84,7 +84,7 @@ def test_a_disk_that_is_full_while_fields_are_kept_changes_nothing(folder: Path)
     assert names() == {"scratch"}
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("output", ["a.ply", "a.stl", "a.obj", "a.precomputed", "a.zarr"])
 def test_a_disk_that_is_full_while_output_is_written(output: str, folder: Path) -> None:
     words = (*PLAIN, "-o", output)

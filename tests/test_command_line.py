@@ -186,7 +186,7 @@ def test_list_shows_a_pattern_that_repeats_in_space(name: str) -> None:
     }
 
 
-@pytest.mark.long  # fills a cube: seconds
+@pytest.mark.longest
 @pytest.mark.parametrize("name", ["octet", "lightning"])
 def test_list_draws_a_cube_of_a_pattern_in_space(name: str, tmp_path: Path) -> None:
     """Cut open, so that the colour of cuts is seen, and what lies behind them; written as other outputs are."""

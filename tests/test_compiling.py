@@ -221,6 +221,7 @@ def _is_for_kernels(part: ast.FunctionDef | ast.ImportFrom) -> bool:
     return isinstance(part, ast.ImportFrom) or _njit_options(part) is not None
 
 
+@pytest.mark.longest
 def test_python_calls_no_function_without_an_entry() -> None:
     entries = _kernel_functions()
     root = KERNELS.parents[1]

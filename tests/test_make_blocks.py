@@ -118,6 +118,7 @@ def test_a_turn_by_its_symmetry_changes_nothing_and_another_does() -> None:
     np.testing.assert_array_equal(by_class.surface.vertices, by_name.surface.vertices)
 
 
+@pytest.mark.longest
 def test_a_part_without_a_shell_is_the_infill_cut_off_at_its_skin() -> None:
     ball = trimesh.creation.icosphere(3, 8.0)
     result = fill(ball, "gyroid", density=0.3, wall=0, voxel=0.5)

@@ -102,7 +102,7 @@ def test_a_cut_is_filled_where_the_solid_is_and_open_where_it_is_hollow(tmp_path
         assert (drawn(page) == whole).all()
 
 
-@pytest.mark.slow
+@pytest.mark.longest
 def test_the_keyboard_alone_reaches_everything(tmp_path: Path) -> None:
     page_text = surface_page({"a": surface_of(box(9, 9, 9)), "b": surface_of(ball(6.0, 2))}, title="Two")
     with open_page(written(tmp_path, page_text)) as page:

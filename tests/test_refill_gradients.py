@@ -214,7 +214,7 @@ def test_the_laws_can_fail(sliced: Path, tmp_path: Path) -> None:
     assert crossing_paths(layers[0]) > 0
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("pattern", ["gyroid", "honeycomb"])
 def test_two_equal_densities_are_one(sliced: Path, tmp_path: Path, pattern: str) -> None:
     """To the byte."""

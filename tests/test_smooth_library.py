@@ -303,7 +303,7 @@ def phase() -> NDArray[np.float32]:
     return np.tanh((8.2 - away) / 1.4).astype(np.float32)
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("kind", ["bool", "uint8", "int16", "float32", "float64"])
 def test_memory_does_not_matter_and_nothing_is_changed(kind: str, tmp_path: Path) -> None:
     options: dict[str, Any] = {"allow_broken": True, "tolerance": None}

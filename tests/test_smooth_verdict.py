@@ -244,6 +244,7 @@ def test_bodies_that_become_one_get_the_hint_that_keeps_them_apart() -> None:
     assert len(smooth_mesh(pair, voxel=1.0, by_component=True, tolerance=None).surfaces) == 2
 
 
+@pytest.mark.longest
 def test_larger_voxels_are_recommended_for_a_noisy_mask_if_they_help() -> None:
     """One voxel in a hundred is wrong: too little for a noisy scan, and too much to be kept."""
     ball = ((np.indices((60, 60, 60)) - 29.5) ** 2).sum(axis=0) < 20**2

@@ -266,6 +266,7 @@ def test_nothing_changes_where_nothing_is_smoothed(name: str) -> None:
     assert all(topology.data == topology.result for topology in check.topology())
 
 
+@pytest.mark.longest
 def test_the_verdict_is_on_the_triangles_that_are_written() -> None:
     """A large tolerance moves walls as smoothing does, and is told in the same words and distances."""
     places = np.indices((40, 40, 40)) + 0.5 - 20

@@ -96,6 +96,7 @@ def check_whole(given_walls: Walls, fewer: Walls) -> None:
         assert euler_number(faces) == euler_number(label_faces(given_walls, int(label)))
 
 
+@pytest.mark.longest
 @settings(max_examples=6, deadline=None)
 @given(
     seed=st.integers(0, 999),
@@ -263,7 +264,7 @@ def test_triangles_that_lie_on_each_other_are_found(monkeypatch: pytest.MonkeyPa
     assert np.flatnonzero(flapped.crowded_points()).tolist() == sorted(at[0, :2].tolist())
 
 
-@pytest.mark.long
+@pytest.mark.longest
 @pytest.mark.parametrize("walls", ["flat", "rough"])
 def test_a_place_that_fails_costs_few_triangles(walls: str, monkeypatch: pytest.MonkeyPatch) -> None:
     labels = make_cells((30, 30, 30), 6, 3)
