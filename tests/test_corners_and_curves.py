@@ -25,8 +25,9 @@ from infill.paths.neighbours import (
     project_to_beads,
 )
 from infill.planner.print_clock import neutral_limits, path_seconds
+from infill.ragged import concatenate_rows
 from infill.refilling.regions import BEAD_STEP as STEP
-from infill.refilling.regions import NEARER, LayerBeads, find_region
+from infill.refilling.regions import NEARER, USUAL_WIDTHS, FreeAreas, LayerBeads, find_region
 
 EXACT = 1e-9  # mm: of coordinates up to 100 mm, computed in a handful of steps
 WIDTH = 0.45  # mm
@@ -488,12 +489,27 @@ def dense(geometry: shapely.Geometry, step: float) -> np.ndarray:
     return shapely.get_coordinates(shapely.segmentize(geometry, step))
 
 
-def filled(area: shapely.Geometry, kept: float) -> np.ndarray:
-    """Return points on infill in an area: along its walls at a distance, and lines across."""
+def infill_on(*lines: shapely.Geometry) -> Samples:
+    """Return samples of infill along lines."""
+    paths = [shapely.get_coordinates(part) for line in lines for part in shapely.get_parts(line)]
+    points, first = concatenate_rows(paths, like=(2,))
+    return sample_paths(points, first, 0.1)
+
+
+def lines_across(area: shapely.Geometry) -> shapely.Geometry:
+    """Return parallel lines in an area, 3 mm apart."""
+    x0, y0, x1, y1 = area.bounds
+    return area.intersection(shapely.MultiLineString([[(x0, y), (x1, y)] for y in np.arange(y0 + 1, y1, 3)]))
+
+
+def filled(area: shapely.Geometry, kept: float) -> Samples:
+    """Return infill in an area: along its walls at a distance, and lines across."""
     inner = area.buffer(-kept, quad_segs=32)
-    x0, y0, x1, y1 = inner.bounds
-    across = shapely.MultiLineString([[(x0, y), (x1, y)] for y in np.arange(y0 + 1, y1, 3)])
-    return np.concatenate([dense(inner.boundary, 0.1), dense(inner.intersection(across), 0.1)])
+    return infill_on(*(shapely.get_rings(shapely.get_parts(inner))), lines_across(inner))
+
+
+def region_of(around: LayerBeads, infill: Samples, before: FreeAreas | None = None) -> FreeAreas:
+    return find_region(around, infill, before, line_width=WIDTH)
 
 
 SQUARE = shapely.box(100, 80, 120, 100)
@@ -512,7 +528,7 @@ AREAS = {
 def test_a_region_is_what_walls_leave_free(name: str, kept: float) -> None:
     """Within 0.5 % of the area, and 0.05 mm of the outline: its corners are rounded by 0.5 mm, 0.21 mm from there."""
     area = AREAS[name]
-    found = find_region(beads_at(dense(area.boundary, STEP)), filled(area, kept))
+    found = region_of(beads_at(dense(area.boundary, STEP)), filled(area, kept))
     wanted = area.buffer(-kept, quad_segs=32)
     assert found.distance == pytest.approx(kept, abs=0.01)
     whole = shapely.MultiPolygon(list(found.polygons))
@@ -526,12 +542,24 @@ def test_a_region_is_what_walls_leave_free(name: str, kept: float) -> None:
     assert wanted.difference(whole.buffer(0.25)).is_empty
 
 
+@pytest.mark.parametrize("name", ["hole", "turned", "disc"])
+@pytest.mark.parametrize("reach", [0.19, 0.3])
+def test_lines_that_end_at_walls_do_not_tell_how_near_lines_along_them_may_be(name: str, reach: float) -> None:
+    """As in Cura, which joins no lines. The few that run beside walls by chance, at any distance, tell nothing."""
+    area = AREAS[name]
+    rings = [area.buffer(-reach - further).exterior for further in (0.02, 0.1, 0.18)]
+    by_chance = [shapely.LineString(shapely.line_interpolate_point(ring, np.arange(3, 4, 0.1))) for ring in rings]
+    found = region_of(around_of(area), infill_on(lines_across(area.buffer(-reach)), *by_chance))
+    assert found.distance == USUAL_WIDTHS * WIDTH
+    assert region_of(around_of(area), filled(area, reach)).distance == pytest.approx(reach, abs=0.01)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("name", AREAS)
 def test_a_region_is_bounded_exactly_by_pieces_of_beads(name: str) -> None:
     """By pieces of beads, not by points on them: its outline lies nowhere nearer than asked, and is as simple."""
     area = AREAS[name]
-    found = find_region(around_of(area), filled(area, 0.36))
+    found = region_of(around_of(area), filled(area, 0.36))
     whole = shapely.MultiPolygon(list(found.polygons))
     apart = shapely.distance(shapely.points(shapely.get_coordinates(shapely.segmentize(whole, 0.1))), area.boundary)
     assert apart.min() > found.distance - 2 * NEARER
@@ -564,7 +592,7 @@ def test_any_region_is_valid_and_keeps_its_distance(seed: int) -> None:
     star = shapely.Polygon(np.stack([np.cos(angle), np.sin(angle)], axis=1) * random.uniform(2, 9, (len(angle), 1)))
     holes = [shapely.Point(*random.uniform(-6, 6, 2)).buffer(random.uniform(0.3, 2)) for _ in range(3)]
     area = star.difference(shapely.union_all(holes))
-    found = find_region(around_of(area), dense(area.buffer(-0.4), 0.3))
+    found = region_of(around_of(area), infill_on(shapely.boundary(area.buffer(-0.4))))
     whole = shapely.MultiPolygon(list(found.polygons))
     assert all(polygon.is_valid for polygon in found.polygons)
     if not whole.is_empty:
@@ -592,12 +620,12 @@ def test_without_beads_there_is_no_foot() -> None:
 
 def test_what_holds_no_infill_is_no_region() -> None:
     walls = dense(AREAS["two islands"].boundary, STEP)
-    found = find_region(beads_at(walls), filled(SQUARE, 0.36))
+    found = region_of(beads_at(walls), filled(SQUARE, 0.36))
     assert len(found.polygons) == 1
     assert SQUARE.covers(found.polygons[0])
     assert (
-        find_region(beads_at(np.empty((0, 2))), walls).polygons
-        == find_region(beads_at(walls), np.empty((0, 2))).polygons
+        region_of(beads_at(np.empty((0, 2))), infill_on(AREAS["two islands"].boundary)).polygons
+        == region_of(beads_at(walls), infill_on()).polygons
         == ()
     )
 
@@ -606,9 +634,9 @@ def test_what_holds_no_infill_is_no_region() -> None:
 def test_a_region_reaches_walls_that_are_far_from_all_infill(name: str) -> None:
     """As where a slicer draws lightning, or few lines that are not joined: one short line in a corner."""
     area = AREAS[name]
-    line = dense(shapely.LineString([(103, 86), (106, 84)]), 0.2)
-    (found,) = find_region(around_of(area), line).polygons
-    (whole,) = find_region(around_of(area), filled(area, 0.36)).polygons
+    line = infill_on(shapely.LineString([(103, 86), (106, 84)]))
+    (found,) = region_of(around_of(area), line).polygons
+    (whole,) = region_of(around_of(area), filled(area, USUAL_WIDTHS * WIDTH)).polygons
     assert found.symmetric_difference(whole).area < 0.005 * whole.area
 
 
@@ -618,14 +646,14 @@ def test_a_region_without_walls_ends_beside_its_infill() -> None:
     skirt = around_of(SQUARE.buffer(6))
     no_walls = replace(skirt, wall=np.zeros(len(skirt.points), dtype=bool))
     for around in (no_walls, around_of(shapely.box(80, 80, 90, 100))):
-        (found,) = find_region(around, infill).polygons
+        (found,) = region_of(around, infill).polygons
         assert SQUARE.buffer(1.5, join_style="mitre").covers(found)
 
 
 @pytest.mark.parametrize("far", [1e4, 1e9, 1e300])
 def test_infill_far_away_takes_no_memory(far: float) -> None:
-    lost = np.concatenate([filled(SQUARE, 0.36), [[far, far]]])
-    assert find_region(beads_at(dense(SQUARE.boundary, STEP)), lost).polygons == ()
+    lost = infill_on(SQUARE.buffer(-0.36).exterior, shapely.LineString([(far, far), (far + 1, far)]))
+    assert region_of(beads_at(dense(SQUARE.boundary, STEP)), lost).polygons == ()
 
 
 @pytest.mark.parametrize("further", [0.0, 0.04])
@@ -638,7 +666,7 @@ def test_a_region_keeps_from_skins_what_the_slicer_does(further: float) -> None:
     walls = dense(SQUARE.boundary, STEP)
     around = LayerBeads(points=np.concatenate([walls, skin]), skin=np.arange(len(walls) + len(skin)) >= len(walls))
     free = shapely.box(110.2 + further, 80, 120, 100)
-    found = find_region(around, filled(free, 0.36))
+    found = region_of(around, filled(free, 0.36))
     assert found.distance == pytest.approx(0.36, abs=0.01)
     assert found.skin_distance == pytest.approx(0.36 + further, abs=0.015)
     (area,) = found.polygons
@@ -650,21 +678,21 @@ def test_a_region_keeps_from_skins_what_the_slicer_does(further: float) -> None:
 
 def test_the_outline_of_a_region_has_no_more_points_than_it_needs() -> None:
     """Straight walls are straight: corners of paths that meet them need legs."""
-    (polygon,) = find_region(beads_at(dense(SQUARE.boundary, STEP)), filled(SQUARE, 0.36)).polygons
+    (polygon,) = region_of(beads_at(dense(SQUARE.boundary, STEP)), filled(SQUARE, 0.36)).polygons
     assert len(polygon.exterior.coords) < 40
 
 
 @pytest.mark.slow
 def test_a_region_is_taken_again_only_where_it_fits() -> None:
     walls, infill = dense(SQUARE.boundary, STEP), filled(SQUARE, 0.36)
-    before = find_region(beads_at(walls), infill)
-    assert find_region(beads_at(walls), infill, before) is before
+    before = region_of(beads_at(walls), infill)
+    assert region_of(beads_at(walls), infill, before) is before
     # The next layer's samples lie elsewhere on the same walls.
     moved = dense(shapely.segmentize(SQUARE.boundary, 0.13), STEP)
-    assert find_region(beads_at(moved), filled(SQUARE, 0.36), before) is before
+    assert region_of(beads_at(moved), filled(SQUARE, 0.36), before) is before
     for other in (shapely.box(100, 80, 120, 100.2), SQUARE.buffer(0.1, join_style="mitre"), AREAS["hole"]):
-        assert find_region(beads_at(dense(other.boundary, STEP)), filled(other, 0.36), before) is not before
-    assert find_region(beads_at(walls), filled(SQUARE, 0.42), before) is not before
+        assert region_of(beads_at(dense(other.boundary, STEP)), filled(other, 0.36), before) is not before
+    assert region_of(beads_at(walls), filled(SQUARE, 0.42), before) is not before
 
 
 # --- time ------------------------------------------------------------------------------------------------------

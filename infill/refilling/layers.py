@@ -259,7 +259,8 @@ class Layer:
 
     def find_region(self, below: FreeAreas | None) -> FreeAreas:
         """Find the region of its infill; `below` is that of the previous layer, which it may have too."""
-        return find_region(self.beads, sample_paths(*self.paths, INFILL_STEP).points, below)
+        infill = sample_paths(*self.paths, INFILL_STEP)
+        return find_region(self.beads, infill, below, line_width=self.layers.line_width)
 
 
 def read_layers(file: BinaryIO, begin: MachineState | None = None) -> Iterator[Layers]:

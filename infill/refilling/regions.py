@@ -1,8 +1,9 @@
 """Regions of a slicer's infill: the area that its other beads leave free, as polygons.
 
 Step 1. On a grid, take the distance d from every node to the nearest other bead of the layer.
-Step 2. Measure the distance d0 that the slicer's infill keeps from walls, by its own paths along them, and another
-        distance from skins.
+Step 2. Measure the distance d0 that the slicer's infill keeps from walls, by those of its lines that run along them,
+        and another distance from skins. Lines that end at a wall reach into it: where none runs along, d0 is the usual
+        one.
 Step 3. Trace the outlines of {d > d0}; the areas that hold some of the slicer's infill are the region.
 
 A layer whose beads agree with the region of the layer before it has that region.
@@ -19,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.arrays import Floats
+from infill.paths.contact import Samples
 from infill.paths.neighbours import BeadIndex, index_beads, project_to_beads
 
 if TYPE_CHECKING:
@@ -33,8 +35,12 @@ REACH = 1.2  # mm: distances above this do not matter
 ACROSS = 1.5 * NODES  # mm: largest distance of an outline from the two nodes that it passes between
 ALONG_WALLS = 0.7  # mm: infill nearer than this to another bead runs along it
 SHARE_BESIDE, SHARE_BESIDE_SKINS = 0.1, 0.2  # of the points beside them that may lie nearer: anchors of the infill
+ALONG_COSINE = 0.26  # largest one between a line and the way to the nearest bead if it runs along that: 15° of turn
+ALIKE = 0.03  # mm: distances of lines along walls differ less, and those of lines that end there more
+SHARE_ALONG = 0.25  # share of the points near walls that run along them, if the slicer joins its lines there
+USUAL_WIDTHS, LARGEST_WIDTHS = 0.85, 0.95  # line widths from walls, where no line runs along them, and at most
 SKINS_FARTHER = 0.05  # mm: largest difference between the distances from skins and from walls
-LEAST_DISTANCE, USUAL_DISTANCE = 0.15, 0.36  # mm
+LEAST_DISTANCE = 0.15  # mm
 AROUND = 0.1  # mm
 CHECK_STRIDE = 3  # stride of the points on infill that are tested to recognise a region
 SAME_WITHIN = 0.02  # mm
@@ -165,27 +171,32 @@ class FreeAreas:
         return grown
 
 
-def find_region(around: LayerBeads, infill: Floats, before: FreeAreas | None = None) -> FreeAreas:
+def find_region(
+    around: LayerBeads, infill: Samples, before: FreeAreas | None = None, *, line_width: float
+) -> FreeAreas:
     """Find the region of a layer.
 
     Parameters
     ----------
     around : LayerBeads
         Points on the other beads of the layer, at most `BEAD_STEP` apart.
-    infill : (M, 2) float64, mm
+    infill : Samples
         Points on the slicer's infill.
     before : FreeAreas, optional
         Of the previous layer; returned if it fits.
+    line_width : float, mm
     """
-    if not len(around.points) or not len(infill):
-        return FreeAreas(polygons=(), distance=USUAL_DISTANCE, skin_distance=USUAL_DISTANCE)
-    wall_distance = _kept_distance(around.walls.distances(infill, 0, ALONG_WALLS), SHARE_BESIDE, USUAL_DISTANCE)
-    skin_distance = _kept_distance(around.skins.distances(infill, 0, ALONG_WALLS), SHARE_BESIDE_SKINS, wall_distance)
+    points = infill.points
+    if not len(around.points) or not len(points):
+        usual = USUAL_WIDTHS * line_width
+        return FreeAreas(polygons=(), distance=usual, skin_distance=usual)
+    wall_distance = _wall_distance(around.walls, infill, line_width)
+    skin_distance = _kept_distance(around.skins.distances(points, 0, ALONG_WALLS), SHARE_BESIDE_SKINS, wall_distance)
     skin_distance = float(np.clip(skin_distance, wall_distance, wall_distance + SKINS_FARTHER))
-    if before is not None and _is_same_region(before, around, infill, wall_distance, skin_distance):
+    if before is not None and _is_same_region(before, around, points, wall_distance, skin_distance):
         return before
     kinds = [kind for kind in ((around.walls, wall_distance), (around.skins, skin_distance)) if len(kind[0].points)]
-    polygons = _enclosed_areas(kinds, infill, around.enclosing)
+    polygons = _enclosed_areas(kinds, points, around.enclosing)
     return FreeAreas(polygons=polygons, distance=wall_distance, skin_distance=skin_distance)
 
 
@@ -227,8 +238,26 @@ def _areas_in_box(
     return _parts_with_infill(_fill_dents(_free_area(kinds, grid)), infill)
 
 
+def _wall_distance(walls: BeadIndex, infill: Samples, line_width: float) -> float:
+    """Estimate the distance that infill keeps from walls, mm: that of lines along them, all of which are as far away.
+
+    A line that ends at a wall reaches into it by up to half a width, and one that happens to run beside it may be at
+    any distance. If there are only such lines, the distance is the usual one.
+    """
+    usual = USUAL_WIDTHS * line_width
+    distance = _kept_distance(walls.distances(infill.points, 0, ALONG_WALLS), SHARE_BESIDE, usual)
+    places, apart = project_to_beads(infill.points, walls, ALONG_WALLS)
+    close = np.flatnonzero(np.isfinite(apart) & (apart > LEAST_DISTANCE))
+    across, half = infill.points[close] - places[close], infill.half[close]
+    lengths = np.hypot(*across.T) * np.hypot(*half.T)
+    is_along = np.abs((across * half).sum(axis=1)) <= ALONG_COSINE * lengths
+    if (is_along & (np.abs(apart[close] - distance) < ALIKE)).sum() < SHARE_ALONG * len(close):
+        return usual
+    return min(distance, LARGEST_WIDTHS * line_width)
+
+
 def _kept_distance(distances: Floats, share: float, usual: float) -> float:
-    """Estimate the distance that infill keeps from other beads."""
+    """Estimate the distance that infill keeps from other beads, mm; `usual` if it has few points beside them."""
     close_distances = distances[np.isfinite(distances) & (distances > LEAST_DISTANCE)]
     if len(close_distances) < FEWEST:
         return usual
