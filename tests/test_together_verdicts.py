@@ -77,6 +77,30 @@ def test_a_label_of_which_nothing_is_left_is_lost() -> None:
     assert "label_6: nothing of it is left" in result.report["problems"]
 
 
+@pytest.mark.parametrize("space", [40, 12])  # with room around them, and touching the large label
+@pytest.mark.parametrize("method", ["plain", "refine"])
+def test_small_labels_keep_their_volume_or_are_named(space: int, method: Any) -> None:
+    """Labels under 8 voxels beside a large one, whose volume is right at once."""
+    labels = np.zeros((space, 40, 40), dtype=np.int64)
+    centre = np.array(labels.shape)[:, None, None, None] // 2
+    labels[((np.indices(labels.shape) - centre) ** 2).sum(axis=0) <= 15**2] = 1
+    middle = space - 4
+    labels[middle, 36, 36] = 2
+    labels[middle, 4:6, 4] = 3
+    labels[middle, 4:6, 34:37] = 4
+    labels[middle - 1 : middle + 2, 36, 4] = labels[middle, 35:38, 4] = labels[middle, 36, 3:6] = 5
+    result = smooth_labels(labels, together=True, method=method, tolerance=None)
+    named = {problem.partition(":")[0] for problem in result.report["problems"]}
+    for label in result.report["labels"]:
+        if abs(label["volume_change"]) > (1e-4 if label["data"] >= 8 else 0.1):
+            assert label["name"] in named
+            assert label["verdict"]["word"] != "kept"
+        if abs(label["volume_change"]) >= 0.5:
+            assert label["verdict"]["word"] == "lost"
+    kept = [label["number"] for label in result.report["labels"] if abs(label["volume_change"]) <= 0.05]
+    assert len(kept) >= 4  # five in all, of which one may be too small for the steps
+
+
 def test_a_hole_that_closes_is_told_for_both_labels() -> None:
     """Of the plate, a tunnel is gone; the rod through it has fallen apart."""
     labels = np.ones((30, 30, 30), dtype=np.int64)

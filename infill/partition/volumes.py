@@ -42,6 +42,7 @@ MOST_GAIN = 10.0  # of a volume, as a multiple of what was foreseen
 MARGINS = 128  # bins of the margin by which a label wins or loses, from -2 to 2
 MOST_CELLS = 0.6  # of the cells of a label, in which it wins at first
 SMALLEST = 8  # cells of a label that is measured; smaller ones get what they can
+SMALL_NEAR = 0.05  # of the volume of a smaller label: as near as NEAR is for the others
 SMOOTHING_ROUNDS = 4  # of finding volumes with smooth lines, and taking back shifts by which triangles cross
 GONE = 1e-3  # of its volume: a label with less has vanished
 HELD_SHARE, ROUNDING = 1e-6, 1e-9  # of areas: holds what is free, and is as good as none
@@ -239,6 +240,13 @@ class _Search(Generic[Graph, Placed, Moved]):
         changes = self.source.areas(walls) / self.slope
         return _Round(walls=(graph, walls), volumes=walls.volumes, changes=sparse.csr_array(changes))
 
+    def relative_errors(self, missing: NDArray[np.float64], *, with_small: bool) -> NDArray[np.float64]:
+        """Return the missing volumes as shares of those of labels; of small labels, so that `SMALL_NEAR` is `NEAR`."""
+        is_counted = self.targets > 0 if with_small else self.is_measured
+        weights = np.where(self.is_measured, 1.0, NEAR / SMALL_NEAR)[is_counted]
+        errors: NDArray[np.float64] = weights * np.abs(missing[is_counted]) / self.targets[is_counted]
+        return errors
+
     def run(
         self,
         measure: Callable[[NDArray[np.float64]], _Round[Graph, Placed]],
@@ -261,7 +269,8 @@ class _Search(Generic[Graph, Placed, Moved]):
         enough : float
             The error, as a share of the volume of a label, at which rounds end.
         jumps : bool
-            Whether the volumes of single labels may jump: then the sum of errors counts, until the worst is small.
+            Whether the volumes of single labels may jump: then the sum of errors counts, until the worst is small; and
+            labels too small to be measured count, by `SMALL_NEAR`.
         """
         best, best_score, count = offsets, np.inf, self.source.count
         walls: tuple[Graph, Placed] | None = None
@@ -273,7 +282,7 @@ class _Search(Generic[Graph, Placed, Moved]):
             walls = measured = None  # free what was measured before: walls are large
             measured = measure(offsets)
             missing = np.where(is_sought, self.targets - measured.volumes, 0.0)
-            off = np.abs(missing[self.is_measured]) / self.targets[self.is_measured]
+            off = self.relative_errors(missing, with_small=jumps)
             error = float(off.max(initial=0.0))
             score = 1.0 + float(off.sum()) if jumps and error >= enough else error
             if score < best_score:

@@ -16,7 +16,7 @@ from infill.inspection.partitions import PartitionCheck
 from infill.machine import require_memory
 from infill.partition.fields import PartitionFields, smooth_fields, smooth_to_distance
 from infill.partition.simplifying import simplify_partition
-from infill.partition.volumes import SMALLEST, VolumePartition, keep_volumes
+from infill.partition.volumes import VolumePartition, keep_volumes
 from infill.plain_numbers import count_noun
 from infill.reports.common import declare, report_head
 from infill.reports.sections import with_late_sections
@@ -280,9 +280,7 @@ def _judge_labels(
             continue
         cells, facts = float(counts[number]), surfaces.measures[piece.name]
         change = facts.volume / (cells * volume.cell_volume) - 1
-        differences = find_label_differences(
-            topologies[number], deviations[number], change if cells >= SMALLEST else None
-        )
+        differences = find_label_differences(topologies[number], deviations[number], change, cells)
         verdict = verdict_facts(differences, deviations[number], check.cell)
         keys = _label_keys(piece, facts, cells * volume.cell_volume, topologies[number], verdict)
         labels.append(with_late_sections(keys, distance=partial(label_distance, check, number)))

@@ -7,6 +7,7 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 from infill.inspection.deviation import Deviation, Word
+from infill.partition.volumes import SMALLEST
 from infill.plain_numbers import count_noun, list_some
 from infill.reports.common import Topology, declare
 from infill.reports.smoothing import Distance
@@ -19,10 +20,28 @@ if TYPE_CHECKING:
 
 WORDS: tuple[Word, ...] = ("kept", "changed a little", "lost")  # from the best to the worst
 PRECISION = 1e-4  # of a label's volume that counts as kept
+SMALL_PRECISION, SMALL_LOST = 0.1, 0.5  # the same for labels under SMALLEST cells, and what counts as lost
 MOST_NAMED = 3  # labels in the line of the summary
 
 
-def find_label_differences(topology: TopologyCheck, deviation: Deviation | None, change: float | None) -> Differences:
+def is_volume_kept(change: float, cells: float) -> bool:
+    """Whether the relative change of the volume of a label of some cells counts as none."""
+    return abs(change) <= (PRECISION if cells >= SMALLEST else SMALL_PRECISION)
+
+
+def is_volume_lost(change: float, cells: float) -> bool:
+    """Whether the relative change of the volume of a label of some cells makes a loss."""
+    return abs(change) >= (LOST_VOLUME if cells >= SMALLEST else SMALL_LOST)
+
+
+def describe_volume(change: float) -> str:
+    """Say by how much the volume of a label changes."""
+    return f"its volume changes by {change:+z.2%}"
+
+
+def find_label_differences(
+    topology: TopologyCheck, deviation: Deviation | None, change: float, cells: float
+) -> Differences:
     """Judge a label: return the verdict with its losses, problems and remarks.
 
     Parameters
@@ -30,8 +49,10 @@ def find_label_differences(topology: TopologyCheck, deviation: Deviation | None,
     topology : TopologyCheck
     deviation : Deviation or None
         None if both surfaces are sure to be near everywhere.
-    change : float or None
-        Relative change of its volume; None for a label too small to be measured.
+    change : float
+        Relative change of its volume.
+    cells : float
+        Its cells in the data.
     """
     losses: list[str] = []
     remarks: list[str] = []
@@ -46,8 +67,8 @@ def find_label_differences(topology: TopologyCheck, deviation: Deviation | None,
         losses.append(f"{new_holes:,} pinholes broke through walls")
     else:
         problems += topology.problems
-    if change is not None and abs(change) > PRECISION:
-        (losses if abs(change) >= LOST_VOLUME else problems).append(f"its volume changes by {change:+z.2%}")
+    if not is_volume_kept(change, cells):
+        (losses if is_volume_lost(change, cells) else problems).append(describe_volume(change))
     fewer = describe_counts(topology)
     are_counts_off = topology.data.components != topology.result.components
     problems += fewer[:are_counts_off]  # the first is about components

@@ -31,7 +31,7 @@ from infill.imaging.label_tables import Segment
 from infill.kernels.sparse import BRICK
 from infill.lazy.volume import LazyVolume
 from infill.machine import GIB, available_memory
-from infill.partition.volumes import SMALLEST, FoundOffsets, find_offsets
+from infill.partition.volumes import FoundOffsets, find_offsets
 from infill.partition.walls import Walls
 from infill.phasefield.schedule import Schedule
 from infill.plain_numbers import count_noun
@@ -44,7 +44,7 @@ from infill.smoothing.label_surfaces import LabelSurfaces
 from infill.smoothing.lazy_labels import load_smoother, name_lazy_pieces, survey_labels
 from infill.smoothing.request import AUTO, SmoothOptions, SmoothRequest
 from infill.smoothing.together import NOTHING_LEFT, refuse_unfit, scale_of
-from infill.smoothing.together_checks import PRECISION
+from infill.smoothing.together_checks import describe_volume, is_volume_kept
 from infill.smoothing.together_plan import expected_seconds, plan_labels_together
 from infill.smoothing.together_stages import WallStages
 
@@ -315,9 +315,9 @@ def _problems(
 ) -> list[str]:
     """Return the problems, one phrase each: volumes that changed, open surfaces, labels gone, and crossings."""
     problems = [
-        f"{keys['name']}: its volume changes by {keys['volume_change']:+z.2%}"
+        f"{keys['name']}: {describe_volume(keys['volume_change'])}"
         for keys, piece in zip(labels, remaining, strict=True)
-        if piece.extent.cells >= SMALLEST and abs(keys["volume_change"]) > PRECISION
+        if not is_volume_kept(keys["volume_change"], piece.extent.cells)
     ]
     problems += [f"{keys['name']}: its surface is not closed" for keys in labels if not keys["closed"]]
     problems += [f"{piece.name}: {NOTHING_LEFT}" for piece in gone]
