@@ -20,12 +20,13 @@ from infill import ParameterError, UsageError
 from infill.cli.app import build_app
 from infill.cli.declared import takes_options
 from infill.lattices.groups import FLAT_NAMES
+from infill.lattices.request import check_request
 from infill.lattices.settings import FillOptions
 from infill.making.settings import MakeSettings
 from infill.options.declaration import Option, by_key, declared_options, drop_replaced, read_options
 from infill.phasefield.allen_cahn import Smoothing
 from infill.refilling.request import Request
-from infill.smoothing.request import SmoothOptions
+from infill.smoothing.request import SmoothOptions, SmoothRequest
 from infill.smoothing.settings import SmoothSettings
 from infill.timing.request import MotionOptions
 from infill.verifying.settings import VerifyRequest
@@ -285,3 +286,30 @@ def test_an_error_of_a_label_keeps_its_parameter() -> None:
     assert ParameterError.like(infill_patterns.PatternError.about("cell", "is 3")).parameters == ("cell",)
     assert ParameterError.like(infill_patterns.PatternError("too many")).parameters == ()
     assert pickle.loads(pickle.dumps(error)).parameters == ("voxel", "resolution")
+
+
+@pytest.mark.parametrize(
+    ("product", "name"),
+    [
+        *(("fill", name) for name in ("wall", "overlap", "tolerance", "smooth_radius", "voxel", "line_width", "cell")),
+        *(("smooth", name) for name in ("radius", "tolerance", "despeckle", "crumbs")),
+    ],
+)
+def test_a_length_that_may_be_0_is_not_said_to_be_above_it(product: str, name: str) -> None:
+    """Whatever is accepted, the message on a negative length must not exclude."""
+
+    def check(value: float) -> None:
+        given: dict[str, Any] = {name: value}
+        if product == "fill":
+            check_request(pattern="gyroid", own={}, **given)
+        else:
+            SmoothRequest(**given)
+
+    with pytest.raises(ParameterError) as refusal:
+        check(-1.0)
+    try:
+        check(0.0)
+    except ParameterError:
+        assert "above 0" in str(refusal.value)
+    else:
+        assert "must be a number from 0 to" in str(refusal.value)

@@ -457,6 +457,17 @@ def test_a_root_is_found_where_there_are_jumps() -> None:
 
 
 @pytest.mark.long
+@pytest.mark.parametrize(("name", "size"), [("gyroid", (20, 8, 4)), ("grid", (20, 8, 4)), ("octet", (12, 12, 5))])
+def test_a_radius_that_leaves_no_voids_is_refused_and_the_one_named_does(name: str, size: tuple[int, ...]) -> None:
+    """Such a radius ran for minutes; the time grows with its square."""
+    part: Any = box(*size)
+    with pytest.raises(GeometryError, match=r"^smooth_radius is 90 mm, more than half of") as refusal:
+        fill(part, name, smooth_radius=90)
+    radius = float(re.search(r"give ([\d.]+) mm or less$", str(refusal.value))[1])  # type: ignore[index]
+    assert fill(part, name, smooth_radius=radius).report["infill"]["radius"] == radius
+
+
+@pytest.mark.long
 @pytest.mark.parametrize("radius", [1.0, 2.0])
 def test_a_right_angle_is_rounded_to_the_radius_asked_for(radius: float) -> None:
     """A block with one void, whose edges are right angles before they are smoothed."""

@@ -41,6 +41,8 @@ def inputs(tmp_path_factory: pytest.TempPathFactory) -> Path:
     sphere.export(folder / "s.stl")
     np.savetxt(folder / "p.xyz", sphere.vertices)
     trimesh.PointCloud(sphere.vertices).export(folder / "p.ply")
+    for name in ("part.step", "part.stl.gz", "bare"):
+        (folder / name).write_text("ISO-10303-21;")
     (folder / "nothing").mkdir()
     (folder / "junk").mkdir()
     (folder / "junk" / "notes.md").write_text("hello")
@@ -446,7 +448,7 @@ BAD = [
     ("ball.npy --interface 0", "interface is 0; it must be a number from 0.25"),
     ("ball.npy --despeckle 1e9", r"despeckle is 1,000,000,000 mm³ and the largest component has .* mm³; give less"),
     ("ball.npy --despeckle -1", "despeckle is -1"),
-    ("ball.npy --tolerance -1", "tolerance is -1 mm"),
+    ("ball.npy --tolerance -1", "tolerance is -1; it must be a number from 0"),
     ("ball.npy --smooth best", "'--smooth': .*'best' is not one of 'auto', 'plain', 'refine', 'grey'"),
     ("s.stl --smooth grey", "grey levels are those of scans; choose plain or refine for a mesh"),
     ("ball.npy --max-triangles 3", "--max-triangles is 3; .* at least 4"),
@@ -461,6 +463,12 @@ BAD = [
     ("nothing", "nothing holds no files"),
     ("junk", "junk holds no DICOM series and no .tif or .png slices"),
     ("nothing --as mesh", "cannot tell a mesh format from 'nothing'"),
+    *[
+        (name, rf"cannot tell what '{name}' holds; export it as a mesh \(\.stl .*\.npy .* \.h5\) or points \(\.xyz")
+        for name in ("part.step", "part.stl.gz", "bare")
+    ],
+    ("s.stl --tolerance -1", "is -1; it must be a number from 0 to 1000000 mm"),
+    ("s.stl --tolerance inf", "is inf; it must be a number from 0 to 1000000 mm"),
     ("s.stl --as volume", "cannot tell a volume from 's.stl'"),
     ("s.stl --as points", "cannot tell a format of points from 's.stl'"),
     ("ball.npy --as mesh", "cannot tell a mesh format from 'ball.npy'"),

@@ -217,4 +217,5 @@ READERS: dict[str, Callable[..., Volume]] = {
     ".tiff": read_tiff,
     **FRAME_READERS,  # a frame may be left out
 }
+VOLUME_SUFFIXES = tuple(READERS)
 FIELD_WRITERS: dict[str, Callable[[Volume, BinaryIO], None]] = {".npz": write_npz, ".nrrd": write_nrrd}

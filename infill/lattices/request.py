@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 
-from infill.checks import check_length, check_positive, check_range, check_whole_number
+from infill.checks import LONGEST, check_length, check_positive, check_range, check_whole_number
 from infill.drawings.tiled import Tiled
 from infill.errors import GeometryError, UsageError
 from infill.interior.opening import Open
@@ -385,7 +385,7 @@ def check_request(
         )
     if wall is None:
         wall = SLICED_WALL if form == "project" else WALL
-    elif wall != 0:
+    elif check_range("wall", wall, 0.0, LONGEST, "mm"):
         wall = check_length("wall", wall)
     else:
         _check_without_shell(form=form, open_=open_, drain=drain)

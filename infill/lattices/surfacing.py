@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.errors import GeometryError
 from infill.interior.interior import Interior
 from infill.isosurfaces.components import shell_names
 from infill.isosurfaces.sparse_marching import extract_bricks
@@ -24,20 +25,36 @@ from infill.meshes.winding import winding_numbers
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.refining import phase_from_distance
 from infill.phasefield.sparse import SparseField, smooth_bricks
+from infill.plain_numbers import plain_argument
 from infill.surface import Surface
 
 INTERFACE = 2.0  # cells: in a thinner interface, curvature moves the surface slower than it should
 SHARE = 0.8  # of the tolerance for simplifying; the rest covers the error of the grid
 SHORTEST = 1e-3  # cells²: motion by curvature in a shorter time is invisible
+ROUNDED_DOWN = 0.7  # so that the largest radius, of one digit, is not more than it
 SPECK = 2.0  # cells of the grid: voids smaller than a cube of this side are left solid
 
 
 def choose_smoothing(task: FillTask, fields: Fields) -> Smoothing:
-    """Choose the steps that round the corners of voids to the requested radius."""
+    """Choose the steps that round the corners of voids to the requested radius.
+
+    Raises
+    ------
+    GeometryError
+        If voids in the part are rounded to nothing by that radius.
+    """
     request, layout, space = task.request, fields.layout, fields.layout.space
     smoothing = Smoothing(interface=INTERFACE, fidelity=0.0)
     bar = layout.width * request.thinnest if has_bars(request.kind) else None
-    radius = request.radius((space.walled or space).thickness)
+    thickness = (space.walled or space).thickness
+    radius = request.radius(thickness)
+    if radius > thickness / 2:
+        raise GeometryError.about(
+            "smooth_radius",
+            f"is {plain_argument(radius, 3)} mm, more than half of the thickness of the space inside the walls, "
+            f"{plain_argument(thickness, 3)} mm on average, and leaves hardly a void; give "
+            f"{plain_argument(ROUNDED_DOWN * thickness / 2, 1)} mm or less",
+        )
     times = rounding_time(radius, fields.find_sharpest(), bar, cell=space.size) / space.size**2  # cells²
     if times < SHORTEST:
         return replace(smoothing, steps=0)

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal, TypedDict
 
-from infill.checks import check_positive, check_range
+from infill.checks import LONGEST, check_positive, check_range
 from infill.errors import ParameterError, UsageError
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.schedule import MIN_STEPS, SNAPSHOT_QUARTERS
@@ -112,7 +112,7 @@ class SmoothRequest:
         if self.tolerance == 0:
             object.__setattr__(self, "tolerance", None)
         elif self.tolerance is not None and not isinstance(self.tolerance, str):
-            check_positive("tolerance", self.tolerance, "mm")  # before the work
+            check_range("tolerance", self.tolerance, 0.0, LONGEST, "mm")  # before the work
         if self.crumbs is not None:
             object.__setattr__(self, "crumbs", check_range("crumbs", self.crumbs, 0, math.inf, "mm³"))
         if not isinstance(self.level, str):

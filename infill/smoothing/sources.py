@@ -22,7 +22,7 @@ from infill.grid import spacing_of
 from infill.imaging.dicom.sampling import SampledStack, sample_folder
 from infill.imaging.label_tables import Segment, segments_of_nrrd
 from infill.imaging.segmentations import NRRD_SUFFIXES, Segmentation, read_segmentation
-from infill.imaging.volume_files import holds_dicom, read_volume
+from infill.imaging.volume_files import VOLUME_SUFFIXES, holds_dicom, read_volume
 from infill.lazy.names import is_lazy
 from infill.lazy.opening import open_volume
 from infill.lazy.volume import ADVICE, TOGETHER_ADVICE
@@ -364,7 +364,14 @@ def _guess_kind(path: Path) -> Kind:
         return "points" if _npy_axis_count(path) == 2 else "volume"
     if suffix == ".ply":
         return "mesh" if _ply_has_faces(path) else "points"
-    return "mesh" if suffix in READERS else "volume"
+    if suffix in READERS:
+        return "mesh"
+    if path.is_file() and not path.name.lower().endswith(VOLUME_SUFFIXES):
+        raise FormatError(
+            f"cannot tell what {path.name!r} holds; export it as a mesh ({' '.join(READERS)}), a volume "
+            f"({' '.join(VOLUME_SUFFIXES)} .zarr .h5) or points ({' '.join(POINT_SUFFIXES)})"
+        )
+    return "volume"
 
 
 def _npy_axis_count(path: Path) -> int | None:
