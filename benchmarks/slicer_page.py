@@ -65,9 +65,9 @@ the package (`tests/gcode_structure.py`), so they differ a little from what `ref
 
 *Printers.* {printers}. Their firmware is Marlin 2, which reads segments as
 fast as they come. For a board of 8 bits (the flavour *Marlin (legacy)*), `refill` writes 200 segments a second at most:
-curves save nearly as much then, and nothing at 300 mm/s. For such a board, the box and the bracket are sliced as well. The
-slicers lay lines 0.45 mm wide, 0.2 mm high, with two walls; PrusaSlicer retracts 0.8 mm with wipe and lift. No minimum
-layer time. The machine that ran this is shared, so that the seconds of `refill` itself are upper bounds.
+curves save nearly as much then, and nothing at 300 mm/s. For such a board, the box and the bracket are sliced as well.
+The slicers lay lines 0.45 mm wide, 0.2 mm high, with two walls; PrusaSlicer retracts 0.8 mm with wipe and lift. No
+minimum layer time. The machine that ran this is shared, so that the seconds of `refill` itself are upper bounds.
 """
 
 
