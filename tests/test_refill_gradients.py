@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
 import shapely
 from gcode_judge import judge
+from gcode_structure import supported
 from gradient_judge import FILAMENT, SparseLayer, crossing_paths, local_densities, read_sparse
 from handmade_prints import SPACING, Dialect, written
 from hypothesis import example, given, settings
@@ -48,6 +50,14 @@ def tall(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A box of 24 mm, 60 layers high."""
     path = tmp_path_factory.mktemp("gradients") / "tall.gcode"
     path.write_bytes(written(Dialect(size=24.0, cell=5.0, layers=60)))
+    return path
+
+
+@pytest.fixture(scope="session")
+def thin(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A plate of 40 mm with infill in 5 layers."""
+    path = tmp_path_factory.mktemp("gradients") / "thin.gcode"
+    path.write_bytes(written(Dialect(size=40.0, cell=5.0, layers=7)))
     return path
 
 
@@ -94,6 +104,24 @@ def filament_errors(layers: list[SparseLayer], wanted: Callable[[Floats, float],
 def written_by(path: Path, out: Path, pattern: str, by: object, density: object = (DENSE, SPARSE)) -> list[SparseLayer]:
     refill(path, output=out, pattern=pattern, density=density, by=by)  # type: ignore[arg-type]
     return read_sparse(out.read_text())
+
+
+def by_skin(layers: list[SparseLayer]) -> Callable[[Floats, float], Floats]:
+    """Return the densities at points and a height in a box, by the distance from its sides, its roof and its floor."""
+    x0, y0, x1, y1 = area(layers).bounds
+    half = layers[0].height / 2
+    bottom, top = layers[0].z - half, layers[-1].z + half
+
+    def depth(points: Floats, z: float) -> Floats:
+        sides = [points[:, 0] - x0, x1 - points[:, 0], points[:, 1] - y0, y1 - points[:, 1]]
+        return np.minimum(np.minimum.reduce(sides), min(z - bottom, top - z))
+
+    deepest = max(depth(nodes(area(layers)), layer.z).max() for layer in layers)
+
+    def wanted(points: Floats, z: float) -> Floats:
+        return DENSE + (SPARSE - DENSE) * depth(points, z) / deepest
+
+    return wanted
 
 
 # --- the density -----------------------------------------------------------------------------------------
@@ -259,22 +287,45 @@ def test_by_the_roofs_it_is_dense_below_them(tall: Path, tmp_path: Path) -> None
 @pytest.mark.longest
 def test_by_the_skin_it_is_dense_at_walls_roofs_and_floors(tall: Path, tmp_path: Path) -> None:
     layers = written_by(tall, tmp_path / "new.gcode", "grid", "skin", density=(DENSE, SPARSE))
-    x0, y0, x1, y1 = area(layers).bounds
-    half = layers[0].height / 2
-    bottom, top = layers[0].z - half, layers[-1].z + half
-
-    def depth(points: Floats, z: float) -> Floats:
-        sides = [points[:, 0] - x0, x1 - points[:, 0], points[:, 1] - y0, y1 - points[:, 1]]
-        return np.minimum(np.minimum.reduce(sides), min(z - bottom, top - z))
-
-    deepest = max(depth(nodes(area(layers)), layer.z).max() for layer in layers)
-
-    def wanted(points: Floats, z: float) -> Floats:
-        return DENSE + (SPARSE - DENSE) * depth(points, z) / deepest
-
-    errors = filament_errors(layers, wanted)
+    errors = filament_errors(layers, by_skin(layers))
     assert np.abs(errors).max() < 0.03  # depths are known to 0.2 mm, which is a hundredth of density
     assert abs(errors.mean()) < 0.015
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("pattern", ["honeycomb", "grid"])
+@pytest.mark.parametrize(("by", "tolerance"), [("z", 0.01), ("skin", 0.06)])  # depths are known to a tenth here
+def test_where_a_density_changes_faster_than_layers_can_lines_lie_on_lines(
+    thin: Path, tmp_path: Path, pattern: str, by: str, tolerance: float
+) -> None:
+    """Of five layers, neighbours have different densities. All of them get the mean, with the filament of the field."""
+    layers = written_by(thin, tmp_path / "new.gcode", pattern, by)
+    assert len(layers) == 5
+    low, high = layers[0].z, layers[-1].z
+    along_z = partial(np.interp, xp=[low, high], fp=[DENSE, SPARSE])
+    wanted = by_skin(layers) if by == "skin" else lambda points, z: np.full(len(points), along_z(z))
+    region = area(layers)
+    needs = [wanted(nodes(region), layer.z).mean() for layer in layers]
+    assert max(needs) > 1.5 * min(needs)  # else, lines would lie on lines anyway
+    assert supported((tmp_path / "new.gcode").read_bytes()) > 0.98
+    errors = filament_errors(layers, lambda points, z: np.full(len(points), np.mean(needs)))
+    assert abs(errors.mean()) < tolerance
+    pairs = local_densities(
+        layers, region, lambda points: np.mean([wanted(points, layer.z) for layer in layers], axis=0), side(pattern)
+    )
+    assert len(pairs) > 20
+    assert np.abs(pairs[:, 1] - pairs[:, 0]).max() < 0.03
+
+
+@pytest.mark.slow
+def test_a_density_that_cannot_change_is_told(thin: Path, tall: Path) -> None:
+    def told(path: Path, by: str) -> list[str]:
+        problems = refill(path, pattern="grid", density=(DENSE, SPARSE), by=by, dry_run=True).report["problems"]
+        return [problem for problem in problems if "so thin" in problem]
+
+    (problem,) = told(thin, "z")
+    assert problem.startswith("the density is 26% everywhere: ")
+    assert told(thin, "x") == told(tall, "z") == []
 
 
 # --- the field -------------------------------------------------------------------------------------------

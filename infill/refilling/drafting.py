@@ -231,6 +231,7 @@ class Drafting:
                     self.progress("drawing infill", bytes_read / max(self.print_survey.size, 1))
                     shown = bytes_read + PROGRESS_BYTES
             self.draft.flush()
+        total.densities = () if plan is None or plan.graded is None else plan.graded.averaged_range
         total.placed_error = memory.taken / memory.asked - 1 if memory.asked else 0.0
         if tags is None or not tags.layer:
             raise FormatError(

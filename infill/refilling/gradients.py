@@ -6,6 +6,7 @@ import math
 import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -35,6 +36,7 @@ LOWEST, HIGHEST = 0.01, 0.6  # densities; above, lines of some patterns come too
 LOCAL_STEP = 0.05  # of density, that it changes by within the heights of a step at most
 MEAN_STEP = 1.14  # ratio of the highest and the lowest mean density of the layers of a step, which beads make up for
 MOST_STEPS = 64
+LEAST_LAYERS = 4  # of a step: in its first layer, lines cross those below
 STEP_POINTS = 2000  # at which densities are compared, in each layer
 RATIO_NODES = 128  # along the longer side of the print, between which densities are interpolated for rings
 NODES = 64  # along the longer side of the print, where the field is evaluated
@@ -132,15 +134,45 @@ class GradedDensity:
     place : PrintPlace
     low, high : float
         The lowest and the highest value of the field there.
+    averaged : sequence of (float, float), mm
+        Heights from which and to which the density is the mean over the layers with infill, from place to place: where
+        it would change faster with height than lines can that lie on lines.
     """
 
     gradient: Gradient
     place: PrintPlace
     low: float
     high: float
+    averaged: Sequence[tuple[float, float]] = ()
 
     def shares(self, points: Floats) -> Floats:
         """Return the densities at points (N, 3), mm: (N,)."""
+        densities = self._shares_of_field(points)
+        for low, high in self.averaged:
+            rows = np.flatnonzero((points[:, 2] > low) & (points[:, 2] <= high))
+            if len(rows):
+                densities[rows] = self._average_shares(points[rows, :2], low, high)
+        return densities
+
+    @cached_property
+    def averaged_range(self) -> tuple[float, ...]:
+        """The lowest and the highest density in the infill, if it is averaged over layers somewhere; else none."""
+        if not self.averaged:
+            return ()
+        shares = self.shares(self.place.points)
+        return float(shares.min()), float(shares.max())
+
+    def _average_shares(self, places: Floats, low: float, high: float) -> Floats:
+        """Return the means over the layers between two heights, mm, at places (N, 2), mm: of those that hold infill."""
+        heights = [layer.z for layer in self.place.filled if low < layer.z <= high]
+        points = [np.column_stack([places, np.full(len(places), height)]) for height in heights]
+        holds = np.stack([self.place.holds_infill(layer) for layer in points])
+        holds[:, ~holds.any(axis=0)] = True
+        means: Floats = np.average(np.stack([self._shares_of_field(layer) for layer in points]), axis=0, weights=holds)
+        return means
+
+    def _shares_of_field(self, points: Floats) -> Floats:
+        """Return the densities of the field itself at points (N, 3), mm: (N,)."""
         values = self.gradient.by.at(points, self.place)
         share = np.clip((np.nan_to_num(values, nan=self.low) - self.low) / (self.high - self.low), 0.0, 1.0)
         densities: Floats = self.gradient.first + (self.gradient.last - self.gradient.first) * share
@@ -194,7 +226,7 @@ def measure_gradient(gradient: Gradient, place: PrintPlace) -> GradedDensity:
             f"is {gradient.name}, which is {plain_argument(lowest)} everywhere in the infill; give one density, or "
             "another field",
         )
-    return GradedDensity(gradient=gradient, place=place, low=lowest, high=highest)
+    return average_thin_steps(GradedDensity(gradient=gradient, place=place, low=lowest, high=highest))
 
 
 def _move_to_infill(field: SimulatedField, low: Floats, high: Floats) -> SimulatedField:
@@ -211,44 +243,101 @@ def _move_to_infill(field: SimulatedField, low: Floats, high: Floats) -> Simulat
     return replace(field, points=field.points + shift)
 
 
+def average_thin_steps(graded: GradedDensity) -> GradedDensity:
+    """Average a density over the heights of each step in which it changes by more than within a step."""
+    densities = _LayerDensities.of(graded)
+    ends, looser = densities.find_ends()
+    bounds = _step_heights(densities.heights, ends)
+    averaged = [
+        heights
+        for start, end, heights in zip([0, *ends[:-1]], ends, bounds, strict=True)
+        if len(densities.ends_within(start, end, looser)) > 1
+    ]
+    return replace(graded, averaged=averaged)
+
+
 def find_steps(graded: GradedDensity) -> list[tuple[float, float]]:
     """Divide the heights of the infill into steps in which its density hardly changes; return their ends, mm.
 
     Within a step, the mean of a layer changes by no more than beads can be wider or narrower, and a place by
-    `LOCAL_STEP`; unless that takes more than `MOST_STEPS`.
+    `LOCAL_STEP`; unless that takes more than `MOST_STEPS`, or steps of fewer than `LEAST_LAYERS`.
     """
-    layers = graded.place.filled
-    low, high = graded.place.bounds[:, :2]
-    count = math.ceil(math.sqrt(STEP_POINTS))
-    axes = [np.linspace(start, end, count) for start, end in zip(low, high, strict=True)]
-    nodes = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
-    heights = np.array([layer.z for layer in layers])
-    shares = np.stack([graded.shares(np.column_stack([nodes, np.full(len(nodes), z)])) for z in heights])
-    inside = np.stack([mark_inside(layer.areas, nodes) for layer in layers])
-    means = np.array([row[held].mean() if held.any() else row.mean() for row, held in zip(shares, inside, strict=True)])
-    looser = 1.0
-    while True:
-        ends = _greedy_ends(np.where(inside, shares, np.nan), means, LOCAL_STEP * looser, MEAN_STEP**looser)
-        if len(ends) <= MOST_STEPS:
-            break
-        looser *= 1.25
-    middles = [(heights[end - 1] + heights[end]) / 2 for end in ends[:-1]]
+    densities = _LayerDensities.of(graded)
+    return _step_heights(densities.heights, densities.find_ends()[0])
+
+
+def _step_heights(heights: Floats, ends: Sequence[int]) -> list[tuple[float, float]]:
+    """Return the heights, mm, where steps begin and end."""
+    middles = [float(heights[end - 1] + heights[end]) / 2 for end in ends[:-1]]
     return list(zip([-math.inf, *middles], [*middles, math.inf], strict=True))
 
 
-def _greedy_ends(shares: Floats, means: Floats, local: float, ratio: float) -> list[int]:
-    """Return where steps end, each as late as its densities allow."""
-    ends: list[int] = []
-    low, high = shares[0].copy(), shares[0].copy()
-    low_mean = high_mean = float(means[0])
-    for number in range(1, len(shares)):
-        low, high = np.fmin(low, shares[number]), np.fmax(high, shares[number])
-        low_mean, high_mean = min(low_mean, float(means[number])), max(high_mean, float(means[number]))
-        if np.nanmax(high - low, initial=0.0) > local or high_mean > ratio * low_mean:
-            ends.append(number)
-            low, high = shares[number].copy(), shares[number].copy()
-            low_mean = high_mean = float(means[number])
-    return [*ends, len(shares)]
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _LayerDensities:
+    """Densities of layers at points on a grid.
+
+    Parameters
+    ----------
+    heights : (L,) float64, mm
+    shares : (L, N) float64
+        NaN outside the infill.
+    means : (L,) float64
+    fewest : int
+        Layers of these that a step has at least.
+    """
+
+    heights: Floats
+    shares: Floats
+    means: Floats
+    fewest: int
+
+    @classmethod
+    def of(cls, graded: GradedDensity) -> _LayerDensities:
+        """Evaluate a density in the layers with infill."""
+        layers = graded.place.filled
+        low, high = graded.place.bounds[:, :2]
+        count = math.ceil(math.sqrt(STEP_POINTS))
+        axes = [np.linspace(start, end, count) for start, end in zip(low, high, strict=True)]
+        nodes = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
+        heights = np.array([layer.z for layer in layers])
+        shares = np.stack([graded.shares(np.column_stack([nodes, np.full(len(nodes), z)])) for z in heights])
+        inside = np.stack([mark_inside(layer.areas, nodes) for layer in layers])
+        means = [row[held].mean() if held.any() else row.mean() for row, held in zip(shares, inside, strict=True)]
+        fewest = math.ceil(LEAST_LAYERS * len(layers) / max(len(graded.place.heights), len(layers)))
+        return cls(heights=heights, shares=np.where(inside, shares, np.nan), means=np.array(means), fewest=fewest)
+
+    def find_ends(self) -> tuple[list[int], float]:
+        """Return where steps end, and by which factor they had to change more for there to be few enough."""
+        looser = 1.0
+        while True:
+            ends = self.ends_within(0, len(self.means), looser, self.fewest)
+            if len(ends) <= MOST_STEPS:
+                return self._join_last(ends, looser), looser
+            looser *= 1.25
+
+    def _join_last(self, ends: list[int], looser: float) -> list[int]:
+        """Join a last step of few layers to the one below, if the density changes too fast there as well."""
+        begin, middle, end = [0, 0, *ends][-3:]
+        few = len(ends) > 1 and end - middle < self.fewest
+        return [*ends[:-2], end] if few and len(self.ends_within(begin, middle, looser)) > 1 else ends
+
+    def ends_within(self, start: int, end: int, looser: float, fewest: int = 1) -> list[int]:
+        """Return where steps between two layers end, each as late as its densities allow."""
+        ends: list[int] = []
+        local, ratio = LOCAL_STEP * looser, MEAN_STEP**looser
+        begin = start
+        low, high = self.shares[start].copy(), self.shares[start].copy()
+        low_mean = high_mean = float(self.means[start])
+        for number in range(start + 1, end):
+            low, high = np.fmin(low, self.shares[number]), np.fmax(high, self.shares[number])
+            low_mean, high_mean = min(low_mean, float(self.means[number])), max(high_mean, float(self.means[number]))
+            changes = np.nanmax(high - low, initial=0.0) > local or high_mean > ratio * low_mean
+            if changes and number - begin >= fewest:
+                ends.append(number)
+                begin = number
+                low, high = self.shares[number].copy(), self.shares[number].copy()
+                low_mean = high_mean = float(self.means[number])
+        return [*ends, end]
 
 
 def stretch_to_density(family: Family, graded: GradedDensity, line_width: float) -> Family:

@@ -121,6 +121,13 @@ class PrintPlace:
             inside[:, :, number] = held
         return np.array([x[0], y[0], heights[0]]), np.array([step, step, rise]), _close_gaps(inside, rise)
 
+    def holds_infill(self, points: Floats) -> NDArray[np.bool_]:
+        """Tell whether the nearest nodes of the grid to points (N, 3), mm, lie in the infill: (N,)."""
+        corner, steps, inside = self._grid
+        nodes = np.clip(np.rint((points - corner) / steps).astype(int), 0, np.array(inside.shape) - 1)
+        held: NDArray[np.bool_] = inside[tuple(nodes.T)]
+        return held
+
     @cached_property
     def _skin_depths(self) -> NDArray[np.float32]:
         """Distance of each node of the grid from the border of the infill, mm; 0 outside."""

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 FILAMENT_TOLERANCE = 0.01  # relative error of the filament of all infill that is reported
 TIME_TOLERANCE = 0.01  # relative increase of the time of all infill that is reported
 MANY_KEPT = 0.1  # of the sections: as many that stay for one of these reasons are reported
+FAINT = 0.5  # of the difference of two densities: if the infill has less of it, that is reported
 MOST_FREE = 0.05  # of the length: if more of it touches no wall, than did as sliced, that is reported
 WHY_KEPT = {
     UNREAD: "they hold moves that cannot be redrawn, such as arcs that climb; slice with arc fitting off",
@@ -187,6 +188,20 @@ def _is_unexplained(reason: str) -> bool:
     return reason not in WHY_KEPT and not reason.startswith("a check failed")
 
 
+def _faint_gradient(densities: Sequence[float] | None, tally: RefillStats) -> list[str]:
+    """Say that a density hardly changes, because layers are averaged."""
+    if not densities or not tally.densities:
+        return []
+    low, high = min(tally.densities), max(tally.densities)
+    if high - low >= FAINT * abs(densities[1] - densities[0]):
+        return []
+    extent = f"is {low:.0%} everywhere" if f"{low:.0%}" == f"{high:.0%}" else f"is {low:.0%} to {high:.0%} only"
+    return [
+        f"the density {extent}: the infill is so thin that lines could not lie on one another if it changed more with "
+        "height; give one density, or another --by, such as x"
+    ]
+
+
 def _problems(report: RefillReport, tally: RefillStats) -> list[str]:
     """List the problems of a refill, one phrase each."""
     keeps = report["request"]["pattern"] == KEEP
@@ -225,6 +240,7 @@ def _problems(report: RefillReport, tally: RefillStats) -> list[str]:
             f"{count_noun(tally.unread, 'line')} that may move or extrude cannot be read, the first is line "
             f"{tally.first_unread}; what cannot be read stays as it is, and the times leave it out"
         )
+    problems += _faint_gradient(report["request"]["densities"], tally)
     contact = report["contact"]
     by_itself = report["request"]["smooth_radius_mm"] == AUTO
     less_rounding = "give a smaller --max-deviation" if by_itself else "give a smaller --smooth-radius, or leave it out"

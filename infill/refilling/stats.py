@@ -178,6 +178,8 @@ class RefillStats:
         Between layers that were evened out.
     placed_error : float
         Relative error of the filament of a pattern that follows the print, against the requested amount.
+    densities : tuple of float
+        The lowest and the highest one of each print in which a density is averaged over layers.
     """
 
     layers: int = 0
@@ -203,6 +205,7 @@ class RefillStats:
     drawn: dict[int, Floats] = field(default_factory=dict)
     steps: LayerSteps = field(default_factory=LayerSteps)
     placed_error: float = 0.0
+    densities: tuple[float, ...] = ()
 
     @property
     def filament_error(self) -> float:
