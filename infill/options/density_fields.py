@@ -15,10 +15,10 @@ from infill.arrays import Floats
 from infill.drawings.bitmaps import read_grey
 from infill.errors import FormatError, ParameterError, UsageError
 from infill.files.array_names import SIMULATIONS, split_array_name
-from infill.files.broken import error_text, require_readable, wrap_reader_errors
+from infill.files.broken import require_readable, wrap_reader_errors
 from infill.files.excerpts import excerpt
 from infill.formats.simulations import read_simulation
-from infill.options.modules import load_object, names_code
+from infill.options.modules import load_object, names_code, user_error_text
 from infill.plain_numbers import count_noun, plain_argument
 
 if TYPE_CHECKING:
@@ -176,8 +176,8 @@ class FunctionField:
         """Call the function with points (N, 3), mm, and check its numbers: (N,)."""
         try:
             numbers = np.asarray(self.function(points), dtype=np.float64)
-        except Exception as error:
-            raise ParameterError.about("by", f"is {self.name}, which fails: {error_text(error)}") from error
+        except (Exception, SystemExit) as error:
+            raise ParameterError.about("by", f"is {self.name}, which fails: {user_error_text(error)}") from error
         if numbers.shape != (len(points),):
             raise UsageError.about(
                 "by", f"is {self.name}, which returns {numbers.shape} for {points.shape} points; return (N,)"

@@ -5,8 +5,8 @@ from __future__ import annotations
 import importlib.util
 from types import ModuleType
 
-from infill.errors import FormatError
-from infill.files.broken import require_readable, wrap_reader_errors
+from infill.errors import FormatError, InfillError
+from infill.files.broken import error_text, require_readable
 
 MARK = ".py:"
 
@@ -34,13 +34,26 @@ def load_object(text: str) -> object:
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
-    with wrap_reader_errors(path, "cannot be loaded", "run it by itself first"):
+    try:
         spec.loader.exec_module(module)
+    except InfillError:
+        raise
+    except (Exception, SystemExit) as error:  # whatever a file of the user's raises
+        raise FormatError(f"{path} cannot be loaded ({user_error_text(error)}); run it by itself first") from error
     if not hasattr(module, name):
         own = _own_names(module)
         advice = f"it has {', '.join(own)}" if own else "it defines no class and no function"
         raise FormatError(f"{path} has nothing called {name!r}; {advice}")
     return getattr(module, name)
+
+
+def user_error_text(error: Exception | SystemExit) -> str:
+    """Return the text of an error of the user's code on one line; that of an exit says so.
+
+    >>> user_error_text(ValueError("x")), user_error_text(SystemExit(3))
+    ('x', 'it exits with 3')
+    """
+    return f"it exits with {error.code}" if isinstance(error, SystemExit) else error_text(error)
 
 
 def _own_names(module: ModuleType) -> list[str]:

@@ -167,7 +167,7 @@ def _pattern_from_function(function: Any, name: str) -> Surfaces:  # noqa: ANN40
     x, y, z = np.meshgrid(line, line, line, indexing="ij")
     try:
         level = np.asarray(function(x, y, z), dtype=np.float64)
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         reason = " ".join(str(error).split())
         raise ParameterError.about("pattern", f"is {name}, which fails: {type(error).__name__}: {reason}") from error
     if level.shape != x.shape or not np.isfinite(level).all():
