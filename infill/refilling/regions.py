@@ -3,7 +3,7 @@
 Step 1. On a grid, take the distance d from every node to the nearest other bead of the layer.
 Step 2. Measure the distance d0 that the slicer's infill keeps from walls, by those of its lines that run along them,
         and another distance from skins. Lines that end at a wall reach into it: where none runs along, d0 is the usual
-        one.
+        one or more.
 Step 3. Trace the outlines of {d > d0}; the areas that hold some of the slicer's infill are the region.
 
 A layer whose beads agree with the region of the layer before it has that region.
@@ -38,7 +38,7 @@ SHARE_BESIDE, SHARE_BESIDE_SKINS = 0.1, 0.2  # of the points beside them that ma
 ALONG_COSINE = 0.26  # largest one between a line and the way to the nearest bead if it runs along that: 15° of turn
 ALIKE = 0.03  # mm: distances of lines along walls differ less, and those of lines that end there more
 SHARE_ALONG = 0.25  # share of the points near walls that run along them, if the slicer joins its lines there
-USUAL_WIDTHS, LARGEST_WIDTHS = 0.85, 0.95  # line widths from walls, where no line runs along them, and at most
+USUAL_WIDTHS = 0.85  # line widths from walls, where no line runs along them
 SKINS_FARTHER = 0.05  # mm: largest difference between the distances from skins and from walls
 LEAST_DISTANCE = 0.15  # mm
 AROUND = 0.1  # mm
@@ -242,7 +242,7 @@ def _wall_distance(walls: BeadIndex, infill: Samples, line_width: float) -> floa
     """Estimate the distance that infill keeps from walls, mm: that of lines along them, all of which are as far away.
 
     A line that ends at a wall reaches into it by up to half a width, and one that happens to run beside it may be at
-    any distance. If there are only such lines, the distance is the usual one.
+    any distance. If there are only such lines, the distance is at least the usual one.
     """
     usual = USUAL_WIDTHS * line_width
     distance = _kept_distance(walls.distances(infill.points, 0, ALONG_WALLS), SHARE_BESIDE, usual)
@@ -252,8 +252,8 @@ def _wall_distance(walls: BeadIndex, infill: Samples, line_width: float) -> floa
     lengths = np.hypot(*across.T) * np.hypot(*half.T)
     is_along = np.abs((across * half).sum(axis=1)) <= ALONG_COSINE * lengths
     if (is_along & (np.abs(apart[close] - distance) < ALIKE)).sum() < SHARE_ALONG * len(close):
-        return usual
-    return min(distance, LARGEST_WIDTHS * line_width)
+        return max(distance, usual)
+    return distance
 
 
 def _kept_distance(distances: Floats, share: float, usual: float) -> float:
