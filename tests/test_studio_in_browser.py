@@ -65,6 +65,7 @@ def choose_file(page: Any, file: Path) -> None:
 def wait_until_exact(page: Any) -> dict[str, str]:
     """Wait for the exact answer; return its numbers as they are shown."""
     page.wait_for_selector(EXACT, timeout=LONG)
+    page.wait_for_selector(".cancel", state="hidden", timeout=LONG)  # the surface is shown, too
     return read_numbers(page)
 
 
