@@ -13,9 +13,10 @@ from hypothesis import strategies as st
 from numpy.typing import ArrayLike
 
 from infill.gcode.limits import INFINITE, JERK_MODELS, MAX_LIMIT, MIN_LIMIT, MODELS, Limits
+from infill.paths.speeds import look_ahead
 from infill.planner.bounds import Moves, bound_moves
 from infill.planner.junctions import joint_limits
-from infill.planner.lookahead import MOVES_AT_ONCE, MotionPlan, hump_tops, look_ahead, plan_moves, plan_settled
+from infill.planner.lookahead import MOVES_AT_ONCE, MotionPlan, hump_tops, plan_moves, plan_settled
 from infill.planner.struct_of_arrays import concatenate_rows, slice_rows
 
 FREE = (INFINITE,) * 4

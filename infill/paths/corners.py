@@ -118,10 +118,7 @@ def round_corners(
     """
     machine = machine or Machine()
     count = len(points)
-    inner = np.ones(count, dtype=bool)
-    inner[offsets[:-1][offsets[:-1] < count]] = False
-    inner[offsets[1:] - 1] = False
-    corners = np.flatnonzero(inner)
+    corners = inner_points(count, offsets)
     turn, before, after, lengths = corner_turns(points, corners)
     half = turn / 2
     half_tangent = np.maximum(np.tan(half), 1e-12)
@@ -138,6 +135,18 @@ def round_corners(
     radii = np.full(count, np.inf)
     radii[corners] = np.where(straight, np.inf, np.where(setback == 0, 0.0, arc))
     return _insert_arcs(points, offsets, corners, setback, arc, turn, before, after, chords, radii, unit)
+
+
+def inner_points(count: int, offsets: Places) -> Places:
+    """Return the places of the points inside some paths, neither their first nor their last, of `count` points.
+
+    >>> inner_points(5, np.array([0, 3, 5])).tolist()
+    [1]
+    """
+    inner = np.ones(count, dtype=bool)
+    inner[offsets[:-1][offsets[:-1] < count]] = False
+    inner[offsets[1:] - 1] = False
+    return np.flatnonzero(inner)
 
 
 def _take(value: float | Floats, index: Places) -> Floats | float:

@@ -12,15 +12,14 @@ from numpy.typing import NDArray
 
 from infill.arrays import Floats, Places
 from infill.paths.corner_offset import CornerFreedom, corner_freedom, offset_corners
-from infill.paths.corners import COARSEST, UNIT, Machine, RoundedPaths, corner_turns, round_corners
+from infill.paths.corners import COARSEST, UNIT, Machine, RoundedPaths, corner_turns, inner_points, round_corners
 from infill.paths.curves import MOST_BULGE, RecutPaths, recut_curves
 from infill.paths.neighbours import BESIDE, TOWARDS_LIMIT, BeadIndex, deviation_beside_beads
 from infill.paths.short_segments import merge_short_segments
+from infill.paths.speeds import find_peak_speeds
 from infill.paths.touch import touch_preserving_deviations
 from infill.ragged import concatenate_rows, split_rows
 
-STRAIGHT = 1e-9  # radians
-SPREADS = 3  # segments that a slow joint slows down, in both directions
 BESIDE_WALLS = 2.5  # times the deviation of other corners; from 3 on, chopped parts gain no time and move farther
 
 
@@ -60,8 +59,6 @@ class Rounding:
     ) -> RoundedPaths:
         """Merge segments that the machine passes before its controller has read the next one, and those of no use.
 
-        A joint is passed at `corner` / turn at most, and between two joints a machine speeds up and slows down again.
-
         Parameters
         ----------
         paths : RoundedPaths
@@ -70,20 +67,8 @@ class Rounding:
         """
         if math.isinf(self.segments_per_second):
             return merge_short_segments(paths)
-        points, count = paths.points, np.diff(paths.first)
-        top = np.repeat(np.broadcast_to(speed, len(count)), count) ** 2
-        square = top.copy()  # of the speed at each point, at most
-        inner = np.setdiff1d(np.arange(len(points)), [paths.first[:-1], paths.first[1:] - 1])
-        turn, _, _, _ = corner_turns(points, inner)
-        square[inner] = np.minimum(square[inner], (self.corner / np.maximum(turn, STRAIGHT)) ** 2)
-        length = np.hypot(*np.diff(points, axis=0, append=points[-1:]).T)
-        gain = 2 * np.repeat(np.broadcast_to(acceleration, len(count)), count) * length  # of the square, at most
-        gain[paths.first[1:] - 1] = math.inf
-        for _ in range(SPREADS):
-            np.minimum(square[:-1], square[1:] + gain[:-1], out=square[:-1])
-            np.minimum(square[1:], square[:-1] + gain[:-1], out=square[1:])
-        peak = np.sqrt(np.minimum((square + np.append(square[1:], 0.0) + gain) / 2, top))
-        return merge_short_segments(paths, peak / self.segments_per_second)
+        peaks = find_peak_speeds(paths.points, paths.first, speed=speed, acceleration=acceleration, corner=self.corner)
+        return merge_short_segments(paths, peaks / self.segments_per_second)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -256,9 +241,8 @@ def find_corners(
 
 def _slight_turns(points: Floats, offsets: Places, least: float) -> NDArray[np.bool_]:
     """Find the points inside paths where these turn by less than `least` radians: (N,)."""
-    slight = np.ones(len(points), dtype=bool)
-    slight[offsets[:-1]] = slight[offsets[1:] - 1] = False
-    inner = np.flatnonzero(slight)
+    slight = np.zeros(len(points), dtype=bool)
+    inner = inner_points(len(points), offsets)
     slight[inner] = corner_turns(points, inner)[0] < least
     return slight
 

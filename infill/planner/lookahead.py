@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from infill.arrays import Floats
 from infill.gcode.limits import Limits
+from infill.paths.speeds import look_ahead
 from infill.planner.bounds import BoundedMoves, Moves, bound_moves, limit_values
 from infill.planner.junctions import joint_limits
 from infill.planner.struct_of_arrays import concatenate_rows, slice_rows
@@ -52,24 +53,6 @@ class MotionPlan:
 
 
 EMPTY_PLAN = MotionPlan(seconds=np.empty(0), entry=np.empty(0), peak=np.empty(0), exit=np.empty(0))
-
-
-def look_ahead(joints: Floats, reach: Floats) -> Floats:
-    """Return the greatest u <= joints with |u[j + 1] - u[j]| <= reach[j], (N + 1,), mm²/s².
-
-    >>> look_ahead(np.array([0.0, 100.0, 100.0, 4.0]), np.array([30.0, 10.0, 30.0])).tolist()
-    [0.0, 30.0, 34.0, 4.0]
-    """
-    forward, backward, window, size = joints.copy(), joints.copy(), reach, 1
-    while len(window):  # the reach of `size` moves in a row, from each move on
-        onward = forward[:-size] + window
-        back = backward[size:] + window
-        if not ((onward < forward[size:]).any() or (back < backward[:-size]).any()):
-            break  # wider windows change nothing either: each is made of two of these
-        np.minimum(forward[size:], onward, out=forward[size:])
-        np.minimum(backward[:-size], back, out=backward[:-size])
-        window, size = window[:-size] + window[size:], 2 * size
-    return np.asarray(np.minimum(forward, backward))
 
 
 def plan_moves(moves: Moves, limits: Sequence[Limits]) -> MotionPlan:
